@@ -1,0 +1,34 @@
+//! Two-dimensional discrete element engine for discs between flat walls.
+//!
+//! Discs are cylinders of unit length (1 m) in a plane. SI units throughout; forces are those on the 1 m depth.
+//! [`Simulation::step`] reads as the algorithm: boundaries, neighbours, contact forces, motion.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`material`] | grain parameters (Table 2) |
+//! | [`law`] | contact law as pure functions (Table 1) |
+//! | [`disc`] | one grain, packed in one cache line |
+//! | [`walls`] | the box: four flat walls with prescribed velocities |
+//! | [`contacts`] | candidate pairs in rows, with friction history |
+//! | `neighbours` | the search that fills the rows |
+//! | `forces` | contact forces of one step |
+//! | `motion` | damping and symplectic Euler |
+//! | [`time_step`] | bound on the stable step |
+//! | [`simulation`] | the state, and `step()` |
+#![forbid(unsafe_code)]
+
+pub mod contacts;
+pub mod disc;
+mod forces;
+pub mod law;
+pub mod material;
+mod motion;
+mod neighbours;
+pub mod simulation;
+pub mod time_step;
+pub mod walls;
+
+pub use disc::Disc;
+pub use material::{Material, MaterialError};
+pub use simulation::{Contact, Simulation};
+pub use walls::{Side, Walls};

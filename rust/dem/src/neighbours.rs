@@ -1,0 +1,209 @@
+//! Neighbour search: a cell grid fills the contact rows with all pairs closer than the skin.
+
+use crate::contacts::{ContactRows, WallContacts};
+use crate::disc::Disc;
+use crate::walls::{Side, Walls};
+
+/// Surfaces closer than this times the mean radius become candidates. Chosen by speed: wider rows cost force
+/// evaluations, narrower ones rebuilds.
+const SKIN_OVER_MEAN_RADIUS: f64 = 0.25;
+
+/// Rows of candidates, and how far things have moved since they were found.
+#[derive(Clone, Debug, Default)]
+pub struct Neighbours {
+    pub pairs: ContactRows,
+    pub walls: [WallContacts; 4],
+    skin: f64,
+    /// Bound on how much the gap of any pair has closed since the last rebuild [m].
+    closed: f64,
+}
+
+impl Neighbours {
+    /// True when a pair that is no candidate may have come into contact.
+    pub fn stale(&self) -> bool {
+        self.closed >= self.skin
+    }
+
+    /// Counts motion: `speed` [m/s] bounds that of every disc and wall, `growth` [m/s] that of every radius.
+    pub fn record_motion(&mut self, speed: f64, growth: f64, dt: f64) {
+        self.closed += 2.0 * (speed + growth) * dt;
+    }
+
+    /// Finds all candidates afresh and carries the friction history over.
+    pub fn rebuild(&mut self, discs: &[Disc], walls: &Walls) {
+        let mean_radius = discs.iter().map(|d| d.radius).sum::<f64>() / discs.len().max(1) as f64;
+        self.skin = SKIN_OVER_MEAN_RADIUS * mean_radius;
+        self.closed = 0.0;
+        let old = std::mem::take(&mut self.pairs);
+        self.pairs = rows(discs, self.skin);
+        if old.start.len() == self.pairs.start.len() {
+            carry_history(&old, &mut self.pairs);
+        }
+        for side in Side::ALL {
+            self.rebuild_wall(side, discs, walls);
+        }
+    }
+
+    fn rebuild_wall(&mut self, side: Side, discs: &[Disc], walls: &Walls) {
+        let old = std::mem::take(&mut self.walls[side as usize]);
+        let new = &mut self.walls[side as usize];
+        for (i, disc) in (0u32..).zip(discs) {
+            if walls.distance(side, disc.x, disc.y) - disc.radius < self.skin {
+                new.disc.push(i);
+                new.tangential.push(old.tangential_of(i));
+            }
+        }
+    }
+}
+
+fn carry_history(old: &ContactRows, new: &mut ContactRows) {
+    for i in 0..new.start.len() - 1 {
+        for k in new.row(i) {
+            new.tangential[k] = old.tangential_of(i, new.partner[k]);
+        }
+    }
+}
+
+/// Uniform grid over the bounding box of the centres: `first[c]..first[c + 1]` of `disc` are the discs of cell c.
+struct Grid {
+    origin: [f64; 2],
+    cell: f64,
+    columns: usize,
+    lines: usize,
+    first: Vec<u32>,
+    disc: Vec<u32>,
+}
+
+impl Grid {
+    fn new(discs: &[Disc], cell: f64) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for d in discs {
+            low = [low[0].min(d.x), low[1].min(d.y)];
+            high = [high[0].max(d.x), high[1].max(d.y)];
+        }
+        // A disc that has flown away must not blow up the grid: at most a few cells per disc.
+        let extent = (high[0] - low[0]).max(high[1] - low[1]);
+        let cell = cell.max(extent / (4.0 * discs.len() as f64).sqrt().max(1.0) / 4.0);
+        let count = |k: usize| ((high[k] - low[k]) / cell) as usize + 1;
+        let mut grid = Self {
+            origin: low,
+            cell,
+            columns: count(0),
+            lines: count(1),
+            first: Vec::new(),
+            disc: vec![0; discs.len()],
+        };
+        grid.fill(discs);
+        grid
+    }
+
+    fn column_and_line(&self, disc: &Disc) -> (usize, usize) {
+        let index = |x: f64, k: usize| ((x - self.origin[k]) / self.cell) as usize;
+        (index(disc.x, 0), index(disc.y, 1))
+    }
+
+    /// Counting sort of the discs by cell.
+    fn fill(&mut self, discs: &[Disc]) {
+        let cell_of = |grid: &Self, disc: &Disc| {
+            let (column, line) = grid.column_and_line(disc);
+            line * grid.columns + column
+        };
+        let mut first = vec![0u32; self.columns * self.lines + 1];
+        for disc in discs {
+            first[cell_of(self, disc) + 1] += 1;
+        }
+        for c in 1..first.len() {
+            first[c] += first[c - 1];
+        }
+        let mut next = first.clone();
+        for (i, disc) in (0u32..).zip(discs) {
+            let slot = &mut next[cell_of(self, disc)];
+            self.disc[*slot as usize] = i;
+            *slot += 1;
+        }
+        self.first = first;
+    }
+
+    /// Calls `visit` with every disc in the 3 × 3 cells around `disc`.
+    fn around(&self, disc: &Disc, mut visit: impl FnMut(u32)) {
+        let (column, line) = self.column_and_line(disc);
+        let columns = column.saturating_sub(1)..=(column + 1).min(self.columns - 1);
+        for l in line.saturating_sub(1)..=(line + 1).min(self.lines - 1) {
+            // Cells of one line are adjacent in memory.
+            let from = self.first[l * self.columns + columns.start()] as usize;
+            let to = self.first[l * self.columns + columns.end() + 1] as usize;
+            self.disc[from..to].iter().for_each(|&j| visit(j));
+        }
+    }
+}
+
+/// All pairs whose surfaces are closer than `skin`.
+fn rows(discs: &[Disc], skin: f64) -> ContactRows {
+    let mut rows = ContactRows { start: vec![0], ..ContactRows::default() };
+    if discs.is_empty() {
+        return rows;
+    }
+    let largest = discs.iter().fold(0.0f64, |r, d| r.max(d.radius));
+    let grid = Grid::new(discs, 2.0 * largest + skin);
+    for (i, a) in (0u32..).zip(discs) {
+        let begin = rows.partner.len();
+        grid.around(a, |j| {
+            let b = &discs[j as usize];
+            let reach = a.radius + b.radius + skin;
+            let (dx, dy) = (b.x - a.x, b.y - a.y);
+            if j > i && dx * dx + dy * dy < reach * reach {
+                rows.partner.push(j);
+            }
+        });
+        rows.partner[begin..].sort_unstable();
+        rows.start.push(rows.partner.len() as u32);
+    }
+    rows.tangential = vec![0.0; rows.partner.len()];
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grid_finds_what_brute_force_finds() {
+        // A scatter without structure: fractional parts of multiples of irrational numbers.
+        let discs: Vec<Disc> = (1..=300)
+            .map(|k| {
+                let u = |a: f64| (a * f64::from(k)).fract();
+                Disc::at_rest(u(0.618_034), u(0.414_214), 0.01 + 0.02 * u(0.732_051), 1.0)
+            })
+            .collect();
+        let skin = 0.01;
+        let found = rows(&discs, skin);
+        for i in 0..discs.len() {
+            let expected: Vec<u32> = (i + 1..discs.len())
+                .filter(|&j| {
+                    let (a, b) = (&discs[i], &discs[j]);
+                    (b.x - a.x).hypot(b.y - a.y) < a.radius + b.radius + skin
+                })
+                .map(|j| j as u32)
+                .collect();
+            assert_eq!(&found.partner[found.row(i)], &expected, "row {i}");
+        }
+    }
+
+    #[test]
+    fn history_survives_a_rebuild() {
+        let discs = [
+            Disc::at_rest(0.0, 0.0, 1.0, 1.0),
+            Disc::at_rest(1.9, 0.0, 1.0, 1.0),
+            Disc::at_rest(3.8, 0.0, 1.0, 1.0),
+        ];
+        let walls = Walls { position: [-0.9, 5.5, -5.0, 5.0], ..Walls::around(1.0, 1.0) };
+        let mut neighbours = Neighbours::default();
+        neighbours.rebuild(&discs, &walls);
+        neighbours.pairs.tangential.copy_from_slice(&[3.0, -4.0]);
+        neighbours.walls[0].tangential[0] = 7.0;
+        neighbours.rebuild(&discs, &walls);
+        assert_eq!(neighbours.pairs.tangential, [3.0, -4.0]);
+        assert_eq!(neighbours.walls[0].tangential_of(0), 7.0);
+        assert_eq!(neighbours.walls[1].disc, [] as [u32; 0]);
+    }
+}

@@ -1,0 +1,230 @@
+//! The state of one assembly, and one step of it.
+
+use crate::disc::Disc;
+use crate::forces::{self, ContactLaw, Load};
+use crate::law::{pair_stiffness, wall_stiffness};
+use crate::material::Material;
+use crate::motion;
+use crate::neighbours::Neighbours;
+use crate::time_step;
+use crate::walls::{Side, Walls};
+
+/// Discs in a box. Build with [`Simulation::new`], drive by setting wall velocities and [`Simulation::set_strain_rate`].
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    pub material: Material,
+    pub discs: Vec<Disc>,
+    pub walls: Walls,
+    /// Δt [s]; see [`Simulation::adapt_time_step`].
+    pub time_step: f64,
+    /// Drag on discs without contact force [1/s]; 0 (off) as in the paper, whose damping lets them fly for ever.
+    pub free_drag: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Force of the grains on each wall [N]: normal (outwards positive) and tangential (along t of the inward normal).
+    pub wall_force: [[f64; 2]; 4],
+    /// Radii at zero strain [m].
+    reference_radius: Vec<f64>,
+    /// ε [-]: radii are `reference_radius` (1 + ε), not compounded (Eq. 6).
+    strain: f64,
+    strain_rate: f64,
+    largest_speed: f64,
+    neighbours: Neighbours,
+    loads: Vec<Load>,
+}
+
+/// A force-bearing contact. n points from i to j (from the wall inwards), t = (−n_y, n_x).
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    /// First partner, or the wall.
+    pub i: Result<usize, Side>,
+    /// Second partner.
+    pub j: usize,
+    /// Unit normal.
+    pub normal: [f64; 2],
+    /// Centre to centre; of a wall contact, the foot of the centre on the wall to the centre [m].
+    pub branch: [f64; 2],
+    /// δ [m].
+    pub overlap: f64,
+    /// s_n [N/m].
+    pub stiffness: f64,
+    /// f_t [N], on j along t.
+    pub tangential_force: f64,
+}
+
+impl Contact {
+    /// f_n = s_n δ [N], repulsive.
+    pub fn normal_force(&self) -> f64 {
+        self.stiffness * self.overlap
+    }
+
+    /// Force on j [N].
+    pub fn force(&self) -> [f64; 2] {
+        let ([nx, ny], normal, tangential) = (self.normal, self.normal_force(), self.tangential_force);
+        [normal * nx - tangential * ny, normal * ny + tangential * nx]
+    }
+
+    /// The one or two discs of the contact.
+    pub fn discs(&self) -> impl Iterator<Item = usize> + use<> {
+        self.i.ok().into_iter().chain(std::iter::once(self.j))
+    }
+}
+
+impl Simulation {
+    /// An assembly with given discs in given walls; the friction history is empty.
+    pub fn new(material: Material, discs: Vec<Disc>, walls: Walls) -> Self {
+        let mut simulation = Self {
+            material,
+            reference_radius: discs.iter().map(|d| d.radius).collect(),
+            loads: vec![Load::default(); discs.len()],
+            discs,
+            walls,
+            time_step: 0.0,
+            free_drag: 0.0,
+            steps: 0,
+            wall_force: [[0.0; 2]; 4],
+            strain: 0.0,
+            strain_rate: 0.0,
+            largest_speed: 0.0,
+            neighbours: Neighbours::default(),
+        };
+        simulation.neighbours.rebuild(&simulation.discs, &simulation.walls);
+        simulation.largest_speed = simulation.discs.iter().map(|d| d.vx.hypot(d.vy)).fold(0.0, f64::max);
+        simulation.adapt_time_step();
+        simulation
+    }
+
+    /// One step of Δt.
+    pub fn step(&mut self) {
+        self.advance_boundaries();
+        if self.neighbours.stale() {
+            self.neighbours.rebuild(&self.discs, &self.walls);
+        }
+        self.sum_contact_forces();
+        self.largest_speed = motion::advance(
+            &mut self.discs,
+            &self.loads,
+            self.material.damping,
+            self.free_drag,
+            self.time_step,
+        );
+        self.steps += 1;
+    }
+
+    /// Sets Δt to [`time_step::SAFETY`] times the stable step of the present contacts.
+    pub fn adapt_time_step(&mut self) {
+        self.time_step = time_step::SAFETY * time_step::stable_step(self);
+    }
+
+    /// ε [-], relative to the radii at the last [`Simulation::reset_strain`].
+    pub fn strain(&self) -> f64 {
+        self.strain
+    }
+
+    /// Prescribes dε/dt [1/s] for all discs.
+    pub fn set_strain_rate(&mut self, rate: f64) {
+        self.strain_rate = rate;
+    }
+
+    /// Makes the present radii the reference: ε = 0.
+    pub fn reset_strain(&mut self) {
+        self.reference_radius = self.discs.iter().map(|d| d.radius).collect();
+        self.strain = 0.0;
+        self.strain_rate = 0.0;
+    }
+
+    /// Resultants of the contact forces in the last step, one a disc.
+    pub fn loads(&self) -> &[Load] {
+        &self.loads
+    }
+
+    /// Mean disc radius [m].
+    pub fn mean_radius(&self) -> f64 {
+        self.discs.iter().map(|d| d.radius).sum::<f64>() / self.discs.len() as f64
+    }
+
+    /// Calls `visit` with every force-bearing contact: pairs row by row, then the walls.
+    pub fn for_each_contact(&self, mut visit: impl FnMut(Contact)) {
+        let rows = &self.neighbours.pairs;
+        for (i, a) in self.discs.iter().enumerate() {
+            for k in rows.row(i) {
+                let j = rows.partner[k] as usize;
+                if let Some(contact) = self.pair_contact(i, a, j, rows.tangential[k]) {
+                    visit(contact);
+                }
+            }
+        }
+        for side in Side::ALL {
+            let contacts = &self.neighbours.walls[side as usize];
+            for (&j, &tangential) in contacts.disc.iter().zip(&contacts.tangential) {
+                if let Some(contact) = self.wall_contact(side, j as usize, tangential) {
+                    visit(contact);
+                }
+            }
+        }
+    }
+
+    fn pair_contact(&self, i: usize, a: &Disc, j: usize, tangential_force: f64) -> Option<Contact> {
+        let b = &self.discs[j];
+        let branch = [b.x - a.x, b.y - a.y];
+        let distance = (branch[0] * branch[0] + branch[1] * branch[1]).sqrt();
+        let overlap = a.radius + b.radius - distance;
+        (overlap > 0.0).then(|| Contact {
+            i: Ok(i),
+            j,
+            normal: [branch[0] / distance, branch[1] / distance],
+            branch,
+            overlap,
+            stiffness: pair_stiffness(self.material.young_modulus, a.radius, b.radius),
+            tangential_force,
+        })
+    }
+
+    fn wall_contact(&self, side: Side, j: usize, tangential_force: f64) -> Option<Contact> {
+        let disc = &self.discs[j];
+        let distance = self.walls.distance(side, disc.x, disc.y);
+        let normal = side.normal();
+        let overlap = disc.radius - distance;
+        let (young_modulus, factor) = (self.material.young_modulus, self.material.wall_stiffness_factor);
+        (overlap > 0.0).then(|| Contact {
+            i: Err(side),
+            j,
+            normal,
+            branch: [distance * normal[0], distance * normal[1]],
+            overlap,
+            stiffness: wall_stiffness(young_modulus, factor, disc.radius),
+            tangential_force,
+        })
+    }
+
+    /// Radii and walls at the end of the step.
+    fn advance_boundaries(&mut self) {
+        let mut growth = 0.0f64;
+        if self.strain_rate != 0.0 {
+            self.strain += self.strain_rate * self.time_step;
+            let factor = 1.0 + self.strain;
+            for (disc, reference) in self.discs.iter_mut().zip(&self.reference_radius) {
+                disc.radius = reference * factor;
+                growth = growth.max(reference * self.strain_rate);
+            }
+        }
+        self.walls.advance(self.time_step);
+        let speed = self.largest_speed.max(self.walls.largest_speed());
+        self.neighbours.record_motion(speed, growth, self.time_step);
+    }
+
+    fn sum_contact_forces(&mut self) {
+        let law = ContactLaw::new(&self.material, self.time_step);
+        self.loads.fill(Load::default());
+        forces::add_pairs(law, &self.discs, &mut self.neighbours.pairs, &mut self.loads);
+        for side in Side::ALL {
+            let contacts = &mut self.neighbours.walls[side as usize];
+            self.wall_force[side as usize] =
+                forces::add_wall(law, side, &self.walls, &self.discs, contacts, &mut self.loads);
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "simulation_tests.rs"]
+mod tests;

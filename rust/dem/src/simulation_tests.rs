@@ -1,0 +1,138 @@
+//! Closed forms that one step after the other has to meet.
+
+use super::*;
+use std::f64::consts::PI;
+
+const R: f64 = 5e-3;
+
+fn undamped() -> Material {
+    Material { damping: 0.0, ..Material::default() }
+}
+
+fn far_walls() -> Walls {
+    Walls { position: [-1.0, 1.0, -1.0, 1.0], ..Walls::around(1.0, 1.0) }
+}
+
+fn two_discs(material: Material, overlap: f64) -> Simulation {
+    let density = material.density;
+    let discs = vec![Disc::at_rest(0.0, 0.0, R, density), Disc::at_rest(2.0 * R - overlap, 0.0, R, density)];
+    Simulation::new(material, discs, far_walls())
+}
+
+/// Two equal discs pressed together part after a quarter period, π/2 √(m/2s_n), with speed δ₀ √(s_n/2m) each.
+#[test]
+fn two_discs_part_with_the_closed_form_speed() {
+    let material = undamped();
+    let mut simulation = two_discs(material.clone(), 1e-5);
+    let mass = material.density * PI * R * R;
+    let stiffness = material.young_modulus * R;
+    let quarter = 0.5 * PI * (mass / (2.0 * stiffness)).sqrt();
+    simulation.time_step = quarter / 2000.0;
+    let mut open_at = 0.0;
+    while simulation.discs[1].x - simulation.discs[0].x < 2.0 * R {
+        simulation.step();
+        open_at = simulation.steps as f64 * simulation.time_step;
+    }
+    let speed = 1e-5 * (stiffness / (2.0 * mass)).sqrt();
+    assert!((open_at / quarter - 1.0).abs() < 2e-3, "{open_at} {quarter}");
+    assert!((simulation.discs[1].vx / speed - 1.0).abs() < 1e-3);
+    assert!((simulation.discs[0].vx + simulation.discs[1].vx).abs() < 1e-18);
+}
+
+/// A disc pressed on a resting wall and dragged along it: f_t grows as −ν s_n u, then stays at f_n tan φ, and the
+/// torque is that of f_t at the arm r − δ.
+#[test]
+fn disc_on_wall_sticks_then_slides() {
+    let material = undamped();
+    let overlap = 1e-5;
+    let mut disc = Disc::at_rest(0.0, R - overlap, R, material.density);
+    disc.mass *= 1e12; // so heavy that only the prescribed velocity moves it
+    disc.vx = 1e-3;
+    let walls = Walls { position: [-1.0, 1.0, 0.0, 1.0], ..Walls::around(1.0, 1.0) };
+    let mut simulation = Simulation::new(material.clone(), vec![disc], walls);
+    simulation.time_step = 1e-4;
+    let normal = material.young_modulus * R * overlap;
+    for step in 1..200 {
+        simulation.step();
+        let elastic = 0.8 * material.young_modulus * R * 1e-3 * 1e-4 * f64::from(step);
+        let expected = elastic.min(normal * material.friction_angle.tan());
+        let [on_wall_n, on_wall_t] = simulation.wall_force[Side::Bottom as usize];
+        assert!((on_wall_n / normal - 1.0).abs() < 1e-6);
+        // t of the bottom wall is (−1, 0): the disc drags the wall along +x, against t.
+        assert!((on_wall_t + expected).abs() < 1e-6 * normal, "{step}: {on_wall_t} {expected}");
+        let torque = simulation.loads()[0].torque;
+        assert!((torque + (R - overlap) * expected).abs() < 1e-6 * normal * R, "{torque}");
+    }
+}
+
+/// A wall that moves with the disc gives no slip.
+#[test]
+fn wall_motion_counts_in_slip() {
+    let material = undamped();
+    let mut disc = Disc::at_rest(0.0, R - 1e-5, R, material.density);
+    disc.vx = 1e-3;
+    let mut walls = Walls { position: [-1.0, 1.0, 0.0, 1.0], ..Walls::around(1.0, 1.0) };
+    walls.tangential_velocity[Side::Bottom as usize] = 1e-3;
+    let mut simulation = Simulation::new(material, vec![disc], walls);
+    simulation.step();
+    assert_eq!(simulation.wall_force[Side::Bottom as usize][1], 0.0);
+}
+
+/// An opened contact forgets its friction: after the touch, f_t starts from zero.
+#[test]
+fn history_is_cleared_when_a_contact_opens() {
+    let mut simulation = two_discs(undamped(), 1e-5);
+    simulation.discs[1].vy = 1e-2;
+    while simulation.discs[1].x - simulation.discs[0].x < 2.0 * R + 1e-6 {
+        simulation.step();
+    }
+    simulation.step();
+    let mut contacts = 0;
+    simulation.for_each_contact(|_| contacts += 1);
+    assert_eq!(contacts, 0);
+    assert_eq!(simulation.neighbours.pairs.tangential, [0.0]);
+}
+
+/// Without walls and damping, linear and angular momentum stay. The force acts at the middle of the overlap and is
+/// central apart from f_t, whose arms add up to the distance: so both hold to round-off of the step.
+#[test]
+fn momentum_is_conserved() {
+    let material = undamped();
+    let mut discs: Vec<Disc> = (0..6)
+        .map(|k| {
+            let angle = f64::from(k) * PI / 3.0;
+            Disc::at_rest(1.9 * R * angle.cos(), 1.9 * R * angle.sin(), R, material.density)
+        })
+        .collect();
+    for (k, disc) in discs.iter_mut().enumerate() {
+        disc.angular_velocity = 20.0 * k as f64;
+        disc.vx = 1e-2 * (k as f64 - 2.5);
+    }
+    let mut simulation = Simulation::new(material, discs, far_walls());
+    let momentum = |s: &Simulation| {
+        s.discs.iter().fold([0.0; 3], |sum, d| {
+            let spin = 0.5 * d.mass * d.radius * d.radius * d.angular_velocity;
+            let orbit = d.mass * (d.x * d.vy - d.y * d.vx);
+            [sum[0] + d.mass * d.vx, sum[1] + d.mass * d.vy, sum[2] + spin + orbit]
+        })
+    };
+    let before = momentum(&simulation);
+    (0..500).for_each(|_| simulation.step());
+    let after = momentum(&simulation);
+    for k in 0..3 {
+        assert!((after[k] - before[k]).abs() < 1e-13, "{before:?} {after:?}");
+    }
+}
+
+/// Radii follow r = r_ref (1 + ε), not compounded; mass stays.
+#[test]
+fn radii_follow_the_strain_linearly() {
+    let mut simulation = two_discs(Material::default(), -0.1 * R);
+    let mass = simulation.discs[0].mass;
+    simulation.time_step = 1e-3;
+    simulation.set_strain_rate(0.1);
+    (0..200).for_each(|_| simulation.step());
+    assert!((simulation.strain() - 0.02).abs() < 1e-15);
+    assert!((simulation.discs[0].radius / (R * 1.02) - 1.0).abs() < 1e-15);
+    assert_eq!(simulation.discs[0].mass, mass);
+}

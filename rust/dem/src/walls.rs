@@ -1,0 +1,95 @@
+//! The box: four flat, rigid walls with prescribed velocities.
+
+/// A wall of the box. The order is that of every array over walls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    Left,
+    Right,
+    Bottom,
+    Top,
+}
+
+impl Side {
+    pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
+
+    /// Unit normal pointing into the box.
+    pub fn normal(self) -> [f64; 2] {
+        match self {
+            Self::Left => [1.0, 0.0],
+            Self::Right => [-1.0, 0.0],
+            Self::Bottom => [0.0, 1.0],
+            Self::Top => [0.0, -1.0],
+        }
+    }
+}
+
+/// Positions [m] and velocities [m/s] of the four walls, indexed by [`Side`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Walls {
+    /// x of left and right, y of bottom and top.
+    pub position: [f64; 4],
+    /// Velocity along the coordinate axis normal to the wall.
+    pub normal_velocity: [f64; 4],
+    /// Velocity along the wall, in the direction of the coordinate axis; counted in contact slip.
+    pub tangential_velocity: [f64; 4],
+}
+
+impl Walls {
+    /// Resting walls around [0, width] × [0, height] [m].
+    pub fn around(width: f64, height: f64) -> Self {
+        Self { position: [0.0, width, 0.0, height], normal_velocity: [0.0; 4], tangential_velocity: [0.0; 4] }
+    }
+
+    pub fn width(&self) -> f64 {
+        self.position[Side::Right as usize] - self.position[Side::Left as usize]
+    }
+
+    pub fn height(&self) -> f64 {
+        self.position[Side::Top as usize] - self.position[Side::Bottom as usize]
+    }
+
+    /// Area of the box [m²].
+    pub fn area(&self) -> f64 {
+        self.width() * self.height()
+    }
+
+    /// Distance of (x, y) from the wall, positive inside the box [m].
+    #[inline(always)]
+    pub fn distance(&self, side: Side, x: f64, y: f64) -> f64 {
+        let at = self.position[side as usize];
+        match side {
+            Side::Left => x - at,
+            Side::Right => at - x,
+            Side::Bottom => y - at,
+            Side::Top => at - y,
+        }
+    }
+
+    /// Velocity of the wall as a vector [m/s].
+    #[inline(always)]
+    pub fn velocity(&self, side: Side) -> [f64; 2] {
+        let (normal, tangential) =
+            (self.normal_velocity[side as usize], self.tangential_velocity[side as usize]);
+        match side {
+            Side::Left | Side::Right => [normal, tangential],
+            Side::Bottom | Side::Top => [tangential, normal],
+        }
+    }
+
+    pub fn stop(&mut self) {
+        self.normal_velocity = [0.0; 4];
+        self.tangential_velocity = [0.0; 4];
+    }
+
+    /// Moves the walls for the time `dt` [s].
+    pub(crate) fn advance(&mut self, dt: f64) {
+        for (position, velocity) in self.position.iter_mut().zip(&self.normal_velocity) {
+            *position += dt * velocity;
+        }
+    }
+
+    /// Largest normal speed of a wall [m/s].
+    pub(crate) fn largest_speed(&self) -> f64 {
+        self.normal_velocity.iter().fold(0.0, |largest, v| largest.max(v.abs()))
+    }
+}

@@ -1,0 +1,43 @@
+//! Representative volume elements (RVEs): square boxes of a few hundred discs that are packed, expanded and averaged.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`pack`](mod@pack) | random discs, walls close to a target porosity, relax |
+//! | [`expand`](mod@expand) | one monotone ramp of thermal strain with stops |
+//! | [`settle`] | relaxation to static equilibrium, with its outcome |
+//! | [`region`] | the averaging region: a convex polygon |
+//! | [`area`] | exact area of a union of discs inside a polygon |
+//! | [`homogenise`](mod@homogenise) | porosity, fabric, conductivity, stress (Eqs. 8–11) |
+//! | [`database`] | plan, generation, storage, export |
+#![forbid(unsafe_code)]
+
+pub mod area;
+pub mod database;
+pub mod expand;
+pub mod homogenise;
+pub mod pack;
+mod place;
+pub mod region;
+pub mod settle;
+
+pub use expand::{Stop, expand};
+pub use homogenise::{Averages, homogenise};
+pub use msdd_dem::{Material, Simulation};
+pub use pack::{Compression, Packed, PackingSpec, pack};
+pub use region::RegionKind;
+pub use settle::{Outcome, Settled};
+
+/// What can be wrong with an RVE's specification, or go wrong while it is made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RveError {
+    #[error(transparent)]
+    Material(#[from] msdd_dem::MaterialError),
+    #[error("{key} = {value}, allowed: {allowed}")]
+    Parameter { key: &'static str, value: String, allowed: &'static str },
+    #[error("{placed} of {wanted} discs found a free place; a looser start or fewer discs would fit")]
+    NoRoom { placed: usize, wanted: usize },
+    #[error("packing stopped at porosity {reached:.4} after {steps} steps, target {target:.4}")]
+    TargetNotReached { reached: f64, target: f64, steps: u64 },
+    #[error("the motion blew up: disc {disc} at step {steps}")]
+    BlowUp { disc: usize, steps: u64 },
+}

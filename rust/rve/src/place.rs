@@ -1,0 +1,66 @@
+//! A loose start: discs of random radii at random places without overlap (random sequential addition).
+
+use crate::RveError;
+use msdd_dem::Disc;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// Attempts per disc before giving up; at the density of `pack` the last disc needs about ten.
+const ATTEMPTS: u32 = 100_000;
+
+/// Seeded stream of uniform numbers. ChaCha8's output is fixed by its definition, so seeds keep their meaning.
+pub(crate) struct Random(ChaCha8Rng);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Self(ChaCha8Rng::seed_from_u64(seed))
+    }
+
+    /// Uniform in [low, high).
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        let unit = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        low + (high - low) * unit
+    }
+}
+
+/// `count` radii, uniform in [low, high) [m].
+pub(crate) fn radii(random: &mut Random, count: usize, low: f64, high: f64) -> Vec<f64> {
+    (0..count).map(|_| random.uniform(low, high)).collect()
+}
+
+/// Places discs of the given radii in [0, width] × [0, height] without overlap, the largest first, and returns them
+/// ordered by place (lines of cells), so that neighbours lie near in memory.
+pub(crate) fn scatter(
+    random: &mut Random,
+    mut radii: Vec<f64>,
+    width: f64,
+    height: f64,
+    density: f64,
+) -> Result<Vec<Disc>, RveError> {
+    let wanted = radii.len();
+    radii.sort_by(|a, b| b.total_cmp(a));
+    let cell = 2.0 * radii.first().copied().unwrap_or(1.0);
+    let columns = (width / cell) as usize + 1;
+    let lines = (height / cell) as usize + 1;
+    let mut cells: Vec<Vec<Disc>> = vec![Vec::new(); columns * lines];
+    for (placed, radius) in radii.into_iter().enumerate() {
+        let free = (0..ATTEMPTS).find_map(|_| {
+            let x = random.uniform(radius, width - radius);
+            let y = random.uniform(radius, height - radius);
+            let (column, line) = ((x / cell) as usize, (y / cell) as usize);
+            let clash = around(column, columns).any(|c| {
+                around(line, lines).any(|l| {
+                    cells[l * columns + c].iter().any(|d| (d.x - x).hypot(d.y - y) < d.radius + radius)
+                })
+            });
+            (!clash).then_some((x, y, line * columns + column))
+        });
+        let (x, y, home) = free.ok_or(RveError::NoRoom { placed, wanted })?;
+        cells[home].push(Disc::at_rest(x, y, radius, density));
+    }
+    Ok(cells.into_iter().flatten().collect())
+}
+
+fn around(index: usize, count: usize) -> std::ops::RangeInclusive<usize> {
+    index.saturating_sub(1)..=(index + 1).min(count - 1)
+}

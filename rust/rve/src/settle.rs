@@ -1,0 +1,102 @@
+//! Relaxation to static equilibrium.
+
+use crate::RveError;
+use msdd_dem::Simulation;
+use serde::{Deserialize, Serialize};
+
+/// Settled when mean |resultant| < this times the mean contact force. Paper: "static equilibrium", no number; 1e-4
+/// leaves pressure within 1e-3 of its limit.
+pub const UNBALANCED_LIMIT: f64 = 1e-4;
+/// Added to the mean contact force, over E r̄² / 1 m · 1 m: lets a state without force chains count as settled.
+const FORCE_FLOOR: f64 = 1e-5;
+/// Below this p̃ = p ℓ / (E r̄) the grains bear no load: unjammed (jammed packings have 0.01 to 0.3).
+pub const UNJAMMED_PRESSURE: f64 = 2e-4;
+/// Steps at most; typical is 1 000 to 5 000.
+const STEP_CAP: u64 = 60_000;
+/// Steps between two looks at the balance.
+const LOOK_EVERY: u64 = 50;
+
+/// How a relaxation ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// Force balance reached, load-bearing.
+    Settled,
+    /// Step cap reached first.
+    Capped,
+    /// Force balance reached (or capped) without load-bearing contacts.
+    Unjammed,
+}
+
+impl Outcome {
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Settled => "settled",
+            Self::Capped => "capped",
+            Self::Unjammed => "unjammed",
+        }
+    }
+}
+
+/// Report of a relaxation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settled {
+    pub outcome: Outcome,
+    /// Steps of the ramp or compression and of the relaxation after it.
+    pub steps: u64,
+    /// mean |resultant| / (mean contact force + floor) at the end [-].
+    pub unbalanced: f64,
+}
+
+/// Steps until the forces balance. `since` is the step count at which the present load stage began.
+pub(crate) fn settle(simulation: &mut Simulation, since: u64) -> Result<Settled, RveError> {
+    let end = simulation.steps + STEP_CAP;
+    let mut unbalanced = f64::INFINITY;
+    while unbalanced >= UNBALANCED_LIMIT && simulation.steps < end {
+        run(simulation, LOOK_EVERY)?;
+        unbalanced = unbalanced_force(simulation);
+    }
+    let outcome = if mean_pressure(simulation) < UNJAMMED_PRESSURE {
+        Outcome::Unjammed
+    } else if unbalanced < UNBALANCED_LIMIT {
+        Outcome::Settled
+    } else {
+        Outcome::Capped
+    };
+    Ok(Settled { outcome, steps: simulation.steps - since, unbalanced })
+}
+
+/// `steps` steps, then the time step follows the contacts. Fails when the motion is no longer finite.
+pub(crate) fn run(simulation: &mut Simulation, steps: u64) -> Result<(), RveError> {
+    (0..steps).for_each(|_| simulation.step());
+    simulation.adapt_time_step();
+    match simulation.discs.iter().position(|d| !(d.x + d.y + d.vx + d.vy).is_finite()) {
+        None => Ok(()),
+        Some(disc) => Err(RveError::BlowUp { disc, steps: simulation.steps }),
+    }
+}
+
+/// mean |resultant of contact forces| over the discs / (mean normal contact force + floor) [-].
+pub fn unbalanced_force(simulation: &Simulation) -> f64 {
+    let discs = simulation.discs.len() as f64;
+    let resultant = simulation.loads().iter().map(|l| l.fx.hypot(l.fy)).sum::<f64>() / discs;
+    let (mut sum, mut count) = (0.0, 0.0f64);
+    simulation.for_each_contact(|contact| {
+        sum += contact.normal_force();
+        count += 1.0;
+    });
+    let radius = simulation.mean_radius();
+    let floor = FORCE_FLOOR * simulation.material.young_modulus * radius * radius;
+    resultant / (sum / count.max(1.0) + floor)
+}
+
+/// p̃ = p ℓ / (E r̄) [-] of the whole box, from the normal forces alone.
+fn mean_pressure(simulation: &Simulation) -> f64 {
+    let mut sum = 0.0;
+    simulation.for_each_contact(|contact| {
+        let [x, y] = contact.branch;
+        sum += contact.normal_force() * x.hypot(y);
+    });
+    let pressure = 0.5 * sum / simulation.walls.area();
+    pressure / (simulation.material.young_modulus * simulation.mean_radius())
+}
