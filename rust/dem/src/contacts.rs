@@ -1,28 +1,80 @@
 //! Candidate contacts in rows, with the friction history of each.
 
-/// Pairs within the search distance, as compressed rows: row i holds the partners j > i in growing order.
+use std::ops::Range;
+
+/// Pairs within the search distance, ordered by i, then j; i < j.
 ///
-/// The order makes sums over contacts independent of when the rows were last rebuilt: a candidate that bears no
-/// force adds nothing.
+/// The order makes sums over contacts independent of when the list was last rebuilt: a candidate that bears no force
+/// adds nothing. Every index is below [`PairList::discs`], checked when the list is built: the kernels rely on it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct ContactRows {
+pub struct PairList {
+    discs: usize,
     /// Row i is `start[i]..start[i + 1]`.
-    pub start: Vec<u32>,
-    /// Partner j.
-    pub partner: Vec<u32>,
+    start: Vec<u32>,
+    i: Vec<u32>,
+    j: Vec<u32>,
     /// f_t [N] of the last step, on j along t; 0 when the contact is open.
-    pub tangential: Vec<f64>,
+    pub(crate) tangential: Vec<f64>,
 }
 
-impl ContactRows {
-    pub fn row(&self, i: usize) -> std::ops::Range<usize> {
-        self.start[i] as usize..self.start[i + 1] as usize
+impl PairList {
+    /// A list over `discs` discs. `partners(i, row)` puts the partners j > i of disc i into `row`, in any order.
+    pub(crate) fn build(discs: usize, mut partners: impl FnMut(usize, &mut Vec<u32>)) -> Self {
+        let mut list = Self { discs, start: vec![0], ..Self::default() };
+        let mut row = Vec::new();
+        for i in 0..discs {
+            row.clear();
+            partners(i, &mut row);
+            row.sort_unstable();
+            assert!(row.last().is_none_or(|&last| (last as usize) < discs));
+            list.i.extend(row.iter().map(|_| i as u32));
+            list.j.extend_from_slice(&row);
+            list.start.push(list.j.len() as u32);
+        }
+        list.tangential = vec![0.0; list.j.len()];
+        list
+    }
+
+    /// Takes over the friction history of the pairs that are in `old` too.
+    pub(crate) fn inherit(&mut self, old: &Self) {
+        if old.discs == self.discs {
+            for k in 0..self.len() {
+                self.tangential[k] = old.tangential_of(self.i[k] as usize, self.j[k]);
+            }
+        }
+    }
+
+    /// Number of discs that the indices refer to.
+    pub fn discs(&self) -> usize {
+        self.discs
+    }
+
+    /// Number of candidates.
+    pub fn len(&self) -> usize {
+        self.j.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.j.is_empty()
+    }
+
+    pub fn i(&self) -> &[u32] {
+        &self.i
+    }
+
+    pub fn j(&self) -> &[u32] {
+        &self.j
+    }
+
+    /// The candidates of the rows `rows`.
+    pub fn of_rows(&self, rows: Range<usize>) -> Range<usize> {
+        self.start[rows.start] as usize..self.start[rows.end] as usize
     }
 
     /// f_t of the pair (i, j), i < j, or 0 if it is no candidate.
     pub fn tangential_of(&self, i: usize, j: u32) -> f64 {
-        let row = self.row(i);
-        match self.partner[row.clone()].binary_search(&j) {
+        let row = self.of_rows(i..i + 1);
+        match self.j[row.clone()].binary_search(&j) {
             Ok(k) => self.tangential[row.start + k],
             Err(_) => 0.0,
         }
@@ -32,9 +84,9 @@ impl ContactRows {
 /// Discs within the search distance of one wall, in growing order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WallContacts {
-    pub disc: Vec<u32>,
+    pub(crate) disc: Vec<u32>,
     /// f_t [N] on the disc along t; 0 when the contact is open.
-    pub tangential: Vec<f64>,
+    pub(crate) tangential: Vec<f64>,
 }
 
 impl WallContacts {

@@ -1,34 +1,114 @@
-//! The contact law as pure functions (paper, Table 1).
+//! The contact law as pure functions of parameters and contact state (paper, Table 1).
 //!
 //! n points from i to j, t = (−n_y, n_x). The force on j is f_n n + f_t t, on i its negative; f_n ≥ 0 repels.
+//!
+//! The functions that the hot loops call are written once for any number of lanes (`Vector`).
+
+use crate::kernel::{Columns, Vector};
+use crate::material::Material;
 
 /// s_n = 2 E r₁ r₂ / (r₁ + r₂) [N/m], current radii. Not multiplied by the 1 m depth (authors' code).
-#[inline(always)]
 pub fn pair_stiffness(young_modulus: f64, r1: f64, r2: f64) -> f64 {
-    2.0 * young_modulus * r1 * r2 / (r1 + r2)
+    2.0 * young_modulus * (r1 * r2) / (r1 + r2)
 }
 
 /// s_n of a disc on a flat wall [N/m]: `factor` · E r.
-#[inline(always)]
 pub fn wall_stiffness(young_modulus: f64, factor: f64, radius: f64) -> f64 {
     factor * young_modulus * radius
 }
 
-/// f_t after the slip `slip` [m] of j relative to i along t: elastic step, then Coulomb's limit.
-/// The clipped value is what is stored, so a sliding contact keeps no memory of the excess.
-#[inline(always)]
-pub fn tangential_force(previous: f64, stiffness: f64, slip: f64, limit: f64) -> f64 {
-    // max/min, not clamp: clamp panics on NaN limits, and these compile to two instructions.
-    (previous - stiffness * slip).max(-limit).min(limit)
+/// Material numbers as the contact loops want them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PairLaw {
+    pub young_modulus: f64,
+    /// ν [-].
+    pub stiffness_ratio: f64,
+    /// tan φ [-].
+    pub friction: f64,
+    pub wall_factor: f64,
+    /// Δt [s].
+    pub dt: f64,
 }
 
-/// f_d = −μ |f_c| v/|v| [N] for one disc, f_c the resultant of its contact forces. Zero at rest.
+impl PairLaw {
+    pub fn new(material: &Material, dt: f64) -> Self {
+        Self {
+            young_modulus: material.young_modulus,
+            stiffness_ratio: material.stiffness_ratio,
+            friction: material.friction_angle.tan(),
+            wall_factor: material.wall_stiffness_factor,
+            dt,
+        }
+    }
+}
+
+/// Force of a group of pairs: zero in lanes that do not touch.
+pub(crate) struct PairForce<V> {
+    /// (fx, fy) on j [N].
+    pub on_j: [V; 2],
+    /// To be subtracted from the torque on i, and added to that on j [N m].
+    pub torque: [V; 2],
+    /// The stored f_t [N].
+    pub tangential: V,
+}
+
+/// f_t after the slip `slip` [m] of j relative to i along t: elastic step, then Coulomb's limit. The clipped value is
+/// what is stored, so a sliding contact keeps no memory of the excess.
 #[inline(always)]
-pub fn damping_force(damping: f64, force: [f64; 2], velocity: [f64; 2]) -> [f64; 2] {
-    let speed2 = velocity[0] * velocity[0] + velocity[1] * velocity[1];
-    let force2 = force[0] * force[0] + force[1] * force[1];
-    let scale = if speed2 > 0.0 { damping * (force2 / speed2).sqrt() } else { 0.0 };
-    [-scale * velocity[0], -scale * velocity[1]]
+pub(crate) fn tangential_force<V: Vector>(previous: V, stiffness: V, slip: V, limit: V) -> V {
+    let elastic = previous - stiffness * slip;
+    elastic.max(limit.like(0.0) - limit).min(limit)
+}
+
+/// Force of pairs of discs; None when no lane touches.
+#[inline(always)]
+pub(crate) fn pair_force<V: Vector>(
+    law: &PairLaw,
+    a: &Columns<V>,
+    b: &Columns<V>,
+    previous: V,
+) -> Option<PairForce<V>> {
+    let [ax, ay, ar, avx, avy, aw, ..] = *a;
+    let [bx, by, br, bvx, bvy, bw, ..] = *b;
+    let (dx, dy) = (bx - ax, by - ay);
+    let reach = ar + br;
+    let distance2 = dx * dx + dy * dy;
+    let touching = (reach * reach).greater(distance2);
+    if !V::any(touching) {
+        return None;
+    }
+    let all = |value: f64| ax.like(value);
+    let distance = distance2.sqrt();
+    let inverse = all(1.0) / distance;
+    let (nx, ny) = (dx * inverse, dy * inverse);
+    let overlap = V::select(touching, reach - distance, all(0.0));
+    // Lever arms end at the middle of the overlap: r − δ/2.
+    let half = all(0.5) * overlap;
+    let (arm_a, arm_b) = (ar - half, br - half);
+    // Velocity of j relative to i at the contact, along t.
+    let speed = (bvy - avy) * nx - (bvx - avx) * ny - (arm_a * aw + arm_b * bw);
+    let stiffness = all(2.0 * law.young_modulus) * (ar * br) / reach;
+    let normal = stiffness * overlap;
+    // A lane that does not touch has the limit 0, which also clears its history.
+    let tangential = tangential_force(
+        previous,
+        all(law.stiffness_ratio) * stiffness,
+        speed * all(law.dt),
+        all(law.friction) * normal,
+    );
+    Some(PairForce {
+        on_j: [normal * nx - tangential * ny, normal * ny + tangential * nx],
+        torque: [arm_a * tangential, all(0.0) - arm_b * tangential],
+        tangential,
+    })
+}
+
+/// |f_d|/|v| of the damping force f_d = −μ |f_c| v/|v| [kg/s], from the squares of force and speed. Zero at rest.
+#[inline(always)]
+pub(crate) fn damping_scale<V: Vector>(damping: V, force2: V, speed2: V) -> V {
+    let moving = speed2.greater(speed2.like(0.0));
+    let ratio = force2 / V::select(moving, speed2, speed2.like(1.0));
+    V::select(moving, damping * ratio.sqrt(), speed2.like(0.0))
 }
 
 #[cfg(test)]
@@ -49,9 +129,8 @@ mod tests {
     }
 
     #[test]
-    fn damping_opposes_motion_and_vanishes_at_rest() {
-        let f = damping_force(0.1, [3.0, 4.0], [0.0, -2.0]);
-        assert_eq!(f, [-0.0, 0.5]);
-        assert_eq!(damping_force(0.1, [3.0, 4.0], [0.0, 0.0]), [0.0, 0.0]);
+    fn damping_is_mu_force_over_speed_and_vanishes_at_rest() {
+        assert_eq!(damping_scale(0.1, 25.0, 4.0), 0.25);
+        assert_eq!(damping_scale(0.1, 25.0, 0.0), 0.0);
     }
 }

@@ -11,24 +11,25 @@
 //! | [`walls`] | the box: four flat walls with prescribed velocities |
 //! | [`contacts`] | candidate pairs in rows, with friction history |
 //! | `neighbours` | the search that fills the rows |
-//! | `forces` | contact forces of one step |
-//! | `motion` | damping and symplectic Euler |
+//! | `forces` | contact forces of walls |
+//! | `kernel` | vector kernels of the hot loops |
 //! | [`time_step`] | bound on the stable step |
 //! | [`simulation`] | the state, and `step()` |
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 pub mod contacts;
 pub mod disc;
 mod forces;
+mod kernel;
 pub mod law;
 pub mod material;
-mod motion;
 mod neighbours;
 pub mod simulation;
 pub mod time_step;
 pub mod walls;
 
 pub use disc::Disc;
+pub use kernel::Simd;
 pub use material::{Material, MaterialError};
 pub use simulation::{Contact, Simulation};
 pub use walls::{Side, Walls};

@@ -1,6 +1,6 @@
 //! Neighbour search: a cell grid fills the contact rows with all pairs closer than the skin.
 
-use crate::contacts::{ContactRows, WallContacts};
+use crate::contacts::{PairList, WallContacts};
 use crate::disc::Disc;
 use crate::walls::{Side, Walls};
 
@@ -11,22 +11,51 @@ const SKIN_OVER_MEAN_RADIUS: f64 = 0.25;
 /// Rows of candidates, and how far things have moved since they were found.
 #[derive(Clone, Debug, Default)]
 pub struct Neighbours {
-    pub pairs: ContactRows,
+    pub pairs: PairList,
     pub walls: [WallContacts; 4],
     skin: f64,
     /// Bound on how much the gap of any pair has closed since the last rebuild [m].
     closed: f64,
+    /// The part of it that growing radii and moving walls closed.
+    closed_by_boundaries: f64,
+    /// Centres at the last rebuild.
+    built_at: Vec<[f64; 2]>,
+    /// Rebuilds so far.
+    pub rebuilds: u64,
 }
 
 impl Neighbours {
     /// True when a pair that is no candidate may have come into contact.
-    pub fn stale(&self) -> bool {
-        self.closed >= self.skin
+    ///
+    /// First by the bound on speeds, which costs nothing; when that is used up, by how far the discs have really
+    /// come, which then replaces it: discs that tremble about a place do not force rebuilds.
+    pub fn stale(&mut self, discs: &[Disc]) -> bool {
+        if self.closed < self.skin {
+            return false;
+        }
+        self.closed = self.closed_by_boundaries + self.closed_by_motion(discs);
+        // The measure costs about as much as a step, so it should be good for a few.
+        self.closed > 0.8 * self.skin
     }
 
-    /// Counts motion: `speed` [m/s] bounds that of every disc and wall, `growth` [m/s] that of every radius.
-    pub fn record_motion(&mut self, speed: f64, growth: f64, dt: f64) {
-        self.closed += 2.0 * (speed + growth) * dt;
+    /// Counts motion: `speed` [m/s] bounds that of every disc, `wall_speed` that of every wall, and `growth` [m/s]
+    /// that of every radius.
+    pub fn record_motion(&mut self, speed: f64, wall_speed: f64, growth: f64, dt: f64) {
+        let boundaries = (2.0 * growth + wall_speed) * dt;
+        self.closed_by_boundaries += boundaries;
+        self.closed += 2.0 * speed * dt + boundaries;
+    }
+
+    /// Sum of the two largest displacements since the last rebuild [m].
+    fn closed_by_motion(&self, discs: &[Disc]) -> f64 {
+        let (mut largest, mut second) = (0.0f64, 0.0f64);
+        for (disc, [x, y]) in discs.iter().zip(&self.built_at) {
+            let (dx, dy) = (disc.x - x, disc.y - y);
+            let square = dx * dx + dy * dy;
+            second = second.max(square.min(largest));
+            largest = largest.max(square);
+        }
+        largest.sqrt() + second.sqrt()
     }
 
     /// Finds all candidates afresh and carries the friction history over.
@@ -34,11 +63,12 @@ impl Neighbours {
         let mean_radius = discs.iter().map(|d| d.radius).sum::<f64>() / discs.len().max(1) as f64;
         self.skin = SKIN_OVER_MEAN_RADIUS * mean_radius;
         self.closed = 0.0;
+        self.closed_by_boundaries = 0.0;
+        self.built_at = discs.iter().map(|d| [d.x, d.y]).collect();
+        self.rebuilds += 1;
         let old = std::mem::take(&mut self.pairs);
-        self.pairs = rows(discs, self.skin);
-        if old.start.len() == self.pairs.start.len() {
-            carry_history(&old, &mut self.pairs);
-        }
+        self.pairs = pairs_within(discs, self.skin);
+        self.pairs.inherit(&old);
         for side in Side::ALL {
             self.rebuild_wall(side, discs, walls);
         }
@@ -52,14 +82,6 @@ impl Neighbours {
                 new.disc.push(i);
                 new.tangential.push(old.tangential_of(i));
             }
-        }
-    }
-}
-
-fn carry_history(old: &ContactRows, new: &mut ContactRows) {
-    for i in 0..new.start.len() - 1 {
-        for k in new.row(i) {
-            new.tangential[k] = old.tangential_of(i, new.partner[k]);
         }
     }
 }
@@ -138,28 +160,23 @@ impl Grid {
 }
 
 /// All pairs whose surfaces are closer than `skin`.
-fn rows(discs: &[Disc], skin: f64) -> ContactRows {
-    let mut rows = ContactRows { start: vec![0], ..ContactRows::default() };
+fn pairs_within(discs: &[Disc], skin: f64) -> PairList {
     if discs.is_empty() {
-        return rows;
+        return PairList::build(0, |_, _| ());
     }
     let largest = discs.iter().fold(0.0f64, |r, d| r.max(d.radius));
     let grid = Grid::new(discs, 2.0 * largest + skin);
-    for (i, a) in (0u32..).zip(discs) {
-        let begin = rows.partner.len();
+    PairList::build(discs.len(), |i, row| {
+        let a = &discs[i];
         grid.around(a, |j| {
             let b = &discs[j as usize];
             let reach = a.radius + b.radius + skin;
             let (dx, dy) = (b.x - a.x, b.y - a.y);
-            if j > i && dx * dx + dy * dy < reach * reach {
-                rows.partner.push(j);
+            if j as usize > i && dx * dx + dy * dy < reach * reach {
+                row.push(j);
             }
         });
-        rows.partner[begin..].sort_unstable();
-        rows.start.push(rows.partner.len() as u32);
-    }
-    rows.tangential = vec![0.0; rows.partner.len()];
-    rows
+    })
 }
 
 #[cfg(test)]
@@ -176,7 +193,7 @@ mod tests {
             })
             .collect();
         let skin = 0.01;
-        let found = rows(&discs, skin);
+        let found = pairs_within(&discs, skin);
         for i in 0..discs.len() {
             let expected: Vec<u32> = (i + 1..discs.len())
                 .filter(|&j| {
@@ -185,7 +202,7 @@ mod tests {
                 })
                 .map(|j| j as u32)
                 .collect();
-            assert_eq!(&found.partner[found.row(i)], &expected, "row {i}");
+            assert_eq!(&found.j()[found.of_rows(i..i + 1)], &expected, "row {i}");
         }
     }
 

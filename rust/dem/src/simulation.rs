@@ -1,10 +1,10 @@
 //! The state of one assembly, and one step of it.
 
 use crate::disc::Disc;
-use crate::forces::{self, ContactLaw, Load};
-use crate::law::{pair_stiffness, wall_stiffness};
+use crate::forces::{self, Load};
+use crate::kernel::{self, Motion, Simd};
+use crate::law::{PairLaw, pair_stiffness, wall_stiffness};
 use crate::material::Material;
-use crate::motion;
 use crate::neighbours::Neighbours;
 use crate::time_step;
 use crate::walls::{Side, Walls};
@@ -25,10 +25,12 @@ pub struct Simulation {
     pub wall_force: [[f64; 2]; 4],
     /// Radii at zero strain [m].
     reference_radius: Vec<f64>,
+    largest_reference_radius: f64,
     /// ε [-]: radii are `reference_radius` (1 + ε), not compounded (Eq. 6).
     strain: f64,
     strain_rate: f64,
     largest_speed: f64,
+    simd: Simd,
     neighbours: Neighbours,
     loads: Vec<Load>,
 }
@@ -76,6 +78,7 @@ impl Simulation {
         let mut simulation = Self {
             material,
             reference_radius: discs.iter().map(|d| d.radius).collect(),
+            largest_reference_radius: discs.iter().map(|d| d.radius).fold(0.0, f64::max),
             loads: vec![Load::default(); discs.len()],
             discs,
             walls,
@@ -86,6 +89,7 @@ impl Simulation {
             strain: 0.0,
             strain_rate: 0.0,
             largest_speed: 0.0,
+            simd: Simd::best(),
             neighbours: Neighbours::default(),
         };
         simulation.neighbours.rebuild(&simulation.discs, &simulation.walls);
@@ -97,23 +101,31 @@ impl Simulation {
     /// One step of Δt.
     pub fn step(&mut self) {
         self.advance_boundaries();
-        if self.neighbours.stale() {
+        if self.neighbours.stale(&self.discs) {
             self.neighbours.rebuild(&self.discs, &self.walls);
         }
         self.sum_contact_forces();
-        self.largest_speed = motion::advance(
-            &mut self.discs,
-            &self.loads,
-            self.material.damping,
-            self.free_drag,
-            self.time_step,
-        );
+        self.move_discs();
         self.steps += 1;
     }
 
     /// Sets Δt to [`time_step::SAFETY`] times the stable step of the present contacts.
     pub fn adapt_time_step(&mut self) {
         self.time_step = time_step::SAFETY * time_step::stable_step(self);
+    }
+
+    /// Instruction set of the kernels; all give the same bits.
+    pub fn simd(&self) -> Simd {
+        self.simd
+    }
+
+    /// Chooses the instruction set.
+    ///
+    /// # Panics
+    /// When the machine does not have it; ask [`Simd::available`].
+    pub fn set_simd(&mut self, simd: Simd) {
+        assert!(simd.available(), "{simd:?} is not available on this machine");
+        self.simd = simd;
     }
 
     /// ε [-], relative to the radii at the last [`Simulation::reset_strain`].
@@ -129,8 +141,19 @@ impl Simulation {
     /// Makes the present radii the reference: ε = 0.
     pub fn reset_strain(&mut self) {
         self.reference_radius = self.discs.iter().map(|d| d.radius).collect();
+        self.largest_reference_radius = self.reference_radius.iter().copied().fold(0.0, f64::max);
         self.strain = 0.0;
         self.strain_rate = 0.0;
+    }
+
+    /// How often the neighbour search has run.
+    pub fn rebuilds(&self) -> u64 {
+        self.neighbours.rebuilds
+    }
+
+    /// Candidate pairs of the neighbour search, touching or not.
+    pub fn candidates(&self) -> usize {
+        self.neighbours.pairs.len()
     }
 
     /// Resultants of the contact forces in the last step, one a disc.
@@ -145,13 +168,10 @@ impl Simulation {
 
     /// Calls `visit` with every force-bearing contact: pairs row by row, then the walls.
     pub fn for_each_contact(&self, mut visit: impl FnMut(Contact)) {
-        let rows = &self.neighbours.pairs;
-        for (i, a) in self.discs.iter().enumerate() {
-            for k in rows.row(i) {
-                let j = rows.partner[k] as usize;
-                if let Some(contact) = self.pair_contact(i, a, j, rows.tangential[k]) {
-                    visit(contact);
-                }
+        let pairs = &self.neighbours.pairs;
+        for (k, (&i, &j)) in pairs.i().iter().zip(pairs.j()).enumerate() {
+            if let Some(contact) = self.pair_contact(i as usize, j as usize, pairs.tangential[k]) {
+                visit(contact);
             }
         }
         for side in Side::ALL {
@@ -164,8 +184,8 @@ impl Simulation {
         }
     }
 
-    fn pair_contact(&self, i: usize, a: &Disc, j: usize, tangential_force: f64) -> Option<Contact> {
-        let b = &self.discs[j];
+    fn pair_contact(&self, i: usize, j: usize, tangential_force: f64) -> Option<Contact> {
+        let (a, b) = (&self.discs[i], &self.discs[j]);
         let branch = [b.x - a.x, b.y - a.y];
         let distance = (branch[0] * branch[0] + branch[1] * branch[1]).sqrt();
         let overlap = a.radius + b.radius - distance;
@@ -199,29 +219,39 @@ impl Simulation {
 
     /// Radii and walls at the end of the step.
     fn advance_boundaries(&mut self) {
-        let mut growth = 0.0f64;
+        let dt = self.time_step;
         if self.strain_rate != 0.0 {
-            self.strain += self.strain_rate * self.time_step;
+            self.strain += self.strain_rate * dt;
             let factor = 1.0 + self.strain;
             for (disc, reference) in self.discs.iter_mut().zip(&self.reference_radius) {
                 disc.radius = reference * factor;
-                growth = growth.max(reference * self.strain_rate);
             }
         }
-        self.walls.advance(self.time_step);
-        let speed = self.largest_speed.max(self.walls.largest_speed());
-        self.neighbours.record_motion(speed, growth, self.time_step);
+        self.walls.advance(dt);
+        let growth = (self.strain_rate * self.largest_reference_radius).max(0.0);
+        self.neighbours.record_motion(self.largest_speed, self.walls.largest_speed(), growth, dt);
     }
 
     fn sum_contact_forces(&mut self) {
-        let law = ContactLaw::new(&self.material, self.time_step);
+        let law = PairLaw::new(&self.material, self.time_step);
         self.loads.fill(Load::default());
-        forces::add_pairs(law, &self.discs, &mut self.neighbours.pairs, &mut self.loads);
+        let pairs = &mut self.neighbours.pairs;
+        let all = 0..pairs.len();
+        kernel::add_pairs(self.simd, law, &self.discs, pairs, all, &mut self.loads);
         for side in Side::ALL {
             let contacts = &mut self.neighbours.walls[side as usize];
             self.wall_force[side as usize] =
                 forces::add_wall(law, side, &self.walls, &self.discs, contacts, &mut self.loads);
         }
+    }
+
+    fn move_discs(&mut self) {
+        let motion = Motion {
+            damping: self.material.damping,
+            keep_free: (1.0 - self.free_drag * self.time_step).max(0.0),
+            dt: self.time_step,
+        };
+        self.largest_speed = kernel::advance(self.simd, motion, &mut self.discs, &self.loads).sqrt();
     }
 }
 

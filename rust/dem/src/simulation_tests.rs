@@ -136,3 +136,68 @@ fn radii_follow_the_strain_linearly() {
     assert!((simulation.discs[0].radius / (R * 1.02) - 1.0).abs() < 1e-15);
     assert_eq!(simulation.discs[0].mass, mass);
 }
+
+/// A trembling heap of discs of all sizes between closing walls: enough to pass through every branch of the kernels.
+fn heap() -> Simulation {
+    let material = Material::default();
+    let discs = (0..211)
+        .map(|k| {
+            let u = |a: f64| (a * f64::from(k + 1)).fract();
+            let (column, line) = (f64::from(k % 15), f64::from(k / 15));
+            let radius = 3e-3 + 4e-3 * u(0.618_034);
+            let mut disc =
+                Disc::at_rest(0.012 * (column + 0.7), 0.012 * (line + 0.7), radius, material.density);
+            disc.vx = 0.1 * (u(0.414_214) - 0.5);
+            disc.vy = 0.1 * (u(0.732_051) - 0.5);
+            disc.angular_velocity = 10.0 * (u(0.236_068) - 0.5);
+            disc
+        })
+        .collect();
+    let mut simulation = Simulation::new(material, discs, Walls::around(0.185, 0.185));
+    simulation.walls.normal_velocity = [0.05, -0.05, 0.02, 0.0];
+    simulation.walls.tangential_velocity = [0.01, 0.0, -0.01, 0.0];
+    simulation.free_drag = 5.0;
+    simulation.set_strain_rate(0.05);
+    simulation
+}
+
+/// Scalar, AVX2 and AVX-512 give the same bits.
+#[test]
+fn instruction_sets_agree_bit_for_bit() {
+    let run = |simd| {
+        let mut simulation = heap();
+        simulation.set_simd(simd);
+        (0..1500).for_each(|_| simulation.step());
+        simulation
+    };
+    let scalar = run(Simd::Scalar);
+    let mut touching = 0;
+    scalar.for_each_contact(|_| touching += 1);
+    assert!(touching > 300, "{touching}");
+    for simd in [Simd::Avx2, Simd::Avx512].into_iter().filter(|simd| simd.available()) {
+        let vector = run(simd);
+        assert_eq!(vector.discs, scalar.discs, "{simd:?}");
+        assert_eq!(vector.neighbours.pairs, scalar.neighbours.pairs);
+    }
+}
+
+/// The neighbour list never misses a contact: after many steps, all overlaps found by brute force are candidates.
+#[test]
+fn no_contact_is_missed() {
+    let mut simulation = heap();
+    for _ in 0..40 {
+        (0..10).for_each(|_| simulation.step());
+        let mut listed = 0;
+        simulation.for_each_contact(|contact| listed += usize::from(contact.i.is_ok()));
+        let discs = &simulation.discs;
+        let touch = |a: &Disc, b: &Disc| {
+            let reach = a.radius + b.radius;
+            (b.x - a.x).powi(2) + (b.y - a.y).powi(2) < reach * reach
+        };
+        let found: usize =
+            (0..discs.len()).map(|i| discs[i + 1..].iter().filter(|b| touch(&discs[i], b)).count()).sum();
+        // Contacts made by the last motion may be younger than the list by one step.
+        assert!(found.abs_diff(listed) <= 1, "{found} {listed}");
+    }
+    assert!(simulation.rebuilds() > 2);
+}
