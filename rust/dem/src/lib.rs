@@ -9,27 +9,37 @@
 //! | [`law`] | contact law as pure functions (Table 1) |
 //! | [`disc`] | one grain, packed in one cache line |
 //! | [`walls`] | the box: four flat walls with prescribed velocities |
+//! | [`contact`] | one contact, as averages see it |
 //! | [`contacts`] | candidate pairs in rows, with friction history |
 //! | `neighbours` | the search that fills the rows |
 //! | `forces` | contact forces of walls |
 //! | `kernel` | vector kernels of the hot loops |
+//! | [`heat`] | thermal pipes, sub-stepped (Eq. 5) |
 //! | [`time_step`] | bound on the stable step |
+//! | [`run`] | many steps, watched; typed failures |
 //! | [`simulation`] | the state, and `step()` |
 #![deny(unsafe_code)]
 
+pub mod contact;
 pub mod contacts;
 pub mod disc;
 mod forces;
+pub mod heat;
 mod kernel;
 pub mod law;
 pub mod material;
 mod neighbours;
+pub mod run;
 pub mod simulation;
 pub mod time_step;
 pub mod walls;
 
+pub use contact::Contact;
 pub use disc::Disc;
+pub use heat::{HeatPipes, Thermal, WallHeat};
 pub use kernel::Simd;
 pub use material::{Material, MaterialError};
-pub use simulation::{Contact, Simulation};
+pub use run::Failure;
+pub use simulation::Simulation;
+pub use time_step::{Excess, StepChoice};
 pub use walls::{Side, Walls};

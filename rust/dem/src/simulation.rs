@@ -2,11 +2,13 @@
 
 use crate::disc::Disc;
 use crate::forces::{self, Load};
+use crate::heat::{HeatPipes, Thermal, WallHeat};
 use crate::kernel::{self, Motion, Simd};
-use crate::law::{PairLaw, pair_stiffness, wall_stiffness};
+use crate::law::PairLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
-use crate::time_step;
+use crate::run::Failure;
+use crate::time_step::{self, StepChoice};
 use crate::walls::{Side, Walls};
 
 /// Discs in a box. Build with [`Simulation::new`], drive by setting wall velocities and [`Simulation::set_strain_rate`].
@@ -15,61 +17,28 @@ pub struct Simulation {
     pub material: Material,
     pub discs: Vec<Disc>,
     pub walls: Walls,
-    /// Δt [s]; see [`Simulation::adapt_time_step`].
+    /// Δt [s] of the next step; [`Simulation::run`] keeps it as chosen.
     pub time_step: f64,
+    pub(crate) step_choice: StepChoice,
     /// Drag on discs without contact force [1/s]; 0 (off) as in the paper, whose damping lets them fly for ever.
     pub free_drag: f64,
     /// Steps taken.
     pub steps: u64,
+    /// t [s].
+    pub time: f64,
     /// Force of the grains on each wall [N]: normal (outwards positive) and tangential (along t of the inward normal).
     pub wall_force: [[f64; 2]; 4],
     /// Radii at zero strain [m].
-    reference_radius: Vec<f64>,
+    pub(crate) reference_radius: Vec<f64>,
     largest_reference_radius: f64,
     /// ε [-]: radii are `reference_radius` (1 + ε), not compounded (Eq. 6).
     strain: f64,
     strain_rate: f64,
     largest_speed: f64,
     simd: Simd,
-    neighbours: Neighbours,
-    loads: Vec<Load>,
-}
-
-/// A force-bearing contact. n points from i to j (from the wall inwards), t = (−n_y, n_x).
-#[derive(Clone, Copy, Debug)]
-pub struct Contact {
-    /// First partner, or the wall.
-    pub i: Result<usize, Side>,
-    /// Second partner.
-    pub j: usize,
-    /// Unit normal.
-    pub normal: [f64; 2],
-    /// Centre to centre; of a wall contact, the foot of the centre on the wall to the centre [m].
-    pub branch: [f64; 2],
-    /// δ [m].
-    pub overlap: f64,
-    /// s_n [N/m].
-    pub stiffness: f64,
-    /// f_t [N], on j along t.
-    pub tangential_force: f64,
-}
-
-impl Contact {
-    /// f_n = s_n δ [N], repulsive.
-    pub fn normal_force(&self) -> f64 {
-        self.stiffness * self.overlap
-    }
-
-    /// Force on j [N].
-    pub fn force(&self) -> [f64; 2] {
-        let ([nx, ny], normal, tangential) = (self.normal, self.normal_force(), self.tangential_force);
-        [normal * nx - tangential * ny, normal * ny + tangential * nx]
-    }
-
-    /// The one or two discs of the contact.
-    pub fn discs(&self) -> impl Iterator<Item = usize> + use<> {
-        self.i.ok().into_iter().chain(std::iter::once(self.j))
-    }
+    pub(crate) neighbours: Neighbours,
+    pub(crate) loads: Vec<Load>,
+    pipes: Option<Box<HeatPipes>>,
 }
 
 impl Simulation {
@@ -83,8 +52,11 @@ impl Simulation {
             discs,
             walls,
             time_step: 0.0,
+            step_choice: StepChoice::Adaptive { safety: time_step::SAFETY },
             free_drag: 0.0,
             steps: 0,
+            time: 0.0,
+            pipes: None,
             wall_force: [[0.0; 2]; 4],
             strain: 0.0,
             strain_rate: 0.0,
@@ -94,7 +66,7 @@ impl Simulation {
         };
         simulation.neighbours.rebuild(&simulation.discs, &simulation.walls);
         simulation.largest_speed = simulation.discs.iter().map(|d| d.vx.hypot(d.vy)).fold(0.0, f64::max);
-        simulation.adapt_time_step();
+        simulation.time_step = time_step::SAFETY * time_step::stable_step(&simulation);
         simulation
     }
 
@@ -106,12 +78,41 @@ impl Simulation {
         }
         self.sum_contact_forces();
         self.move_discs();
+        if self.pipes.is_some() {
+            self.conduct(self.time_step);
+        }
         self.steps += 1;
+        self.time += self.time_step;
     }
 
-    /// Sets Δt to [`time_step::SAFETY`] times the stable step of the present contacts.
-    pub fn adapt_time_step(&mut self) {
-        self.time_step = time_step::SAFETY * time_step::stable_step(self);
+    /// Turns heat on: pipes between touching discs and to the walls; the present radii belong to the present
+    /// temperatures, and follow r = r_ref (1 + α (T − T_ref)) from now on (Eqs. 6 and 7, not compounded).
+    pub fn enable_heat(&mut self, thermal: Thermal, walls: [WallHeat; 4]) {
+        self.reset_strain();
+        self.pipes = Some(Box::new(HeatPipes::new(thermal, walls, &self.discs)));
+    }
+
+    /// The heat pipes, when heat is on.
+    pub fn heat(&self) -> Option<&HeatPipes> {
+        self.pipes.as_deref()
+    }
+
+    /// Conducts heat over `dt` [s] on the present geometry, without motion; nothing when heat is off.
+    pub fn conduct(&mut self, dt: f64) {
+        if let Some(mut pipes) = self.pipes.take() {
+            pipes.connect(self);
+            pipes.conduct(&mut self.discs, dt);
+            self.pipes = Some(pipes);
+        }
+    }
+
+    /// Chooses how [`Simulation::run`] sets the time step.
+    ///
+    /// # Errors
+    /// A fixed step above the present bound, when it is to be refused.
+    pub fn choose_time_step(&mut self, choice: StepChoice) -> Result<(), Failure> {
+        self.step_choice = choice;
+        self.watch_time_step()
     }
 
     /// Instruction set of the kernels; all give the same bits.
@@ -166,70 +167,39 @@ impl Simulation {
         self.discs.iter().map(|d| d.radius).sum::<f64>() / self.discs.len() as f64
     }
 
-    /// Calls `visit` with every force-bearing contact: pairs row by row, then the walls.
-    pub fn for_each_contact(&self, mut visit: impl FnMut(Contact)) {
-        let pairs = &self.neighbours.pairs;
-        for (k, (&i, &j)) in pairs.i().iter().zip(pairs.j()).enumerate() {
-            if let Some(contact) = self.pair_contact(i as usize, j as usize, pairs.tangential[k]) {
-                visit(contact);
-            }
-        }
-        for side in Side::ALL {
-            let contacts = &self.neighbours.walls[side as usize];
-            for (&j, &tangential) in contacts.disc.iter().zip(&contacts.tangential) {
-                if let Some(contact) = self.wall_contact(side, j as usize, tangential) {
-                    visit(contact);
-                }
-            }
-        }
-    }
-
-    fn pair_contact(&self, i: usize, j: usize, tangential_force: f64) -> Option<Contact> {
-        let (a, b) = (&self.discs[i], &self.discs[j]);
-        let branch = [b.x - a.x, b.y - a.y];
-        let distance = (branch[0] * branch[0] + branch[1] * branch[1]).sqrt();
-        let overlap = a.radius + b.radius - distance;
-        (overlap > 0.0).then(|| Contact {
-            i: Ok(i),
-            j,
-            normal: [branch[0] / distance, branch[1] / distance],
-            branch,
-            overlap,
-            stiffness: pair_stiffness(self.material.young_modulus, a.radius, b.radius),
-            tangential_force,
-        })
-    }
-
-    fn wall_contact(&self, side: Side, j: usize, tangential_force: f64) -> Option<Contact> {
-        let disc = &self.discs[j];
-        let distance = self.walls.distance(side, disc.x, disc.y);
-        let normal = side.normal();
-        let overlap = disc.radius - distance;
-        let (young_modulus, factor) = (self.material.young_modulus, self.material.wall_stiffness_factor);
-        (overlap > 0.0).then(|| Contact {
-            i: Err(side),
-            j,
-            normal,
-            branch: [distance * normal[0], distance * normal[1]],
-            overlap,
-            stiffness: wall_stiffness(young_modulus, factor, disc.radius),
-            tangential_force,
-        })
-    }
-
     /// Radii and walls at the end of the step.
     fn advance_boundaries(&mut self) {
         let dt = self.time_step;
-        if self.strain_rate != 0.0 {
-            self.strain += self.strain_rate * dt;
-            let factor = 1.0 + self.strain;
-            for (disc, reference) in self.discs.iter_mut().zip(&self.reference_radius) {
-                disc.radius = reference * factor;
-            }
-        }
+        self.strain += self.strain_rate * dt;
+        let growth = self.advance_radii();
         self.walls.advance(dt);
-        let growth = (self.strain_rate * self.largest_reference_radius).max(0.0);
-        self.neighbours.record_motion(self.largest_speed, self.walls.largest_speed(), growth, dt);
+        self.neighbours.record_motion(self.largest_speed, self.walls.largest_speed(), growth / dt, dt);
+    }
+
+    /// Sets the radii from strain and temperature; returns the largest growth [m].
+    fn advance_radii(&mut self) -> f64 {
+        let factor = 1.0 + self.strain;
+        match &self.pipes {
+            Some(pipes) if pipes.thermal.expansion != 0.0 => {
+                let mut growth = 0.0f64;
+                let references = self.reference_radius.iter().zip(&pipes.reference_temperature);
+                for (disc, (radius, temperature)) in self.discs.iter_mut().zip(references) {
+                    let thermal = pipes.thermal.expansion * (disc.temperature - temperature);
+                    let radius = radius * (factor + thermal);
+                    let grown = radius - disc.radius;
+                    growth = if grown > growth { grown } else { growth };
+                    disc.radius = radius;
+                }
+                growth
+            }
+            _ if self.strain_rate != 0.0 => {
+                for (disc, radius) in self.discs.iter_mut().zip(&self.reference_radius) {
+                    disc.radius = radius * factor;
+                }
+                (self.strain_rate * self.time_step * self.largest_reference_radius).max(0.0)
+            }
+            _ => 0.0,
+        }
     }
 
     fn sum_contact_forces(&mut self) {

@@ -1,9 +1,27 @@
-//! Bound on the stable mechanical step.
+//! The mechanical time step: its bound and its choice. (Heat has sub-steps of its own, see [`crate::heat`].)
 
 use crate::simulation::Simulation;
 
 /// Default step over the bound. Explosion was measured at the bound itself; 0.4 keeps the contact period resolved.
 pub const SAFETY: f64 = 0.4;
+
+/// How the mechanical time step is chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StepChoice {
+    /// `safety` times the bound, followed as the contacts change.
+    Adaptive { safety: f64 },
+    /// A fixed step [s].
+    Fixed { step: f64, on_excess: Excess },
+}
+
+/// What happens when a fixed step exceeds the bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excess {
+    /// The run ends with [`crate::run::Failure::TimeStep`].
+    Refuse,
+    /// The step is cut to [`SAFETY`] times the bound for as long as needed.
+    Cut,
+}
 
 /// Contacts that a disc is counted with at least, so that a step chosen in a loose state survives jamming.
 const FEWEST_CONTACTS: f64 = 4.0;

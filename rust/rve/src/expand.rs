@@ -3,7 +3,7 @@
 use crate::homogenise::{Averages, homogenise};
 use crate::pack::Packed;
 use crate::region::RegionKind;
-use crate::settle::{Settled, run, settle};
+use crate::settle::{Settled, settle};
 use crate::{RveError, Simulation};
 
 /// |dε/dt| [1/s]. Expansion hardly feels the rate; near unjamming, contraction does (−2 % at 2 /s: σ 12 % low).
@@ -25,7 +25,7 @@ pub struct Stop {
 /// growing in magnitude. The RVE relaxes at each stop before it is averaged.
 ///
 /// # Errors
-/// [`RveError::Parameter`] for unusable stops, [`RveError::BlowUp`] when the motion is no longer finite.
+/// [`RveError::Parameter`] for unusable stops, [`RveError::Failure`] when the motion blows up.
 pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Vec<Stop>, RveError> {
     check(stops)?;
     let mut simulation = packed.simulation.clone();
@@ -56,7 +56,7 @@ fn advance_to(simulation: &mut Simulation, strain: f64) -> Result<Stop, RveError
         }
         // Equal steps that end at the stop, or the first of them.
         simulation.set_strain_rate(left / (steps * simulation.time_step));
-        run(simulation, (steps as u64).min(RUN))?;
+        simulation.run((steps as u64).min(RUN))?;
     }
     simulation.set_strain_rate(0.0);
     let settled = settle(simulation, since)?;

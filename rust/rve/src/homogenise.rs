@@ -2,6 +2,7 @@
 
 use crate::area::{porosity, sum_of_areas};
 use crate::region::{Polygon, RegionKind, region};
+use msdd_dem::heat::chord;
 use msdd_dem::{Contact, Simulation};
 use serde::{Deserialize, Serialize};
 
@@ -65,13 +66,6 @@ impl Sums {
             *sum += weight * moment;
         }
     }
-}
-
-/// Length of the common chord of two circles at centre distance `d` [m]: contact area on 1 m depth.
-pub fn chord([r1, r2]: [f64; 2], d: f64) -> f64 {
-    // Distance of the chord from the first centre.
-    let to_chord = (d * d + r1 * r1 - r2 * r2) / (2.0 * d);
-    2.0 * (r1 * r1 - to_chord * to_chord).max(0.0).sqrt()
 }
 
 /// Averages over the region of the given kind. Wall contacts are left out; contacts count with the share of their

@@ -38,6 +38,6 @@ pub enum RveError {
     NoRoom { placed: usize, wanted: usize },
     #[error("packing stopped at porosity {reached:.4} after {steps} steps, target {target:.4}")]
     TargetNotReached { reached: f64, target: f64, steps: u64 },
-    #[error("the motion blew up: disc {disc} at step {steps}")]
-    BlowUp { disc: usize, steps: u64 },
+    #[error(transparent)]
+    Failure(#[from] msdd_dem::Failure),
 }

@@ -2,7 +2,7 @@
 
 use crate::area::porosity_of_box;
 use crate::place::{Random, radii, scatter};
-use crate::settle::{Settled, run, settle};
+use crate::settle::{Settled, settle};
 use crate::{Material, RveError, Simulation};
 use msdd_dem::{Side, Walls};
 use serde::{Deserialize, Serialize};
@@ -72,7 +72,7 @@ impl PackingSpec {
 ///
 /// # Errors
 /// [`RveError::Parameter`] or [`RveError::Material`] for bad input; [`RveError::NoRoom`],
-/// [`RveError::TargetNotReached`] or [`RveError::BlowUp`] when the packing fails.
+/// [`RveError::TargetNotReached`] or [`RveError::Failure`] when the packing fails.
 pub fn pack(spec: &PackingSpec, material: &Material) -> Result<Packed, RveError> {
     spec.check()?;
     material.check()?;
@@ -118,7 +118,7 @@ fn compress(simulation: &mut Simulation, spec: &PackingSpec) -> Result<(), RveEr
             let (reached, target, steps) = (porosity, spec.porosity, simulation.steps);
             return Err(RveError::TargetNotReached { reached, target, steps });
         }
-        run(simulation, steps_to_halve(simulation, porosity - spec.porosity))?;
+        simulation.run(steps_to_halve(simulation, porosity - spec.porosity))?;
     }
 }
 

@@ -53,7 +53,7 @@ pub(crate) fn settle(simulation: &mut Simulation, since: u64) -> Result<Settled,
     let end = simulation.steps + STEP_CAP;
     let mut unbalanced = f64::INFINITY;
     while unbalanced >= UNBALANCED_LIMIT && simulation.steps < end {
-        run(simulation, LOOK_EVERY)?;
+        simulation.run(LOOK_EVERY)?;
         unbalanced = unbalanced_force(simulation);
     }
     let outcome = if mean_pressure(simulation) < UNJAMMED_PRESSURE {
@@ -64,16 +64,6 @@ pub(crate) fn settle(simulation: &mut Simulation, since: u64) -> Result<Settled,
         Outcome::Capped
     };
     Ok(Settled { outcome, steps: simulation.steps - since, unbalanced })
-}
-
-/// `steps` steps, then the time step follows the contacts. Fails when the motion is no longer finite.
-pub(crate) fn run(simulation: &mut Simulation, steps: u64) -> Result<(), RveError> {
-    (0..steps).for_each(|_| simulation.step());
-    simulation.adapt_time_step();
-    match simulation.discs.iter().position(|d| !(d.x + d.y + d.vx + d.vy).is_finite()) {
-        None => Ok(()),
-        Some(disc) => Err(RveError::BlowUp { disc, steps: simulation.steps }),
-    }
 }
 
 /// mean |resultant of contact forces| over the discs / (mean normal contact force + floor) [-].

@@ -1,0 +1,95 @@
+//! One force-bearing contact, as averages and audits want to see it.
+
+use crate::law::{pair_stiffness, wall_stiffness};
+use crate::simulation::Simulation;
+use crate::walls::Side;
+
+/// A force-bearing contact. n points from i to j (from the wall inwards), t = (−n_y, n_x).
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    /// First partner, or the wall.
+    pub i: Result<usize, Side>,
+    /// Second partner.
+    pub j: usize,
+    /// Unit normal.
+    pub normal: [f64; 2],
+    /// Centre to centre; of a wall contact, the foot of the centre on the wall to the centre [m].
+    pub branch: [f64; 2],
+    /// δ [m].
+    pub overlap: f64,
+    /// s_n [N/m].
+    pub stiffness: f64,
+    /// f_t [N], on j along t.
+    pub tangential_force: f64,
+}
+
+impl Contact {
+    /// f_n = s_n δ [N], repulsive.
+    pub fn normal_force(&self) -> f64 {
+        self.stiffness * self.overlap
+    }
+
+    /// Force on j [N].
+    pub fn force(&self) -> [f64; 2] {
+        let ([nx, ny], normal, tangential) = (self.normal, self.normal_force(), self.tangential_force);
+        [normal * nx - tangential * ny, normal * ny + tangential * nx]
+    }
+
+    /// The one or two discs of the contact.
+    pub fn discs(&self) -> impl Iterator<Item = usize> + use<> {
+        self.i.ok().into_iter().chain(std::iter::once(self.j))
+    }
+}
+
+impl Simulation {
+    /// Calls `visit` with every force-bearing contact: pairs row by row, then the walls.
+    pub fn for_each_contact(&self, mut visit: impl FnMut(Contact)) {
+        let pairs = &self.neighbours.pairs;
+        for (k, (&i, &j)) in pairs.i().iter().zip(pairs.j()).enumerate() {
+            if let Some(contact) = self.pair_contact(i as usize, j as usize, pairs.tangential[k]) {
+                visit(contact);
+            }
+        }
+        for side in Side::ALL {
+            let contacts = &self.neighbours.walls[side as usize];
+            for (&j, &tangential) in contacts.disc.iter().zip(&contacts.tangential) {
+                if let Some(contact) = self.wall_contact(side, j as usize, tangential) {
+                    visit(contact);
+                }
+            }
+        }
+    }
+
+    fn pair_contact(&self, i: usize, j: usize, tangential_force: f64) -> Option<Contact> {
+        let (a, b) = (&self.discs[i], &self.discs[j]);
+        let branch = [b.x - a.x, b.y - a.y];
+        let distance = (branch[0] * branch[0] + branch[1] * branch[1]).sqrt();
+        let overlap = a.radius + b.radius - distance;
+        (overlap > 0.0).then(|| Contact {
+            i: Ok(i),
+            j,
+            normal: [branch[0] / distance, branch[1] / distance],
+            branch,
+            overlap,
+            stiffness: pair_stiffness(self.material.young_modulus, a.radius, b.radius),
+            tangential_force,
+        })
+    }
+
+    fn wall_contact(&self, side: Side, j: usize, tangential_force: f64) -> Option<Contact> {
+        let disc = &self.discs[j];
+        let distance = self.walls.distance(side, disc.x, disc.y);
+        let normal = side.normal();
+        let overlap = disc.radius - distance;
+        let (young_modulus, factor) = (self.material.young_modulus, self.material.wall_stiffness_factor);
+        (overlap > 0.0).then(|| Contact {
+            i: Err(side),
+            j,
+            normal,
+            branch: [distance * normal[0], distance * normal[1]],
+            overlap,
+            stiffness: wall_stiffness(young_modulus, factor, disc.radius),
+            tangential_force,
+        })
+    }
+}

@@ -1,0 +1,84 @@
+//! Many steps in a row, watched: the time step follows the contacts, and a state that has gone wrong ends the run.
+
+use crate::simulation::Simulation;
+use crate::time_step::{self, Excess, StepChoice};
+
+/// Steps between two looks at the state. A look costs about one step.
+const LOOK_EVERY: u64 = 50;
+/// Largest overlap over the smaller radius before a run counts as blown up: the contact law means nothing there.
+const LARGEST_OVERLAP: f64 = 0.5;
+/// Largest way of a disc in one step over its radius.
+const LARGEST_STRIDE: f64 = 0.5;
+
+/// Why a run ended before its time. `time` [s] is that of the look that found it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Failure {
+    #[error("t = {time} s: disc {disc} has a non-finite position or velocity")]
+    NonFinite { disc: usize, time: f64 },
+    #[error(
+        "t = {time} s: discs {i} and {j} overlap by {ratio:.3} of the smaller radius, allowed: {LARGEST_OVERLAP}"
+    )]
+    Overlap { i: usize, j: usize, ratio: f64, time: f64 },
+    #[error(
+        "t = {time} s: disc {disc} moves {ratio:.3} of its radius in one step, allowed: {LARGEST_STRIDE}"
+    )]
+    Speed { disc: usize, ratio: f64, time: f64 },
+    #[error("t = {time} s: time step {step:.3e} s exceeds the stability bound {bound:.3e} s")]
+    TimeStep { step: f64, bound: f64, time: f64 },
+}
+
+impl Simulation {
+    /// Takes `steps` steps. The time step is looked after every 50 of them, as chosen by
+    /// [`Simulation::choose_time_step`].
+    ///
+    /// # Errors
+    /// The first [`Failure`] found; the state is the failed one, so keep a copy if it may be needed.
+    pub fn run(&mut self, steps: u64) -> Result<(), Failure> {
+        let end = self.steps + steps;
+        while self.steps < end {
+            let block = LOOK_EVERY.min(end - self.steps);
+            self.watch_time_step()?;
+            (0..block).for_each(|_| self.step());
+            self.check()?;
+        }
+        Ok(())
+    }
+
+    /// Looks for signs of a blow-up.
+    pub fn check(&self) -> Result<(), Failure> {
+        let time = self.time;
+        for (disc, d) in self.discs.iter().enumerate() {
+            if !(d.x + d.y + d.vx + d.vy + d.angular_velocity).is_finite() {
+                return Err(Failure::NonFinite { disc, time });
+            }
+            let ratio = d.vx.hypot(d.vy) * self.time_step / d.radius;
+            if ratio > LARGEST_STRIDE {
+                return Err(Failure::Speed { disc, ratio, time });
+            }
+        }
+        let mut worst: Option<Failure> = None;
+        self.for_each_contact(|contact| {
+            if let Ok(i) = contact.i {
+                let ratio = contact.overlap / self.discs[i].radius.min(self.discs[contact.j].radius);
+                if ratio > LARGEST_OVERLAP && worst.is_none() {
+                    worst = Some(Failure::Overlap { i, j: contact.j, ratio, time });
+                }
+            }
+        });
+        worst.map_or(Ok(()), Err)
+    }
+
+    /// Applies the choice of time step to the present contacts.
+    pub(crate) fn watch_time_step(&mut self) -> Result<(), Failure> {
+        let bound = time_step::stable_step(self);
+        match self.step_choice {
+            StepChoice::Adaptive { safety } => self.time_step = safety * bound,
+            StepChoice::Fixed { step, .. } if step <= bound => self.time_step = step,
+            StepChoice::Fixed { on_excess: Excess::Cut, .. } => self.time_step = time_step::SAFETY * bound,
+            StepChoice::Fixed { step, on_excess: Excess::Refuse } => {
+                return Err(Failure::TimeStep { step, bound, time: self.time });
+            }
+        }
+        Ok(())
+    }
+}
