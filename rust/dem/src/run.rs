@@ -6,7 +6,7 @@ use crate::time_step::{self, Excess, StepChoice};
 /// Steps between two looks at the state. A look costs about one step.
 const LOOK_EVERY: u64 = 50;
 /// Largest overlap over the smaller radius before a run counts as blown up: the contact law means nothing there.
-const LARGEST_OVERLAP: f64 = 0.5;
+const LARGEST_OVERLAP: f64 = 1.0;
 /// Largest way of a disc in one step over its radius.
 const LARGEST_STRIDE: f64 = 0.5;
 

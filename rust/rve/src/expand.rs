@@ -21,15 +21,33 @@ pub struct Stop {
     pub averages: Averages,
 }
 
+/// A ramp as far as it went.
+#[derive(Clone, Debug)]
+pub struct Ramp {
+    pub stops: Vec<Stop>,
+    /// Why it ended before the last stop asked for.
+    pub failure: Option<RveError>,
+}
+
 /// One monotone ramp from the packed state through `stops`: strains relative to the packed state, all of one sign,
 /// growing in magnitude. The RVE relaxes at each stop before it is averaged.
 ///
 /// # Errors
-/// [`RveError::Parameter`] for unusable stops, [`RveError::Failure`] when the motion blows up.
-pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Vec<Stop>, RveError> {
+/// [`RveError::Parameter`] for unusable stops. What goes wrong on the way is in [`Ramp::failure`].
+pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
     check(stops)?;
     let mut simulation = packed.simulation.clone();
-    stops.iter().map(|&strain| advance_to(&mut simulation, strain)).collect()
+    let mut ramp = Ramp { stops: Vec::new(), failure: None };
+    for &strain in stops {
+        match advance_to(&mut simulation, strain) {
+            Ok(stop) => ramp.stops.push(stop),
+            Err(failure) => {
+                ramp.failure = Some(failure);
+                break;
+            }
+        }
+    }
+    Ok(ramp)
 }
 
 fn check(stops: &[f64]) -> Result<(), RveError> {

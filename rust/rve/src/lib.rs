@@ -20,7 +20,7 @@ mod place;
 pub mod region;
 pub mod settle;
 
-pub use expand::{Stop, expand};
+pub use expand::{Ramp, Stop, expand};
 pub use homogenise::{Averages, homogenise};
 pub use msdd_dem::{Material, Simulation};
 pub use pack::{Compression, Packed, PackingSpec, pack};

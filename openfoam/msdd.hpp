@@ -1,0 +1,161 @@
+/** C++11 face of msdd.h: handles that free themselves, exceptions instead of status codes, and floating-point traps
+ *  masked during every call. Header-only; needs msdd.h on the include path and libmsdd.a (-lpthread -ldl -lm).
+ *
+ *  SPDX-License-Identifier: GPL-3.0-or-later
+ */
+#ifndef MSDD_HPP
+#define MSDD_HPP
+
+#include "msdd.h"
+
+#include <cfenv>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace msdd
+{
+
+/** Failure of a library call. */
+class Error : public std::runtime_error
+{
+public:
+    Error(std::int32_t status, const std::string& message) : std::runtime_error(message), status_(status) {}
+
+    /** One of enum msdd_status. */
+    std::int32_t status() const noexcept { return status_; }
+
+private:
+    std::int32_t status_;
+};
+
+namespace detail
+{
+
+/** Masks floating-point traps while it lives and restores them, and the flags, at its end. Rust takes IEEE defaults for
+ *  granted, while OpenFOAM traps division by zero, invalid and overflow: a harmless flag would kill the run. */
+class MaskedTraps
+{
+public:
+    MaskedTraps() noexcept { std::feholdexcept(&saved_); }
+    ~MaskedTraps() { std::fesetenv(&saved_); }
+    MaskedTraps(const MaskedTraps&) = delete;
+    MaskedTraps& operator=(const MaskedTraps&) = delete;
+
+private:
+    std::fenv_t saved_;
+};
+
+/** Throws what the last call on this thread reported. */
+inline void check(std::int32_t status)
+{
+    if (status != MSDD_OK)
+    {
+        throw Error(status, msdd_last_error());
+    }
+}
+
+struct Free
+{
+    void operator()(msdd_surrogate* surrogate) const noexcept
+    {
+        const MaskedTraps masked;
+        msdd_surrogate_free(surrogate);
+    }
+};
+
+} // namespace detail
+
+/** A material with its size filled in.
+ *  @param thermalConductivity k of the grains [W/(m K)]
+ *  @param youngModulus E of the grains [Pa]
+ *  @param meanRadius mean grain radius in the initial state [m] */
+inline msdd_material material(double thermalConductivity, double youngModulus, double meanRadius) noexcept
+{
+    msdd_material result = msdd_material();
+    result.struct_size = sizeof(msdd_material);
+    result.thermal_conductivity = thermalConductivity;
+    result.young_modulus = youngModulus;
+    result.mean_radius = meanRadius;
+    return result;
+}
+
+/** An empty batch of so many cells with its size filled in; set the columns by name. */
+inline msdd_batch batch(std::size_t cells) noexcept
+{
+    msdd_batch result = msdd_batch();
+    result.struct_size = sizeof(msdd_batch);
+    result.cells = cells;
+    return result;
+}
+
+/** Version of the library, for example "0.1.0". */
+inline std::string version()
+{
+    const detail::MaskedTraps masked;
+    return msdd_version();
+}
+
+/** A surrogate model: immutable, movable, not copyable. */
+class Surrogate
+{
+public:
+    /** Loads a model: "builtin", or the path of a model file. Throws Error. */
+    explicit Surrogate(const std::string& source = "builtin")
+    {
+        const detail::MaskedTraps masked;
+        const std::uint32_t found = msdd_abi_version();
+        if (found != MSDD_ABI_VERSION)
+        {
+            throw Error
+            (
+                MSDD_INVALID_ARGUMENT,
+                "libmsdd has interface version " + std::to_string(found) + ", msdd.h has "
+              + std::to_string(MSDD_ABI_VERSION) + ": rebuild both from the same source"
+            );
+        }
+        msdd_surrogate* handle = nullptr;
+        detail::check(msdd_surrogate_load(source.c_str(), &handle));
+        handle_.reset(handle);
+    }
+
+    /** Algorithm 1, steps 1 and 2, for every cell of the batch; fills its outputs. Throws Error, and then has written
+     *  nothing. */
+    void evaluate(const msdd_material& material, msdd_batch& batch) const
+    {
+        const detail::MaskedTraps masked;
+        detail::check(msdd_surrogate_evaluate(handle_.get(), &material, &batch));
+    }
+
+    /** Solid fractions, overlaps counted twice [-], of initial states of the given porosities. Throws Error. */
+    void solidFraction(std::size_t cells, const double* porosity, double* solidFraction) const
+    {
+        const detail::MaskedTraps masked;
+        detail::check(msdd_surrogate_solid_fraction(handle_.get(), cells, porosity, solidFraction));
+    }
+
+    /** SHA-256 of the model file, 64 hexadecimal digits; empty after a move. */
+    std::string hash() const
+    {
+        const detail::MaskedTraps masked;
+        return text(msdd_surrogate_hash(handle_.get()));
+    }
+
+    /** Description as one JSON object; empty after a move. */
+    std::string describe() const
+    {
+        const detail::MaskedTraps masked;
+        return text(msdd_surrogate_describe(handle_.get()));
+    }
+
+private:
+    static std::string text(const char* pointer) { return pointer ? pointer : ""; }
+
+    std::unique_ptr<msdd_surrogate, detail::Free> handle_;
+};
+
+} // namespace msdd
+
+#endif

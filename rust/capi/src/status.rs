@@ -1,0 +1,97 @@
+//! Errors to status codes. The one place where panics are stopped.
+
+use crate::ffi::{MSDD_INTERNAL, MSDD_INVALID_ARGUMENT, MSDD_IO, MSDD_MODEL, MSDD_NON_FINITE, MSDD_OK};
+use msdd_surrogate::SurrogateError;
+use std::any::Any;
+use std::cell::RefCell;
+use std::ffi::{CStr, CString, c_char};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What an export can fail with.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    #[error("{0} is NULL")]
+    Null(&'static str),
+    #[error("{name} = {value}, allowed: {allowed}")]
+    Argument { name: String, value: String, allowed: String },
+    #[error("{column}[{index}] = {value} is not finite")]
+    NonFinite { column: &'static str, index: usize, value: f64 },
+    #[error("cannot read model file \"{path}\": {error}")]
+    File { path: String, error: std::io::Error },
+    #[error("model \"{path}\": {error}")]
+    Model { path: String, error: SurrogateError },
+}
+
+impl Failure {
+    pub fn argument(name: impl ToString, value: impl ToString, allowed: impl ToString) -> Self {
+        Self::Argument { name: name.to_string(), value: value.to_string(), allowed: allowed.to_string() }
+    }
+
+    fn status(&self) -> i32 {
+        match self {
+            Self::Null(_) | Self::Argument { .. } => MSDD_INVALID_ARGUMENT,
+            Self::File { .. } => MSDD_IO,
+            Self::Model { .. } => MSDD_MODEL,
+            Self::NonFinite { .. } => MSDD_NON_FINITE,
+        }
+    }
+}
+
+thread_local! {
+    static LAST_ERROR: RefCell<CString> = RefCell::default();
+}
+
+/// Runs the body of an export: the status of its result, its text kept for [`last_error`].
+///
+/// Unwind safety: bodies write to the caller's memory last, after everything that may panic has been checked, and keep
+/// no state of their own; a batch left half-written by a bug is reported as [`MSDD_INTERNAL`].
+pub(crate) fn status(body: impl FnOnce() -> Result<(), Failure>) -> i32 {
+    match catch_unwind(AssertUnwindSafe(body)) {
+        Ok(Ok(())) => MSDD_OK,
+        Ok(Err(failure)) => {
+            remember(failure.to_string());
+            failure.status()
+        }
+        Err(panic) => {
+            remember(format!("internal error (a bug in msdd): {}", panic_text(&*panic)));
+            // Dropping a payload may panic in turn; a few leaked bytes are the safer choice.
+            std::mem::forget(panic);
+            MSDD_INTERNAL
+        }
+    }
+}
+
+/// The same for an export that returns a value: `fallback` after a panic.
+pub(crate) fn value<T>(fallback: T, body: impl FnOnce() -> T) -> T {
+    let mut result = fallback;
+    status(|| {
+        result = body();
+        Ok(())
+    });
+    result
+}
+
+fn panic_text(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<&str>().copied();
+    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no text")
+}
+
+fn remember(text: String) {
+    LAST_ERROR.with(|last| *last.borrow_mut() = c_string(&text));
+}
+
+/// Valid until the next failure on this thread.
+pub(crate) fn last_error() -> *const c_char {
+    LAST_ERROR.with(|last| last.borrow().as_ptr())
+}
+
+/// A C string; NUL bytes, which it cannot hold, become U+FFFD.
+pub(crate) fn c_string(text: &str) -> CString {
+    CString::new(text.replace('\0', "\u{fffd}")).unwrap_or_default()
+}
+
+/// A caller's string as UTF-8.
+pub(crate) fn utf8(name: &str, text: &CStr) -> Result<String, Failure> {
+    let bytes = || text.to_string_lossy().into_owned();
+    text.to_str().map(str::to_string).map_err(|_| Failure::argument(name, bytes(), "UTF-8 text"))
+}

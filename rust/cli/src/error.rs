@@ -1,0 +1,17 @@
+//! What the program reports before it exits with status 1.
+
+use std::path::PathBuf;
+
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    #[error("cannot read {path}: {source}")]
+    Read { path: PathBuf, source: std::io::Error },
+    #[error("cannot write {path}: {source}")]
+    Write { path: PathBuf, source: std::io::Error },
+    #[error(transparent)]
+    Database(#[from] msdd_rve::database::DatabaseError),
+    #[error("{file}: {source}")]
+    Training { file: PathBuf, source: msdd_surrogate::SurrogateError },
+    #[error("{0}")]
+    Message(String),
+}

@@ -1,0 +1,53 @@
+//! `msdd`: the offline work of multiscale data-driven simulation. The only place that parses arguments and prints.
+#![forbid(unsafe_code)]
+
+mod database;
+mod error;
+mod files;
+mod progress;
+mod summary;
+mod train;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+const AFTER_HELP: &str = "\
+The way of the data:
+  msdd database generate --plan cases/database/quick.toml --out results/quick.msdd
+  msdd train --database results/quick.msdd --out results/model.json
+then name the model in a case's constant/granularProperties, run msddFoam, and
+  msdd summary --cases cases --out results/summary.json --plot results/temperature.svg";
+
+/// Multiscale data-driven simulation of heat conduction with thermal expansion in granular media: the offline work.
+#[derive(Parser)]
+#[command(version, after_help = AFTER_HELP, arg_required_else_help = true)]
+struct Program {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Generate and export databases of packed and expanded RVEs.
+    #[command(subcommand)]
+    Database(database::Command),
+    /// Train the surrogate on a database.
+    Train(train::Arguments),
+    /// Table, JSON and plot of solver results.
+    Summary(summary::Arguments),
+}
+
+fn main() -> ExitCode {
+    let result = match Program::parse().command {
+        Command::Database(command) => database::run(&command),
+        Command::Train(arguments) => train::run(&arguments),
+        Command::Summary(arguments) => summary::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("msdd: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

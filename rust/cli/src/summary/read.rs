@@ -1,0 +1,126 @@
+//! What the solver left in one case folder.
+
+use crate::error::CliError;
+use crate::files::read_text;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Names of the probes, in the order of `cases/common/controlDict`.
+pub const PROBES: [&str; 3] = ["P1", "P2", "P3"];
+
+/// (t [s], T [K]) at each probe, by name.
+pub type Probes = BTreeMap<&'static str, Vec<(f64, f64)>>;
+
+/// One case.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CaseResult {
+    pub wall_seconds: f64,
+    pub steps: u64,
+    pub queries: u64,
+    pub clamped_queries: u64,
+    pub probes: Probes,
+    #[serde(rename = "final")]
+    pub end: End,
+}
+
+/// Means over the volume at the end of a run. K in W/(m K), stresses in Pa, compression positive.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct End {
+    #[serde(skip_serializing)]
+    pub time: f64,
+    pub porosity: f64,
+    pub fabric: f64,
+    pub conductivity_xx: f64,
+    pub conductivity_yy: f64,
+    pub stress_xx: f64,
+    pub stress_yy: f64,
+    pub pressure: f64,
+}
+
+/// The surrogate that a case was run with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Model {
+    pub source: String,
+    pub hash: String,
+    pub library_version: String,
+}
+
+/// The solver's own summary.
+#[derive(Deserialize)]
+struct SolverSummary {
+    wall_seconds: f64,
+    steps: u64,
+    queries: u64,
+    clamped_queries: u64,
+    model: Model,
+    #[serde(rename = "final")]
+    end: End,
+}
+
+/// Reads the results of the case in `folder`.
+pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
+    let path = folder.join("postProcessing/msddFoam/summary.json");
+    if !path.exists() {
+        let text = format!("{} is missing: run {}/Allrun first", path.display(), folder.display());
+        return Err(CliError::Message(text));
+    }
+    // JSON has no NaN: a run that ended with one does not parse.
+    let solver: SolverSummary = serde_json::from_str(&read_text(&path)?)
+        .map_err(|error| CliError::Message(format!("{}: {error}", path.display())))?;
+    let path = folder.join("postProcessing/probes/0/T");
+    let problem = |text: String| CliError::Message(format!("{}: {text}", path.display()));
+    let result = CaseResult {
+        wall_seconds: solver.wall_seconds,
+        steps: solver.steps,
+        queries: solver.queries,
+        clamped_queries: solver.clamped_queries,
+        probes: probes(&read_text(&path)?).map_err(problem)?,
+        end: solver.end,
+    };
+    Ok((result, solver.model))
+}
+
+/// Rows of OpenFOAM's probes file: time, then one value a probe; comments start with #.
+fn probes(text: &str) -> Result<Probes, String> {
+    let mut columns = Probes::new();
+    for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with('#')) {
+        let values: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        if values.len() != 1 + PROBES.len() || values.iter().any(|value| !value.is_finite()) {
+            return Err(format!(
+                "line {}: '{line}', expected a time and {} numbers",
+                number + 1,
+                PROBES.len()
+            ));
+        }
+        for (name, value) in PROBES.into_iter().zip(&values[1..]) {
+            columns.entry(name).or_default().push((values[0], *value));
+        }
+    }
+    if columns.is_empty() { Err("holds no values".to_string()) } else { Ok(columns) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn probes_are_read_by_column() {
+        let table = probes("# Probe 0 (0 0 0)\n#  Time\n  0.1  50 51 52\n  0.2 60 61 62\n").unwrap();
+        assert_eq!(table["P1"], [(0.1, 50.0), (0.2, 60.0)]);
+        assert_eq!(table["P3"], [(0.1, 52.0), (0.2, 62.0)]);
+    }
+
+    #[test]
+    fn bad_probes_are_refused_with_the_line() {
+        assert!(probes("# nothing\n").unwrap_err().contains("no values"));
+        assert!(probes("0.1 50 nan 52\n").unwrap_err().starts_with("line 1"));
+        assert!(probes("0.1 50 51 52\n0.2 60\n").unwrap_err().starts_with("line 2"));
+    }
+
+    #[test]
+    fn a_case_without_results_is_named() {
+        let error = case(Path::new("cases/none")).unwrap_err().to_string();
+        assert!(error.contains("cases/none/postProcessing/msddFoam/summary.json is missing"), "{error}");
+    }
+}

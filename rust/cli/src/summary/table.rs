@@ -1,0 +1,57 @@
+//! The table on the terminal.
+
+use super::Named;
+use super::read::PROBES;
+use std::fmt::Write;
+
+/// Times at which temperatures are shown [s].
+const TIMES: [f64; 4] = [1.0, 5.0, 10.0, 20.0];
+
+/// Value of a series at `time`, if it has one there.
+fn at(series: &[(f64, f64)], time: f64) -> Option<f64> {
+    series.iter().find(|(t, _)| (t - time).abs() < 1e-6).map(|&(_, value)| value)
+}
+
+/// Temperatures at the probes, then the state at the end and the cost.
+pub fn text(cases: &[Named]) -> String {
+    let mut out = String::new();
+    let line = |out: &mut String, text: String| writeln!(out, "{}", text.trim_end()).unwrap_or_default();
+    line(&mut out, "T [K] at P1, P2, P3".to_string());
+    let times: Vec<String> = TIMES.iter().map(|t| format!("{:^24}", format!("t = {t} s"))).collect();
+    line(&mut out, format!("case  {}", times.join("  ")));
+    for case in cases {
+        let mut row = format!("{:<6}", case.name);
+        for time in TIMES {
+            for probe in PROBES {
+                let value = case.result.probes.get(probe).and_then(|series| at(series, time));
+                row += &value.map_or(format!("{:>8}", "-"), |v| format!("{v:>8.2}"));
+            }
+            row += "  ";
+        }
+        line(&mut out, row);
+    }
+    line(&mut out, String::new());
+    let head =
+        "case  porosity   fabric   K_xx   K_yy [W/(m K)]   p [kPa]   wall [s]    steps  queries  clamped";
+    line(&mut out, format!("means at the end\n{head}"));
+    for case in cases {
+        let (result, end) = (&case.result, &case.result.end);
+        line(
+            &mut out,
+            format!(
+                "{:<6}{:>8.4} {:>8.4} {:>6.1} {:>6.1} {:>19.3} {:>10.1} {:>8} {:>8} {:>8}",
+                case.name,
+                end.porosity,
+                end.fabric,
+                end.conductivity_xx,
+                end.conductivity_yy,
+                end.pressure / 1e3,
+                result.wall_seconds,
+                result.steps,
+                result.queries,
+                result.clamped_queries
+            ),
+        );
+    }
+    out
+}

@@ -1,0 +1,231 @@
+//! The model file: JSON, versioned, exact to the last bit of every number.
+
+use crate::model::Predictor;
+use crate::network::{Network, WEIGHT_LIMIT, WEIGHTS};
+use crate::scaling::{OutputScales, Range, TrainedRange};
+use crate::solid_fraction::SolidFraction;
+use crate::training::{Report, TrainingOptions};
+use crate::{Model, SurrogateError};
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+/// Raise the number when a reader of the old schema would misread the new.
+pub const SCHEMA: &str = "msdd-model-1";
+
+/// Where the training data came from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DatabaseProvenance {
+    /// SHA-256 of the plan's text.
+    pub plan_hash: String,
+    /// Version of the program that made the database.
+    pub engine_version: String,
+    /// Grain parameters of the database.
+    pub material: serde_json::Value,
+    /// Smallest and largest grain radius [m].
+    pub radius_min: f64,
+    pub radius_max: f64,
+}
+
+/// How the model came to be.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// Version of this library that trained it.
+    pub library_version: String,
+    pub training: TrainingOptions,
+    pub report: Report,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ModelFile {
+    schema: String,
+    name: String,
+    trained_range: TrainedRange,
+    output_scales: OutputScales,
+    solid_fraction: SolidFraction,
+    provenance: Provenance,
+    weights: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct Description<'a> {
+    schema: &'a str,
+    name: &'a str,
+    hash: &'a str,
+    trained_range: &'a TrainedRange,
+    solid_fraction: &'a SolidFraction,
+    provenance: &'a Provenance,
+}
+
+pub(crate) fn text(model: &Model) -> String {
+    let file = ModelFile {
+        schema: SCHEMA.to_string(),
+        name: model.name.clone(),
+        trained_range: model.predictor.range,
+        output_scales: model.predictor.scales,
+        solid_fraction: model.solid_fraction.clone(),
+        provenance: model.provenance.clone(),
+        weights: model.predictor.network.weights.to_vec(),
+    };
+    json(&file) + "\n"
+}
+
+pub(crate) fn description(model: &Model) -> String {
+    json(&Description {
+        schema: SCHEMA,
+        name: &model.name,
+        hash: &model.hash,
+        trained_range: &model.predictor.range,
+        solid_fraction: &model.solid_fraction,
+        provenance: &model.provenance,
+    })
+}
+
+/// Writing plain data of finite numbers and string keys to memory cannot fail.
+fn json<T: Serialize>(value: &T) -> String {
+    serde_json::to_string_pretty(value).unwrap_or_else(|error| unreachable!("{error}"))
+}
+
+pub(crate) fn hash(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+pub(crate) fn read(text: &str) -> Result<Model, SurrogateError> {
+    #[derive(Deserialize)]
+    struct Head {
+        schema: String,
+    }
+    let damaged = |error: serde_json::Error| SurrogateError::Damaged(error.to_string());
+    let head: Head = serde_json::from_str(text).map_err(damaged)?;
+    if head.schema != SCHEMA {
+        return Err(SurrogateError::Schema { found: head.schema, expected: SCHEMA });
+    }
+    let file: ModelFile = serde_json::from_str(text).map_err(damaged)?;
+    file.check()?;
+    Ok(Model {
+        name: file.name,
+        predictor: Predictor {
+            network: Network::from_slice(&file.weights),
+            range: file.trained_range,
+            scales: file.output_scales,
+        },
+        solid_fraction: file.solid_fraction,
+        provenance: file.provenance,
+        hash: hash(text),
+    })
+}
+
+impl ModelFile {
+    fn check(&self) -> Result<(), SurrogateError> {
+        if self.weights.len() != WEIGHTS {
+            return field("weights (count)", self.weights.len(), "438");
+        }
+        for (index, weight) in self.weights.iter().enumerate() {
+            if weight.is_nan() || weight.abs() > WEIGHT_LIMIT {
+                return field(&format!("weights[{index}]"), weight, "-1e9 to 1e9");
+            }
+        }
+        let TrainedRange { porosity, fabric_index, thermal_strain } = self.trained_range;
+        let OutputScales { delta_porosity_per_strain, delta_fabric_index_per_strain, conductivity, stress } =
+            self.output_scales;
+        check_range("trained_range.porosity", porosity, 0.0, 1.0, "0 <= min < max <= 1")?;
+        check_range("trained_range.fabric_index", fabric_index, -1.0, 1.0, "-1 <= min < max <= 1")?;
+        check_range("trained_range.thermal_strain", thermal_strain, -0.9, 1.0, "-0.9 <= min < max <= 1")?;
+        check_range("output_scales.conductivity", conductivity, 0.0, 1e3, "0 <= min < max <= 1e3")?;
+        check_range("output_scales.stress", stress, 0.0, 1e3, "0 <= min < max <= 1e3")?;
+        check_range(
+            "solid_fraction.porosity",
+            self.solid_fraction.porosity,
+            0.0,
+            1.0,
+            "0 <= min < max <= 1",
+        )?;
+        for (key, scale) in [
+            ("output_scales.delta_porosity_per_strain", delta_porosity_per_strain),
+            ("output_scales.delta_fabric_index_per_strain", delta_fabric_index_per_strain),
+        ] {
+            if !(scale > 0.0 && scale <= 1e3) {
+                return field(key, scale, "above 0, to 1e3");
+            }
+        }
+        let coefficients = &self.solid_fraction.coefficients;
+        if coefficients.is_empty() || coefficients.iter().any(|c| c.is_nan() || c.abs() > WEIGHT_LIMIT) {
+            return field(
+                "solid_fraction.coefficients",
+                format!("{coefficients:?}"),
+                "numbers from -1e9 to 1e9",
+            );
+        }
+        Ok(())
+    }
+}
+
+fn check_range(
+    key: &str,
+    range: Range,
+    low: f64,
+    high: f64,
+    allowed: &'static str,
+) -> Result<(), SurrogateError> {
+    let Range { min, max } = range;
+    if low <= min && min < max && max <= high {
+        Ok(())
+    } else {
+        field(key, format!("{min} to {max}"), allowed)
+    }
+}
+
+fn field<T>(key: &str, value: impl ToString, allowed: &'static str) -> Result<T, SurrogateError> {
+    Err(SurrogateError::Field { key: key.to_string(), value: value.to_string(), allowed })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn builtin() -> Model {
+        Model::builtin().expect("the shipped model is sound")
+    }
+
+    #[test]
+    fn round_trip_is_exact() {
+        let model = builtin();
+        let again = Model::from_json(&model.to_json()).expect("own text");
+        assert_eq!(again, Model { hash: again.hash.clone(), ..model });
+        assert_eq!(again.hash, hash(&again.to_json()));
+        assert_eq!(again.hash.len(), 64);
+    }
+
+    #[test]
+    fn hash_is_sha_256() {
+        assert_eq!(hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+
+    #[test]
+    fn bad_files_are_refused_with_the_reason() {
+        let good: serde_json::Value = serde_json::from_str(&builtin().to_json()).expect("JSON");
+        let with = |pointer: &str, value: serde_json::Value| {
+            let mut changed = good.clone();
+            *changed.pointer_mut(pointer).expect("key") = value;
+            read(&changed.to_string()).expect_err(pointer).to_string()
+        };
+        let refused = |pointer: &str, value: serde_json::Value, expected: &str| {
+            let message = with(pointer, value);
+            assert!(message.contains(expected), "{pointer}: {message}");
+        };
+        refused("/schema", "msdd-model-2".into(), "\"msdd-model-2\", this library reads \"msdd-model-1\"");
+        refused("/weights/7", 1e300.into(), "weights[7]");
+        refused("/weights", vec![0.5; 437].into(), "437");
+        refused("/trained_range/porosity/max", (-1.0).into(), "trained_range.porosity");
+        refused("/output_scales/delta_porosity_per_strain", 0.into(), "delta_porosity_per_strain = 0");
+        refused("/solid_fraction/coefficients", Vec::<f64>::new().into(), "coefficients");
+        let mut extra = good.clone();
+        extra["surprise"] = 1.into();
+        assert!(read(&extra.to_string()).expect_err("unknown key").to_string().contains("surprise"));
+        let text = good.to_string();
+        let cut = read(&text[..text.len() / 2]).expect_err("cut short").to_string();
+        assert!(cut.contains("damaged") && cut.contains("EOF"), "{cut}");
+    }
+}

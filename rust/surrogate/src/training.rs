@@ -1,0 +1,276 @@
+//! Training of the paper's network (section 3.1.2) on database rows.
+
+use crate::dataset::{self, Ramp, Sample, Split, StateRow};
+use crate::drift::{Drift, drifts};
+use crate::fit::NetworkFit;
+use crate::levenberg_marquardt::{LeastSquares, Limits, Stopping, minimise};
+use crate::model::Predictor;
+use crate::model_file::{DatabaseProvenance, Provenance};
+use crate::network::Network;
+use crate::scaling::{self, OutputScales, TrainedRange};
+use crate::scores::{Scores, scores};
+use crate::solid_fraction::SolidFraction;
+use crate::{Model, SurrogateError};
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+
+/// How to train.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrainingOptions {
+    /// Name of the model.
+    pub name: String,
+    /// Fixes the split and the starting weights.
+    pub seed: u64,
+    /// Starts from other weights; the one with the best validation error is kept.
+    pub restarts: u32,
+    /// Epochs at most, per start.
+    pub max_epochs: u32,
+    /// Epochs without a better validation error after which training stops (paper: 20).
+    pub patience: u32,
+    /// Where the rows came from.
+    pub database: DatabaseProvenance,
+    /// Threads, 0 = one a core. Does not change the result and is not in the model file.
+    #[serde(skip)]
+    pub threads: usize,
+}
+
+impl Default for TrainingOptions {
+    fn default() -> Self {
+        Self {
+            name: "unnamed".to_string(),
+            seed: 1,
+            restarts: 1,
+            max_epochs: 200,
+            patience: 20,
+            database: DatabaseProvenance::default(),
+            threads: 0,
+        }
+    }
+}
+
+impl TrainingOptions {
+    fn check(&self) -> Result<(), SurrogateError> {
+        for (key, value) in
+            [("restarts", self.restarts), ("max_epochs", self.max_epochs), ("patience", self.patience)]
+        {
+            if !(1..=100_000).contains(&value) {
+                return Err(SurrogateError::Option { key, value: value.to_string(), allowed: "1 to 100000" });
+            }
+        }
+        let DatabaseProvenance { radius_min, radius_max, .. } = self.database;
+        if !(0.0..=radius_max).contains(&radius_min) || !radius_max.is_finite() {
+            let value = format!("{radius_min} to {radius_max}");
+            return Err(SurrogateError::Option {
+                key: "database radii",
+                value,
+                allowed: "0 <= min <= max, finite",
+            });
+        }
+        Ok(())
+    }
+}
+
+/// State of a training under way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Which start, from 0.
+    pub restart: u32,
+    /// Epochs done, from 1.
+    pub epoch: u32,
+    /// Mean squared residuals of the scaled outputs [-].
+    pub training_error: f64,
+    pub validation_error: f64,
+}
+
+/// One value for each part of the split.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parts<T> {
+    pub training: T,
+    pub validation: T,
+    /// Packings that the training never saw.
+    pub test: T,
+}
+
+/// Outcome of a training.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Report {
+    pub packings: Parts<usize>,
+    /// Mirror images included.
+    pub samples: Parts<usize>,
+    /// The start that was kept, from 0.
+    pub restart: u32,
+    /// Epochs of that start, and the one whose weights were kept.
+    pub epochs: u32,
+    pub best_epoch: u32,
+    pub stopping: Stopping,
+    /// Mean squared residuals of the scaled outputs at the kept weights [-].
+    pub training_error: f64,
+    pub validation_error: f64,
+    pub scores: Parts<Scores>,
+    /// On the test packings.
+    pub drift: Vec<Drift>,
+}
+
+/// Trains a model on the rows of a database.
+///
+/// # Errors
+/// [`SurrogateError::Data`] for unusable rows, [`SurrogateError::Option`] for unusable options.
+pub fn train(
+    rows: &[StateRow],
+    options: &TrainingOptions,
+    mut progress: impl FnMut(Progress),
+) -> Result<(Model, Report), SurrogateError> {
+    options.check()?;
+    let split = dataset::split(dataset::ramps(rows)?, options.seed)?;
+    let samples = Parts::of(&split, |ramps| ramps.iter().flat_map(Ramp::samples).collect::<Vec<Sample>>());
+    let (range, scales) = scaling::measure(&samples.training)?;
+    let solid_fraction = SolidFraction::fit(rows)?;
+    let fitted = best_of_starts(&samples, &range, &scales, options, &mut progress);
+    let predictor = Predictor { network: fitted.network, range, scales };
+    let report = Report {
+        packings: Parts::of(&split, packings),
+        samples: samples.map(Vec::len),
+        restart: fitted.restart,
+        epochs: fitted.epochs,
+        best_epoch: fitted.best_epoch,
+        stopping: fitted.stopping,
+        training_error: fitted.training_error,
+        validation_error: fitted.validation_error,
+        scores: samples.map(|samples| scores(&predictor, samples)),
+        drift: drifts(&predictor, &split.test),
+    };
+    let provenance = Provenance {
+        library_version: env!("CARGO_PKG_VERSION").to_string(),
+        training: TrainingOptions { threads: 0, ..options.clone() },
+        report: report.clone(),
+    };
+    Ok((Model::new(options.name.clone(), predictor, solid_fraction, provenance), report))
+}
+
+impl<T> Parts<T> {
+    fn of(split: &Split, part: impl Fn(&[Ramp]) -> T) -> Self {
+        let Split { training, validation, test } = split;
+        Self { training: part(training), validation: part(validation), test: part(test) }
+    }
+
+    fn map<U>(&self, part: impl Fn(&T) -> U) -> Parts<U> {
+        Parts { training: part(&self.training), validation: part(&self.validation), test: part(&self.test) }
+    }
+}
+
+fn packings(ramps: &[Ramp]) -> usize {
+    ramps.iter().map(|ramp| ramp.packing).collect::<BTreeSet<_>>().len()
+}
+
+/// What one start led to.
+struct Fitted {
+    network: Network,
+    restart: u32,
+    epochs: u32,
+    best_epoch: u32,
+    stopping: Stopping,
+    training_error: f64,
+    validation_error: f64,
+}
+
+fn best_of_starts(
+    samples: &Parts<Vec<Sample>>,
+    range: &TrainedRange,
+    scales: &OutputScales,
+    options: &TrainingOptions,
+    progress: &mut impl FnMut(Progress),
+) -> Fitted {
+    let threads = match options.threads {
+        0 => std::thread::available_parallelism().map_or(1, |cores| cores.get()),
+        threads => threads,
+    };
+    let training = NetworkFit::new(&samples.training, range, scales, threads);
+    let validation = NetworkFit::new(&samples.validation, range, scales, threads);
+    let mut best = fit_from(0, &training, &validation, options, progress);
+    for restart in 1..options.restarts {
+        let next = fit_from(restart, &training, &validation, options, progress);
+        if next.validation_error < best.validation_error {
+            best = next;
+        }
+    }
+    best
+}
+
+/// Minimises the training error; keeps the weights with the best validation error.
+fn fit_from(
+    restart: u32,
+    training: &NetworkFit,
+    validation: &NetworkFit,
+    options: &TrainingOptions,
+    progress: &mut impl FnMut(Progress),
+) -> Fitted {
+    let start = DVector::from_column_slice(Network::initial(options.seed, restart.into()).weights.as_slice());
+    let mut best = (0, start.clone(), training.mean_square(&start), validation.mean_square(&start));
+    let limits = Limits { max_epochs: options.max_epochs, gradient: GRADIENT_LIMIT };
+    let minimum = minimise(training, start, limits, |epoch, weights, training_error| {
+        let validation_error = validation.mean_square(weights);
+        progress(Progress { restart, epoch, training_error, validation_error });
+        if validation_error < best.3 {
+            best = (epoch, weights.clone(), training_error, validation_error);
+        }
+        if epoch - best.0 < options.patience { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    let (best_epoch, weights, training_error, validation_error) = best;
+    let network = Network::from_slice(weights.as_slice());
+    let (epochs, stopping) = (minimum.epochs, minimum.stopping);
+    Fitted { network, restart, epochs, best_epoch, stopping, training_error, validation_error }
+}
+
+/// On the largest component of the mean gradient; errors are of order 1e-3, so this is a minimum for all purposes.
+const GRADIENT_LIMIT: f64 = 1e-10;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic;
+
+    fn options(threads: usize) -> TrainingOptions {
+        TrainingOptions { max_epochs: 25, threads, ..TrainingOptions::default() }
+    }
+
+    #[test]
+    fn learns_a_smooth_law_on_packings_it_never_saw() {
+        let rows = synthetic::rows(24, 3);
+        let mut epochs = Vec::new();
+        let (model, report) = train(&rows, &options(0), |p| epochs.push(p)).expect("good rows");
+        assert_eq!((report.packings.training, report.packings.validation, report.packings.test), (16, 4, 4));
+        assert_eq!(report.samples.test, 4 * 2 * 20);
+        assert!(report.scores.test.delta_porosity > 0.999, "{report:?}");
+        assert!(report.scores.test.conductivity > 0.99 && report.scores.test.stress > 0.98, "{report:?}");
+        assert_eq!(epochs.len(), report.epochs as usize);
+        assert!(epochs[4].training_error < epochs[0].training_error);
+        assert_eq!(report.drift.len(), 4);
+        assert!(
+            report.drift.iter().all(|d| d.ramps == 4 && d.stress < 0.5 && d.strain.abs() > 0.049),
+            "{report:?}"
+        );
+        let still = model.evaluate(0.13, 0.04, 0.0);
+        assert_eq!((still.delta_porosity, still.delta_fabric_index), (0.0, 0.0));
+        assert_eq!(Model::from_json(&model.to_json()).expect("own text"), model);
+    }
+
+    #[test]
+    fn same_seed_gives_the_same_bytes_whatever_the_thread_count() {
+        let rows = synthetic::rows(6, 2);
+        let text = |options| train(&rows, &options, |_| ()).expect("good rows").0.to_json();
+        assert_eq!(text(options(1)), text(options(2)));
+        assert_ne!(text(options(1)), text(TrainingOptions { seed: 2, ..options(1) }));
+    }
+
+    #[test]
+    fn options_are_checked() {
+        let bad = TrainingOptions { patience: 0, ..options(1) };
+        let message = train(&synthetic::rows(6, 2), &bad, |_| ()).expect_err("patience 0").to_string();
+        assert!(message.contains("patience = 0"), "{message}");
+    }
+}
