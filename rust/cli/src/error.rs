@@ -10,6 +10,10 @@ pub enum CliError {
     Write { path: PathBuf, source: std::io::Error },
     #[error(transparent)]
     Database(#[from] msdd_rve::database::DatabaseError),
+    #[error(transparent)]
+    Rve(#[from] msdd_rve::RveError),
+    #[error("{file}: {source}")]
+    State { file: PathBuf, source: msdd_rve::state::StateError },
     #[error("{file}: {source}")]
     Training { file: PathBuf, source: msdd_surrogate::SurrogateError },
     #[error("{0}")]

@@ -1,10 +1,12 @@
 //! `msdd`: the offline work of multiscale data-driven simulation. The only place that parses arguments and prints.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod database;
 mod error;
 mod files;
 mod progress;
+mod rve;
 mod summary;
 mod train;
 
@@ -31,6 +33,12 @@ enum Command {
     /// Generate and export databases of packed and expanded RVEs.
     #[command(subcommand)]
     Database(database::Command),
+    /// Pack, expand and average a single RVE.
+    #[command(subcommand)]
+    Rve(rve::Command),
+    /// Measure speed; prints JSON.
+    #[command(subcommand)]
+    Bench(bench::Command),
     /// Train the surrogate on a database.
     Train(train::Arguments),
     /// Table, JSON and plot of solver results.
@@ -40,6 +48,8 @@ enum Command {
 fn main() -> ExitCode {
     let result = match Program::parse().command {
         Command::Database(command) => database::run(&command),
+        Command::Rve(command) => rve::run(&command),
+        Command::Bench(command) => bench::run(&command),
         Command::Train(arguments) => train::run(&arguments),
         Command::Summary(arguments) => summary::run(&arguments),
     };

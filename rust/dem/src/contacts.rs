@@ -81,6 +81,15 @@ impl PairList {
     }
 }
 
+impl PairList {
+    /// Sets f_t of the pair (i, j), i < j. Returns false if it is no candidate.
+    pub(crate) fn set_tangential(&mut self, i: usize, j: u32, force: f64) -> bool {
+        let row = self.of_rows(i..i + 1);
+        let found = self.j[row.clone()].binary_search(&j);
+        found.map(|k| self.tangential[row.start + k] = force).is_ok()
+    }
+}
+
 /// Discs within the search distance of one wall, in growing order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WallContacts {
@@ -90,6 +99,11 @@ pub struct WallContacts {
 }
 
 impl WallContacts {
+    /// Sets f_t of the disc. Returns false if it is no candidate.
+    pub(crate) fn set_tangential(&mut self, disc: u32, force: f64) -> bool {
+        self.disc.binary_search(&disc).map(|k| self.tangential[k] = force).is_ok()
+    }
+
     /// f_t of the disc, or 0 if it is no candidate.
     pub fn tangential_of(&self, disc: u32) -> f64 {
         self.disc.binary_search(&disc).map_or(0.0, |k| self.tangential[k])

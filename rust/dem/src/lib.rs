@@ -17,9 +17,11 @@
 //! | [`heat`] | thermal pipes, sub-stepped (Eq. 5) |
 //! | [`time_step`] | bound on the stable step |
 //! | [`run`] | many steps, watched; typed failures |
+//! | [`restore`] | what a state file holds beside the discs |
 //! | [`simulation`] | the state, and `step()` |
 #![deny(unsafe_code)]
 
+pub mod audit;
 pub mod contact;
 pub mod contacts;
 pub mod disc;
@@ -29,6 +31,7 @@ mod kernel;
 pub mod law;
 pub mod material;
 mod neighbours;
+pub mod restore;
 pub mod run;
 pub mod simulation;
 pub mod time_step;
@@ -39,7 +42,8 @@ pub use disc::Disc;
 pub use heat::{HeatPipes, Thermal, WallHeat};
 pub use kernel::Simd;
 pub use material::{Material, MaterialError};
+pub use restore::RunState;
 pub use run::Failure;
-pub use simulation::Simulation;
+pub use simulation::{Simulation, Stage};
 pub use time_step::{Excess, StepChoice};
 pub use walls::{Side, Walls};

@@ -32,13 +32,35 @@ pub struct Simulation {
     pub(crate) reference_radius: Vec<f64>,
     largest_reference_radius: f64,
     /// ε [-]: radii are `reference_radius` (1 + ε), not compounded (Eq. 6).
-    strain: f64,
-    strain_rate: f64,
+    pub(crate) strain: f64,
+    pub(crate) strain_rate: f64,
     largest_speed: f64,
     simd: Simd,
     pub(crate) neighbours: Neighbours,
     pub(crate) loads: Vec<Load>,
     pipes: Option<Box<HeatPipes>>,
+}
+
+/// Parts of a step, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Radii and walls.
+    Boundaries,
+    /// Neighbour search, when due.
+    Neighbours,
+    /// Contact forces between discs.
+    Pairs,
+    /// Contact forces on walls.
+    Walls,
+    /// Damping and motion.
+    Motion,
+    /// Heat pipes, when on.
+    Heat,
+}
+
+impl Stage {
+    pub const ALL: [Self; 6] =
+        [Self::Boundaries, Self::Neighbours, Self::Pairs, Self::Walls, Self::Motion, Self::Heat];
 }
 
 impl Simulation {
@@ -72,15 +94,27 @@ impl Simulation {
 
     /// One step of Δt.
     pub fn step(&mut self) {
+        self.step_marked(|_| ());
+    }
+
+    /// As [`Simulation::step`]; `mark` is called as each stage ends, for timing.
+    pub fn step_marked(&mut self, mut mark: impl FnMut(Stage)) {
         self.advance_boundaries();
+        mark(Stage::Boundaries);
         if self.neighbours.stale(&self.discs) {
             self.neighbours.rebuild(&self.discs, &self.walls);
         }
-        self.sum_contact_forces();
+        mark(Stage::Neighbours);
+        self.sum_pair_forces();
+        mark(Stage::Pairs);
+        self.sum_wall_forces();
+        mark(Stage::Walls);
         self.move_discs();
+        mark(Stage::Motion);
         if self.pipes.is_some() {
             self.conduct(self.time_step);
         }
+        mark(Stage::Heat);
         self.steps += 1;
         self.time += self.time_step;
     }
@@ -141,10 +175,14 @@ impl Simulation {
 
     /// Makes the present radii the reference: ε = 0.
     pub fn reset_strain(&mut self) {
-        self.reference_radius = self.discs.iter().map(|d| d.radius).collect();
-        self.largest_reference_radius = self.reference_radius.iter().copied().fold(0.0, f64::max);
+        self.set_reference_radii(self.discs.iter().map(|d| d.radius).collect());
         self.strain = 0.0;
         self.strain_rate = 0.0;
+    }
+
+    pub(crate) fn set_reference_radii(&mut self, radii: Vec<f64>) {
+        self.largest_reference_radius = radii.iter().copied().fold(0.0, f64::max);
+        self.reference_radius = radii;
     }
 
     /// How often the neighbour search has run.
@@ -202,12 +240,16 @@ impl Simulation {
         }
     }
 
-    fn sum_contact_forces(&mut self) {
+    fn sum_pair_forces(&mut self) {
         let law = PairLaw::new(&self.material, self.time_step);
         self.loads.fill(Load::default());
         let pairs = &mut self.neighbours.pairs;
         let all = 0..pairs.len();
         kernel::add_pairs(self.simd, law, &self.discs, pairs, all, &mut self.loads);
+    }
+
+    fn sum_wall_forces(&mut self) {
+        let law = PairLaw::new(&self.material, self.time_step);
         for side in Side::ALL {
             let contacts = &mut self.neighbours.walls[side as usize];
             self.wall_force[side as usize] =

@@ -6,9 +6,20 @@ use crate::region::RegionKind;
 use crate::settle::{Settled, settle};
 use crate::{RveError, Simulation};
 
-/// |dε/dt| [1/s]. Expansion hardly feels the rate; near unjamming, contraction does (−2 % at 2 /s: σ 12 % low).
-const EXPANSION_RATE: f64 = 0.1;
-const CONTRACTION_RATE: f64 = 0.02;
+/// |dε/dt| of a ramp [1/s].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rates {
+    pub expansion: f64,
+    pub contraction: f64,
+}
+
+impl Default for Rates {
+    /// Expansion hardly feels the rate; near unjamming, contraction does (−2 % at 2 /s: σ 12 % low).
+    fn default() -> Self {
+        Self { expansion: 0.1, contraction: 0.02 }
+    }
+}
+
 /// Largest step count between two looks at the stable time step.
 const RUN: u64 = 50;
 
@@ -35,12 +46,29 @@ pub struct Ramp {
 /// # Errors
 /// [`RveError::Parameter`] for unusable stops. What goes wrong on the way is in [`Ramp::failure`].
 pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
+    expand_at(&mut packed.simulation.clone(), stops, Rates::default(), |_, _| ())
+}
+
+/// As [`expand`], on a simulation that ends at the last stop reached, at given rates. `visit` sees it at each stop.
+pub fn expand_at(
+    simulation: &mut Simulation,
+    stops: &[f64],
+    rates: Rates,
+    mut visit: impl FnMut(&Stop, &Simulation),
+) -> Result<Ramp, RveError> {
     check(stops)?;
-    let mut simulation = packed.simulation.clone();
+    for (key, rate) in [("expansion rate", rates.expansion), ("contraction rate", rates.contraction)] {
+        if !(1e-6..=100.0).contains(&rate) {
+            return Err(RveError::Parameter { key, value: rate.to_string(), allowed: "1e-6 to 100 1/s" });
+        }
+    }
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
     for &strain in stops {
-        match advance_to(&mut simulation, strain) {
-            Ok(stop) => ramp.stops.push(stop),
+        match advance_to(simulation, strain, rates) {
+            Ok(stop) => {
+                visit(&stop, simulation);
+                ramp.stops.push(stop);
+            }
             Err(failure) => {
                 ramp.failure = Some(failure);
                 break;
@@ -63,9 +91,9 @@ fn check(stops: &[f64]) -> Result<(), RveError> {
     Ok(())
 }
 
-fn advance_to(simulation: &mut Simulation, strain: f64) -> Result<Stop, RveError> {
+fn advance_to(simulation: &mut Simulation, strain: f64, rates: Rates) -> Result<Stop, RveError> {
     let since = simulation.steps;
-    let rate = if strain > simulation.strain() { EXPANSION_RATE } else { CONTRACTION_RATE };
+    let rate = if strain > simulation.strain() { rates.expansion } else { rates.contraction };
     loop {
         let left = strain - simulation.strain();
         let steps = (left.abs() / (rate * simulation.time_step)).ceil();

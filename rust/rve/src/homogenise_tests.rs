@@ -27,7 +27,7 @@ fn square_lattice_is_exact() {
     let simulation = lattice([d, 0.0], [0.0, d]);
     // A region that cuts contacts: 4 × 4 cells, shifted by a third.
     let region = Polygon::rectangle([3.3 * d, 3.3 * d], [7.3 * d, 7.3 * d]);
-    let averages = homogenise_in(&simulation, &region);
+    let averages = homogenise_in(&simulation, &region, Cut::Clip);
     let chord = 2.0 * (R * R - 0.25 * d * d).sqrt();
     let pressure = 1e7 * R * (2.0 * R - d) / d;
     close(averages.conductivity_xx, chord / d);
@@ -47,7 +47,7 @@ fn hexagonal_lattice_is_isotropic() {
     let row = 0.75f64.sqrt() * d;
     let simulation = lattice([d, 0.0], [-0.5 * d, row]);
     let region = Polygon::rectangle([2.1 * d, 3.3 * row], [5.1 * d, 7.3 * row]);
-    let averages = homogenise_in(&simulation, &region);
+    let averages = homogenise_in(&simulation, &region, Cut::Clip);
     let chord = 2.0 * (R * R - 0.25 * d * d).sqrt();
     let pressure = 3f64.sqrt() * 1e7 * R * (2.0 * R - d) / d;
     for (value, expected) in [
@@ -68,7 +68,7 @@ fn chains_along_x() {
     let d = SPACING;
     let simulation = lattice([d, 0.0], [0.0, 2.5 * R]);
     let region = Polygon::rectangle([2.5 * d, 6.0 * R], [6.5 * d, 13.5 * R]);
-    let averages = homogenise_in(&simulation, &region);
+    let averages = homogenise_in(&simulation, &region, Cut::Clip);
     let chord = 2.0 * (R * R - 0.25 * d * d).sqrt();
     assert_eq!(averages.fabric_index, 1.0);
     assert_eq!(averages.conductivity_yy, 0.0);

@@ -8,6 +8,8 @@
 //! | [`region`] | the averaging region: a convex polygon |
 //! | [`area`] | exact area of a union of discs inside a polygon |
 //! | [`homogenise`](mod@homogenise) | porosity, fabric, conductivity, stress (Eqs. 8–11) |
+//! | [`state`] | state files: one assembly as JSON |
+//! | [`vtk`] | ParaView files |
 //! | [`database`] | plan, generation, storage, export |
 #![forbid(unsafe_code)]
 
@@ -19,13 +21,15 @@ pub mod pack;
 mod place;
 pub mod region;
 pub mod settle;
+pub mod state;
+pub mod vtk;
 
-pub use expand::{Ramp, Stop, expand};
-pub use homogenise::{Averages, homogenise};
+pub use expand::{Ramp, Rates, Stop, expand, expand_at};
+pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
 pub use pack::{Compression, Packed, PackingSpec, pack};
-pub use region::RegionKind;
-pub use settle::{Outcome, Settled};
+pub use region::{Cut, RegionKind};
+pub use settle::{Outcome, Settled, unbalanced_force};
 
 /// What can be wrong with an RVE's specification, or go wrong while it is made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

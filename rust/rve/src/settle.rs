@@ -68,16 +68,23 @@ pub(crate) fn settle(simulation: &mut Simulation, since: u64) -> Result<Settled,
 
 /// mean |resultant of contact forces| over the discs / (mean normal contact force + floor) [-].
 pub fn unbalanced_force(simulation: &Simulation) -> f64 {
-    let discs = simulation.discs.len() as f64;
-    let resultant = simulation.loads().iter().map(|l| l.fx.hypot(l.fy)).sum::<f64>() / discs;
+    let mut resultant = vec![[0.0f64; 2]; simulation.discs.len()];
     let (mut sum, mut count) = (0.0, 0.0f64);
     simulation.for_each_contact(|contact| {
+        let [fx, fy] = contact.force();
+        resultant[contact.j][0] += fx;
+        resultant[contact.j][1] += fy;
+        if let Ok(i) = contact.i {
+            resultant[i][0] -= fx;
+            resultant[i][1] -= fy;
+        }
         sum += contact.normal_force();
         count += 1.0;
     });
+    let mean = resultant.iter().map(|[x, y]| (x * x + y * y).sqrt()).sum::<f64>() / resultant.len() as f64;
     let radius = simulation.mean_radius();
     let floor = FORCE_FLOOR * simulation.material.young_modulus * radius * radius;
-    resultant / (sum / count.max(1.0) + floor)
+    mean / (sum / count.max(1.0) + floor)
 }
 
 /// p̃ = p ℓ / (E r̄) [-] of the whole box, from the normal forces alone.

@@ -1,0 +1,128 @@
+//! `msdd bench`: speed, as JSON.
+
+use crate::error::CliError;
+use crate::rve::read_state;
+use clap::{Args, Subcommand, ValueEnum};
+use msdd_dem::{Simd, Stage};
+use msdd_rve::{Compression, Material, PackingSpec, Simulation, pack};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Cost of a step of the discrete element engine, in all and by stage.
+    Dem(DemArguments),
+}
+
+#[derive(Args)]
+#[command(
+    after_help = "Each block of 500 steps starts from the given state and expands it at 0.1 1/s, so that the cost \
+is that of a dense, moving assembly. Without --state, discs are packed isotropically to a porosity of 0.12 first."
+)]
+pub struct DemArguments {
+    /// Discs to pack when no state is given.
+    #[arg(long, default_value_t = 500)]
+    particles: usize,
+    /// State file to start from.
+    #[arg(long, value_name = "FILE")]
+    state: Option<PathBuf>,
+    /// Steps to time.
+    #[arg(long, default_value_t = 5000)]
+    steps: u64,
+    /// Instruction set; default: the widest there is.
+    #[arg(long, value_enum)]
+    simd: Option<SimdName>,
+    /// Threads of one simulation.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1))]
+    threads: u32,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SimdName {
+    Scalar,
+    Avx2,
+    Avx512,
+}
+
+/// Steps from the start state before it is taken again: at most 2 % strain.
+const BLOCK: u64 = 500;
+const STRAIN_RATE: f64 = 0.1;
+
+pub fn run(command: &Command) -> Result<(), CliError> {
+    let Command::Dem(arguments) = command;
+    let mut start = match &arguments.state {
+        Some(path) => read_state(path)?,
+        None => packed(arguments.particles)?,
+    };
+    if let Some(name) = arguments.simd {
+        let simd = match name {
+            SimdName::Scalar => Simd::Scalar,
+            SimdName::Avx2 => Simd::Avx2,
+            SimdName::Avx512 => Simd::Avx512,
+        };
+        if !simd.available() {
+            return Err(CliError::Message(format!("--simd {simd:?}: this machine does not have it")));
+        }
+        start.set_simd(simd);
+    }
+    start.reset_strain();
+    start.set_strain_rate(STRAIN_RATE);
+    let json = serde_json::to_string_pretty(&measure(&start, arguments.steps, arguments.threads));
+    println!("{}", json.map_err(|error| CliError::Message(error.to_string()))?);
+    Ok(())
+}
+
+fn packed(discs: usize) -> Result<Simulation, CliError> {
+    let compression = Compression::Isotropic;
+    let spec =
+        PackingSpec { discs, seed: 1, porosity: 0.12, compression, radius_min: 3e-3, radius_max: 7e-3 };
+    Ok(pack(&spec, &Material::default())?.simulation)
+}
+
+fn measure(start: &Simulation, steps: u64, threads: u32) -> Value {
+    let particles = start.discs.len() as f64;
+    let (mut seconds, mut done, mut rebuilds) = (0.0, 0, 0);
+    while done < steps {
+        let block = BLOCK.min(steps - done);
+        let mut simulation = start.clone();
+        let begin = Instant::now();
+        (0..block).for_each(|_| simulation.step());
+        seconds += begin.elapsed().as_secs_f64();
+        rebuilds += simulation.rebuilds() - start.rebuilds();
+        done += block;
+    }
+    let mut contacts = 0u64;
+    start.for_each_contact(|_| contacts += 1);
+    let per_step = 1e9 * seconds / (steps as f64 * particles);
+    json!({
+        "particles": start.discs.len(),
+        "contacts": contacts,
+        "candidates": start.candidates(),
+        "steps": steps,
+        "threads": threads,
+        "simd": start.simd(),
+        "particle_steps_per_second": 1e9 / per_step,
+        "ns_per_particle_step": per_step,
+        "ns_per_particle_step_by_stage": by_stage(start, steps.min(BLOCK)),
+        "rebuilds": rebuilds,
+    })
+}
+
+/// A run of its own, because looking at the clock costs time.
+fn by_stage(start: &Simulation, steps: u64) -> Value {
+    let mut nanoseconds = [0.0f64; Stage::ALL.len()];
+    let mut simulation = start.clone();
+    for _ in 0..steps {
+        let mut last = Instant::now();
+        simulation.step_marked(|stage| {
+            let now = Instant::now();
+            nanoseconds[stage as usize] += (now - last).as_nanos() as f64;
+            last = now;
+        });
+    }
+    let count = steps.max(1) as f64 * start.discs.len() as f64;
+    let entry =
+        |stage: &Stage| (format!("{stage:?}").to_lowercase(), json!(nanoseconds[*stage as usize] / count));
+    Value::Object(Stage::ALL.iter().map(entry).collect::<Map<String, Value>>())
+}

@@ -1,0 +1,251 @@
+//! `msdd rve`: single RVEs.
+
+use crate::error::CliError;
+use crate::files::{read_text, write_atomically};
+use clap::{Args, Subcommand, ValueEnum};
+use msdd_rve::{
+    Averages, Compression, Cut, Material, PackingSpec, Rates, RegionKind, Settled, Simulation, expand_at,
+    homogenise_in, pack, region, state, unbalanced_force, vtk,
+};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Pack random discs to a porosity, and let them settle.
+    Pack(PackArguments),
+    /// Expand or contract a packed state.
+    Expand(ExpandArguments),
+    /// Print the averages of a state as JSON.
+    Homogenise(HomogeniseArguments),
+}
+
+#[derive(Args)]
+#[command(
+    after_help = "Example: msdd rve pack --discs 500 --seed 1 --porosity 0.12 --compression horizontal --out state.json"
+)]
+pub struct PackArguments {
+    #[arg(long, default_value_t = 500)]
+    discs: usize,
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Target for the whole box, overlaps counted once; the averaging region's value is reported.
+    #[arg(long)]
+    porosity: f64,
+    /// Directions in which the walls close.
+    #[arg(long, value_enum, default_value_t = CompressionName::Isotropic)]
+    compression: CompressionName,
+    /// Radii are uniform between these [m].
+    #[arg(long, default_value_t = 3e-3)]
+    radius_min: f64,
+    #[arg(long, default_value_t = 7e-3)]
+    radius_max: f64,
+    /// State file (JSON) to write.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Folder for ParaView files of the state.
+    #[arg(long, value_name = "DIR")]
+    vtk: Option<PathBuf>,
+}
+
+#[derive(Args)]
+#[command(after_help = "Examples:
+  msdd rve expand --state state.json --strain 0.02 --out out.json
+  msdd rve expand --state state.json --stops 0.01,0.02,0.05 --out out.json   (writes the last, prints all)")]
+pub struct ExpandArguments {
+    /// State to start from; strains count from its radii.
+    #[arg(long, value_name = "FILE")]
+    state: PathBuf,
+    /// Thermal strain of the radii.
+    #[arg(long, allow_negative_numbers = true, conflicts_with = "stops", required_unless_present = "stops")]
+    strain: Option<f64>,
+    /// Several strains on one ramp, of one sign, growing in magnitude; it settles at each.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    stops: Vec<f64>,
+    /// |d strain/dt| [1/s]; default: 0.1 in expansion, 0.02 in contraction.
+    #[arg(long)]
+    rate: Option<f64>,
+    /// Wall stiffness over E r; default: that of the state.
+    #[arg(long)]
+    wall_stiffness: Option<f64>,
+    /// State file (JSON) to write: the state at the last stop.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Folder for a ParaView time series of the stops.
+    #[arg(long, value_name = "DIR")]
+    vtk: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct HomogeniseArguments {
+    #[arg(long, value_name = "FILE")]
+    state: PathBuf,
+    /// Averaging region: hull of the inner discs, or the box inset by 0.8 mean radii.
+    #[arg(long, value_enum, default_value_t = RegionName::Hull)]
+    region: RegionName,
+    /// Contacts that the border crosses count with their share inside, or wholly.
+    #[arg(long, value_enum, default_value_t = CutName::Clip)]
+    cut: CutName,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum CompressionName {
+    Isotropic,
+    Horizontal,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum RegionName {
+    Hull,
+    Inset,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum CutName {
+    Clip,
+    Whole,
+}
+
+pub fn run(command: &Command) -> Result<(), CliError> {
+    match command {
+        Command::Pack(arguments) => pack_one(arguments),
+        Command::Expand(arguments) => expand_one(arguments),
+        Command::Homogenise(arguments) => homogenise_one(arguments),
+    }
+}
+
+/// Reads a state file.
+pub fn read_state(path: &Path) -> Result<Simulation, CliError> {
+    let failed = |source| CliError::State { file: path.to_path_buf(), source };
+    state::from_json(&read_text(path)?).map_err(failed)
+}
+
+fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
+    let failed = |source| CliError::State { file: path.to_path_buf(), source };
+    write_atomically(path, state::to_json(simulation).map_err(failed)?.as_bytes())
+}
+
+fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
+    let spec = PackingSpec {
+        discs: arguments.discs,
+        seed: arguments.seed,
+        porosity: arguments.porosity,
+        compression: match arguments.compression {
+            CompressionName::Isotropic => Compression::Isotropic,
+            CompressionName::Horizontal => Compression::Horizontal,
+        },
+        radius_min: arguments.radius_min,
+        radius_max: arguments.radius_max,
+    };
+    let packed = pack(&spec, &Material::default())?;
+    write_state(&arguments.out, &packed.simulation)?;
+    let mut series = Series::new(arguments.vtk.as_deref());
+    series.add(0.0, &packed.simulation)?;
+    report("packed", &packed.settled, &msdd_rve::homogenise(&packed.simulation, RegionKind::default()));
+    Ok(())
+}
+
+fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
+    let mut simulation = read_state(&arguments.state)?;
+    simulation.reset_strain();
+    if let Some(factor) = arguments.wall_stiffness {
+        simulation.material.wall_stiffness_factor = factor;
+        simulation.material.check().map_err(|error| CliError::Message(error.to_string()))?;
+    }
+    let stops = arguments.strain.map_or_else(|| arguments.stops.clone(), |strain| vec![strain]);
+    let rates =
+        arguments.rate.map_or_else(Rates::default, |rate| Rates { expansion: rate, contraction: rate });
+    let mut series = Series::new(arguments.vtk.as_deref());
+    let mut written = series.add(0.0, &simulation);
+    let ramp = expand_at(&mut simulation, &stops, rates, |stop, simulation| {
+        if written.is_ok() {
+            written = series.add(stop.strain, simulation);
+        }
+        report(&format!("strain {:+}", stop.strain), &stop.settled, &stop.averages);
+    })?;
+    written?;
+    match ramp.failure {
+        Some(failure) => Err(failure.into()),
+        None => write_state(&arguments.out, &simulation),
+    }
+}
+
+/// One line about a state.
+fn report(what: &str, settled: &Settled, averages: &Averages) {
+    println!(
+        "{what}: {} after {} steps, porosity {:.4}, fabric index {:+.4}, K/k {:.4} {:.4}, pressure {:.1} Pa, \
+         coordination {:.2}, rattlers {}",
+        settled.outcome.as_str(),
+        settled.steps,
+        averages.porosity,
+        averages.fabric_index,
+        averages.conductivity_xx,
+        averages.conductivity_yy,
+        averages.pressure,
+        averages.coordination,
+        averages.rattlers
+    );
+}
+
+fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
+    let simulation = read_state(&arguments.state)?;
+    let kind = match arguments.region {
+        RegionName::Hull => RegionKind::Hull,
+        RegionName::Inset => RegionKind::Inset,
+    };
+    let cut = match arguments.cut {
+        CutName::Clip => Cut::Clip,
+        CutName::Whole => Cut::Whole,
+    };
+    let averages = homogenise_in(&simulation, &region::region(&simulation, kind), cut);
+    let json = as_json(&averages, unbalanced_force(&simulation));
+    println!("{}", serde_json::to_string_pretty(&json).map_err(|e| CliError::Message(e.to_string()))?);
+    Ok(())
+}
+
+/// Conductivity over k; stresses in Pa, compression positive.
+fn as_json(a: &Averages, unbalanced: f64) -> serde_json::Value {
+    json!({
+        "porosity": a.porosity,
+        "porosity_sum_of_areas": a.porosity_sum_of_areas,
+        "overlap_fraction": a.overlap_fraction,
+        "fabric_index": a.fabric_index,
+        "fabric_conductivity": a.fabric_conductivity,
+        "conductivity": {"xx": a.conductivity_xx, "yy": a.conductivity_yy, "xy": a.conductivity_xy},
+        "stress": {"xx": a.stress_xx, "yy": a.stress_yy, "xy": a.stress_xy, "yx": a.stress_yx},
+        "pressure": a.pressure,
+        "coordination": a.coordination,
+        "rattlers": a.rattlers,
+        "contacts": a.contacts,
+        "mean_radius": a.mean_radius,
+        "unbalanced": unbalanced,
+    })
+}
+
+/// ParaView time series in a folder; nothing without one.
+struct Series<'a> {
+    folder: Option<&'a Path>,
+    particles: Vec<(f64, String)>,
+    contacts: Vec<(f64, String)>,
+}
+
+impl<'a> Series<'a> {
+    fn new(folder: Option<&'a Path>) -> Self {
+        Self { folder, particles: Vec::new(), contacts: Vec::new() }
+    }
+
+    fn add(&mut self, time: f64, simulation: &Simulation) -> Result<(), CliError> {
+        let Some(folder) = self.folder else { return Ok(()) };
+        let number = self.particles.len();
+        for (name, text, list) in [
+            ("particles", vtk::particles(simulation), &mut self.particles),
+            ("contacts", vtk::contacts(simulation), &mut self.contacts),
+        ] {
+            let file = format!("{name}_{number:04}.vtp");
+            write_atomically(&folder.join(&file), text.as_bytes())?;
+            list.push((time, file));
+            write_atomically(&folder.join(format!("{name}.pvd")), vtk::series(list).as_bytes())?;
+        }
+        Ok(())
+    }
+}

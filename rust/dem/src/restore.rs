@@ -1,0 +1,55 @@
+//! What a state file has to hold beside discs, walls and friction history so that a run continues bit for bit.
+
+use crate::simulation::Simulation;
+use crate::walls::Side;
+
+/// Where a run stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunState {
+    /// t [s].
+    pub time: f64,
+    pub steps: u64,
+    /// Δt [s] of the next step.
+    pub time_step: f64,
+    /// ε [-] and dε/dt [1/s], relative to the reference radii.
+    pub strain: f64,
+    pub strain_rate: f64,
+    /// Radii at ε = 0 [m], one a disc.
+    pub reference_radius: Vec<f64>,
+}
+
+impl Simulation {
+    pub fn run_state(&self) -> RunState {
+        RunState {
+            time: self.time,
+            steps: self.steps,
+            time_step: self.time_step,
+            strain: self.strain,
+            strain_rate: self.strain_rate,
+            reference_radius: self.reference_radius.clone(),
+        }
+    }
+
+    /// Puts the run where `state` says.
+    ///
+    /// # Panics
+    /// When there is not one reference radius a disc.
+    pub fn set_run_state(&mut self, state: RunState) {
+        assert_eq!(state.reference_radius.len(), self.discs.len(), "one reference radius a disc");
+        self.time = state.time;
+        self.steps = state.steps;
+        self.time_step = state.time_step;
+        self.strain = state.strain;
+        self.strain_rate = state.strain_rate;
+        self.set_reference_radii(state.reference_radius);
+    }
+
+    /// Sets the stored tangential force of a contact [N]: `i` a disc or a wall, `j` a disc; on j along t, which is the
+    /// same number whichever of two discs is called i. Returns false when the two are not near each other.
+    pub fn set_tangential_force(&mut self, i: Result<usize, Side>, j: usize, force: f64) -> bool {
+        match i {
+            Ok(i) => self.neighbours.pairs.set_tangential(i.min(j), i.max(j) as u32, force),
+            Err(side) => self.neighbours.walls[side as usize].set_tangential(j as u32, force),
+        }
+    }
+}

@@ -1,0 +1,295 @@
+//! State files: one assembly as JSON, SI units. What is written and read back continues bit for bit; states from
+//! elsewhere (contacts given, velocities absent) are accepted, nonsense is refused with particle and value.
+//!
+//! Walls are −1 left, −2 right, −3 bottom, −4 top, always as i of a contact. n points from i to j (from the wall
+//! inwards), t = (−n_y, n_x), the force on j is f_n n + f_t t.
+
+use msdd_dem::{Disc, Material, MaterialError, RunState, Side, Simulation, Walls};
+use serde::{Deserialize, Serialize};
+
+/// Name of the schema.
+pub const SCHEMA: &str = "msdd-state-1";
+
+/// What is wrong with a state.
+#[derive(Debug, thiserror::Error)]
+pub enum StateError {
+    #[error("not a state: {0}")]
+    Json(#[from] serde_json::Error),
+    #[error("schema: '{0}', allowed: '{SCHEMA}'")]
+    Schema(String),
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    #[error("box: {0}")]
+    Box(String),
+    #[error("{column} has {found} values, x has {expected}")]
+    Length { column: &'static str, found: usize, expected: usize },
+    #[error("particle {particle}: {column} = {value}, allowed: {allowed}")]
+    Particle { particle: usize, column: &'static str, value: f64, allowed: &'static str },
+    #[error("contact {contact}: {problem}")]
+    Contact { contact: usize, problem: String },
+    #[error("run: {0}")]
+    Run(String),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    schema: String,
+    material: Material,
+    #[serde(rename = "box")]
+    bounds: Bounds,
+    particles: Particles,
+    #[serde(default)]
+    contacts: Contacts,
+    /// Absent in states from elsewhere: at rest, at zero strain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    run: Option<Run>,
+}
+
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Bounds {
+    x_min: f64,
+    x_max: f64,
+    y_min: f64,
+    y_max: f64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Particles {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    radius: Vec<f64>,
+    mass: Vec<f64>,
+    #[serde(default)]
+    vx: Option<Vec<f64>>,
+    #[serde(default)]
+    vy: Option<Vec<f64>>,
+    #[serde(default)]
+    angular_velocity: Option<Vec<f64>>,
+    #[serde(default)]
+    temperature: Option<Vec<f64>>,
+}
+
+#[derive(Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Contacts {
+    i: Vec<i64>,
+    j: Vec<i64>,
+    tangential_force: Vec<f64>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Run {
+    time: f64,
+    steps: u64,
+    time_step: f64,
+    strain: f64,
+    strain_rate: f64,
+    free_drag: f64,
+    reference_radius: Vec<f64>,
+    wall_normal_velocity: [f64; 4],
+    wall_tangential_velocity: [f64; 4],
+}
+
+/// The state as JSON text. Numbers are in the shortest form that reads back exactly.
+pub fn to_json(simulation: &Simulation) -> Result<String, StateError> {
+    let column = |field: fn(&Disc) -> f64| simulation.discs.iter().map(field).collect::<Vec<f64>>();
+    let [x_min, x_max, y_min, y_max] = simulation.walls.position;
+    let run = simulation.run_state();
+    let file = File {
+        schema: SCHEMA.to_string(),
+        material: simulation.material.clone(),
+        bounds: Bounds { x_min, x_max, y_min, y_max },
+        particles: Particles {
+            x: column(|d| d.x),
+            y: column(|d| d.y),
+            radius: column(|d| d.radius),
+            mass: column(|d| d.mass),
+            vx: Some(column(|d| d.vx)),
+            vy: Some(column(|d| d.vy)),
+            angular_velocity: Some(column(|d| d.angular_velocity)),
+            temperature: Some(column(|d| d.temperature)),
+        },
+        contacts: contacts(simulation),
+        run: Some(Run {
+            time: run.time,
+            steps: run.steps,
+            time_step: run.time_step,
+            strain: run.strain,
+            strain_rate: run.strain_rate,
+            free_drag: simulation.free_drag,
+            reference_radius: run.reference_radius,
+            wall_normal_velocity: simulation.walls.normal_velocity,
+            wall_tangential_velocity: simulation.walls.tangential_velocity,
+        }),
+    };
+    Ok(serde_json::to_string(&file)?)
+}
+
+fn contacts(simulation: &Simulation) -> Contacts {
+    let mut columns = Contacts::default();
+    simulation.for_each_contact(|contact| {
+        columns.i.push(contact.i.map_or_else(|side| -1 - side as i64, |i| i as i64));
+        columns.j.push(contact.j as i64);
+        columns.tangential_force.push(contact.tangential_force);
+    });
+    columns
+}
+
+/// Reads a state. Without a `run` block the assembly is at zero strain, its walls rest, and contact-free discs are
+/// dragged as while an RVE is made.
+///
+/// # Errors
+/// [`StateError`] names what is wrong, the particle or contact, and the value.
+pub fn from_json(text: &str) -> Result<Simulation, StateError> {
+    let file: File = serde_json::from_str(text)?;
+    if file.schema != SCHEMA {
+        return Err(StateError::Schema(file.schema));
+    }
+    file.material.check()?;
+    let walls = walls(file.bounds)?;
+    let discs = discs(&file.particles)?;
+    check_overlaps(&discs, &walls)?;
+    let mut simulation = Simulation::new(file.material, discs, walls);
+    simulation.free_drag = crate::pack::FREE_DRAG;
+    set_contacts(&mut simulation, &file.contacts)?;
+    if let Some(run) = file.run {
+        set_run(&mut simulation, run)?;
+    }
+    Ok(simulation)
+}
+
+fn walls(bounds: Bounds) -> Result<Walls, StateError> {
+    let position = [bounds.x_min, bounds.x_max, bounds.y_min, bounds.y_max];
+    let finite = position.iter().all(|p| p.is_finite());
+    if !(finite && bounds.x_max > bounds.x_min && bounds.y_max > bounds.y_min) {
+        return Err(StateError::Box(format!("{position:?}, allowed: x_min < x_max, y_min < y_max, finite")));
+    }
+    Ok(Walls { position, ..Walls::around(1.0, 1.0) })
+}
+
+fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {
+    let expected = columns.x.len();
+    let zero = vec![0.0; expected];
+    let or_zero = |column: &Option<Vec<f64>>| column.clone().unwrap_or_else(|| zero.clone());
+    let positive = "finite and > 0";
+    let table: [(&'static str, Vec<f64>, &'static str); 8] = [
+        ("x", columns.x.clone(), "finite"),
+        ("y", columns.y.clone(), "finite"),
+        ("radius", columns.radius.clone(), positive),
+        ("mass", columns.mass.clone(), positive),
+        ("vx", or_zero(&columns.vx), "finite"),
+        ("vy", or_zero(&columns.vy), "finite"),
+        ("angular_velocity", or_zero(&columns.angular_velocity), "finite"),
+        ("temperature", or_zero(&columns.temperature), "finite"),
+    ];
+    for (column, values, allowed) in &table {
+        if values.len() != expected {
+            return Err(StateError::Length { column, found: values.len(), expected });
+        }
+        let good = |v: f64| v.is_finite() && (*allowed != positive || v > 0.0);
+        if let Some((particle, &value)) = values.iter().enumerate().find(|(_, v)| !good(**v)) {
+            return Err(StateError::Particle { particle, column, value, allowed });
+        }
+    }
+    let [x, y, radius, mass, vx, vy, angular_velocity, temperature] = table.map(|(_, values, _)| values);
+    let disc = |k: usize| Disc {
+        x: x[k],
+        y: y[k],
+        radius: radius[k],
+        vx: vx[k],
+        vy: vy[k],
+        angular_velocity: angular_velocity[k],
+        mass: mass[k],
+        temperature: temperature[k],
+    };
+    Ok((0..expected).map(disc).collect())
+}
+
+/// Discs must have their centre in the box, and must not overlap by more than the smaller radius.
+fn check_overlaps(discs: &[Disc], walls: &Walls) -> Result<(), StateError> {
+    for (particle, disc) in discs.iter().enumerate() {
+        let outside = Side::ALL.into_iter().find(|&side| walls.distance(side, disc.x, disc.y) <= 0.0);
+        if let Some(side) = outside {
+            let (column, value) = match side {
+                Side::Left | Side::Right => ("x", disc.x),
+                Side::Bottom | Side::Top => ("y", disc.y),
+            };
+            return Err(StateError::Particle { particle, column, value, allowed: "inside the box" });
+        }
+    }
+    let probe = Simulation::new(Material::default(), discs.to_vec(), walls.clone());
+    let mut problem = None;
+    probe.for_each_contact(|contact| {
+        if let Ok(i) = contact.i {
+            let smaller = discs[i].radius.min(discs[contact.j].radius);
+            if contact.overlap > smaller && problem.is_none() {
+                problem = Some(StateError::Particle {
+                    particle: contact.j,
+                    column: "overlap",
+                    value: contact.overlap,
+                    allowed: "at most the smaller radius",
+                });
+            }
+        }
+    });
+    problem.map_or(Ok(()), Err)
+}
+
+fn set_contacts(simulation: &mut Simulation, columns: &Contacts) -> Result<(), StateError> {
+    let expected = columns.i.len();
+    for (column, found) in
+        [("contacts.j", columns.j.len()), ("contacts.tangential_force", columns.tangential_force.len())]
+    {
+        if found != expected {
+            return Err(StateError::Length { column, found, expected });
+        }
+    }
+    let count = simulation.discs.len() as i64;
+    for contact in 0..expected {
+        let (i, j, force) = (columns.i[contact], columns.j[contact], columns.tangential_force[contact]);
+        let problem = |problem: String| StateError::Contact { contact, problem };
+        if !((-4..count).contains(&i) && (0..count).contains(&j) && i != j) {
+            return Err(problem(format!(
+                "i = {i}, j = {j}, allowed: i from -4, both below {count}, different"
+            )));
+        }
+        if !force.is_finite() {
+            return Err(problem(format!("tangential_force = {force}, allowed: finite")));
+        }
+        let first = if i < 0 { Err(Side::ALL[(-1 - i) as usize]) } else { Ok(i as usize) };
+        if !simulation.set_tangential_force(first, j as usize, force) {
+            return Err(problem(format!("{i} and {j} are not near each other")));
+        }
+    }
+    Ok(())
+}
+
+fn set_run(simulation: &mut Simulation, run: Run) -> Result<(), StateError> {
+    let numbers = [run.time, run.time_step, run.strain, run.strain_rate, run.free_drag];
+    let walls = run.wall_normal_velocity.iter().chain(&run.wall_tangential_velocity);
+    let all = numbers.iter().chain(walls).chain(&run.reference_radius);
+    if run.reference_radius.len() != simulation.discs.len() || all.clone().any(|v| !v.is_finite()) {
+        return Err(StateError::Run("needs finite numbers and one reference radius a particle".to_string()));
+    }
+    if !(run.time_step > 0.0 && run.free_drag >= 0.0 && run.reference_radius.iter().all(|&r| r > 0.0)) {
+        return Err(StateError::Run(
+            "time_step and reference_radius must be > 0, free_drag >= 0".to_string(),
+        ));
+    }
+    simulation.free_drag = run.free_drag;
+    simulation.walls.normal_velocity = run.wall_normal_velocity;
+    simulation.walls.tangential_velocity = run.wall_tangential_velocity;
+    simulation.set_run_state(RunState {
+        time: run.time,
+        steps: run.steps,
+        time_step: run.time_step,
+        strain: run.strain,
+        strain_rate: run.strain_rate,
+        reference_radius: run.reference_radius,
+    });
+    Ok(())
+}
