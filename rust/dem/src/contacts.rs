@@ -15,6 +15,31 @@ pub struct PairList {
     j: Vec<u32>,
     /// f_t [N] of the last step, on j along t; 0 when the contact is open.
     pub(crate) tangential: Vec<f64>,
+    slabs: Vec<Slab>,
+}
+
+/// Rows in a run that are summed up as one, and the order of these sums is fixed: it depends on the number of discs,
+/// never on threads.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Slab {
+    pub rows: Range<usize>,
+    pub pairs: Range<usize>,
+    /// All discs of its pairs are in `rows.start..reach`.
+    pub reach: usize,
+}
+
+/// Slabs of a list. One for RVEs; the cost of more is that discs between two slabs are added up twice.
+fn slab_count(discs: usize) -> usize {
+    if discs < 4000 { 1 } else { 4 }
+}
+
+/// The part of a list that one thread works on.
+pub(crate) struct PairSlab<'a> {
+    pub i: &'a [u32],
+    pub j: &'a [u32],
+    pub tangential: &'a mut [f64],
+    pub first: usize,
+    pub reach: usize,
 }
 
 impl PairList {
@@ -32,7 +57,43 @@ impl PairList {
             list.start.push(list.j.len() as u32);
         }
         list.tangential = vec![0.0; list.j.len()];
+        list.slabs = list.divide();
         list
+    }
+
+    fn divide(&self) -> Vec<Slab> {
+        let count = slab_count(self.discs);
+        let edge = |s: usize| self.discs * s / count;
+        let slab = |s: usize| {
+            let rows = edge(s)..edge(s + 1);
+            let pairs = self.of_rows(rows.clone());
+            let last = self.j[pairs.clone()].iter().max().map_or(0, |&j| j as usize + 1);
+            Slab { reach: last.max(rows.end), rows, pairs }
+        };
+        (0..count).map(slab).collect()
+    }
+
+    pub(crate) fn slabs(&self) -> &[Slab] {
+        &self.slabs
+    }
+
+    /// The list in its slabs, to be worked on side by side. Every index of a part is in `first..reach`, and `reach` is
+    /// at most [`PairList::discs`].
+    pub(crate) fn parts(&mut self) -> Vec<PairSlab<'_>> {
+        let mut rest = self.tangential.as_mut_slice();
+        let mut parts = Vec::with_capacity(self.slabs.len());
+        for slab in &self.slabs {
+            let (tangential, after) = rest.split_at_mut(slab.pairs.len());
+            rest = after;
+            parts.push(PairSlab {
+                i: &self.i[slab.pairs.clone()],
+                j: &self.j[slab.pairs.clone()],
+                tangential,
+                first: slab.rows.start,
+                reach: slab.reach,
+            });
+        }
+        parts
     }
 
     /// Takes over the friction history of the pairs that are in `old` too.

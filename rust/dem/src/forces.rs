@@ -16,7 +16,15 @@ pub struct Load {
     pub(crate) spare: f64,
 }
 
-/// Adds the forces of one wall to `loads`, updates the friction history, and returns the force on the wall,
+impl Load {
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.fx += other.fx;
+        self.fy += other.fy;
+        self.torque += other.torque;
+    }
+}
+
+/// Calls `add` with each touching disc and its force from one wall, updates the friction history, and returns the force on the wall,
 /// (normal, tangential) [N]: normal positive when the grains push the wall outwards, tangential along
 /// t = (−n_y, n_x) of the inward normal.
 pub(crate) fn add_wall(
@@ -25,7 +33,7 @@ pub(crate) fn add_wall(
     walls: &Walls,
     discs: &[Disc],
     contacts: &mut WallContacts,
-    loads: &mut [Load],
+    mut add: impl FnMut(usize, Load),
 ) -> [f64; 2] {
     let [nx, ny] = side.normal();
     let [wall_vx, wall_vy] = walls.velocity(side);
@@ -48,10 +56,13 @@ pub(crate) fn add_wall(
             law.friction * normal,
         );
         *history = tangential;
-        let load = &mut loads[i as usize];
-        load.fx += normal * nx - tangential * ny;
-        load.fy += normal * ny + tangential * nx;
-        load.torque -= distance * tangential;
+        let load = Load {
+            fx: normal * nx - tangential * ny,
+            fy: normal * ny + tangential * nx,
+            torque: -distance * tangential,
+            ..Load::default()
+        };
+        add(i as usize, load);
         on_wall[0] += normal;
         on_wall[1] -= tangential;
     }

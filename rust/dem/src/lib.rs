@@ -14,6 +14,8 @@
 //! | `neighbours` | the search that fills the rows |
 //! | `forces` | contact forces of walls |
 //! | `kernel` | vector kernels of the hot loops |
+//! | `slabs` | forces and motion in parts, for threads |
+//! | `pace` | whether threads pay at the moment |
 //! | [`heat`] | thermal pipes, sub-stepped (Eq. 5) |
 //! | [`time_step`] | bound on the stable step |
 //! | [`run`] | many steps, watched; typed failures |
@@ -31,9 +33,11 @@ mod kernel;
 pub mod law;
 pub mod material;
 mod neighbours;
+mod pace;
 pub mod restore;
 pub mod run;
 pub mod simulation;
+mod slabs;
 pub mod time_step;
 pub mod walls;
 

@@ -1,15 +1,19 @@
 //! The state of one assembly, and one step of it.
 
 use crate::disc::Disc;
-use crate::forces::{self, Load};
+use crate::forces::Load;
 use crate::heat::{HeatPipes, Thermal, WallHeat};
-use crate::kernel::{self, Motion, Simd};
+use crate::kernel::{Motion, Simd};
 use crate::law::PairLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
+use crate::pace::Pace;
 use crate::run::Failure;
+use crate::slabs::{self, SlabLoads};
 use crate::time_step::{self, StepChoice};
 use crate::walls::{Side, Walls};
+use std::sync::Arc;
+use std::time::Instant;
 
 /// Discs in a box. Build with [`Simulation::new`], drive by setting wall velocities and [`Simulation::set_strain_rate`].
 #[derive(Clone, Debug)]
@@ -38,7 +42,13 @@ pub struct Simulation {
     simd: Simd,
     pub(crate) neighbours: Neighbours,
     pub(crate) loads: Vec<Load>,
+    slab_loads: SlabLoads,
     pipes: Option<Box<HeatPipes>>,
+    /// Threads of large assemblies; none: the caller's alone.
+    pool: Option<Arc<rayon::ThreadPool>>,
+    pace: Pace,
+    /// Whether the present step is shared among the pool's threads.
+    shared: bool,
 }
 
 /// Parts of a step, in order.
@@ -79,6 +89,10 @@ impl Simulation {
             steps: 0,
             time: 0.0,
             pipes: None,
+            slab_loads: SlabLoads::default(),
+            pool: None,
+            pace: Pace::default(),
+            shared: false,
             wall_force: [[0.0; 2]; 4],
             strain: 0.0,
             strain_rate: 0.0,
@@ -95,6 +109,48 @@ impl Simulation {
     /// One step of Δt.
     pub fn step(&mut self) {
         self.step_marked(|_| ());
+    }
+
+    /// `count` steps, without looking at the state in between; on the chosen threads.
+    pub fn take_steps(&mut self, count: u64) {
+        match self.pool.clone() {
+            Some(pool) => self.take_steps_on(&pool, count),
+            None => (0..count).for_each(|_| self.step()),
+        }
+    }
+
+    /// Steps shared among the threads of the pool whenever that is the faster way.
+    fn take_steps_on(&mut self, pool: &rayon::ThreadPool, count: u64) {
+        let mut left = count;
+        while left > 0 {
+            let (shared, steps) = self.pace.next(left);
+            let begin = Instant::now();
+            self.shared = shared;
+            if shared {
+                pool.install(|| (0..steps).for_each(|_| self.step()));
+            } else {
+                (0..steps).for_each(|_| self.step());
+            }
+            self.shared = false;
+            self.pace.record(shared, steps, begin.elapsed());
+            left -= steps;
+        }
+    }
+
+    /// Chooses the number of threads for [`Simulation::take_steps`] and [`Simulation::run`]. Results do not depend on it.
+    /// Assemblies below a few thousand discs stay on one: their steps are too short to share.
+    ///
+    /// # Errors
+    /// What the system says when it has no more threads.
+    pub fn set_threads(&mut self, threads: usize) -> std::io::Result<()> {
+        let slabs = self.neighbours.pairs.slabs().len();
+        let threads = threads.min(slabs);
+        self.pool = None;
+        if threads > 1 {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            self.pool = Some(Arc::new(pool.map_err(std::io::Error::other)?));
+        }
+        Ok(())
     }
 
     /// As [`Simulation::step`]; `mark` is called as each stage ends, for timing.
@@ -231,9 +287,8 @@ impl Simulation {
                 growth
             }
             _ if self.strain_rate != 0.0 => {
-                for (disc, radius) in self.discs.iter_mut().zip(&self.reference_radius) {
-                    disc.radius = radius * factor;
-                }
+                let parallel = self.shared;
+                slabs::scale_radii(parallel, factor, &mut self.discs, &self.reference_radius);
                 (self.strain_rate * self.time_step * self.largest_reference_radius).max(0.0)
             }
             _ => 0.0,
@@ -242,18 +297,15 @@ impl Simulation {
 
     fn sum_pair_forces(&mut self) {
         let law = PairLaw::new(&self.material, self.time_step);
-        self.loads.fill(Load::default());
-        let pairs = &mut self.neighbours.pairs;
-        let all = 0..pairs.len();
-        kernel::add_pairs(self.simd, law, &self.discs, pairs, all, &mut self.loads);
+        let parallel = self.shared;
+        self.slab_loads.sum_pairs(parallel, (self.simd, law), &self.discs, &mut self.neighbours);
     }
 
     fn sum_wall_forces(&mut self) {
         let law = PairLaw::new(&self.material, self.time_step);
         for side in Side::ALL {
-            let contacts = &mut self.neighbours.walls[side as usize];
             self.wall_force[side as usize] =
-                forces::add_wall(law, side, &self.walls, &self.discs, contacts, &mut self.loads);
+                self.slab_loads.add_wall(law, side, &self.walls, &self.discs, &mut self.neighbours);
         }
     }
 
@@ -263,7 +315,11 @@ impl Simulation {
             keep_free: (1.0 - self.free_drag * self.time_step).max(0.0),
             dt: self.time_step,
         };
-        self.largest_speed = kernel::advance(self.simd, motion, &mut self.discs, &self.loads).sqrt();
+        let kernel = (self.simd, motion);
+        let parallel = self.shared;
+        let fastest =
+            self.slab_loads.move_discs(parallel, kernel, &self.neighbours, &mut self.discs, &mut self.loads);
+        self.largest_speed = fastest.sqrt();
     }
 }
 

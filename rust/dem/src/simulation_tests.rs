@@ -201,3 +201,33 @@ fn no_contact_is_missed() {
     }
     assert!(simulation.rebuilds() > 2);
 }
+
+/// An assembly large enough for several slabs gives the same bits on one thread and on three.
+#[test]
+fn threads_do_not_change_the_bits() {
+    let run = |threads| {
+        let material = Material::default();
+        let discs = (0..4200)
+            .map(|k| {
+                let u = |a: f64| (a * f64::from(k + 1)).fract();
+                let (column, line) = (f64::from(k % 70), f64::from(k / 70));
+                let radius = 4.5e-3 + 1e-3 * u(0.618_034);
+                let mut disc =
+                    Disc::at_rest(0.01 * (column + 0.5), 0.01 * (line + 0.5), radius, material.density);
+                disc.vx = 0.05 * (u(0.414_214) - 0.5);
+                disc
+            })
+            .collect();
+        let mut simulation = Simulation::new(material, discs, Walls::around(0.7, 0.6));
+        simulation.set_strain_rate(0.2);
+        simulation.set_threads(threads).unwrap();
+        simulation.run(120).unwrap();
+        simulation
+    };
+    let (one, three) = (run(1), run(3));
+    assert_eq!(one.discs, three.discs);
+    assert_eq!(one.wall_force, three.wall_force);
+    let mut contacts = 0;
+    one.for_each_contact(|_| contacts += 1);
+    assert!(contacts > 4000, "{contacts}");
+}

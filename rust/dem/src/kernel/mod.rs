@@ -5,7 +5,7 @@
 //! order, so all paths give the same bits.
 //!
 //! The crate's only unsafe code: vector intrinsics, and discs addressed through the rows without bounds checks. What
-//! makes that sound is stated at [`PairList`], whose indices are checked when it is built.
+//! makes that sound is stated at `PairList::parts`, whose indices are checked when the list is built.
 #![allow(unsafe_code)]
 
 mod motion;

@@ -115,11 +115,11 @@ impl Lanes for f64 {
     }
     #[inline(always)]
     unsafe fn scatter(loads: *mut Load, i: *const u32, j: *const u32, force: [Self; 2], torque: [Self; 2]) {
-        let on_j = unsafe { &mut *loads.add(*j as usize) };
+        let on_j = unsafe { &mut *loads.wrapping_add(*j as usize) };
         on_j.fx += force[0];
         on_j.fy += force[1];
         on_j.torque += torque[1];
-        let on_i = unsafe { &mut *loads.add(*i as usize) };
+        let on_i = unsafe { &mut *loads.wrapping_add(*i as usize) };
         on_i.fx -= force[0];
         on_i.fy -= force[1];
         on_i.torque -= torque[0];

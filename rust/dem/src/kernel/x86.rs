@@ -56,9 +56,9 @@ unsafe fn transpose8(r: [__m512d; 8]) -> [__m512d; 8] {
 unsafe fn scatter4(loads: *mut Load, i: *const u32, j: *const u32, columns: [__m256d; 4]) {
     unsafe {
         for (lane, row) in transpose4(columns).into_iter().enumerate() {
-            let on_j = loads.add(*j.add(lane) as usize).cast::<f64>();
+            let on_j = loads.wrapping_add(*j.add(lane) as usize).cast::<f64>();
             _mm256_store_pd(on_j, _mm256_add_pd(_mm256_load_pd(on_j), row));
-            let on_i = loads.add(*i.add(lane) as usize).cast::<f64>();
+            let on_i = loads.wrapping_add(*i.add(lane) as usize).cast::<f64>();
             // fx, fy, torque_i, torque_j
             let swapped = _mm256_permute_pd::<0b0110>(row);
             _mm256_store_pd(on_i, _mm256_sub_pd(_mm256_load_pd(on_i), swapped));
