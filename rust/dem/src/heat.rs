@@ -170,7 +170,7 @@ impl HeatPipes {
         self.substeps += count as u64;
     }
 
-    fn substep(&mut self, discs: &mut [Disc], dt: f64) {
+    pub(crate) fn substep(&mut self, discs: &mut [Disc], dt: f64) {
         self.flow.fill(0.0);
         for &(i, j, value) in &self.pairs {
             let (i, j) = (i as usize, j as usize);

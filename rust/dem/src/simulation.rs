@@ -205,6 +205,14 @@ impl Simulation {
         self.watch_time_step()
     }
 
+    /// One explicit Euler step of heat, however long, through the pipes of the last [`Simulation::conduct`]: to find
+    /// out where it turns unstable.
+    pub fn conduct_once(&mut self, dt: f64) {
+        if let Some(pipes) = &mut self.pipes {
+            pipes.substep(&mut self.discs, dt);
+        }
+    }
+
     /// Instruction set of the kernels; all give the same bits.
     pub fn simd(&self) -> Simd {
         self.simd

@@ -4,6 +4,7 @@
 //! Walls are −1 left, −2 right, −3 bottom, −4 top, always as i of a contact. n points from i to j (from the wall
 //! inwards), t = (−n_y, n_x), the force on j is f_n n + f_t t.
 
+use msdd_dem::run::LARGEST_OVERLAP;
 use msdd_dem::{Disc, Material, MaterialError, RunState, Side, Simulation, Walls};
 use serde::{Deserialize, Serialize};
 
@@ -209,7 +210,7 @@ fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {
     Ok((0..expected).map(disc).collect())
 }
 
-/// Discs must have their centre in the box, and must not overlap by more than the smaller radius.
+/// Discs must have their centre in the box, and must not overlap by more than the mean of their radii.
 fn check_overlaps(discs: &[Disc], walls: &Walls) -> Result<(), StateError> {
     for (particle, disc) in discs.iter().enumerate() {
         let outside = Side::ALL.into_iter().find(|&side| walls.distance(side, disc.x, disc.y) <= 0.0);
@@ -225,13 +226,13 @@ fn check_overlaps(discs: &[Disc], walls: &Walls) -> Result<(), StateError> {
     let mut problem = None;
     probe.for_each_contact(|contact| {
         if let Ok(i) = contact.i {
-            let smaller = discs[i].radius.min(discs[contact.j].radius);
-            if contact.overlap > smaller && problem.is_none() {
+            let mean = 0.5 * (discs[i].radius + discs[contact.j].radius);
+            if contact.overlap > LARGEST_OVERLAP * mean && problem.is_none() {
                 problem = Some(StateError::Particle {
                     particle: contact.j,
                     column: "overlap",
                     value: contact.overlap,
-                    allowed: "at most the smaller radius",
+                    allowed: "at most the mean of the two radii",
                 });
             }
         }

@@ -1,5 +1,7 @@
 //! `msdd bench`: speed, as JSON.
 
+mod stability;
+
 use crate::error::CliError;
 use crate::rve::read_state;
 use clap::{Args, Subcommand, ValueEnum};
@@ -13,6 +15,8 @@ use std::time::Instant;
 pub enum Command {
     /// Cost of a step of the discrete element engine, in all and by stage.
     Dem(DemArguments),
+    /// Largest stable mechanical and thermal steps: predicted by the bounds, and measured.
+    Stability(stability::Arguments),
 }
 
 #[derive(Args)]
@@ -50,7 +54,13 @@ const BLOCK: u64 = 500;
 const STRAIN_RATE: f64 = 0.1;
 
 pub fn run(command: &Command) -> Result<(), CliError> {
-    let Command::Dem(arguments) = command;
+    match command {
+        Command::Dem(arguments) => dem(arguments),
+        Command::Stability(arguments) => stability::run(arguments),
+    }
+}
+
+fn dem(arguments: &DemArguments) -> Result<(), CliError> {
     let mut start = match &arguments.state {
         Some(path) => read_state(path)?,
         None => packed(arguments.particles)?,

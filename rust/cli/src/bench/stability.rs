@@ -1,0 +1,99 @@
+//! `msdd bench stability`: the largest stable steps, predicted and measured.
+
+use crate::error::CliError;
+use clap::Args;
+use msdd_dem::{Simulation, Thermal, WallHeat, time_step};
+use msdd_rve::{Compression, Material, PackingSpec, pack};
+use std::path::PathBuf;
+
+#[derive(Args)]
+#[command(
+    after_help = "Mechanical: the packing is shaken a little and runs 4000 steps; a step counts as unstable when the \
+kinetic energy ends above a thousand times that of the shake. Thermal: one disc in two is heated by 1 K and heat \
+flows for 4000 sub-steps; unstable when a temperature leaves the range it began in by 10 K. Both limits by bisection."
+)]
+pub struct Arguments {
+    /// Porosities to pack 500 discs to.
+    #[arg(long, value_delimiter = ',', default_values_t = [0.06, 0.09, 0.12, 0.17])]
+    porosity: Vec<f64>,
+    /// States to measure as well.
+    #[arg(long, value_name = "FILE")]
+    state: Vec<PathBuf>,
+}
+
+const STEPS: u64 = 4000;
+/// Factors on the predicted limit between which the measured one is sought, and how finely.
+const FACTORS: [f64; 2] = [0.5, 2.0];
+const BISECTIONS: u32 = 6;
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    println!("largest stable step [s]       mechanical                       thermal");
+    println!("                      predicted  measured  ratio     predicted  measured  ratio");
+    for &porosity in &arguments.porosity {
+        let (discs, compression) = (500, Compression::Isotropic);
+        let spec = PackingSpec { discs, seed: 1, porosity, compression, radius_min: 3e-3, radius_max: 7e-3 };
+        let packed = pack(&spec, &Material::default())?;
+        line(&format!("porosity {porosity}"), &packed.simulation);
+    }
+    for path in &arguments.state {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        line(&name, &crate::rve::read_state(path)?);
+    }
+    Ok(())
+}
+
+fn line(name: &str, simulation: &Simulation) {
+    let mechanical = time_step::stable_step(simulation);
+    let mechanical_ratio = largest_factor(|factor| shaken_is_stable(simulation, factor * mechanical));
+    let mut warm = simulation.clone();
+    warm.enable_heat(Thermal { expansion: 0.0, ..Thermal::default() }, [WallHeat::Insulated; 4]);
+    (0..200).for_each(|_| warm.conduct(1e-9)); // lets the power iteration converge
+    let thermal = warm.heat().map_or(f64::NAN, |heat| heat.stable_step());
+    let thermal_ratio = largest_factor(|factor| heat_is_stable(&warm, factor * thermal));
+    println!(
+        "{name:<20} {mechanical:>10.3e} {:>10.3e} {mechanical_ratio:>6.2} {thermal:>13.3e} {:>9.3e} {thermal_ratio:>6.2}",
+        mechanical * mechanical_ratio,
+        thermal * thermal_ratio
+    );
+}
+
+/// The largest factor that is stable, by bisection between [`FACTORS`].
+fn largest_factor(stable: impl Fn(f64) -> bool) -> f64 {
+    let [mut low, mut high] = FACTORS;
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if stable(middle) { low = middle } else { high = middle }
+    }
+    low
+}
+
+fn kinetic_energy(simulation: &Simulation) -> f64 {
+    simulation.discs.iter().map(|d| 0.5 * d.mass * (d.vx * d.vx + d.vy * d.vy)).sum()
+}
+
+fn shaken_is_stable(start: &Simulation, step: f64) -> bool {
+    let mut simulation = start.clone();
+    for (k, disc) in simulation.discs.iter_mut().enumerate() {
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        (disc.vx, disc.vy) = (1e-4 * sign, 1e-4);
+    }
+    let shake = kinetic_energy(&simulation);
+    simulation.time_step = step;
+    for _ in 0..STEPS / 100 {
+        simulation.take_steps(100);
+        let energy = kinetic_energy(&simulation);
+        if !(energy < 1e3 * shake) {
+            return false;
+        }
+    }
+    true
+}
+
+fn heat_is_stable(start: &Simulation, step: f64) -> bool {
+    let mut simulation = start.clone();
+    for disc in simulation.discs.iter_mut().step_by(2) {
+        disc.temperature = 1.0;
+    }
+    (0..STEPS).for_each(|_| simulation.conduct_once(step));
+    simulation.discs.iter().all(|d| (-10.0..11.0).contains(&d.temperature))
+}
