@@ -3,22 +3,23 @@
 //! Stored: elastic, Σ ½ s_n δ² + ½ f_t²/s_t, and kinetic with spin, Σ ½ m v² + ¼ m r² ω². Between two states,
 //! stored energy grows by the work of walls and of growing radii, less damping, drag and friction.
 //!
-//! The terms of one step of symplectic Euler, from (x, v, f_t, r) at its start to (x', v', f_t', r') at its end, all
-//! with the contact forces of that step, which are taken at x, r' and the moved walls. [δ] is their overlap, u their
-//! slip over the step, Δ a change over the step, and an overline the mean of start and end:
+//! The terms of one step of symplectic Euler, from (x, v, f_t, r) at its start to (x', v', f_t', r') at its end, with
+//! the contact forces of that step, which are taken at x, r' and the moved walls. u is the slip over the step, Δ a
+//! change over the step; an overline is the mean of start and end, of forces that of the last step and this one:
 //!
 //! | term | one step |
 //! |---|---|
 //! | damping | −f_d · v̄ Δt, f_d = −μ \|f_c\| v/\|v\| |
 //! | drag | the kinetic energy that discs without contact force lose |
-//! | friction | −f_t' (u + Δf_t/s_t) ≥ 0: the force times the plastic slip; all of f_t when a contact opens |
-//! | walls | force of each wall on the grains times its velocity Δt, normal and along the wall |
-//! | growth | f_n Δ(r_i + r_j) + ½ δ² Δs_n + ½ f_t² Δ(1/s_t), and ¼ m ω² Δ(r²) of the spin |
+//! | friction | −f̄_t (u + Δf_t/s_t): the force times the plastic slip; ½ f_t²/s_t when a contact opens |
+//! | walls | mean force of each wall on the grains times its velocity Δt, normal and along the wall |
+//! | growth | ḡ Δr of each disc, g = Σ f_n + ½ (δ² − f_t²/(s_n s_t)) ∂s_n/∂r; and ¼ m ω² Δ(r²) of its spin |
 //!
-//! Kinetic energy is accounted for exactly. What is left over is that the force of a step acts along v̄, while the
-//! contacts deform by v' (normal) and v (slip): first order in Δt, and without drift as long as contacts stay closed
-//! and stick, for then it adds up to differences between the ends of the run (as symplectic Euler conserves a
-//! neighbouring energy).
+//! Why means of two steps: a force acts along v̄, but contacts deform by v in the step before and by v' in this one;
+//! only so do the terms add up (summation by parts; with the forces of one step alone the error of a compressed heap is
+//! 2 to 4 times as large). Kinetic energy is accounted for exactly. What is left is first order in Δt: ½ Δt times the
+//! power of the contact forces at both ends of the run, where symplectic Euler conserves a neighbouring energy, and
+//! contacts that open, close or turn within a step.
 
 use crate::contacts::{PairList, WallContacts};
 use crate::disc::Disc;
@@ -27,19 +28,29 @@ use crate::simulation::Simulation;
 use crate::walls::Side;
 
 /// Work and losses since [`EnergyAudit::new`] [J], and the energy stored then.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct EnergyAudit {
     /// Lost to the damping force (Table 1).
     pub damping: f64,
     /// Lost to [`Simulation::free_drag`].
     pub drag: f64,
-    /// Lost in sliding contacts; never falls.
+    /// Lost in sliding contacts.
     pub friction: f64,
     /// Work of the walls on the grains.
     pub walls: f64,
     /// Work of changing radii.
     pub growth: f64,
     stored: f64,
+    forces: BoundaryForces,
+}
+
+/// Forces against which radii and walls move.
+#[derive(Clone, Debug, PartialEq)]
+struct BoundaryForces {
+    /// g of each disc [N].
+    growth: Vec<f64>,
+    /// As [`Simulation::wall_force`].
+    walls: [[f64; 2]; 4],
 }
 
 /// What a step forgets.
@@ -51,22 +62,79 @@ struct Start {
 
 /// One candidate contact during a step.
 struct Strained {
+    i: Result<usize, Side>,
+    j: usize,
     /// δ [m]; not positive when open.
     overlap: f64,
-    /// s_n [N/m] with the radii at the start and the end of the step.
-    stiffness: [f64; 2],
-    /// f_t [N] likewise.
+    /// s_n [N/m].
+    stiffness: f64,
+    /// ∂s_n/∂r_i and ∂s_n/∂r_j [N/m²].
+    slope: [f64; 2],
+    /// f_t [N] at the start and the end of the step.
     tangential: [f64; 2],
-    /// Way of j relative to i along t [m].
+    /// u [m], of j relative to i along t.
     slip: f64,
-    /// Growth of the radii together [m].
-    growth: f64,
+}
+
+impl Strained {
+    /// ½ s_n δ² + ½ f_t²/s_t [J].
+    fn energy(&self, stiffness_ratio: f64) -> f64 {
+        let (overlap, tangential) = (self.overlap.max(0.0), self.tangential[1]);
+        let normal = 0.5 * self.stiffness * overlap * overlap;
+        // Without tangential stiffness there is no f_t to divide.
+        if tangential == 0.0 {
+            return normal;
+        }
+        normal + 0.5 * tangential * tangential / (stiffness_ratio * self.stiffness)
+    }
+
+    /// Energy lost to friction in the step [J]. Zero up to round-off when the contact sticks.
+    fn friction(&self, stiffness_ratio: f64) -> f64 {
+        let [before, after] = self.tangential;
+        let mean = 0.5 * (before + after);
+        if mean == 0.0 {
+            return 0.0;
+        }
+        // An open contact has lost its f_t without slip that counts.
+        let slip = if self.overlap > 0.0 { self.slip } else { 0.0 };
+        -mean * (slip + (after - before) / (stiffness_ratio * self.stiffness))
+    }
+}
+
+impl BoundaryForces {
+    fn new(discs: usize) -> Self {
+        Self { growth: vec![0.0; discs], walls: [[0.0; 2]; 4] }
+    }
+
+    fn add(&mut self, contact: &Strained, stiffness_ratio: f64) {
+        let &Strained { i, j, overlap, stiffness, slope, tangential: [_, tangential], .. } = contact;
+        if overlap <= 0.0 {
+            return;
+        }
+        let normal = stiffness * overlap;
+        let mut stiffening = 0.5 * overlap * overlap;
+        if tangential != 0.0 {
+            stiffening -= 0.5 * tangential * tangential / (stiffness_ratio * stiffness * stiffness);
+        }
+        self.growth[j] += normal + stiffening * slope[1];
+        match i {
+            Ok(i) => self.growth[i] += normal + stiffening * slope[0],
+            Err(side) => {
+                let [on_wall, along] = &mut self.walls[side as usize];
+                *on_wall += normal;
+                *along -= tangential;
+            }
+        }
+    }
 }
 
 impl EnergyAudit {
     pub fn new(simulation: &Simulation) -> Self {
         let stored = simulation.elastic_energy() + simulation.kinetic_energy();
-        Self { damping: 0.0, drag: 0.0, friction: 0.0, walls: 0.0, growth: 0.0, stored }
+        let mut forces = BoundaryForces::new(simulation.discs.len());
+        let ratio = simulation.material.stiffness_ratio;
+        simulation.for_each_strained(&simulation.start(), |contact| forces.add(&contact, ratio));
+        Self { damping: 0.0, drag: 0.0, friction: 0.0, walls: 0.0, growth: 0.0, stored, forces }
     }
 
     /// Work done on the grains, less all losses, less what is stored more than at the beginning [J]: 0 up to the
@@ -83,38 +151,34 @@ impl EnergyAudit {
         self.residual(simulation).abs() / if work > 0.0 { work } else { self.stored }
     }
 
+    /// Losses of one disc, and the work on its spin, which turns on with the inertia of the new radius.
     fn add_motion(&mut self, before: &Disc, after: &Disc, force: [f64; 2], damping: f64, dt: f64) {
-        // The spin turns on with the inertia of the new radius.
-        let spin = before.angular_velocity;
-        self.growth +=
-            0.25 * before.mass * spin * spin * (after.radius * after.radius - before.radius * before.radius);
+        let grown = Disc { radius: after.radius, ..*before };
+        self.growth += kinetic_energy(&grown) - kinetic_energy(before);
         let force2 = force[0] * force[0] + force[1] * force[1];
         if force2 > 0.0 {
             let scale = damping_scale(damping, force2, before.vx * before.vx + before.vy * before.vy);
             let along = before.vx * (before.vx + after.vx) + before.vy * (before.vy + after.vy);
             self.damping += 0.5 * dt * scale * along;
         } else {
-            let grown = Disc { radius: after.radius, ..*before };
             self.drag += kinetic_energy(&grown) - kinetic_energy(after);
         }
     }
 
-    fn add_contact(&mut self, contact: &Strained, stiffness_ratio: f64) {
-        let &Strained { overlap, stiffness: [old, new], tangential: [before, after], slip, growth } = contact;
-        let touching = overlap > 0.0;
-        if touching {
-            self.growth += overlap * (new * growth + 0.5 * overlap * (new - old));
+    /// Work of growth and walls against the mean of the last forces and `forces`, which become the last.
+    fn add_boundaries(&mut self, start: &Start, simulation: &Simulation, forces: BoundaryForces) {
+        for (k, (before, after)) in start.discs.iter().zip(&simulation.discs).enumerate() {
+            let mean = 0.5 * (self.forces.growth[k] + forces.growth[k]);
+            self.growth += mean * (after.radius - before.radius);
         }
-        if before != 0.0 {
-            self.growth += 0.5 * before * before / stiffness_ratio * (1.0 / new - 1.0 / old);
+        for side in Side::ALL {
+            let ([nx, ny], [vx, vy]) = (side.normal(), simulation.walls.velocity(side));
+            let (last, this) = (self.forces.walls[side as usize], forces.walls[side as usize]);
+            let [outwards, along] = [0.5 * (last[0] + this[0]), 0.5 * (last[1] + this[1])];
+            let power = outwards * (nx * vx + ny * vy) - along * (nx * vy - ny * vx);
+            self.walls += power * simulation.time_step;
         }
-        let compliance = 1.0 / (stiffness_ratio * new);
-        if touching && after != 0.0 {
-            // Round-off of a sticking contact is no friction.
-            self.friction += (-after * (slip + (after - before) * compliance)).max(0.0);
-        } else if before != 0.0 {
-            self.friction += 0.5 * before * before * compliance;
-        }
+        self.forces = forces;
     }
 }
 
@@ -129,19 +193,11 @@ impl Simulation {
         self.discs.iter().map(kinetic_energy).sum()
     }
 
-    /// Σ ½ s_n δ² + ½ f_t²/s_t [J].
+    /// Σ ½ s_n δ² + ½ f_t²/s_t [J]. A contact that opened in the last motion keeps its f_t until the next step.
     pub fn elastic_energy(&self) -> f64 {
-        // A contact that opened in the last motion keeps its f_t until the next step, which counts its loss.
-        let start = self.start();
         let mut sum = 0.0;
-        self.for_each_strained(&start, |contact| {
-            let ([_, stiffness], [_, tangential]) = (contact.stiffness, contact.tangential);
-            let overlap = contact.overlap.max(0.0);
-            sum += 0.5 * stiffness * overlap * overlap;
-            if tangential != 0.0 {
-                sum += 0.5 * tangential * tangential / (self.material.stiffness_ratio * stiffness);
-            }
-        });
+        let ratio = self.material.stiffness_ratio;
+        self.for_each_strained(&self.start(), |contact| sum += contact.energy(ratio));
         sum
     }
 
@@ -149,13 +205,16 @@ impl Simulation {
     pub fn step_audited(&mut self, audit: &mut EnergyAudit) {
         let start = self.start();
         self.step();
-        let ratio = self.material.stiffness_ratio;
-        self.for_each_strained(&start, |contact| audit.add_contact(&contact, ratio));
-        let dt = self.time_step;
+        let (ratio, dt) = (self.material.stiffness_ratio, self.time_step);
+        let mut forces = BoundaryForces::new(self.discs.len());
+        self.for_each_strained(&start, |contact| {
+            audit.friction += contact.friction(ratio);
+            forces.add(&contact, ratio);
+        });
+        audit.add_boundaries(&start, self, forces);
         for ((before, after), load) in start.discs.iter().zip(&self.discs).zip(&self.loads) {
             audit.add_motion(before, after, [load.fx, load.fy], self.material.damping, dt);
         }
-        audit.walls += dt * self.wall_power();
     }
 
     fn start(&self) -> Start {
@@ -164,16 +223,6 @@ impl Simulation {
             pairs: self.neighbours.pairs.clone(),
             walls: self.neighbours.walls.clone(),
         }
-    }
-
-    /// Power of the walls on the grains in the last step [W].
-    fn wall_power(&self) -> f64 {
-        let power = |side: Side| {
-            let ([nx, ny], [vx, vy]) = (side.normal(), self.walls.velocity(side));
-            let [outwards, along] = self.wall_force[side as usize];
-            outwards * (nx * vx + ny * vy) - along * (nx * vy - ny * vx)
-        };
-        Side::ALL.into_iter().map(power).sum()
     }
 
     /// Calls `visit` with every candidate contact as the step saw it that began at `start` and ended at `self`:
@@ -189,15 +238,15 @@ impl Simulation {
             let overlap = ra + rb - distance;
             let arms = (ra - 0.5 * overlap) * a.angular_velocity + (rb - 0.5 * overlap) * b.angular_velocity;
             let speed = ((b.vy - a.vy) * dx - (b.vx - a.vx) * dy) / distance - arms;
+            let reach = ra + rb;
             visit(Strained {
+                i: Ok(i as usize),
+                j: j as usize,
                 overlap,
-                stiffness: [
-                    pair_stiffness(young_modulus, a.radius, b.radius),
-                    pair_stiffness(young_modulus, ra, rb),
-                ],
+                stiffness: pair_stiffness(young_modulus, ra, rb),
+                slope: [rb / reach, ra / reach].map(|share| 2.0 * young_modulus * share * share),
                 tangential: [start.pairs.tangential_of(i as usize, j), pairs.tangential[k]],
                 slip: speed * dt,
-                growth: (ra - a.radius) + (rb - b.radius),
             });
         }
         for side in Side::ALL {
@@ -215,11 +264,13 @@ impl Simulation {
             let speed =
                 (disc.vy - wall_vy) * nx - (disc.vx - wall_vx) * ny - distance * disc.angular_velocity;
             visit(Strained {
+                i: Err(side),
+                j: i as usize,
                 overlap: radius - distance,
-                stiffness: [disc.radius, radius].map(|r| wall_stiffness(young_modulus, factor, r)),
+                stiffness: wall_stiffness(young_modulus, factor, radius),
+                slope: [0.0, factor * young_modulus],
                 tangential: [start.walls[side as usize].tangential_of(i), tangential],
                 slip: speed * self.time_step,
-                growth: radius - disc.radius,
             });
         }
     }

@@ -3,7 +3,7 @@
 use crate::contacts::WallContacts;
 use crate::disc::Disc;
 use crate::law::{PairLaw, tangential_force, wall_stiffness};
-use crate::walls::{Side, Walls};
+use crate::walls::{Flow, Side, Walls};
 
 /// Resultant of the contact forces [N] and their torque [N m] on one disc.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,7 +30,7 @@ impl Load {
 pub(crate) fn add_wall(
     law: PairLaw,
     side: Side,
-    walls: &Walls,
+    (walls, flow): (&Walls, Flow),
     discs: &[Disc],
     contacts: &mut WallContacts,
     mut add: impl FnMut(usize, Load),
@@ -46,7 +46,10 @@ pub(crate) fn add_wall(
             *history = 0.0;
             continue;
         }
-        let speed = (disc.vy - wall_vy) * nx - (disc.vx - wall_vx) * ny - distance * disc.angular_velocity;
+        let [carried_x, carried_y] = flow.at(disc.x, disc.y);
+        let speed = (disc.vy + carried_y - wall_vy) * nx
+            - (disc.vx + carried_x - wall_vx) * ny
+            - distance * disc.angular_velocity;
         let stiffness = wall_stiffness(law.young_modulus, law.wall_factor, disc.radius);
         let normal = stiffness * overlap;
         let tangential = tangential_force(

@@ -28,16 +28,19 @@ pub(crate) struct PairLaw {
     pub wall_factor: f64,
     /// Δt [s].
     pub dt: f64,
+    /// ∂u_x/∂x, ∂u_y/∂y [1/s] of the motion that carries the grains along, see [`crate::walls::Flow`].
+    pub gradient: [f64; 2],
 }
 
 impl PairLaw {
-    pub fn new(material: &Material, dt: f64) -> Self {
+    pub fn new(material: &Material, dt: f64, gradient: [f64; 2]) -> Self {
         Self {
             young_modulus: material.young_modulus,
             stiffness_ratio: material.stiffness_ratio,
             friction: material.friction_angle.tan(),
             wall_factor: material.wall_stiffness_factor,
             dt,
+            gradient,
         }
     }
 }
@@ -86,7 +89,8 @@ pub(crate) fn pair_force<V: Vector>(
     let half = all(0.5) * overlap;
     let (arm_a, arm_b) = (ar - half, br - half);
     // Velocity of j relative to i at the contact, along t.
-    let speed = (bvy - avy) * nx - (bvx - avx) * ny - (arm_a * aw + arm_b * bw);
+    let (vx, vy) = (bvx - avx + all(law.gradient[0]) * dx, bvy - avy + all(law.gradient[1]) * dy);
+    let speed = vy * nx - vx * ny - (arm_a * aw + arm_b * bw);
     let stiffness = all(2.0 * law.young_modulus) * (ar * br) / reach;
     let normal = stiffness * overlap;
     // A lane that does not touch has the limit 0, which also clears its history.

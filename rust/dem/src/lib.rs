@@ -50,4 +50,4 @@ pub use restore::RunState;
 pub use run::Failure;
 pub use simulation::{Simulation, Stage};
 pub use time_step::{Excess, StepChoice};
-pub use walls::{Side, Walls};
+pub use walls::{Flow, Side, Walls};

@@ -11,7 +11,7 @@ use crate::pace::Pace;
 use crate::run::Failure;
 use crate::slabs::{self, SlabLoads};
 use crate::time_step::{self, StepChoice};
-use crate::walls::{Side, Walls};
+use crate::walls::{Flow, Side, Walls};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -26,6 +26,9 @@ pub struct Simulation {
     pub(crate) step_choice: StepChoice,
     /// Drag on discs without contact force [1/s]; 0 (off) as in the paper, whose damping lets them fly for ever.
     pub free_drag: f64,
+    /// Whether moving walls carry the grains along (affine motion); their own velocities are relative to that then. Off
+    /// as in the paper.
+    pub affine: bool,
     /// Steps taken.
     pub steps: u64,
     /// t [s].
@@ -86,6 +89,7 @@ impl Simulation {
             time_step: 0.0,
             step_choice: StepChoice::Adaptive { safety: time_step::SAFETY },
             free_drag: 0.0,
+            affine: false,
             steps: 0,
             time: 0.0,
             pipes: None,
@@ -274,8 +278,29 @@ impl Simulation {
         let dt = self.time_step;
         self.strain += self.strain_rate * dt;
         let growth = self.advance_radii();
+        self.carry_discs();
         self.walls.advance(dt);
-        self.neighbours.record_motion(self.largest_speed, self.walls.largest_speed(), growth / dt, dt);
+        let wall_speed = self.walls.largest_speed();
+        // Carried discs move at most as fast as the walls.
+        let speed = self.largest_speed + if self.affine { wall_speed } else { 0.0 };
+        self.neighbours.record_motion(speed, wall_speed, growth / dt, dt);
+    }
+
+    /// The motion that carries the grains along in this step.
+    pub(crate) fn flow(&self) -> Flow {
+        if self.affine { self.walls.flow() } else { Flow::NONE }
+    }
+
+    fn carry_discs(&mut self) {
+        let flow = self.flow();
+        if flow != Flow::NONE {
+            let dt = self.time_step;
+            for disc in &mut self.discs {
+                let [ux, uy] = flow.at(disc.x, disc.y);
+                disc.x += dt * ux;
+                disc.y += dt * uy;
+            }
+        }
     }
 
     /// Sets the radii from strain and temperature; returns the largest growth [m].
@@ -304,16 +329,17 @@ impl Simulation {
     }
 
     fn sum_pair_forces(&mut self) {
-        let law = PairLaw::new(&self.material, self.time_step);
+        let law = PairLaw::new(&self.material, self.time_step, self.flow().gradient);
         let parallel = self.shared;
         self.slab_loads.sum_pairs(parallel, (self.simd, law), &self.discs, &mut self.neighbours);
     }
 
     fn sum_wall_forces(&mut self) {
-        let law = PairLaw::new(&self.material, self.time_step);
+        let flow = self.flow();
+        let law = PairLaw::new(&self.material, self.time_step, flow.gradient);
         for side in Side::ALL {
             self.wall_force[side as usize] =
-                self.slab_loads.add_wall(law, side, &self.walls, &self.discs, &mut self.neighbours);
+                self.slab_loads.add_wall(law, side, (&self.walls, flow), &self.discs, &mut self.neighbours);
         }
     }
 

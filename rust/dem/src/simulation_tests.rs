@@ -231,3 +231,33 @@ fn threads_do_not_change_the_bits() {
     one.for_each_contact(|_| contacts += 1);
     assert!(contacts > 4000, "{contacts}");
 }
+
+/// Carried along, grains keep their relative places in the box and feel no force as long as none touch; those that touch
+/// feel the slip of the flow: f_t = −ν s_n (u_t of j − u_t of i) Δt.
+#[test]
+fn affine_motion_carries_the_grains() {
+    let material = undamped();
+    let apart = [Disc::at_rest(0.3, 0.2, R, 3000.0), Disc::at_rest(0.7, 0.6, R, 3000.0)];
+    let mut simulation = Simulation::new(material.clone(), apart.to_vec(), Walls::around(1.0, 0.8));
+    simulation.affine = true;
+    simulation.walls.normal_velocity = [0.1, -0.1, 0.0, -0.04];
+    (0..200).for_each(|_| simulation.step());
+    let walls = &simulation.walls;
+    for (disc, start) in simulation.discs.iter().zip(&apart) {
+        let place = (disc.x - walls.position[0]) / walls.width();
+        assert!((place - start.x).abs() < 1e-12 && (disc.y / walls.height() - start.y / 0.8).abs() < 1e-12);
+        assert_eq!((disc.vx, disc.vy), (0.0, 0.0));
+    }
+
+    let d = (2.0 * R - 1e-4) / 2f64.sqrt();
+    let touching = vec![Disc::at_rest(0.5, 0.4, R, 3000.0), Disc::at_rest(0.5 + d, 0.4 + d, R, 3000.0)];
+    let mut simulation = Simulation::new(material, touching, Walls::around(1.0, 0.8));
+    simulation.affine = true;
+    simulation.walls.normal_velocity = [0.0, -0.01, 0.0, 0.0];
+    simulation.step();
+    let mut force = f64::NAN;
+    simulation.for_each_contact(|contact| force = contact.tangential_force);
+    // u_x = −0.01 x /s, t = (−1, 1)/√2: slip speed 0.01 d/√2.
+    let expected = -0.8 * 1e7 * R * 0.01 * d / 2f64.sqrt() * simulation.time_step;
+    assert!((force / expected - 1.0).abs() < 1e-4, "{force} {expected}");
+}

@@ -10,7 +10,7 @@ use crate::forces::{self, Load};
 use crate::kernel::{self, Motion, Simd};
 use crate::law::PairLaw;
 use crate::neighbours::Neighbours;
-use crate::walls::{Side, Walls};
+use crate::walls::{Flow, Side, Walls};
 use rayon::prelude::*;
 
 /// Discs that one thread takes at a time where they do not depend on each other.
@@ -62,14 +62,14 @@ impl SlabLoads {
         &mut self,
         law: PairLaw,
         side: Side,
-        walls: &Walls,
+        (walls, flow): (&Walls, Flow),
         discs: &[Disc],
         neighbours: &mut Neighbours,
     ) -> [f64; 2] {
         let slabs = neighbours.pairs.slabs();
         let contacts = &mut neighbours.walls[side as usize];
         let mut slab = 0;
-        forces::add_wall(law, side, walls, discs, contacts, |disc, load| {
+        forces::add_wall(law, side, (walls, flow), discs, contacts, |disc, load| {
             // Discs of a wall come in growing order.
             while slabs[slab].rows.end <= disc {
                 slab += 1;

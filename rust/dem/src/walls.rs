@@ -34,7 +34,39 @@ pub struct Walls {
     pub tangential_velocity: [f64; 4],
 }
 
+/// The motion u(x) that carries the grains along with walls that close or open: linear between the walls, so that a
+/// large box is compressed everywhere at once instead of from its rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flow {
+    /// ∂u_x/∂x, ∂u_y/∂y [1/s].
+    pub gradient: [f64; 2],
+    /// u at the origin of the coordinates [m/s].
+    pub at_origin: [f64; 2],
+}
+
+impl Flow {
+    /// Grains that no flow carries.
+    pub const NONE: Self = Self { gradient: [0.0; 2], at_origin: [0.0; 2] };
+
+    /// u [m/s] at (x, y).
+    #[inline(always)]
+    pub fn at(&self, x: f64, y: f64) -> [f64; 2] {
+        [self.at_origin[0] + self.gradient[0] * x, self.at_origin[1] + self.gradient[1] * y]
+    }
+}
+
 impl Walls {
+    /// The flow that moves with all four walls.
+    pub fn flow(&self) -> Flow {
+        let axis = |low: usize, high: usize| {
+            let velocity = self.normal_velocity;
+            let gradient = (velocity[high] - velocity[low]) / (self.position[high] - self.position[low]);
+            (gradient, velocity[low] - gradient * self.position[low])
+        };
+        let ((xx, x0), (yy, y0)) = (axis(0, 1), axis(2, 3));
+        Flow { gradient: [xx, yy], at_origin: [x0, y0] }
+    }
+
     /// Resting walls around [0, width] × [0, height] [m].
     pub fn around(width: f64, height: f64) -> Self {
         Self { position: [0.0, width, 0.0, height], normal_velocity: [0.0; 4], tangential_velocity: [0.0; 4] }
