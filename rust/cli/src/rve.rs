@@ -4,8 +4,8 @@ use crate::error::CliError;
 use crate::files::{read_text, write_atomically};
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_rve::{
-    Averages, Compression, Cut, Material, PackingSpec, Rates, RegionKind, Settled, Simulation, expand_at,
-    homogenise_in, pack, region, state, unbalanced_force, vtk,
+    Averages, Compression, Cut, Material, PackingSpec, Rates, RegionKind, Settled, Simulation, Strains,
+    follow, homogenise_in, pack, region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -51,18 +51,28 @@ pub struct PackArguments {
 #[derive(Args)]
 #[command(after_help = "Examples:
   msdd rve expand --state state.json --strain 0.02 --out out.json
-  msdd rve expand --state state.json --stops 0.01,0.02,0.05 --out out.json   (writes the last, prints all)")]
+  msdd rve expand --state state.json --stops 0.01,0.02,0.05 --out out.json   (writes the last, prints all)
+  msdd rve expand --state state.json --xx=-0.01,-0.02 --out out.json            (walls close along x)")]
 pub struct ExpandArguments {
     /// State to start from; strains count from its radii.
     #[arg(long, value_name = "FILE")]
     state: PathBuf,
     /// Thermal strain of the radii.
-    #[arg(long, allow_negative_numbers = true, conflicts_with = "stops", required_unless_present = "stops")]
+    #[arg(long, allow_negative_numbers = true, conflicts_with = "stops")]
     strain: Option<f64>,
-    /// Several strains on one ramp, of one sign, growing in magnitude; it settles at each.
+    /// Thermal strains of several stops on one path; it settles at each.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     stops: Vec<f64>,
-    /// |d strain/dt| [1/s]; default: 0.1 in expansion, 0.02 in contraction.
+    /// Extension of the box along x at the stops; one a stop, 0 when absent.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    xx: Vec<f64>,
+    /// Extension of the box along y at the stops.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    yy: Vec<f64>,
+    /// Moving walls carry the grains along.
+    #[arg(long)]
+    affine: bool,
+    /// Rate of the strain that changes most [1/s]; default: 0.1 when contacts close, 0.02 when they open.
     #[arg(long)]
     rate: Option<f64>,
     /// Wall stiffness over E r; default: that of the state.
@@ -147,27 +157,54 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
 
 fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
     let mut simulation = read_state(&arguments.state)?;
-    simulation.reset_strain();
+    simulation.affine = arguments.affine;
     if let Some(factor) = arguments.wall_stiffness {
         simulation.material.wall_stiffness_factor = factor;
         simulation.material.check().map_err(|error| CliError::Message(error.to_string()))?;
     }
-    let stops = arguments.strain.map_or_else(|| arguments.stops.clone(), |strain| vec![strain]);
+    let path = path(arguments)?;
     let rates =
         arguments.rate.map_or_else(Rates::default, |rate| Rates { expansion: rate, contraction: rate });
     let mut series = Series::new(arguments.vtk.as_deref());
     let mut written = series.add(0.0, &simulation);
-    let ramp = expand_at(&mut simulation, &stops, rates, |stop, simulation| {
+    let mut written_stops = 0;
+    let ramp = follow(&mut simulation, &path, rates, |stop, simulation| {
         if written.is_ok() {
-            written = series.add(stop.strain, simulation);
+            written = series.add((written_stops + 1) as f64, simulation);
         }
-        report(&format!("strain {:+}", stop.strain), &stop.settled, &stop.averages);
+        written_stops += 1;
+        let Strains { thermal, xx, yy } = stop.strains;
+        let walls = if xx == 0.0 && yy == 0.0 { String::new() } else { format!(", walls {xx:+} {yy:+}") };
+        report(&format!("strain {thermal:+}{walls}"), &stop.settled, &stop.averages);
     })?;
     written?;
     match ramp.failure {
         Some(failure) => Err(failure.into()),
         None => write_state(&arguments.out, &simulation),
     }
+}
+
+/// The stops: as many as the longest list has, absent lists are zero.
+fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
+    let thermal = arguments.strain.map_or_else(|| arguments.stops.clone(), |strain| vec![strain]);
+    let lists = [("stops", &thermal), ("xx", &arguments.xx), ("yy", &arguments.yy)];
+    let count = lists.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
+    if count == 0 {
+        return Err(CliError::Message("give --strain, --stops, --xx or --yy".to_string()));
+    }
+    if let Some((name, list)) = lists.iter().find(|(_, list)| !list.is_empty() && list.len() != count) {
+        return Err(CliError::Message(format!(
+            "--{name}: {} values, expected {count}, one a stop",
+            list.len()
+        )));
+    }
+    let at = |list: &[f64], stop: usize| list.get(stop).copied().unwrap_or(0.0);
+    let strains = |stop| Strains {
+        thermal: at(&thermal, stop),
+        xx: at(&arguments.xx, stop),
+        yy: at(&arguments.yy, stop),
+    };
+    Ok((0..count).map(strains).collect())
 }
 
 /// One line about a state.

@@ -19,6 +19,7 @@
 //! | [`heat`] | thermal pipes, sub-stepped (Eq. 5) |
 //! | [`time_step`] | bound on the stable step |
 //! | [`run`] | many steps, watched; typed failures |
+//! | [`audit`] | where the energy goes |
 //! | [`restore`] | what a state file holds beside the discs |
 //! | [`simulation`] | the state, and `step()` |
 #![deny(unsafe_code)]

@@ -1,4 +1,4 @@
-//! Thermal expansion of a packed RVE: radii grow or shrink in fixed walls, with stops (section 2.4).
+//! Straining a packed RVE: radii grow or shrink in fixed walls, with stops (section 2.4); or walls move as well.
 
 use crate::homogenise::{Averages, homogenise};
 use crate::pack::Packed;
@@ -6,7 +6,7 @@ use crate::region::RegionKind;
 use crate::settle::{Settled, settle};
 use crate::{RveError, Simulation};
 
-/// |dε/dt| of a ramp [1/s].
+/// Rate of the strain that changes most [1/s]: when contacts close, and when they open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
     pub expansion: f64,
@@ -23,11 +23,26 @@ impl Default for Rates {
 /// Largest step count between two looks at the stable time step.
 const RUN: u64 = 50;
 
-/// The state at one stop of a ramp.
+/// Strains relative to the start of a path [-].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Strains {
+    /// ε of the radii.
+    pub thermal: f64,
+    /// Extension of the box along x and y: both walls move by half of it.
+    pub xx: f64,
+    pub yy: f64,
+}
+
+impl Strains {
+    pub fn thermal(strain: f64) -> Self {
+        Self { thermal: strain, ..Self::default() }
+    }
+}
+
+/// The state at one stop of a path.
 #[derive(Clone, Debug)]
 pub struct Stop {
-    /// ε relative to the packed state [-].
-    pub strain: f64,
+    pub strains: Strains,
     pub settled: Settled,
     pub averages: Averages,
 }
@@ -46,25 +61,28 @@ pub struct Ramp {
 /// # Errors
 /// [`RveError::Parameter`] for unusable stops. What goes wrong on the way is in [`Ramp::failure`].
 pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
-    expand_at(&mut packed.simulation.clone(), stops, Rates::default(), |_, _| ())
+    check_monotone(stops)?;
+    let path: Vec<Strains> = stops.iter().copied().map(Strains::thermal).collect();
+    follow(&mut packed.simulation.clone(), &path, Rates::default(), |_, _| ())
 }
 
-/// As [`expand`], on a simulation that ends at the last stop reached, at given rates. `visit` sees it at each stop.
-pub fn expand_at(
+/// Follows a path of thermal strain and wall strain from stop to stop, straight in between, at given rates. The
+/// simulation ends at the last stop reached; `visit` sees it at each.
+///
+/// # Errors
+/// [`RveError::Parameter`] for unusable strains or rates. What goes wrong on the way is in [`Ramp::failure`].
+pub fn follow(
     simulation: &mut Simulation,
-    stops: &[f64],
+    path: &[Strains],
     rates: Rates,
     mut visit: impl FnMut(&Stop, &Simulation),
 ) -> Result<Ramp, RveError> {
-    check(stops)?;
-    for (key, rate) in [("expansion rate", rates.expansion), ("contraction rate", rates.contraction)] {
-        if !(1e-6..=100.0).contains(&rate) {
-            return Err(RveError::Parameter { key, value: rate.to_string(), allowed: "1e-6 to 100 1/s" });
-        }
-    }
+    check(path, rates)?;
+    simulation.reset_strain();
+    let start = [simulation.walls.width(), simulation.walls.height()];
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
-    for &strain in stops {
-        match advance_to(simulation, strain, rates) {
+    for &strains in path {
+        match advance_to(simulation, strains, start, rates) {
             Ok(stop) => {
                 visit(&stop, simulation);
                 ramp.stops.push(stop);
@@ -78,12 +96,26 @@ pub fn expand_at(
     Ok(ramp)
 }
 
-fn check(stops: &[f64]) -> Result<(), RveError> {
+fn check(path: &[Strains], rates: Rates) -> Result<(), RveError> {
+    for (key, rate) in [("expansion rate", rates.expansion), ("contraction rate", rates.contraction)] {
+        if !(1e-6..=100.0).contains(&rate) {
+            return Err(RveError::Parameter { key, value: rate.to_string(), allowed: "1e-6 to 100 1/s" });
+        }
+    }
+    let values = path.iter().flat_map(|s| [("thermal strain", s.thermal), ("xx", s.xx), ("yy", s.yy)]);
+    for (key, value) in values {
+        if !(-0.2..=0.2).contains(&value) {
+            return Err(RveError::Parameter { key, value: value.to_string(), allowed: "-0.2 to 0.2" });
+        }
+    }
+    Ok(())
+}
+
+fn check_monotone(stops: &[f64]) -> Result<(), RveError> {
     let mut previous = 0.0f64;
     for &stop in stops {
-        let further = stop.abs() > previous.abs() && (previous == 0.0 || stop * previous > 0.0);
-        if !(further && stop.abs() <= 0.2) {
-            let allowed = "one sign, growing in magnitude, at most 0.2";
+        if stop.abs() <= previous.abs() || stop * previous < 0.0 {
+            let allowed = "one sign, growing in magnitude";
             return Err(RveError::Parameter { key: "strains", value: format!("{stops:?}"), allowed });
         }
         previous = stop;
@@ -91,21 +123,37 @@ fn check(stops: &[f64]) -> Result<(), RveError> {
     Ok(())
 }
 
-fn advance_to(simulation: &mut Simulation, strain: f64, rates: Rates) -> Result<Stop, RveError> {
+/// Straight on to `target`, then at rest until the forces balance. `start` is the box at zero strain [m].
+fn advance_to(
+    simulation: &mut Simulation,
+    target: Strains,
+    [width, height]: [f64; 2],
+    rates: Rates,
+) -> Result<Stop, RveError> {
     let since = simulation.steps;
-    let rate = if strain > simulation.strain() { rates.expansion } else { rates.contraction };
     loop {
-        let left = strain - simulation.strain();
-        let steps = (left.abs() / (rate * simulation.time_step)).ceil();
-        if steps < 1.0 || left.abs() < 1e-12 {
+        let walls = &simulation.walls;
+        let thermal = target.thermal - simulation.strain();
+        let (dx, dy) =
+            (width * (1.0 + target.xx) - walls.width(), height * (1.0 + target.yy) - walls.height());
+        let largest = thermal.abs().max(dx.abs() / width).max(dy.abs() / height);
+        // Contacts open when radii shrink or walls recede.
+        let loosening = 2.0 * thermal < dx / width + dy / height;
+        let rate = if loosening { rates.contraction } else { rates.expansion };
+        let steps = (largest / (rate * simulation.time_step)).ceil();
+        if steps < 1.0 || largest < 1e-12 {
             break;
         }
         // Equal steps that end at the stop, or the first of them.
-        simulation.set_strain_rate(left / (steps * simulation.time_step));
+        let time = steps * simulation.time_step;
+        simulation.set_strain_rate(thermal / time);
+        let (vx, vy) = (0.5 * dx / time, 0.5 * dy / time);
+        simulation.walls.normal_velocity = [-vx, vx, -vy, vy];
         simulation.run((steps as u64).min(RUN))?;
     }
     simulation.set_strain_rate(0.0);
+    simulation.walls.stop();
     let settled = settle(simulation, since)?;
     let averages = homogenise(simulation, RegionKind::default());
-    Ok(Stop { strain, settled, averages })
+    Ok(Stop { strains: target, settled, averages })
 }

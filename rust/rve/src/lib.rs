@@ -3,7 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`pack`](mod@pack) | random discs, walls close to a target porosity, relax |
-//! | [`expand`](mod@expand) | one monotone ramp of thermal strain with stops |
+//! | [`expand`](mod@expand) | ramps of thermal strain and wall strain, with stops |
 //! | [`settle`] | relaxation to static equilibrium, with its outcome |
 //! | [`region`] | the averaging region: a convex polygon |
 //! | [`area`] | exact area of a union of discs inside a polygon |
@@ -24,7 +24,7 @@ pub mod settle;
 pub mod state;
 pub mod vtk;
 
-pub use expand::{Ramp, Rates, Stop, expand, expand_at};
+pub use expand::{Ramp, Rates, Stop, Strains, expand, follow};
 pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
 pub use pack::{Compression, Packed, PackingSpec, pack};

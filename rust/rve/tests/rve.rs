@@ -1,6 +1,8 @@
 //! Packing and expansion of small RVEs, held against exact laws.
 
-use msdd_rve::{Compression, Material, Outcome, PackingSpec, RegionKind, expand, homogenise, pack};
+use msdd_rve::{
+    Compression, Material, Outcome, PackingSpec, Rates, RegionKind, Strains, expand, follow, homogenise, pack,
+};
 
 fn spec(compression: Compression) -> PackingSpec {
     PackingSpec { discs: 120, seed: 7, porosity: 0.12, compression, radius_min: 3e-3, radius_max: 7e-3 }
@@ -25,7 +27,7 @@ fn expansion_obeys_the_mass_law_and_stiffens() {
     let up = expand(&packed, &[0.005, 0.01, 0.03]).unwrap().stops;
     let down = expand(&packed, &[-0.005, -0.01]).unwrap().stops;
     for stop in up.iter().chain(&down) {
-        let law = (1.0 - start.porosity_sum_of_areas) * (1.0 + stop.strain).powi(2);
+        let law = (1.0 - start.porosity_sum_of_areas) * (1.0 + stop.strains.thermal).powi(2);
         assert!((1.0 - stop.averages.porosity_sum_of_areas - law).abs() < 1e-12);
         assert_eq!(stop.settled.outcome, Outcome::Settled);
     }
@@ -61,4 +63,24 @@ fn bad_input_names_key_value_and_range() {
     assert!(message(&PackingSpec { discs: 3, ..good.clone() }).starts_with("discs = 3"));
     let packed = pack(&good, &Material::default()).unwrap();
     assert!(expand(&packed, &[0.02, 0.01]).unwrap_err().to_string().starts_with("strains = [0.02, 0.01]"));
+}
+
+/// Walls that close along x by 1 % raise σ_xx more than σ_yy; the box follows the path exactly; and a uniform thermal
+/// strain raises p about as much as closing all walls by the same strain (up to friction on walls that do not shrink).
+#[test]
+fn wall_strain_follows_its_path() {
+    let packed = pack(&spec(Compression::Isotropic), &Material::default()).unwrap();
+    let start = homogenise(&packed.simulation, RegionKind::Hull);
+    let after = |strains: Strains| {
+        let mut simulation = packed.simulation.clone();
+        let ramp = follow(&mut simulation, &[strains], Rates::default(), |_, _| ()).unwrap();
+        let width = packed.simulation.walls.width() * (1.0 + strains.xx);
+        assert!((simulation.walls.width() / width - 1.0).abs() < 1e-12);
+        ramp.stops[0].averages
+    };
+    let x = after(Strains { xx: -0.01, ..Strains::default() });
+    assert!(x.stress_xx - start.stress_xx > 1.3 * (x.stress_yy - start.stress_yy), "{x:?}");
+    let closed = after(Strains { xx: -0.01, yy: -0.01, ..Strains::default() }).pressure - start.pressure;
+    let heated = after(Strains::thermal(0.01)).pressure - start.pressure;
+    assert!((heated / closed - 1.0).abs() < 0.15, "{heated} {closed}");
 }

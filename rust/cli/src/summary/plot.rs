@@ -6,14 +6,22 @@ use plotters::prelude::*;
 
 const SIZE: (u32, u32) = (860, 520);
 
-/// Colours of hot, cold, and hot–cold cases: Okabe and Ito's, told apart by the colour-blind; their greys differ too.
-const COLOURS: [RGBColor; 3] = [RGBColor(213, 94, 0), RGBColor(0, 114, 178), RGBColor(0, 158, 115)];
+/// Colours of hot, cold, and hot–cold cases: Okabe and Ito's, told apart by the colour-blind, and in grey.
+const COLOURS: [RGBColor; 3] = [RGBColor(230, 159, 0), RGBColor(0, 114, 178), RGBColor(0, 0, 0)];
 
 /// The plot's SVG text. Cases without expansion are dashed.
 pub fn temperature(cases: &[Named]) -> Result<String, CliError> {
     let mut svg = String::new();
     draw(cases, &mut svg).map_err(|error| CliError::Message(format!("cannot draw the plot: {error}")))?;
     Ok(svg)
+}
+
+/// Lowest and highest T at P2, rounded outwards to tens of kelvin, 0 to 100 K at least: the walls of the shipped cases.
+fn range(cases: &[Named]) -> std::ops::Range<f64> {
+    let values = || cases.iter().flat_map(|case| &case.result.probes["P2"]).map(|&(_, value)| value / 10.0);
+    let low = values().fold(0.0, f64::min).floor();
+    let high = values().fold(10.0, f64::max).ceil();
+    10.0 * low..10.0 * high
 }
 
 fn draw(cases: &[Named], svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
@@ -25,7 +33,7 @@ fn draw(cases: &[Named], svg: &mut String) -> Result<(), Box<dyn std::error::Err
         .margin(14)
         .x_label_area_size(44)
         .y_label_area_size(56)
-        .build_cartesian_2d(0.0..end, 0.0..100.0)?;
+        .build_cartesian_2d(0.0..end, range(cases))?;
     chart
         .configure_mesh()
         .x_desc("t [s]")
@@ -43,10 +51,12 @@ fn draw(cases: &[Named], svg: &mut String) -> Result<(), Box<dyn std::error::Err
         } else {
             chart.draw_series(LineSeries::new(points, style))?
         };
-        let dashed = case.name.ends_with('*');
-        series.label(case.name).legend(move |(x, y)| {
-            let ends = if dashed { vec![(x, y), (x + 9, y)] } else { vec![(x, y), (x + 26, y)] };
-            PathElement::new(ends, style)
+        // Two dashes, which meet in a solid line.
+        let gap = if case.name.ends_with('*') { 4 } else { 0 };
+        series.label(case.name).legend(move |at| {
+            EmptyElement::at(at)
+                + PathElement::new(vec![(0, 0), (13 - gap, 0)], style)
+                + PathElement::new(vec![(13 + gap, 0), (26, 0)], style)
         });
     }
     chart
@@ -62,4 +72,33 @@ fn draw(cases: &[Named], svg: &mut String) -> Result<(), Box<dyn std::error::Err
     root.present()?;
     drop(chart);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::summary::{fixture, read_all};
+
+    #[test]
+    fn all_cases_are_drawn_and_named_inside_the_range() {
+        let folder = fixture::Cases::new("plot");
+        let (cases, _) = read_all(folder.path()).unwrap();
+        assert_eq!(range(&cases), 0.0..120.0);
+        let svg = temperature(&cases).unwrap();
+        for text in ["H", "C", "HC", "H*", "C*", "HC*", "t [s]", "T [K]"] {
+            assert!(svg.contains(&format!(">\n{text}\n</text>")), "no {text} in {svg}");
+        }
+        for RGBColor(r, g, b) in COLOURS {
+            assert!(svg.contains(&format!("#{r:02X}{g:02X}{b:02X}")));
+        }
+    }
+
+    #[test]
+    fn colours_differ_in_grey() {
+        let mut greys = COLOURS.map(|RGBColor(r, g, b)| {
+            0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b)
+        });
+        greys.sort_by(f64::total_cmp);
+        assert!(greys.windows(2).all(|pair| pair[1] - pair[0] > 60.0), "{greys:?}");
+    }
 }

@@ -65,9 +65,8 @@ pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
         let text = format!("{} is missing: run {}/Allrun first", path.display(), folder.display());
         return Err(CliError::Message(text));
     }
-    // JSON has no NaN: a run that ended with one does not parse.
-    let solver: SolverSummary = serde_json::from_str(&read_text(&path)?)
-        .map_err(|error| CliError::Message(format!("{}: {error}", path.display())))?;
+    let solver = solver_summary(&read_text(&path)?)
+        .map_err(|text| CliError::Message(format!("{}: {text}", path.display())))?;
     let path = folder.join("postProcessing/probes/0/T");
     let problem = |text: String| CliError::Message(format!("{}: {text}", path.display()));
     let result = CaseResult {
@@ -81,17 +80,33 @@ pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
     Ok((result, solver.model))
 }
 
+/// Parses the solver's summary. JSON has no NaN: a run that ended with one does not parse, and the line says why.
+fn solver_summary(text: &str) -> Result<SolverSummary, String> {
+    serde_json::from_str(text).map_err(|error| {
+        let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default().trim();
+        let number = line.rsplit(':').next().unwrap_or_default().trim().trim_end_matches(',');
+        match number.parse::<f64>() {
+            Ok(value) if !value.is_finite() => format!("'{line}' is not a finite number"),
+            _ => format!("{error}, in '{line}'"),
+        }
+    })
+}
+
+/// What OpenFOAM writes for a probe that no cell holds is finite: -VGREAT, -1e300.
+const OUTSIDE: f64 = -1e299;
+
 /// Rows of OpenFOAM's probes file: time, then one value a probe; comments start with #.
 fn probes(text: &str) -> Result<Probes, String> {
     let mut columns = Probes::new();
     for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with('#')) {
-        let values: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
-        if values.len() != 1 + PROBES.len() || values.iter().any(|value| !value.is_finite()) {
-            return Err(format!(
-                "line {}: '{line}', expected a time and {} numbers",
-                number + 1,
-                PROBES.len()
-            ));
+        let at = || format!("line {}: '{}'", number + 1, line.trim());
+        let values: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
+        let values = values
+            .ok()
+            .filter(|values| values.len() == 1 + PROBES.len() && values.iter().all(|v| v.is_finite()))
+            .ok_or_else(|| format!("{}, expected a time and {} finite numbers", at(), PROBES.len()))?;
+        if values.iter().any(|&value| value < OUTSIDE) {
+            return Err(format!("{}: a probe lies outside the mesh", at()));
         }
         for (name, value) in PROBES.into_iter().zip(&values[1..]) {
             columns.entry(name).or_default().push((values[0], *value));
@@ -116,6 +131,20 @@ mod tests {
         assert!(probes("# nothing\n").unwrap_err().contains("no values"));
         assert!(probes("0.1 50 nan 52\n").unwrap_err().starts_with("line 1"));
         assert!(probes("0.1 50 51 52\n0.2 60\n").unwrap_err().starts_with("line 2"));
+        assert!(probes("0.1 50 x 51 52\n").unwrap_err().contains("finite numbers"));
+        assert!(probes("0.1 50 -1e+300 52\n").unwrap_err().contains("outside the mesh"));
+    }
+
+    #[test]
+    fn a_summary_with_a_number_that_is_not_finite_is_refused_with_its_line() {
+        let good = crate::summary::fixture::SOLVER;
+        assert_eq!(solver_summary(good).unwrap().end.pressure, 5000.0);
+        for (from, to) in [("5000", "-nan"), ("5000", "inf"), ("0.08,", "nan,")] {
+            let error = solver_summary(&good.replace(from, to)).err().unwrap();
+            assert!(error.contains(to) && error.contains("is not a finite number"), "{error}");
+        }
+        let error = solver_summary(&good.replace("\"pressure\": 5000", "\"pressure\": true")).err().unwrap();
+        assert!(error.contains("invalid type") && error.contains("true"), "{error}");
     }
 
     #[test]

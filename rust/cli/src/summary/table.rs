@@ -55,3 +55,25 @@ pub fn text(cases: &[Named]) -> String {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::summary::{fixture, read_all};
+
+    #[test]
+    fn rows_hold_temperatures_by_time_and_the_state_at_the_end() {
+        let folder = fixture::Cases::new("table");
+        let (cases, _) = read_all(folder.path()).unwrap();
+        let table = text(&cases);
+        let rows: Vec<Vec<&str>> = table
+            .lines()
+            .filter(|line| line.starts_with("HC* "))
+            .map(|line| line.split_whitespace().collect())
+            .collect();
+        // The fixture has no row at 10 s.
+        let temperatures = "HC* 50.00 51.00 52.00 79.00 80.00 81.00 - - - 119.00 120.00 121.00";
+        assert_eq!(rows[0].join(" "), temperatures);
+        assert_eq!(rows[1].join(" "), "HC* 0.0800 0.0200 52.0 46.0 5.000 30.5 20000 20000 7");
+    }
+}

@@ -1,0 +1,248 @@
+//! Laws of symmetry, size and balance on packed RVEs.
+
+use msdd_dem::{Disc, Side, Walls};
+use msdd_rve::{
+    Averages, Compression, Material, Outcome, Packed, PackingSpec, RegionKind, Simulation, expand,
+    homogenise, pack,
+};
+
+const KINDS: [RegionKind; 2] = [RegionKind::Hull, RegionKind::Inset];
+
+fn packed(compression: Compression, material: &Material) -> Packed {
+    let spec =
+        PackingSpec { discs: 200, seed: 3, porosity: 0.12, compression, radius_min: 3e-3, radius_max: 7e-3 };
+    let packed = pack(&spec, material).unwrap();
+    assert_eq!(packed.settled.outcome, Outcome::Settled);
+    packed
+}
+
+/// The same state seen through a map of discs, walls and sides; friction forces times `force`.
+fn mapped(
+    simulation: &Simulation,
+    material: Material,
+    walls: Walls,
+    disc: impl Fn(&Disc) -> Disc,
+    side: impl Fn(Side) -> Side,
+    force: f64,
+) -> Simulation {
+    let mut image = Simulation::new(material, simulation.discs.iter().map(disc).collect(), walls);
+    image.time_step = simulation.time_step;
+    image.free_drag = simulation.free_drag;
+    simulation.for_each_contact(|contact| {
+        let i = contact.i.map_err(&side);
+        assert!(image.set_tangential_force(i, contact.j, force * contact.tangential_force));
+    });
+    image
+}
+
+/// A quarter turn: (x, y) becomes (−y, x), and left, right, bottom, top become bottom, top, right, left.
+fn turned(simulation: &Simulation) -> Simulation {
+    let [left, right, bottom, top] = simulation.walls.position;
+    let walls = Walls { position: [-top, -bottom, left, right], ..simulation.walls.clone() };
+    let disc = |d: &Disc| Disc { x: -d.y, y: d.x, vx: -d.vy, vy: d.vx, ..*d };
+    let side = |side| match side {
+        Side::Left => Side::Bottom,
+        Side::Right => Side::Top,
+        Side::Bottom => Side::Right,
+        Side::Top => Side::Left,
+    };
+    mapped(simulation, simulation.material.clone(), walls, disc, side, 1.0)
+}
+
+fn close(name: &str, value: f64, expected: f64, scale: f64) {
+    assert!((value - expected).abs() <= 1e-12 * scale, "{name}: {value} {expected}");
+}
+
+/// A quarter turn permutes the averages. What is a sum over contacts alone is the same to the last bit, for contacts
+/// keep their order; what is divided by an area agrees to round-off, for the corners of the region come in another one.
+#[test]
+fn quarter_turn_permutes_the_averages() {
+    let state = packed(Compression::Horizontal, &Material::default()).simulation;
+    let image = turned(&state);
+    for kind in KINDS {
+        let (a, b) = (homogenise(&state, kind), homogenise(&image, kind));
+        assert_eq!((a.contacts, a.rattlers, a.coordination), (b.contacts, b.rattlers, b.coordination));
+        assert!(a.conductivity_xx > 1.05 * a.conductivity_yy, "nothing to permute: {a:?}");
+        assert_eq!(b.fabric_index, -a.fabric_index);
+        assert_eq!(a.mean_radius, b.mean_radius);
+        close("porosity", b.porosity, a.porosity, 1.0);
+        close("sum of areas", b.porosity_sum_of_areas, a.porosity_sum_of_areas, 1.0);
+        close("overlap", b.overlap_fraction, a.overlap_fraction, 1.0);
+        close("f_K", b.fabric_conductivity, -a.fabric_conductivity, 1.0);
+        close("K_xx", b.conductivity_xx, a.conductivity_yy, 1.0);
+        close("K_yy", b.conductivity_yy, a.conductivity_xx, 1.0);
+        close("K_xy", b.conductivity_xy, -a.conductivity_xy, 1.0);
+        close("σ_xx", b.stress_xx, a.stress_yy, a.pressure);
+        close("σ_yy", b.stress_yy, a.stress_xx, a.pressure);
+        close("σ_xy", b.stress_xy, -a.stress_yx, a.pressure);
+        close("σ_yx", b.stress_yx, -a.stress_xy, a.pressure);
+        close("p", b.pressure, a.pressure, a.pressure);
+    }
+}
+
+#[test]
+fn four_quarter_turns_are_none() {
+    let state = packed(Compression::Horizontal, &Material::default()).simulation;
+    let image = turned(&turned(&turned(&turned(&state))));
+    assert_eq!(image.discs, state.discs);
+    assert_eq!(image.walls, state.walls);
+    let contacts = |s: &Simulation| {
+        let mut list = Vec::new();
+        s.for_each_contact(|c| list.push((c.i, c.j, c.tangential_force)));
+        list
+    };
+    assert_eq!(contacts(&image), contacts(&state));
+}
+
+/// Twice the size. With lengths doubled and the density halved, masses double, stiffnesses double, forces are four times
+/// as large, speeds double and the time step stays: every number of the run is multiplied by a power of two.
+fn doubled(simulation: &Simulation) -> Simulation {
+    let material = Material { density: 0.5 * simulation.material.density, ..simulation.material.clone() };
+    let walls = Walls {
+        position: simulation.walls.position.map(|x| 2.0 * x),
+        normal_velocity: simulation.walls.normal_velocity.map(|v| 2.0 * v),
+        tangential_velocity: simulation.walls.tangential_velocity.map(|v| 2.0 * v),
+    };
+    let disc = |d: &Disc| Disc {
+        x: 2.0 * d.x,
+        y: 2.0 * d.y,
+        radius: 2.0 * d.radius,
+        vx: 2.0 * d.vx,
+        vy: 2.0 * d.vy,
+        mass: 2.0 * d.mass,
+        ..*d
+    };
+    mapped(simulation, material, walls, disc, |side| side, 4.0)
+}
+
+/// K/k, η and f stay and σ/E doubles, to the last bit.
+fn assert_doubled(small: &Averages, large: &Averages) {
+    let mut expected = *small;
+    for stress in [
+        &mut expected.stress_xx,
+        &mut expected.stress_yy,
+        &mut expected.stress_xy,
+        &mut expected.stress_yx,
+        &mut expected.pressure,
+        &mut expected.mean_radius,
+    ] {
+        *stress *= 2.0;
+    }
+    assert_eq!(*large, expected);
+}
+
+/// Compression from loose to jammed and relaxation, by hand: the walls of [`pack`] have a speed of their own.
+fn compressed(mut simulation: Simulation) -> Simulation {
+    for _ in 0..60 {
+        simulation.run(50).unwrap();
+    }
+    simulation.walls.stop();
+    for _ in 0..100 {
+        simulation.run(50).unwrap();
+    }
+    simulation
+}
+
+#[test]
+fn twice_the_size_doubles_stress_alone_after_packing() {
+    let material = Material::default();
+    let discs = (0..196)
+        .map(|k| {
+            let u = |a: f64| (a * f64::from(k + 1)).fract();
+            let radius = 3e-3 + 3.5e-3 * u(0.618_034);
+            Disc::at_rest(0.0132 * (f64::from(k % 14) + 0.5), 0.0132 * (f64::from(k / 14) + 0.5), radius, 3e3)
+        })
+        .collect();
+    let mut start = Simulation::new(material, discs, Walls::around(0.1848, 0.1848));
+    start.free_drag = 20.0;
+    start.walls.normal_velocity = [0.02, -0.02, 0.02, -0.02];
+    let large = compressed(doubled(&start));
+    let small = compressed(start);
+    for kind in KINDS {
+        let averages = homogenise(&small, kind);
+        assert!(averages.coordination > 3.0 && averages.porosity < 0.2, "{averages:?}");
+        assert_doubled(&averages, &homogenise(&large, kind));
+    }
+}
+
+#[test]
+fn twice_the_size_doubles_stress_alone_after_expansion() {
+    let small = packed(Compression::Horizontal, &Material::default());
+    let large = Packed { simulation: doubled(&small.simulation), settled: small.settled };
+    assert_doubled(
+        &homogenise(&small.simulation, RegionKind::Hull),
+        &homogenise(&large.simulation, RegionKind::Hull),
+    );
+    for strains in [[0.005, 0.02], [-0.005, -0.01]] {
+        let [a, b] = [&small, &large].map(|packed| expand(packed, &strains).unwrap());
+        assert!(a.failure.is_none() && b.failure.is_none());
+        for (a, b) in a.stops.iter().zip(&b.stops) {
+            assert_eq!(a.settled, b.settled);
+            assert_doubled(&a.averages, &b.averages);
+        }
+    }
+}
+
+/// Σ branch ⊗ force over all contacts, walls included, in x and y: Love's stress times the area of the box [N m].
+fn love(simulation: &Simulation) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    simulation.for_each_contact(|contact| {
+        let force = contact.force();
+        (0..2).for_each(|k| sum[k] += contact.branch[k] * force[k]);
+    });
+    sum
+}
+
+/// What the walls say of it: forces of opposite walls times their distance, less the moment of the friction along the
+/// other two about the middle of the box. Equal to Love's when every disc is in balance, for Σ x_i F_i = 0.
+fn from_walls(simulation: &Simulation) -> [f64; 2] {
+    let [left, right, bottom, top] = simulation.walls.position;
+    let middle = [0.5 * (left + right), 0.5 * (bottom + top)];
+    let half = [0.5 * (right - left), 0.5 * (top - bottom)];
+    let normal = simulation.wall_force.map(|force| force[0]);
+    let mut sum = [half[0] * (normal[0] + normal[1]), half[1] * (normal[2] + normal[3])];
+    simulation.for_each_contact(|contact| {
+        let along = match contact.i {
+            Err(Side::Left | Side::Right) => 1,
+            Err(_) => 0,
+            Ok(_) => return,
+        };
+        let disc = &simulation.discs[contact.j];
+        sum[along] -= ([disc.x, disc.y][along] - middle[along]) * contact.force()[along];
+    });
+    sum
+}
+
+/// A tenth of Σ |x_i| |F_i|, the most that the forces which are still out of balance can do: they point anywhere.
+/// It is 6e-5 of the stress; measured are 2e-5 at most.
+fn tolerance(simulation: &Simulation) -> f64 {
+    let reach = 0.5 * simulation.walls.width().max(simulation.walls.height());
+    0.1 * reach * simulation.loads().iter().map(|load| load.fx.hypot(load.fy)).sum::<f64>()
+}
+
+#[test]
+fn love_stress_agrees_with_wall_forces() {
+    for compression in [Compression::Isotropic, Compression::Horizontal] {
+        let state = packed(compression, &Material::default()).simulation;
+        let (stress, walls, allowed) = (love(&state), from_walls(&state), tolerance(&state));
+        for k in 0..2 {
+            println!("{compression:?} {} {} {}", stress[k], walls[k] / stress[k] - 1.0, allowed / stress[k]);
+            assert!(allowed < 1e-4 * stress[k], "{allowed} {stress:?}");
+            assert!((stress[k] - walls[k]).abs() < allowed, "{stress:?} {walls:?} {allowed}");
+        }
+    }
+}
+
+/// Without friction it is force times width alone.
+#[test]
+fn love_stress_of_smooth_discs_is_wall_force_times_width() {
+    let state =
+        packed(Compression::Isotropic, &Material { friction_angle: 0.0, ..Material::default() }).simulation;
+    let (stress, allowed) = (love(&state), tolerance(&state));
+    let [left, right, bottom, top] = state.wall_force.map(|force| force[0]);
+    let expected = [0.5 * (left + right) * state.walls.width(), 0.5 * (bottom + top) * state.walls.height()];
+    for k in 0..2 {
+        assert!(allowed < 1e-4 * stress[k], "{allowed} {stress:?}");
+        assert!((stress[k] - expected[k]).abs() < allowed, "{stress:?} {expected:?} {allowed}");
+    }
+}
