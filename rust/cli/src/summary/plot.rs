@@ -95,9 +95,8 @@ mod tests {
 
     #[test]
     fn colours_differ_in_grey() {
-        let mut greys = COLOURS.map(|RGBColor(r, g, b)| {
-            0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b)
-        });
+        let mut greys = COLOURS
+            .map(|RGBColor(r, g, b)| 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b));
         greys.sort_by(f64::total_cmp);
         assert!(greys.windows(2).all(|pair| pair[1] - pair[0] > 60.0), "{greys:?}");
     }
