@@ -1,0 +1,91 @@
+"""Expansion of a packed state in YADE, an independent engine with our pair law (see yade_state.py).
+
+    yade -n -x -j1 tests/engines/yade_expand.py STATE OUT_PREFIX STRAIN [STRAIN ...]
+
+Reads a state file, grows the radii on one ramp, r = r0 (1 + strain), at constant mass, relaxes at each stop, and writes
+the state there to OUT_PREFIX<STRAIN>.json, for `msdd rve homogenise`. Prints one line a stop.
+"""
+
+import json
+import math
+import os.path
+import sys
+
+from yade import *
+from yade import utils
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+import yade_state
+
+RATE = 0.02  # 1/s
+TIME_STEP = 2e-4  # s; the bound is 0.8e-3 or more for radii of 3 to 7 mm and E = 10 MPa
+UNBALANCED_LIMIT = 1e-5  # mean resultant over mean normal force; msdd stops at 1e-4
+LOOK_EVERY = 500
+STEP_CAP = 200000
+
+
+class Ramp:
+    """Grows the radii from strain `start` to `stop` in equal steps; an engine of the loop, so that YADE steps on its
+    own (to call O.run for each step costs 40 ms every time)."""
+
+    def __init__(self, start, stop):
+        self.start, self.stop, self.strain, self.done = start, stop, start, 0
+        self.steps = max(1, math.ceil(abs(stop - start) / (RATE * TIME_STEP)))
+
+    def grow(self):
+        if self.done < self.steps:
+            self.done += 1
+            strain = self.start + (self.stop - self.start) * self.done / self.steps
+            # Multiplies kn and ks of the contacts there are as well; contacts to come see the new radii.
+            utils.growParticles((1.0 + strain) / (1.0 + self.strain), updateMass=False, dynamicOnly=True)
+            self.strain = strain
+
+
+def calm_rattlers():
+    """Discs without force would fly for ever: no damping reaches them."""
+    for body in O.bodies:
+        if body.dynamic and O.forces.f(body.id).norm() == 0.0:
+            body.state.vel *= 0.5
+            body.state.angVel *= 0.5
+
+
+def relax():
+    """Steps until the forces balance; returns their number and what is left out of balance."""
+    unbalanced, steps = math.inf, 0
+    while unbalanced >= UNBALANCED_LIMIT:
+        if steps >= STEP_CAP:
+            sys.exit("not in equilibrium after %d steps: %g out of balance" % (steps, unbalanced))
+        O.run(LOOK_EVERY, True)
+        steps += LOOK_EVERY
+        unbalanced = unbalanced_force()
+    return steps, unbalanced
+
+
+def unbalanced_force():
+    resultants = [O.forces.f(body.id).norm() for body in O.bodies if body.dynamic]
+    normal = [contact.phys.normalForce.norm() for contact in yade_state.real_contacts()]
+    return sum(resultants) / len(resultants) * len(normal) / max(sum(normal), 1e-300)
+
+
+def main(state_file, prefix, *strains):
+    global ramp
+    with open(state_file) as file:
+        state = json.load(file)
+    ids = yade_state.load(state)
+    runners = PyRunner(command="ramp.grow()", iterPeriod=1), PyRunner(command="calm_rattlers()", iterPeriod=50)
+    # Bounding boxes follow the radii at every step.
+    yade_state.set_engines(TIME_STEP, *runners, verletDist=0)
+    yade_state.set_contacts(state, ids)
+    reached = 0.0
+    for text in strains:
+        ramp = Ramp(reached, float(text))
+        O.run(ramp.steps, True)
+        steps, unbalanced = relax()
+        yade_state.check_stiffness(state, ids)
+        reached = float(text)
+        with open("%s%s.json" % (prefix, text), "w") as file:
+            json.dump(yade_state.written(state, ids), file, separators=(",", ":"))
+        print("yade: strain %s, %d steps to %.1e out of balance" % (text, ramp.steps + steps, unbalanced), flush=True)
+
+
+main(*sys.argv[1:])
