@@ -20,6 +20,8 @@
 //! 6 times as large). Kinetic energy is accounted for exactly. What is left is first order in Δt: ½ Δt times the power of
 //! the contact forces at both ends of the run, where symplectic Euler conserves a neighbouring energy, and contacts that
 //! open, close or turn within a step: a gas of colliding discs closes less well than a packing.
+//!
+//! Affine motion ([`Simulation::affine`]) does work that is not counted here: the audit does not close with it.
 
 use crate::contacts::{PairList, WallContacts};
 use crate::disc::Disc;
