@@ -214,7 +214,7 @@ impl Simulation {
             forces.add(&contact, ratio);
         });
         audit.add_boundaries(&start, self, forces);
-        for ((before, after), load) in start.discs.iter().zip(&self.discs).zip(&self.loads) {
+        for ((before, after), load) in start.discs.iter().zip(&self.discs).zip(self.loads()) {
             audit.add_motion(before, after, [load.fx, load.fy], self.material.damping, dt);
         }
     }

@@ -18,28 +18,66 @@ pub struct PairList {
     slabs: Vec<Slab>,
 }
 
-/// Rows in a run that are summed up as one, and the order of these sums is fixed: it depends on the number of discs,
-/// never on threads.
+/// Rows in a run that one thread works through. Slabs depend on the number of discs alone, never on threads.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slab {
     pub rows: Range<usize>,
     pub pairs: Range<usize>,
-    /// All discs of its pairs are in `rows.start..reach`.
+    /// All discs of its pairs are in `rows.start..reach`; at least `rows.end`.
+    pub reach: usize,
+    /// Rows below this one are reached by pairs of earlier slabs, too.
+    pub shared: usize,
+    pub blocks: Vec<Block>,
+}
+
+/// Rows that are worked on while they are in the cache.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Block {
+    pub rows: Range<usize>,
+    pub pairs: Range<usize>,
+    /// All discs of its pairs, and its rows, are in `rows.start..reach`.
     pub reach: usize,
 }
 
-/// Slabs of a list. One for RVEs; the cost of more is that discs between two slabs are added up twice.
+/// Slabs of a list. One for RVEs; what lies between two slabs costs extra.
 fn slab_count(discs: usize) -> usize {
     if discs < 4000 { 1 } else { 4 }
 }
 
-/// The part of a list that one thread works on.
-pub(crate) struct PairSlab<'a> {
+/// Rows of a block: its discs, loads and pairs stay in the caches next to the core.
+const BLOCK_ROWS: usize = 256;
+
+/// Pairs that are worked through in one go.
+pub(crate) struct Pairs<'a> {
     pub i: &'a [u32],
     pub j: &'a [u32],
     pub tangential: &'a mut [f64],
+    /// All indices are in `first..reach`.
     pub first: usize,
     pub reach: usize,
+}
+
+/// What one thread has of a list: a slab and its history.
+pub(crate) struct SlabPairs<'a> {
+    pub slab: &'a Slab,
+    i: &'a [u32],
+    j: &'a [u32],
+    tangential: &'a mut [f64],
+}
+
+impl SlabPairs<'_> {
+    /// The pairs of the block of the given number.
+    pub fn block(&mut self, number: usize) -> Pairs<'_> {
+        let block = &self.slab.blocks[number];
+        let own = block.pairs.start - self.slab.pairs.start..block.pairs.end - self.slab.pairs.start;
+        Pairs {
+            i: &self.i[own.clone()],
+            j: &self.j[own.clone()],
+            tangential: &mut self.tangential[own],
+            first: block.rows.start,
+            reach: block.reach,
+        }
+    }
 }
 
 impl PairList {
@@ -64,34 +102,39 @@ impl PairList {
     fn divide(&self) -> Vec<Slab> {
         let count = slab_count(self.discs);
         let edge = |s: usize| self.discs * s / count;
-        let slab = |s: usize| {
+        let mut slabs: Vec<Slab> = Vec::with_capacity(count);
+        for s in 0..count {
             let rows = edge(s)..edge(s + 1);
-            let pairs = self.of_rows(rows.clone());
-            let last = self.j[pairs.clone()].iter().max().map_or(0, |&j| j as usize + 1);
-            Slab { reach: last.max(rows.end), rows, pairs }
-        };
-        (0..count).map(slab).collect()
+            let begins = rows.clone().step_by(BLOCK_ROWS);
+            let block = |begin: usize| self.block(begin..rows.end.min(begin + BLOCK_ROWS));
+            let blocks: Vec<Block> = begins.map(block).collect();
+            let reach = blocks.iter().map(|block| block.reach).max().unwrap_or(rows.end);
+            let earlier = slabs.iter().map(|slab| slab.reach).max().unwrap_or(0);
+            let shared = earlier.clamp(rows.start, rows.end);
+            slabs.push(Slab { pairs: self.of_rows(rows.clone()), rows, reach, shared, blocks });
+        }
+        slabs
+    }
+
+    fn block(&self, rows: Range<usize>) -> Block {
+        let pairs = self.of_rows(rows.clone());
+        let last = self.j[pairs.clone()].iter().max().map_or(0, |&j| j as usize + 1);
+        Block { reach: last.max(rows.end), rows, pairs }
     }
 
     pub(crate) fn slabs(&self) -> &[Slab] {
         &self.slabs
     }
 
-    /// The list in its slabs, to be worked on side by side. Every index of a part is in `first..reach`, and `reach` is
-    /// at most [`PairList::discs`].
-    pub(crate) fn parts(&mut self) -> Vec<PairSlab<'_>> {
+    /// The list in its slabs, to be worked on side by side.
+    pub(crate) fn parts(&mut self) -> Vec<SlabPairs<'_>> {
         let mut rest = self.tangential.as_mut_slice();
         let mut parts = Vec::with_capacity(self.slabs.len());
         for slab in &self.slabs {
             let (tangential, after) = rest.split_at_mut(slab.pairs.len());
             rest = after;
-            parts.push(PairSlab {
-                i: &self.i[slab.pairs.clone()],
-                j: &self.j[slab.pairs.clone()],
-                tangential,
-                first: slab.rows.start,
-                reach: slab.reach,
-            });
+            let pairs = slab.pairs.clone();
+            parts.push(SlabPairs { slab, i: &self.i[pairs.clone()], j: &self.j[pairs], tangential });
         }
         parts
     }
@@ -159,10 +202,41 @@ pub struct WallContacts {
     pub(crate) tangential: Vec<f64>,
 }
 
+/// Contacts of one wall that are still to be worked through.
+pub(crate) struct WallPart<'a> {
+    pub disc: &'a [u32],
+    pub tangential: &'a mut [f64],
+}
+
+impl<'a> WallPart<'a> {
+    /// Takes the contacts of discs below `end` off the front.
+    pub fn take_below(&mut self, end: usize) -> WallPart<'a> {
+        let count = self.disc.iter().take_while(|&&disc| (disc as usize) < end).count();
+        let (disc, later) = self.disc.split_at(count);
+        let (tangential, later_histories) = std::mem::take(&mut self.tangential).split_at_mut(count);
+        (self.disc, self.tangential) = (later, later_histories);
+        WallPart { disc, tangential }
+    }
+}
+
 impl WallContacts {
     /// Sets f_t of the disc. Returns false if it is no candidate.
     pub(crate) fn set_tangential(&mut self, disc: u32, force: f64) -> bool {
         self.disc.binary_search(&disc).map(|k| self.tangential[k] = force).is_ok()
+    }
+
+    /// The contacts of each slab's rows.
+    pub(crate) fn parts(&mut self, slabs: &[Slab]) -> Vec<WallPart<'_>> {
+        let (mut discs, mut histories) = (self.disc.as_slice(), self.tangential.as_mut_slice());
+        let mut parts = Vec::with_capacity(slabs.len());
+        for slab in slabs {
+            let count = discs.partition_point(|&disc| (disc as usize) < slab.rows.end);
+            let (own, later) = discs.split_at(count);
+            let (tangential, later_histories) = std::mem::take(&mut histories).split_at_mut(count);
+            (discs, histories) = (later, later_histories);
+            parts.push(WallPart { disc: own, tangential });
+        }
+        parts
     }
 
     /// f_t of the disc, or 0 if it is no candidate.

@@ -1,6 +1,6 @@
 //! Contact forces of discs on walls (Table 1).
 
-use crate::contacts::WallContacts;
+use crate::contacts::WallPart;
 use crate::disc::Disc;
 use crate::law::{PairLaw, tangential_force, wall_stiffness};
 use crate::walls::{Flow, Side, Walls};
@@ -24,22 +24,23 @@ impl Load {
     }
 }
 
-/// Calls `add` with each touching disc and its force from one wall, updates the friction history, and returns the force on the wall,
-/// (normal, tangential) [N]: normal positive when the grains push the wall outwards, tangential along
-/// t = (−n_y, n_x) of the inward normal.
+/// Adds the forces of one wall to `loads`, updates the friction history, and returns the force on the wall, (normal,
+/// tangential) [N]: normal positive when the grains push the wall outwards, tangential along t = (−n_y, n_x) of the
+/// inward normal. The first elements of `discs` and `loads` belong to disc `first`.
 pub(crate) fn add_wall(
     law: PairLaw,
     side: Side,
     (walls, flow): (&Walls, Flow),
-    discs: &[Disc],
-    contacts: &mut WallContacts,
-    mut add: impl FnMut(usize, Load),
+    contacts: WallPart,
+    (first, discs): (usize, &[Disc]),
+    loads: &mut [Load],
 ) -> [f64; 2] {
     let [nx, ny] = side.normal();
     let [wall_vx, wall_vy] = walls.velocity(side);
     let mut on_wall = [0.0; 2];
-    for (&i, history) in contacts.disc.iter().zip(&mut contacts.tangential) {
-        let disc = &discs[i as usize];
+    for (&i, history) in contacts.disc.iter().zip(contacts.tangential) {
+        let k = i as usize - first;
+        let disc = &discs[k];
         let distance = walls.distance(side, disc.x, disc.y);
         let overlap = disc.radius - distance;
         if overlap <= 0.0 {
@@ -65,7 +66,7 @@ pub(crate) fn add_wall(
             torque: -distance * tangential,
             ..Load::default()
         };
-        add(i as usize, load);
+        loads[k].add(&load);
         on_wall[0] += normal;
         on_wall[1] -= tangential;
     }

@@ -82,7 +82,9 @@ pub(crate) fn pair_force<V: Vector>(
     }
     let all = |value: f64| ax.like(value);
     let distance = distance2.sqrt();
-    let inverse = all(1.0) / distance;
+    // One division for both 1/distance and 1/reach.
+    let quotient = all(1.0) / (distance * reach);
+    let inverse = quotient * reach;
     let (nx, ny) = (dx * inverse, dy * inverse);
     let overlap = V::select(touching, reach - distance, all(0.0));
     // Lever arms end at the middle of the overlap: r − δ/2.
@@ -91,7 +93,7 @@ pub(crate) fn pair_force<V: Vector>(
     // Velocity of j relative to i at the contact, along t.
     let (vx, vy) = (bvx - avx + all(law.gradient[0]) * dx, bvy - avy + all(law.gradient[1]) * dy);
     let speed = vy * nx - vx * ny - (arm_a * aw + arm_b * bw);
-    let stiffness = all(2.0 * law.young_modulus) * (ar * br) / reach;
+    let stiffness = all(2.0 * law.young_modulus) * (ar * br) * (quotient * distance);
     let normal = stiffness * overlap;
     // A lane that does not touch has the limit 0, which also clears its history.
     let tangential = tangential_force(

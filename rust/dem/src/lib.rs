@@ -14,7 +14,8 @@
 //! | `neighbours` | the search that fills the rows |
 //! | `forces` | contact forces of walls |
 //! | `kernel` | vector kernels of the hot loops |
-//! | `slabs` | forces and motion in parts, for threads |
+//! | `slabs` | the sweep: forces and motion block by block |
+//! | `team` | threads that share a step |
 //! | `pace` | whether threads pay at the moment |
 //! | [`heat`] | thermal pipes, sub-stepped (Eq. 5) |
 //! | [`time_step`] | bound on the stable step |
@@ -39,6 +40,7 @@ pub mod restore;
 pub mod run;
 pub mod simulation;
 mod slabs;
+mod team;
 pub mod time_step;
 pub mod walls;
 

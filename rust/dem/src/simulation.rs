@@ -9,9 +9,10 @@ use crate::material::Material;
 use crate::neighbours::Neighbours;
 use crate::pace::Pace;
 use crate::run::Failure;
-use crate::slabs::{self, SlabLoads};
+use crate::slabs::{SlabLoads, Sweep};
+use crate::team;
 use crate::time_step::{self, StepChoice};
-use crate::walls::{Flow, Side, Walls};
+use crate::walls::{Flow, Walls};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -44,8 +45,7 @@ pub struct Simulation {
     largest_speed: f64,
     simd: Simd,
     pub(crate) neighbours: Neighbours,
-    pub(crate) loads: Vec<Load>,
-    slab_loads: SlabLoads,
+    pub(crate) loads: SlabLoads,
     pipes: Option<Box<HeatPipes>>,
     /// Threads of large assemblies; none: the caller's alone.
     pool: Option<Arc<rayon::ThreadPool>>,
@@ -83,7 +83,7 @@ impl Simulation {
             material,
             reference_radius: discs.iter().map(|d| d.radius).collect(),
             largest_reference_radius: discs.iter().map(|d| d.radius).fold(0.0, f64::max),
-            loads: vec![Load::default(); discs.len()],
+            loads: SlabLoads::default(),
             discs,
             walls,
             time_step: 0.0,
@@ -93,7 +93,6 @@ impl Simulation {
             steps: 0,
             time: 0.0,
             pipes: None,
-            slab_loads: SlabLoads::default(),
             pool: None,
             pace: Pace::default(),
             shared: false,
@@ -131,7 +130,7 @@ impl Simulation {
             let begin = Instant::now();
             self.shared = shared;
             if shared {
-                pool.install(|| (0..steps).for_each(|_| self.step()));
+                team::together(pool, || (0..steps).for_each(|_| self.step()));
             } else {
                 (0..steps).for_each(|_| self.step());
             }
@@ -157,20 +156,16 @@ impl Simulation {
         Ok(())
     }
 
-    /// As [`Simulation::step`]; `mark` is called as each stage ends, for timing.
+    /// As [`Simulation::step`]; `mark` is called as each stage ends, for timing: pairs, walls and motion come block by
+    /// block of discs.
     pub fn step_marked(&mut self, mut mark: impl FnMut(Stage)) {
         self.advance_boundaries();
         mark(Stage::Boundaries);
         if self.neighbours.stale(&self.discs) {
-            self.neighbours.rebuild(&self.discs, &self.walls);
+            self.find_neighbours();
         }
         mark(Stage::Neighbours);
-        self.sum_pair_forces();
-        mark(Stage::Pairs);
-        self.sum_wall_forces();
-        mark(Stage::Walls);
-        self.move_discs();
-        mark(Stage::Motion);
+        self.sweep(&mut mark);
         if self.pipes.is_some() {
             self.conduct(self.time_step);
         }
@@ -264,8 +259,8 @@ impl Simulation {
     }
 
     /// Resultants of the contact forces in the last step, one a disc.
-    pub fn loads(&self) -> &[Load] {
-        &self.loads
+    pub fn loads(&self) -> Vec<Load> {
+        self.loads.iter(&self.neighbours).copied().collect()
     }
 
     /// Mean disc radius [m].
@@ -319,41 +314,47 @@ impl Simulation {
                 }
                 growth
             }
+            // Set in the sweep, or when neighbours are sought.
             _ if self.strain_rate != 0.0 => {
-                let parallel = self.shared;
-                slabs::scale_radii(parallel, factor, &mut self.discs, &self.reference_radius);
                 (self.strain_rate * self.time_step * self.largest_reference_radius).max(0.0)
             }
             _ => 0.0,
         }
     }
 
-    fn sum_pair_forces(&mut self) {
-        let law = PairLaw::new(&self.material, self.time_step, self.flow().gradient);
-        let parallel = self.shared;
-        self.slab_loads.sum_pairs(parallel, (self.simd, law), &self.discs, &mut self.neighbours);
-    }
-
-    fn sum_wall_forces(&mut self) {
-        let flow = self.flow();
-        let law = PairLaw::new(&self.material, self.time_step, flow.gradient);
-        for side in Side::ALL {
-            self.wall_force[side as usize] =
-                self.slab_loads.add_wall(law, side, (&self.walls, flow), &self.discs, &mut self.neighbours);
+    fn find_neighbours(&mut self) {
+        if let Some(factor) = self.radius_factor() {
+            for (disc, radius) in self.discs.iter_mut().zip(&self.reference_radius) {
+                disc.radius = radius * factor;
+            }
         }
+        self.neighbours.rebuild(&self.discs, &self.walls);
     }
 
-    fn move_discs(&mut self) {
-        let motion = Motion {
-            damping: self.material.damping,
-            keep_free: (1.0 - self.free_drag * self.time_step).max(0.0),
-            dt: self.time_step,
+    /// Radii over reference radii when the strain rate alone sets them.
+    fn radius_factor(&self) -> Option<f64> {
+        let by_heat = self.pipes.as_ref().is_some_and(|pipes| pipes.thermal.expansion != 0.0);
+        (self.strain_rate != 0.0 && !by_heat).then_some(1.0 + self.strain)
+    }
+
+    /// Radii, contact forces and motion.
+    fn sweep(&mut self, mark: impl FnMut(Stage)) {
+        let (dt, flow) = (self.time_step, self.flow());
+        let sweep = Sweep {
+            simd: self.simd,
+            law: PairLaw::new(&self.material, dt, flow.gradient),
+            walls: &self.walls,
+            flow,
+            motion: Motion {
+                damping: self.material.damping,
+                keep_free: (1.0 - self.free_drag * dt).max(0.0),
+                dt,
+            },
+            radii: self.radius_factor().map(|factor| (factor, self.reference_radius.as_slice())),
         };
-        let kernel = (self.simd, motion);
-        let parallel = self.shared;
-        let fastest =
-            self.slab_loads.move_discs(parallel, kernel, &self.neighbours, &mut self.discs, &mut self.loads);
-        self.largest_speed = fastest.sqrt();
+        let swept = self.loads.sweep(self.shared, sweep, &mut self.discs, &mut self.neighbours, mark);
+        self.wall_force = swept.wall_force;
+        self.largest_speed = swept.fastest2.sqrt();
     }
 }
 

@@ -1,6 +1,7 @@
 //! Closed forms that one step after the other has to meet.
 
 use super::*;
+use crate::walls::Side;
 use std::f64::consts::PI;
 
 const R: f64 = 5e-3;

@@ -1,119 +1,178 @@
-//! Contact forces and motion slab by slab, side by side when there are threads.
+//! The sweep of a step: radii, contact forces and motion of the discs, in one pass through memory.
 //!
-//! Each slab sums the forces of its rows into loads of its own, which reach into the rows of later slabs; a disc then
-//! adds up what the slabs have for it in slab order. Slabs depend on the number of discs alone, so results do not depend
-//! on the number of threads. Threads come from rayon, which steals work: when another job holds a core, the threads that
-//! do run take over what is left.
+//! A row of the pair list holds the partners above its disc only. So once the rows of a block of discs are summed up,
+//! their loads are complete, no later row reads these discs, and they can move while they are in the cache.
+//!
+//! Assemblies of thousands of discs are cut into slabs, which threads sweep side by side. A slab leaves the discs at its
+//! beginning, which the slab before it reaches, in place; they move at the end, when the loads from both are known.
+//! Slabs depend on the number of discs alone, so results do not depend on the number of threads. Threads
+//! steal work from each other: when another job holds a core, the threads that do run take over what is left.
 
+use crate::contacts::{SlabPairs, WallPart};
 use crate::disc::Disc;
 use crate::forces::{self, Load};
-use crate::kernel::{self, Motion, Simd};
+use crate::kernel::{self, Motion, SharedDiscs, Simd};
 use crate::law::PairLaw;
 use crate::neighbours::Neighbours;
+use crate::simulation::Stage;
+use crate::team;
 use crate::walls::{Flow, Side, Walls};
-use rayon::prelude::*;
+use std::ops::Range;
 
-/// Discs that one thread takes at a time where they do not depend on each other.
-const CHUNK: usize = 2048;
+/// What is to be done to every disc.
+#[derive(Clone, Copy)]
+pub(crate) struct Sweep<'a> {
+    pub simd: Simd,
+    pub law: PairLaw,
+    pub walls: &'a Walls,
+    pub flow: Flow,
+    pub motion: Motion,
+    /// New radii are this times the reference radii [m]; None: they stay.
+    pub radii: Option<(f64, &'a [f64])>,
+}
 
-/// r = r_ref · `factor` for all discs.
-pub(crate) fn scale_radii(parallel: bool, factor: f64, discs: &mut [Disc], reference: &[f64]) {
-    let scale = |(discs, reference): (&mut [Disc], &[f64])| {
-        for (disc, radius) in discs.iter_mut().zip(reference) {
-            disc.radius = radius * factor;
+/// What came of a sweep.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Swept {
+    /// Square of the largest speed [m²/s²].
+    pub fastest2: f64,
+    pub wall_force: [[f64; 2]; 4],
+}
+
+impl Swept {
+    fn add(&mut self, other: &Self) {
+        self.fastest2 = self.fastest2.max(other.fastest2);
+        for (sum, part) in self.wall_force.iter_mut().flatten().zip(other.wall_force.iter().flatten()) {
+            *sum += part;
         }
-    };
-    if parallel {
-        discs.par_chunks_mut(CHUNK).zip(reference.par_chunks(CHUNK)).for_each(scale);
-    } else {
-        scale((discs, reference));
     }
 }
 
-/// Loads of each slab, kept to save their allocation.
+/// Loads of the last sweep: of each slab, its own rows and those of later slabs that it reaches.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SlabLoads(Vec<Vec<Load>>);
 
 impl SlabLoads {
-    /// Pair forces of all slabs.
-    pub fn sum_pairs(
-        &mut self,
-        parallel: bool,
-        (simd, law): (Simd, PairLaw),
-        discs: &[Disc],
-        neighbours: &mut Neighbours,
-    ) {
-        let parts = neighbours.pairs.parts();
-        self.0.resize_with(parts.len(), Vec::new);
-        let sum = |(part, loads): (crate::contacts::PairSlab, &mut Vec<Load>)| {
-            loads.clear();
-            loads.resize(part.reach - part.first, Load::default());
-            kernel::add_pairs(simd, law, discs, part, loads);
-        };
-        if parallel {
-            parts.into_par_iter().zip(&mut self.0).for_each(sum);
-        } else {
-            parts.into_iter().zip(&mut self.0).for_each(sum);
-        }
+    /// Loads in the order of the discs.
+    pub fn iter(&self, neighbours: &Neighbours) -> impl Iterator<Item = &Load> {
+        let slabs = neighbours.pairs.slabs().iter();
+        slabs.zip(&self.0).flat_map(|(slab, loads)| &loads[..slab.rows.len()])
     }
 
-    /// Adds the forces of one wall, and returns the force on it.
-    pub fn add_wall(
+    /// Sweeps over all discs, side by side when `parallel`; `mark` is called as the stages end, not when `parallel`.
+    pub fn sweep(
         &mut self,
-        law: PairLaw,
-        side: Side,
-        (walls, flow): (&Walls, Flow),
-        discs: &[Disc],
-        neighbours: &mut Neighbours,
-    ) -> [f64; 2] {
-        let slabs = neighbours.pairs.slabs();
-        let contacts = &mut neighbours.walls[side as usize];
-        let mut slab = 0;
-        forces::add_wall(law, side, (walls, flow), discs, contacts, |disc, load| {
-            // Discs of a wall come in growing order.
-            while slabs[slab].rows.end <= disc {
-                slab += 1;
-            }
-            self.0[slab][disc - slabs[slab].rows.start].add(&load);
-        })
-    }
-
-    /// Adds up the loads of each disc into `loads`, and moves the discs. Returns the square of the largest speed.
-    pub fn move_discs(
-        &self,
         parallel: bool,
-        (simd, motion): (Simd, Motion),
-        neighbours: &Neighbours,
+        sweep: Sweep,
         discs: &mut [Disc],
-        loads: &mut [Load],
-    ) -> f64 {
-        let slabs = neighbours.pairs.slabs();
-        let mut tasks = Vec::with_capacity(slabs.len());
-        let (mut discs, mut loads) = (discs, loads);
-        for (number, slab) in slabs.iter().enumerate() {
-            let (own_discs, later_discs) = discs.split_at_mut(slab.rows.len());
-            let (own_loads, later_loads) = loads.split_at_mut(slab.rows.len());
-            (discs, loads) = (later_discs, later_loads);
-            tasks.push((number, own_discs, own_loads));
+        neighbours: &mut Neighbours,
+        mut mark: impl FnMut(Stage),
+    ) -> Swept {
+        let slabs = neighbours.pairs.slabs().to_vec();
+        self.0.resize_with(slabs.len(), Vec::new);
+        for slab in &slabs {
+            sweep.scale(&mut discs[slab.rows.start..slab.shared], slab.rows.start);
         }
-        let work = |(number, discs, loads): (usize, &mut [Disc], &mut [Load])| {
-            let first = slabs[number].rows.start;
-            loads.copy_from_slice(&self.0[number][..loads.len()]);
-            for (earlier, from) in slabs[..number].iter().zip(&self.0) {
-                let reached = earlier.reach.saturating_sub(first).min(loads.len());
-                if reached > 0 {
-                    let offset = first - earlier.rows.start;
-                    for (load, part) in loads[..reached].iter_mut().zip(&from[offset..]) {
-                        load.add(part);
-                    }
-                }
-            }
-            kernel::advance(simd, motion, discs, loads)
-        };
-        if parallel {
-            tasks.into_par_iter().map(work).reduce(|| 0.0, f64::max)
+        let Neighbours { pairs, walls, .. } = neighbours;
+        let mut walls = walls.each_mut().map(|contacts| contacts.parts(&slabs).into_iter());
+        let views = SharedDiscs::divide(discs, &slabs);
+        let parts = pairs.parts().into_iter().zip(views).zip(&mut self.0);
+        let tasks: Vec<Task> = parts
+            .filter_map(|((pairs, discs), loads)| {
+                let [left, right, bottom, top] = &mut walls;
+                let walls = [left.next()?, right.next()?, bottom.next()?, top.next()?];
+                Some(Task { pairs, discs, walls, loads })
+            })
+            .collect();
+        let swept = if parallel {
+            team::share(tasks, |task| task.run(&sweep, |_| ()))
         } else {
-            tasks.into_iter().map(work).fold(0.0, f64::max)
+            tasks.into_iter().map(|task| task.run(&sweep, &mut mark)).collect()
+        };
+        let mut result = Swept::default();
+        swept.iter().for_each(|part| result.add(part));
+        for (number, slab) in slabs.iter().enumerate().skip(1) {
+            let rows = slab.rows.start..slab.shared;
+            let loads = self.complete(number, rows.clone(), &slabs);
+            let fastest2 = kernel::advance(sweep.simd, sweep.motion, &mut discs[rows], loads);
+            result.fastest2 = result.fastest2.max(fastest2);
         }
+        result
+    }
+
+    /// The loads of `rows`, which begin a slab, with what earlier slabs have for them.
+    fn complete(&mut self, number: usize, rows: Range<usize>, slabs: &[crate::contacts::Slab]) -> &[Load] {
+        let (earlier, later) = self.0.split_at_mut(number);
+        let own = &mut later[0][..rows.len()];
+        for (slab, from) in slabs.iter().zip(earlier) {
+            let begin = rows.start - slab.rows.start;
+            let reached = from.get(begin..).unwrap_or_default();
+            for (load, part) in own.iter_mut().zip(reached) {
+                load.add(part);
+            }
+        }
+        own
+    }
+}
+
+impl Sweep<'_> {
+    /// Sets the radii of `discs`, the first of which is disc `first`.
+    pub fn scale(&self, discs: &mut [Disc], first: usize) {
+        if let Some((factor, reference)) = self.radii {
+            for (disc, radius) in discs.iter_mut().zip(&reference[first..]) {
+                disc.radius = radius * factor;
+            }
+        }
+    }
+}
+
+/// The sweep over one slab.
+struct Task<'a> {
+    pairs: SlabPairs<'a>,
+    discs: SharedDiscs<'a>,
+    walls: [WallPart<'a>; 4],
+    loads: &'a mut Vec<Load>,
+}
+
+impl Task<'_> {
+    fn run(mut self, sweep: &Sweep, mut mark: impl FnMut(Stage)) -> Swept {
+        let slab = self.pairs.slab;
+        let first = slab.rows.start;
+        self.loads.resize(slab.reach - first, Load::default());
+        let mut swept = Swept::default();
+        // Discs below have their new radius and cleared loads.
+        let mut ready = first;
+        for (number, block) in slab.blocks.iter().enumerate() {
+            let (from, to) = (ready, block.reach.max(ready));
+            self.loads[from - first..to - first].fill(Load::default());
+            let own = self.discs.own();
+            let to_scale = from.max(own.start)..to.min(own.end);
+            if !to_scale.is_empty() {
+                sweep.scale(self.discs.rows_mut(to_scale.clone()), to_scale.start);
+            }
+            ready = to;
+            let begin = block.rows.start;
+            let loads = &mut self.loads[begin - first..];
+            let discs = self.discs.rows(begin..block.reach);
+            kernel::add_pairs(sweep.simd, sweep.law, discs, self.pairs.block(number), loads);
+            mark(Stage::Pairs);
+            for side in Side::ALL {
+                let contacts = self.walls[side as usize].take_below(block.rows.end);
+                let walls = (sweep.walls, sweep.flow);
+                let force = forces::add_wall(sweep.law, side, walls, contacts, (begin, discs), loads);
+                let [normal, tangential] = &mut swept.wall_force[side as usize];
+                *normal += force[0];
+                *tangential += force[1];
+            }
+            mark(Stage::Walls);
+            let movable = begin.max(own.start)..block.rows.end;
+            if !movable.is_empty() {
+                let loads = &self.loads[movable.start - first..movable.end - first];
+                let discs = self.discs.rows_mut(movable);
+                swept.fastest2 = swept.fastest2.max(kernel::advance(sweep.simd, sweep.motion, discs, loads));
+            }
+            mark(Stage::Motion);
+        }
+        swept
     }
 }

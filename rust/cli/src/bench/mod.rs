@@ -76,12 +76,13 @@ fn dem(arguments: &DemArguments) -> Result<(), CliError> {
         }
         start.set_simd(simd);
     }
+    start.reset_strain();
+    start.set_strain_rate(STRAIN_RATE);
+    let alone = start.clone();
     start
         .set_threads(arguments.threads as usize)
         .map_err(|error| CliError::Message(format!("--threads {}: {error}", arguments.threads)))?;
-    start.reset_strain();
-    start.set_strain_rate(STRAIN_RATE);
-    let json = serde_json::to_string_pretty(&measure(&start, arguments.steps, arguments.threads));
+    let json = serde_json::to_string_pretty(&measure(&start, &alone, arguments.steps, arguments.threads));
     println!("{}", json.map_err(|error| CliError::Message(error.to_string()))?);
     Ok(())
 }
@@ -93,20 +94,30 @@ fn packed(discs: usize) -> Result<Simulation, CliError> {
     Ok(pack(&spec, &Material::default())?.simulation)
 }
 
-fn measure(start: &Simulation, steps: u64, threads: u32) -> Value {
+/// Takes `steps` steps from `start`; returns the seconds they took, and the end.
+fn timed(start: &Simulation, steps: u64) -> (f64, Simulation) {
+    let mut simulation = start.clone();
+    let begin = Instant::now();
+    simulation.take_steps(steps);
+    (begin.elapsed().as_secs_f64(), simulation)
+}
+
+fn measure(start: &Simulation, alone: &Simulation, steps: u64, threads: u32) -> Value {
     let particles = start.discs.len() as f64;
     let (mut seconds, mut best, mut done, mut rebuilds) = (0.0, f64::INFINITY, 0, 0);
+    let mut gains = Vec::new();
     while done < steps {
         let block = BLOCK.min(steps - done);
-        let mut simulation = start.clone();
-        let begin = Instant::now();
-        simulation.take_steps(block);
-        let elapsed = begin.elapsed().as_secs_f64();
+        let (elapsed, end) = timed(start, block);
         seconds += elapsed;
         best = f64::min(best, elapsed * BLOCK as f64 / block as f64);
-        rebuilds += simulation.rebuilds() - start.rebuilds();
+        rebuilds += end.rebuilds() - start.rebuilds();
         done += block;
+        if threads > 1 {
+            gains.push(timed(alone, block).0 / elapsed);
+        }
     }
+    gains.sort_by(f64::total_cmp);
     let mut contacts = 0u64;
     start.for_each_contact(|_| contacts += 1);
     let per_step = 1e9 * seconds / (steps as f64 * particles);
@@ -123,6 +134,8 @@ fn measure(start: &Simulation, steps: u64, threads: u32) -> Value {
         "ns_per_particle_step_best": 1e9 * best / (BLOCK as f64 * particles),
         "ns_per_particle_step_by_stage": by_stage(start, steps.min(BLOCK)),
         "rebuilds": rebuilds,
+        // Median over blocks, each taken with the threads and then with one.
+        "speed_over_one_thread": gains.get(gains.len() / 2),
     })
 }
 

@@ -5,17 +5,19 @@
 //! order, so all paths give the same bits.
 //!
 //! The crate's only unsafe code: vector intrinsics, and discs addressed through the rows without bounds checks. What
-//! makes that sound is stated at `PairList::parts`, whose indices are checked when the list is built.
+//! makes that sound is stated at `Pairs`, whose indices are checked when the list is built, and at `SharedDiscs`.
 #![allow(unsafe_code)]
 
 mod motion;
 mod pairs;
+mod shared;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub(crate) use motion::{Motion, advance};
 pub(crate) use pairs::add_pairs;
+pub(crate) use shared::SharedDiscs;
 pub(crate) use vector::{Columns, Vector};
 
 use serde::{Deserialize, Serialize};

@@ -80,12 +80,13 @@ impl Motion {
             let scale = damping_scale(V::splat(self.damping), force2, vx * vx + vy * vy);
             let touched = force2.greater(V::splat(0.0));
             let keep = V::select(touched, V::splat(1.0), V::splat(self.keep_free));
-            let per_mass = dt / mass;
+            // I = m r²/2 with the current radius; one division for both.
+            let radius2 = radius * radius;
+            let half_per_inertia = dt / (mass * radius2);
+            let per_mass = half_per_inertia * radius2;
             let vx = keep * (vx + per_mass * (fx - scale * vx));
             let vy = keep * (vy + per_mass * (fy - scale * vy));
-            // I = m r²/2 with the current radius.
-            let per_inertia = V::splat(2.0) * per_mass / (radius * radius);
-            let spin = keep * (spin + per_inertia * torque);
+            let spin = keep * (spin + V::splat(2.0) * half_per_inertia * torque);
             let (x, y) = (x + dt * vx, y + dt * vy);
             V::write_discs([x, y, radius, vx, vy, spin, mass, temperature], discs);
             vx * vx + vy * vy

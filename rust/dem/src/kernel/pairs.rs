@@ -4,28 +4,29 @@ use super::Simd;
 use super::vector::{Columns, Lanes};
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2, Avx512};
-use crate::contacts::PairSlab;
+use crate::contacts::Pairs;
 use crate::disc::Disc;
 use crate::forces::Load;
 use crate::law::{self, PairLaw};
 
-/// Adds the forces of the pairs of a slab to `loads`, whose first element belongs to disc `slab.first`, and updates
-/// their friction history.
+/// Adds the forces of `pairs` to `loads` and updates their friction history. The first elements of `discs` and `loads`
+/// belong to disc `pairs.first`.
 ///
 /// For each pair in order, the load of j is added to and then that of i: the sums do not depend on `simd`.
-pub(crate) fn add_pairs(simd: Simd, law: PairLaw, discs: &[Disc], slab: PairSlab, loads: &mut [Load]) {
-    assert!(slab.reach <= discs.len() && slab.first + loads.len() >= slab.reach);
-    assert!(slab.i.len() == slab.j.len() && slab.i.len() == slab.tangential.len() && simd.available());
-    let count = slab.i.len();
-    let all = Pairs {
+pub(crate) fn add_pairs(simd: Simd, law: PairLaw, discs: &[Disc], pairs: Pairs, loads: &mut [Load]) {
+    let reached = pairs.reach - pairs.first;
+    assert!(reached <= discs.len() && reached <= loads.len());
+    assert!(pairs.i.len() == pairs.j.len() && pairs.i.len() == pairs.tangential.len() && simd.available());
+    let count = pairs.i.len();
+    let all = Loop {
         law,
-        discs: discs.as_ptr(),
-        // Addressed by disc number; never dereferenced below slab.first.
-        loads: loads.as_mut_ptr().wrapping_sub(slab.first),
-        slab,
+        // Addressed by disc number; never dereferenced below pairs.first.
+        discs: discs.as_ptr().wrapping_sub(pairs.first),
+        loads: loads.as_mut_ptr().wrapping_sub(pairs.first),
+        pairs,
     };
-    // SAFETY: the machine has the instruction set; the indices of a PairSlab are in first..reach (see
-    // PairList::parts), which lies in both slices.
+    // SAFETY: the machine has the instruction set; the indices are in first..reach (see [`Pairs`]), which both slices
+    // cover.
     unsafe {
         match simd {
             Simd::Scalar => all.add::<f64>(count),
@@ -39,14 +40,14 @@ pub(crate) fn add_pairs(simd: Simd, law: PairLaw, discs: &[Disc], slab: PairSlab
     }
 }
 
-struct Pairs<'a> {
+struct Loop<'a> {
     law: PairLaw,
     discs: *const Disc,
     loads: *mut Load,
-    slab: PairSlab<'a>,
+    pairs: Pairs<'a>,
 }
 
-impl Pairs<'_> {
+impl Loop<'_> {
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
     unsafe fn add_avx2(self, count: usize) {
@@ -88,8 +89,8 @@ impl Pairs<'_> {
     #[inline(always)]
     unsafe fn compute<V: Lanes>(&mut self, k: usize, to: [*mut f64; 4]) {
         unsafe {
-            let (i, j) = (self.slab.i.as_ptr().add(k), self.slab.j.as_ptr().add(k));
-            let history = self.slab.tangential.as_mut_ptr().add(k);
+            let (i, j) = (self.pairs.i.as_ptr().add(k), self.pairs.j.as_ptr().add(k));
+            let history = self.pairs.tangential.as_mut_ptr().add(k);
             let a: Columns<V> = V::gather(self.discs, i);
             let b: Columns<V> = V::gather(self.discs, j);
             let zero = V::splat(0.0);
@@ -112,7 +113,7 @@ impl Pairs<'_> {
     #[inline(always)]
     unsafe fn sum<V: Lanes>(&mut self, k: usize, from: [*mut f64; 4]) {
         unsafe {
-            let (i, j) = (self.slab.i.as_ptr().add(k), self.slab.j.as_ptr().add(k));
+            let (i, j) = (self.pairs.i.as_ptr().add(k), self.pairs.j.as_ptr().add(k));
             let force = [V::read(from[0]), V::read(from[1])];
             V::scatter(self.loads, i, j, force, [V::read(from[2]), V::read(from[3])]);
         }

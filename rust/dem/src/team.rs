@@ -1,0 +1,76 @@
+//! Threads that work on one step together.
+//!
+//! A step is a few hundred microseconds, in which a thread that went to sleep costs a tenth: so the threads of the pool
+//! stay awake for a stretch of steps, and give way to other jobs of the machine whenever they find nothing to do.
+
+use rayon::{ThreadPool, Yield};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Rounds of looking for work before another job may have the core.
+const ROUNDS: u32 = 100;
+
+/// Runs `work` on a thread of the pool while the others stay awake to help with what it shares.
+pub(crate) fn together(pool: &ThreadPool, work: impl FnOnce() + Send) {
+    let over = AtomicBool::new(false);
+    pool.scope(|scope| {
+        let leader = rayon::current_thread_index();
+        let over = &over;
+        scope.spawn_broadcast(move |_, helper| {
+            if Some(helper.index()) != leader {
+                help_until(|| over.load(Ordering::Acquire));
+            }
+        });
+        // Set on a panic, too: the others would wait for ever.
+        let _end = Ended(over);
+        work();
+    });
+}
+
+/// `work` on each task, on whatever threads of the pool are awake; results in the order of the tasks.
+pub(crate) fn share<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let left = AtomicUsize::new(tasks.len());
+    let mut results: Vec<Option<R>> = tasks.iter().map(|_| None).collect();
+    rayon::in_place_scope(|scope| {
+        for (task, result) in tasks.into_iter().zip(&mut results) {
+            let (left, work) = (&left, &work);
+            scope.spawn(move |_| {
+                // Counted on a panic, too, which the scope then passes on.
+                let _done = Counted(left);
+                *result = Some(work(task));
+            });
+        }
+        help_until(|| left.load(Ordering::Acquire) == 0);
+    });
+    results.into_iter().flatten().collect()
+}
+
+/// Does other threads' work as long as there is any.
+fn help_until(over: impl Fn() -> bool) {
+    let mut idle = 0;
+    while !over() {
+        if rayon::yield_now() == Some(Yield::Executed) {
+            idle = 0;
+        } else if idle < ROUNDS {
+            idle += 1;
+            std::hint::spin_loop();
+        } else {
+            std::thread::yield_now();
+        }
+    }
+}
+
+struct Ended<'a>(&'a AtomicBool);
+
+impl Drop for Ended<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
+}
+
+struct Counted<'a>(&'a AtomicUsize);
+
+impl Drop for Counted<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::AcqRel);
+    }
+}
