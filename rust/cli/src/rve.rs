@@ -4,8 +4,8 @@ use crate::error::CliError;
 use crate::files::{read_text, write_atomically};
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_rve::{
-    Averages, Compression, Cut, Material, PackingSpec, Rates, RegionKind, Settled, Simulation, Strains,
-    follow, homogenise_in, pack, region, state, unbalanced_force, vtk,
+    Averages, Compression, Cut, Material, PackingSpec, Protocol, RegionKind, Relaxation, Settled, Simulation,
+    Strains, follow, homogenise_in, pack, region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -40,6 +40,9 @@ pub struct PackArguments {
     radius_min: f64,
     #[arg(long, default_value_t = 7e-3)]
     radius_max: f64,
+    /// How forces are brought into balance: the grains' own damped motion, or FIRE, several times as fast.
+    #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
+    relaxation: RelaxationName,
     /// State file (JSON) to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
@@ -78,6 +81,9 @@ pub struct ExpandArguments {
     /// Wall stiffness over E r; default: that of the state.
     #[arg(long)]
     wall_stiffness: Option<f64>,
+    /// How forces are brought into balance: the grains' own damped motion, or FIRE, several times as fast.
+    #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
+    relaxation: RelaxationName,
     /// State file (JSON) to write: the state at the last stop.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
@@ -116,6 +122,21 @@ enum CutName {
     Whole,
 }
 
+#[derive(Clone, Copy, ValueEnum)]
+enum RelaxationName {
+    Damped,
+    Fire,
+}
+
+impl From<RelaxationName> for Relaxation {
+    fn from(name: RelaxationName) -> Self {
+        match name {
+            RelaxationName::Damped => Self::Damped,
+            RelaxationName::Fire => Self::Fire,
+        }
+    }
+}
+
 pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Pack(arguments) => pack_one(arguments),
@@ -146,6 +167,7 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
         },
         radius_min: arguments.radius_min,
         radius_max: arguments.radius_max,
+        relaxation: arguments.relaxation.into(),
     };
     let packed = pack(&spec, &Material::default())?;
     write_state(&arguments.out, &packed.simulation)?;
@@ -163,12 +185,14 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
         simulation.material.check().map_err(|error| CliError::Message(error.to_string()))?;
     }
     let path = path(arguments)?;
-    let rates =
-        arguments.rate.map_or_else(Rates::default, |rate| Rates { expansion: rate, contraction: rate });
+    let mut protocol = Protocol { relaxation: arguments.relaxation.into(), ..Protocol::default() };
+    if let Some(rate) = arguments.rate {
+        (protocol.expansion_rate, protocol.contraction_rate) = (rate, rate);
+    }
     let mut series = Series::new(arguments.vtk.as_deref());
     let mut written = series.add(0.0, &simulation);
     let mut written_stops = 0;
-    let ramp = follow(&mut simulation, &path, rates, |stop, simulation| {
+    let ramp = follow(&mut simulation, &path, protocol, |stop, simulation| {
         if written.is_ok() {
             written = series.add((written_stops + 1) as f64, simulation);
         }

@@ -37,6 +37,11 @@ impl Disc {
         }
     }
 
+    /// Sets all velocities to zero.
+    pub fn stop(&mut self) {
+        (self.vx, self.vy, self.angular_velocity) = (0.0, 0.0, 0.0);
+    }
+
     /// Area of the disc, π r² [m²].
     pub fn area(&self) -> f64 {
         PI * self.radius * self.radius

@@ -20,6 +20,7 @@
 //! | [`heat`] | thermal pipes, sub-stepped (Eq. 5) |
 //! | [`time_step`] | bound on the stable step |
 //! | [`run`] | many steps, watched; typed failures |
+//! | `relax` | fast relaxation (FIRE) |
 //! | [`audit`] | where the energy goes |
 //! | [`restore`] | what a state file holds beside the discs |
 //! | [`simulation`] | the state, and `step()` |
@@ -36,6 +37,7 @@ pub mod law;
 pub mod material;
 mod neighbours;
 mod pace;
+mod relax;
 pub mod restore;
 pub mod run;
 pub mod simulation;

@@ -42,7 +42,7 @@ pub struct Simulation {
     /// ε [-]: radii are `reference_radius` (1 + ε), not compounded (Eq. 6).
     pub(crate) strain: f64,
     pub(crate) strain_rate: f64,
-    largest_speed: f64,
+    pub(crate) largest_speed: f64,
     simd: Simd,
     pub(crate) neighbours: Neighbours,
     pub(crate) loads: SlabLoads,

@@ -29,17 +29,22 @@ const FEWEST_CONTACTS: f64 = 4.0;
 /// Δt_max = 2 / √(2 max_i Σ_c s_n / m_i) [s], the sum over the contacts of disc i (Gershgorin's circle for the
 /// stiffness matrix over the masses).
 pub fn stable_step(simulation: &Simulation) -> f64 {
-    let young_modulus = simulation.material.young_modulus;
+    let stiffness = contact_stiffness(simulation);
+    let ratios = simulation.discs.iter().zip(&stiffness).map(|(disc, sum)| sum / disc.mass);
+    2.0 / (2.0 * ratios.fold(0.0, f64::max)).sqrt()
+}
+
+/// Σ_c s_n [N/m] over the contacts of each disc, at least that of a disc with a few.
+pub(crate) fn contact_stiffness(simulation: &Simulation) -> Vec<f64> {
+    let least = FEWEST_CONTACTS * simulation.material.young_modulus;
     let mut stiffness = vec![0.0; simulation.discs.len()];
     simulation.for_each_contact(|contact| {
         for disc in contact.discs() {
             stiffness[disc] += contact.stiffness;
         }
     });
-    let mut largest = 0.0f64;
-    for (disc, sum) in simulation.discs.iter().zip(&stiffness) {
-        let least = FEWEST_CONTACTS * young_modulus * disc.radius;
-        largest = largest.max(sum.max(least) / disc.mass);
+    for (sum, disc) in stiffness.iter_mut().zip(&simulation.discs) {
+        *sum = sum.max(least * disc.radius);
     }
-    2.0 / (2.0 * largest).sqrt()
+    stiffness
 }

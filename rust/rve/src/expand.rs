@@ -3,20 +3,22 @@
 use crate::homogenise::{Averages, homogenise};
 use crate::pack::Packed;
 use crate::region::RegionKind;
-use crate::settle::{Settled, settle};
+use crate::settle::{Relaxation, Settled, settle};
 use crate::{RveError, Simulation};
 
-/// Rate of the strain that changes most [1/s]: when contacts close, and when they open.
+/// How a path is followed: the rate of the strain that changes most [1/s], when contacts close and when they open, and
+/// what brings the forces into balance at the stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rates {
-    pub expansion: f64,
-    pub contraction: f64,
+pub struct Protocol {
+    pub expansion_rate: f64,
+    pub contraction_rate: f64,
+    pub relaxation: Relaxation,
 }
 
-impl Default for Rates {
+impl Default for Protocol {
     /// Expansion hardly feels the rate; near unjamming, contraction does (−2 % at 2 /s: σ 12 % low).
     fn default() -> Self {
-        Self { expansion: 0.1, contraction: 0.02 }
+        Self { expansion_rate: 0.1, contraction_rate: 0.02, relaxation: Relaxation::default() }
     }
 }
 
@@ -63,10 +65,10 @@ pub struct Ramp {
 pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
     check_monotone(stops)?;
     let path: Vec<Strains> = stops.iter().copied().map(Strains::thermal).collect();
-    follow(&mut packed.simulation.clone(), &path, Rates::default(), |_, _| ())
+    follow(&mut packed.simulation.clone(), &path, Protocol::default(), |_, _| ())
 }
 
-/// Follows a path of thermal strain and wall strain from stop to stop, straight in between, at given rates. The
+/// Follows a path of thermal strain and wall strain from stop to stop, straight in between. The
 /// simulation ends at the last stop reached; `visit` sees it at each.
 ///
 /// # Errors
@@ -74,15 +76,15 @@ pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
 pub fn follow(
     simulation: &mut Simulation,
     path: &[Strains],
-    rates: Rates,
+    protocol: Protocol,
     mut visit: impl FnMut(&Stop, &Simulation),
 ) -> Result<Ramp, RveError> {
-    check(path, rates)?;
+    check(path, protocol)?;
     simulation.reset_strain();
     let start = [simulation.walls.width(), simulation.walls.height()];
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
     for &strains in path {
-        match advance_to(simulation, strains, start, rates) {
+        match advance_to(simulation, strains, start, protocol) {
             Ok(stop) => {
                 visit(&stop, simulation);
                 ramp.stops.push(stop);
@@ -96,8 +98,10 @@ pub fn follow(
     Ok(ramp)
 }
 
-fn check(path: &[Strains], rates: Rates) -> Result<(), RveError> {
-    for (key, rate) in [("expansion rate", rates.expansion), ("contraction rate", rates.contraction)] {
+fn check(path: &[Strains], protocol: Protocol) -> Result<(), RveError> {
+    for (key, rate) in
+        [("expansion rate", protocol.expansion_rate), ("contraction rate", protocol.contraction_rate)]
+    {
         if !(1e-6..=100.0).contains(&rate) {
             return Err(RveError::Parameter { key, value: rate.to_string(), allowed: "1e-6 to 100 1/s" });
         }
@@ -128,7 +132,7 @@ fn advance_to(
     simulation: &mut Simulation,
     target: Strains,
     [width, height]: [f64; 2],
-    rates: Rates,
+    protocol: Protocol,
 ) -> Result<Stop, RveError> {
     let since = simulation.steps;
     loop {
@@ -139,7 +143,7 @@ fn advance_to(
         let largest = thermal.abs().max(dx.abs() / width).max(dy.abs() / height);
         // Contacts open when radii shrink or walls recede.
         let loosening = 2.0 * thermal < dx / width + dy / height;
-        let rate = if loosening { rates.contraction } else { rates.expansion };
+        let rate = if loosening { protocol.contraction_rate } else { protocol.expansion_rate };
         let steps = (largest / (rate * simulation.time_step)).ceil();
         if steps < 1.0 || largest < 1e-12 {
             break;
@@ -153,7 +157,7 @@ fn advance_to(
     }
     simulation.set_strain_rate(0.0);
     simulation.walls.stop();
-    let settled = settle(simulation, since)?;
+    let settled = settle(simulation, protocol.relaxation, since)?;
     let averages = homogenise(simulation, RegionKind::default());
     Ok(Stop { strains: target, settled, averages })
 }

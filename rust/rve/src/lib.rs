@@ -24,12 +24,12 @@ pub mod settle;
 pub mod state;
 pub mod vtk;
 
-pub use expand::{Ramp, Rates, Stop, Strains, expand, follow};
+pub use expand::{Protocol, Ramp, Stop, Strains, expand, follow};
 pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
 pub use pack::{Compression, Packed, PackingSpec, pack};
 pub use region::{Cut, RegionKind};
-pub use settle::{Outcome, Settled, unbalanced_force};
+pub use settle::{Outcome, Relaxation, Settled, unbalanced_force};
 
 /// What can be wrong with an RVE's specification, or go wrong while it is made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -2,7 +2,7 @@
 
 use crate::area::porosity_of_box;
 use crate::place::{Random, radii, scatter};
-use crate::settle::{Settled, settle};
+use crate::settle::{Relaxation, Settled, settle};
 use crate::{Material, RveError, Simulation};
 use msdd_dem::{Side, Walls};
 use serde::{Deserialize, Serialize};
@@ -39,6 +39,23 @@ pub struct PackingSpec {
     /// Radii are uniform between these [m].
     pub radius_min: f64,
     pub radius_max: f64,
+    #[serde(default)]
+    pub relaxation: Relaxation,
+}
+
+impl Default for PackingSpec {
+    /// 500 discs as in the paper, at a porosity of 0.12.
+    fn default() -> Self {
+        Self {
+            discs: 500,
+            seed: 1,
+            porosity: 0.12,
+            compression: Compression::Isotropic,
+            radius_min: 3e-3,
+            radius_max: 7e-3,
+            relaxation: Relaxation::default(),
+        }
+    }
 }
 
 /// A packed assembly at rest in resting walls, at zero strain.
@@ -79,7 +96,7 @@ pub fn pack(spec: &PackingSpec, material: &Material) -> Result<Packed, RveError>
     let mut simulation = loose_start(spec, material)?;
     compress(&mut simulation, spec)?;
     simulation.walls.stop();
-    let settled = settle(&mut simulation, 0)?;
+    let settled = settle(&mut simulation, spec.relaxation, 0)?;
     simulation.reset_strain();
     Ok(Packed { simulation, settled })
 }

@@ -9,8 +9,7 @@ use msdd_rve::{
 const KINDS: [RegionKind; 2] = [RegionKind::Hull, RegionKind::Inset];
 
 fn packed(compression: Compression, material: &Material) -> Packed {
-    let spec =
-        PackingSpec { discs: 200, seed: 3, porosity: 0.12, compression, radius_min: 3e-3, radius_max: 7e-3 };
+    let spec = PackingSpec { discs: 200, seed: 3, porosity: 0.12, compression, ..PackingSpec::default() };
     let packed = pack(&spec, material).unwrap();
     assert_eq!(packed.settled.outcome, Outcome::Settled);
     packed

@@ -89,8 +89,7 @@ fn dem(arguments: &DemArguments) -> Result<(), CliError> {
 
 fn packed(discs: usize) -> Result<Simulation, CliError> {
     let compression = Compression::Isotropic;
-    let spec =
-        PackingSpec { discs, seed: 1, porosity: 0.12, compression, radius_min: 3e-3, radius_max: 7e-3 };
+    let spec = PackingSpec { discs, seed: 1, porosity: 0.12, compression, ..PackingSpec::default() };
     Ok(pack(&spec, &Material::default())?.simulation)
 }
 

@@ -31,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     println!("                      predicted  measured  ratio     predicted  measured  ratio");
     for &porosity in &arguments.porosity {
         let (discs, compression) = (500, Compression::Isotropic);
-        let spec = PackingSpec { discs, seed: 1, porosity, compression, radius_min: 3e-3, radius_max: 7e-3 };
+        let spec = PackingSpec { discs, seed: 1, porosity, compression, ..PackingSpec::default() };
         let packed = pack(&spec, &Material::default())?;
         line(&format!("porosity {porosity}"), &packed.simulation);
     }

@@ -90,6 +90,7 @@ impl Plan {
                         compression,
                         radius_min: self.radius_min,
                         radius_max: self.radius_max,
+                        ..PackingSpec::default()
                     };
                     jobs.push(Job { packing, spec });
                 }

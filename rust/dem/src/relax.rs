@@ -1,0 +1,143 @@
+//! Fast relaxation: FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006) on the contact forces.
+//!
+//! The way to equilibrium is not that of the grains: masses are replaced by ones that give all discs the same fastest
+//! frequency, velocities turn towards the forces, and stop when they point uphill. Friction keeps its incremental
+//! springs, so where a sliding contact ends depends a little on the way.
+
+use crate::disc::Disc;
+use crate::forces::Load;
+use crate::run::Failure;
+use crate::simulation::Simulation;
+use crate::time_step::{StepChoice, contact_stiffness};
+
+/// Steps downhill before the step grows; growth and cut of the step; start and decay of the turning. Values of the
+/// paper.
+const PATIENCE: u32 = 5;
+const GROW: f64 = 1.1;
+const CUT: f64 = 0.5;
+const TURN: f64 = 0.1;
+const TURN_DECAY: f64 = 0.99;
+/// First and largest step over the stability bound.
+const FIRST_STEP: f64 = 0.2;
+const LARGEST_STEP: f64 = 0.7;
+/// Steps between two looks at the state.
+const LOOK_EVERY: u64 = 20;
+
+/// How far a relaxation has come.
+#[derive(Clone, Copy, Debug)]
+struct Descent {
+    step: f64,
+    largest_step: f64,
+    turn: f64,
+    downhill: u32,
+}
+
+/// Power, squares of speed and force in mass-weighted coordinates.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    power: f64,
+    speed2: f64,
+    force2: f64,
+}
+
+impl Simulation {
+    /// Relaxes for at most `steps` steps, or until `balanced` says so at a look, in fixed walls and with fixed radii. The
+    /// discs are at rest afterwards, time has not passed, and steps are counted. Returns whether it is balanced.
+    ///
+    /// # Errors
+    /// As [`Simulation::run`].
+    pub fn relax(&mut self, steps: u64, balanced: impl Fn(&Self) -> bool) -> Result<bool, Failure> {
+        let (time, choice, damping, drag) =
+            (self.time, self.step_choice, self.material.damping, self.free_drag);
+        let masses: Vec<f64> = self.discs.iter().map(|disc| disc.mass).collect();
+        (self.material.damping, self.free_drag) = (0.0, 0.0);
+        self.discs.iter_mut().for_each(Disc::stop);
+        let result = self.descend(steps, balanced);
+        (self.time, self.step_choice) = (time, choice);
+        (self.material.damping, self.free_drag) = (damping, drag);
+        for (disc, mass) in self.discs.iter_mut().zip(masses) {
+            disc.stop();
+            disc.mass = mass;
+        }
+        self.largest_speed = 0.0;
+        self.watch_time_step()?;
+        result
+    }
+
+    fn descend(&mut self, steps: u64, balanced: impl Fn(&Self) -> bool) -> Result<bool, Failure> {
+        let end = self.steps + steps;
+        self.step_choice = StepChoice::Adaptive { safety: LARGEST_STEP };
+        let mut descent = Descent { step: 0.0, largest_step: 0.0, turn: TURN, downhill: 0 };
+        while self.steps < end {
+            self.even_out_masses();
+            self.watch_time_step()?;
+            descent.largest_step = self.time_step;
+            if descent.step == 0.0 {
+                descent.step = FIRST_STEP / LARGEST_STEP * descent.largest_step;
+            }
+            for _ in 0..LOOK_EVERY.min(end - self.steps) {
+                self.time_step = descent.step.min(descent.largest_step);
+                self.step();
+                self.turn(&mut descent);
+            }
+            self.check()?;
+            if balanced(self) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Masses in proportion to the stiffness that a disc feels, so that all have the same bound on the step.
+    fn even_out_masses(&mut self) {
+        let stiffness = contact_stiffness(self);
+        for (disc, stiffness) in self.discs.iter_mut().zip(stiffness) {
+            disc.mass = stiffness;
+        }
+    }
+
+    /// Turns the velocities towards the forces of the step just taken, or stops them.
+    fn turn(&mut self, descent: &mut Descent) {
+        let mut sums = Sums::default();
+        for (disc, load) in self.discs.iter().zip(self.loads.iter(&self.neighbours)) {
+            sums.add(disc, load);
+        }
+        // The velocities at the time of the forces: half a kick ago.
+        if sums.power <= 0.5 * self.time_step * sums.force2 {
+            self.discs.iter_mut().for_each(Disc::stop);
+            self.largest_speed = 0.0;
+            descent.step *= CUT;
+            descent.turn = TURN;
+            descent.downhill = 0;
+            return;
+        }
+        let keep = 1.0 - descent.turn;
+        let pull = descent.turn * (sums.speed2 / sums.force2).sqrt();
+        let mut fastest2 = 0.0f64;
+        for (disc, load) in self.discs.iter_mut().zip(self.loads.iter(&self.neighbours)) {
+            let per_mass = pull / disc.mass;
+            disc.vx = keep * disc.vx + per_mass * load.fx;
+            disc.vy = keep * disc.vy + per_mass * load.fy;
+            let per_inertia = 2.0 * per_mass / (disc.radius * disc.radius);
+            disc.angular_velocity = keep * disc.angular_velocity + per_inertia * load.torque;
+            fastest2 = fastest2.max(disc.vx * disc.vx + disc.vy * disc.vy);
+        }
+        self.largest_speed = fastest2.sqrt();
+        descent.downhill += 1;
+        if descent.downhill > PATIENCE {
+            descent.step = (GROW * descent.step).min(descent.largest_step);
+            descent.turn *= TURN_DECAY;
+        }
+    }
+}
+
+impl Sums {
+    fn add(&mut self, disc: &Disc, load: &Load) {
+        let inertia = 0.5 * disc.mass * disc.radius * disc.radius;
+        self.power += load.fx * disc.vx + load.fy * disc.vy + load.torque * disc.angular_velocity;
+        self.speed2 += disc.mass * (disc.vx * disc.vx + disc.vy * disc.vy)
+            + inertia * disc.angular_velocity * disc.angular_velocity;
+        self.force2 +=
+            (load.fx * load.fx + load.fy * load.fy) / disc.mass + load.torque * load.torque / inertia;
+    }
+}
