@@ -50,6 +50,11 @@ impl Simulation {
                 visit(contact);
             }
         }
+        self.for_each_wall_contact(visit);
+    }
+
+    /// Calls `visit` with every force-bearing contact of a wall.
+    pub(crate) fn for_each_wall_contact(&self, mut visit: impl FnMut(Contact)) {
         for side in Side::ALL {
             let contacts = &self.neighbours.walls[side as usize];
             for (&j, &tangential) in contacts.disc.iter().zip(&contacts.tangential) {

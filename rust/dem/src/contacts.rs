@@ -15,6 +15,8 @@ pub struct PairList {
     j: Vec<u32>,
     /// f_t [N] of the last step, on j along t; 0 when the contact is open.
     pub(crate) tangential: Vec<f64>,
+    /// k A/|d| [W/K] at the forces of the last step; 0 when the contact is open. Empty without heat.
+    pub(crate) conductance: Vec<f64>,
     slabs: Vec<Slab>,
 }
 
@@ -52,6 +54,8 @@ pub(crate) struct Pairs<'a> {
     pub i: &'a [u32],
     pub j: &'a [u32],
     pub tangential: &'a mut [f64],
+    /// One a pair, or none.
+    pub conductance: &'a mut [f64],
     /// All indices are in `first..reach`.
     pub first: usize,
     pub reach: usize,
@@ -63,6 +67,7 @@ pub(crate) struct SlabPairs<'a> {
     i: &'a [u32],
     j: &'a [u32],
     tangential: &'a mut [f64],
+    conductance: &'a mut [f64],
 }
 
 impl SlabPairs<'_> {
@@ -70,10 +75,15 @@ impl SlabPairs<'_> {
     pub fn block(&mut self, number: usize) -> Pairs<'_> {
         let block = &self.slab.blocks[number];
         let own = block.pairs.start - self.slab.pairs.start..block.pairs.end - self.slab.pairs.start;
+        let conductance = match self.conductance.is_empty() {
+            true => &mut [],
+            false => &mut self.conductance[own.clone()],
+        };
         Pairs {
             i: &self.i[own.clone()],
             j: &self.j[own.clone()],
             tangential: &mut self.tangential[own],
+            conductance,
             first: block.rows.start,
             reach: block.reach,
         }
@@ -126,15 +136,20 @@ impl PairList {
         &self.slabs
     }
 
-    /// The list in its slabs, to be worked on side by side.
-    pub(crate) fn parts(&mut self) -> Vec<SlabPairs<'_>> {
+    /// The list in its slabs, to be worked on side by side; with room for conductances when heat is on.
+    pub(crate) fn parts(&mut self, heat: bool) -> Vec<SlabPairs<'_>> {
+        self.conductance.resize(if heat { self.j.len() } else { 0 }, 0.0);
         let mut rest = self.tangential.as_mut_slice();
+        let mut rest_of_conductance = self.conductance.as_mut_slice();
         let mut parts = Vec::with_capacity(self.slabs.len());
         for slab in &self.slabs {
             let (tangential, after) = rest.split_at_mut(slab.pairs.len());
             rest = after;
             let pairs = slab.pairs.clone();
-            parts.push(SlabPairs { slab, i: &self.i[pairs.clone()], j: &self.j[pairs], tangential });
+            let (conductance, after) = rest_of_conductance.split_at_mut(if heat { pairs.len() } else { 0 });
+            rest_of_conductance = after;
+            let (i, j) = (&self.i[pairs.clone()], &self.j[pairs]);
+            parts.push(SlabPairs { slab, i, j, tangential, conductance });
         }
         parts
     }

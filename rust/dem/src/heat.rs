@@ -6,6 +6,7 @@
 
 use crate::contact::Contact;
 use crate::disc::Disc;
+use crate::network::Network;
 use crate::simulation::Simulation;
 use crate::walls::Side;
 
@@ -38,11 +39,14 @@ pub enum WallHeat {
     Flux(f64),
 }
 
-/// Sub-steps are at most this times the stability limit 2/λ_max: Euler is non-oscillatory below 1/2, and the power
-/// iteration approaches λ_max from below.
-pub const SAFETY: f64 = 0.45;
-/// Power iterations between two mechanical steps; the vector is kept, so they add up as the network changes slowly.
-const POWER_ITERATIONS: usize = 2;
+/// Sub-steps are at most this times the stability limit 2/λ_max: the power iteration approaches λ_max from below, and the
+/// network changes until the next estimate. The stiffest modes die out within a few sub-steps all the same.
+pub const SAFETY: f64 = 0.7;
+/// Power iterations an estimate; the vector is kept, so they add up as the network changes slowly.
+const POWER_ITERATIONS: usize = 3;
+/// Mechanical steps that follow each other on one estimate: the network changes by a few per cent, and [`SAFETY`] covers
+/// 40.
+const STEPS_AN_ESTIMATE: u32 = 20;
 
 /// The pipes of one assembly, and what has flowed.
 #[derive(Clone, Debug)]
@@ -55,15 +59,22 @@ pub struct HeatPipes {
     pub wall_heat: [f64; 4],
     /// Sub-steps taken so far, for the cost report.
     pub substeps: u64,
-    /// Touching pairs and their conductance k A/|d| [W/K].
-    pairs: Vec<(u32, u32, f64)>,
+    /// Pipes between discs.
+    network: Network,
+    /// The neighbour search whose candidates are the pipes, if they are.
+    of_rebuild: Option<u64>,
     /// Per wall: disc, conductance [W/K].
     at_wall: [Vec<(u32, f64)>; 4],
-    /// Net heat flow into each disc [W].
+    /// 1/(m c) of each disc [K/J].
+    per_capacity: Vec<f64>,
+    /// T of each disc [K] and net heat flow into it [W].
+    temperature: Vec<f64>,
     flow: Vec<f64>,
     /// Estimate of the stiffest mode.
     mode: Vec<f64>,
     largest_rate: f64,
+    /// Steps since the estimate of `largest_rate`.
+    since_estimate: u32,
 }
 
 /// Length of the common chord of two circles at centre distance `d` [m]: the contact area on 1 m depth.
@@ -94,68 +105,101 @@ impl HeatPipes {
             reference_temperature: discs.iter().map(|d| d.temperature).collect(),
             wall_heat: [0.0; 4],
             substeps: 0,
-            pairs: Vec::new(),
+            network: Network::default(),
+            of_rebuild: None,
             at_wall: Default::default(),
+            per_capacity: discs.iter().map(|d| 1.0 / (d.mass * thermal.heat_capacity)).collect(),
+            temperature: Vec::new(),
             flow: vec![0.0; discs.len()],
             // No disc may be missing from the first guess of the stiffest mode; signs alternate as the mode's do.
             mode: (0..discs.len()).map(|k| if k % 2 == 0 { 1.0 } else { -0.9 }).collect(),
             largest_rate: 0.0,
+            since_estimate: 0,
         }
     }
 
-    /// Takes the conductances from the present geometry.
+    /// Takes pipes and conductances from the present geometry.
     pub(crate) fn connect(&mut self, simulation: &Simulation) {
-        self.pairs.clear();
-        self.at_wall.iter_mut().for_each(Vec::clear);
+        let (mut ends, mut values) = (Vec::new(), Vec::new());
         let conductivity = self.thermal.conductivity;
         simulation.for_each_contact(|contact| {
-            let value = conductance(&contact, &simulation.discs, conductivity);
-            match contact.i {
-                Ok(i) => self.pairs.push((i as u32, contact.j as u32, value)),
-                Err(side) => self.at_wall[side as usize].push((contact.j as u32, value)),
+            if let Ok(i) = contact.i {
+                ends.push((i as u32, contact.j as u32));
+                values.push(conductance(&contact, &simulation.discs, conductivity));
             }
         });
-        self.estimate_largest_rate(&simulation.discs);
+        self.network = Network::new(simulation.discs.len(), ends.into_iter());
+        self.network.set(&values);
+        self.of_rebuild = None;
+        self.connect_walls(simulation);
+        self.estimate_largest_rate();
+    }
+
+    /// Takes the conductances of pairs that the step just taken has found beside its forces, and those of walls from
+    /// the present geometry.
+    pub(crate) fn follow(&mut self, simulation: &Simulation) {
+        let pairs = &simulation.neighbours.pairs;
+        if self.of_rebuild != Some(simulation.neighbours.rebuilds) {
+            let ends = pairs.i().iter().copied().zip(pairs.j().iter().copied());
+            self.network = Network::new(simulation.discs.len(), ends);
+            self.of_rebuild = Some(simulation.neighbours.rebuilds);
+        }
+        self.network.set(&pairs.conductance);
+        self.connect_walls(simulation);
+        self.since_estimate += 1;
+        if self.largest_rate == 0.0 || self.since_estimate >= STEPS_AN_ESTIMATE {
+            self.estimate_largest_rate();
+        }
+    }
+
+    fn connect_walls(&mut self, simulation: &Simulation) {
+        self.at_wall.iter_mut().for_each(Vec::clear);
+        simulation.for_each_wall_contact(|contact| {
+            if let Err(side) = contact.i {
+                let value = conductance(&contact, &simulation.discs, self.thermal.conductivity);
+                self.at_wall[side as usize].push((contact.j as u32, value));
+            }
+        });
     }
 
     /// λ_max of C⁻¹ L [1/s] by power iteration, C the heat capacities and L the conductance matrix.
     ///
     /// The Rayleigh quotient is a lower bound; it is raised to the largest diagonal entry, which is one too.
-    fn estimate_largest_rate(&mut self, discs: &[Disc]) {
-        let capacity = |k: usize| discs[k].mass * self.thermal.heat_capacity;
-        let mut diagonal = vec![0.0; discs.len()];
-        for &(i, j, value) in &self.pairs {
-            diagonal[i as usize] += value;
-            diagonal[j as usize] += value;
-        }
+    fn estimate_largest_rate(&mut self) {
+        let mut to_walls = vec![0.0; self.mode.len()];
         for (wall, contacts) in self.walls.iter().zip(&self.at_wall) {
             if matches!(wall, WallHeat::Temperature(_)) {
-                contacts.iter().for_each(|&(disc, value)| diagonal[disc as usize] += value);
+                contacts.iter().for_each(|&(disc, value)| to_walls[disc as usize] += value);
             }
         }
-        let mut rate = diagonal.iter().enumerate().map(|(k, value)| value / capacity(k)).fold(0.0, f64::max);
+        let diagonal =
+            self.network.sums(self.mode.len()).into_iter().zip(&to_walls).map(|(pipes, walls)| pipes + walls);
+        let mut rate = diagonal.zip(&self.per_capacity).map(|(sum, per)| sum * per).fold(0.0, f64::max);
+        let mut image = vec![0.0; self.mode.len()];
+        let mode = &mut self.mode;
         for _ in 0..POWER_ITERATIONS {
-            let mut image: Vec<f64> = diagonal.iter().zip(&self.mode).map(|(d, v)| d * v).collect();
-            for &(i, j, value) in &self.pairs {
-                image[i as usize] -= value * self.mode[j as usize];
-                image[j as usize] -= value * self.mode[i as usize];
-            }
+            self.network.inflow(mode, &mut image);
             let (mut over, mut under, mut largest) = (0.0, 0.0, 0.0f64);
-            for (k, value) in image.iter_mut().enumerate() {
-                over += self.mode[k] * *value;
-                under += self.mode[k] * self.mode[k] * capacity(k);
-                *value /= capacity(k);
-                largest = largest.max(value.abs());
+            for (((image, mode), walls), per) in
+                image.iter_mut().zip(mode.iter()).zip(&to_walls).zip(&self.per_capacity)
+            {
+                *image = walls * mode - *image;
+                over += mode * *image;
+                under += mode * mode / per;
+                *image *= per;
+                largest = largest.max(image.abs());
             }
             if !(under > 0.0 && largest > 0.0) {
                 break;
             }
             rate = rate.max(over / under);
             // A little of the old vector stays, so that a disc without contact can come back into the mode.
-            let old = &self.mode;
-            self.mode = image.iter().zip(old).map(|(v, o)| v / largest + 1e-3 * o).collect();
+            for (mode, image) in mode.iter_mut().zip(&image) {
+                *mode = image / largest + 1e-3 * *mode;
+            }
         }
         self.largest_rate = rate;
+        self.since_estimate = 0;
     }
 
     /// Stability limit of explicit Euler, 2/λ_max [s], at the last connection.
@@ -166,37 +210,40 @@ impl HeatPipes {
     /// Conducts over `dt` [s] through the connected pipes.
     pub(crate) fn conduct(&mut self, discs: &mut [Disc], dt: f64) {
         let count = (dt / (SAFETY * self.stable_step())).ceil().max(1.0);
-        (0..count as u64).for_each(|_| self.substep(discs, dt / count));
-        self.substeps += count as u64;
+        self.take_substeps(discs, count as u64, dt / count);
     }
 
-    pub(crate) fn substep(&mut self, discs: &mut [Disc], dt: f64) {
-        self.flow.fill(0.0);
-        for &(i, j, value) in &self.pairs {
-            let (i, j) = (i as usize, j as usize);
-            let flow = value * (discs[j].temperature - discs[i].temperature);
-            self.flow[i] += flow;
-            self.flow[j] -= flow;
+    /// Takes `count` explicit Euler steps of `dt` [s].
+    pub(crate) fn take_substeps(&mut self, discs: &mut [Disc], count: u64, dt: f64) {
+        self.temperature.clear();
+        self.temperature.extend(discs.iter().map(|disc| disc.temperature));
+        for _ in 0..count {
+            self.network.inflow(&self.temperature, &mut self.flow);
+            for side in Side::ALL {
+                let inflow = self.add_wall_flow(side);
+                self.wall_heat[side as usize] += dt * inflow;
+            }
+            for ((temperature, flow), per) in
+                self.temperature.iter_mut().zip(&self.flow).zip(&self.per_capacity)
+            {
+                *temperature += dt * per * flow;
+            }
         }
-        for side in Side::ALL {
-            let inflow = self.add_wall_flow(side, discs);
-            self.wall_heat[side as usize] += dt * inflow;
+        for (disc, temperature) in discs.iter_mut().zip(&self.temperature) {
+            disc.temperature = *temperature;
         }
-        let capacity = self.thermal.heat_capacity;
-        for (disc, flow) in discs.iter_mut().zip(&self.flow) {
-            disc.temperature += dt * flow / (disc.mass * capacity);
-        }
+        self.substeps += count;
     }
 
     /// Adds the flow from one wall and returns its sum [W].
-    fn add_wall_flow(&mut self, side: Side, discs: &[Disc]) -> f64 {
+    fn add_wall_flow(&mut self, side: Side) -> f64 {
         let contacts = &self.at_wall[side as usize];
         let mut inflow = 0.0;
         match self.walls[side as usize] {
             WallHeat::Insulated => {}
             WallHeat::Temperature(temperature) => {
                 for &(disc, value) in contacts {
-                    let flow = value * (temperature - discs[disc as usize].temperature);
+                    let flow = value * (temperature - self.temperature[disc as usize]);
                     self.flow[disc as usize] += flow;
                     inflow += flow;
                 }

@@ -30,10 +30,12 @@ pub(crate) struct PairLaw {
     pub dt: f64,
     /// ∂u_x/∂x, ∂u_y/∂y [1/s] of the motion that carries the grains along, see [`crate::walls::Flow`].
     pub gradient: [f64; 2],
+    /// k [W/(m K)] of the grains, when heat is on.
+    pub conductivity: Option<f64>,
 }
 
 impl PairLaw {
-    pub fn new(material: &Material, dt: f64, gradient: [f64; 2]) -> Self {
+    pub fn new(material: &Material, dt: f64, gradient: [f64; 2], conductivity: Option<f64>) -> Self {
         Self {
             young_modulus: material.young_modulus,
             stiffness_ratio: material.stiffness_ratio,
@@ -41,6 +43,7 @@ impl PairLaw {
             wall_factor: material.wall_stiffness_factor,
             dt,
             gradient,
+            conductivity,
         }
     }
 }
@@ -53,6 +56,8 @@ pub(crate) struct PairForce<V> {
     pub torque: [V; 2],
     /// The stored f_t [N].
     pub tangential: V,
+    /// A/|d| [-], A the chord of the two circles on 1 m depth: conductance over k. 0 in lanes that do not touch.
+    pub conductance: V,
 }
 
 /// f_t after the slip `slip` [m] of j relative to i along t: elastic step, then Coulomb's limit. The clipped value is
@@ -63,9 +68,9 @@ pub(crate) fn tangential_force<V: Vector>(previous: V, stiffness: V, slip: V, li
     elastic.max(limit.like(0.0) - limit).min(limit)
 }
 
-/// Force of pairs of discs; None when no lane touches.
+/// Force of pairs of discs, and with `HEAT` their conductance; None when no lane touches.
 #[inline(always)]
-pub(crate) fn pair_force<V: Vector>(
+pub(crate) fn pair_force<V: Vector, const HEAT: bool>(
     law: &PairLaw,
     a: &Columns<V>,
     b: &Columns<V>,
@@ -102,7 +107,16 @@ pub(crate) fn pair_force<V: Vector>(
         speed * all(law.dt),
         all(law.friction) * normal,
     );
+    let conductance = if HEAT {
+        // Distance of the common chord from the first centre.
+        let to_chord = all(0.5) * inverse * (distance2 + ar * ar - br * br);
+        let half_chord2 = (ar * ar - to_chord * to_chord).max(all(0.0));
+        V::select(touching, all(2.0) * half_chord2.sqrt() * inverse, all(0.0))
+    } else {
+        all(0.0)
+    };
     Some(PairForce {
+        conductance,
         on_j: [normal * nx - tangential * ny, normal * ny + tangential * nx],
         torque: [arm_a * tangential, all(0.0) - arm_b * tangential],
         tangential,

@@ -17,6 +17,7 @@
 //! | `slabs` | the sweep: forces and motion block by block |
 //! | `team` | threads that share a step |
 //! | `pace` | whether threads pay at the moment |
+//! | `network` | the pipes as a sparse matrix |
 //! | [`heat`] | thermal pipes, sub-stepped (Eq. 5) |
 //! | [`time_step`] | bound on the stable step |
 //! | [`run`] | many steps, watched; typed failures |
@@ -36,6 +37,7 @@ mod kernel;
 pub mod law;
 pub mod material;
 mod neighbours;
+mod network;
 mod pace;
 mod relax;
 pub mod restore;

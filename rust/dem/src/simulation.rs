@@ -166,9 +166,7 @@ impl Simulation {
         }
         mark(Stage::Neighbours);
         self.sweep(&mut mark);
-        if self.pipes.is_some() {
-            self.conduct(self.time_step);
-        }
+        self.conduct_through(self.time_step, HeatPipes::follow);
         mark(Stage::Heat);
         self.steps += 1;
         self.time += self.time_step;
@@ -188,8 +186,12 @@ impl Simulation {
 
     /// Conducts heat over `dt` [s] on the present geometry, without motion; nothing when heat is off.
     pub fn conduct(&mut self, dt: f64) {
+        self.conduct_through(dt, HeatPipes::connect);
+    }
+
+    fn conduct_through(&mut self, dt: f64, update: fn(&mut HeatPipes, &Self)) {
         if let Some(mut pipes) = self.pipes.take() {
-            pipes.connect(self);
+            update(&mut pipes, self);
             pipes.conduct(&mut self.discs, dt);
             self.pipes = Some(pipes);
         }
@@ -208,7 +210,7 @@ impl Simulation {
     /// out where it turns unstable.
     pub fn conduct_once(&mut self, dt: f64) {
         if let Some(pipes) = &mut self.pipes {
-            pipes.substep(&mut self.discs, dt);
+            pipes.take_substeps(&mut self.discs, 1, dt);
         }
     }
 
@@ -340,9 +342,10 @@ impl Simulation {
     /// Radii, contact forces and motion.
     fn sweep(&mut self, mark: impl FnMut(Stage)) {
         let (dt, flow) = (self.time_step, self.flow());
+        let conductivity = self.pipes.as_ref().map(|pipes| pipes.thermal.conductivity);
         let sweep = Sweep {
             simd: self.simd,
-            law: PairLaw::new(&self.material, dt, flow.gradient),
+            law: PairLaw::new(&self.material, dt, flow.gradient, conductivity),
             walls: &self.walls,
             flow,
             motion: Motion {

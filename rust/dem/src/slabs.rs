@@ -76,7 +76,7 @@ impl SlabLoads {
         let Neighbours { pairs, walls, .. } = neighbours;
         let mut walls = walls.each_mut().map(|contacts| contacts.parts(&slabs).into_iter());
         let views = SharedDiscs::divide(discs, &slabs);
-        let parts = pairs.parts().into_iter().zip(views).zip(&mut self.0);
+        let parts = pairs.parts(sweep.law.conductivity.is_some()).into_iter().zip(views).zip(&mut self.0);
         let tasks: Vec<Task> = parts
             .filter_map(|((pairs, discs), loads)| {
                 let [left, right, bottom, top] = &mut walls;
