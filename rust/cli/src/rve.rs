@@ -249,6 +249,9 @@ fn as_json(a: &Averages, unbalanced: f64) -> serde_json::Value {
         "fabric_index": a.fabric_index,
         "fabric_conductivity": a.fabric_conductivity,
         "conductivity": {"xx": a.conductivity_xx, "yy": a.conductivity_yy, "xy": a.conductivity_xy},
+        "conductivity_network": {
+            "xx": a.conductivity_network_xx, "yy": a.conductivity_network_yy, "xy": a.conductivity_network_xy
+        },
         "stress": {"xx": a.stress_xx, "yy": a.stress_yy, "xy": a.stress_xy, "yx": a.stress_yx},
         "pressure": a.pressure,
         "coordination": a.coordination,

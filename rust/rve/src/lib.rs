@@ -8,6 +8,7 @@
 //! | [`region`] | the averaging region: a convex polygon |
 //! | [`area`] | exact area of a union of discs inside a polygon |
 //! | [`homogenise`](mod@homogenise) | porosity, fabric, conductivity, stress (Eqs. 8–11) |
+//! | [`network`] | conductivity from the solved network of contacts |
 //! | [`state`] | state files: one assembly as JSON |
 //! | [`vtk`] | ParaView files |
 //! | [`database`] | plan, generation, storage, export |
@@ -17,9 +18,11 @@ pub mod area;
 pub mod database;
 pub mod expand;
 pub mod homogenise;
+pub mod network;
 pub mod pack;
 mod place;
 pub mod region;
+mod resistors;
 pub mod settle;
 pub mod state;
 pub mod vtk;
