@@ -4,8 +4,8 @@ use crate::error::CliError;
 use crate::files::{read_text, write_atomically};
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_rve::{
-    Averages, Compression, Cut, Material, PackingSpec, Protocol, RegionKind, Relaxation, Settled, Simulation,
-    Strains, follow, homogenise_in, pack, region, state, unbalanced_force, vtk,
+    Averages, Axis, Compression, Cut, Material, PackingSpec, Protocol, RegionKind, Relaxation, Settled,
+    Simulation, Strains, follow, heat_check, homogenise_in, pack, region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -18,6 +18,8 @@ pub enum Command {
     Expand(ExpandArguments),
     /// Print the averages of a state as JSON.
     Homogenise(HomogeniseArguments),
+    /// Conduct heat through a whole frozen assembly; prints it beside the homogenised conductivity as JSON.
+    HeatCheck(HeatCheckArguments),
 }
 
 #[derive(Args)]
@@ -104,6 +106,25 @@ pub struct HomogeniseArguments {
     cut: CutName,
 }
 
+#[derive(Args)]
+#[command(
+    after_help = "Two opposite walls have different temperatures, the other two are insulated. Over k: k_measured
+(flux over the gradient in the inner part), k_affine (Eq. 9) and k_network (contacts solved) of windows there."
+)]
+pub struct HeatCheckArguments {
+    #[arg(long, value_name = "FILE")]
+    state: PathBuf,
+    /// Direction of the temperature difference.
+    #[arg(long, value_enum, default_value_t = AxisName::X)]
+    axis: AxisName,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum AxisName {
+    X,
+    Y,
+}
+
 #[derive(Clone, Copy, ValueEnum)]
 enum CompressionName {
     Isotropic,
@@ -142,6 +163,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Pack(arguments) => pack_one(arguments),
         Command::Expand(arguments) => expand_one(arguments),
         Command::Homogenise(arguments) => homogenise_one(arguments),
+        Command::HeatCheck(arguments) => check_heat(arguments),
     }
 }
 
@@ -264,6 +286,16 @@ fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
     Ok(())
 }
 
+fn check_heat(arguments: &HeatCheckArguments) -> Result<(), CliError> {
+    let axis = match arguments.axis {
+        AxisName::X => Axis::X,
+        AxisName::Y => Axis::Y,
+    };
+    let check = heat_check(&read_state(&arguments.state)?, axis);
+    println!("{}", serde_json::to_string_pretty(&check).map_err(|e| CliError::Message(e.to_string()))?);
+    Ok(())
+}
+
 /// Conductivity over k; stresses in Pa, compression positive.
 fn as_json(a: &Averages, unbalanced: f64) -> serde_json::Value {
     json!({
@@ -273,6 +305,9 @@ fn as_json(a: &Averages, unbalanced: f64) -> serde_json::Value {
         "fabric_index": a.fabric_index,
         "fabric_conductivity": a.fabric_conductivity,
         "conductivity": {"xx": a.conductivity_xx, "yy": a.conductivity_yy, "xy": a.conductivity_xy},
+        "conductivity_network": {
+            "xx": a.conductivity_network_xx, "yy": a.conductivity_network_yy, "xy": a.conductivity_network_xy
+        },
         "stress": {"xx": a.stress_xx, "yy": a.stress_yy, "xy": a.stress_xy, "yx": a.stress_yx},
         "pressure": a.pressure,
         "coordination": a.coordination,

@@ -1,6 +1,7 @@
 //! Averages of an assembly over a region (section 2.3).
 
 use crate::area::{porosity, sum_of_areas};
+use crate::network::Network;
 use crate::region::{Cut, Polygon, RegionKind, region};
 use msdd_dem::heat::chord;
 use msdd_dem::{Contact, Simulation};
@@ -24,6 +25,10 @@ pub struct Averages {
     pub conductivity_xx: f64,
     pub conductivity_yy: f64,
     pub conductivity_xy: f64,
+    /// K/k [-], the network of contacts solved for a unit gradient ([`crate::network`]); Eq. 9 overestimates it.
+    pub conductivity_network_xx: f64,
+    pub conductivity_network_yy: f64,
+    pub conductivity_network_xy: f64,
     /// σ [Pa], Love's formula (Eq. 10), compression positive; σ_ab sums branch_a force_b.
     pub stress_xx: f64,
     pub stress_yy: f64,
@@ -91,6 +96,7 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
     let rattlers = degree.iter().filter(|&&d| d == 0).count();
     let bearing = (degree.len() - rattlers).max(1);
     let per_area = 1.0 / region.area();
+    let [nxx, nyy, nxy] = Network::of_region(simulation, region, cut).conductivity(region.area());
     let [kxx, kyy, kxy] = sums.conductance.map(|sum| sum * per_area);
     let [sxx, syy, sxy, syx] = sums.stress.map(|sum| sum * per_area);
     let disc_area: f64 = simulation.discs.iter().map(|d| d.area()).sum();
@@ -104,6 +110,9 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
         conductivity_xx: kxx,
         conductivity_yy: kyy,
         conductivity_xy: kxy,
+        conductivity_network_xx: nxx,
+        conductivity_network_yy: nyy,
+        conductivity_network_xy: nxy,
         stress_xx: sxx,
         stress_yy: syy,
         stress_xy: sxy,

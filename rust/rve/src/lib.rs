@@ -8,7 +8,10 @@
 //! | [`region`] | the averaging region: a convex polygon |
 //! | [`area`] | exact area of a union of discs inside a polygon |
 //! | [`homogenise`](mod@homogenise) | porosity, fabric, conductivity, stress (Eqs. 8–11) |
+//! | [`heat_check`](mod@heat_check) | flux through a whole assembly beside its homogenised conductivity |
+//! | [`network`] | conductivity from the solved network of contacts |
 //! | [`state`] | state files: one assembly as JSON |
+//! | [`window`](mod@window) | averages over rectangles of a large assembly |
 //! | [`vtk`] | ParaView files |
 //! | [`database`] | plan, generation, storage, export |
 #![forbid(unsafe_code)]
@@ -16,20 +19,26 @@
 pub mod area;
 pub mod database;
 pub mod expand;
+pub mod heat_check;
 pub mod homogenise;
+pub mod network;
 pub mod pack;
 mod place;
 pub mod region;
+mod resistors;
 pub mod settle;
 pub mod state;
 pub mod vtk;
+pub mod window;
 
 pub use expand::{Protocol, Ramp, Stop, Strains, expand, follow};
+pub use heat_check::{Axis, HeatCheck, heat_check};
 pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
 pub use pack::{Compression, Packed, PackingSpec, pack};
 pub use region::{Cut, RegionKind};
 pub use settle::{Outcome, Relaxation, Settled, unbalanced_force};
+pub use window::{Window, window, window_around, windows};
 
 /// What can be wrong with an RVE's specification, or go wrong while it is made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -71,6 +71,9 @@ fn quarter_turn_permutes_the_averages() {
         close("K_xx", b.conductivity_xx, a.conductivity_yy, 1.0);
         close("K_yy", b.conductivity_yy, a.conductivity_xx, 1.0);
         close("K_xy", b.conductivity_xy, -a.conductivity_xy, 1.0);
+        close("network K_xx", b.conductivity_network_xx, a.conductivity_network_yy, 1.0);
+        close("network K_yy", b.conductivity_network_yy, a.conductivity_network_xx, 1.0);
+        close("network K_xy", b.conductivity_network_xy, -a.conductivity_network_xy, 1.0);
         close("σ_xx", b.stress_xx, a.stress_yy, a.pressure);
         close("σ_yy", b.stress_yy, a.stress_xx, a.pressure);
         close("σ_xy", b.stress_xy, -a.stress_yx, a.pressure);

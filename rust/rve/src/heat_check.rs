@@ -1,0 +1,185 @@
+//! Check on heat itself: flux through the whole frozen network of an assembly, beside its homogenised conductivity.
+
+use crate::Simulation;
+use crate::network::{Link, Network, sorted_along};
+use crate::window::window;
+use msdd_dem::Side;
+use msdd_dem::heat::conductance;
+use serde::{Deserialize, Serialize};
+
+/// Share of the length that is left out at each end: there contacts with the wall resist, and grains stand in rows.
+const END: f64 = 0.15;
+/// Windows are about squares of this many mean radii: 215 mm of the paper's grains, about 500 discs.
+const WINDOW: f64 = 43.0;
+
+/// Direction of the temperature difference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    X,
+    Y,
+}
+
+/// Measured and homogenised conductivity along one axis, all over k [-].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HeatCheck {
+    pub axis: Axis,
+    /// Flux over the temperature gradient in the inner part.
+    pub k_measured: f64,
+    /// Mean over windows of the inner part, Eq. 9.
+    pub k_affine: f64,
+    /// Mean over the same windows, network solved.
+    pub k_network: f64,
+    pub affine_over_measured: f64,
+    pub network_over_measured: f64,
+    /// Mean gradient in the inner part over temperature difference per length of the box: 1 without wall resistance.
+    pub inner_gradient: f64,
+    pub windows: usize,
+}
+
+/// Imposes a temperature difference between the two walls of an axis, the other two insulated, and compares the steady
+/// flux with the conductivity homogenised in windows between the ends. A box without a path for heat measures 0.
+pub fn heat_check(simulation: &Simulation, axis: Axis) -> HeatCheck {
+    let (flux, gradient) = flux_and_gradient(simulation, axis);
+    let k_measured = flux / gradient;
+    let ([k_affine, k_network], windows) = inner_windows(simulation, axis);
+    let ratio = |k: f64| if k_measured > 0.0 { k / k_measured } else { 0.0 };
+    HeatCheck {
+        axis,
+        k_measured,
+        k_affine,
+        k_network,
+        affine_over_measured: ratio(k_affine),
+        network_over_measured: ratio(k_network),
+        inner_gradient: gradient,
+        windows,
+    }
+}
+
+/// Number of the axis, its two walls, its ends and the inner part of it [m].
+fn ends(simulation: &Simulation, axis: Axis) -> (usize, [Side; 2], [f64; 2]) {
+    let (along, sides) = match axis {
+        Axis::X => (0, [Side::Left, Side::Right]),
+        Axis::Y => (1, [Side::Bottom, Side::Top]),
+    };
+    let [low, high] = sides.map(|side| simulation.walls.position[side as usize]);
+    let cut = END * (high - low);
+    (along, sides, [low + cut, high - cut])
+}
+
+/// Flux over k for a unit difference per length of the box, and gradient in the inner part.
+fn flux_and_gradient(simulation: &Simulation, axis: Axis) -> (f64, f64) {
+    let (along, sides, [low, high]) = ends(simulation, axis);
+    let count = simulation.discs.len();
+    let mut links = Vec::new();
+    simulation.for_each_contact(|contact| {
+        // The two walls are further nodes, at the affine temperature.
+        let i = match contact.i {
+            Ok(i) => i,
+            Err(side) if side == sides[0] => count,
+            Err(side) if side == sides[1] => count + 1,
+            Err(_) => return,
+        };
+        let conductance = conductance(&contact, &simulation.discs, 1.0);
+        links.push(Link { i, j: contact.j, branch: contact.branch, conductance, share: 1.0 });
+    });
+    let network = Network { links, free: sorted_along(simulation, along, |_| true) };
+    let fluctuation = network.fluctuations();
+    let at_low_wall = network.links.iter().filter(|link| link.i == count);
+    let flow: f64 =
+        at_low_wall.map(|link| link.conductance * (link.branch[along] + fluctuation(link.j)[along])).sum();
+    let across = simulation.walls.area()
+        / (simulation.walls.position[sides[1] as usize] - simulation.walls.position[sides[0] as usize]);
+    let at = |k: usize| [simulation.discs[k].x, simulation.discs[k].y][along];
+    let mean_fluctuation = |section: f64| {
+        // Where the section crosses a contact, T′ lies between those of its discs.
+        let crossings = network.links.iter().filter(|link| link.i < count).filter_map(|link| {
+            let part = (section - at(link.i)) / link.branch[along];
+            let [i, j] = [fluctuation(link.i)[along], fluctuation(link.j)[along]];
+            (0.0..1.0).contains(&part).then_some(i + part * (j - i))
+        });
+        let (sum, crossed) = crossings.fold((0.0, 0.0f64), |(sum, n), value| (sum + value, n + 1.0));
+        sum / crossed.max(1.0)
+    };
+    (flow / across, 1.0 + (mean_fluctuation(high) - mean_fluctuation(low)) / (high - low))
+}
+
+/// Affine and network conductivity along the axis, and the number of windows. They fill the inner part from one insulated
+/// wall to the other; those beside each other conduct in parallel (mean), those behind each other in series (harmonic mean).
+fn inner_windows(simulation: &Simulation, axis: Axis) -> ([f64; 2], usize) {
+    let (along, _, inner) = ends(simulation, axis);
+    let [left, right, bottom, top] = simulation.walls.position;
+    let mut spans = [[left, right], [bottom, top]];
+    spans[along] = inner;
+    let size = WINDOW * simulation.mean_radius();
+    let parts = spans.map(|[low, high]| ((high - low) / size).round().max(1.0) as usize);
+    let corner = |at: [usize; 2]| {
+        [0, 1].map(|a| spans[a][0] + (spans[a][1] - spans[a][0]) * at[a] as f64 / parts[a] as f64)
+    };
+    let mut resistance = [0.0; 2];
+    for row in 0..parts[along] {
+        let mut sum = [0.0; 2];
+        for column in 0..parts[1 - along] {
+            let at = if along == 0 { [row, column] } else { [column, row] };
+            let a = window(simulation, corner(at), corner(at.map(|k| k + 1))).averages;
+            let found = match axis {
+                Axis::X => [a.conductivity_xx, a.conductivity_network_xx],
+                Axis::Y => [a.conductivity_yy, a.conductivity_network_yy],
+            };
+            sum = [sum[0] + found[0], sum[1] + found[1]];
+        }
+        resistance = [0, 1].map(|k| resistance[k] + parts[1 - along] as f64 / sum[k]);
+    }
+    (resistance.map(|r| parts[along] as f64 / r), parts[0] * parts[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Compression, Material, PackingSpec, pack};
+    use msdd_dem::{Disc, Walls};
+
+    /// A square lattice that leans on its walls: every row is a chain, so affine, network and measurement agree.
+    #[test]
+    fn lattice_between_walls_is_exact() {
+        let (n, r, d) = (16, 5e-3, 9.8e-3);
+        let at = |k: usize| 4.9e-3 + d * k as f64;
+        let places = (0..n * n).map(|k| Disc::at_rest(at(k % n), at(k / n), r, 3000.0));
+        let size = d * n as f64;
+        let lattice = Simulation::new(Material::default(), places.collect(), Walls::around(size, size));
+        for axis in [Axis::X, Axis::Y] {
+            let check = heat_check(&lattice, axis);
+            assert!((check.network_over_measured - 1.0).abs() < 1e-12, "{check:?}");
+            // Windows that end at the insulated walls cut through no contact there: n − 1 or n rows all the same.
+            assert!((check.affine_over_measured - 1.0).abs() < 1e-12, "{check:?}");
+        }
+    }
+
+    #[test]
+    fn packed_box_agrees_with_the_network_and_not_with_affine() {
+        let spec = PackingSpec {
+            discs: 400,
+            seed: 2,
+            porosity: 0.12,
+            compression: Compression::Horizontal,
+            radius_min: 3e-3,
+            radius_max: 7e-3,
+        };
+        let simulation = pack(&spec, &Material::default()).unwrap().simulation;
+        let [x, y] = [Axis::X, Axis::Y].map(|axis| heat_check(&simulation, axis));
+        for check in [x, y] {
+            assert!((0.97..1.05).contains(&check.network_over_measured), "{check:?}");
+            assert!(check.affine_over_measured > check.network_over_measured + 0.01, "{check:?}");
+        }
+        assert!(x.k_measured > 1.05 * y.k_measured, "{x:?} {y:?}");
+    }
+
+    #[test]
+    fn loose_discs_conduct_nothing() {
+        let discs = (0..20).map(|k| Disc::at_rest(0.02 + 0.02 * f64::from(k), 0.1, 5e-3, 3000.0)).collect();
+        let loose = Simulation::new(Material::default(), discs, Walls::around(0.5, 0.2));
+        let check = heat_check(&loose, Axis::X);
+        assert_eq!((check.k_measured, check.k_affine, check.k_network), (0.0, 0.0, 0.0));
+        assert_eq!(check.network_over_measured, 0.0);
+    }
+}

@@ -1,0 +1,124 @@
+//! Conductivity of a region from the network of its contacts, solved for a unit gradient along x and along y.
+//!
+//! Temperatures are T = G·x + T′. The affine estimate (Eq. 9) sets T′ = 0 everywhere, which no balance of heat holds to,
+//! and so is an upper bound. Here T′ balances the heat of every disc in the region and is 0 outside of it. That border
+//! shows little: windows of 500 discs solved with a margin of 8 mean radii give the same within 0.1 %. Only branches
+//! enter, no positions: contacts through the border of a periodic cell are like any other.
+
+use crate::region::{Cut, Polygon};
+use crate::resistors::Resistors;
+use msdd_dem::Simulation;
+use msdd_dem::heat::conductance;
+
+/// A contact as a resistor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    pub i: usize,
+    pub j: usize,
+    /// From i to j [m].
+    pub branch: [f64; 2],
+    /// A/|d|: conductance over k, on 1 m depth [-].
+    pub conductance: f64,
+    /// Share of the branch that counts in the average, 0 to 1.
+    pub share: f64,
+}
+
+/// Discs and their contacts. Discs in `free` balance their heat; the others follow the affine temperature.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Network {
+    pub links: Vec<Link>,
+    /// The discs whose temperature is unknown, in the order of elimination; neighbours should come close together.
+    pub free: Vec<usize>,
+}
+
+impl Network {
+    /// The network of a region: discs with their centre inside that touch no wall are free. Discs at a wall must not be,
+    /// or the wall would insulate where the gradient is imposed (up to 7 % low). Wall contacts are left out of the average.
+    pub fn of_region(simulation: &Simulation, region: &Polygon, cut: Cut) -> Self {
+        let mut free: Vec<bool> = simulation.discs.iter().map(|d| region.contains([d.x, d.y])).collect();
+        simulation.for_each_contact(|contact| {
+            if contact.i.is_err() {
+                free[contact.j] = false;
+            }
+        });
+        let mut links = Vec::new();
+        simulation.for_each_contact(|contact| {
+            let Ok(i) = contact.i else { return };
+            let (a, b) = (&simulation.discs[i], &simulation.discs[contact.j]);
+            let share = match (region.share_inside([a.x, a.y], [b.x, b.y]), cut) {
+                (share, Cut::Whole) if share > 0.0 => 1.0,
+                (share, _) => share,
+            };
+            if share > 0.0 || free[i] || free[contact.j] {
+                let conductance = conductance(&contact, &simulation.discs, 1.0);
+                links.push(Link { i, j: contact.j, branch: contact.branch, conductance, share });
+            }
+        });
+        Self { links, free: sorted_along(simulation, 0, |k| free[k]) }
+    }
+
+    /// K/k [-] as xx, yy, xy: Σ share · flow · branch / area, the mean flux for a unit gradient, with the weights of Eq. 9.
+    /// The two mixed terms differ by what the border cuts; xy is their mean. `area` is that of the region [m²].
+    pub fn conductivity(&self, area: f64) -> [f64; 3] {
+        let fluctuation = self.fluctuations();
+        let mut sums = [[0.0; 2]; 2];
+        for link in &self.links {
+            let ([i, j], [dx, dy]) = ([fluctuation(link.i), fluctuation(link.j)], link.branch);
+            for (axis, along) in [dx, dy].into_iter().enumerate() {
+                let flow = link.share * link.conductance * (along + j[axis] - i[axis]);
+                sums[axis][0] += flow * dx;
+                sums[axis][1] += flow * dy;
+            }
+        }
+        [sums[0][0] / area, sums[1][1] / area, 0.5 * (sums[0][1] + sums[1][0]) / area]
+    }
+
+    /// T′ of each disc for a unit gradient along x and along y [K per K/m].
+    pub(crate) fn fluctuations(&self) -> impl Fn(usize) -> [f64; 2] {
+        const KNOWN: usize = usize::MAX;
+        let largest = self.links.iter().map(|l| l.i.max(l.j)).chain(self.free.iter().copied()).max();
+        let mut unknown = vec![KNOWN; largest.map_or(0, |k| k + 1)];
+        self.free.iter().enumerate().for_each(|(row, &disc)| unknown[disc] = row);
+        let mut resistors = Resistors::new(self.free.len(), 2);
+        for link in self.links.iter().filter(|link| link.conductance != 0.0) {
+            let (i, j) = (unknown[link.i], unknown[link.j]);
+            match (i, j) {
+                (KNOWN, KNOWN) => {}
+                (KNOWN, row) | (row, KNOWN) => resistors.ground[row] += link.conductance,
+                _ => resistors.links.push((i, j, link.conductance)),
+            }
+            for (axis, along) in link.branch.into_iter().enumerate() {
+                // What the affine temperatures alone let flow from j to i.
+                let flow = link.conductance * along;
+                if i != KNOWN {
+                    resistors.heat[(i, axis)] += flow;
+                }
+                if j != KNOWN {
+                    resistors.heat[(j, axis)] -= flow;
+                }
+            }
+        }
+        let solution = resistors.temperatures();
+        move |disc| match (unknown[disc], &solution) {
+            (_, None) => [f64::NAN; 2],
+            (KNOWN, _) => [0.0; 2],
+            (row, Some(t)) => [t[(row, 0)], t[(row, 1)]],
+        }
+    }
+}
+
+/// The chosen discs in the order of x (`axis` 0) or y (1), which keeps the fill-in of the factorisation small.
+pub(crate) fn sorted_along(
+    simulation: &Simulation,
+    axis: usize,
+    chosen: impl Fn(usize) -> bool,
+) -> Vec<usize> {
+    let at = |k: usize| [simulation.discs[k].x, simulation.discs[k].y][axis];
+    let mut order: Vec<usize> = (0..simulation.discs.len()).filter(|&k| chosen(k)).collect();
+    order.sort_by(|&a, &b| at(a).total_cmp(&at(b)));
+    order
+}
+
+#[cfg(test)]
+#[path = "network_tests.rs"]
+mod tests;
