@@ -2,6 +2,7 @@
 
 use crate::error::CliError;
 use crate::files::{read_text, write_atomically};
+use crate::simd::SimdArgument;
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_rve::{
     Averages, Compression, Cut, Material, PackingSpec, Rates, RegionKind, Settled, Simulation, Strains,
@@ -46,6 +47,8 @@ pub struct PackArguments {
     /// Folder for ParaView files of the state.
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
+    #[command(flatten)]
+    simd: SimdArgument,
 }
 
 #[derive(Args)]
@@ -84,6 +87,8 @@ pub struct ExpandArguments {
     /// Folder for a ParaView time series of the stops.
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
+    #[command(flatten)]
+    simd: SimdArgument,
 }
 
 #[derive(Args)]
@@ -136,6 +141,7 @@ fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
 }
 
 fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
+    arguments.simd.apply()?;
     let spec = PackingSpec {
         discs: arguments.discs,
         seed: arguments.seed,
@@ -156,6 +162,7 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
 }
 
 fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
+    arguments.simd.apply()?;
     let mut simulation = read_state(&arguments.state)?;
     simulation.affine = arguments.affine;
     if let Some(factor) = arguments.wall_stiffness {

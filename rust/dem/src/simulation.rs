@@ -101,7 +101,7 @@ impl Simulation {
             strain: 0.0,
             strain_rate: 0.0,
             largest_speed: 0.0,
-            simd: Simd::best(),
+            simd: Simd::preferred(),
             neighbours: Neighbours::default(),
         };
         simulation.neighbours.rebuild(&simulation.discs, &simulation.walls);
