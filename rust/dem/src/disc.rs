@@ -37,6 +37,11 @@ impl Disc {
         }
     }
 
+    /// |v| [m/s].
+    pub fn speed(&self) -> f64 {
+        (self.vx * self.vx + self.vy * self.vy).sqrt()
+    }
+
     /// Area of the disc, π r² [m²].
     pub fn area(&self) -> f64 {
         PI * self.radius * self.radius

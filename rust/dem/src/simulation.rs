@@ -105,7 +105,7 @@ impl Simulation {
             neighbours: Neighbours::default(),
         };
         simulation.neighbours.rebuild(&simulation.discs, &simulation.walls);
-        simulation.largest_speed = simulation.discs.iter().map(|d| d.vx.hypot(d.vy)).fold(0.0, f64::max);
+        simulation.largest_speed = simulation.discs.iter().map(Disc::speed).fold(0.0, f64::max);
         simulation.time_step = time_step::SAFETY * time_step::stable_step(&simulation);
         simulation
     }
