@@ -3,6 +3,7 @@
 use crate::error::CliError;
 use crate::files::read_text;
 use crate::progress::Progress;
+use crate::simd::SimdArgument;
 use clap::{Args, Subcommand};
 use msdd_rve::database::{Plan, export_csv, generate, read};
 use std::collections::BTreeMap;
@@ -28,6 +29,8 @@ pub struct GenerateArguments {
     /// Threads; the rows do not depend on it. Default: all cores.
     #[arg(long)]
     threads: Option<usize>,
+    #[command(flatten)]
+    simd: SimdArgument,
 }
 
 #[derive(Args)]
@@ -52,6 +55,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
 }
 
 fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
+    arguments.simd.apply()?;
     let plan = Plan::parse(&read_text(&arguments.plan)?, &arguments.plan.display().to_string())?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = arguments.threads.unwrap_or(cores);

@@ -7,6 +7,7 @@ mod error;
 mod files;
 mod progress;
 mod rve;
+mod simd;
 mod summary;
 mod train;
 

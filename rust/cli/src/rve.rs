@@ -2,6 +2,7 @@
 
 use crate::error::CliError;
 use crate::files::{read_text, write_atomically};
+use crate::simd::SimdArgument;
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_rve::{
     Averages, Axis, Compression, Cut, Material, PackingSpec, Protocol, RegionKind, Relaxation, Settled,
@@ -51,6 +52,8 @@ pub struct PackArguments {
     /// Folder for ParaView files of the state.
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
+    #[command(flatten)]
+    simd: SimdArgument,
 }
 
 #[derive(Args)]
@@ -92,6 +95,8 @@ pub struct ExpandArguments {
     /// Folder for a ParaView time series of the stops.
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
+    #[command(flatten)]
+    simd: SimdArgument,
 }
 
 #[derive(Args)]
@@ -179,6 +184,7 @@ fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
 }
 
 fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
+    arguments.simd.apply()?;
     let spec = PackingSpec {
         discs: arguments.discs,
         seed: arguments.seed,
@@ -200,6 +206,7 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
 }
 
 fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
+    arguments.simd.apply()?;
     let mut simulation = read_state(&arguments.state)?;
     simulation.affine = arguments.affine;
     if let Some(factor) = arguments.wall_stiffness {

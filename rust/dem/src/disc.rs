@@ -42,6 +42,11 @@ impl Disc {
         (self.vx, self.vy, self.angular_velocity) = (0.0, 0.0, 0.0);
     }
 
+    /// |v| [m/s].
+    pub fn speed(&self) -> f64 {
+        (self.vx * self.vx + self.vy * self.vy).sqrt()
+    }
+
     /// Area of the disc, π r² [m²].
     pub fn area(&self) -> f64 {
         PI * self.radius * self.radius

@@ -39,7 +39,7 @@ impl PairLaw {
         Self {
             young_modulus: material.young_modulus,
             stiffness_ratio: material.stiffness_ratio,
-            friction: material.friction_angle.tan(),
+            friction: libm::tan(material.friction_angle),
             wall_factor: material.wall_stiffness_factor,
             dt,
             gradient,

@@ -52,7 +52,7 @@ impl Simulation {
             if !(d.x + d.y + d.vx + d.vy + d.angular_velocity).is_finite() {
                 return Err(Failure::NonFinite { disc, time });
             }
-            let ratio = d.vx.hypot(d.vy) * self.time_step / d.radius;
+            let ratio = d.speed() * self.time_step / d.radius;
             if ratio > LARGEST_STRIDE {
                 return Err(Failure::Speed { disc, ratio, time });
             }

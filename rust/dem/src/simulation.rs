@@ -100,11 +100,11 @@ impl Simulation {
             strain: 0.0,
             strain_rate: 0.0,
             largest_speed: 0.0,
-            simd: Simd::best(),
+            simd: Simd::preferred(),
             neighbours: Neighbours::default(),
         };
         simulation.neighbours.rebuild(&simulation.discs, &simulation.walls);
-        simulation.largest_speed = simulation.discs.iter().map(|d| d.vx.hypot(d.vy)).fold(0.0, f64::max);
+        simulation.largest_speed = simulation.discs.iter().map(Disc::speed).fold(0.0, f64::max);
         simulation.time_step = time_step::SAFETY * time_step::stable_step(&simulation);
         simulation
     }

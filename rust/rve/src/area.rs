@@ -3,8 +3,11 @@
 //! The border of (union ∩ polygon) consists of the arcs of discs that lie in no other disc and inside the polygon,
 //! and of the parts of the polygon's edges that lie in a disc. Green's theorem, ½ ∮ (x dy − y dx), sums them in
 //! closed form: exact for any number of overlaps, and for discs that stick out of the walls.
+//!
+//! Packing stops by this porosity, so it uses no function of the platform's mathematical library (see `libm`).
 
 use crate::region::{Polygon, whole_box};
+use libm::{acos, atan2, cos, sin};
 use msdd_dem::{Disc, Simulation};
 use std::f64::consts::{PI, TAU};
 
@@ -51,34 +54,39 @@ fn free_arcs(i: usize, discs: &[Disc], partners: &[usize], region: &Polygon, ori
     for &j in partners {
         let other = &discs[j];
         let (dx, dy) = (other.x - disc.x, other.y - disc.y);
-        let d = dx.hypot(dy);
+        let d = (dx * dx + dy * dy).sqrt();
         if d + disc.radius <= other.radius {
             return 0.0;
         }
         if d + other.radius > disc.radius {
             let cosine =
                 (d * d + disc.radius * disc.radius - other.radius * other.radius) / (2.0 * d * disc.radius);
-            hide(&mut hidden, dy.atan2(dx), cosine.clamp(-1.0, 1.0).acos());
+            hide(&mut hidden, atan2(dy, dx), acos(cosine.clamp(-1.0, 1.0)));
         }
     }
     for (a, b) in region.edges() {
-        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let length = distance(a, b);
         let outward = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
         let inside = -((disc.x - a[0]) * outward[0] + (disc.y - a[1]) * outward[1]);
         if inside <= -disc.radius {
             return 0.0;
         }
         if inside < disc.radius {
-            hide(&mut hidden, outward[1].atan2(outward[0]), (inside / disc.radius).acos());
+            hide(&mut hidden, atan2(outward[1], outward[0]), acos(inside / disc.radius));
         }
     }
     let (x, y, r) = (disc.x - origin[0], disc.y - origin[1], disc.radius);
     gaps(&mut hidden, 0.0, TAU)
         .map(|(from, to)| {
-            let (sine, cosine) = (to.sin() - from.sin(), to.cos() - from.cos());
+            let (sine, cosine) = (sin(to) - sin(from), cos(to) - cos(from));
             0.5 * r * (r * (to - from) + x * sine - y * cosine)
         })
         .sum()
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    (dx * dx + dy * dy).sqrt()
 }
 
 /// Adds the angles within `half` of `middle` to the intervals, wrapped into [0, 2π].
@@ -109,7 +117,7 @@ fn gaps(intervals: &mut [(f64, f64)], low: f64, high: f64) -> impl Iterator<Item
 
 /// ½ ∮ over the part of the edge a–b that lies in some disc.
 fn covered_edge(a: [f64; 2], b: [f64; 2], discs: &[Disc], origin: [f64; 2]) -> f64 {
-    let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+    let length = distance(a, b);
     let along = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
     let mut covered: Vec<(f64, f64)> = discs
         .iter()

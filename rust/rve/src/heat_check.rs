@@ -162,8 +162,7 @@ mod tests {
             seed: 2,
             porosity: 0.12,
             compression: Compression::Horizontal,
-            radius_min: 3e-3,
-            radius_max: 7e-3,
+            ..PackingSpec::default()
         };
         let simulation = pack(&spec, &Material::default()).unwrap().simulation;
         let [x, y] = [Axis::X, Axis::Y].map(|axis| heat_check(&simulation, axis));

@@ -106,8 +106,7 @@ fn defect_in_a_lattice() {
 }
 
 fn packed(compression: Compression, seed: u64) -> Simulation {
-    let spec =
-        PackingSpec { discs: 150, seed, porosity: 0.13, compression, radius_min: 3e-3, radius_max: 7e-3 };
+    let spec = PackingSpec { discs: 150, seed, porosity: 0.13, compression, ..PackingSpec::default() };
     pack(&spec, &Material::default()).unwrap().simulation
 }
 

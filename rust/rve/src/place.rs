@@ -49,9 +49,7 @@ pub(crate) fn scatter(
             let y = random.uniform(radius, height - radius);
             let (column, line) = ((x / cell) as usize, (y / cell) as usize);
             let clash = around(column, columns).any(|c| {
-                around(line, lines).any(|l| {
-                    cells[l * columns + c].iter().any(|d| (d.x - x).hypot(d.y - y) < d.radius + radius)
-                })
+                around(line, lines).any(|l| cells[l * columns + c].iter().any(|d| overlap(d, x, y, radius)))
             });
             (!clash).then_some((x, y, line * columns + column))
         });
@@ -59,6 +57,11 @@ pub(crate) fn scatter(
         cells[home].push(Disc::at_rest(x, y, radius, density));
     }
     Ok(cells.into_iter().flatten().collect())
+}
+
+fn overlap(disc: &Disc, x: f64, y: f64, radius: f64) -> bool {
+    let (dx, dy, reach) = (disc.x - x, disc.y - y, disc.radius + radius);
+    dx * dx + dy * dy < reach * reach
 }
 
 fn around(index: usize, count: usize) -> std::ops::RangeInclusive<usize> {

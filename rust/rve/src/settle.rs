@@ -117,7 +117,7 @@ fn mean_pressure(simulation: &Simulation) -> f64 {
     let mut sum = 0.0;
     simulation.for_each_contact(|contact| {
         let [x, y] = contact.branch;
-        sum += contact.normal_force() * x.hypot(y);
+        sum += contact.normal_force() * (x * x + y * y).sqrt();
     });
     let pressure = 0.5 * sum / simulation.walls.area();
     pressure / (simulation.material.young_modulus * simulation.mean_radius())

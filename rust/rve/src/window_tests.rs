@@ -9,8 +9,7 @@ fn packed() -> Simulation {
         seed: 4,
         porosity: 0.12,
         compression: Compression::Horizontal,
-        radius_min: 3e-3,
-        radius_max: 7e-3,
+        ..PackingSpec::default()
     };
     pack(&spec, &Material::default()).unwrap().simulation
 }

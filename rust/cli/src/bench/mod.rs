@@ -4,8 +4,9 @@ mod stability;
 
 use crate::error::CliError;
 use crate::rve::read_state;
-use clap::{Args, Subcommand, ValueEnum};
-use msdd_dem::{Simd, Stage, Thermal, WallHeat};
+use crate::simd::SimdArgument;
+use clap::{Args, Subcommand};
+use msdd_dem::{Stage, Thermal, WallHeat};
 use msdd_rve::{Compression, Material, PackingSpec, Simulation, pack};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -34,22 +35,14 @@ pub struct DemArguments {
     /// Steps to time.
     #[arg(long, default_value_t = 5000)]
     steps: u64,
-    /// Instruction set; default: the widest there is.
-    #[arg(long, value_enum)]
-    simd: Option<SimdName>,
+    #[command(flatten)]
+    simd: SimdArgument,
     /// Threads of one simulation; small assemblies stay on one.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     threads: u32,
     /// Heat on: the walls are 50 K hotter than the grains (Table 2 of the paper), which then swell by their temperature.
     #[arg(long)]
     heat: bool,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum SimdName {
-    Scalar,
-    Avx2,
-    Avx512,
 }
 
 /// Steps from the start state before it is taken again: at most 2 % strain.
@@ -64,21 +57,11 @@ pub fn run(command: &Command) -> Result<(), CliError> {
 }
 
 fn dem(arguments: &DemArguments) -> Result<(), CliError> {
+    arguments.simd.apply()?;
     let mut start = match &arguments.state {
         Some(path) => read_state(path)?,
         None => packed(arguments.particles)?,
     };
-    if let Some(name) = arguments.simd {
-        let simd = match name {
-            SimdName::Scalar => Simd::Scalar,
-            SimdName::Avx2 => Simd::Avx2,
-            SimdName::Avx512 => Simd::Avx512,
-        };
-        if !simd.available() {
-            return Err(CliError::Message(format!("--simd {simd:?}: this machine does not have it")));
-        }
-        start.set_simd(simd);
-    }
     start.reset_strain();
     if arguments.heat {
         start.enable_heat(Thermal::default(), [WallHeat::Temperature(50.0); 4]);

@@ -23,7 +23,7 @@ pub use store::Store;
 use std::path::PathBuf;
 
 /// Raised by one whenever the same plan and seed give other numbers. Databases of different versions do not mix.
-pub const ENGINE_VERSION: i64 = 2;
+pub const ENGINE_VERSION: i64 = 3;
 
 /// What can go wrong with plans and databases.
 #[derive(Debug, thiserror::Error)]
