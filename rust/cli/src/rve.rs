@@ -102,6 +102,7 @@ pub struct HomogeniseArguments {
 enum CompressionName {
     Isotropic,
     Horizontal,
+    Intermediate,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -143,6 +144,7 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
         compression: match arguments.compression {
             CompressionName::Isotropic => Compression::Isotropic,
             CompressionName::Horizontal => Compression::Horizontal,
+            CompressionName::Intermediate => Compression::Intermediate,
         },
         radius_min: arguments.radius_min,
         radius_max: arguments.radius_max,

@@ -4,6 +4,7 @@ use crate::homogenise::{Averages, homogenise};
 use crate::pack::Packed;
 use crate::region::RegionKind;
 use crate::settle::{Settled, settle};
+use crate::stopwatch::{self, Stage};
 use crate::{RveError, Simulation};
 
 /// Rate of the strain that changes most [1/s]: when contacts close, and when they open.
@@ -131,6 +132,25 @@ fn advance_to(
     rates: Rates,
 ) -> Result<Stop, RveError> {
     let since = simulation.steps;
+    stopwatch::time(Stage::Strain, || strain_to(simulation, target, [width, height], rates))?;
+    rest(simulation, target, since)
+}
+
+/// Relaxes in resting walls and averages.
+pub(crate) fn rest(simulation: &mut Simulation, strains: Strains, since: u64) -> Result<Stop, RveError> {
+    simulation.set_strain_rate(0.0);
+    simulation.walls.stop();
+    let settled = stopwatch::time(Stage::StrainSettle, || settle(simulation, since))?;
+    let averages = stopwatch::time(Stage::Averaging, || homogenise(simulation, RegionKind::default()));
+    Ok(Stop { strains, settled, averages })
+}
+
+fn strain_to(
+    simulation: &mut Simulation,
+    target: Strains,
+    [width, height]: [f64; 2],
+    rates: Rates,
+) -> Result<(), RveError> {
     loop {
         let walls = &simulation.walls;
         let thermal = target.thermal - simulation.strain();
@@ -142,7 +162,7 @@ fn advance_to(
         let rate = if loosening { rates.contraction } else { rates.expansion };
         let steps = (largest / (rate * simulation.time_step)).ceil();
         if steps < 1.0 || largest < 1e-12 {
-            break;
+            return Ok(());
         }
         // Equal steps that end at the stop, or the first of them.
         let time = steps * simulation.time_step;
@@ -151,9 +171,4 @@ fn advance_to(
         simulation.walls.normal_velocity = [-vx, vx, -vy, vy];
         simulation.run((steps as u64).min(RUN))?;
     }
-    simulation.set_strain_rate(0.0);
-    simulation.walls.stop();
-    let settled = settle(simulation, since)?;
-    let averages = homogenise(simulation, RegionKind::default());
-    Ok(Stop { strains: target, settled, averages })
 }

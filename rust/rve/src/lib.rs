@@ -8,8 +8,10 @@
 //! | [`region`] | the averaging region: a convex polygon |
 //! | [`area`] | exact area of a union of discs inside a polygon |
 //! | [`homogenise`](mod@homogenise) | porosity, fabric, conductivity, stress (Eqs. 8–11) |
+//! | [`slide`](mod@slide) | long walls slip along the grains: mobilised wall friction |
 //! | [`state`] | state files: one assembly as JSON |
 //! | [`vtk`] | ParaView files |
+//! | [`stopwatch`] | where the time goes |
 //! | [`database`] | plan, generation, storage, export |
 #![forbid(unsafe_code)]
 
@@ -21,15 +23,18 @@ pub mod pack;
 mod place;
 pub mod region;
 pub mod settle;
+pub mod slide;
 pub mod state;
+pub mod stopwatch;
 pub mod vtk;
 
 pub use expand::{Ramp, Rates, Stop, Strains, expand, follow};
 pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
-pub use pack::{Compression, Packed, PackingSpec, pack};
+pub use pack::{Compression, Packed, PackingSpec, Preparation, pack, pack_as};
 pub use region::{Cut, RegionKind};
 pub use settle::{Outcome, Settled, unbalanced_force};
+pub use slide::slide;
 
 /// What can be wrong with an RVE's specification, or go wrong while it is made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
