@@ -6,8 +6,8 @@ use crate::{RveError, Simulation};
 use msdd_dem::Side;
 use serde::{Deserialize, Serialize};
 
-/// Speed of the walls [m/s]; quasi-static: 0.01 gives the same friction within its scatter.
-const SLIP_SPEED: f64 = 0.02;
+/// Speed of the walls [m/s]: that of packing, and the grains come to rest at each stop.
+const SLIP_SPEED: f64 = 0.03;
 /// Largest step count between two looks at the stable time step.
 const RUN: u64 = 50;
 
@@ -87,7 +87,7 @@ fn slip_by(simulation: &mut Simulation, way: f64, slide: Slide) -> Result<Stop, 
 }
 
 /// Mean over bottom and top of tangential over normal force, positive against the motion; 0 without normal force.
-fn mobilised_friction(simulation: &Simulation, slide: Slide) -> f64 {
+pub fn mobilised_friction(simulation: &Simulation, slide: Slide) -> f64 {
     let sides = [Side::Bottom, Side::Top].into_iter().zip(slide.directions());
     let friction = |(side, direction): (Side, f64)| {
         let mut force = [0.0; 2];

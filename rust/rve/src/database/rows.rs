@@ -2,6 +2,7 @@
 
 use super::plan::{Job, Kind, Plan, RampName};
 use super::record::{Place, Record, State};
+use crate::slide::mobilised_friction;
 use crate::{
     Averages, Packed, Ramp, Rates, RegionKind, RveError, Simulation, Stop, Strains, follow, homogenise,
     pack_as, slide, stopwatch,
@@ -18,7 +19,8 @@ pub(super) fn rows(plan: &Plan, job: &Job) -> Vec<Record> {
     let averages = stopwatch::time(stopwatch::Stage::Averaging, || {
         homogenise(&packed.simulation, RegionKind::default())
     });
-    let state = State { settled: packed.settled, averages, wall_friction: None };
+    let shear = (job.kind == Kind::WallShear).then(|| mobilised_friction(&packed.simulation, job.slide));
+    let state = State { settled: packed.settled, averages, wall_friction: shear };
     let place = place(RampName::Packed, (0, 0.0));
     let mut walk = Walk { plan, job, packed: &packed, initial: &averages, ends: BTreeMap::new() };
     let mut records = vec![Record::new(job, material, place, Ok(&state), Some(&averages))];
