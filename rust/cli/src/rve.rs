@@ -134,6 +134,7 @@ enum AxisName {
 enum CompressionName {
     Isotropic,
     Horizontal,
+    Intermediate,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -192,6 +193,7 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
         compression: match arguments.compression {
             CompressionName::Isotropic => Compression::Isotropic,
             CompressionName::Horizontal => Compression::Horizontal,
+            CompressionName::Intermediate => Compression::Intermediate,
         },
         radius_min: arguments.radius_min,
         radius_max: arguments.radius_max,

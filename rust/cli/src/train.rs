@@ -4,7 +4,7 @@ use crate::error::CliError;
 use crate::files::write_atomically;
 use crate::progress::Progress;
 use clap::Args;
-use msdd_rve::database::{Dataset, Record, read};
+use msdd_rve::database::{Dataset, Kind, RampName, Record, read};
 use msdd_surrogate::{DatabaseProvenance, Report, StateRow, TrainingOptions};
 use std::path::PathBuf;
 
@@ -57,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The rows that training can use: all but failures. The packed state is stop 0 of both ramps. Stresses become
+/// The rows that training can use: thermal ramps from the packed state, all but failures. The packed state is stop 0 of both ramps. Stresses become
 /// dimensionless, σ ℓ/(E r̄) with ℓ = 1 m and the current r̄; the solid fraction is that of the averaging region.
 fn state_rows(records: &[Record]) -> Vec<StateRow> {
     let row = |record: &Record, ramp: &str| {
@@ -78,10 +78,11 @@ fn state_rows(records: &[Record]) -> Vec<StateRow> {
         })
     };
     let mut rows = Vec::new();
-    for record in records {
-        match record.ramp.as_str() {
-            "packed" => rows.extend(["up", "down"].iter().filter_map(|ramp| row(record, ramp))),
-            ramp => rows.extend(row(record, ramp)),
+    for record in records.iter().filter(|record| record.kind == Kind::Thermal) {
+        match record.ramp {
+            RampName::Packed => rows.extend(["up", "down"].iter().filter_map(|ramp| row(record, ramp))),
+            RampName::Up | RampName::Down => rows.extend(row(record, record.ramp.as_str())),
+            _ => (),
         }
     }
     rows

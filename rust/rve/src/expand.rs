@@ -4,6 +4,7 @@ use crate::homogenise::{Averages, homogenise};
 use crate::pack::Packed;
 use crate::region::RegionKind;
 use crate::settle::{Relaxation, Settled, settle};
+use crate::stopwatch::{self, Stage};
 use crate::{RveError, Simulation};
 
 /// How a path is followed: the rate of the strain that changes most [1/s], when contacts close and when they open, and
@@ -135,6 +136,30 @@ fn advance_to(
     protocol: Protocol,
 ) -> Result<Stop, RveError> {
     let since = simulation.steps;
+    stopwatch::time(Stage::Strain, || strain_to(simulation, target, [width, height], protocol))?;
+    rest(simulation, target, protocol.relaxation, since)
+}
+
+/// Relaxes in resting walls and averages.
+pub(crate) fn rest(
+    simulation: &mut Simulation,
+    strains: Strains,
+    relaxation: Relaxation,
+    since: u64,
+) -> Result<Stop, RveError> {
+    simulation.set_strain_rate(0.0);
+    simulation.walls.stop();
+    let settled = stopwatch::time(Stage::StrainSettle, || settle(simulation, relaxation, since))?;
+    let averages = stopwatch::time(Stage::Averaging, || homogenise(simulation, RegionKind::default()));
+    Ok(Stop { strains, settled, averages })
+}
+
+fn strain_to(
+    simulation: &mut Simulation,
+    target: Strains,
+    [width, height]: [f64; 2],
+    protocol: Protocol,
+) -> Result<(), RveError> {
     loop {
         let walls = &simulation.walls;
         let thermal = target.thermal - simulation.strain();
@@ -146,7 +171,7 @@ fn advance_to(
         let rate = if loosening { protocol.contraction_rate } else { protocol.expansion_rate };
         let steps = (largest / (rate * simulation.time_step)).ceil();
         if steps < 1.0 || largest < 1e-12 {
-            break;
+            return Ok(());
         }
         // Equal steps that end at the stop, or the first of them.
         let time = steps * simulation.time_step;
@@ -155,9 +180,4 @@ fn advance_to(
         simulation.walls.normal_velocity = [-vx, vx, -vy, vy];
         simulation.run((steps as u64).min(RUN))?;
     }
-    simulation.set_strain_rate(0.0);
-    simulation.walls.stop();
-    let settled = settle(simulation, protocol.relaxation, since)?;
-    let averages = homogenise(simulation, RegionKind::default());
-    Ok(Stop { strains: target, settled, averages })
 }

@@ -19,6 +19,9 @@ pub struct Averages {
     pub overlap_fraction: f64,
     /// f = F_xx − F_yy [-], each contact counting 1 (Eq. 8).
     pub fabric_index: f64,
+    /// F_xx, F_yy [-]: mean of n n over the contacts (Eq. 8); 1 in sum.
+    pub fabric_xx: f64,
+    pub fabric_yy: f64,
     /// f_K = (K_xx − K_yy)/(K_xx + K_yy) [-].
     pub fabric_conductivity: f64,
     /// K/k [-], affine estimate (Eq. 9).
@@ -51,6 +54,7 @@ pub struct Averages {
 struct Sums {
     contacts: u64,
     fabric: f64,
+    fabric_squares: [f64; 2],
     conductance: [f64; 3],
     stress: [f64; 4],
 }
@@ -61,6 +65,8 @@ impl Sums {
         let ([nx, ny], [dx, dy]) = (contact.normal, contact.branch);
         self.contacts += 1;
         self.fabric += nx * nx - ny * ny;
+        self.fabric_squares[0] += nx * nx;
+        self.fabric_squares[1] += ny * ny;
         // k A |d| n⊗n with k = 1, A the chord of the two circles times 1 m.
         let strength = weight * chord(radii, dx.hypot(dy)) * dx.hypot(dy);
         self.conductance[0] += strength * nx * nx;
@@ -106,6 +112,8 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
         overlap_fraction: sum_of_areas(&simulation.discs, region) * per_area - (1.0 - porosity),
         porosity_sum_of_areas: 1.0 - disc_area / simulation.walls.area(),
         fabric_index: sums.fabric / (sums.contacts.max(1)) as f64,
+        fabric_xx: sums.fabric_squares[0] / (sums.contacts.max(1)) as f64,
+        fabric_yy: sums.fabric_squares[1] / (sums.contacts.max(1)) as f64,
         fabric_conductivity: if kxx + kyy > 0.0 { (kxx - kyy) / (kxx + kyy) } else { 0.0 },
         conductivity_xx: kxx,
         conductivity_yy: kyy,

@@ -10,9 +10,11 @@
 //! | [`homogenise`](mod@homogenise) | porosity, fabric, conductivity, stress (Eqs. 8–11) |
 //! | [`heat_check`](mod@heat_check) | flux through a whole assembly beside its homogenised conductivity |
 //! | [`network`] | conductivity from the solved network of contacts |
+//! | [`slide`](mod@slide) | long walls slip along the grains: mobilised wall friction |
 //! | [`state`] | state files: one assembly as JSON |
 //! | [`window`](mod@window) | averages over rectangles of a large assembly |
 //! | [`vtk`] | ParaView files |
+//! | [`stopwatch`] | where the time goes |
 //! | [`database`] | plan, generation, storage, export |
 #![forbid(unsafe_code)]
 
@@ -27,7 +29,9 @@ mod place;
 pub mod region;
 mod resistors;
 pub mod settle;
+pub mod slide;
 pub mod state;
+pub mod stopwatch;
 pub mod vtk;
 pub mod window;
 
@@ -35,9 +39,10 @@ pub use expand::{Protocol, Ramp, Stop, Strains, expand, follow};
 pub use heat_check::{Axis, HeatCheck, heat_check};
 pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
-pub use pack::{Compression, Packed, PackingSpec, pack};
+pub use pack::{Compression, Packed, PackingSpec, Preparation, pack, pack_as};
 pub use region::{Cut, RegionKind};
 pub use settle::{Outcome, Relaxation, Settled, unbalanced_force};
+pub use slide::slide;
 pub use window::{Window, window, window_around, windows};
 
 /// What can be wrong with an RVE's specification, or go wrong while it is made.

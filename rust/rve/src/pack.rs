@@ -3,6 +3,7 @@
 use crate::area::porosity_of_box;
 use crate::place::{Random, radii, scatter};
 use crate::settle::{Relaxation, Settled, settle};
+use crate::stopwatch::{self, Stage};
 use crate::{Material, RveError, Simulation};
 use msdd_dem::{Side, Walls};
 use serde::{Deserialize, Serialize};
@@ -18,13 +19,29 @@ pub(crate) const FREE_DRAG: f64 = 20.0;
 const STEP_CAP_FACTOR: f64 = 1.5;
 
 /// In which directions the walls close.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Compression {
-    /// Both directions alike: fabric index near 0.
+    /// Both directions by the same strain: fabric index near 0.
+    #[default]
     Isotropic,
     /// x only: positive fabric index.
     Horizontal,
+    /// The x walls close twice as fast as the y walls: between the two.
+    Intermediate,
+}
+
+impl Compression {
+    /// Speed of the x walls and of the y walls over [`WALL_SPEED`], for an end shape of the given width over height.
+    fn speeds(self, aspect: f64) -> [f64; 2] {
+        let [x, y] = match self {
+            Self::Isotropic => [aspect, 1.0],
+            Self::Horizontal => [1.0, 0.0],
+            Self::Intermediate => [2.0 * aspect, 1.0],
+        };
+        let fastest = f64::max(x, y);
+        [x / fastest, y / fastest]
+    }
 }
 
 /// What to pack.
@@ -55,6 +72,34 @@ impl Default for PackingSpec {
             radius_max: 7e-3,
             relaxation: Relaxation::default(),
         }
+    }
+}
+
+/// How to pack, where it is not as usual.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preparation {
+    /// Friction angle of the grains while the walls close [rad]; none: the material's. The material's own is back before
+    /// the last relaxation, so that every packed state is at rest by the same law. Less friction packs denser at equal
+    /// pressure.
+    pub friction_angle: Option<f64>,
+    /// Width over height of the box at the target porosity [-].
+    pub aspect: f64,
+}
+
+impl Default for Preparation {
+    /// Friction of the material, a square box.
+    fn default() -> Self {
+        Self { friction_angle: None, aspect: 1.0 }
+    }
+}
+
+impl Preparation {
+    fn check(&self) -> Result<(), RveError> {
+        if !(0.1..=10.0).contains(&self.aspect) {
+            let value = self.aspect.to_string();
+            return Err(RveError::Parameter { key: "aspect", value, allowed: "0.1 to 10" });
+        }
+        Ok(())
     }
 }
 
@@ -91,41 +136,71 @@ impl PackingSpec {
 /// [`RveError::Parameter`] or [`RveError::Material`] for bad input; [`RveError::NoRoom`],
 /// [`RveError::TargetNotReached`] or [`RveError::Failure`] when the packing fails.
 pub fn pack(spec: &PackingSpec, material: &Material) -> Result<Packed, RveError> {
+    pack_as(spec, &Preparation::default(), material)
+}
+
+/// As [`pack`], prepared in another way.
+///
+/// # Errors
+/// As [`pack`].
+pub fn pack_as(
+    spec: &PackingSpec,
+    preparation: &Preparation,
+    material: &Material,
+) -> Result<Packed, RveError> {
     spec.check()?;
+    preparation.check()?;
     material.check()?;
-    let mut simulation = loose_start(spec, material)?;
-    compress(&mut simulation, spec)?;
+    let friction_angle = preparation.friction_angle.unwrap_or(material.friction_angle);
+    let packing_material = Material { friction_angle, ..material.clone() };
+    packing_material.check()?;
+    let mut simulation = loose_start(spec, preparation.aspect, &packing_material)?;
+    stopwatch::time(Stage::Packing, || compress(&mut simulation, spec, preparation.aspect))?;
     simulation.walls.stop();
-    let settled = settle(&mut simulation, spec.relaxation, 0)?;
+    simulation.material.friction_angle = material.friction_angle;
+    let settled = stopwatch::time(Stage::PackingSettle, || settle(&mut simulation, spec.relaxation, 0))?;
     simulation.reset_strain();
     Ok(Packed { simulation, settled })
 }
 
-fn loose_start(spec: &PackingSpec, material: &Material) -> Result<Simulation, RveError> {
+fn loose_start(spec: &PackingSpec, aspect: f64, material: &Material) -> Result<Simulation, RveError> {
     let mut random = Random::new(spec.seed);
     let radii = radii(&mut random, spec.discs, spec.radius_min, spec.radius_max);
     let area: f64 = radii.iter().map(|r| PI * r * r).sum();
-    let (width, height) = match spec.compression {
-        Compression::Isotropic => ((area / START_DENSITY).sqrt(), (area / START_DENSITY).sqrt()),
-        Compression::Horizontal => {
-            let side = (area / (1.0 - spec.porosity)).sqrt();
-            (area / START_DENSITY / side, side)
-        }
-    };
+    let (width, height) = start_box(spec, aspect, area);
     let discs = scatter(&mut random, radii, width, height, material.density)?;
     let mut simulation = Simulation::new(material.clone(), discs, Walls::around(width, height));
     simulation.free_drag = FREE_DRAG;
     Ok(simulation)
 }
 
+/// Width and height [m] of the loose box around discs of total area `area` [m²], such that it has the wanted aspect when
+/// the walls have closed to the target.
+fn start_box(spec: &PackingSpec, aspect: f64, area: f64) -> (f64, f64) {
+    let loose = area / START_DENSITY;
+    let dense = area / (1.0 - spec.porosity);
+    match spec.compression {
+        Compression::Isotropic => ((loose * aspect).sqrt(), (loose / aspect).sqrt()),
+        Compression::Horizontal => {
+            let height = (dense / aspect).sqrt();
+            (loose / height, height)
+        }
+        Compression::Intermediate => {
+            // (w + a vx)(h + a vy) = loose, for the way a of the faster walls.
+            let ([vx, vy], [w, h]) =
+                (spec.compression.speeds(aspect), [(dense * aspect).sqrt(), (dense / aspect).sqrt()]);
+            let half = 0.5 * (w * vy + h * vx);
+            let way = (-half + (half * half + vx * vy * (loose - dense)).sqrt()) / (vx * vy);
+            (w + way * vx, h + way * vy)
+        }
+    }
+}
+
 /// Closes the walls until the box has the target porosity.
-fn compress(simulation: &mut Simulation, spec: &PackingSpec) -> Result<(), RveError> {
-    let speed = WALL_SPEED;
-    simulation.walls.normal_velocity = match spec.compression {
-        Compression::Isotropic => [speed, -speed, speed, -speed],
-        Compression::Horizontal => [speed, -speed, 0.0, 0.0],
-    };
-    let cap = STEP_CAP_FACTOR * 0.5 * simulation.walls.width() / speed / simulation.time_step;
+fn compress(simulation: &mut Simulation, spec: &PackingSpec, aspect: f64) -> Result<(), RveError> {
+    let [x, y] = spec.compression.speeds(aspect).map(|speed| speed * WALL_SPEED);
+    simulation.walls.normal_velocity = [x, -x, y, -y];
+    let cap = STEP_CAP_FACTOR * 0.5 * simulation.walls.width() / x / simulation.time_step;
     loop {
         let porosity = porosity_of_box(simulation);
         if porosity <= spec.porosity {

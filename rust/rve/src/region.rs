@@ -15,6 +15,16 @@ pub enum RegionKind {
     Inset,
 }
 
+impl RegionKind {
+    /// The name in records.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Hull => "hull",
+            Self::Inset => "inset",
+        }
+    }
+}
+
 /// How contacts that the region's border crosses count in K and σ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -1,10 +1,16 @@
-//! Generation, storage, resume and export of small databases.
+//! Generation, storage, resume, shards and export of small databases.
 
-use msdd_rve::database::{DatabaseError, Plan, export_csv, generate, read};
+use msdd_rve::database::{
+    DatabaseError, Kind, Plan, RampName, Run, export_csv, generate, merge, read, record::COLUMNS,
+};
 use std::path::{Path, PathBuf};
 
-const PLAN: &str = "discs = 60\nradius_min = 3e-3\nradius_max = 7e-3\nseed = 3\nporosities = [0.14, 0.16]\n\
-                    compressions = [\"isotropic\", \"horizontal\"]\nrepeats = 1\nstrains = [0.01, 0.02, -0.01]\n";
+const PLAN: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\
+    [[thermal]]\ndiscs = 60\nporosities = [0.14, 0.16]\ncompressions = [\"isotropic\", \"intermediate\"]\n\
+    packing_friction_angles = [0.3]\nrepeats = 1\nramps = [\"up\", \"down\", \"up_down\"]\nstops = [0.01, 0.02]\n\
+    [[mechanics]]\ndiscs = 60\nporosities = [0.13]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.01]\n\
+    [[wall_shear]]\ndiscs = 60\nporosities = [0.13]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.002]\n";
+const ROWS: usize = 4 * 7 + 5 + 2;
 
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -13,62 +19,171 @@ fn folder(name: &str) -> PathBuf {
     path
 }
 
+fn plan() -> Plan {
+    Plan::parse(PLAN, "plan").unwrap()
+}
+
 fn make(plan: &Plan, path: &Path, threads: usize) {
-    generate(plan, path, threads, |_| ()).unwrap();
+    generate(plan, path, &Run { threads, ..Run::default() }, |_| ()).unwrap();
+}
+
+fn bytes(path: &Path) -> Vec<u8> {
+    std::fs::read(path).unwrap()
 }
 
 #[test]
 fn rows_do_not_depend_on_threads_and_csv_reads_back() {
     let folder = folder("threads");
-    let plan = Plan::parse(PLAN, "plan").unwrap();
-    let csv = |threads: usize| {
+    let csv = |threads: usize, name: &str| {
         let database = folder.join(format!("{threads}.msdd"));
-        let csv = folder.join(format!("{threads}.csv"));
-        make(&plan, &database, threads);
-        assert_eq!(export_csv(&database, &csv).unwrap(), 16);
+        let csv = folder.join(format!("{threads}.{name}"));
+        make(&plan(), &database, threads);
+        assert_eq!(export_csv(&database, &csv, None).unwrap(), ROWS);
         assert_eq!(read(&database).unwrap(), read(&csv).unwrap());
-        std::fs::read(csv).unwrap()
+        bytes(&csv)
     };
-    assert_eq!(csv(1), csv(3));
+    assert_eq!(csv(1, "csv"), csv(3, "csv"));
+    assert!(csv(1, "csv.gz").len() * 2 < csv(1, "csv").len());
+    assert!(folder.join("1.columns.csv").exists() && folder.join("1.provenance.json").exists());
     let records = read(&folder.join("1.csv")).unwrap().records;
-    assert!(records.iter().all(|r| r.outcome == "settled" && r.porosity.is_some()));
-    let strains: Vec<f64> = records[..4].iter().map(|r| r.strain).collect();
-    assert_eq!(strains, [0.0, 0.01, 0.02, -0.01]);
+    let strains: Vec<f64> = records[..7].iter().map(|r| r.strain).collect();
+    assert_eq!(strains, [0.0, 0.01, 0.02, -0.01, -0.02, 0.01, 0.0]);
+    assert_eq!((records[6].ramp, records[6].stop), (RampName::UpDown, 2));
     assert_eq!(records[1].initial_porosity, records[0].porosity);
+    assert!(records.iter().all(|r| r.failure.is_none() && r.porosity.is_some()));
+    // Friction makes the way back another one, not far off.
+    let (there, back) = (records[1].pressure.unwrap(), records[5].pressure.unwrap());
+    assert!(there != back && (back / there - 1.0).abs() < 0.3, "{there} {back}");
 }
 
 #[test]
-fn a_stopped_run_resumes_and_another_plan_is_refused() {
+fn rounded_exports_keep_whole_numbers_and_nine_digits() {
+    let folder = folder("rounded");
+    let (database, csv) = (folder.join("a.msdd"), folder.join("a.csv.gz"));
+    make(&plan(), &database, 2);
+    export_csv(&database, &csv, Some(9)).unwrap();
+    for (exact, rounded) in read(&database).unwrap().records.iter().zip(read(&csv).unwrap().records) {
+        assert_eq!(
+            (exact.seed, exact.steps, exact.rattlers),
+            (rounded.seed, rounded.steps, rounded.rattlers)
+        );
+        let (a, b) = (exact.pressure.unwrap(), rounded.pressure.unwrap());
+        assert!((a / b - 1.0).abs() < 5.1e-9 && format!("{b:e}").len() <= 14, "{a} {b}");
+    }
+}
+
+#[test]
+fn walls_move_and_slip_as_planned() {
+    let database = folder("walls").join("a.msdd");
+    make(&plan(), &database, 2);
+    let records = read(&database).unwrap().records;
+    let of = |kind: Kind| records.iter().filter(move |r| r.kind == kind);
+    let mechanics: Vec<_> = of(Kind::Mechanics).collect();
+    let places: Vec<_> =
+        mechanics.iter().map(|r| (r.ramp.as_str(), r.stop, r.strain_xx, r.strain_yy)).collect();
+    let expected = [
+        ("packed", 0, 0.0, 0.0),
+        ("xx", -1, -0.01, 0.0),
+        ("xx", 1, 0.01, 0.0),
+        ("yy", -1, 0.0, -0.01),
+        ("yy", 1, 0.0, 0.01),
+    ];
+    assert_eq!(places, expected);
+    let [packed, closed, opened] = [0, 1, 2].map(|k| mechanics[k].stress_xx.unwrap());
+    assert!(closed > packed && packed > opened, "{closed} {packed} {opened}");
+    let shear: Vec<_> = of(Kind::WallShear).collect();
+    assert_eq!(shear[1].wall_slip, 0.002);
+    let friction = shear[1].wall_friction.unwrap();
+    assert!(friction > 0.0 && friction < 0.5f64.tan(), "{friction}");
+    assert!(shear[0].wall_friction.unwrap().abs() < friction, "{shear:?}");
+    assert!(mechanics.iter().all(|r| r.wall_friction.is_none()));
+}
+
+#[test]
+fn a_stopped_run_resumes_to_the_same_bytes_and_another_plan_is_refused() {
     let folder = folder("resume");
     let (whole, halved) = (folder.join("whole.msdd"), folder.join("halved.msdd"));
-    let plan = Plan::parse(PLAN, "plan").unwrap();
-    make(&plan, &whole, 2);
-    make(&plan, &halved, 2);
+    make(&plan(), &whole, 2);
+    // What a killed run leaves: some packings in the order in which they were made, and no sign of completion.
+    make(&plan(), &halved, 2);
     let connection = rusqlite::Connection::open(&halved).unwrap();
-    connection.execute("DELETE FROM states WHERE packing >= 2", []).unwrap();
+    connection.execute("DELETE FROM states WHERE packing IN (0, 3, 4)", []).unwrap();
+    connection.execute("DELETE FROM provenance WHERE key = 'complete'", []).unwrap();
     drop(connection);
     let mut seen = Vec::new();
-    generate(&plan, &halved, 2, |progress| seen.push(progress.done)).unwrap();
-    assert_eq!(seen, [2, 3, 4]);
-    assert_eq!(read(&whole).unwrap(), read(&halved).unwrap());
+    let run = Run { threads: 2, ..Run::default() };
+    generate(&plan(), &halved, &run, |progress| seen.push(progress.done)).unwrap();
+    assert_eq!(seen, [3, 4, 5, 6]);
+    assert_eq!(bytes(&whole), bytes(&halved));
+    make(&plan(), &halved, 1);
+    assert_eq!(bytes(&whole), bytes(&halved));
 
     let other = Plan::parse(&PLAN.replace("seed = 3", "seed = 4"), "plan").unwrap();
-    let error = generate(&other, &whole, 1, |_| ()).unwrap_err();
+    let error = generate(&other, &whole, &run, |_| ()).unwrap_err();
     assert!(matches!(&error, DatabaseError::Mismatch { key: "plan_hash", .. }), "{error}");
+    let shard = Run { shard: "1/2".parse().unwrap(), ..Run::default() };
+    let error = generate(&plan(), &whole, &shard, |_| ()).unwrap_err();
+    assert!(matches!(&error, DatabaseError::Mismatch { key: "shard", .. }), "{error}");
 }
 
 #[test]
-fn a_failed_packing_is_a_row() {
+fn shards_merge_to_the_bytes_of_one_process_and_gaps_and_duplicates_are_found() {
+    let folder = folder("shards");
+    let shard = |text: &str| {
+        let path = folder.join(format!("{}.msdd", text.replace('/', "-")));
+        let run = Run { shard: text.parse().unwrap(), threads: 1, commit: text.replace('/', "of") };
+        generate(&plan(), &path, &run, |_| ()).unwrap();
+        path
+    };
+    let shards = ["1/3", "2/3", "3/3"].map(shard);
+    let (whole, merged) = (folder.join("whole.msdd"), folder.join("merged.msdd"));
+    let run = Run { commit: "1of3, 2of3, 3of3".to_string(), ..Run::default() };
+    generate(&plan(), &whole, &run, |_| ()).unwrap();
+    let [a, b, c] = shards.clone();
+    assert_eq!(merge(&[c, a, b], &merged).unwrap(), ROWS);
+    assert_eq!(bytes(&whole), bytes(&merged));
+
+    let error = |shards: &[PathBuf]| merge(shards, &folder.join("bad.msdd")).unwrap_err().to_string();
+    let gap = error(&shards[..2]);
+    assert!(gap.contains("2 of 6 packings are missing: 2, 5"), "{gap}");
+    let twice = error(&[shards[0].clone(), shards[1].clone(), whole.clone()]);
+    assert!(twice.contains("whole.msdd: packing 0 stands in") && twice.contains("1-3.msdd too"), "{twice}");
+    let connection = rusqlite::Connection::open(&shards[2]).unwrap();
+    connection.execute("DELETE FROM states WHERE packing = 5 AND ramp = 'wall_shear'", []).unwrap();
+    drop(connection);
+    let hole = error(&shards);
+    assert!(hole.contains("3-3.msdd: packing 5 has not the rows of the plan"), "{hole}");
+    assert!(!folder.join("bad.msdd").exists());
+}
+
+#[test]
+fn failures_are_rows() {
     let folder = folder("failed");
-    // To fill 99 % of the box, the discs of a small one have to overlap beyond all sense.
-    let text = PLAN.replace("[0.14, 0.16]", "[0.01]").replace("discs = 60", "discs = 10");
+    // To fill 99 % of a small box, and to expand by 10 % then, discs have to overlap beyond all sense.
+    let text = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\
+        [[thermal]]\ndiscs = 20\nporosities = [0.01]\ncompressions = [\"isotropic\", \"horizontal\"]\nrepeats = 4\n\
+        ramps = [\"up\", \"up_down\"]\nstops = [0.01, 0.2]\n";
     let database = folder.join("failed.msdd");
-    make(&Plan::parse(&text, "plan").unwrap(), &database, 1);
+    make(&Plan::parse(text, "plan").unwrap(), &database, 2);
     let records = read(&database).unwrap().records;
-    assert_eq!(records.iter().map(|r| r.packing).max(), Some(1));
-    let failed: Vec<_> = records.iter().filter(|r| r.outcome.starts_with("failed: t = ")).collect();
-    assert!(!failed.is_empty());
-    assert!(failed.iter().all(|r| r.outcome.contains("overlap") && r.porosity.is_none()), "{failed:?}");
+    assert_eq!(records.len(), 8 * 5);
+    let failed: Vec<_> = records.iter().filter(|r| r.outcome == "failed").collect();
+    let sound = |reason: &Option<String>| reason.as_ref().is_some_and(|text| text.contains("overlap"));
+    assert!(failed.iter().all(|r| sound(&r.failure) && r.porosity.is_none()), "{failed:?}");
+    // The way back cannot be made without the way there.
+    let back = failed.iter().find(|r| r.ramp == RampName::UpDown).expect("some ramp has failed");
+    assert!(
+        records.iter().any(|r| r.packing == back.packing && r.ramp == RampName::Up && r.failure.is_some())
+    );
+}
+
+#[test]
+fn every_column_has_unit_and_meaning() {
+    assert!(
+        COLUMNS
+            .iter()
+            .all(|c| !c.2.is_empty() && c.3.len() > 5 && ["INTEGER", "REAL", "TEXT"].contains(&c.1))
+    );
 }
 
 #[test]

@@ -1,42 +1,89 @@
 //! Makes the rows of a plan on several threads; what is made depends on the plan alone.
 
-use super::DatabaseError;
 use super::plan::{Job, Plan};
 use super::record::Record;
+use super::rows::rows;
 use super::store::Store;
-use crate::{Averages, Ramp, RegionKind, RveError, expand, homogenise, pack};
-use std::collections::BTreeMap;
+use super::{DatabaseError, Shard};
+use crate::stopwatch::{self, Seconds};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 
+/// One run of the program.
+#[derive(Clone, Debug, Default)]
+pub struct Run {
+    /// The part of the plan to make.
+    pub shard: Shard,
+    pub threads: usize,
+    /// Commit of the program, for the provenance.
+    pub commit: String,
+}
+
 /// How far a generation has come.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Progress {
     /// Packings in the database, those of earlier runs included.
     pub done: usize,
     pub total: usize,
-    /// Of them: jobs that failed in this run. They are rows too.
+    /// Packings of this run with a stop that was not reached. They have all their rows, too.
     pub failed: usize,
+    /// Rows made in this run.
+    pub rows: usize,
+    /// Seconds of all threads of this run, by [`stopwatch::Stage`].
+    pub seconds: Seconds,
+    /// Seconds spent on the file.
+    pub storing: f64,
 }
 
-/// Fills the database at `path` with what the plan still lacks, on `threads` threads. Packings are stored whole and in
-/// plan order, each in one transaction: a killed run resumes at the next one. `progress` is called after each.
+/// Fills the database at `path` with what the shard of the plan still lacks. Each packing is stored whole in one
+/// transaction as soon as it is made: a killed run loses only what it was working on. The most expensive packings are
+/// made first, so that no thread is left alone with one at the end; the finished file has them in plan order.
+/// `progress` is called after each.
 ///
 /// # Errors
-/// [`DatabaseError::Mismatch`] when the file holds another plan or was made by another engine version; storage errors.
+/// [`DatabaseError::Mismatch`] when the file holds another plan or shard, or was made by another engine version; storage
+/// errors.
 pub fn generate(
     plan: &Plan,
     path: &Path,
-    threads: usize,
+    run: &Run,
     mut progress: impl FnMut(Progress),
-) -> Result<(), DatabaseError> {
-    let mut store = Store::open_for(path, plan)?;
-    let jobs = plan.jobs();
-    let todo = &jobs[store.packings()?.min(jobs.len())..];
-    let mut state = Progress { done: jobs.len() - todo.len(), total: jobs.len(), failed: 0 };
+) -> Result<Progress, DatabaseError> {
+    let mut store = Store::open_for(path, plan, run)?;
+    let stored = store.packings()?;
+    let mut todo: Vec<Job> = plan.jobs().into_iter().filter(|job| run.shard.holds(job.packing)).collect();
+    let total = todo.len();
+    todo.retain(|job| !stored.contains(&job.packing));
+    todo.sort_by_key(|job| std::cmp::Reverse(job.spec.discs * job.rows().len()));
+    let mut state = Progress { done: total - todo.len(), total, ..Progress::default() };
     progress(state);
+    make(plan, &todo, run.threads, |records, seconds| {
+        let begin = std::time::Instant::now();
+        store.insert(&records)?;
+        state.storing += begin.elapsed().as_secs_f64();
+        state.done += 1;
+        state.rows += records.len();
+        state.failed += usize::from(records.iter().any(|r| r.failure.is_some()));
+        for (sum, seconds) in state.seconds.iter_mut().zip(seconds) {
+            *sum += seconds;
+        }
+        progress(state);
+        Ok(())
+    })?;
+    let begin = std::time::Instant::now();
+    store.finish()?;
+    state.storing += begin.elapsed().as_secs_f64();
+    Ok(state)
+}
 
+/// Makes the jobs, first come first served; `store` takes the rows of each as they come, with the time they took.
+fn make(
+    plan: &Plan,
+    todo: &[Job],
+    threads: usize,
+    mut store: impl FnMut(Vec<Record>, Seconds) -> Result<(), DatabaseError>,
+) -> Result<(), DatabaseError> {
     let next = AtomicUsize::new(0);
     let stop = AtomicBool::new(false);
     let (sender, receiver) = mpsc::channel();
@@ -45,64 +92,16 @@ pub fn generate(
             let (sender, next, stop) = (sender.clone(), &next, &stop);
             scope.spawn(move || {
                 while let Some(job) = todo.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    if stop.load(Ordering::Relaxed) || sender.send((job.packing, rows(plan, job))).is_err() {
+                    let records = rows(plan, job);
+                    if stop.load(Ordering::Relaxed) || sender.send((records, stopwatch::take())).is_err() {
                         return;
                     }
                 }
             });
         }
         drop(sender);
-        // Rows wait here until all packings before theirs are stored.
-        let mut waiting: BTreeMap<i64, Vec<Record>> = BTreeMap::new();
-        for (packing, records) in receiver {
-            waiting.insert(packing, records);
-            while let Some(records) = waiting.remove(&(state.done as i64)) {
-                if let Err(error) = store.insert(&records) {
-                    stop.store(true, Ordering::Relaxed);
-                    return Err(error);
-                }
-                state.done += 1;
-                state.failed += usize::from(records.iter().any(|r| r.outcome.starts_with("failed")));
-                progress(state);
-            }
-        }
-        Ok(())
+        receiver.into_iter().try_for_each(|(records, seconds)| {
+            store(records, seconds).inspect_err(|_| stop.store(true, Ordering::Relaxed))
+        })
     })
-}
-
-/// The rows of one packing. Failures are rows, too.
-fn rows(plan: &Plan, job: &Job) -> Vec<Record> {
-    let material = &plan.material;
-    let packed = match pack(&job.spec, material) {
-        Ok(packed) => packed,
-        Err(error) => {
-            return vec![Record::new(job, material, ("packed", 0, 0.0), Err(error.to_string()), None)];
-        }
-    };
-    let initial = homogenise(&packed.simulation, RegionKind::default());
-    let start = Ok((&packed.settled, &initial));
-    let mut records = vec![Record::new(job, material, ("packed", 0, 0.0), start, Some(&initial))];
-    let (up, down) = plan.ramps();
-    for (name, strains) in [("up", up), ("down", down)] {
-        let stops = expand(&packed, &strains);
-        records.extend(ramp_rows(plan, job, (name, &strains), stops, &initial));
-    }
-    records
-}
-
-/// The stops of a ramp, and its failure as a row after them.
-fn ramp_rows(
-    plan: &Plan,
-    job: &Job,
-    (name, strains): (&str, &[f64]),
-    ramp: Result<Ramp, RveError>,
-    initial: &Averages,
-) -> Vec<Record> {
-    let ramp = ramp.unwrap_or_else(|failure| Ramp { stops: Vec::new(), failure: Some(failure) });
-    let row = |stop: usize, state| {
-        Record::new(job, &plan.material, (name, stop + 1, strains[stop]), state, Some(initial))
-    };
-    let reached = ramp.stops.iter().enumerate().map(|(k, stop)| row(k, Ok((&stop.settled, &stop.averages))));
-    let failed = ramp.failure.map(|failure| row(ramp.stops.len(), Err(failure.to_string())));
-    reached.chain(failed).collect()
 }

@@ -1,23 +1,32 @@
-//! The offline database: many packings, each expanded and contracted through a list of strains.
+//! The offline database: many packings, each taken through ramps of thermal strain, wall strain or wall slip.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`plan`] | what to make, as a TOML file |
+//! | `rows` | the rows of one packing |
 //! | [`record`] | one row: one state of one packing |
 //! | [`store`] | the SQLite file: schema, provenance, resume |
 //! | [`generate`](mod@generate) | makes the rows, on several threads |
-//! | [`export`] | CSV with a column dictionary; reading either form |
+//! | [`merge`](mod@merge) | shards made on several machines become one file |
+//! | [`export`] | CSV with a column dictionary; reading any form |
+//! | [`check`] | exact laws on every row, statistics, noise floor |
 
+pub mod check;
 pub mod export;
 pub mod generate;
+pub mod merge;
 pub mod plan;
 pub mod record;
+mod rows;
+mod shard;
 pub mod store;
 
 pub use export::{Dataset, export_csv, read};
-pub use generate::{Progress, generate};
-pub use plan::Plan;
+pub use generate::{Progress, Run, generate};
+pub use merge::merge;
+pub use plan::{Kind, Plan, RampName};
 pub use record::Record;
+pub use shard::Shard;
 pub use store::Store;
 
 use std::path::PathBuf;
@@ -38,6 +47,8 @@ pub enum DatabaseError {
     Csv { path: PathBuf, source: csv::Error },
     #[error("{path}: not an msdd database ({problem})")]
     Format { path: PathBuf, problem: String },
+    #[error("{path}: {problem}")]
+    Merge { path: PathBuf, problem: String },
     #[error(
         "{path}: was made with {key} = {found}, now it is {expected}; rows of both cannot stand in one database: choose \
          another --out or remove the file"

@@ -1,34 +1,102 @@
-//! What to make: a TOML file.
+//! What to make: a TOML file with blocks `[[thermal]]`, `[[mechanics]]` and `[[wall_shear]]`.
 
 use super::DatabaseError;
-use crate::{Compression, Material, PackingSpec};
+use crate::slide::Slide;
+use crate::{Compression, Material, PackingSpec, Preparation, Relaxation};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// A plan: every porosity with every compression, `repeats` packings each, and every strain for each packing.
+/// Width over height of the boxes of `[[wall_shear]]`.
+const SHEAR_ASPECT: f64 = 2.0;
+
+/// A plan: blocks of packings, each taken through ramps with stops.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
-    /// Discs in a packing.
-    pub discs: usize,
     /// Radii are uniform between these [m].
     pub radius_min: f64,
     pub radius_max: f64,
     /// Seed of the whole plan.
     pub seed: u64,
-    /// Target porosities of the packings, whole box, overlaps counted once [-].
-    pub porosities: Vec<f64>,
-    pub compressions: Vec<Compression>,
-    /// Packings for each porosity and compression.
-    pub repeats: u32,
-    /// Thermal strains relative to the packed state [-], both signs, in any order.
-    pub strains: Vec<f64>,
+    /// What brings forces into balance; default: the grains' own damped motion.
+    #[serde(default)]
+    pub relaxation: Relaxation,
     /// Grain material.
     #[serde(default)]
     pub material: Material,
+    /// Radii grow and shrink in fixed walls.
+    #[serde(default)]
+    pub thermal: Vec<Block>,
+    /// Walls close and open in one direction.
+    #[serde(default)]
+    pub mechanics: Vec<Block>,
+    /// Bottom and top of a 2:1 box slip along the grains.
+    #[serde(default)]
+    pub wall_shear: Vec<Block>,
     /// The text the plan was read from; what the hash is of.
     #[serde(skip)]
     pub text: String,
+}
+
+/// Packings of one size: every porosity with every compression and packing friction, `repeats` of each.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Block {
+    /// Discs in a packing.
+    pub discs: usize,
+    /// Target porosities of the packings, whole box, overlaps counted once [-].
+    pub porosities: Vec<f64>,
+    pub compressions: Vec<Compression>,
+    /// Friction angles while the walls close [rad]; default: the material's alone.
+    #[serde(default)]
+    pub packing_friction_angles: Vec<f64>,
+    /// Packings for each porosity, compression and packing friction.
+    pub repeats: u32,
+    /// Ramps of each packing; default: those of the block's kind that start from the packed state.
+    #[serde(default)]
+    pub ramps: Vec<RampName>,
+    /// Magnitudes at which a ramp stops, growing: strain [-], or slip [m] of `wall_shear`.
+    pub stops: Vec<f64>,
+    /// Magnitudes at which the way back of `up_down` and `down_up` stops, falling; 0 is the packed strain and negative
+    /// values lie beyond it. Default: the stops backwards, then 0.
+    #[serde(default)]
+    pub return_stops: Vec<f64>,
+    /// Which way the walls of `wall_shear` move; default: same.
+    #[serde(default)]
+    pub slide: Option<Slide>,
+}
+
+/// What a block, and each of its rows, is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    #[default]
+    Thermal,
+    Mechanics,
+    WallShear,
+}
+
+/// A way through states of one packing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RampName {
+    /// The packed state itself: stop 0 of every ramp that starts there.
+    #[default]
+    Packed,
+    /// Radii grow.
+    Up,
+    /// Radii shrink.
+    Down,
+    /// Back from the last stop of `up`.
+    UpDown,
+    /// Back from the last stop of `down`.
+    DownUp,
+    /// x walls close (stops −1, −2, …), and from the packed state again, open (1, 2, …).
+    Xx,
+    /// The same with the y walls.
+    Yy,
+    /// Bottom and top move along x.
+    WallShear,
 }
 
 /// One packing of a plan.
@@ -36,7 +104,68 @@ pub struct Plan {
 pub struct Job {
     /// Index in the plan.
     pub packing: i64,
+    pub kind: Kind,
     pub spec: PackingSpec,
+    pub preparation: Preparation,
+    pub ramps: Vec<RampName>,
+    /// Magnitudes, growing; see [`Block`].
+    pub stops: Vec<f64>,
+    pub return_stops: Vec<f64>,
+    pub slide: Slide,
+}
+
+impl Kind {
+    /// Ramps of blocks that name none; then those that may be named, too.
+    fn ramps(self) -> (&'static [RampName], &'static [RampName]) {
+        match self {
+            Self::Thermal => (&[RampName::Up, RampName::Down], &[RampName::UpDown, RampName::DownUp]),
+            Self::Mechanics => (&[RampName::Xx, RampName::Yy], &[]),
+            Self::WallShear => (&[RampName::WallShear], &[]),
+        }
+    }
+
+    /// The name in plans and rows.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Thermal => "thermal",
+            Self::Mechanics => "mechanics",
+            Self::WallShear => "wall_shear",
+        }
+    }
+
+    /// Largest stop: strain [-] or slip [m].
+    fn largest_stop(self) -> f64 {
+        if self == Self::WallShear { 1.0 } else { 0.2 }
+    }
+}
+
+impl Job {
+    /// Every row that the packing has, in order: ramp and stop.
+    pub fn rows(&self) -> Vec<(RampName, i64)> {
+        let mut rows = vec![(RampName::Packed, 0)];
+        for &ramp in &self.ramps {
+            rows.extend(self.stops_of(ramp).into_iter().map(|(stop, _)| (ramp, stop)));
+        }
+        rows
+    }
+
+    /// Stops of a ramp: index and signed value.
+    pub fn stops_of(&self, ramp: RampName) -> Vec<(i64, f64)> {
+        let numbered = |values: &[f64], sign: f64| -> Vec<(i64, f64)> {
+            values.iter().zip(1..).map(|(&value, stop)| (stop, sign * value + 0.0)).collect()
+        };
+        match ramp {
+            RampName::Packed => vec![(0, 0.0)],
+            RampName::Up | RampName::WallShear => numbered(&self.stops, 1.0),
+            RampName::Down => numbered(&self.stops, -1.0),
+            RampName::UpDown => numbered(&self.return_stops, 1.0),
+            RampName::DownUp => numbered(&self.return_stops, -1.0),
+            RampName::Xx | RampName::Yy => {
+                let closing = numbered(&self.stops, -1.0).into_iter().map(|(stop, strain)| (-stop, strain));
+                closing.chain(numbered(&self.stops, 1.0)).collect()
+            }
+        }
+    }
 }
 
 impl Plan {
@@ -54,63 +183,176 @@ impl Plan {
         Sha256::digest(self.text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    fn check(&self) -> Result<(), String> {
-        self.material.check().map_err(|error| error.to_string())?;
-        if self.porosities.is_empty() || self.compressions.is_empty() || self.repeats == 0 {
-            return Err("porosities, compressions and repeats: at least one of each is needed".into());
-        }
-        for job in self.jobs() {
-            job.spec.check().map_err(|error| error.to_string())?;
-        }
-        for &strain in &self.strains {
-            if !(strain.abs() <= 0.2 && strain != 0.0) {
-                return Err(format!(
-                    "strains: {strain}, allowed: -0.2 to 0.2 without 0 (it is always there)"
-                ));
-            }
-        }
-        let (up, down) = self.ramps();
-        if up.windows(2).chain(down.windows(2)).any(|pair| pair[0] == pair[1]) {
-            return Err(format!("strains: {:?} holds a value twice", self.strains));
-        }
-        Ok(())
+    /// Blocks with their kind and their number among those of that kind.
+    fn blocks(&self) -> impl Iterator<Item = (Kind, usize, &Block)> {
+        let lists = [
+            (Kind::Thermal, &self.thermal),
+            (Kind::Mechanics, &self.mechanics),
+            (Kind::WallShear, &self.wall_shear),
+        ];
+        lists
+            .into_iter()
+            .flat_map(|(kind, list)| list.iter().enumerate().map(move |(k, block)| (kind, k + 1, block)))
     }
 
-    /// The packings, in order of porosity, compression, repeat.
+    fn check(&self) -> Result<(), String> {
+        self.material.check().map_err(|error| error.to_string())?;
+        for (kind, number, block) in self.blocks() {
+            let within = |problem| format!("[[{}]] {number}: {problem}", kind.as_str());
+            block.check(kind).map_err(within)?;
+        }
+        let jobs = self.jobs();
+        if jobs.is_empty() {
+            return Err("at least one block of packings is needed".to_string());
+        }
+        jobs.iter().try_for_each(|job| job.spec.check().map_err(|error| error.to_string()))
+    }
+
+    /// The packings, in order of block, porosity, compression, packing friction, repeat.
     pub fn jobs(&self) -> Vec<Job> {
         let mut jobs = Vec::new();
-        for &porosity in &self.porosities {
-            for &compression in &self.compressions {
-                for _ in 0..self.repeats {
-                    let packing = jobs.len() as i64;
-                    let spec = PackingSpec {
-                        discs: self.discs,
-                        seed: packing_seed(self.seed, packing as u64),
-                        porosity,
-                        compression,
-                        radius_min: self.radius_min,
-                        radius_max: self.radius_max,
-                        ..PackingSpec::default()
-                    };
-                    jobs.push(Job { packing, spec });
+        for (kind, _, block) in self.blocks() {
+            for &porosity in &block.porosities {
+                for &compression in &block.compressions {
+                    for &friction in &block.frictions(&self.material) {
+                        for _ in 0..block.repeats {
+                            let packing = jobs.len() as u64;
+                            jobs.push(self.job(packing, (kind, block), porosity, compression, friction));
+                        }
+                    }
                 }
             }
         }
         jobs
     }
 
-    /// Stops of the expansion and of the contraction ramp, growing in magnitude.
-    pub fn ramps(&self) -> (Vec<f64>, Vec<f64>) {
-        let mut up: Vec<f64> = self.strains.iter().copied().filter(|&s| s > 0.0).collect();
-        let mut down: Vec<f64> = self.strains.iter().copied().filter(|&s| s < 0.0).collect();
-        up.sort_by(f64::total_cmp);
-        down.sort_by(|a, b| b.total_cmp(a));
-        (up, down)
+    fn job(
+        &self,
+        packing: u64,
+        (kind, block): (Kind, &Block),
+        porosity: f64,
+        compression: Compression,
+        friction_angle: f64,
+    ) -> Job {
+        let spec = PackingSpec {
+            discs: block.discs,
+            seed: packing_seed(self.seed, packing),
+            porosity,
+            compression,
+            radius_min: self.radius_min,
+            radius_max: self.radius_max,
+            relaxation: self.relaxation,
+        };
+        let aspect = if kind == Kind::WallShear { SHEAR_ASPECT } else { 1.0 };
+        let back = || block.stops.iter().rev().skip(1).copied().chain([0.0]).collect();
+        Job {
+            packing: packing as i64,
+            kind,
+            spec,
+            preparation: Preparation { friction_angle: Some(friction_angle), aspect },
+            ramps: block.ramps(kind).to_vec(),
+            stops: block.stops.clone(),
+            return_stops: if block.return_stops.is_empty() { back() } else { block.return_stops.clone() },
+            slide: block.slide.unwrap_or_default(),
+        }
     }
 
-    /// Rows that the plan makes.
+    /// Rows that the plan makes: one for every stop of every packing.
     pub fn rows(&self) -> usize {
-        self.jobs().len() * (self.strains.len() + 1)
+        self.jobs().iter().map(|job| job.rows().len()).sum()
+    }
+
+    /// Mean of the radius distribution [m].
+    pub fn mean_radius(&self) -> f64 {
+        0.5 * (self.radius_min + self.radius_max)
+    }
+}
+
+impl Block {
+    fn frictions(&self, material: &Material) -> Vec<f64> {
+        match self.packing_friction_angles.as_slice() {
+            [] => vec![material.friction_angle],
+            list => list.to_vec(),
+        }
+    }
+
+    fn ramps(&self, kind: Kind) -> &[RampName] {
+        if self.ramps.is_empty() { kind.ramps().0 } else { &self.ramps }
+    }
+
+    fn check(&self, kind: Kind) -> Result<(), String> {
+        if self.porosities.is_empty() || self.compressions.is_empty() || self.repeats == 0 {
+            return Err("porosities, compressions and repeats: at least one of each is needed".into());
+        }
+        if let Some(angle) =
+            self.packing_friction_angles.iter().find(|a| !(0.0..std::f64::consts::FRAC_PI_2).contains(*a))
+        {
+            return Err(format!("packing_friction_angles: {angle}, allowed: 0 <= angle < pi/2 rad"));
+        }
+        let largest = kind.largest_stop();
+        let inside = self.stops.iter().all(|s| (1e-9..=largest).contains(s));
+        if !(inside && self.stops.windows(2).all(|pair| pair[0] < pair[1])) {
+            return Err(format!("stops: {:?}, allowed: growing, above 0, at most {largest}", self.stops));
+        }
+        self.check_returns()?;
+        if self.slide.is_some() && kind != Kind::WallShear {
+            return Err("slide: allowed in [[wall_shear]] only".into());
+        }
+        self.check_ramps(kind)
+    }
+
+    fn check_returns(&self) -> Result<(), String> {
+        let turn = self.stops.last().copied().unwrap_or(0.0);
+        let falling = self.return_stops.windows(2).all(|pair| pair[0] > pair[1]);
+        let inside = self.return_stops.iter().all(|&s| s < turn && s >= -0.2);
+        if falling && inside {
+            return Ok(());
+        }
+        Err(format!("return_stops: {:?}, allowed: falling, below {turn}, at least -0.2", self.return_stops))
+    }
+
+    fn check_ramps(&self, kind: Kind) -> Result<(), String> {
+        let (usual, more) = kind.ramps();
+        let ramps = self.ramps(kind);
+        for (k, ramp) in ramps.iter().enumerate() {
+            let problem = |problem| Err(format!("ramps: {}: {problem}", ramp.as_str()));
+            if !(usual.contains(ramp) || more.contains(ramp)) {
+                let allowed: Vec<&str> = usual.iter().chain(more).map(|r| r.as_str()).collect();
+                return problem(format!("allowed: {}", allowed.join(", ")));
+            }
+            if ramps[..k].contains(ramp) {
+                return problem("is named twice".to_string());
+            }
+            if let Some(first) = ramp.starts_from().filter(|first| !ramps[..k].contains(first)) {
+                return problem(format!("{} must stand before it", first.as_str()));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl RampName {
+    /// The ramp from whose last stop this one starts; none: the packed state.
+    pub fn starts_from(self) -> Option<Self> {
+        match self {
+            Self::UpDown => Some(Self::Up),
+            Self::DownUp => Some(Self::Down),
+            _ => None,
+        }
+    }
+
+    /// The name in plans and rows.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Packed => "packed",
+            Self::Up => "up",
+            Self::Down => "down",
+            Self::UpDown => "up_down",
+            Self::DownUp => "down_up",
+            Self::Xx => "xx",
+            Self::Yy => "yy",
+            Self::WallShear => "wall_shear",
+        }
     }
 }
 
@@ -125,39 +367,5 @@ fn packing_seed(plan_seed: u64, packing: u64) -> u64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const GOOD: &str = "discs = 100\nradius_min = 3e-3\nradius_max = 7e-3\nseed = 1\nporosities = [0.1, 0.15]\n\
-                        compressions = [\"isotropic\", \"horizontal\"]\nrepeats = 2\nstrains = [0.01, -0.01, 0.002]\n";
-
-    fn error(text: &str) -> String {
-        Plan::parse(text, "plan.toml").unwrap_err().to_string()
-    }
-
-    #[test]
-    fn a_plan_lists_its_packings_and_ramps() {
-        let plan = Plan::parse(GOOD, "plan.toml").unwrap();
-        assert_eq!(plan.jobs().len(), 8);
-        assert_eq!(plan.ramps(), (vec![0.002, 0.01], vec![-0.01]));
-        assert_eq!(plan.rows(), 32);
-        assert_ne!(plan.jobs()[0].spec.seed, plan.jobs()[1].spec.seed);
-        assert!(plan.jobs().iter().all(|job| job.spec.seed < 1 << 53));
-    }
-
-    #[test]
-    fn bad_plans_name_file_key_and_range() {
-        assert!(error(&GOOD.replace("repeats", "repeat")).contains("plan.toml: TOML parse error"));
-        assert!(error(&GOOD.replace("repeats", "repeat")).contains("unknown field `repeat`"));
-        assert!(error(&GOOD.replace("0.15]", "0.5]")).contains("porosity = 0.5, allowed: 0.01 to 0.3"));
-        assert!(error(&GOOD.replace("0.002]", "0.01]")).contains("holds a value twice"));
-        assert!(error(&GOOD.replace("0.002]", "0.9]")).contains("strains: 0.9, allowed: -0.2 to 0.2"));
-        assert!(
-            error(&format!(
-                "{GOOD}[material]\ndensity = -1\nyoung_modulus = 1e7\nstiffness_ratio = 0.8\n\
-            friction_angle = 0.5\nwall_stiffness_factor = 1\ndamping = 0.1"
-            ))
-            .contains("density = -1, allowed: > 0")
-        );
-    }
-}
+#[path = "plan_tests.rs"]
+mod tests;

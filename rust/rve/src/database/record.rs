@@ -1,139 +1,199 @@
 //! One row of the database: one state of one packing.
 
-use super::plan::Job;
-use crate::{Averages, Compression, Material, Settled};
+use super::plan::{Job, Kind, RampName};
+use crate::{Averages, Compression, Material, Outcome, RegionKind, Settled, Strains};
 use serde::{Deserialize, Serialize};
-
-/// One state at one stop of a ramp. The packed state is stop 0 of the ramp "packed", with strain 0; stops of the ramps
-/// "up" and "down" count from 1. Averages are absent when the job failed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Record {
-    pub packing: i64,
-    pub seed: u64,
-    pub compression: Compression,
-    pub target_porosity: f64,
-    pub ramp: String,
-    pub stop: i64,
-    pub strain: f64,
-    pub outcome: String,
-    pub steps: u64,
-    pub unbalanced: Option<f64>,
-    pub young_modulus: f64,
-    pub initial_porosity: Option<f64>,
-    pub initial_fabric_index: Option<f64>,
-    pub porosity: Option<f64>,
-    pub porosity_sum_of_areas: Option<f64>,
-    pub overlap_fraction: Option<f64>,
-    pub fabric_index: Option<f64>,
-    pub fabric_conductivity: Option<f64>,
-    pub conductivity_xx: Option<f64>,
-    pub conductivity_yy: Option<f64>,
-    pub conductivity_xy: Option<f64>,
-    pub stress_xx: Option<f64>,
-    pub stress_yy: Option<f64>,
-    pub stress_xy: Option<f64>,
-    pub stress_yx: Option<f64>,
-    pub pressure: Option<f64>,
-    pub stress_xx_over_young_modulus: Option<f64>,
-    pub stress_yy_over_young_modulus: Option<f64>,
-    pub coordination: Option<f64>,
-    pub rattlers: Option<u64>,
-    pub contacts: Option<u64>,
-    pub mean_radius: Option<f64>,
-}
 
 /// A column: name, SQLite type, unit, meaning.
 pub struct Column(pub &'static str, pub &'static str, pub &'static str, pub &'static str);
 
-/// The columns, in the order of [`Record`]'s fields.
+/// Defines [`Record`] and [`COLUMNS`] from one list, so that they cannot differ.
+macro_rules! record {
+    ($($name:ident: $type:ty, $sql:literal, $unit:literal, $meaning:literal;)*) => {
+        /// One state at one stop of a ramp; every stop of the plan has its row. Averages are absent when the stop was not
+        /// reached. The meaning and unit of each field stand in [`COLUMNS`].
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct Record {
+            $(#[doc = concat!("[", $unit, "] ", $meaning)] pub $name: $type,)*
+        }
+
+        /// The columns, in the order of [`Record`]'s fields.
+        pub const COLUMNS: &[Column] = &[$(Column(stringify!($name), $sql, $unit, $meaning),)*];
+    };
+}
+
 #[rustfmt::skip]
-pub const COLUMNS: [Column; 32] = [
-    Column("packing", "INTEGER", "-", "index of the packing in the plan"),
-    Column("seed", "INTEGER", "-", "seed of the packing"),
-    Column("compression", "TEXT", "-", "isotropic: walls close in x and y; horizontal: in x only"),
-    Column("target_porosity", "REAL", "-", "porosity of the whole box at which the walls stopped, overlaps counted once"),
-    Column("ramp", "TEXT", "-", "packed: before any strain; up: expansion; down: contraction"),
-    Column("stop", "INTEGER", "-", "place on the ramp; 0 is the packed state"),
-    Column("strain", "REAL", "-", "radial thermal strain relative to the packed state"),
-    Column("outcome", "TEXT", "-", "settled; capped: step cap before balance; unjammed: bears no load; failed: reason"),
-    Column("steps", "INTEGER", "-", "time steps from the previous stop"),
-    Column("unbalanced", "REAL", "-", "mean resultant force over mean contact force"),
-    Column("young_modulus", "REAL", "Pa", "E of the grains"),
-    Column("initial_porosity", "REAL", "-", "porosity of the packed state (input of the paper's database)"),
-    Column("initial_fabric_index", "REAL", "-", "fabric index of the packed state (input of the paper's database)"),
-    Column("porosity", "REAL", "-", "of the region, overlaps counted once"),
-    Column("porosity_sum_of_areas", "REAL", "-", "1 - sum of disc areas / box area"),
-    Column("overlap_fraction", "REAL", "-", "part of the region covered more than once"),
-    Column("fabric_index", "REAL", "-", "F_xx - F_yy, Eq. 8"),
-    Column("fabric_conductivity", "REAL", "-", "(K_xx - K_yy)/(K_xx + K_yy)"),
-    Column("conductivity_xx", "REAL", "-", "K_xx / k, affine, Eq. 9"),
-    Column("conductivity_yy", "REAL", "-", "K_yy / k, affine, Eq. 9"),
-    Column("conductivity_xy", "REAL", "-", "K_xy / k, affine, Eq. 9"),
-    Column("stress_xx", "REAL", "Pa", "Love stress, Eq. 10, compression positive"),
-    Column("stress_yy", "REAL", "Pa", "Love stress, Eq. 10, compression positive"),
-    Column("stress_xy", "REAL", "Pa", "Love stress, branch x, force y"),
-    Column("stress_yx", "REAL", "Pa", "Love stress, branch y, force x"),
-    Column("pressure", "REAL", "Pa", "(stress_xx + stress_yy)/2, Eq. 11"),
-    Column("stress_xx_over_young_modulus", "REAL", "-", "the paper's scaling; grows with the grain size"),
-    Column("stress_yy_over_young_modulus", "REAL", "-", "the paper's scaling; grows with the grain size"),
-    Column("coordination", "REAL", "-", "contacts of a disc that has any, walls included, mean"),
-    Column("rattlers", "INTEGER", "-", "discs without contact, whole box"),
-    Column("contacts", "INTEGER", "-", "pair contacts in the region"),
-    Column("mean_radius", "REAL", "m", "mean disc radius, current"),
-];
+record! {
+    packing: i64, "INTEGER", "-", "index of the packing in the plan";
+    kind: Kind, "TEXT", "-", "thermal: radii change in fixed walls; mechanics: walls move; wall_shear: bottom and top slip along the grains";
+    discs: u64, "INTEGER", "-", "discs in the packing";
+    seed: u64, "INTEGER", "-", "seed of the packing";
+    compression: Compression, "TEXT", "-", "isotropic: walls close in x and y; horizontal: in x only; intermediate: twice as fast in x as in y";
+    target_porosity: f64, "REAL", "-", "porosity of the whole box at which the walls stopped, overlaps counted once";
+    packing_friction_angle: f64, "REAL", "rad", "friction angle of the grains while the walls closed; the material's own afterwards";
+    ramp: RampName, "TEXT", "-", "packed: before any strain; up, down: radii grow, shrink; up_down, down_up: back from the last stop of up, down; xx, yy: walls move along x, y; wall_shear: bottom and top move along x";
+    stop: i64, "INTEGER", "-", "place on the ramp from 1; 0 is the packed state; of xx and yy: negative closing, positive opening, both from the packed state";
+    strain: f64, "REAL", "-", "radial thermal strain relative to the packed state, growth positive";
+    strain_xx: f64, "REAL", "-", "extension of the box along x relative to the packed state, extension positive";
+    strain_yy: f64, "REAL", "-", "extension of the box along y relative to the packed state, extension positive";
+    strain_xy: f64, "REAL", "-", "shear of the box, displacement along x over height, relative to the packed state";
+    wall_slip: f64, "REAL", "m", "way of bottom and top along x since the packed state";
+    wall_friction: Option<f64>, "REAL", "-", "mobilised friction: tangential over normal force on the grains, along the motion, mean of bottom and top";
+    region: String, "TEXT", "-", "averaging region; hull: of the centres of force-bearing discs that touch no wall; inset: box less 0.8 mean radii; cell: whole periodic cell";
+    outcome: String, "TEXT", "-", "settled; capped: step cap before balance; unjammed: bears no load; failed: see failure";
+    failure: Option<String>, "TEXT", "-", "why the stop was not reached; absent when it was";
+    steps: u64, "INTEGER", "-", "time steps from the previous stop";
+    unbalanced: Option<f64>, "REAL", "-", "mean resultant force over mean contact force";
+    young_modulus: f64, "REAL", "Pa", "E of the grains";
+    initial_porosity: Option<f64>, "REAL", "-", "porosity of the packed state (input of the paper's database)";
+    initial_porosity_sum_of_areas: Option<f64>, "REAL", "-", "porosity_sum_of_areas of the packed state";
+    initial_fabric_index: Option<f64>, "REAL", "-", "fabric index of the packed state (input of the paper's database)";
+    initial_fabric_conductivity: Option<f64>, "REAL", "-", "fabric_conductivity of the packed state";
+    initial_conductivity_xx: Option<f64>, "REAL", "-", "conductivity_xx of the packed state";
+    initial_conductivity_yy: Option<f64>, "REAL", "-", "conductivity_yy of the packed state";
+    initial_conductivity_network_xx: Option<f64>, "REAL", "-", "conductivity_network_xx of the packed state";
+    initial_conductivity_network_yy: Option<f64>, "REAL", "-", "conductivity_network_yy of the packed state";
+    initial_stress_xx: Option<f64>, "REAL", "Pa", "stress_xx of the packed state";
+    initial_stress_yy: Option<f64>, "REAL", "Pa", "stress_yy of the packed state";
+    initial_coordination: Option<f64>, "REAL", "-", "coordination of the packed state";
+    initial_rattlers: Option<u64>, "INTEGER", "-", "rattlers of the packed state";
+    porosity: Option<f64>, "REAL", "-", "of the region, overlaps counted once";
+    porosity_sum_of_areas: Option<f64>, "REAL", "-", "1 - sum of disc areas / box area";
+    overlap_fraction: Option<f64>, "REAL", "-", "part of the region covered more than once";
+    fabric_index: Option<f64>, "REAL", "-", "F_xx - F_yy, Eq. 8";
+    fabric_xx: Option<f64>, "REAL", "-", "F_xx, Eq. 8";
+    fabric_yy: Option<f64>, "REAL", "-", "F_yy, Eq. 8";
+    fabric_conductivity: Option<f64>, "REAL", "-", "(K_xx - K_yy)/(K_xx + K_yy), affine";
+    conductivity_xx: Option<f64>, "REAL", "-", "K_xx / k, affine, Eq. 9";
+    conductivity_yy: Option<f64>, "REAL", "-", "K_yy / k, affine, Eq. 9";
+    conductivity_xy: Option<f64>, "REAL", "-", "K_xy / k, affine, Eq. 9";
+    conductivity_network_xx: Option<f64>, "REAL", "-", "K_xx / k, resistor network solved";
+    conductivity_network_yy: Option<f64>, "REAL", "-", "K_yy / k, resistor network solved";
+    conductivity_network_xy: Option<f64>, "REAL", "-", "K_xy / k, resistor network solved";
+    stress_xx: Option<f64>, "REAL", "Pa", "Love stress, Eq. 10, compression positive";
+    stress_yy: Option<f64>, "REAL", "Pa", "Love stress, Eq. 10, compression positive";
+    stress_xy: Option<f64>, "REAL", "Pa", "Love stress, branch x, force y";
+    stress_yx: Option<f64>, "REAL", "Pa", "Love stress, branch y, force x";
+    pressure: Option<f64>, "REAL", "Pa", "(stress_xx + stress_yy)/2, Eq. 11";
+    stress_xx_reduced: Option<f64>, "REAL", "-", "stress_xx l / (E mean_radius), l = 1 m: free of grain size";
+    stress_yy_reduced: Option<f64>, "REAL", "-", "stress_yy l / (E mean_radius), l = 1 m: free of grain size";
+    stress_xx_over_young_modulus: Option<f64>, "REAL", "-", "the paper's scaling; grows with the grain size";
+    stress_yy_over_young_modulus: Option<f64>, "REAL", "-", "the paper's scaling; grows with the grain size";
+    coordination: Option<f64>, "REAL", "-", "contacts of a disc that has any, walls included, mean";
+    rattlers: Option<u64>, "INTEGER", "-", "discs without contact, whole box";
+    contacts: Option<u64>, "INTEGER", "-", "pair contacts in the region";
+    mean_radius: Option<f64>, "REAL", "m", "mean disc radius, current";
+}
+
+/// Copies averages into the columns of the same name.
+macro_rules! copy {
+    ($from:ident => $to:ident: $($name:ident)*) => {
+        $($to.$name = Some($from.$name);)*
+    };
+}
+
+/// Where on which ramp a row stands.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub ramp: RampName,
+    pub stop: i64,
+    pub strains: Strains,
+    /// Slip of bottom and top [m].
+    pub slip: f64,
+}
+
+/// What was found there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct State {
+    pub settled: Settled,
+    pub averages: Averages,
+    pub wall_friction: Option<f64>,
+}
 
 impl Record {
-    /// The row of a state, or of a failure when `averages` is None. `initial` is the packed state.
+    /// The row of a state, or of the reason why it was not reached. `initial` is the packed state.
     pub(crate) fn new(
         job: &Job,
         material: &Material,
-        (ramp, stop, strain): (&str, usize, f64),
-        state: Result<(&Settled, &Averages), String>,
+        place: Place,
+        state: Result<&State, &str>,
         initial: Option<&Averages>,
     ) -> Self {
-        let (settled, averages) = match &state {
-            Ok((settled, averages)) => (Some(*settled), Some(*averages)),
-            Err(_) => (None, None),
-        };
-        let outcome = match &state {
-            Ok((settled, _)) => settled.outcome.as_str().to_string(),
-            Err(reason) => format!("failed: {reason}"),
-        };
-        let value = |field: fn(&Averages) -> f64| averages.map(field);
+        let mut record = initial.map_or_else(Self::default, Self::from_initial);
+        if let Ok(state) = state {
+            record.set_averages(&state.averages, material.young_modulus);
+            record.outcome = state.settled.outcome.as_str().to_string();
+            record.steps = state.settled.steps;
+            record.unbalanced = Some(state.settled.unbalanced);
+            record.wall_friction = state.wall_friction;
+        }
+        if let Err(reason) = state {
+            record.outcome = FAILED.to_string();
+            record.failure = Some(reason.to_string());
+        }
         Self {
             packing: job.packing,
+            kind: job.kind,
+            discs: job.spec.discs as u64,
             seed: job.spec.seed,
             compression: job.spec.compression,
             target_porosity: job.spec.porosity,
-            ramp: ramp.to_string(),
-            stop: stop as i64,
-            strain,
-            outcome,
-            steps: settled.map_or(0, |s| s.steps),
-            unbalanced: settled.map(|s| s.unbalanced),
+            packing_friction_angle: job.preparation.friction_angle.unwrap_or(material.friction_angle),
+            ramp: place.ramp,
+            stop: place.stop,
+            strain: place.strains.thermal,
+            strain_xx: place.strains.xx,
+            strain_yy: place.strains.yy,
+            wall_slip: place.slip,
+            region: RegionKind::default().as_str().to_string(),
             young_modulus: material.young_modulus,
-            initial_porosity: initial.map(|a| a.porosity),
-            initial_fabric_index: initial.map(|a| a.fabric_index),
-            porosity: value(|a| a.porosity),
-            porosity_sum_of_areas: value(|a| a.porosity_sum_of_areas),
-            overlap_fraction: value(|a| a.overlap_fraction),
-            fabric_index: value(|a| a.fabric_index),
-            fabric_conductivity: value(|a| a.fabric_conductivity),
-            conductivity_xx: value(|a| a.conductivity_xx),
-            conductivity_yy: value(|a| a.conductivity_yy),
-            conductivity_xy: value(|a| a.conductivity_xy),
-            stress_xx: value(|a| a.stress_xx),
-            stress_yy: value(|a| a.stress_yy),
-            stress_xy: value(|a| a.stress_xy),
-            stress_yx: value(|a| a.stress_yx),
-            pressure: value(|a| a.pressure),
-            stress_xx_over_young_modulus: value(|a| a.stress_xx).map(|s| s / material.young_modulus),
-            stress_yy_over_young_modulus: value(|a| a.stress_yy).map(|s| s / material.young_modulus),
-            coordination: value(|a| a.coordination),
-            rattlers: averages.map(|a| a.rattlers),
-            contacts: averages.map(|a| a.contacts),
-            mean_radius: value(|a| a.mean_radius),
+            ..record
         }
     }
+
+    fn from_initial(a: &Averages) -> Self {
+        Self {
+            initial_porosity: Some(a.porosity),
+            initial_porosity_sum_of_areas: Some(a.porosity_sum_of_areas),
+            initial_fabric_index: Some(a.fabric_index),
+            initial_fabric_conductivity: Some(a.fabric_conductivity),
+            initial_conductivity_xx: Some(a.conductivity_xx),
+            initial_conductivity_yy: Some(a.conductivity_yy),
+            initial_conductivity_network_xx: Some(a.conductivity_network_xx),
+            initial_conductivity_network_yy: Some(a.conductivity_network_yy),
+            initial_stress_xx: Some(a.stress_xx),
+            initial_stress_yy: Some(a.stress_yy),
+            initial_coordination: Some(a.coordination),
+            initial_rattlers: Some(a.rattlers),
+            ..Self::default()
+        }
+    }
+
+    fn set_averages(&mut self, a: &Averages, young_modulus: f64) {
+        copy!(a => self: porosity porosity_sum_of_areas overlap_fraction);
+        copy!(a => self: fabric_index fabric_xx fabric_yy fabric_conductivity);
+        copy!(a => self: conductivity_xx conductivity_yy conductivity_xy);
+        copy!(a => self: conductivity_network_xx conductivity_network_yy conductivity_network_xy);
+        copy!(a => self: stress_xx stress_yy stress_xy stress_yx pressure);
+        copy!(a => self: coordination rattlers contacts mean_radius);
+        let reduced = young_modulus * a.mean_radius;
+        self.stress_xx_reduced = Some(a.stress_xx / reduced);
+        self.stress_yy_reduced = Some(a.stress_yy / reduced);
+        self.stress_xx_over_young_modulus = Some(a.stress_xx / young_modulus);
+        self.stress_yy_over_young_modulus = Some(a.stress_yy / young_modulus);
+    }
+
+    /// Whether the state was reached and bears load.
+    pub fn bears_load(&self) -> bool {
+        self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
+    }
+
+    /// How the row is called in messages.
+    pub fn name(&self) -> String {
+        format!("packing {}, ramp {}, stop {}", self.packing, self.ramp.as_str(), self.stop)
+    }
 }
+
+/// [`Record::outcome`] of a stop that was not reached.
+pub const FAILED: &str = "failed";

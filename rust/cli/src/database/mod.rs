@@ -1,0 +1,134 @@
+//! `msdd database`.
+
+mod check;
+mod plot;
+mod timing;
+
+use crate::error::CliError;
+use crate::files::read_text;
+use crate::progress::Progress;
+use crate::simd::SimdArgument;
+use clap::{Args, Subcommand};
+use msdd_rve::database::{Plan, Run, Shard, export_csv, generate, merge, read};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Make the RVEs of a plan, or go on where an earlier run stopped.
+    Generate(GenerateArguments),
+    /// Join the shards of a plan: the file that one process would have made.
+    Merge(MergeArguments),
+    /// Write a database as CSV, with FILE.columns.csv (units, meaning) and FILE.provenance.json beside it.
+    Export(ExportArguments),
+    /// Check exact laws on every row; print symmetry, size effects and noise floor. Status 1 when a law is violated.
+    Check(check::Arguments),
+    /// Draw the inputs with their hulls, and K and sigma against porosity.
+    Plot(plot::Arguments),
+}
+
+#[derive(Args)]
+pub struct GenerateArguments {
+    /// What to make (TOML); see cases/database.
+    #[arg(long, value_name = "FILE")]
+    plan: PathBuf,
+    /// The database (SQLite); an existing one of the same plan is completed.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Threads; the rows do not depend on it. Default: all cores.
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Part of the plan, as 3/16; `merge` joins the parts.
+    #[arg(long, value_name = "NUMBER/COUNT", default_value_t)]
+    shard: Shard,
+    /// Commit of this program, for the provenance; default: MSDD_COMMIT when the program was built.
+    #[arg(long, value_name = "TEXT")]
+    commit: Option<String>,
+    /// JSON to write: where the time went.
+    #[arg(long, value_name = "FILE")]
+    timing: Option<PathBuf>,
+    #[command(flatten)]
+    simd: SimdArgument,
+}
+
+#[derive(Args)]
+pub struct MergeArguments {
+    /// The databases of all shards.
+    #[arg(value_name = "DATABASE", required = true)]
+    shards: Vec<PathBuf>,
+    /// The database to write.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+#[derive(Args)]
+pub struct ExportArguments {
+    /// The database.
+    #[arg(value_name = "FILE")]
+    database: PathBuf,
+    /// The CSV file; compressed when it ends in .gz.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Significant digits of floats; default: all, so that they read back exactly.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(3..=17))]
+    digits: Option<u8>,
+}
+
+pub fn run(command: &Command) -> Result<(), CliError> {
+    match command {
+        Command::Generate(arguments) => make(arguments),
+        Command::Merge(arguments) => {
+            let rows = merge(&arguments.shards, &arguments.out)?;
+            println!("{rows} rows in {}", arguments.out.display());
+            Ok(())
+        }
+        Command::Export(arguments) => {
+            let rows = export_csv(&arguments.database, &arguments.out, arguments.digits.map(usize::from))?;
+            println!("{rows} rows in {}", arguments.out.display());
+            Ok(())
+        }
+        Command::Check(arguments) => check::run(arguments),
+        Command::Plot(arguments) => plot::run(arguments),
+    }
+}
+
+fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
+    arguments.simd.apply()?;
+    let plan = Plan::parse(&read_text(&arguments.plan)?, &arguments.plan.display().to_string())?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let built = option_env!("MSDD_COMMIT").unwrap_or("unknown");
+    let run = Run {
+        shard: arguments.shard,
+        threads: arguments.threads.unwrap_or(cores),
+        commit: arguments.commit.clone().unwrap_or_else(|| built.to_string()),
+    };
+    let start = Instant::now();
+    let mut bar = Progress::new("packings", plan.jobs().len() as u64);
+    let made = generate(&plan, &arguments.out, &run, |progress| {
+        let note = match progress.failed {
+            0 => String::new(),
+            failed => format!("({failed} failed)"),
+        };
+        bar.set(progress.done as u64, progress.total as u64, &note);
+    })?;
+    bar.finish();
+    let timing = timing::Timing::new(&made, run.threads, start.elapsed().as_secs_f64());
+    if let Some(path) = &arguments.timing {
+        timing.write(path)?;
+    }
+    report(arguments, &timing)
+}
+
+/// Rows by outcome, and where the time went.
+fn report(arguments: &GenerateArguments, timing: &timing::Timing) -> Result<(), CliError> {
+    let records = read(&arguments.out)?.records;
+    let mut outcomes: BTreeMap<&str, usize> = BTreeMap::new();
+    for record in &records {
+        *outcomes.entry(&record.outcome).or_default() += 1;
+    }
+    let list: Vec<String> = outcomes.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    println!("{} rows ({}) in {}", records.len(), list.join(", "), arguments.out.display());
+    println!("{timing}");
+    Ok(())
+}

@@ -1,0 +1,56 @@
+//! Where the time of a generation went.
+
+use crate::error::CliError;
+use crate::files::write_atomically;
+use msdd_rve::database::Progress;
+use msdd_rve::stopwatch::Stage;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::Path;
+
+#[derive(Serialize)]
+pub struct Timing {
+    /// Made in this run.
+    rows: usize,
+    /// Wall time [s].
+    seconds: f64,
+    rows_per_second: f64,
+    threads: usize,
+    /// Seconds of all threads by part of the work; storing runs beside them.
+    stages: BTreeMap<&'static str, f64>,
+}
+
+impl Timing {
+    pub fn new(made: &Progress, threads: usize, seconds: f64) -> Self {
+        let mut stages: BTreeMap<&str, f64> =
+            Stage::ALL.iter().map(|s| s.as_str()).zip(made.seconds).collect();
+        stages.insert("storing", made.storing);
+        let rows_per_second = made.rows as f64 / seconds.max(f64::MIN_POSITIVE);
+        Self { rows: made.rows, seconds, rows_per_second, threads, stages }
+    }
+
+    pub fn write(&self, path: &Path) -> Result<(), CliError> {
+        let json =
+            serde_json::to_string_pretty(self).map_err(|error| CliError::Message(error.to_string()))?;
+        write_atomically(path, json.as_bytes())
+    }
+}
+
+impl fmt::Display for Timing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let total = self.stages.values().sum::<f64>().max(f64::MIN_POSITIVE);
+        let share = |(stage, seconds): (&&str, &f64)| format!("{stage} {:.0} %", 100.0 * seconds / total);
+        let shares: Vec<String> =
+            self.stages.iter().map(|(stage, seconds)| share((stage, seconds))).collect();
+        write!(
+            f,
+            "{} rows made in {:.1} s on {} threads, {:.1} rows/s ({})",
+            self.rows,
+            self.seconds,
+            self.threads,
+            self.rows_per_second,
+            shares.join(", ")
+        )
+    }
+}

@@ -1,0 +1,164 @@
+//! What must hold on every row.
+
+use crate::database::plan::RampName;
+use crate::database::record::FAILED;
+use crate::database::{Dataset, Plan, Record, Shard};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Room for rounding, in exports to nine digits as well.
+const TOLERANCE: f64 = 1e-9;
+
+/// A law that does not hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Violation {
+    /// The row, or what else is meant.
+    pub row: String,
+    pub law: &'static str,
+    /// What was found.
+    pub found: String,
+}
+
+/// Every violated law of every row, and rows that the plan does not account for.
+pub(super) fn violations(dataset: &Dataset) -> Vec<Violation> {
+    let packed: BTreeMap<i64, &Record> =
+        dataset.records.iter().filter(|r| r.ramp == RampName::Packed).map(|r| (r.packing, r)).collect();
+    let of_row = |record| {
+        let found = row_laws(record, packed.get(&record.packing).copied());
+        found.into_iter().map(|(law, found)| Violation { row: record.name(), law, found })
+    };
+    let mut violations = plan_laws(dataset);
+    violations.extend(dataset.records.iter().flat_map(of_row));
+    violations
+}
+
+type Found = Vec<(&'static str, String)>;
+
+fn row_laws(record: &Record, packed: Option<&Record>) -> Found {
+    if record.outcome == FAILED || record.failure.is_some() {
+        let sound = record.outcome == FAILED && record.failure.is_some() && record.porosity.is_none();
+        let text = format!("outcome {}, failure {:?}", record.outcome, record.failure);
+        return if sound { Vec::new() } else { vec![("a failure has a reason and no averages", text)] };
+    }
+    let Some(state) = State::of(record) else {
+        return vec![("a state has all averages", "some are absent".to_string())];
+    };
+    let mut found = state.violations();
+    match packed.and_then(State::of) {
+        Some(initial) => found.extend(mass_law(record, &state, &initial)),
+        None => found.push(("a state has its packed state", "it is absent".to_string())),
+    }
+    let initial = packed.map(|p| (p.porosity, p.fabric_index, p.stress_xx, p.rattlers));
+    let own = (
+        record.initial_porosity,
+        record.initial_fabric_index,
+        record.initial_stress_xx,
+        record.initial_rattlers,
+    );
+    if initial != Some(own) {
+        found.push(("initial values are those of the packed state", format!("{own:?}, packed {initial:?}")));
+    }
+    found
+}
+
+/// Grains keep their mass: (1 − η_sum)(1 + ε_xx)(1 + ε_yy) = (1 − η_sum⁰)(1 + ε)².
+fn mass_law(record: &Record, state: &State, initial: &State) -> Option<(&'static str, String)> {
+    let now = (1.0 - state.porosity_sum) * (1.0 + record.strain_xx) * (1.0 + record.strain_yy);
+    let law = (1.0 - initial.porosity_sum) * (1.0 + record.strain).powi(2);
+    let off = now - law;
+    (!(off.abs() <= TOLERANCE)).then(|| ("mass", format!("off by {off:.3e}")))
+}
+
+/// The averages that the laws speak of.
+struct State {
+    porosity: f64,
+    porosity_sum: f64,
+    overlap: f64,
+    fabric: [f64; 3],
+    conductivity: [f64; 3],
+    fabric_conductivity: f64,
+    stress: [f64; 2],
+    pressure: f64,
+    reduced: [f64; 2],
+    scale: f64,
+}
+
+impl State {
+    fn of(record: &Record) -> Option<Self> {
+        Some(Self {
+            porosity: record.porosity?,
+            porosity_sum: record.porosity_sum_of_areas?,
+            overlap: record.overlap_fraction?,
+            fabric: [record.fabric_xx?, record.fabric_yy?, record.fabric_index?],
+            conductivity: [record.conductivity_xx?, record.conductivity_yy?, record.conductivity_xy?],
+            fabric_conductivity: record.fabric_conductivity?,
+            stress: [record.stress_xx?, record.stress_yy?],
+            pressure: record.pressure?,
+            reduced: [record.stress_xx_reduced?, record.stress_yy_reduced?],
+            scale: record.young_modulus * record.mean_radius?,
+        })
+    }
+
+    fn violations(&self) -> Found {
+        let [fxx, fyy, f] = self.fabric;
+        let [kxx, kyy, kxy] = self.conductivity;
+        let size = kxx.abs() + kyy.abs();
+        let stress = self.stress[0].abs() + self.stress[1].abs();
+        // Without contacts there is no fabric.
+        let trace = if fxx == 0.0 && fyy == 0.0 { 0.0 } else { fxx + fyy - 1.0 };
+        let off = [
+            ("trace of F is 1", trace, 1.0),
+            ("f = F_xx - F_yy", fxx - fyy - f, 1.0),
+            ("f_K = (K_xx - K_yy)/(K_xx + K_yy)", self.fabric_conductivity * (kxx + kyy) - (kxx - kyy), size),
+            ("p = (sigma_xx + sigma_yy)/2", 0.5 * (self.stress[0] + self.stress[1]) - self.pressure, stress),
+            ("reduced stress xx", self.reduced[0] * self.scale - self.stress[0], stress),
+            ("reduced stress yy", self.reduced[1] * self.scale - self.stress[1], stress),
+        ];
+        let holds = [
+            ("porosity is 0 to 1", (0.0..=1.0).contains(&self.porosity), self.porosity),
+            ("overlaps are counted", self.overlap >= -TOLERANCE, self.overlap),
+            ("K is positive", kxx >= 0.0 && kyy >= 0.0, kxx.min(kyy)),
+            ("K is positive", kxx * kyy - kxy * kxy >= -TOLERANCE * size * size, kxx * kyy - kxy * kxy),
+        ];
+        let off = off.into_iter().filter(|(_, off, scale)| !(off.abs() <= 4.0 * TOLERANCE * scale));
+        let holds = holds.into_iter().filter(|(_, holds, _)| !holds);
+        off.map(|(law, off, _)| (law, format!("off by {off:.3e}")))
+            .chain(holds.map(|(law, _, value)| (law, value.to_string())))
+            .collect()
+    }
+}
+
+/// Rows and seeds are those of the plan that stands in the provenance, as far as the file's shard goes.
+fn plan_laws(dataset: &Dataset) -> Vec<Violation> {
+    let violation = |row: String, law, found: &str| Violation { row, law, found: found.to_string() };
+    let text = dataset.provenance.get("plan").map_or("", String::as_str);
+    let plan = match Plan::parse(text, "the plan in the provenance") {
+        Ok(plan) => plan,
+        Err(error) => return vec![violation("provenance".to_string(), "has a plan", &error.to_string())],
+    };
+    let shard =
+        dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or(Shard::default());
+    let jobs: Vec<_> = plan.jobs().into_iter().filter(|job| shard.holds(job.packing)).collect();
+    let seeds: BTreeMap<i64, u64> = jobs.iter().map(|job| (job.packing, job.spec.seed)).collect();
+    let expected: BTreeSet<_> = jobs
+        .iter()
+        .flat_map(|job| job.rows().into_iter().map(|(ramp, stop)| (job.packing, ramp, stop)))
+        .collect();
+    let mut found = BTreeSet::new();
+    let mut violations = Vec::new();
+    for record in &dataset.records {
+        if !found.insert((record.packing, record.ramp, record.stop)) {
+            violations.push(violation(record.name(), "a row stands once", "twice"));
+        }
+        if seeds.get(&record.packing) != Some(&record.seed) {
+            violations.push(violation(record.name(), "the seed is the plan's", &record.seed.to_string()));
+        }
+    }
+    let name = |&(packing, ramp, stop): &(i64, RampName, i64)| {
+        Record { packing, ramp, stop, ..Record::default() }.name()
+    };
+    let missing =
+        expected.difference(&found).map(|row| violation(name(row), "every row of the plan", "absent"));
+    let foreign =
+        found.difference(&expected).map(|row| violation(name(row), "no row but the plan's", "present"));
+    violations.into_iter().chain(missing).chain(foreign).collect()
+}

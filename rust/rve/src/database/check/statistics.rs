@@ -1,0 +1,110 @@
+//! What holds on the average: mirror symmetry, and small packings against large ones.
+
+use super::Violation;
+use super::local::{Points, mean, variance};
+use crate::Compression;
+use crate::database::Record;
+use crate::database::plan::{Kind, RampName};
+use std::collections::BTreeMap;
+
+/// Standard errors beyond which a mean counts as not zero.
+const LARGEST_DEVIATION: f64 = 4.0;
+
+/// Mean over packings, with its standard error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mean {
+    pub discs: u64,
+    pub quantity: &'static str,
+    pub packings: usize,
+    pub mean: f64,
+    pub standard_error: f64,
+}
+
+impl Mean {
+    /// Off zero by more than chance explains.
+    pub(super) fn violation(&self) -> Option<Violation> {
+        let off = self.mean / self.standard_error;
+        (off.abs() > LARGEST_DEVIATION).then(|| Violation {
+            row: format!("isotropic packings of {} discs", self.discs),
+            law: "x and y are alike",
+            found: format!("mean {} {:.3e}, {off:.1} standard errors off 0", self.quantity, self.mean),
+        })
+    }
+}
+
+type Quantity = (&'static str, fn(&Record) -> Option<f64>);
+
+/// Packed states of square boxes that bear load, by size.
+fn packed(records: &[Record]) -> BTreeMap<u64, Vec<&Record>> {
+    let mut sizes: BTreeMap<u64, Vec<&Record>> = BTreeMap::new();
+    for record in records {
+        if record.ramp == RampName::Packed && record.kind != Kind::WallShear && record.bears_load() {
+            sizes.entry(record.discs).or_default().push(record);
+        }
+    }
+    sizes
+}
+
+/// f, f_K and stress deviator of isotropic packings: zero on the average.
+pub(super) fn symmetry(records: &[Record]) -> Vec<Mean> {
+    let quantities: [Quantity; 3] = [
+        ("fabric_index", |r| r.fabric_index),
+        ("fabric_conductivity", |r| r.fabric_conductivity),
+        ("(stress_xx - stress_yy)/2p", |r| Some(0.5 * (r.stress_xx? - r.stress_yy?) / r.pressure?)),
+    ];
+    let mut means = Vec::new();
+    for (discs, rows) in packed(records) {
+        for (quantity, value) in quantities {
+            let isotropic = rows.iter().filter(|r| r.compression == Compression::Isotropic);
+            let values: Vec<f64> = isotropic.filter_map(|r| value(r)).collect();
+            let packings = values.len();
+            let standard_error = (variance(&values) / packings.max(1) as f64).sqrt();
+            if packings > 2 {
+                means.push(Mean { discs, quantity, packings, mean: mean(&values), standard_error });
+            }
+        }
+    }
+    means
+}
+
+/// How packed states of one size differ from those of the most frequent one at equal η and f.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeEffect {
+    pub discs: u64,
+    /// The size compared with.
+    pub base: u64,
+    pub quantity: &'static str,
+    pub packings: usize,
+    /// Mean of value / value of the base size at equal η and f − 1 [-].
+    pub relative: f64,
+    pub standard_error: f64,
+}
+
+/// Size effects: walls order the grains beside them, so a small difference is physics.
+pub(super) fn sizes(records: &[Record]) -> Vec<SizeEffect> {
+    let quantities: [Quantity; 3] = [
+        ("conductivity (mean of xx, yy)", |r| Some(0.5 * (r.conductivity_xx? + r.conductivity_yy?))),
+        ("pressure, reduced", |r| Some(0.5 * (r.stress_xx_reduced? + r.stress_yy_reduced?))),
+        ("coordination", |r| r.coordination),
+    ];
+    let sizes = packed(records);
+    let Some((&base, base_rows)) = sizes.iter().max_by_key(|(_, rows)| rows.len()) else { return Vec::new() };
+    let inputs_of = |r: &Record| Some([r.porosity?, r.fabric_index?]);
+    let inputs: Vec<[f64; 2]> = base_rows.iter().filter_map(|r| inputs_of(r)).collect();
+    let mut effects = Vec::new();
+    for (&discs, rows) in sizes.iter().filter(|(discs, _)| **discs != base) {
+        for (quantity, value) in quantities {
+            let output: Vec<f64> = base_rows.iter().filter_map(|r| value(r)).collect();
+            let points = Points { inputs: &inputs, output: &output };
+            let ratio = |r: &&Record| Some(value(r)? / points.fit(inputs_of(r)?)?.0 - 1.0);
+            let ratios: Vec<f64> = rows.iter().filter_map(ratio).collect();
+            let packings = ratios.len();
+            if packings > 2 {
+                let standard_error = (variance(&ratios) / packings as f64).sqrt();
+                let relative = mean(&ratios);
+                effects.push(SizeEffect { discs, base, quantity, packings, relative, standard_error });
+            }
+        }
+    }
+    effects
+}

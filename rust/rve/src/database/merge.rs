@@ -1,0 +1,90 @@
+//! Shards of one plan become one file.
+
+use super::plan::Plan;
+use super::record::Record;
+use super::store::{Store, join_commits};
+use super::{DatabaseError, Shard};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// What must agree between shards; everything else follows from it.
+const SAME: [&str; 3] = ["schema", "engine_version", "plan_hash"];
+
+/// Joins databases of one plan into `out`, which gets the bytes that one process would have written. Returns the number
+/// of rows.
+///
+/// # Errors
+/// [`DatabaseError::Mismatch`] for another plan, schema or engine version; [`DatabaseError::Merge`] when packings are
+/// missing or stand in two files; what reading and writing give.
+pub fn merge(shards: &[PathBuf], out: &Path) -> Result<usize, DatabaseError> {
+    let mut packings: BTreeMap<i64, (&Path, Vec<Record>)> = BTreeMap::new();
+    let mut first: Option<BTreeMap<String, String>> = None;
+    let mut commits = Vec::new();
+    for path in shards {
+        let store = Store::open(path)?;
+        let provenance = store.provenance()?;
+        commits.push(provenance.get("commit").cloned().unwrap_or_default());
+        agree(path, first.get_or_insert_with(|| provenance.clone()), &provenance)?;
+        for record in store.records()? {
+            let (source, rows) = packings.entry(record.packing).or_insert((path, Vec::new()));
+            if source != path {
+                let problem = format!("packing {} stands in {} too", record.packing, source.display());
+                return Err(DatabaseError::Merge { path: path.clone(), problem });
+            }
+            rows.push(record);
+        }
+    }
+    let problem =
+        |problem: &str| DatabaseError::Merge { path: out.to_path_buf(), problem: problem.to_string() };
+    let mut provenance = first.ok_or_else(|| problem("no databases to merge"))?;
+    let text = provenance.get("plan").ok_or_else(|| problem("no plan in the provenance"))?;
+    complete(&Plan::parse(text, "the plan in the provenance")?, &packings, out)?;
+    provenance.insert("commit".to_string(), join_commits(commits.iter().map(String::as_str)));
+    provenance.insert("shard".to_string(), Shard::default().to_string());
+    let records: Vec<Record> = packings.into_values().flat_map(|(_, rows)| rows).collect();
+    Store::write_whole(out, provenance, &records)?;
+    Ok(records.len())
+}
+
+fn agree(
+    path: &Path,
+    first: &BTreeMap<String, String>,
+    other: &BTreeMap<String, String>,
+) -> Result<(), DatabaseError> {
+    let text = |from: &BTreeMap<String, String>, key| from.get(key).cloned().unwrap_or_default();
+    for key in SAME {
+        let (expected, found) = (text(first, key), text(other, key));
+        if found != expected {
+            return Err(DatabaseError::Mismatch { path: path.to_path_buf(), key, found, expected });
+        }
+    }
+    Ok(())
+}
+
+/// Every packing of the plan, with every row of it, and no other.
+fn complete(
+    plan: &Plan,
+    packings: &BTreeMap<i64, (&Path, Vec<Record>)>,
+    out: &Path,
+) -> Result<(), DatabaseError> {
+    let problem = |path: &Path, problem| Err(DatabaseError::Merge { path: path.to_path_buf(), problem });
+    let jobs = plan.jobs();
+    let missing: Vec<String> = jobs
+        .iter()
+        .filter(|job| !packings.contains_key(&job.packing))
+        .map(|job| job.packing.to_string())
+        .collect();
+    if !missing.is_empty() {
+        let (count, total) = (missing.len(), jobs.len());
+        let list = missing[..count.min(20)].join(", ");
+        let more = if count > 20 { ", …" } else { "" };
+        return problem(out, format!("{count} of {total} packings are missing: {list}{more}"));
+    }
+    for (packing, (path, rows)) in packings {
+        let expected = usize::try_from(*packing).ok().and_then(|k| jobs.get(k)).map(super::plan::Job::rows);
+        if expected.is_none_or(|expected| !rows.iter().map(|r| (r.ramp, r.stop)).eq(expected)) {
+            return problem(path, format!("packing {packing} has not the rows of the plan"));
+        }
+    }
+    Ok(())
+}

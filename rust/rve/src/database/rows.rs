@@ -1,0 +1,145 @@
+//! The rows of one packing: every stop of every ramp of its job.
+
+use super::plan::{Job, Kind, Plan, RampName};
+use super::record::{Place, Record, State};
+use crate::slide::mobilised_friction;
+use crate::{
+    Averages, Packed, Protocol, Ramp, RegionKind, RveError, Simulation, Stop, Strains, follow, homogenise,
+    pack_as, slide, stopwatch,
+};
+use std::collections::BTreeMap;
+
+/// Makes a packing and takes it through its ramps. Stops that were not reached are rows, too.
+pub(super) fn rows(plan: &Plan, job: &Job) -> Vec<Record> {
+    let material = &plan.material;
+    let packed = match pack_as(&job.spec, &job.preparation, material) {
+        Ok(packed) => packed,
+        Err(error) => return unreached(plan, job, &format!("packing: {error}")),
+    };
+    let averages = stopwatch::time(stopwatch::Stage::Averaging, || {
+        homogenise(&packed.simulation, RegionKind::default())
+    });
+    let shear = (job.kind == Kind::WallShear).then(|| mobilised_friction(&packed.simulation, job.slide));
+    let state = State { settled: packed.settled, averages, wall_friction: shear };
+    let place = place(RampName::Packed, (0, 0.0));
+    let mut walk = Walk { plan, job, packed: &packed, initial: &averages, ends: BTreeMap::new() };
+    let mut records = vec![Record::new(job, material, place, Ok(&state), Some(&averages))];
+    for &ramp in &job.ramps {
+        records.extend(walk.ramp(ramp));
+    }
+    records
+}
+
+fn unreached(plan: &Plan, job: &Job, reason: &str) -> Vec<Record> {
+    let ramps = std::iter::once(RampName::Packed).chain(job.ramps.iter().copied());
+    let places = ramps.flat_map(|ramp| job.stops_of(ramp).into_iter().map(move |stop| place(ramp, stop)));
+    places.map(|place| Record::new(job, &plan.material, place, Err(reason), None)).collect()
+}
+
+/// What a stop means: strains, or slip.
+fn place(ramp: RampName, (stop, value): (i64, f64)) -> Place {
+    let mut place = Place { ramp, stop, strains: Strains::default(), slip: 0.0 };
+    match ramp {
+        RampName::Packed => (),
+        RampName::Up | RampName::Down | RampName::UpDown | RampName::DownUp => place.strains.thermal = value,
+        RampName::Xx => place.strains.xx = value,
+        RampName::Yy => place.strains.yy = value,
+        RampName::WallShear => place.slip = value,
+    }
+    place
+}
+
+/// The ramps of one packing.
+struct Walk<'a> {
+    plan: &'a Plan,
+    job: &'a Job,
+    packed: &'a Packed,
+    initial: &'a Averages,
+    /// Where ramps ended from which others start; or why they did not reach their end.
+    ends: BTreeMap<RampName, Result<Simulation, String>>,
+}
+
+impl Walk<'_> {
+    fn protocol(&self) -> Protocol {
+        Protocol { relaxation: self.plan.relaxation, ..Protocol::default() }
+    }
+
+    fn ramp(&mut self, ramp: RampName) -> Vec<Record> {
+        let stops: Vec<Place> = self.job.stops_of(ramp).into_iter().map(|stop| place(ramp, stop)).collect();
+        match self.job.kind {
+            Kind::Thermal => self.thermal(ramp, &stops),
+            Kind::Mechanics => {
+                // Closing and opening start from the packed state each.
+                let (closing, opening) = stops.split_at(stops.partition_point(|place| place.stop < 0));
+                [closing, opening].into_iter().flat_map(|branch| self.strain(branch)).collect()
+            }
+            Kind::WallShear => self.slide(&stops),
+        }
+    }
+
+    fn thermal(&mut self, ramp: RampName, stops: &[Place]) -> Vec<Record> {
+        let (mut simulation, turn) = match ramp.starts_from() {
+            None => (self.packed.simulation.clone(), 0.0),
+            Some(first) => match self.ends.remove(&first) {
+                Some(Ok(end)) => {
+                    let turn = self.job.stops_of(first).last().map_or(0.0, |&(_, strain)| strain);
+                    (end, turn)
+                }
+                Some(Err(reason)) => return self.failed(stops, &format!("{}: {reason}", first.as_str())),
+                None => return self.failed(stops, &format!("{} was not made", first.as_str())),
+            },
+        };
+        // Strains count from the state where the path starts.
+        let strain = |place: &Place| Strains::thermal((1.0 + place.strains.thermal) / (1.0 + turn) - 1.0);
+        let path: Vec<Strains> = stops.iter().map(strain).collect();
+        let result = follow(&mut simulation, &path, self.protocol(), |_, _| ());
+        let records = self.records(stops, &result, &[]);
+        let goes_on = self.job.ramps.iter().any(|next| next.starts_from() == Some(ramp));
+        if goes_on {
+            let failure = result.map_or_else(Some, |ramp| ramp.failure);
+            let end = failure.map_or(Ok(simulation), |failure| Err(failure.to_string()));
+            self.ends.insert(ramp, end);
+        }
+        records
+    }
+
+    fn strain(&self, stops: &[Place]) -> Vec<Record> {
+        let path: Vec<Strains> = stops.iter().map(|place| place.strains).collect();
+        let mut simulation = self.packed.simulation.clone();
+        self.records(stops, &follow(&mut simulation, &path, self.protocol(), |_, _| ()), &[])
+    }
+
+    fn slide(&self, stops: &[Place]) -> Vec<Record> {
+        let slips: Vec<f64> = stops.iter().map(|place| place.slip).collect();
+        let mut frictions = Vec::new();
+        let mut simulation = self.packed.simulation.clone();
+        let ramp = slide(&mut simulation, &slips, (self.job.slide, self.plan.relaxation), |_, friction| {
+            frictions.push(friction)
+        });
+        self.records(stops, &ramp, &frictions)
+    }
+
+    /// A row a stop: the states reached, then the failure that ended the ramp, for each stop after them.
+    fn records(&self, stops: &[Place], ramp: &Result<Ramp, RveError>, frictions: &[f64]) -> Vec<Record> {
+        let (reached, failure): (&[Stop], Option<&RveError>) = match ramp {
+            Ok(ramp) => (&ramp.stops, ramp.failure.as_ref()),
+            Err(error) => (&[], Some(error)),
+        };
+        let row = |(k, (place, stop)): (usize, (&Place, &Stop))| {
+            let wall_friction = frictions.get(k).copied();
+            let state = State { settled: stop.settled, averages: stop.averages, wall_friction };
+            Record::new(self.job, &self.plan.material, *place, Ok(&state), Some(self.initial))
+        };
+        let mut records: Vec<Record> = stops.iter().zip(reached).enumerate().map(row).collect();
+        let reason = failure.map_or_else(|| "not reached".to_string(), ToString::to_string);
+        records.extend(self.failed(&stops[reached.len()..], &reason));
+        records
+    }
+
+    fn failed(&self, stops: &[Place], reason: &str) -> Vec<Record> {
+        let row = |place: &Place| {
+            Record::new(self.job, &self.plan.material, *place, Err(reason), Some(self.initial))
+        };
+        stops.iter().map(row).collect()
+    }
+}

@@ -1,0 +1,56 @@
+//! Where the time goes: seconds a thread has spent in each part of the work. No result depends on it.
+
+use std::cell::Cell;
+use std::time::Instant;
+
+/// Parts of the work on an RVE.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Walls close on the loose discs.
+    Packing,
+    /// Relaxation after it.
+    PackingSettle,
+    /// Strain or wall slip from stop to stop.
+    Strain,
+    /// Relaxation at the stops.
+    StrainSettle,
+    /// Porosity, fabric, conductivity, stress of a state.
+    Averaging,
+}
+
+impl Stage {
+    pub const ALL: [Self; 5] =
+        [Self::Packing, Self::PackingSettle, Self::Strain, Self::StrainSettle, Self::Averaging];
+
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Packing => "packing",
+            Self::PackingSettle => "packing_settle",
+            Self::Strain => "strain",
+            Self::StrainSettle => "strain_settle",
+            Self::Averaging => "averaging",
+        }
+    }
+}
+
+/// Seconds, in the order of [`Stage::ALL`].
+pub type Seconds = [f64; 5];
+
+thread_local! {
+    static SPENT: Cell<Seconds> = const { Cell::new([0.0; 5]) };
+}
+
+/// Does `work` and adds its time to the stage.
+pub(crate) fn time<T>(stage: Stage, work: impl FnOnce() -> T) -> T {
+    let begin = Instant::now();
+    let result = work();
+    let mut spent = SPENT.get();
+    spent[stage as usize] += begin.elapsed().as_secs_f64();
+    SPENT.set(spent);
+    result
+}
+
+/// What this thread has spent since it last asked.
+pub fn take() -> Seconds {
+    SPENT.replace([0.0; 5])
+}
