@@ -5,8 +5,8 @@ use crate::files::{read_text, write_atomically};
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_rve::{
-    Averages, Compression, Cut, Material, PackingSpec, Rates, RegionKind, Settled, Simulation, Strains,
-    follow, homogenise_in, pack, region, state, unbalanced_force, vtk,
+    Averages, Compression, Cut, Material, PackingSpec, Rates, RegionKind, RveError, Settled, Simulation,
+    Strains, follow, homogenise_in, last_good, pack_watched, region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -41,7 +41,7 @@ pub struct PackArguments {
     radius_min: f64,
     #[arg(long, default_value_t = 7e-3)]
     radius_max: f64,
-    /// State file (JSON) to write.
+    /// State file (JSON) to write; of a run that fails, FILE.last-good.json.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Folder for ParaView files of the state.
@@ -81,7 +81,7 @@ pub struct ExpandArguments {
     /// Wall stiffness over E r; default: that of the state.
     #[arg(long)]
     wall_stiffness: Option<f64>,
-    /// State file (JSON) to write: the state at the last stop.
+    /// State file (JSON) to write: the state at the last stop; of a run that fails, FILE.last-good.json.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Folder for a ParaView time series of the stops.
@@ -140,6 +140,15 @@ fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
     write_atomically(path, state::to_json(simulation).map_err(failed)?.as_bytes())
 }
 
+/// Writes the last good state of a failed run beside `out`, and names it in the error.
+fn failed(out: &Path, source: RveError, last_good: Option<&Simulation>) -> CliError {
+    let Some(state) = last_good else { return CliError::Rve(source) };
+    match last_good::write(out, state) {
+        Ok(file) => CliError::Stopped { source, file, steps: state.steps, time: state.time },
+        Err(error) => CliError::Message(format!("{source}; its last good state cannot be written: {error}")),
+    }
+}
+
 fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
     arguments.simd.apply()?;
     let spec = PackingSpec {
@@ -153,7 +162,8 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
         radius_min: arguments.radius_min,
         radius_max: arguments.radius_max,
     };
-    let packed = pack(&spec, &Material::default())?;
+    let packed = pack_watched(&spec, &Material::default())
+        .map_err(|stopped| failed(&arguments.out, stopped.error, stopped.last_good.as_deref()))?;
     write_state(&arguments.out, &packed.simulation)?;
     let mut series = Series::new(arguments.vtk.as_deref());
     series.add(0.0, &packed.simulation)?;
@@ -186,7 +196,7 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
     })?;
     written?;
     match ramp.failure {
-        Some(failure) => Err(failure.into()),
+        Some(failure) => Err(failed(&arguments.out, failure, simulation.take_last_good().as_ref())),
         None => write_state(&arguments.out, &simulation),
     }
 }

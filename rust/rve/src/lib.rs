@@ -9,6 +9,7 @@
 //! | [`area`] | exact area of a union of discs inside a polygon |
 //! | [`homogenise`](mod@homogenise) | porosity, fabric, conductivity, stress (Eqs. 8–11) |
 //! | [`state`] | state files: one assembly as JSON |
+//! | [`last_good`] | what is left of a run that failed |
 //! | [`vtk`] | ParaView files |
 //! | [`database`] | plan, generation, storage, export |
 #![forbid(unsafe_code)]
@@ -17,6 +18,7 @@ pub mod area;
 pub mod database;
 pub mod expand;
 pub mod homogenise;
+pub mod last_good;
 pub mod pack;
 mod place;
 pub mod region;
@@ -27,7 +29,7 @@ pub mod vtk;
 pub use expand::{Ramp, Rates, Stop, Strains, expand, follow};
 pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
-pub use pack::{Compression, Packed, PackingSpec, pack};
+pub use pack::{Compression, Packed, PackingSpec, Stopped, pack, pack_watched};
 pub use region::{Cut, RegionKind};
 pub use settle::{Outcome, Settled, unbalanced_force};
 

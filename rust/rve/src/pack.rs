@@ -1,6 +1,7 @@
 //! Packing: walls close on randomly placed discs until a target porosity, then the assembly relaxes (section 2.4).
 
 use crate::area::porosity_of_box;
+use crate::last_good;
 use crate::place::{Random, radii, scatter};
 use crate::settle::{Settled, settle};
 use crate::{Material, RveError, Simulation};
@@ -48,6 +49,15 @@ pub struct Packed {
     pub settled: Settled,
 }
 
+/// Why a packing went wrong, and what is left of it.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{error}")]
+pub struct Stopped {
+    pub error: RveError,
+    /// Absent when it failed before the first step.
+    pub last_good: Option<Box<Simulation>>,
+}
+
 impl PackingSpec {
     /// Refuses what cannot be packed; names key, value and range.
     pub fn check(&self) -> Result<(), RveError> {
@@ -74,14 +84,36 @@ impl PackingSpec {
 /// [`RveError::Parameter`] or [`RveError::Material`] for bad input; [`RveError::NoRoom`],
 /// [`RveError::TargetNotReached`] or [`RveError::Failure`] when the packing fails.
 pub fn pack(spec: &PackingSpec, material: &Material) -> Result<Packed, RveError> {
+    pack_watched(spec, material).map_err(|stopped| stopped.error)
+}
+
+/// As [`pack`]; a packing that goes wrong comes with its last good state.
+///
+/// # Errors
+/// Those of [`pack`].
+pub fn pack_watched(spec: &PackingSpec, material: &Material) -> Result<Packed, Stopped> {
+    let mut simulation = checked_start(spec, material).map_err(|error| Stopped { error, last_good: None })?;
+    simulation.keep_last_good(last_good::EVERY);
+    let settled = close_and_settle(&mut simulation, spec);
+    let last_good = simulation.take_last_good().map(Box::new);
+    match settled {
+        Ok(settled) => Ok(Packed { simulation, settled }),
+        Err(error) => Err(Stopped { error, last_good }),
+    }
+}
+
+fn checked_start(spec: &PackingSpec, material: &Material) -> Result<Simulation, RveError> {
     spec.check()?;
     material.check()?;
-    let mut simulation = loose_start(spec, material)?;
-    compress(&mut simulation, spec)?;
+    loose_start(spec, material)
+}
+
+fn close_and_settle(simulation: &mut Simulation, spec: &PackingSpec) -> Result<Settled, RveError> {
+    compress(simulation, spec)?;
     simulation.walls.stop();
-    let settled = settle(&mut simulation, 0)?;
+    let settled = settle(simulation, 0)?;
     simulation.reset_strain();
-    Ok(Packed { simulation, settled })
+    Ok(settled)
 }
 
 fn loose_start(spec: &PackingSpec, material: &Material) -> Result<Simulation, RveError> {
