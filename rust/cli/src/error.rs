@@ -12,6 +12,8 @@ pub enum CliError {
     Database(#[from] msdd_rve::database::DatabaseError),
     #[error(transparent)]
     Rve(#[from] msdd_rve::RveError),
+    #[error("{source}; the last good state, after {steps} steps at t = {time} s, is in {file}")]
+    Stopped { source: msdd_rve::RveError, file: PathBuf, steps: u64, time: f64 },
     #[error("{file}: {source}")]
     State { file: PathBuf, source: msdd_rve::state::StateError },
     #[error("{file}: {source}")]

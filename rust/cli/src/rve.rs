@@ -5,8 +5,9 @@ use crate::files::{read_text, write_atomically};
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_rve::{
-    Averages, Axis, Compression, Cut, Material, PackingSpec, Protocol, RegionKind, Relaxation, Settled,
-    Simulation, Strains, follow, heat_check, homogenise_in, pack, region, state, unbalanced_force, vtk,
+    Averages, Axis, Compression, Cut, Material, PackingSpec, Preparation, Protocol, RegionKind, Relaxation,
+    RveError, Settled, Simulation, Strains, follow, heat_check, homogenise_in, last_good, pack_watched,
+    region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -46,7 +47,7 @@ pub struct PackArguments {
     /// How forces are brought into balance: the grains' own damped motion, or FIRE, several times as fast.
     #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
     relaxation: RelaxationName,
-    /// State file (JSON) to write.
+    /// State file (JSON) to write; of a run that fails, FILE.last-good.json.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Folder for ParaView files of the state.
@@ -89,7 +90,7 @@ pub struct ExpandArguments {
     /// How forces are brought into balance: the grains' own damped motion, or FIRE, several times as fast.
     #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
     relaxation: RelaxationName,
-    /// State file (JSON) to write: the state at the last stop.
+    /// State file (JSON) to write: the state at the last stop; of a run that fails, FILE.last-good.json.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Folder for a ParaView time series of the stops.
@@ -104,7 +105,7 @@ pub struct HomogeniseArguments {
     #[arg(long, value_name = "FILE")]
     state: PathBuf,
     /// Averaging region: hull of the inner discs, or the box inset by 0.8 mean radii.
-    #[arg(long, value_enum, default_value_t = RegionName::Hull)]
+    #[arg(long, value_enum, default_value_t = RegionName::Inset)]
     region: RegionName,
     /// Contacts that the border crosses count with their share inside, or wholly.
     #[arg(long, value_enum, default_value_t = CutName::Clip)]
@@ -184,6 +185,15 @@ fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
     write_atomically(path, state::to_json(simulation).map_err(failed)?.as_bytes())
 }
 
+/// Writes the last good state of a failed run beside `out`, and names it in the error.
+fn failed(out: &Path, source: RveError, last_good: Option<&Simulation>) -> CliError {
+    let Some(state) = last_good else { return CliError::Rve(source) };
+    match last_good::write(out, state) {
+        Ok(file) => CliError::Stopped { source, file, steps: state.steps, time: state.time },
+        Err(error) => CliError::Message(format!("{source}; its last good state cannot be written: {error}")),
+    }
+}
+
 fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
     arguments.simd.apply()?;
     let spec = PackingSpec {
@@ -199,7 +209,8 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
         radius_max: arguments.radius_max,
         relaxation: arguments.relaxation.into(),
     };
-    let packed = pack(&spec, &Material::default())?;
+    let packed = pack_watched(&spec, &Preparation::default(), &Material::default())
+        .map_err(|stopped| failed(&arguments.out, stopped.error, stopped.last_good.as_deref()))?;
     write_state(&arguments.out, &packed.simulation)?;
     let mut series = Series::new(arguments.vtk.as_deref());
     series.add(0.0, &packed.simulation)?;
@@ -234,7 +245,7 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
     })?;
     written?;
     match ramp.failure {
-        Some(failure) => Err(failure.into()),
+        Some(failure) => Err(failed(&arguments.out, failure, simulation.take_last_good().as_ref())),
         None => write_state(&arguments.out, &simulation),
     }
 }

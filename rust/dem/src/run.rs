@@ -11,6 +11,14 @@ pub const LARGEST_OVERLAP: f64 = 1.0;
 /// Largest way of a disc in one step over its radius.
 const LARGEST_STRIDE: f64 = 0.5;
 
+/// A copy of a state that was good.
+#[derive(Clone, Debug)]
+pub(crate) struct LastGood {
+    /// Steps between two copies at least.
+    every: u64,
+    state: Box<Simulation>,
+}
+
 /// Why a run ended before its time. `time` [s] is that of the look that found it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
@@ -33,7 +41,7 @@ impl Simulation {
     /// [`Simulation::choose_time_step`].
     ///
     /// # Errors
-    /// The first [`Failure`] found; the state is the failed one, so keep a copy if it may be needed.
+    /// The first [`Failure`] found; the state is the failed one, see [`Simulation::keep_last_good`].
     pub fn run(&mut self, steps: u64) -> Result<(), Failure> {
         let end = self.steps + steps;
         while self.steps < end {
@@ -41,8 +49,41 @@ impl Simulation {
             self.watch_time_step()?;
             self.take_steps(block);
             self.check()?;
+            self.update_last_good();
         }
         Ok(())
+    }
+
+    /// Makes [`Simulation::run`] keep a copy of the state: the present one, then that of the first good look at least
+    /// `every` steps after the last copy. A copy costs about as much as a step.
+    pub fn keep_last_good(&mut self, every: u64) {
+        self.last_good = None;
+        let state = Box::new(self.clone());
+        self.last_good = Some(LastGood { every, state });
+    }
+
+    /// The last copy, and an end of keeping them.
+    pub fn take_last_good(&mut self) -> Option<Simulation> {
+        self.last_good.take().map(|kept| *kept.state)
+    }
+
+    /// Whether no disc has been pressed through a wall. That does not end a run (packings of 6 % porosity know it), but
+    /// such a state is none to start from: readers of state files refuse it.
+    fn centres_are_inside(&self) -> bool {
+        let mut inside = true;
+        self.for_each_contact(|contact| {
+            inside &= contact.i.is_ok() || contact.overlap < self.discs[contact.j].radius;
+        });
+        inside
+    }
+
+    fn update_last_good(&mut self) {
+        if let Some(LastGood { every, state }) = &self.last_good
+            && self.steps >= state.steps + every
+            && self.centres_are_inside()
+        {
+            self.keep_last_good(*every);
+        }
     }
 
     /// Looks for signs of a blow-up.

@@ -8,7 +8,7 @@ use crate::law::PairLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
 use crate::pace::Pace;
-use crate::run::Failure;
+use crate::run::{Failure, LastGood};
 use crate::slabs::{SlabLoads, Sweep};
 use crate::team;
 use crate::time_step::{self, StepChoice};
@@ -52,6 +52,7 @@ pub struct Simulation {
     pace: Pace,
     /// Whether the present step is shared among the pool's threads.
     shared: bool,
+    pub(crate) last_good: Option<LastGood>,
 }
 
 /// Parts of a step, in order.
@@ -96,6 +97,7 @@ impl Simulation {
             pool: None,
             pace: Pace::default(),
             shared: false,
+            last_good: None,
             wall_force: [[0.0; 2]; 4],
             strain: 0.0,
             strain_rate: 0.0,
@@ -248,6 +250,11 @@ impl Simulation {
     pub(crate) fn set_reference_radii(&mut self, radii: Vec<f64>) {
         self.largest_reference_radius = radii.iter().copied().fold(0.0, f64::max);
         self.reference_radius = radii;
+    }
+
+    /// Runs the neighbour search now, due or not. Results do not depend on when it runs.
+    pub fn rebuild_neighbours(&mut self) {
+        self.neighbours.rebuild(&self.discs, &self.walls);
     }
 
     /// How often the neighbour search has run.

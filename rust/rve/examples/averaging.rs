@@ -6,7 +6,7 @@
 
 use msdd_rve::region::{Polygon, region};
 use msdd_rve::{
-    Averages, Compression, Cut, Material, PackingSpec, Rates, RegionKind, Simulation, Strains, follow,
+    Averages, Compression, Cut, Material, PackingSpec, Protocol, RegionKind, Simulation, Strains, follow,
     homogenise_in, pack, state, window,
 };
 use nalgebra::{DMatrix, DVector};
@@ -59,7 +59,7 @@ fn strained(start: &Simulation) -> Vec<Simulation> {
     let reached = STRAINS.map(|strain| {
         let mut simulation = start.clone();
         if strain != 0.0 {
-            let ramp = follow(&mut simulation, &[Strains::thermal(strain)], Rates::default(), |_, _| ());
+            let ramp = follow(&mut simulation, &[Strains::thermal(strain)], Protocol::default(), |_, _| ());
             assert!(ramp.expect("allowed strain").failure.is_none(), "ramp to {strain} failed");
         }
         simulation
@@ -80,7 +80,7 @@ fn inner_windows(simulation: &Simulation) -> Vec<Averages> {
 
 fn rve(seed: u64, porosity: f64) -> Vec<Simulation> {
     let compression = Compression::Horizontal;
-    let spec = PackingSpec { discs: 500, seed, porosity, compression, radius_min: 3e-3, radius_max: 7e-3 };
+    let spec = PackingSpec { discs: 500, seed, porosity, compression, ..PackingSpec::default() };
     strained(&pack(&spec, &Material::default()).expect("RVE packs").simulation)
 }
 

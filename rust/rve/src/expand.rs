@@ -1,6 +1,7 @@
 //! Straining a packed RVE: radii grow or shrink in fixed walls, with stops (section 2.4); or walls move as well.
 
 use crate::homogenise::{Averages, homogenise};
+use crate::last_good;
 use crate::pack::Packed;
 use crate::region::RegionKind;
 use crate::settle::{Relaxation, Settled, settle};
@@ -69,8 +70,8 @@ pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
     follow(&mut packed.simulation.clone(), &path, Protocol::default(), |_, _| ())
 }
 
-/// Follows a path of thermal strain and wall strain from stop to stop, straight in between. The
-/// simulation ends at the last stop reached; `visit` sees it at each.
+/// Follows a path of thermal strain and wall strain from stop to stop, straight in between. The simulation ends at the
+/// last stop reached; `visit` sees it at each. After a failure, [`Simulation::take_last_good`] has the last good state.
 ///
 /// # Errors
 /// [`RveError::Parameter`] for unusable strains or rates. What goes wrong on the way is in [`Ramp::failure`].
@@ -82,6 +83,7 @@ pub fn follow(
 ) -> Result<Ramp, RveError> {
     check(path, protocol)?;
     simulation.reset_strain();
+    simulation.keep_last_good(last_good::EVERY);
     let start = [simulation.walls.width(), simulation.walls.height()];
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
     for &strains in path {
@@ -92,10 +94,11 @@ pub fn follow(
             }
             Err(failure) => {
                 ramp.failure = Some(failure);
-                break;
+                return Ok(ramp);
             }
         }
     }
+    simulation.take_last_good();
     Ok(ramp)
 }
 

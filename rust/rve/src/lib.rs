@@ -13,6 +13,7 @@
 //! | [`slide`](mod@slide) | long walls slip along the grains: mobilised wall friction |
 //! | [`state`] | state files: one assembly as JSON |
 //! | [`window`](mod@window) | averages over rectangles of a large assembly |
+//! | [`last_good`] | what is left of a run that failed |
 //! | [`vtk`] | ParaView files |
 //! | [`stopwatch`] | where the time goes |
 //! | [`database`] | plan, generation, storage, export |
@@ -23,6 +24,7 @@ pub mod database;
 pub mod expand;
 pub mod heat_check;
 pub mod homogenise;
+pub mod last_good;
 pub mod network;
 pub mod pack;
 mod place;
@@ -39,7 +41,7 @@ pub use expand::{Protocol, Ramp, Stop, Strains, expand, follow};
 pub use heat_check::{Axis, HeatCheck, heat_check};
 pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
-pub use pack::{Compression, Packed, PackingSpec, Preparation, pack, pack_as};
+pub use pack::{Compression, Packed, PackingSpec, Preparation, Stopped, pack, pack_as, pack_watched};
 pub use region::{Cut, RegionKind};
 pub use settle::{Outcome, Relaxation, Settled, unbalanced_force};
 pub use slide::slide;

@@ -1,6 +1,7 @@
 //! Packing: walls close on randomly placed discs until a target porosity, then the assembly relaxes (section 2.4).
 
 use crate::area::porosity_of_box;
+use crate::last_good;
 use crate::place::{Random, radii, scatter};
 use crate::settle::{Relaxation, Settled, settle};
 use crate::stopwatch::{self, Stage};
@@ -110,6 +111,15 @@ pub struct Packed {
     pub settled: Settled,
 }
 
+/// Why a packing went wrong, and what is left of it.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{error}")]
+pub struct Stopped {
+    pub error: RveError,
+    /// Absent when it failed before the first step.
+    pub last_good: Option<Box<Simulation>>,
+}
+
 impl PackingSpec {
     /// Refuses what cannot be packed; names key, value and range.
     pub fn check(&self) -> Result<(), RveError> {
@@ -148,19 +158,55 @@ pub fn pack_as(
     preparation: &Preparation,
     material: &Material,
 ) -> Result<Packed, RveError> {
+    pack_watched(spec, preparation, material).map_err(|stopped| stopped.error)
+}
+
+/// As [`pack_as`]; a packing that goes wrong comes with its last good state.
+///
+/// # Errors
+/// Those of [`pack`].
+pub fn pack_watched(
+    spec: &PackingSpec,
+    preparation: &Preparation,
+    material: &Material,
+) -> Result<Packed, Stopped> {
+    let start = checked_start(spec, preparation, material);
+    let mut simulation = start.map_err(|error| Stopped { error, last_good: None })?;
+    simulation.keep_last_good(last_good::EVERY);
+    let settled = close_and_settle(&mut simulation, spec, preparation, material);
+    let last_good = simulation.take_last_good().map(Box::new);
+    match settled {
+        Ok(settled) => Ok(Packed { simulation, settled }),
+        Err(error) => Err(Stopped { error, last_good }),
+    }
+}
+
+fn checked_start(
+    spec: &PackingSpec,
+    preparation: &Preparation,
+    material: &Material,
+) -> Result<Simulation, RveError> {
     spec.check()?;
     preparation.check()?;
     material.check()?;
     let friction_angle = preparation.friction_angle.unwrap_or(material.friction_angle);
     let packing_material = Material { friction_angle, ..material.clone() };
     packing_material.check()?;
-    let mut simulation = loose_start(spec, preparation.aspect, &packing_material)?;
-    stopwatch::time(Stage::Packing, || compress(&mut simulation, spec, preparation.aspect))?;
+    loose_start(spec, preparation.aspect, &packing_material)
+}
+
+fn close_and_settle(
+    simulation: &mut Simulation,
+    spec: &PackingSpec,
+    preparation: &Preparation,
+    material: &Material,
+) -> Result<Settled, RveError> {
+    stopwatch::time(Stage::Packing, || compress(simulation, spec, preparation.aspect))?;
     simulation.walls.stop();
     simulation.material.friction_angle = material.friction_angle;
-    let settled = stopwatch::time(Stage::PackingSettle, || settle(&mut simulation, spec.relaxation, 0))?;
+    let settled = stopwatch::time(Stage::PackingSettle, || settle(simulation, spec.relaxation, 0))?;
     simulation.reset_strain();
-    Ok(Packed { simulation, settled })
+    Ok(settled)
 }
 
 fn loose_start(spec: &PackingSpec, aspect: f64, material: &Material) -> Result<Simulation, RveError> {

@@ -1,0 +1,96 @@
+//! `msdd rve` from outside: instruction sets, and what a failed run leaves.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder of its own, removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("msdd-cli-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn msdd(arguments: &str, state: Option<&Path>, out: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_msdd"));
+    command.arg("rve").args(arguments.split_whitespace());
+    if let Some(state) = state {
+        command.arg("--state").arg(state);
+    }
+    command.arg("--out").arg(out).output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn packed(folder: &Folder, arguments: &str) -> PathBuf {
+    let state = folder.file("packed.json");
+    let output = msdd(&format!("pack {arguments}"), None, &state);
+    assert!(output.status.success(), "{}", stderr(&output));
+    state
+}
+
+#[test]
+fn every_instruction_set_writes_the_same_bytes() {
+    let folder = Folder::new("simd");
+    let arguments = "--discs 60 --porosity 0.13";
+    let reference = std::fs::read(packed(&folder, arguments)).unwrap();
+    for simd in msdd_dem::Simd::ALL.into_iter().filter(|simd| simd.available()) {
+        let out = folder.file("simd.json");
+        let name = format!("{simd:?}").to_lowercase();
+        let output = msdd(&format!("pack {arguments} --simd {name}"), None, &out);
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert!(std::fs::read(&out).unwrap() == reference, "{name}");
+    }
+    let output = msdd("pack --porosity 0.13 --simd sse9", None, &folder.file("no.json"));
+    assert!(stderr(&output).contains("[possible values: scalar, avx2, avx512]"), "{}", stderr(&output));
+}
+
+/// The failure is on standard error with the file, which `homogenise` reads; the file asked for is not written.
+fn assert_last_good(output: &Output, out: &Path) {
+    let file = PathBuf::from(format!("{}.last-good.json", out.display()));
+    let message = stderr(output);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains(&format!("is in {}", file.display())), "{message}");
+    assert!(!out.exists());
+    let averaged = Command::new(env!("CARGO_BIN_EXE_msdd"))
+        .args(["rve", "homogenise", "--state"])
+        .arg(&file)
+        .output()
+        .unwrap();
+    assert!(averaged.status.success(), "{}", stderr(&averaged));
+}
+
+#[test]
+fn an_expansion_that_fails_leaves_its_last_good_state() {
+    let folder = Folder::new("expand");
+    let (state, out) = (packed(&folder, "--discs 100 --porosity 0.06"), folder.file("out.json"));
+    let absurd = "expand --stops 0.01,0.2 --xx=0,-0.2 --yy=0,-0.2 --rate 5";
+    let output = msdd(absurd, Some(&state), &out);
+    assert_last_good(&output, &out);
+    assert!(String::from_utf8(output.stdout).unwrap().starts_with("strain +0.01: settled"));
+}
+
+#[test]
+fn a_packing_that_fails_leaves_its_last_good_state() {
+    let folder = Folder::new("pack");
+    let out = folder.file("out.json");
+    assert_last_good(
+        &msdd("pack --discs 200 --porosity 0.01 --radius-min 1e-3 --radius-max 1e-2", None, &out),
+        &out,
+    );
+}
