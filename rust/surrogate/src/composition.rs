@@ -2,7 +2,7 @@
 
 use crate::dataset::{Ramp, StateRow, strain_between};
 use crate::kernel::{LANES, Lanes};
-use crate::surrogate::{Answer, MAX_STATE, StateLanes, Surrogate};
+use crate::surrogate::{Answer, Known, MAX_STATE, StateLanes, Surrogate};
 use serde::{Deserialize, Serialize};
 
 /// Strain of increment `k` of `count`, relative to the radii before it. The radii grow by equal amounts, so that the
@@ -26,20 +26,26 @@ pub fn composed(
     answer
 }
 
-/// The model's state of a row of the database; zero strain and all quantities known.
-pub fn state_of(model: &dyn Surrogate, row: &StateRow) -> [f64; MAX_STATE] {
-    let conductivity = row.conductivity_network.unwrap_or([row.conductivity_xx, row.conductivity_yy]);
-    state_with(model, row, conductivity)
+/// K_xx/k, K_yy/k of a row in the model's kind; zero when the row lacks it.
+pub fn conductivity(model: &dyn Surrogate, row: &StateRow) -> [f64; 2] {
+    model.conductivity_kind().of(row).unwrap_or_default()
 }
 
-/// The same with f_K of the given conductivity.
-pub fn state_with(model: &dyn Surrogate, row: &StateRow, [kxx, kyy]: [f64; 2]) -> [f64; MAX_STATE] {
-    model.initial_state(&crate::surrogate::Known {
+/// The model's state of a row of the database, all quantities known.
+pub fn state_of(model: &dyn Surrogate, row: &StateRow) -> [f64; MAX_STATE] {
+    let [kxx, kyy] = conductivity(model, row);
+    model.initial_state(&Known {
         porosity: row.porosity,
         fabric_index: row.fabric_index,
         fabric_conductivity: Some(if kxx + kyy > 0.0 { (kxx - kyy) / (kxx + kyy) } else { 0.0 }),
         reduced_stress: Some([row.stress_xx, row.stress_yy]),
     })
+}
+
+/// The states of up to eight rows as a block, the last one repeated.
+pub fn states_of(model: &dyn Surrogate, rows: &[&StateRow]) -> StateLanes {
+    let states: Vec<_> = rows.iter().map(|row| state_of(model, row)).collect();
+    std::array::from_fn(|k| std::array::from_fn(|lane| states[lane.min(states.len() - 1)][k]))
 }
 
 /// Errors at one strain in one number of increments, from the packed states of ramps. Relative errors are root mean
@@ -86,7 +92,7 @@ pub fn paths(ramps: &[Ramp], strain: f64) -> Vec<Path<'_>> {
 }
 
 /// K_xx, K_yy, σ_xx, σ_yy, p, η, f at the end of a path, composed or of the data.
-type Quantities = [f64; 7];
+pub type Quantities = [f64; 7];
 
 fn quantities(answer: &Answer, lane: usize) -> Quantities {
     let ([kxx, kyy], [sxx, syy]) = (answer.conductivity, answer.stress);
@@ -94,33 +100,29 @@ fn quantities(answer: &Answer, lane: usize) -> Quantities {
     [kxx[lane], kyy[lane], sxx, syy, 0.5 * (sxx + syy), answer.state[0][lane], answer.state[1][lane]]
 }
 
-/// Errors of composed increments over paths; `conductivity` gives K_xx/k, K_yy/k of a row in the model's kind.
-pub fn errors(
-    model: &dyn Surrogate,
-    conductivity: impl Fn(&StateRow) -> [f64; 2],
-    paths: &[Path],
-    strain: f64,
-    increments: u32,
-) -> Composed {
-    let mut pairs: Vec<[Quantities; 2]> = Vec::with_capacity(paths.len());
+/// Data and prediction at the end of paths that are composed of increments.
+pub fn ends(model: &dyn Surrogate, paths: &[Path], increments: u32) -> Vec<[Quantities; 2]> {
+    let mut pairs = Vec::with_capacity(paths.len());
     for chunk in paths.chunks(LANES) {
-        let (mut start, mut total) = ([[0.0; LANES]; MAX_STATE], [0.0; LANES]);
-        for (lane, path) in chunk.iter().enumerate() {
-            total[lane] = strain_between(path.from, path.to);
-            for (column, value) in
-                start.iter_mut().zip(state_with(model, path.from, conductivity(path.from)))
-            {
-                column[lane] = value;
-            }
-        }
+        let from: Vec<&StateRow> = chunk.iter().map(|path| path.from).collect();
+        let total = std::array::from_fn(|lane| {
+            chunk.get(lane).map_or(0.0, |path| strain_between(path.from, path.to))
+        });
+        let start = states_of(model, &from);
         let answer = composed(|state, strain| model.block(state, strain), &start, &total, increments);
         for (lane, path) in chunk.iter().enumerate() {
-            let ([kxx, kyy], row) = (conductivity(path.to), path.to);
+            let ([kxx, kyy], row) = (conductivity(model, path.to), path.to);
             let (sxx, syy) = (row.stress_xx, row.stress_yy);
             let data = [kxx, kyy, sxx, syy, 0.5 * (sxx + syy), row.porosity, row.fabric_index];
             pairs.push([data, quantities(&answer, lane)]);
         }
     }
+    pairs
+}
+
+/// Errors of composed increments over paths of about the same strain.
+pub fn errors(model: &dyn Surrogate, paths: &[Path], strain: f64, increments: u32) -> Composed {
+    let pairs = ends(model, paths, increments);
     let square = |k: usize| pairs.iter().map(|[d, p]| (p[k] - d[k]).powi(2)).fold(0.0, |a, b| a + b);
     let value = |k: usize| pairs.iter().map(|[d, _]| d[k].powi(2)).fold(0.0, |a, b| a + b);
     let relative = |ks: &[usize]| {

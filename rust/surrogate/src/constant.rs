@@ -95,6 +95,10 @@ impl Surrogate for ConstantModel {
         &self.hash
     }
 
+    fn training(&self) -> &TrainingOptions {
+        &self.file.training
+    }
+
     fn to_json(&self) -> String {
         json(&self.file) + "\n"
     }

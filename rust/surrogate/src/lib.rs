@@ -39,6 +39,7 @@ pub mod perceptron;
 pub mod state;
 pub mod region;
 pub mod scaling;
+pub mod score;
 pub mod scores;
 pub mod solid_fraction;
 pub mod surrogate;

@@ -2,6 +2,7 @@
 
 use crate::kernel::{LANES, Lanes};
 use crate::model::Model;
+use crate::training::TrainingOptions;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
 
 impl Surrogate for Model {
@@ -15,6 +16,10 @@ impl Surrogate for Model {
 
     fn hash(&self) -> &str {
         Model::hash(self)
+    }
+
+    fn training(&self) -> &TrainingOptions {
+        &self.provenance.training
     }
 
     fn to_json(&self) -> String {

@@ -1,6 +1,10 @@
 //! What every surrogate model can do. A model is immutable once made and may be asked from several threads.
 
 use crate::kernel::{LANES, Lanes};
+use crate::mechanics::Mechanics;
+use crate::state::variables::ConductivityKind;
+use crate::training::TrainingOptions;
+use crate::wall_friction::WallFriction;
 
 /// Most state variables of any model.
 pub const MAX_STATE: usize = 6;
@@ -61,6 +65,20 @@ pub trait Surrogate: Send + Sync {
     fn kind(&self) -> &'static str;
     /// Name given at the training.
     fn name(&self) -> &str;
+    /// How it was trained: the seed tells which packings it never saw, the provenance of which database.
+    fn training(&self) -> &TrainingOptions;
+    /// The kind of conductivity that it answers with.
+    fn conductivity_kind(&self) -> ConductivityKind {
+        ConductivityKind::Affine
+    }
+    /// Mechanical tangent, if the database had wall-strain ramps.
+    fn mechanics(&self) -> Option<&Mechanics> {
+        None
+    }
+    /// Wall friction, if the database had wall-shear runs.
+    fn wall_friction(&self) -> Option<&WallFriction> {
+        None
+    }
     /// SHA-256 of the model's file, 64 hexadecimal digits.
     fn hash(&self) -> &str;
     /// Text of the model file; reading it gives this model, bit for bit.

@@ -8,6 +8,7 @@ use crate::kernel::Lanes;
 use crate::perceptron::Neurons;
 use crate::region::{Region, Spread};
 use crate::solid_fraction::SolidFraction;
+use crate::training::TrainingOptions;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
 
 /// State model; see [`super`].
@@ -70,6 +71,22 @@ impl Surrogate for StateModel {
 
     fn hash(&self) -> &str {
         &self.hash
+    }
+
+    fn training(&self) -> &TrainingOptions {
+        &self.provenance.training.common
+    }
+
+    fn conductivity_kind(&self) -> ConductivityKind {
+        self.core.readouts[self.core.active].kind
+    }
+
+    fn mechanics(&self) -> Option<&crate::mechanics::Mechanics> {
+        self.mechanics.as_ref()
+    }
+
+    fn wall_friction(&self) -> Option<&crate::wall_friction::WallFriction> {
+        self.wall_friction.as_ref()
     }
 
     fn to_json(&self) -> String {

@@ -226,11 +226,9 @@ const JUDGED: [(f64, u32); 6] =
     [(0.02, 1), (0.02, 500), (-0.02, 500), (0.05, 500), (-0.05, 500), (-0.05, 5000)];
 
 fn held_out(model: &StateModel, ramps: &[Ramp]) -> Vec<Composed> {
-    let kind = model.core.readouts[0].kind;
-    let conductivity = |row: &StateRow| kind.of(row).unwrap_or_default();
     let judged = JUDGED.map(|(strain, increments)| {
         let paths = composition::paths(ramps, strain);
-        composition::errors(model, conductivity, &paths, strain, increments)
+        composition::errors(model, &paths, strain, increments)
     });
     judged.into_iter().filter(|composed| composed.ramps > 0).collect()
 }
