@@ -18,6 +18,8 @@ pub enum CliError {
     State { file: PathBuf, source: msdd_rve::state::StateError },
     #[error("{file}: {source}")]
     Training { file: PathBuf, source: msdd_surrogate::SurrogateError },
+    #[error("{file}: {source}")]
+    Model { file: PathBuf, source: msdd_surrogate::SurrogateError },
     #[error("{0}")]
     Message(String),
 }

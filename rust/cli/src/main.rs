@@ -6,7 +6,9 @@ mod database;
 mod error;
 mod files;
 mod progress;
+mod rows;
 mod rve;
+mod score;
 mod simd;
 mod summary;
 mod train;
@@ -42,6 +44,8 @@ enum Command {
     Bench(bench::Command),
     /// Train the surrogate on a database.
     Train(train::Arguments),
+    /// Judge a trained model on packings that it never saw: table, JSON, plots.
+    Score(score::Arguments),
     /// Table, JSON and plot of solver results.
     Summary(summary::Arguments),
 }
@@ -52,6 +56,7 @@ fn main() -> ExitCode {
         Command::Rve(command) => rve::run(&command),
         Command::Bench(command) => bench::run(&command),
         Command::Train(arguments) => train::run(&arguments),
+        Command::Score(arguments) => score::run(&arguments),
         Command::Summary(arguments) => summary::run(&arguments),
     };
     match result {

@@ -2,11 +2,15 @@
 
 use crate::error::CliError;
 use crate::files::write_atomically;
-use crate::progress::Progress;
+use crate::rows::training_data;
+use crate::score;
 use clap::Args;
-use msdd_rve::database::{Dataset, Kind, RampName, Record, read};
-use msdd_surrogate::{DatabaseProvenance, Report, StateRow, TrainingOptions};
+use msdd_rve::database::{Dataset, read};
+use msdd_surrogate::state::training::StateOptions;
+use msdd_surrogate::state::variables::Variables;
+use msdd_surrogate::{DatabaseProvenance, models};
 use std::path::PathBuf;
+use std::time::Instant;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -16,76 +20,72 @@ pub struct Arguments {
     /// Model file (JSON) to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Name of the model.
-    #[arg(long, default_value = "paper")]
-    name: String,
+    /// Kind of model: constant, paper or state.
+    #[arg(long, default_value = models::DEFAULT)]
+    model: String,
+    /// Name of the model; its kind when not given.
+    #[arg(long)]
+    name: Option<String>,
     /// Fixes the split into training, validation and held-out packings, and the starting weights.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Starts from other weights; the best on the validation packings is kept.
-    #[arg(long, default_value_t = 1)]
-    restarts: u32,
+    #[arg(long)]
+    restarts: Option<u32>,
     /// Levenberg–Marquardt steps at most.
-    #[arg(long, default_value_t = 200)]
-    epochs: u32,
+    #[arg(long)]
+    epochs: Option<u32>,
+    /// State model: neurons of the hidden layers of the rates' network, one or two layers.
+    #[arg(long, value_delimiter = ',', default_value = "8")]
+    hidden: Vec<usize>,
+    /// State model: the same of the readout's.
+    #[arg(long, value_delimiter = ',', default_value = "4")]
+    readout: Vec<usize>,
+    /// State model: leave a variable out of the state, fabric_conductivity or deviator.
+    #[arg(long, value_delimiter = ',')]
+    without: Vec<String>,
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let dataset = read(&arguments.database)?;
-    let rows = state_rows(&dataset.records);
-    let options = TrainingOptions {
-        name: arguments.name.clone(),
-        seed: arguments.seed,
-        restarts: arguments.restarts,
-        max_epochs: arguments.epochs,
-        database: provenance(arguments, &dataset)?,
-        ..TrainingOptions::default()
-    };
-    let epochs = u64::from(arguments.restarts) * u64::from(arguments.epochs);
-    let mut bar = Progress::new("epochs at most", epochs);
-    let trained = msdd_surrogate::train(&rows, &options, |progress| {
-        let done = u64::from(progress.restart) * u64::from(arguments.epochs) + u64::from(progress.epoch);
-        let (training, validation) = (progress.training_error, progress.validation_error);
-        bar.set(done, epochs, &format!("mse {training:.3e}, validation {validation:.3e}"));
-    });
-    bar.finish();
+    let data = training_data(&dataset.records);
     let failed = |source| CliError::Training { file: arguments.database.clone(), source };
-    let (model, report) = trained.map_err(failed)?;
+    let kind = models::kind(&arguments.model).map_err(failed)?;
+    let options = options(arguments, &dataset)?;
+    let begin = Instant::now();
+    let model = (kind.train)(&data, &options).map_err(failed)?;
+    let seconds = begin.elapsed().as_secs_f64();
     write_atomically(&arguments.out, model.to_json().as_bytes())?;
-    print(&report);
-    println!("model {} in {}", model.hash(), arguments.out.display());
+    score::print_training(model.as_ref(), &data, &options.common.database.plan_hash).map_err(failed)?;
+    println!("model {} in {}, trained in {seconds:.1} s", model.hash(), arguments.out.display());
     Ok(())
 }
 
-/// The rows that training can use: thermal ramps from the packed state, all but failures. The packed state is stop 0 of both ramps. Stresses become
-/// dimensionless, σ ℓ/(E r̄) with ℓ = 1 m and the current r̄; the solid fraction is that of the averaging region.
-fn state_rows(records: &[Record]) -> Vec<StateRow> {
-    let row = |record: &Record, ramp: &str| {
-        let scale = record.young_modulus * record.mean_radius?;
-        Some(StateRow {
-            packing: record.packing,
-            ramp: ramp.to_string(),
-            stop: record.stop,
-            strain: record.strain,
-            porosity: record.porosity?,
-            fabric_index: record.fabric_index?,
-            conductivity_xx: record.conductivity_xx?,
-            conductivity_yy: record.conductivity_yy?,
-            stress_xx: record.stress_xx? / scale,
-            stress_yy: record.stress_yy? / scale,
-            porosity_sum_of_areas: record.porosity? - record.overlap_fraction?,
-            load_bearing: record.outcome != "unjammed",
-        })
-    };
-    let mut rows = Vec::new();
-    for record in records.iter().filter(|record| record.kind == Kind::Thermal) {
-        match record.ramp {
-            RampName::Packed => rows.extend(["up", "down"].iter().filter_map(|ramp| row(record, ramp))),
-            RampName::Up | RampName::Down => rows.extend(row(record, record.ramp.as_str())),
-            _ => (),
+fn options(arguments: &Arguments, dataset: &Dataset) -> Result<StateOptions, CliError> {
+    let mut options = StateOptions::default();
+    let common = &mut options.common;
+    if arguments.model == "paper" {
+        (common.restarts, common.max_epochs) = (1, 200);
+    }
+    common.name = arguments.name.clone().unwrap_or_else(|| arguments.model.clone());
+    common.seed = arguments.seed;
+    common.restarts = arguments.restarts.unwrap_or(common.restarts);
+    common.max_epochs = arguments.epochs.unwrap_or(common.max_epochs);
+    common.database = provenance(arguments, dataset)?;
+    options.hidden = arguments.hidden.clone();
+    options.readout_hidden = arguments.readout.clone();
+    options.variables = Variables::ALL;
+    for name in &arguments.without {
+        match name.as_str() {
+            "fabric_conductivity" => options.variables.fabric_conductivity = false,
+            "deviator" => options.variables.stress_deviator = false,
+            other => {
+                let allowed = "fabric_conductivity, deviator";
+                return Err(CliError::Message(format!("--without {other}, allowed: {allowed}")));
+            }
         }
     }
-    rows
+    Ok(options)
 }
 
 fn provenance(arguments: &Arguments, dataset: &Dataset) -> Result<DatabaseProvenance, CliError> {
@@ -107,49 +107,4 @@ fn provenance(arguments: &Arguments, dataset: &Dataset) -> Result<DatabaseProven
         radius_min: number("radius_min")?,
         radius_max: number("radius_max")?,
     })
-}
-
-fn print(report: &Report) {
-    let (packings, samples) = (&report.packings, &report.samples);
-    println!(
-        "{} epochs, best {}, stopped: {:?}; mse {:.3e}, validation {:.3e}",
-        report.epochs, report.best_epoch, report.stopping, report.training_error, report.validation_error
-    );
-    println!();
-    println!("R2 (Eq. 12)          training  validation    held out");
-    println!(
-        "packings (samples) {:>4} ({}) {:>4} ({}) {:>4} ({})",
-        packings.training,
-        samples.training,
-        packings.validation,
-        samples.validation,
-        packings.test,
-        samples.test
-    );
-    let scores = &report.scores;
-    let line = |name: &str, score: fn(&msdd_surrogate::scores::Scores) -> f64| {
-        let [a, b, c] = [&scores.training, &scores.validation, &scores.test].map(score);
-        println!("{name:<18} {a:>11.4} {b:>11.4} {c:>11.4}");
-    };
-    line("delta porosity", |s| s.delta_porosity);
-    line("delta fabric index", |s| s.delta_fabric_index);
-    line("conductivity xx", |s| s.conductivity_xx);
-    line("conductivity yy", |s| s.conductivity_yy);
-    line("stress xx", |s| s.stress_xx);
-    line("stress yy", |s| s.stress_yy);
-    line("conductivity", |s| s.conductivity);
-    line("stress", |s| s.stress);
-    println!();
-    println!("Drift: a strain in one and in many increments, held-out packings, relative rms error");
-    println!("  strain  increments  conductivity    stress   porosity (abs.)");
-    for drift in &report.drift {
-        println!(
-            "{:>+8.3} {:>11} {:>12.2}% {:>8.2}% {:>17.5}",
-            drift.strain,
-            drift.increments,
-            100.0 * drift.conductivity,
-            100.0 * drift.stress,
-            drift.porosity
-        );
-    }
 }

@@ -25,6 +25,8 @@ pub struct StateRow {
     pub conductivity_xx: f64,
     /// K_yy / k [-].
     pub conductivity_yy: f64,
+    /// The same with the contact network solved for the disc temperatures, when the database has it.
+    pub conductivity_network: Option<[f64; 2]>,
     /// σ_xx ℓ / (E r̄) [-], ℓ = 1 m, r̄ the current mean radius, compression positive.
     pub stress_xx: f64,
     /// σ_yy ℓ / (E r̄) [-].
@@ -61,6 +63,7 @@ impl StateRow {
 #[derive(Clone, Debug)]
 pub struct Ramp {
     pub packing: i64,
+    pub name: String,
     pub states: Vec<StateRow>,
 }
 
@@ -78,8 +81,9 @@ pub fn ramps(rows: &[StateRow]) -> Result<Vec<Ramp>, SurrogateError> {
             return Err(SurrogateError::Data(text));
         }
     }
-    let ramp = |((packing, _), states): ((i64, &str), BTreeMap<i64, &StateRow>)| Ramp {
+    let ramp = |((packing, name), states): ((i64, &str), BTreeMap<i64, &StateRow>)| Ramp {
         packing,
+        name: name.to_string(),
         states: states.into_values().cloned().collect(),
     };
     Ok(groups.into_iter().map(ramp).collect())
@@ -132,6 +136,11 @@ impl Ramp {
         let pairs = pairs.flat_map(|(i, from)| self.states[i..].iter().map(move |to| (from, to)));
         pairs.map(|(from, to)| Sample::between(from, to)).flat_map(|sample| [sample, sample.mirrored()])
     }
+}
+
+/// Number of packings of some ramps.
+pub fn packings(ramps: &[Ramp]) -> usize {
+    ramps.iter().map(|ramp| ramp.packing).collect::<BTreeSet<_>>().len()
 }
 
 /// Ramps for training, for stopping the training, and for judging it.

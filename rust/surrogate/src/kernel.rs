@@ -7,6 +7,7 @@
 #![allow(unsafe_code)] // dispatch alone: see `activations`
 
 use crate::network::{HIDDEN, INPUTS, OUTPUTS, WEIGHTS};
+use crate::perceptron::Neurons;
 
 /// Cells in a block: one AVX-512 register of f64.
 pub const LANES: usize = 8;
@@ -19,6 +20,61 @@ pub struct Activations {
     pub hidden_1: [Lanes; HIDDEN],
     pub hidden_2: [Lanes; HIDDEN],
     pub outputs: [Lanes; OUTPUTS],
+}
+
+/// Compiles a function once per instruction set; calls take the widest that the machine has.
+macro_rules! dispatch {
+    ($(#[$doc:meta])* pub fn $name:ident($($argument:ident: $kind:ty),*) = $portable:ident) => {
+        $(#[$doc])*
+        pub fn $name($($argument: $kind),*) {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "avx512f,avx512dq")]
+                unsafe fn avx512($($argument: $kind),*) {
+                    $portable($($argument),*);
+                }
+                #[target_feature(enable = "avx2")]
+                unsafe fn avx2($($argument: $kind),*) {
+                    $portable($($argument),*);
+                }
+                if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+                    // SAFETY: the processor has the instructions; the function has no other requirement.
+                    return unsafe { avx512($($argument),*) };
+                }
+                if is_x86_feature_detected!("avx2") {
+                    // SAFETY: the processor has the instructions; the function has no other requirement.
+                    return unsafe { avx2($($argument),*) };
+                }
+            }
+            $portable($($argument),*);
+        }
+    };
+}
+
+dispatch! {
+    /// Runs a [`crate::perceptron::Perceptron`] on the inputs in layer 0; leaves all neurons' values.
+    pub fn forward(sizes: &[usize], weights: &[f64], neurons: &mut Neurons) = forward_portable
+}
+
+#[inline(always)]
+fn forward_portable(sizes: &[usize], weights: &[f64], neurons: &mut Neurons) {
+    let mut rest = weights;
+    for layer in 1..sizes.len() {
+        let (inputs, count) = (sizes[layer - 1], sizes[layer]);
+        let (here, after) = rest.split_at((inputs + 1) * count);
+        rest = after;
+        let (before, behind) = neurons.layers.split_at_mut(layer);
+        let (before, values) = (&before[layer - 1][..inputs], &mut behind[0][..count]);
+        for (value, row) in values.iter_mut().zip(here.chunks_exact(inputs + 1)) {
+            let mut sum = [row[inputs]; LANES];
+            for (input, weight) in before.iter().zip(row) {
+                for lane in 0..LANES {
+                    sum[lane] += weight * input[lane];
+                }
+            }
+            *value = if layer + 1 < sizes.len() { sum.map(tanh) } else { sum };
+        }
+    }
 }
 
 /// Runs the network on a block of scaled inputs, with the widest instruction set that the machine has.
@@ -84,6 +140,38 @@ fn layer<const I: usize, const O: usize>(weights: &[f64], inputs: &[Lanes; I]) -
 fn tanh_all(values: &mut [Lanes; HIDDEN]) {
     for value in values.as_flattened_mut() {
         *value = tanh(*value);
+    }
+}
+
+dispatch! {
+    /// Adds Σ_rows row ⊗ row to the lower triangle of `matrix`, `width` × `width`, row by row; `width` is a multiple
+    /// of 16. Every sum runs in one fixed order: the same bits with every instruction set.
+    pub fn add_outer_products(rows: &[f64], width: usize, matrix: &mut [f64]) = outer_portable
+}
+
+/// Rows and columns of a register tile.
+const TILE: [usize; 2] = [4, 16];
+
+#[inline(always)]
+fn outer_portable(rows: &[f64], width: usize, matrix: &mut [f64]) {
+    for first in (0..width).step_by(TILE[0]) {
+        for column in (0..first + TILE[0]).step_by(TILE[1]) {
+            let mut sums = [[0.0; TILE[1]]; TILE[0]];
+            for row in rows.chunks_exact(width) {
+                let right: &[f64; TILE[1]] = row[column..].first_chunk().expect("width is a multiple of 16");
+                let left: &[f64; TILE[0]] = row[first..].first_chunk().expect("width is a multiple of 16");
+                for (sums, left) in sums.iter_mut().zip(left) {
+                    for (sum, right) in sums.iter_mut().zip(right) {
+                        *sum += left * right;
+                    }
+                }
+            }
+            for (i, sums) in sums.iter().enumerate() {
+                for (entry, sum) in matrix[(first + i) * width + column..].iter_mut().zip(sums) {
+                    *entry += sum;
+                }
+            }
+        }
     }
 }
 
@@ -169,6 +257,22 @@ mod tests {
         assert_eq!(tanh(0.0).to_bits(), 0.0f64.to_bits());
         assert_eq!(tanh(-0.0).to_bits(), (-0.0f64).to_bits());
         assert_eq!(tanh(1e-300), 1e-300);
+    }
+
+    #[test]
+    fn outer_products_are_those_of_the_definition_and_the_same_bits_in_every_instruction_set() {
+        let (width, count) = (48, 13);
+        let rows: Vec<f64> = (0..width * count).map(|i| ((i * 37 % 101) as f64 - 50.0) * 0.013).collect();
+        let (mut matrix, mut portable) = (vec![0.5; width * width], vec![0.5; width * width]);
+        add_outer_products(&rows, width, &mut matrix);
+        outer_portable(&rows, width, &mut portable);
+        assert!(matrix.iter().zip(&portable).all(|(a, b)| a.to_bits() == b.to_bits()));
+        for i in 0..width {
+            for j in 0..=i {
+                let sum: f64 = rows.chunks_exact(width).map(|row| row[i] * row[j]).sum();
+                assert!((matrix[i * width + j] - 0.5 - sum).abs() < 1e-12);
+            }
+        }
     }
 
     #[test]

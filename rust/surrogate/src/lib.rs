@@ -19,21 +19,34 @@
 //! | [`model_file`] | its file |
 #![deny(unsafe_code)] // kernel.rs alone may: calls of functions compiled for a wider instruction set
 
+pub mod composition;
+pub mod constant;
 pub mod dataset;
 pub mod drift;
 mod error;
 pub mod fit;
 pub mod kernel;
+pub mod least_squares;
 pub mod levenberg_marquardt;
+pub mod mechanics;
 pub mod model;
 pub mod model_file;
+pub mod models;
 pub mod network;
+pub mod noise;
+pub mod paper;
+pub mod perceptron;
+pub mod region;
 pub mod scaling;
+pub mod score;
 pub mod scores;
 pub mod solid_fraction;
+pub mod state;
+pub mod surrogate;
 #[cfg(test)]
 mod synthetic;
 pub mod training;
+pub mod wall_friction;
 
 pub use dataset::StateRow;
 pub use error::SurrogateError;

@@ -84,7 +84,7 @@ pub(crate) fn description(model: &Model) -> String {
 }
 
 /// Writing plain data of finite numbers and string keys to memory cannot fail.
-fn json<T: Serialize>(value: &T) -> String {
+pub(crate) fn json<T: Serialize>(value: &T) -> String {
     serde_json::to_string_pretty(value).unwrap_or_else(|error| unreachable!("{error}"))
 }
 
@@ -92,15 +92,21 @@ pub(crate) fn hash(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-pub(crate) fn read(text: &str) -> Result<Model, SurrogateError> {
+/// Schema of a model file of any kind.
+pub(crate) fn schema(text: &str) -> Result<String, SurrogateError> {
     #[derive(Deserialize)]
     struct Head {
         schema: String,
     }
+    let head: Result<Head, _> = serde_json::from_str(text);
+    head.map(|head| head.schema).map_err(|error| SurrogateError::Damaged(error.to_string()))
+}
+
+pub(crate) fn read(text: &str) -> Result<Model, SurrogateError> {
     let damaged = |error: serde_json::Error| SurrogateError::Damaged(error.to_string());
-    let head: Head = serde_json::from_str(text).map_err(damaged)?;
-    if head.schema != SCHEMA {
-        return Err(SurrogateError::Schema { found: head.schema, expected: SCHEMA });
+    let found = schema(text)?;
+    if found != SCHEMA {
+        return Err(SurrogateError::Schema { found, expected: SCHEMA });
     }
     let file: ModelFile = serde_json::from_str(text).map_err(damaged)?;
     file.check()?;
@@ -177,7 +183,7 @@ fn check_range(
     }
 }
 
-fn field<T>(key: &str, value: impl ToString, allowed: &'static str) -> Result<T, SurrogateError> {
+pub(crate) fn field<T>(key: &str, value: impl ToString, allowed: &'static str) -> Result<T, SurrogateError> {
     Err(SurrogateError::Field { key: key.to_string(), value: value.to_string(), allowed })
 }
 

@@ -35,6 +35,7 @@ fn state(packing: i64, ramp: &str, stop: i64, strain: f64, start: f64, fabric: f
         fabric_index,
         conductivity_xx: conductivity * (1.0 + 1.2 * fabric_index),
         conductivity_yy: conductivity * (1.0 - 1.2 * fabric_index),
+        conductivity_network: None,
         stress_xx: pressure * (1.0 + 2.0 * fabric_index),
         stress_yy: pressure * (1.0 - 2.0 * fabric_index),
         porosity_sum_of_areas: porosity - 0.3 * squeeze,

@@ -13,7 +13,6 @@ use crate::solid_fraction::SolidFraction;
 use crate::{Model, SurrogateError};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 /// How to train.
@@ -52,7 +51,7 @@ impl Default for TrainingOptions {
 }
 
 impl TrainingOptions {
-    fn check(&self) -> Result<(), SurrogateError> {
+    pub(crate) fn check(&self) -> Result<(), SurrogateError> {
         for (key, value) in
             [("restarts", self.restarts), ("max_epochs", self.max_epochs), ("patience", self.patience)]
         {
@@ -70,6 +69,15 @@ impl TrainingOptions {
             });
         }
         Ok(())
+    }
+}
+
+impl TrainingOptions {
+    pub(crate) fn threads_used(&self) -> usize {
+        match self.threads {
+            0 => std::thread::available_parallelism().map_or(1, |cores| cores.get()),
+            threads => threads,
+        }
     }
 }
 
@@ -133,7 +141,7 @@ pub fn train(
     let fitted = best_of_starts(&samples, &range, &scales, options, &mut progress);
     let predictor = Predictor { network: fitted.network, range, scales };
     let report = Report {
-        packings: Parts::of(&split, packings),
+        packings: Parts::of(&split, dataset::packings),
         samples: samples.map(Vec::len),
         restart: fitted.restart,
         epochs: fitted.epochs,
@@ -153,18 +161,14 @@ pub fn train(
 }
 
 impl<T> Parts<T> {
-    fn of(split: &Split, part: impl Fn(&[Ramp]) -> T) -> Self {
+    pub(crate) fn of(split: &Split, part: impl Fn(&[Ramp]) -> T) -> Self {
         let Split { training, validation, test } = split;
         Self { training: part(training), validation: part(validation), test: part(test) }
     }
 
-    fn map<U>(&self, part: impl Fn(&T) -> U) -> Parts<U> {
+    pub(crate) fn map<U>(&self, part: impl Fn(&T) -> U) -> Parts<U> {
         Parts { training: part(&self.training), validation: part(&self.validation), test: part(&self.test) }
     }
-}
-
-fn packings(ramps: &[Ramp]) -> usize {
-    ramps.iter().map(|ramp| ramp.packing).collect::<BTreeSet<_>>().len()
 }
 
 /// What one start led to.
@@ -185,10 +189,7 @@ fn best_of_starts(
     options: &TrainingOptions,
     progress: &mut impl FnMut(Progress),
 ) -> Fitted {
-    let threads = match options.threads {
-        0 => std::thread::available_parallelism().map_or(1, |cores| cores.get()),
-        threads => threads,
-    };
+    let threads = options.threads_used();
     let training = NetworkFit::new(&samples.training, range, scales, threads);
     let validation = NetworkFit::new(&samples.validation, range, scales, threads);
     let mut best = fit_from(0, &training, &validation, options, progress);

@@ -1,0 +1,147 @@
+//! `msdd score`: how good a model is, on packings that it never saw.
+
+mod plot;
+
+use crate::error::CliError;
+use crate::files::{read_text, write_atomically};
+use crate::rows::training_data;
+use clap::Args;
+use msdd_rve::database::read;
+use msdd_surrogate::SurrogateError;
+use msdd_surrogate::composition::Composed;
+use msdd_surrogate::models::{self, TrainingData};
+use msdd_surrogate::score::{OneStep, Score, ramps, score};
+use msdd_surrogate::surrogate::Surrogate;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Model file.
+    #[arg(long, value_name = "FILE")]
+    model: PathBuf,
+    /// Database, or the CSV that was exported from one. When it is the one of the training, the packings that were held
+    /// out then are scored, else all.
+    #[arg(long, value_name = "FILE")]
+    database: PathBuf,
+    /// JSON to write.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Folder for the plots (SVG): parity, response surfaces.
+    #[arg(long, value_name = "DIR")]
+    plot: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let failed = |source| CliError::Model { file: arguments.model.clone(), source };
+    let model = models::read(&read_text(&arguments.model)?).map_err(failed)?;
+    let dataset = read(&arguments.database)?;
+    let data = training_data(&dataset.records);
+    let plan_hash = dataset.provenance.get("plan_hash").cloned().unwrap_or_default();
+    let failed = |source| CliError::Training { file: arguments.database.clone(), source };
+    let ramps = ramps(model.as_ref(), &data.rows, &plan_hash).map_err(failed)?;
+    let result = score(model.as_ref(), &ramps);
+    print(&result);
+    if let Some(path) = &arguments.json {
+        let text = serde_json::to_string_pretty(&result)
+            .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
+        write_atomically(path, (text + "\n").as_bytes())?;
+    }
+    if let Some(folder) = &arguments.plot {
+        for (name, svg) in plot::all(model.as_ref(), &ramps.unseen)? {
+            write_atomically(&folder.join(name), svg.as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+/// What `msdd train` says of a fresh model.
+pub fn print_training(
+    model: &dyn Surrogate,
+    data: &TrainingData,
+    plan_hash: &str,
+) -> Result<(), SurrogateError> {
+    let report: serde_json::Value = serde_json::from_str(&model.to_json()).unwrap_or_default();
+    let fits = &report["provenance"]["report"];
+    for key in ["rates", "readouts"] {
+        if !fits[key].is_null() {
+            println!("{key}: {}", fits[key]);
+        }
+    }
+    print(&score(model, &ramps(model, &data.rows, plan_hash)?));
+    if let Some(mechanics) = model.mechanics() {
+        println!("mechanics: {mechanics:?}");
+    }
+    if let Some(friction) = model.wall_friction() {
+        println!("wall friction: {friction:?}");
+    }
+    Ok(())
+}
+
+fn print(score: &Score) {
+    println!("{} \"{}\" {}", score.kind, score.name, &score.hash[..12]);
+    println!();
+    println!("R2 (Eq. 12), one step  packings samples  d eta    d f    d f_K      K    sigma");
+    let line = |name: &str, s: &OneStep| {
+        let fabric = s.delta_fabric_conductivity.map_or("     -".to_string(), |r| format!("{r:.4}"));
+        println!(
+            "{name:<22} {:>8} {:>7} {:.4} {:>7.4} {fabric} {:>7.4} {:.5}",
+            s.packings, s.samples, s.delta_porosity, s.delta_fabric_index, s.conductivity, s.stress
+        );
+    };
+    if let Some(training) = &score.training {
+        line("training packings", training);
+    }
+    line(if score.held_out { "held-out packings" } else { "all packings" }, &score.unseen);
+    println!();
+    println!(
+        "A strain in increments; rms error, relative in % (eta, f: absolute); mean of 30 packings: largest"
+    );
+    println!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
+    for c in &score.composed {
+        row(c);
+    }
+    println!();
+    println!("Noise floor (Gamma test on the model's state)");
+    println!(" strain            K   sigma       p      eta        f");
+    let percent = |value: Option<f64>| value.map_or("-".to_string(), |v| format!("{:.2}", 100.0 * v));
+    let plain = |value: Option<f64>| value.map_or("-".to_string(), |v| format!("{v:.5}"));
+    for f in &score.noise_floor {
+        println!(
+            "{:>+7.3}       {:>7} {:>7} {:>7} {:>8} {:>8}",
+            f.strain,
+            percent(f.conductivity),
+            percent(f.stress),
+            percent(f.pressure),
+            plain(f.porosity),
+            plain(f.fabric_index)
+        );
+    }
+    println!();
+    println!("There and back: what is left, relative in % (eta: absolute)");
+    for t in &score.there_and_back {
+        println!(
+            "{:>+7.3} in {}: p {:.3}, K {:.3}, eta {:.6}",
+            t.strain,
+            t.increments,
+            100.0 * t.pressure,
+            100.0 * t.conductivity,
+            t.porosity
+        );
+    }
+}
+
+fn row(c: &Composed) {
+    println!(
+        "{:>+7.3} {:>5} {:>6} {:>7.2} {:>7.2} {:>7.2} {:>8.5} {:>8.5} {:>7.2} {:>7.2}",
+        c.strain,
+        c.increments,
+        c.ramps,
+        100.0 * c.conductivity,
+        100.0 * c.stress,
+        100.0 * c.pressure,
+        c.porosity,
+        c.fabric_index,
+        100.0 * c.mean_conductivity,
+        100.0 * c.mean_pressure
+    );
+}

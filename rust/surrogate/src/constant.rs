@@ -1,0 +1,152 @@
+//! The trivial surrogate: nothing changes. What a simulation without microscale would assume.
+
+use crate::SurrogateError;
+use crate::dataset::StateRow;
+use crate::kernel::{LANES, Lanes};
+use crate::model_file::{field, hash, json, schema};
+use crate::solid_fraction::SolidFraction;
+use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
+use crate::training::TrainingOptions;
+use serde::{Deserialize, Serialize};
+
+/// Raise the number when a reader of the old schema would misread the new.
+pub const SCHEMA: &str = "msdd-constant-model-1";
+
+/// Isotropic means of the packed states.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConstantModel {
+    file: File,
+    hash: String,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    schema: String,
+    name: String,
+    /// K/k.
+    conductivity: f64,
+    /// p ℓ/(E r̄).
+    pressure: f64,
+    solid_fraction: SolidFraction,
+    training: TrainingOptions,
+}
+
+/// Means over the packed states (stop 0).
+///
+/// # Errors
+/// [`SurrogateError::Data`] without packed states.
+pub fn train(rows: &[StateRow], options: &TrainingOptions) -> Result<ConstantModel, SurrogateError> {
+    options.check()?;
+    let solid_fraction = SolidFraction::fit(rows)?;
+    let packed: Vec<&StateRow> = rows.iter().filter(|row| row.stop == 0).collect();
+    let mean = |value: fn(&StateRow) -> f64| {
+        packed.iter().map(|row| value(row)).fold(0.0, |a, b| a + b) / packed.len() as f64
+    };
+    let file = File {
+        schema: SCHEMA.to_string(),
+        name: options.name.clone(),
+        conductivity: mean(|row| 0.5 * (row.conductivity_xx + row.conductivity_yy)),
+        pressure: mean(|row| 0.5 * (row.stress_xx + row.stress_yy)),
+        solid_fraction,
+        training: TrainingOptions { threads: 0, ..options.clone() },
+    };
+    file.check()?;
+    let hash = hash(&(json(&file) + "\n"));
+    Ok(ConstantModel { file, hash })
+}
+
+/// Reads the text of a constant model's file.
+///
+/// # Errors
+/// [`SurrogateError::Damaged`], [`SurrogateError::Schema`] or [`SurrogateError::Field`].
+pub fn read(text: &str) -> Result<ConstantModel, SurrogateError> {
+    let found = schema(text)?;
+    if found != SCHEMA {
+        return Err(SurrogateError::Schema { found, expected: SCHEMA });
+    }
+    let file: File =
+        serde_json::from_str(text).map_err(|error| SurrogateError::Damaged(error.to_string()))?;
+    file.check()?;
+    Ok(ConstantModel { file, hash: hash(text) })
+}
+
+impl File {
+    fn check(&self) -> Result<(), SurrogateError> {
+        for (key, value) in [("conductivity", self.conductivity), ("pressure", self.pressure)] {
+            if !(value > 0.0 && value <= 1e3) {
+                return field(key, value, "above 0, to 1e3");
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Surrogate for ConstantModel {
+    fn kind(&self) -> &'static str {
+        "constant"
+    }
+
+    fn name(&self) -> &str {
+        &self.file.name
+    }
+
+    fn hash(&self) -> &str {
+        &self.hash
+    }
+
+    fn training(&self) -> &TrainingOptions {
+        &self.file.training
+    }
+
+    fn to_json(&self) -> String {
+        json(&self.file) + "\n"
+    }
+
+    fn state_names(&self) -> &[&'static str] {
+        &["porosity", "fabric_index"]
+    }
+
+    fn initial_state(&self, known: &Known) -> [f64; MAX_STATE] {
+        [known.porosity, known.fabric_index, 0.0, 0.0, 0.0, 0.0]
+    }
+
+    fn block(&self, state: &StateLanes, _strain: &Lanes) -> Answer {
+        Answer {
+            state: *state,
+            conductivity: [[self.file.conductivity; LANES]; 2],
+            stress: [[self.file.pressure; LANES]; 2],
+            outside: [[0.0; LANES]; MAX_STATE + 1],
+        }
+    }
+
+    fn doubt(&self, _state: &[f64; MAX_STATE]) -> Option<Doubt> {
+        None
+    }
+
+    fn solid_fraction(&self, porosity: f64) -> f64 {
+        self.file.solid_fraction.at(porosity)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic;
+
+    #[test]
+    fn is_the_mean_and_survives_its_file() {
+        let rows = synthetic::rows(5, 2);
+        let model = train(&rows, &TrainingOptions::default()).expect("good rows");
+        let state = [0.11, 0.03, 0.0, 0.0, 0.0, 0.0];
+        let answer = model.evaluate(&state, 0.04);
+        assert_eq!(answer.state.map(|lanes| lanes[2]), state);
+        let packed: Vec<_> = rows.iter().filter(|row| row.stop == 0).collect();
+        let mean =
+            packed.iter().map(|r| 0.5 * (r.stress_xx + r.stress_yy)).sum::<f64>() / packed.len() as f64;
+        assert!((answer.stress[0][0] - mean).abs() < 1e-15);
+        assert_eq!(read(&model.to_json()).expect("own text"), model);
+        let wrong = model.to_json().replace(SCHEMA, "msdd-constant-model-2");
+        assert!(read(&wrong).expect_err("newer").to_string().contains("msdd-constant-model-2"));
+    }
+}

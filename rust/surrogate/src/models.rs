@@ -1,0 +1,120 @@
+//! The kinds of models, by name. A new kind is a file beside this one and a line in [`MODELS`].
+
+use crate::dataset::StateRow;
+use crate::model_file;
+use crate::state::training::{Mechanical, StateOptions};
+use crate::surrogate::Surrogate;
+use crate::{Model, SurrogateError, constant, state, training};
+
+/// What a database holds for training.
+#[derive(Clone, Debug, Default)]
+pub struct TrainingData {
+    pub rows: Vec<StateRow>,
+    pub mechanical: Mechanical,
+}
+
+/// A kind of model.
+pub struct Kind {
+    pub name: &'static str,
+    pub about: &'static str,
+    /// Schema of its files, without the version.
+    schema: &'static str,
+    pub train: fn(&TrainingData, &StateOptions) -> Trained,
+    read: fn(&str) -> Trained,
+}
+
+/// A model, or why there is none.
+pub type Trained = Result<Box<dyn Surrogate>, SurrogateError>;
+
+/// Kind that is trained when none is named.
+pub const DEFAULT: &str = "state";
+
+pub const MODELS: [Kind; 3] = [
+    Kind {
+        name: "constant",
+        about: "nothing changes: mean conductivity and pressure of the packed states",
+        schema: "msdd-constant-model-",
+        train: |data, options| Ok(Box::new(constant::train(&data.rows, &options.common)?)),
+        read: |text| Ok(Box::new(constant::read(text)?)),
+    },
+    Kind {
+        name: "paper",
+        about: "the paper's network, 3-16-16-6: increments of porosity and fabric; conductivity and stress as outputs",
+        schema: "msdd-model-",
+        train: |data, options| Ok(Box::new(training::train(&data.rows, &options.common, |_| ())?.0)),
+        read: |text| Ok(Box::new(Model::from_json(text)?)),
+    },
+    Kind {
+        name: "state",
+        about: "all state variables, the stress among them, advance with the strain; conductivity read from the state",
+        schema: "msdd-state-model-",
+        train: |data, options| Ok(Box::new(state::training::train(&data.rows, &data.mechanical, options)?)),
+        read: |text| Ok(Box::new(state::file::read(text)?)),
+    },
+];
+
+/// The kind of this name.
+///
+/// # Errors
+/// [`SurrogateError::Option`] that lists the names there are.
+pub fn kind(name: &str) -> Result<&'static Kind, SurrogateError> {
+    MODELS.iter().find(|kind| kind.name == name).ok_or_else(|| SurrogateError::Option {
+        key: "model",
+        value: name.to_string(),
+        allowed: "constant, paper, state",
+    })
+}
+
+/// Reads the text of a model file of any kind; its schema tells which.
+///
+/// # Errors
+/// [`SurrogateError::Damaged`], [`SurrogateError::Schema`] or [`SurrogateError::Field`].
+pub fn read(text: &str) -> Trained {
+    let found = model_file::schema(text)?;
+    match MODELS.iter().find(|kind| found.starts_with(kind.schema)) {
+        Some(kind) => (kind.read)(text),
+        None => Err(SurrogateError::Schema { found, expected: "msdd-{constant-,,state-}model-1" }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surrogate::Known;
+    use crate::synthetic;
+
+    fn trained(name: &str) -> Box<dyn Surrogate> {
+        let data = TrainingData { rows: synthetic::rows(10, 4), ..TrainingData::default() };
+        let mut options = StateOptions::default();
+        options.common.max_epochs = 12;
+        options.common.restarts = 2;
+        (kind(name).expect("listed").train)(&data, &options).expect("good rows")
+    }
+
+    #[test]
+    fn every_kind_is_trained_and_read_back_by_its_name() {
+        for listed in &MODELS {
+            let model = trained(listed.name);
+            assert_eq!(model.kind(), listed.name);
+            let again = read(&model.to_json()).expect("own text");
+            assert_eq!((again.kind(), again.hash()), (listed.name, model.hash()));
+            assert_eq!(again.to_json(), model.to_json());
+            let known = Known { porosity: 0.12, fabric_index: 0.02, ..Known::default() };
+            let (a, b) = (model.initial_state(&known), again.initial_state(&known));
+            assert_eq!(model.evaluate(&a, 0.003), again.evaluate(&b, 0.003));
+            assert_eq!(model.state_names()[..2], ["porosity", "fabric_index"]);
+            assert_eq!(a[..2], [0.12, 0.02]);
+        }
+    }
+
+    #[test]
+    fn unknown_names_and_files_are_refused() {
+        assert!(kind("best").err().expect("unknown").to_string().contains("model = best"));
+        let text = trained("state").to_json();
+        let newer = text.replace("msdd-state-model-1", "msdd-state-model-2");
+        let message = |text: &str| read(text).err().expect("unsound").to_string();
+        assert!(message(&newer).contains("msdd-state-model-2"), "{}", message(&newer));
+        assert!(message(&text.replace("msdd-state-model-1", "other")).contains("\"other\""));
+        assert!(message(&text[..text.len() / 2]).contains("damaged"));
+    }
+}

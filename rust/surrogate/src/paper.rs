@@ -1,0 +1,85 @@
+//! The paper's network as a [`Surrogate`]: the state is (η, f), K and σ are outputs of each step.
+
+use crate::kernel::{LANES, Lanes};
+use crate::model::Model;
+use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
+use crate::training::TrainingOptions;
+
+impl Surrogate for Model {
+    fn kind(&self) -> &'static str {
+        "paper"
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn hash(&self) -> &str {
+        Model::hash(self)
+    }
+
+    fn training(&self) -> &TrainingOptions {
+        &self.provenance.training
+    }
+
+    fn to_json(&self) -> String {
+        Model::to_json(self)
+    }
+
+    fn state_names(&self) -> &[&'static str] {
+        &["porosity", "fabric_index"]
+    }
+
+    fn initial_state(&self, known: &Known) -> [f64; MAX_STATE] {
+        [known.porosity, known.fabric_index, 0.0, 0.0, 0.0, 0.0]
+    }
+
+    fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer {
+        let block = Model::block(self, &[state[0], state[1], *strain]);
+        let mut answer = Answer {
+            state: *state,
+            conductivity: [block.conductivity_xx, block.conductivity_yy],
+            stress: [block.stress_xx, block.stress_yy],
+            outside: [[0.0; LANES]; MAX_STATE + 1],
+        };
+        let increments = [block.delta_porosity, block.delta_fabric_index];
+        for (column, increment) in answer.state.iter_mut().zip(increments) {
+            for lane in 0..LANES {
+                column[lane] += increment[lane];
+            }
+        }
+        let inputs = [(0, state[0]), (1, state[1]), (MAX_STATE, *strain)];
+        for ((column, values), range) in inputs.into_iter().zip(self.predictor.range.inputs()) {
+            answer.outside[column] = values.map(|value| value - range.clamp(value));
+        }
+        answer
+    }
+
+    fn doubt(&self, _state: &[f64; MAX_STATE]) -> Option<Doubt> {
+        None
+    }
+
+    fn solid_fraction(&self, porosity: f64) -> f64 {
+        Model::solid_fraction(self, porosity)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gives_the_networks_answers() {
+        let model = Model::builtin().expect("the shipped model is sound");
+        let direct = Model::evaluate(&model, 0.13, 0.02, 0.001);
+        let answer = Surrogate::evaluate(&model, &[0.13, 0.02, 0.0, 0.0, 0.0, 0.0], 0.001);
+        assert_eq!(answer.state[0][3], 0.13 + direct.delta_porosity);
+        assert_eq!(
+            (answer.conductivity[1][0], answer.stress[0][7]),
+            (direct.conductivity_yy, direct.stress_xx)
+        );
+        assert!(answer.inside(0));
+        let far = Surrogate::evaluate(&model, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.0], -0.2);
+        assert!(far.outside[0][0] > 0.2 && far.outside[MAX_STATE][0] < -0.1 && !far.inside(0));
+    }
+}

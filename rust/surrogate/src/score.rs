@@ -1,0 +1,248 @@
+//! Everything that a model is judged by, on packings that it never saw.
+
+use crate::SurrogateError;
+use crate::composition::{self, Composed, Path, composed, state_of, states_of};
+use crate::dataset::{self, Ramp, StateRow, strain_between};
+use crate::kernel::LANES;
+use crate::noise;
+use crate::scores::r_squared;
+use crate::surrogate::Surrogate;
+use serde::Serialize;
+
+/// R² (Eq. 12) of one query over pairs of jammed stops, mirror images included.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OneStep {
+    pub packings: usize,
+    pub samples: usize,
+    pub delta_porosity: f64,
+    pub delta_fabric_index: f64,
+    /// When the state has it.
+    pub delta_fabric_conductivity: Option<f64>,
+    pub conductivity: f64,
+    pub stress: f64,
+}
+
+/// A strain and back in as many increments: what is left, relative (porosity: absolute), of the start's.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ThereAndBack {
+    pub strain: f64,
+    pub increments: u32,
+    pub pressure: f64,
+    pub conductivity: f64,
+    pub porosity: f64,
+}
+
+/// What no function of the model's state at the start can know of the end: relative to the data's root mean square, as
+/// in [`Composed`]. `None` when there are too few packings to tell.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Floor {
+    pub strain: f64,
+    pub conductivity: Option<f64>,
+    pub stress: Option<f64>,
+    pub pressure: Option<f64>,
+    pub porosity: Option<f64>,
+    pub fabric_index: Option<f64>,
+}
+
+/// The whole verdict.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Score {
+    pub kind: String,
+    pub name: String,
+    pub hash: String,
+    /// Held out, or all, when the database is not the one of the training.
+    pub held_out: bool,
+    pub training: Option<OneStep>,
+    pub unseen: OneStep,
+    pub composed: Vec<Composed>,
+    pub there_and_back: Vec<ThereAndBack>,
+    pub noise_floor: Vec<Floor>,
+}
+
+/// Strains of the composed errors.
+pub const STRAINS: [f64; 8] = [0.005, 0.01, 0.02, 0.05, -0.005, -0.01, -0.02, -0.05];
+/// Numbers of increments.
+pub const INCREMENTS: [u32; 5] = [1, 5, 50, 500, 5000];
+
+/// Ramps that the model saw in training or validation, and those that it did not.
+pub struct Ramps {
+    pub seen: Vec<Ramp>,
+    pub unseen: Vec<Ramp>,
+}
+
+/// Splits as the model's training did, when it was trained on the database of this plan; else nothing was seen.
+///
+/// # Errors
+/// [`SurrogateError::Data`] for unusable rows.
+pub fn ramps(model: &dyn Surrogate, rows: &[StateRow], plan_hash: &str) -> Result<Ramps, SurrogateError> {
+    let all = dataset::ramps(rows)?;
+    if model.training().database.plan_hash != plan_hash {
+        return Ok(Ramps { seen: Vec::new(), unseen: all });
+    }
+    let split = dataset::split(all, model.training().seed)?;
+    Ok(Ramps { seen: split.training, unseen: split.test })
+}
+
+/// Scores of a model; `noise_rows` are all rows there are, for the noise floor.
+pub fn score(model: &dyn Surrogate, ramps: &Ramps) -> Score {
+    let all: Vec<Ramp> = ramps.seen.iter().chain(&ramps.unseen).cloned().collect();
+    let mut composed = Vec::new();
+    for strain in STRAINS {
+        let paths = composition::paths(&ramps.unseen, strain);
+        if !paths.is_empty() {
+            composed.extend(INCREMENTS.map(|n| composition::errors(model, &paths, strain, n)));
+        }
+    }
+    Score {
+        kind: model.kind().to_string(),
+        name: model.name().to_string(),
+        hash: model.hash().to_string(),
+        held_out: !ramps.seen.is_empty(),
+        training: (!ramps.seen.is_empty()).then(|| one_step(model, &ramps.seen)),
+        unseen: one_step(model, &ramps.unseen),
+        composed,
+        there_and_back: [0.005, 0.02, -0.02].map(|e| there_and_back(model, &ramps.unseen, e, 500)).to_vec(),
+        noise_floor: STRAINS.map(|strain| floor(model, &all, strain)).to_vec(),
+    }
+}
+
+/// Data and prediction of one query for every pair of jammed stops, mirror images included: Δη, Δf, Δf_K, K, σ.
+pub fn one_step_pairs(model: &dyn Surrogate, ramps: &[Ramp]) -> [Vec<[f64; 2]>; 5] {
+    let mut pairs: [Vec<[f64; 2]>; 5] = Default::default();
+    let fabric = model.state_names().iter().position(|name| *name == "fabric_conductivity");
+    let mut all: Vec<Path> = Vec::new();
+    for ramp in ramps {
+        for (i, from) in ramp.states.iter().enumerate().filter(|(_, row)| row.load_bearing) {
+            all.extend(ramp.states[i + 1..].iter().filter(|to| to.load_bearing).map(|to| Path { from, to }));
+        }
+    }
+    for chunk in all.chunks(LANES) {
+        let from: Vec<&StateRow> = chunk.iter().map(|path| path.from).collect();
+        let strain = std::array::from_fn(|lane| {
+            chunk.get(lane).map_or(0.0, |path| strain_between(path.from, path.to))
+        });
+        let start = states_of(model, &from);
+        let answer = model.block(&start, &strain);
+        for (lane, path) in chunk.iter().enumerate() {
+            let moved = |column: usize| answer.state[column][lane] - start[column][lane];
+            pairs[0].push([path.to.porosity - path.from.porosity, moved(0)]);
+            let fabric_index = path.to.fabric_index - path.from.fabric_index;
+            pairs[1].extend([[fabric_index, moved(1)], [-fabric_index, -moved(1)]]);
+            if let Some(column) = fabric {
+                let delta = state_of(model, path.to)[column] - start[column][lane];
+                pairs[2].extend([[delta, moved(column)], [-delta, -moved(column)]]);
+            }
+            let data = composition::conductivity(model, path.to);
+            pairs[3].extend([0, 1].map(|c| [data[c], answer.conductivity[c][lane]]));
+            let data = [path.to.stress_xx, path.to.stress_yy];
+            pairs[4].extend([0, 1].map(|c| [data[c], answer.stress[c][lane]]));
+        }
+    }
+    pairs
+}
+
+fn one_step(model: &dyn Surrogate, ramps: &[Ramp]) -> OneStep {
+    let pairs = one_step_pairs(model, ramps);
+    OneStep {
+        packings: dataset::packings(ramps),
+        samples: pairs[0].len(),
+        delta_porosity: r_squared(&pairs[0]),
+        delta_fabric_index: r_squared(&pairs[1]),
+        delta_fabric_conductivity: (!pairs[2].is_empty()).then(|| r_squared(&pairs[2])),
+        conductivity: r_squared(&pairs[3]),
+        stress: r_squared(&pairs[4]),
+    }
+}
+
+fn there_and_back(model: &dyn Surrogate, ramps: &[Ramp], strain: f64, increments: u32) -> ThereAndBack {
+    let packed: Vec<&StateRow> = ramps
+        .iter()
+        .filter(|ramp| ramp.name == "up")
+        .filter_map(|ramp| ramp.states.first())
+        .filter(|row| row.load_bearing)
+        .collect();
+    let mut sums = [[0.0; 2]; 3];
+    for chunk in packed.chunks(LANES) {
+        let start = states_of(model, chunk);
+        let block = |state: &_, strain: &_| model.block(state, strain);
+        let still = model.block(&start, &[0.0; LANES]);
+        let there = composed(block, &start, &[strain; LANES], increments);
+        let back = composed(block, &there.state, &[-strain / (1.0 + strain); LANES], increments);
+        for lane in 0..chunk.len() {
+            let pressure = |a: &crate::surrogate::Answer| a.stress[0][lane] + a.stress[1][lane];
+            let mean = |a: &crate::surrogate::Answer| a.conductivity[0][lane] + a.conductivity[1][lane];
+            let values = [
+                [pressure(&back) - pressure(&still), pressure(&still)],
+                [mean(&back) - mean(&still), mean(&still)],
+                [back.state[0][lane] - start[0][lane], 1.0],
+            ];
+            for (sum, value) in sums.iter_mut().zip(values) {
+                sum[0] += value[0] * value[0];
+                sum[1] += value[1] * value[1];
+            }
+        }
+    }
+    let [pressure, conductivity, porosity] = sums.map(|[error, value]| (error / value).sqrt());
+    ThereAndBack { strain, increments, pressure, conductivity, porosity }
+}
+
+/// Start states, each with its mirror image, as points for the noise; an odd quantity of the end changes sign.
+fn floor(model: &dyn Surrogate, ramps: &[Ramp], strain: f64) -> Floor {
+    let columns = model.state_names();
+    let mut samples: [Vec<(i64, Vec<f64>, f64)>; 5] = Default::default();
+    for path in composition::paths(ramps, strain) {
+        let state = state_of(model, path.from);
+        for turned in [false, true] {
+            let sign = if turned { -1.0 } else { 1.0 };
+            let point: Vec<f64> =
+                columns.iter().zip(state).map(|(name, v)| coordinate(name, v, sign, &state)).collect();
+            let end = path.to;
+            let [kxx, kyy] = composition::conductivity(model, end);
+            let (k, s) = if turned { (kyy, end.stress_yy) } else { (kxx, end.stress_xx) };
+            let pressure = 0.5 * (end.stress_xx + end.stress_yy);
+            for (samples, y) in
+                samples.iter_mut().zip([k, s, pressure, end.porosity, sign * end.fabric_index])
+            {
+                samples.push((path.from.packing, point.clone(), y));
+            }
+        }
+    }
+    let noise = |k: usize| noise::deviation(&scaled(&samples[k]));
+    let relative = |k: usize| {
+        let square = samples[k].iter().map(|(_, _, y)| y * y).sum::<f64>() / samples[k].len() as f64;
+        noise(k).map(|deviation| deviation / square.sqrt())
+    };
+    Floor {
+        strain,
+        conductivity: relative(0),
+        stress: relative(1),
+        pressure: relative(2),
+        porosity: noise(3),
+        fabric_index: noise(4),
+    }
+}
+
+/// A state variable as a coordinate in which distance means something.
+fn coordinate(name: &str, value: f64, sign: f64, state: &[f64]) -> f64 {
+    match name {
+        "porosity" => value,
+        "reduced_pressure" => value.max(0.0).sqrt(),
+        "reduced_deviator" => sign * value / (state[2] + 1e-4),
+        _ => sign * value,
+    }
+}
+
+/// Coordinates over their standard deviation.
+fn scaled(samples: &[(i64, Vec<f64>, f64)]) -> Vec<(i64, Vec<f64>, f64)> {
+    let Some((_, first, _)) = samples.first() else { return Vec::new() };
+    let count = samples.len() as f64;
+    let scale: Vec<(f64, f64)> = (0..first.len())
+        .map(|k| {
+            let mean = samples.iter().map(|(_, x, _)| x[k]).sum::<f64>() / count;
+            let square = samples.iter().map(|(_, x, _)| (x[k] - mean).powi(2)).sum::<f64>() / count;
+            (mean, square.sqrt().max(1e-12))
+        })
+        .collect();
+    let on = |x: &[f64]| x.iter().zip(&scale).map(|(x, (mean, scale))| (x - mean) / scale).collect();
+    samples.iter().map(|(group, x, y)| (*group, on(x), *y)).collect()
+}

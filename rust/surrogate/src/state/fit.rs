@@ -1,0 +1,160 @@
+//! Fit of a network whose residuals are linear in its outputs. JᵀJ grows batch by batch; J as a whole never exists.
+
+use crate::kernel::{LANES, Lanes, add_outer_products};
+use crate::levenberg_marquardt::{LeastSquares, NormalEquations};
+use crate::perceptron::{Neurons, Perceptron, WIDTH};
+use nalgebra::{DMatrix, DVector};
+
+/// One residual: max(Σ c_o y_o, floor) − target, the o from `first` on. Weights are in c, floor and target.
+#[derive(Clone, Copy, Debug)]
+pub struct Residual {
+    pub first: usize,
+    pub coefficients: [f64; 3],
+    /// Below it the prediction is cut off, as p̃ at zero.
+    pub floor: f64,
+    pub target: f64,
+}
+
+/// A sample's scaled inputs and its residuals.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    pub inputs: Vec<f64>,
+    pub residuals: Vec<Residual>,
+}
+
+/// The fit of one network to samples.
+pub struct PerceptronFit {
+    sizes: Vec<usize>,
+    octets: Vec<(Vec<Lanes>, Vec<(usize, Residual)>)>,
+    residuals: f64,
+    threads: usize,
+}
+
+/// Sums are formed per part and added in order, so that the thread count does not change the bits.
+const PARTS: usize = 8;
+/// Rows of J held at a time.
+const BATCH: usize = 128;
+
+impl PerceptronFit {
+    pub fn new(sizes: Vec<usize>, samples: &[Sample], threads: usize) -> Self {
+        let octet = |chunk: &[Sample]| {
+            let lane_of = |lane: usize| &chunk[lane.min(chunk.len() - 1)];
+            let inputs = (0..sizes[0]).map(|k| std::array::from_fn(|lane| lane_of(lane).inputs[k])).collect();
+            let residuals = chunk.iter().enumerate();
+            let residuals = residuals.flat_map(|(lane, s)| s.residuals.iter().map(move |r| (lane, *r)));
+            (inputs, residuals.collect())
+        };
+        let residuals = samples.iter().map(|sample| sample.residuals.len()).sum::<usize>().max(1) as f64;
+        let octets = samples.chunks(LANES).map(octet).collect();
+        Self { sizes, octets, residuals, threads: threads.clamp(1, PARTS) }
+    }
+
+    fn network(&self, parameters: &DVector<f64>) -> Perceptron {
+        Perceptron { sizes: self.sizes.clone(), weights: parameters.as_slice().to_vec() }
+    }
+
+    /// Width of a row of J with its residual behind, padded for the kernel.
+    fn width(weights: usize) -> usize {
+        (weights + 1).next_multiple_of(16)
+    }
+
+    /// Σ r² of some octets.
+    fn sum_of_squares(network: &Perceptron, octets: &[(Vec<Lanes>, Vec<(usize, Residual)>)]) -> f64 {
+        let mut neurons = Neurons::new();
+        let mut sum = 0.0;
+        for (inputs, residuals) in octets {
+            neurons.layers[0][..inputs.len()].copy_from_slice(inputs);
+            let last = network.run(&mut neurons);
+            for (lane, residual) in residuals {
+                let value = residual.value(&neurons.layers[last], *lane);
+                sum += (value.max(residual.floor) - residual.target).powi(2);
+            }
+        }
+        sum
+    }
+
+    /// Lower triangle of (J | r)ᵀ (J | r) of some octets.
+    fn products(network: &Perceptron, octets: &[(Vec<Lanes>, Vec<(usize, Residual)>)]) -> Vec<f64> {
+        let weights = network.weights.len();
+        let width = Self::width(weights);
+        let mut matrix = vec![0.0; width * width];
+        let mut rows = vec![0.0; BATCH * width];
+        let (mut neurons, mut filled) = (Neurons::new(), 0);
+        for (inputs, residuals) in octets {
+            neurons.layers[0][..inputs.len()].copy_from_slice(inputs);
+            let last = network.run(&mut neurons);
+            for (lane, residual) in residuals {
+                let value = residual.value(&neurons.layers[last], *lane);
+                let row = &mut rows[filled * width..][..width];
+                row.fill(0.0);
+                if value > residual.floor {
+                    let mut c = [0.0; WIDTH];
+                    c[residual.first..][..3.min(WIDTH - residual.first)]
+                        .copy_from_slice(&residual.coefficients[..3.min(WIDTH - residual.first)]);
+                    network.gradient(&neurons, *lane, &c[..network.outputs()], &mut row[..weights]);
+                }
+                row[weights] = value.max(residual.floor) - residual.target;
+                filled += 1;
+                if filled == BATCH {
+                    add_outer_products(&rows, width, &mut matrix);
+                    filled = 0;
+                }
+            }
+        }
+        add_outer_products(&rows[..filled * width], width, &mut matrix);
+        matrix
+    }
+
+    /// The parts' results, in order.
+    fn by_part<T: Send>(&self, work: impl Fn(&[(Vec<Lanes>, Vec<(usize, Residual)>)]) -> T + Sync) -> Vec<T> {
+        let length = self.octets.len().div_ceil(PARTS).max(1);
+        let parts: Vec<_> = self.octets.chunks(length).collect();
+        let share = parts.len().div_ceil(self.threads).max(1);
+        if self.threads == 1 {
+            return parts.into_iter().map(work).collect();
+        }
+        let work = &work;
+        std::thread::scope(|scope| {
+            let workers: Vec<_> = parts
+                .chunks(share)
+                .map(|share| scope.spawn(move || share.iter().map(|part| work(part)).collect::<Vec<T>>()))
+                .collect();
+            let results = workers.into_iter().map(|worker| worker.join());
+            results.flat_map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+        })
+    }
+}
+
+impl Residual {
+    fn value(&self, outputs: &[Lanes; WIDTH], lane: usize) -> f64 {
+        let terms = self.coefficients.iter().zip(&outputs[self.first..]);
+        terms.map(|(c, y)| if *c == 0.0 { 0.0 } else { c * y[lane] }).fold(0.0, |sum, term| sum + term)
+    }
+}
+
+impl LeastSquares for PerceptronFit {
+    fn mean_square(&self, parameters: &DVector<f64>) -> f64 {
+        let network = self.network(parameters);
+        let sums = self.by_part(|octets| Self::sum_of_squares(&network, octets));
+        sums.iter().fold(0.0, |sum, part| sum + part) / self.residuals
+    }
+
+    fn normal_equations(&self, parameters: &DVector<f64>) -> NormalEquations {
+        let network = self.network(parameters);
+        let (weights, mut sum) = (network.weights.len(), Vec::new());
+        for part in self.by_part(|octets| Self::products(&network, octets)) {
+            if sum.is_empty() {
+                sum = part;
+            } else {
+                sum.iter_mut().zip(&part).for_each(|(sum, part)| *sum += part);
+            }
+        }
+        let width = Self::width(weights);
+        sum.resize(width * width, 0.0);
+        let entry = |i: usize, j: usize| sum[i * width + j] / self.residuals;
+        NormalEquations {
+            matrix: DMatrix::from_fn(weights, weights, |i, j| entry(i.max(j), i.min(j))),
+            gradient: DVector::from_fn(weights, |j, _| entry(weights, j)),
+        }
+    }
+}

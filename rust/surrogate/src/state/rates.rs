@@ -1,0 +1,94 @@
+//! Advance of the state: Δx = ε · g(x, ε).
+
+use super::variables::{FABRIC_INDEX, Features, MAX_ODD, POROSITY, PRESSURE, RATE_INPUTS, Variables};
+use crate::kernel::{LANES, Lanes};
+use crate::perceptron::{Neurons, Perceptron};
+use crate::surrogate::{MAX_STATE, StateLanes};
+use serde::{Deserialize, Serialize};
+
+/// The rates' network and its scales.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rates {
+    /// Even features in; outputs: rates of η and p̃, then for each odd variable its rate's coefficients of the odd
+    /// features.
+    pub network: Perceptron,
+    /// Rate dx/dε of each state column [-] at output 0: nonzero for the even ones.
+    pub offset: [f64; MAX_STATE],
+    /// Rate dx/dε of each state column [-] for a unit of output.
+    pub scale: [f64; MAX_STATE],
+    /// η above which a state without stress stays without, however it is strained [-].
+    pub unjamming_porosity: f64,
+}
+
+/// |f|, |f_K| and η stay below these whatever is composed: no state of grains has more.
+const FABRIC_LIMIT: f64 = 0.9;
+const POROSITY_LIMIT: f64 = 0.99;
+
+/// Outputs of the network before the odd ones.
+pub const EVEN_OUTPUTS: usize = 2;
+
+/// Layer sizes of the rates' network.
+pub fn sizes(variables: Variables, hidden: &[usize]) -> Vec<usize> {
+    let odd = variables.odd_count();
+    [&[RATE_INPUTS], hidden, &[EVEN_OUTPUTS + odd * odd]].concat()
+}
+
+impl Rates {
+    /// The state after a strain.
+    #[inline(always)]
+    pub fn advanced(
+        &self,
+        variables: Variables,
+        state: &StateLanes,
+        strain: &Lanes,
+        features: &Features,
+        neurons: &mut Neurons,
+    ) -> StateLanes {
+        neurons.layers[0][..RATE_INPUTS].copy_from_slice(&features.even);
+        let last = self.network.run(neurons);
+        let outputs = &neurons.layers[last];
+        let mut next = *state;
+        for (output, column) in [POROSITY, PRESSURE].into_iter().enumerate() {
+            for lane in 0..LANES {
+                let rate = self.offset[column] + self.scale[column] * outputs[output][lane];
+                next[column][lane] += strain[lane] * rate;
+            }
+        }
+        let count = variables.odd_count();
+        for (k, column) in variables.odd().enumerate() {
+            for lane in 0..LANES {
+                let first = EVEN_OUTPUTS + k * count;
+                let sum = odd_sum(&outputs[first..first + count], &features.odd, lane);
+                next[column][lane] += strain[lane] * (self.scale[column] * sum);
+            }
+        }
+        self.limit(variables, state, &mut next);
+        next
+    }
+
+    /// Keeps the state one that grains can have: 0 ≤ η < 1, p̃ ≥ 0, no tension, and no stress before the grains touch.
+    #[inline(always)]
+    fn limit(&self, variables: Variables, state: &StateLanes, next: &mut StateLanes) {
+        for lane in 0..LANES {
+            next[POROSITY][lane] = next[POROSITY][lane].clamp(0.0, POROSITY_LIMIT);
+            let apart = state[PRESSURE][lane] <= 0.0 && next[POROSITY][lane] >= self.unjamming_porosity;
+            let pressure = if apart { 0.0 } else { next[PRESSURE][lane].max(0.0) };
+            next[PRESSURE][lane] = pressure;
+            for column in std::iter::once(FABRIC_INDEX).chain(variables.fabric_conductivity()) {
+                // Without contacts there is no fabric to change.
+                let value = if pressure > 0.0 { next[column][lane] } else { state[column][lane] };
+                next[column][lane] = value.clamp(-FABRIC_LIMIT, FABRIC_LIMIT);
+            }
+            if let Some(column) = variables.deviator() {
+                next[column][lane] = next[column][lane].clamp(-pressure, pressure);
+            }
+        }
+    }
+}
+
+/// Σ y_i b_i over the odd features.
+#[inline(always)]
+pub fn odd_sum(coefficients: &[Lanes], odd: &[Lanes; MAX_ODD], lane: usize) -> f64 {
+    coefficients.iter().zip(odd).map(|(y, b)| y[lane] * b[lane]).fold(0.0, |sum, term| sum + term)
+}

@@ -1,0 +1,306 @@
+//! Training of the state model.
+
+use super::file::Provenance;
+use super::fit::{PerceptronFit, Residual, Sample};
+use super::mean::MeanState;
+use super::model::{Core, StateModel};
+use super::pairs::{self, Pair};
+use super::rates::Rates;
+use super::readout::Readout;
+use super::variables::{ConductivityKind, FeatureRanges, PRESSURE, Point, Variables};
+use crate::composition::{self, Composed};
+use crate::dataset::{self, Ramp, Split, StateRow};
+use crate::levenberg_marquardt::{LeastSquares, Limits, Stopping, minimise};
+use crate::mechanics::{Mechanics, WallStrain};
+use crate::perceptron::Perceptron;
+use crate::region::{Region, Spread};
+use crate::scaling::Range;
+use crate::solid_fraction::SolidFraction;
+use crate::training::{Parts, TrainingOptions};
+use crate::wall_friction::{WallFriction, WallSlip};
+use crate::{SurrogateError, model_file};
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// How to train a state model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StateOptions {
+    pub common: TrainingOptions,
+    pub variables: Variables,
+    /// Neurons of the hidden layers of the rates' network, one or two layers.
+    pub hidden: Vec<usize>,
+    /// The same of the readout's.
+    pub readout_hidden: Vec<usize>,
+}
+
+impl Default for StateOptions {
+    fn default() -> Self {
+        Self {
+            common: TrainingOptions { restarts: 4, max_epochs: 150, ..TrainingOptions::default() },
+            variables: Variables::ALL,
+            hidden: vec![8],
+            readout_hidden: vec![4],
+        }
+    }
+}
+
+/// What there is to train on beside the thermal ramps.
+#[derive(Clone, Debug, Default)]
+pub struct Mechanical {
+    pub wall_strains: Vec<WallStrain>,
+    pub wall_slips: Vec<WallSlip>,
+}
+
+/// How one network's fit went.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FitReport {
+    pub weights: usize,
+    /// The start that was kept, from 0.
+    pub restart: u32,
+    /// Epochs of that start, and the one whose weights were kept.
+    pub epochs: u32,
+    pub best_epoch: u32,
+    pub stopping: Stopping,
+    /// Mean squared weighted residual.
+    pub training_error: f64,
+    /// What chose the epoch and the start: for the rates the composed error on the validation packings.
+    pub validation_error: f64,
+}
+
+/// Outcome of a training.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StateReport {
+    pub packings: Parts<usize>,
+    /// Pairs of stops.
+    pub samples: Parts<usize>,
+    pub rates: FitReport,
+    pub readouts: Vec<FitReport>,
+    /// On the held-out packings.
+    pub composed: Vec<Composed>,
+}
+
+/// Trains a state model on thermal ramps; the mechanical parts of the model are there when their data is.
+///
+/// # Errors
+/// [`SurrogateError::Data`] for unusable rows, [`SurrogateError::Option`] for unusable options.
+pub fn train(
+    rows: &[StateRow],
+    mechanical: &Mechanical,
+    options: &StateOptions,
+) -> Result<StateModel, SurrogateError> {
+    options.check()?;
+    let kinds = kinds(rows);
+    let split = dataset::split(dataset::ramps(rows)?, options.common.seed)?;
+    let parts = Parts::of(&split, |ramps| pairs::pairs(options.variables, kinds[0], ramps));
+    let points = |ramps: &[Ramp], kind| pairs::points(options.variables, kind, ramps);
+    let training_points = points(&split.training, kinds[0]);
+    let ranges = FeatureRanges::of(&training_points, strains(&parts.training)?);
+    ranges.check()?;
+
+    let scaled =
+        |rates: &Rates, pairs: &[Pair]| pairs::rate_samples(options.variables, &ranges, rates, pairs);
+    let blank = pairs::blank_rates(options.variables, &options.hidden, &parts.training, &split.training);
+    let with = |weights: &DVector<f64>| {
+        let network = Perceptron { weights: weights.as_slice().to_vec(), ..blank.network.clone() };
+        Rates { network, ..blank.clone() }
+    };
+    let paths = pairs::paths(options.variables, kinds[0], &split.validation);
+    let validate =
+        |weights: &DVector<f64>| pairs::composed_error(options.variables, &ranges, &with(weights), &paths);
+    let (network, rates_report) =
+        best_of_starts(&blank.network.sizes, &scaled(&blank, &parts.training), validate, options, 0);
+    let rates = Rates { network, ..blank };
+
+    let (mut readouts, mut readout_reports) = (Vec::new(), Vec::new());
+    for (index, kind) in kinds.iter().enumerate() {
+        let carried = index == 0 && options.variables.fabric_conductivity;
+        let sizes = Readout::sizes(options.variables, carried, &options.readout_hidden);
+        let samples = |ramps: &[Ramp]| {
+            pairs::readout_samples(options.variables, carried, &ranges, &points(ramps, *kind))
+        };
+        let validation = PerceptronFit::new(sizes.clone(), &samples(&split.validation), 1);
+        let validate = |weights: &DVector<f64>| validation.mean_square(weights);
+        let stream = 100 * (index as u64 + 1);
+        let (network, report) = best_of_starts(&sizes, &samples(&split.training), validate, options, stream);
+        let (offset, scale) = pairs::READOUT_SCALES;
+        readouts.push(Readout { kind: *kind, network, offset, scale, carried });
+        readout_reports.push(report);
+    }
+    let core = Core { variables: options.variables, ranges, rates, readouts, active: 0 };
+    let packed: Vec<Point> = pairs::packed_points(options.variables, kinds[0], &split.training);
+    let mut report = StateReport {
+        packings: Parts::of(&split, dataset::packings),
+        samples: parts.map(Vec::len),
+        rates: rates_report,
+        readouts: readout_reports,
+        composed: Vec::new(),
+    };
+    let mut model = StateModel {
+        mean: MeanState::fit(&packed),
+        region: region(&core, &training_points),
+        spread: spread(&core, &split, kinds[0]),
+        solid_fraction: SolidFraction::fit(rows)?,
+        mechanics: Mechanics::fit(&mechanical.wall_strains),
+        wall_friction: WallFriction::fit(&mechanical.wall_slips),
+        name: options.common.name.clone(),
+        provenance: Provenance {
+            library_version: env!("CARGO_PKG_VERSION").to_string(),
+            training: options.clone(),
+            report: report.clone(),
+        },
+        hash: String::new(),
+        core,
+    };
+    model.provenance.training.common.threads = 0;
+    report.composed = held_out(&model, &split.test);
+    model.provenance.report = report;
+    model.hash = model_file::hash(&super::file::text(&model));
+    Ok(model)
+}
+
+impl StateOptions {
+    fn check(&self) -> Result<(), SurrogateError> {
+        self.common.check()?;
+        for (key, layers) in [("hidden", &self.hidden), ("readout_hidden", &self.readout_hidden)] {
+            let sizes = [&[1], layers.as_slice(), &[1]].concat();
+            if !crate::perceptron::shape_is_sound(&sizes) {
+                let value = format!("{layers:?}");
+                let allowed = "one or two layers of 1 to 16 neurons";
+                return Err(SurrogateError::Option { key, value, allowed });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Kinds of conductivity that all rows have, the default one first.
+pub fn kinds(rows: &[StateRow]) -> Vec<ConductivityKind> {
+    match rows.iter().all(|row| row.conductivity_network.is_some()) {
+        true => vec![ConductivityKind::Network, ConductivityKind::Affine],
+        false => vec![ConductivityKind::Affine],
+    }
+}
+
+fn strains(pairs: &[Pair]) -> Result<Range, SurrogateError> {
+    let range = Range::of(pairs.iter().map(|pair| pair.strain));
+    if range.width() > 0.0 && range.width().is_finite() {
+        Ok(range)
+    } else {
+        Err(SurrogateError::Data("no two stops of a ramp differ in strain".to_string()))
+    }
+}
+
+fn region(core: &Core, points: &[Point]) -> Region {
+    let coordinates = points.iter().filter(|p| p.jammed).flat_map(|p| {
+        let mut turned = p.state;
+        core.variables.odd().for_each(|column| turned[column] = -turned[column]);
+        [p.state, turned].map(|state| core.ranges.coordinates(core.variables, &state))
+    });
+    Region::of(&coordinates.collect::<Vec<_>>(), core.variables.names().len())
+}
+
+/// Errors on packings that the fit did not see; on all but the training ones, for want of more.
+fn spread(core: &Core, split: &Split, kind: ConductivityKind) -> Spread {
+    let unseen: Vec<Ramp> = split.validation.iter().chain(&split.test).cloned().collect();
+    let (mut conductivity, mut rate) = (Vec::new(), Vec::new());
+    for pair in pairs::pairs(core.variables, kind, &unseen).iter().filter(|pair| pair.jammed()) {
+        let lanes = pair.from.state.map(|value| [value; crate::kernel::LANES]);
+        let answer = core.block(&lanes, &[pair.strain; crate::kernel::LANES]);
+        let (start, end) = (pair.from.state[PRESSURE], pair.to.state[PRESSURE]);
+        rate.push((start, (answer.state[PRESSURE][0] - end) / pair.strain));
+    }
+    for point in pairs::points(core.variables, kind, &unseen).iter().filter(|p| p.jammed) {
+        let answer = core.block(&point.state.map(|v| [v; crate::kernel::LANES]), &[0.0; 8]);
+        let mean = 0.5 * (answer.conductivity[0][0] + answer.conductivity[1][0]);
+        conductivity.push((point.state[PRESSURE], mean / point.conductivity - 1.0));
+    }
+    Spread::of(core.ranges.pressure, &conductivity, &rate)
+}
+
+/// Strains and numbers of increments at which a model is judged.
+const JUDGED: [(f64, u32); 6] =
+    [(0.02, 1), (0.02, 500), (-0.02, 500), (0.05, 500), (-0.05, 500), (-0.05, 5000)];
+
+fn held_out(model: &StateModel, ramps: &[Ramp]) -> Vec<Composed> {
+    let judged = JUDGED.map(|(strain, increments)| {
+        let paths = composition::paths(ramps, strain);
+        composition::errors(model, &paths, strain, increments)
+    });
+    judged.into_iter().filter(|composed| composed.ramps > 0).collect()
+}
+
+/// On the largest component of the mean gradient; errors are of order 1e-3, so this is a minimum for all purposes.
+const GRADIENT_LIMIT: f64 = 1e-10;
+
+/// Fits a network from several starts and keeps the one with the lowest `validate`. The starts run side by side; which
+/// is kept does not depend on how many do.
+fn best_of_starts(
+    sizes: &[usize],
+    samples: &[Sample],
+    validate: impl Fn(&DVector<f64>) -> f64 + Sync,
+    options: &StateOptions,
+    stream: u64,
+) -> (Perceptron, FitReport) {
+    let starts = options.common.restarts as usize;
+    let threads = options.common.threads_used();
+    let side_by_side = threads.min(starts);
+    let fit = PerceptronFit::new(sizes.to_vec(), samples, (threads / side_by_side).max(1));
+    let one = |restart: u32| fit_from(&fit, sizes, restart, &validate, options, stream);
+    let mut all: Vec<(Perceptron, FitReport)> = std::thread::scope(|scope| {
+        let one = &one;
+        let worker = |first: usize| {
+            scope.spawn(move || {
+                (first..starts).step_by(side_by_side).map(|s| one(s as u32)).collect::<Vec<_>>()
+            })
+        };
+        let workers: Vec<_> = (0..side_by_side).map(worker).collect();
+        let results = workers.into_iter().map(|worker| worker.join());
+        results.flat_map(|done| done.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+    });
+    all.sort_by(|(_, a), (_, b)| {
+        a.validation_error.total_cmp(&b.validation_error).then(a.restart.cmp(&b.restart))
+    });
+    all.swap_remove(0)
+}
+
+fn fit_from(
+    fit: &PerceptronFit,
+    sizes: &[usize],
+    restart: u32,
+    validate: &impl Fn(&DVector<f64>) -> f64,
+    options: &StateOptions,
+    stream: u64,
+) -> (Perceptron, FitReport) {
+    let start = Perceptron::initial(sizes, options.common.seed, stream + u64::from(restart) + 1);
+    let start = DVector::from_vec(start.weights);
+    let mut best = (0, start.clone(), fit.mean_square(&start), validate(&start));
+    let limits = Limits { max_epochs: options.common.max_epochs, gradient: GRADIENT_LIMIT };
+    let minimum = minimise(fit, start, limits, |epoch, weights, training_error| {
+        let validation_error = validate(weights);
+        if validation_error < best.3 {
+            best = (epoch, weights.clone(), training_error, validation_error);
+        }
+        let patient = epoch - best.0 < options.common.patience;
+        if patient { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    let (best_epoch, weights, training_error, validation_error) = best;
+    let report = FitReport {
+        weights: weights.len(),
+        restart,
+        epochs: minimum.epochs,
+        best_epoch,
+        stopping: minimum.stopping,
+        training_error,
+        validation_error,
+    };
+    (Perceptron { sizes: sizes.to_vec(), weights: weights.as_slice().to_vec() }, report)
+}
+
+/// Residual of one output.
+pub(super) fn residual(first: usize, coefficients: [f64; 3], target: f64) -> Residual {
+    Residual { first, coefficients, floor: f64::NEG_INFINITY, target }
+}

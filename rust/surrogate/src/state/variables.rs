@@ -1,0 +1,269 @@
+//! Variables of the state, and the features that the networks see.
+
+use crate::SurrogateError;
+use crate::dataset::StateRow;
+use crate::kernel::{LANES, Lanes};
+use crate::scaling::Range;
+use crate::surrogate::{MAX_STATE, StateLanes};
+use serde::{Deserialize, Serialize};
+
+/// Which optional variables the state carries. η, f and p̃ are always there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Variables {
+    /// f_K = (K_xx − K_yy)/(K_xx + K_yy).
+    pub fabric_conductivity: bool,
+    /// q̃ = (σ_xx − σ_yy)/2 · ℓ/(E r̄).
+    pub stress_deviator: bool,
+}
+
+/// Columns of a state: porosity, fabric index, reduced pressure, and the optional ones.
+pub const POROSITY: usize = 0;
+pub const FABRIC_INDEX: usize = 1;
+pub const PRESSURE: usize = 2;
+
+/// Odd variables at most: f, f_K, q̃.
+pub const MAX_ODD: usize = 3;
+
+impl Variables {
+    pub const ALL: Self = Self { fabric_conductivity: true, stress_deviator: true };
+
+    pub fn names(self) -> &'static [&'static str] {
+        let all =
+            &["porosity", "fabric_index", "reduced_pressure", "fabric_conductivity", "reduced_deviator"];
+        match (self.fabric_conductivity, self.stress_deviator) {
+            (true, true) => all,
+            (true, false) => &all[..4],
+            (false, true) => &["porosity", "fabric_index", "reduced_pressure", "reduced_deviator"],
+            (false, false) => &all[..3],
+        }
+    }
+
+    /// Column of f_K.
+    pub fn fabric_conductivity(self) -> Option<usize> {
+        self.fabric_conductivity.then_some(3)
+    }
+
+    /// Column of q̃.
+    pub fn deviator(self) -> Option<usize> {
+        self.stress_deviator.then_some(if self.fabric_conductivity { 4 } else { 3 })
+    }
+
+    /// Columns of the odd variables, f first, q̃ last.
+    pub fn odd(self) -> impl Iterator<Item = usize> {
+        std::iter::once(FABRIC_INDEX).chain(self.fabric_conductivity()).chain(self.deviator())
+    }
+
+    pub fn odd_count(self) -> usize {
+        self.odd().count()
+    }
+}
+
+/// A state of the database in the model's variables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// In the order of [`Variables::names`].
+    pub state: [f64; MAX_STATE],
+    /// (K_xx + K_yy)/2k.
+    pub conductivity: f64,
+    /// f_K and r = q̃/p̃, whether carried or not.
+    pub fabric_conductivity: f64,
+    pub stress_ratio: f64,
+    /// p̃ > 0: without force chains, f and the rest of the odd quantities are noise.
+    pub jammed: bool,
+}
+
+/// Two estimates of a state's conductivity from its contacts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ConductivityKind {
+    /// All discs on the mean gradient: Eq. 9, an upper bound.
+    Affine,
+    /// Disc temperatures solved for on the contact network.
+    Network,
+}
+
+impl ConductivityKind {
+    /// K_xx/k, K_yy/k of a row; `None` when the database lacks this kind.
+    pub fn of(self, row: &StateRow) -> Option<[f64; 2]> {
+        match self {
+            Self::Affine => Some([row.conductivity_xx, row.conductivity_yy]),
+            Self::Network => row.conductivity_network,
+        }
+    }
+}
+
+impl Point {
+    /// `None` when the row lacks the kind of conductivity.
+    pub fn new(variables: Variables, kind: ConductivityKind, row: &StateRow) -> Option<Self> {
+        let [kxx, kyy] = kind.of(row)?;
+        let pressure = (0.5 * (row.stress_xx + row.stress_yy)).max(0.0);
+        let deviator = (0.5 * (row.stress_xx - row.stress_yy)).clamp(-pressure, pressure);
+        let jammed = row.load_bearing && pressure > 0.0;
+        let fabric_conductivity = if kxx + kyy > 0.0 { (kxx - kyy) / (kxx + kyy) } else { 0.0 };
+        let mut state = [0.0; MAX_STATE];
+        (state[POROSITY], state[FABRIC_INDEX], state[PRESSURE]) = (row.porosity, row.fabric_index, pressure);
+        if let Some(column) = variables.fabric_conductivity() {
+            state[column] = fabric_conductivity;
+        }
+        if let Some(column) = variables.deviator() {
+            state[column] = deviator;
+        }
+        let stress_ratio = stress_ratio(deviator, pressure);
+        Some(Self { state, conductivity: 0.5 * (kxx + kyy), fabric_conductivity, stress_ratio, jammed })
+    }
+}
+
+/// Added to p̃ in the stress ratio, which so tends to zero at unjamming. A hundredth of p̃ of the loosest packings.
+const PRESSURE_FLOOR: f64 = 1e-4;
+
+/// q̃/p̃ [-], regular at zero.
+#[inline(always)]
+pub fn stress_ratio(deviator: f64, pressure: f64) -> f64 {
+    deviator / (pressure + PRESSURE_FLOOR)
+}
+
+/// Trained ranges of the features; those of odd ones are symmetric.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FeatureRanges {
+    pub porosity: Range,
+    pub fabric_index: Range,
+    pub pressure: Range,
+    pub fabric_conductivity: Range,
+    /// Of q̃/p̃.
+    pub stress_ratio: Range,
+    pub thermal_strain: Range,
+}
+
+/// Even inputs of the readout: η, √p̃, the square of the last odd feature.
+pub const READOUT_INPUTS: usize = 3;
+/// Those of the rates: also ε.
+pub const RATE_INPUTS: usize = 4;
+
+/// Features of a block of cells.
+pub struct Features {
+    /// On [-1, 1]: η, √p̃, the square of the last odd feature, ε.
+    pub even: [Lanes; RATE_INPUTS],
+    /// On [-1, 1]: f, f_K, q̃/p̃, as far as they are carried.
+    pub odd: [Lanes; MAX_ODD],
+    /// √p̃, clamped.
+    pub root_pressure: Lanes,
+}
+
+impl FeatureRanges {
+    /// Smallest ranges that hold all states and strains.
+    pub fn of(points: &[Point], strains: Range) -> Self {
+        let column = |k: usize| Range::of(points.iter().map(|p| p.state[k]));
+        let odd = |value: fn(&Point) -> f64| {
+            let jammed = points.iter().filter(|p| p.jammed);
+            let largest = jammed.map(|p| value(p).abs()).fold(0.0, f64::max);
+            Range { min: -largest, max: largest }
+        };
+        Self {
+            porosity: column(POROSITY),
+            fabric_index: odd(|p| p.state[FABRIC_INDEX]),
+            pressure: Range { min: 0.0, max: column(PRESSURE).max },
+            fabric_conductivity: odd(|p| p.fabric_conductivity),
+            stress_ratio: odd(|p| p.stress_ratio),
+            thermal_strain: strains,
+        }
+    }
+
+    #[inline(always)]
+    pub fn features(&self, variables: Variables, state: &StateLanes, strain: &Lanes) -> Features {
+        let root = Range { min: 0.0, max: self.pressure.max.sqrt() };
+        let pressure = &state[PRESSURE];
+        let root_pressure = pressure.map(|p| self.pressure.clamp(p).sqrt());
+        let mut odd = [[0.0; LANES]; MAX_ODD];
+        odd[0] = scaled(&state[FABRIC_INDEX], self.fabric_index);
+        let mut count = 1;
+        if let Some(column) = variables.fabric_conductivity() {
+            odd[count] = scaled(&state[column], self.fabric_conductivity);
+            count += 1;
+        }
+        if let Some(column) = variables.deviator() {
+            let ratio = std::array::from_fn(|lane| stress_ratio(state[column][lane], pressure[lane]));
+            odd[count] = scaled(&ratio, self.stress_ratio);
+            count += 1;
+        }
+        let even = [
+            scaled(&state[POROSITY], self.porosity),
+            scaled(&root_pressure, root),
+            odd[count - 1].map(|value| 2.0 * value * value - 1.0),
+            scaled(strain, self.thermal_strain),
+        ];
+        Features { even, odd, root_pressure }
+    }
+
+    /// As [`crate::surrogate::Answer::outside`]. The deviator is judged as q̃/p̃.
+    #[inline(always)]
+    pub fn outside(
+        &self,
+        variables: Variables,
+        state: &StateLanes,
+        strain: &Lanes,
+    ) -> [Lanes; MAX_STATE + 1] {
+        let mut outside = [[0.0; LANES]; MAX_STATE + 1];
+        let beyond = |values: &Lanes, range: Range| values.map(|v| v - range.clamp(v));
+        outside[POROSITY] = beyond(&state[POROSITY], self.porosity);
+        outside[FABRIC_INDEX] = beyond(&state[FABRIC_INDEX], self.fabric_index);
+        outside[PRESSURE] = beyond(&state[PRESSURE], self.pressure);
+        if let Some(column) = variables.fabric_conductivity() {
+            outside[column] = beyond(&state[column], self.fabric_conductivity);
+        }
+        if let Some(column) = variables.deviator() {
+            let at = |lane: usize| stress_ratio(state[column][lane], state[PRESSURE][lane].max(0.0));
+            let ratio = beyond(&std::array::from_fn(at), self.stress_ratio);
+            outside[column] = std::array::from_fn(|lane| ratio[lane] * state[PRESSURE][lane].max(0.0));
+        }
+        outside[MAX_STATE] = beyond(strain, self.thermal_strain);
+        outside
+    }
+}
+
+impl FeatureRanges {
+    /// # Errors
+    /// [`SurrogateError::Data`] when a feature does not vary.
+    pub fn check(&self) -> Result<(), SurrogateError> {
+        let ranges = [
+            ("porosity", self.porosity),
+            ("fabric_index", self.fabric_index),
+            ("pressure", self.pressure),
+            ("fabric_conductivity", self.fabric_conductivity),
+            ("stress ratio", self.stress_ratio),
+            ("thermal_strain", self.thermal_strain),
+        ];
+        match ranges.iter().find(|(_, range)| !(range.width() > 0.0 && range.width().is_finite())) {
+            None => Ok(()),
+            Some((key, _)) => Err(SurrogateError::Data(format!("{key} is the same in all training states"))),
+        }
+    }
+
+    /// A state as a point of the region: η, √p̃ and the odd features, scaled but not clamped.
+    pub fn coordinates(&self, variables: Variables, state: &[f64; MAX_STATE]) -> [f64; MAX_STATE] {
+        let on = |value: f64, range: Range| {
+            (value - 0.5 * (range.min + range.max)) / (0.5 * range.width()).max(f64::MIN_POSITIVE)
+        };
+        let root = Range { min: 0.0, max: self.pressure.max.sqrt() };
+        let pressure = state[PRESSURE].max(0.0);
+        let mut point = [0.0; MAX_STATE];
+        point[POROSITY] = on(state[POROSITY], self.porosity);
+        point[FABRIC_INDEX] = on(state[FABRIC_INDEX], self.fabric_index);
+        point[PRESSURE] = on(pressure.sqrt(), root);
+        if let Some(column) = variables.fabric_conductivity() {
+            point[column] = on(state[column], self.fabric_conductivity);
+        }
+        if let Some(column) = variables.deviator() {
+            point[column] = on(stress_ratio(state[column], pressure), self.stress_ratio);
+        }
+        point
+    }
+}
+
+/// Clamped to the range and brought to [-1, 1].
+#[inline(always)]
+fn scaled(values: &Lanes, range: Range) -> Lanes {
+    let (middle, half) = (0.5 * (range.min + range.max), (0.5 * range.width()).max(f64::MIN_POSITIVE));
+    values.map(|value| (range.clamp(value) - middle) / half)
+}

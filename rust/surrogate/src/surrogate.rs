@@ -1,0 +1,164 @@
+//! What every surrogate model can do. A model is immutable once made and may be asked from several threads.
+
+use crate::kernel::{LANES, Lanes};
+use crate::mechanics::Mechanics;
+use crate::state::variables::ConductivityKind;
+use crate::training::TrainingOptions;
+use crate::wall_friction::WallFriction;
+
+/// Most state variables of any model.
+pub const MAX_STATE: usize = 6;
+
+/// State columns of a block of eight cells; those beyond the model's [`Surrogate::state_names`] are zero.
+pub type StateLanes = [Lanes; MAX_STATE];
+
+/// What is known of a cell at the start. The stress is reduced: σ ℓ/(E r̄), ℓ = 1 m, compression positive.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Known {
+    /// η [-], overlaps counted once.
+    pub porosity: f64,
+    /// f = F_xx − F_yy [-].
+    pub fabric_index: f64,
+    /// (K_xx − K_yy)/(K_xx + K_yy) [-].
+    pub fabric_conductivity: Option<f64>,
+    /// σ_xx, σ_yy [-].
+    pub reduced_stress: Option<[f64; 2]>,
+}
+
+/// Answer for a block of eight cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// State after the strain; equal to the state before, bit for bit, for zero strain and a state the model allows.
+    pub state: StateLanes,
+    /// K_xx/k, K_yy/k [-] of the state after; above zero.
+    pub conductivity: [Lanes; 2],
+    /// σ_xx ℓ/(E r̄), σ_yy ℓ/(E r̄) [-] of the state after, compression positive, never below zero.
+    pub stress: [Lanes; 2],
+    /// Per state column, then for the strain: how far outside the trained range, in the column's own unit, negative
+    /// below and positive above; 0 inside. The model used the range's end instead.
+    pub outside: [Lanes; MAX_STATE + 1],
+}
+
+impl Answer {
+    /// Whether a lane's inputs all lay in the trained range.
+    pub fn inside(&self, lane: usize) -> bool {
+        self.outside.iter().all(|column| column[lane] == 0.0)
+    }
+}
+
+/// How far to believe the answer for a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Doubt {
+    /// How far outside the convex region of the training states, in half widths of the trained range; 0 inside.
+    pub beyond_hull: f64,
+    /// Distance to the nearest training states over the spacing that those have themselves; above 1 lie holes.
+    pub distance: f64,
+    /// Relative standard deviation of K between packings of equal state [-].
+    pub conductivity_spread: f64,
+    /// Standard deviation between packings of equal state of dp̃/dε [-], the growth of the reduced pressure.
+    pub pressure_rate_spread: f64,
+}
+
+/// A surrogate of granular RVEs: state and thermal strain in, state, conductivity and stress out.
+pub trait Surrogate: Send + Sync {
+    /// Name of the kind of model in [`crate::models::MODELS`].
+    fn kind(&self) -> &'static str;
+    /// Name given at the training.
+    fn name(&self) -> &str;
+    /// How it was trained: the seed tells which packings it never saw, the provenance of which database.
+    fn training(&self) -> &TrainingOptions;
+    /// The kind of conductivity that it answers with.
+    fn conductivity_kind(&self) -> ConductivityKind {
+        ConductivityKind::Affine
+    }
+    /// Mechanical tangent, if the database had wall-strain ramps.
+    fn mechanics(&self) -> Option<&Mechanics> {
+        None
+    }
+    /// Wall friction, if the database had wall-shear runs.
+    fn wall_friction(&self) -> Option<&WallFriction> {
+        None
+    }
+    /// SHA-256 of the model's file, 64 hexadecimal digits.
+    fn hash(&self) -> &str;
+    /// Text of the model file; reading it gives this model, bit for bit.
+    fn to_json(&self) -> String;
+    /// Names of the state columns, in order; at most [`MAX_STATE`]. The first two are porosity and fabric_index.
+    fn state_names(&self) -> &[&'static str];
+    /// The state of a cell of which no more may be known than η and f: what is missing is the mean of the training's
+    /// packed states.
+    fn initial_state(&self, known: &Known) -> [f64; MAX_STATE];
+    /// Evaluates eight cells: `strain` is the radial thermal strain relative to the current radii (above −1). Finite
+    /// inputs give finite answers; a lane's answer depends on that lane alone.
+    fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer;
+    /// Doubt about one cell's answer; `None` when the model carries no such data. Slower than an evaluation.
+    fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt>;
+    /// Sum-of-areas solid fraction [-] of a packed state of this porosity.
+    fn solid_fraction(&self, porosity: f64) -> f64;
+
+    /// Evaluates one cell; same bits as in any block.
+    fn evaluate(&self, state: &[f64; MAX_STATE], strain: f64) -> Answer {
+        self.block(&state.map(|value| [value; LANES]), &[strain; LANES])
+    }
+}
+
+/// A batch of cells as columns. Optional outputs are written when given.
+pub struct Batch<'a> {
+    /// Thermal strain of each cell [-].
+    pub strain: &'a [f64],
+    /// A column for each of the model's state names.
+    pub state: &'a [&'a [f64]],
+    /// Columns for the state after.
+    pub next_state: &'a mut [&'a mut [f64]],
+    /// K_xx/k, K_yy/k.
+    pub conductivity: Option<[&'a mut [f64]; 2]>,
+    /// σ_xx, σ_yy, reduced.
+    pub stress: Option<[&'a mut [f64]; 2]>,
+    /// Per state name and then for the strain: as [`Answer::outside`].
+    pub outside: Option<&'a mut [&'a mut [f64]]>,
+}
+
+/// Evaluates a batch; returns the number of cells outside the trained range. A cell's answer depends neither on its
+/// place nor on the size of the batch.
+///
+/// # Panics
+/// When columns are missing or differ in length from `strain`.
+pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
+    let names = model.state_names().len();
+    assert!(batch.state.len() == names && batch.next_state.len() == names, "{names} state columns");
+    let cells = batch.strain.len();
+    let mut count = 0;
+    for first in (0..cells).step_by(LANES) {
+        let here = first..cells.min(first + LANES);
+        let lanes = |column: &[f64]| -> Lanes {
+            let part = &column[here.clone()];
+            std::array::from_fn(|lane| part[lane.min(part.len() - 1)])
+        };
+        let mut state = [[0.0; LANES]; MAX_STATE];
+        for (lanes_of, column) in state.iter_mut().zip(batch.state) {
+            *lanes_of = lanes(column);
+        }
+        let answer = model.block(&state, &lanes(batch.strain));
+        let write = |column: &mut [f64], lanes: &Lanes| {
+            column[here.clone()].copy_from_slice(&lanes[..here.len()]);
+        };
+        for (column, lanes) in batch.next_state.iter_mut().zip(&answer.state) {
+            write(column, lanes);
+        }
+        for (columns, values) in
+            [(&mut batch.conductivity, &answer.conductivity), (&mut batch.stress, &answer.stress)]
+        {
+            for (column, lanes) in columns.iter_mut().flatten().zip(values) {
+                write(column, lanes);
+            }
+        }
+        if let Some(columns) = &mut batch.outside {
+            let strain = &answer.outside[MAX_STATE];
+            for (column, lanes) in columns.iter_mut().zip(answer.outside[..names].iter().chain([strain])) {
+                write(column, lanes);
+            }
+        }
+        count += (0..here.len()).filter(|lane| !answer.inside(*lane)).count();
+    }
+    count
+}
