@@ -16,7 +16,7 @@ fn packing_meets_the_target_and_the_compression_shows() {
     assert_eq!(horizontal.settled.outcome, Outcome::Settled);
     let porosity = msdd_rve::area::porosity_of_box(&horizontal.simulation);
     assert!((porosity - 0.12).abs() < 2e-3, "{porosity}");
-    let averages = homogenise(&horizontal.simulation, RegionKind::Hull);
+    let averages = homogenise(&horizontal.simulation, RegionKind::default());
     assert!(averages.stress_xx > 1.1 * averages.stress_yy, "{averages:?}");
     assert!(averages.conductivity_xx > averages.conductivity_yy && averages.fabric_index > 0.0);
 }
@@ -24,7 +24,7 @@ fn packing_meets_the_target_and_the_compression_shows() {
 #[test]
 fn expansion_obeys_the_mass_law_and_stiffens() {
     let packed = pack(&spec(Compression::Isotropic), &Material::default()).unwrap();
-    let start = homogenise(&packed.simulation, RegionKind::Hull);
+    let start = homogenise(&packed.simulation, RegionKind::default());
     let up = expand(&packed, &[0.005, 0.01, 0.03]).unwrap().stops;
     let down = expand(&packed, &[-0.005, -0.01]).unwrap().stops;
     for stop in up.iter().chain(&down) {
@@ -71,7 +71,7 @@ fn bad_input_names_key_value_and_range() {
 #[test]
 fn wall_strain_follows_its_path() {
     let packed = pack(&spec(Compression::Isotropic), &Material::default()).unwrap();
-    let start = homogenise(&packed.simulation, RegionKind::Hull);
+    let start = homogenise(&packed.simulation, RegionKind::default());
     let after = |strains: Strains| {
         let mut simulation = packed.simulation.clone();
         let ramp = follow(&mut simulation, &[strains], Protocol::default(), |_, _| ()).unwrap();
