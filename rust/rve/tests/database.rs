@@ -172,7 +172,9 @@ fn failures_are_rows() {
     assert!(failed.iter().all(|r| sound(&r.failure) && r.porosity.is_none()), "{failed:?}");
     // The way back cannot be made without the way there.
     let back = failed.iter().find(|r| r.ramp == RampName::UpDown).expect("some ramp has failed");
-    assert!(records.iter().any(|r| r.packing == back.packing && r.ramp == RampName::Up && r.failure.is_some()));
+    assert!(
+        records.iter().any(|r| r.packing == back.packing && r.ramp == RampName::Up && r.failure.is_some())
+    );
 }
 
 #[test]
