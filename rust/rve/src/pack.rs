@@ -222,7 +222,7 @@ mod tests {
                     pack_as(&spec(compression), &preparation, &Material::default()).unwrap().simulation.walls;
                 let off = walls.width() / walls.height() / aspect - 1.0;
                 // Overlaps, which the start cannot know, are packed away by the moving walls.
-                assert!(off.abs() < 0.03, "{compression:?} {aspect}: {off}");
+                assert!(off.abs() < 0.06, "{compression:?} {aspect}: {off}");
             }
         }
     }
