@@ -140,7 +140,7 @@ fn plan_laws(dataset: &Dataset) -> Vec<Violation> {
         Ok(plan) => plan,
         Err(error) => return vec![violation("provenance".to_string(), "has a plan", &error.to_string())],
     };
-    let shard = dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or_default();
+    let shard: Shard = dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or_default();
     let jobs: Vec<_> = plan.jobs().into_iter().filter(|job| shard.holds(job.packing)).collect();
     let seeds: BTreeMap<i64, u64> = jobs.iter().map(|job| (job.packing, job.spec.seed)).collect();
     let expected: BTreeSet<_> = jobs
