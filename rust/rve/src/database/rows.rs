@@ -90,7 +90,10 @@ impl Walk<'_> {
             },
         };
         // Strains count from the state where the path starts.
-        let strain = |place: &Place| Strains::thermal((1.0 + place.strains.thermal) / (1.0 + turn) - 1.0);
+        let strain = |place: &Place| match ramp.starts_from() {
+            None => place.strains,
+            Some(_) => Strains::thermal((1.0 + place.strains.thermal) / (1.0 + turn) - 1.0),
+        };
         let path: Vec<Strains> = stops.iter().map(strain).collect();
         let result = follow(&mut simulation, &path, self.protocol(), |_, _| ());
         let records = self.records(stops, &result, &[]);

@@ -60,12 +60,17 @@ fn row_laws(record: &Record, packed: Option<&Record>) -> Found {
     found
 }
 
+/// Also false for NaN.
+fn within(off: f64, tolerance: f64) -> bool {
+    off.abs() <= tolerance
+}
+
 /// Grains keep their mass: (1 − η_sum)(1 + ε_xx)(1 + ε_yy) = (1 − η_sum⁰)(1 + ε)².
 fn mass_law(record: &Record, state: &State, initial: &State) -> Option<(&'static str, String)> {
     let now = (1.0 - state.porosity_sum) * (1.0 + record.strain_xx) * (1.0 + record.strain_yy);
     let law = (1.0 - initial.porosity_sum) * (1.0 + record.strain).powi(2);
     let off = now - law;
-    (!(off.abs() <= TOLERANCE)).then(|| ("mass", format!("off by {off:.3e}")))
+    (!within(off, TOLERANCE)).then(|| ("mass", format!("off by {off:.3e}")))
 }
 
 /// The averages that the laws speak of.
@@ -119,7 +124,7 @@ impl State {
             ("K is positive", kxx >= 0.0 && kyy >= 0.0, kxx.min(kyy)),
             ("K is positive", kxx * kyy - kxy * kxy >= -TOLERANCE * size * size, kxx * kyy - kxy * kxy),
         ];
-        let off = off.into_iter().filter(|(_, off, scale)| !(off.abs() <= 4.0 * TOLERANCE * scale));
+        let off = off.into_iter().filter(|(_, off, scale)| !within(*off, 4.0 * TOLERANCE * scale));
         let holds = holds.into_iter().filter(|(_, holds, _)| !holds);
         off.map(|(law, off, _)| (law, format!("off by {off:.3e}")))
             .chain(holds.map(|(law, _, value)| (law, value.to_string())))
@@ -135,8 +140,7 @@ fn plan_laws(dataset: &Dataset) -> Vec<Violation> {
         Ok(plan) => plan,
         Err(error) => return vec![violation("provenance".to_string(), "has a plan", &error.to_string())],
     };
-    let shard =
-        dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or(Shard::default());
+    let shard: Shard = dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or_default();
     let jobs: Vec<_> = plan.jobs().into_iter().filter(|job| shard.holds(job.packing)).collect();
     let seeds: BTreeMap<i64, u64> = jobs.iter().map(|job| (job.packing, job.spec.seed)).collect();
     let expected: BTreeSet<_> = jobs

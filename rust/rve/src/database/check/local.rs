@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn plane_and_scatter_are_found() {
         let inputs: Vec<[f64; 2]> = (0..400).map(|k| [f64::from(k % 20), 0.1 * f64::from(k / 20)]).collect();
-        let noise = |k: usize| if (k * 7919 + k / 20) % 2 == 0 { 0.01 } else { -0.01 };
+        let noise = |k: usize| if (k * 7919 + k / 20).is_multiple_of(2) { 0.01 } else { -0.01 };
         let output: Vec<f64> =
             inputs.iter().enumerate().map(|(k, [a, b])| 3.0 + 2.0 * a - b + noise(k)).collect();
         let (value, variance) = Points { inputs: &inputs, output: &output }.fit([7.3, 0.85]).unwrap();

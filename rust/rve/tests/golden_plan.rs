@@ -1,0 +1,43 @@
+//! Guards the engine version: whoever changes what a plan gives, has to raise it.
+
+use msdd_rve::database::{ENGINE_VERSION, Plan, Run, generate, read};
+use std::path::Path;
+
+const PLAN: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 11\n\
+    [[thermal]]\ndiscs = 40\nporosities = [0.12]\ncompressions = [\"horizontal\"]\nrepeats = 1\n\
+    ramps = [\"up\", \"down\", \"up_down\"]\nstops = [0.01]\n\
+    [[mechanics]]\ndiscs = 40\nporosities = [0.12]\ncompressions = [\"intermediate\"]\n\
+    packing_friction_angles = [0.3]\nrepeats = 1\nramps = [\"yy\"]\nstops = [0.01]\n\
+    [[wall_shear]]\ndiscs = 40\nporosities = [0.12]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.001]\n";
+
+/// Version, and pressure, conductivity and steps of each row as that version gives them.
+const GOLDEN: (i64, &str) = (
+    3,
+    "\
+packed 0 5.99847e3 5.78923e-1 3846
+up 1 6.66353e3 6.12847e-1 671
+down 1 5.35491e3 5.40657e-1 1440
+up_down 1 5.99847e3 5.78923e-1 1235
+packed 0 5.01185e3 4.81588e-1 2556
+yy -1 5.23876e3 4.90594e-1 862
+yy 1 4.46023e3 4.33545e-1 1359
+packed 0 4.35135e3 3.89764e-1 2858
+wall_shear 1 4.41345e3 3.95241e-1 1170
+",
+);
+
+#[test]
+fn other_results_need_another_engine_version() {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden.msdd");
+    let _ = std::fs::remove_file(&path);
+    generate(&Plan::parse(PLAN, "plan").unwrap(), &path, &Run::default(), |_| ()).unwrap();
+    let mut found = String::new();
+    for r in read(&path).unwrap().records {
+        let (pressure, conductivity) = (r.pressure.unwrap(), r.conductivity_xx.unwrap());
+        found += &format!("{} {} {pressure:.5e} {conductivity:.5e} {}\n", r.ramp.as_str(), r.stop, r.steps);
+    }
+    assert!(
+        (ENGINE_VERSION, found.as_str()) == GOLDEN,
+        "version {ENGINE_VERSION} now gives\n{found}Where results changed on purpose, raise ENGINE_VERSION and put both here."
+    );
+}
