@@ -1,9 +1,12 @@
-"""Expansion of a packed state in YADE, an independent engine with our pair law (see yade_state.py).
+"""Straining of a packed state in YADE, an independent engine with our pair law (see yade_state.py).
 
-    yade -n -x -j1 tests/engines/yade_expand.py STATE OUT_PREFIX STRAIN [STRAIN ...]
+    yade -n -x -j1 tests/engines/yade_expand.py STATE OUT_PREFIX STOP [STOP ...]
 
-Reads a state file, grows the radii on one ramp, r = r0 (1 + strain), at constant mass, relaxes at each stop, and writes
-the state there to OUT_PREFIX<STRAIN>.json, for `msdd rve homogenise`. Prints one line a stop.
+Reads a state file, follows one ramp, relaxes at each stop, and writes the state there to OUT_PREFIX<STOP>.json, for `msdd
+rve homogenise`. Prints one line a stop. All stops of a ramp are of one kind:
+  0.01      radii, r = r0 (1 + 0.01), at constant mass
+  xx=-0.01  extension of the box along x; both walls move by half of it
+  slide=2   the top wall slides by +2 mm along x, the bottom wall by -2 mm
 """
 
 import json
@@ -17,7 +20,7 @@ from yade import utils
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import yade_state
 
-RATE = 0.02  # 1/s
+RATE = 0.02  # 1/s; sliding walls: of 2 u/height, u the way of each
 TIME_STEP = 2e-4  # s; the bound is 0.8e-3 or more for radii of 3 to 7 mm and E = 10 MPa
 UNBALANCED_LIMIT = 1e-5  # mean resultant over mean normal force; msdd stops at 1e-4
 LOOK_EVERY = 500
@@ -32,13 +35,56 @@ class Ramp:
         self.start, self.stop, self.strain, self.done = start, stop, start, 0
         self.steps = max(1, math.ceil(abs(stop - start) / (RATE * TIME_STEP)))
 
-    def grow(self):
+    def begin(self):
+        pass
+
+    def end(self):
+        pass
+
+    def step(self):
         if self.done < self.steps:
             self.done += 1
             strain = self.start + (self.stop - self.start) * self.done / self.steps
             # Multiplies kn and ks of the contacts there are as well; contacts to come see the new radii.
             utils.growParticles((1.0 + strain) / (1.0 + self.strain), updateMass=False, dynamicOnly=True)
             self.strain = strain
+
+
+class WallRamp:
+    """Moves walls at constant speed, both by half of (stop - start) times `length`, apart when that is positive. `walls`
+    are the bodies that move to lower and to higher x."""
+
+    def __init__(self, walls, length, start, stop):
+        self.walls = walls
+        self.steps = max(1, math.ceil(abs(stop - start) / (RATE * TIME_STEP)))
+        self.speed = 0.5 * (stop - start) * length / (self.steps * TIME_STEP)
+
+    def begin(self):
+        for wall, sense in zip(self.walls, (-1, 1)):
+            O.bodies[wall].state.vel = (sense * self.speed, 0, 0)
+
+    def end(self):
+        for wall in self.walls:
+            O.bodies[wall].state.vel = (0, 0, 0)
+
+    def step(self):
+        pass
+
+
+def make_ramp(state, ids, before, after):
+    """The ramp from stop `before` (none: the packed state) to `after`."""
+    kind, _, value = after.rpartition("=")
+    start, stop = float(before.rpartition("=")[2] or 0.0), float(value)
+    box = state["box"]
+    if kind == "":
+        return Ramp(start, stop)
+    if kind == "xx":
+        return WallRamp((ids[-1], ids[-2]), box["x_max"] - box["x_min"], start, stop)
+    if kind == "slide":
+        height = box["y_max"] - box["y_min"]
+        start, stop = (2e-3 * way / height for way in (start, stop))
+        return WallRamp((ids[-3], ids[-4]), height, start, stop)
+    sys.exit("unknown kind of stop: " + after)
 
 
 def calm_rattlers():
@@ -67,25 +113,27 @@ def unbalanced_force():
     return sum(resultants) / len(resultants) * len(normal) / max(sum(normal), 1e-300)
 
 
-def main(state_file, prefix, *strains):
+def main(state_file, prefix, *stops):
     global ramp
     with open(state_file) as file:
         state = json.load(file)
     ids = yade_state.load(state)
-    runners = PyRunner(command="ramp.grow()", iterPeriod=1), PyRunner(command="calm_rattlers()", iterPeriod=50)
+    runners = PyRunner(command="ramp.step()", iterPeriod=1), PyRunner(command="calm_rattlers()", iterPeriod=50)
     # Bounding boxes follow the radii at every step.
     yade_state.set_engines(TIME_STEP, *runners, verletDist=0)
     yade_state.set_contacts(state, ids)
-    reached = 0.0
-    for text in strains:
-        ramp = Ramp(reached, float(text))
+    reached = ""
+    for stop in stops:
+        ramp = make_ramp(state, ids, reached, stop)
+        ramp.begin()
         O.run(ramp.steps, True)
+        ramp.end()
         steps, unbalanced = relax()
         yade_state.check_stiffness(state, ids)
-        reached = float(text)
-        with open("%s%s.json" % (prefix, text), "w") as file:
+        reached = stop
+        with open("%s%s.json" % (prefix, stop), "w") as file:
             json.dump(yade_state.written(state, ids), file, separators=(",", ":"))
-        print("yade: strain %s, %d steps to %.1e out of balance" % (text, ramp.steps + steps, unbalanced), flush=True)
+        print("yade: stop %s, %d steps to %.1e out of balance" % (stop, ramp.steps + steps, unbalanced), flush=True)
 
 
 main(*sys.argv[1:])

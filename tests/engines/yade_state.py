@@ -124,8 +124,11 @@ def written(state, ids):
         "mass": [rounded(body.state.mass) for body in grains],
     }
     contacts = dict(zip(("i", "j", "tangential_force"), map(list, zip(*rows)))) if rows else {}
-    head = {key: state[key] for key in ("schema", "material", "box")}
-    return {**head, "particles": columns, **({"contacts": contacts} if contacts else {})}
+    head = {key: state[key] for key in ("schema", "material")}
+    # Along the normal, so that walls that slid are where they were.
+    sides = {-1: "x_min", -2: "x_max", -3: "y_min", -4: "y_max"}
+    box = {side: rounded(O.bodies[ids[key]].state.pos[WALLS[key][0]]) for key, side in sides.items()}
+    return {**head, "box": box, "particles": columns, **({"contacts": contacts} if contacts else {})}
 
 
 def rounded(value):

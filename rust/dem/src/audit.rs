@@ -17,9 +17,11 @@
 //!
 //! Why means of two steps: a force acts along v̄, but contacts deform by v in the step before and by v' in this one;
 //! only so do the terms add up (summation by parts; with the forces of one step alone the error of a jammed heap is 2 to
-//! 6 times as large). Kinetic energy is accounted for exactly. What is left is first order in Δt: ½ Δt times the power of
-//! the contact forces at both ends of the run, where symplectic Euler conserves a neighbouring energy, and contacts that
-//! open, close or turn within a step: a gas of colliding discs closes less well than a packing.
+//! 6 times as large). Kinetic energy is accounted for exactly, and what is stored is taken with
+//! positions, velocities and friction springs at one time (`Simulation::synchronised_energy`). What is left is second
+//! order in Δt: contacts that open, close or turn within a step, so that a gas of colliding discs closes less well than a
+//! packing. A change of Δt on the way adds half of the change times the power of the contact forces: choose the step
+//! before [`EnergyAudit::new`].
 //!
 //! Affine motion ([`Simulation::affine`]) does work that is not counted here: the audit does not close with it.
 
@@ -76,6 +78,8 @@ struct Strained {
     tangential: [f64; 2],
     /// u [m], of j relative to i along t.
     slip: f64,
+    /// Velocity of j relative to i along n and t [m/s], that of walls left out.
+    speed: [f64; 2],
 }
 
 impl Strained {
@@ -88,6 +92,12 @@ impl Strained {
             return normal;
         }
         normal + 0.5 * tangential * tangential / (stiffness_ratio * self.stiffness)
+    }
+
+    /// P_n − P_t [W], see `Simulation::synchronised_energy`.
+    fn power(&self) -> f64 {
+        let [along_n, along_t] = self.speed;
+        self.stiffness * self.overlap.max(0.0) * along_n - self.tangential[1] * along_t
     }
 
     /// Energy lost to friction in the step [J]. Zero up to round-off when the contact sticks.
@@ -132,7 +142,7 @@ impl BoundaryForces {
 
 impl EnergyAudit {
     pub fn new(simulation: &Simulation) -> Self {
-        let stored = simulation.elastic_energy() + simulation.kinetic_energy();
+        let stored = simulation.synchronised_energy();
         let mut forces = BoundaryForces::new(simulation.discs.len());
         let ratio = simulation.material.stiffness_ratio;
         simulation.for_each_strained(&simulation.start(), |contact| forces.add(&contact, ratio));
@@ -142,7 +152,7 @@ impl EnergyAudit {
     /// Work done on the grains, less all losses, less what is stored more than at the beginning [J]: 0 up to the
     /// error of the time integration.
     pub fn residual(&self, simulation: &Simulation) -> f64 {
-        let gained = simulation.elastic_energy() + simulation.kinetic_energy() - self.stored;
+        let gained = simulation.synchronised_energy() - self.stored;
         self.walls + self.growth - self.damping - self.drag - self.friction - gained
     }
 
@@ -203,6 +213,17 @@ impl Simulation {
         sum
     }
 
+    /// Elastic and kinetic energy at one and the same time [J].
+    ///
+    /// Symplectic Euler is the leapfrog scheme: v belongs to half a step before x, and f_t, which adds up v Δt, to a step
+    /// before x. With the powers P_n = f_n n·v and P_t = f_t t·v of the contact forces, kinetic energy at x is ½ Δt
+    /// (P_n + P_t) more, and ½ f_t²/s_t at x is Δt P_t less than what the state holds: ½ Δt (P_n − P_t) in all.
+    fn synchronised_energy(&self) -> f64 {
+        let mut power = 0.0;
+        self.for_each_strained(&self.start(), |contact| power += contact.power());
+        self.elastic_energy() + self.kinetic_energy() + 0.5 * self.time_step * power
+    }
+
     /// [`Simulation::step`], bit for bit, with its energies added to `audit`. Several times as expensive.
     pub fn step_audited(&mut self, audit: &mut EnergyAudit) {
         let start = self.start();
@@ -240,6 +261,7 @@ impl Simulation {
             let overlap = ra + rb - distance;
             let arms = (ra - 0.5 * overlap) * a.angular_velocity + (rb - 0.5 * overlap) * b.angular_velocity;
             let speed = ((b.vy - a.vy) * dx - (b.vx - a.vx) * dy) / distance - arms;
+            let apart = ((b.vx - a.vx) * dx + (b.vy - a.vy) * dy) / distance;
             let reach = ra + rb;
             visit(Strained {
                 i: Ok(i as usize),
@@ -249,6 +271,7 @@ impl Simulation {
                 slope: [rb / reach, ra / reach].map(|share| 2.0 * young_modulus * share * share),
                 tangential: [start.pairs.tangential_of(i as usize, j), pairs.tangential[k]],
                 slip: speed * dt,
+                speed: [apart, speed],
             });
         }
         for side in Side::ALL {
@@ -273,6 +296,10 @@ impl Simulation {
                 slope: [0.0, factor * young_modulus],
                 tangential: [start.walls[side as usize].tangential_of(i), tangential],
                 slip: speed * self.time_step,
+                speed: [
+                    disc.vx * nx + disc.vy * ny,
+                    disc.vy * nx - disc.vx * ny - distance * disc.angular_velocity,
+                ],
             });
         }
     }

@@ -71,7 +71,8 @@ impl Sums {
         let strength = weight * chord(radii, dx.hypot(dy)) * dx.hypot(dy);
         self.conductance[0] += strength * nx * nx;
         self.conductance[1] += strength * ny * ny;
-        self.conductance[2] += strength * nx * ny;
+        // Brackets: the same bits, up to the sign, after a quarter turn.
+        self.conductance[2] += strength * (nx * ny);
         let [fx, fy] = contact.force();
         for (sum, moment) in self.stress.iter_mut().zip([dx * fx, dy * fy, dx * fy, dy * fx]) {
             *sum += weight * moment;

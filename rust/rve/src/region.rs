@@ -69,10 +69,17 @@ impl Polygon {
         self.corners.iter().zip(next).map(|(&a, &b)| (a, b))
     }
 
-    /// Area [m²].
+    /// Area [m²]. Triangles from the middle of the bounding box, summed by size: the same to the last bit whichever corner
+    /// comes first, and after a quarter turn.
     pub fn area(&self) -> f64 {
-        let Some(&origin) = self.corners.first() else { return 0.0 };
-        0.5 * self.edges().map(|(a, b)| cross(origin, a, b)).sum::<f64>()
+        let Some(&first) = self.corners.first() else { return 0.0 };
+        let (low, high) = self.corners.iter().fold((first, first), |(low, high), c| {
+            ([low[0].min(c[0]), low[1].min(c[1])], [high[0].max(c[0]), high[1].max(c[1])])
+        });
+        let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+        let mut triangles: Vec<f64> = self.edges().map(|(a, b)| cross(middle, a, b)).collect();
+        triangles.sort_by(f64::total_cmp);
+        0.5 * triangles.iter().sum::<f64>()
     }
 
     pub fn contains(&self, point: [f64; 2]) -> bool {

@@ -2,8 +2,8 @@
 
 use msdd_dem::{Disc, Side, Walls};
 use msdd_rve::{
-    Averages, Compression, Material, Outcome, Packed, PackingSpec, RegionKind, Simulation, expand,
-    homogenise, pack,
+    Averages, Compression, Material, Outcome, Packed, PackingSpec, Rates, RegionKind, Simulation, Strains,
+    expand, follow, homogenise, pack,
 };
 
 const KINDS: [RegionKind; 2] = [RegionKind::Hull, RegionKind::Inset];
@@ -52,33 +52,34 @@ fn close(name: &str, value: f64, expected: f64, scale: f64) {
     assert!((value - expected).abs() <= 1e-12 * scale, "{name}: {value} {expected}");
 }
 
-/// A quarter turn permutes the averages. What is a sum over contacts alone is the same to the last bit, for contacts
-/// keep their order; what is divided by an area agrees to round-off, for the corners of the region come in another one.
+/// A quarter turn permutes the averages, to the last bit: contacts keep their order, and the area of the region does not
+/// depend on which of its corners comes first. Porosity alone agrees to round-off: the free arcs of a disc are angles that
+/// count from the x axis, and what is near 0 in one frame is near 3π/2 in the other.
 #[test]
 fn quarter_turn_permutes_the_averages() {
     let state = packed(Compression::Horizontal, &Material::default()).simulation;
     let image = turned(&state);
     for kind in KINDS {
         let (a, b) = (homogenise(&state, kind), homogenise(&image, kind));
-        assert_eq!((a.contacts, a.rattlers, a.coordination), (b.contacts, b.rattlers, b.coordination));
         assert!(a.conductivity_xx > 1.05 * a.conductivity_yy, "nothing to permute: {a:?}");
-        assert_eq!(b.fabric_index, -a.fabric_index);
-        assert_eq!(a.mean_radius, b.mean_radius);
         close("porosity", b.porosity, a.porosity, 1.0);
-        close("sum of areas", b.porosity_sum_of_areas, a.porosity_sum_of_areas, 1.0);
         close("overlap", b.overlap_fraction, a.overlap_fraction, 1.0);
-        close("f_K", b.fabric_conductivity, -a.fabric_conductivity, 1.0);
-        close("K_xx", b.conductivity_xx, a.conductivity_yy, 1.0);
-        close("K_yy", b.conductivity_yy, a.conductivity_xx, 1.0);
-        close("K_xy", b.conductivity_xy, -a.conductivity_xy, 1.0);
         close("network K_xx", b.conductivity_network_xx, a.conductivity_network_yy, 1.0);
         close("network K_yy", b.conductivity_network_yy, a.conductivity_network_xx, 1.0);
         close("network K_xy", b.conductivity_network_xy, -a.conductivity_network_xy, 1.0);
-        close("σ_xx", b.stress_xx, a.stress_yy, a.pressure);
-        close("σ_yy", b.stress_yy, a.stress_xx, a.pressure);
-        close("σ_xy", b.stress_xy, -a.stress_yx, a.pressure);
-        close("σ_yx", b.stress_yx, -a.stress_xy, a.pressure);
-        close("p", b.pressure, a.pressure, a.pressure);
+        let mut expected = a;
+        (expected.porosity, expected.overlap_fraction) = (b.porosity, b.overlap_fraction);
+        // An iteration gives these, so they agree to its tolerance only.
+        expected.conductivity_network_xx = b.conductivity_network_xx;
+        expected.conductivity_network_yy = b.conductivity_network_yy;
+        expected.conductivity_network_xy = b.conductivity_network_xy;
+        expected.fabric_index = -a.fabric_index;
+        expected.fabric_conductivity = -a.fabric_conductivity;
+        (expected.conductivity_xx, expected.conductivity_yy) = (a.conductivity_yy, a.conductivity_xx);
+        expected.conductivity_xy = -a.conductivity_xy;
+        (expected.stress_xx, expected.stress_yy) = (a.stress_yy, a.stress_xx);
+        (expected.stress_xy, expected.stress_yx) = (-a.stress_yx, -a.stress_xy);
+        assert_eq!(b, expected);
     }
 }
 
@@ -96,41 +97,104 @@ fn four_quarter_turns_are_none() {
     assert_eq!(contacts(&image), contacts(&state));
 }
 
-/// Twice the size. With lengths doubled and the density halved, masses double, stiffnesses double, forces are four times
-/// as large, speeds double and the time step stays: every number of the run is multiplied by a power of two.
-fn doubled(simulation: &Simulation) -> Simulation {
-    let material = Material { density: 0.5 * simulation.material.density, ..simulation.material.clone() };
+/// `size` times as large, at `density` times the density. Stiffnesses grow with `size`, forces with its square, masses with
+/// density · size², so times with √(density · size) and strain rates with its inverse.
+fn scaled(simulation: &Simulation, size: f64, density: f64) -> Simulation {
+    let material = Material { density: density * simulation.material.density, ..simulation.material.clone() };
+    let time = (density * size).sqrt();
+    let speed = size / time;
     let walls = Walls {
-        position: simulation.walls.position.map(|x| 2.0 * x),
-        normal_velocity: simulation.walls.normal_velocity.map(|v| 2.0 * v),
-        tangential_velocity: simulation.walls.tangential_velocity.map(|v| 2.0 * v),
+        position: simulation.walls.position.map(|x| size * x),
+        normal_velocity: simulation.walls.normal_velocity.map(|v| speed * v),
+        tangential_velocity: simulation.walls.tangential_velocity.map(|v| speed * v),
     };
     let disc = |d: &Disc| Disc {
-        x: 2.0 * d.x,
-        y: 2.0 * d.y,
-        radius: 2.0 * d.radius,
-        vx: 2.0 * d.vx,
-        vy: 2.0 * d.vy,
-        mass: 2.0 * d.mass,
+        x: size * d.x,
+        y: size * d.y,
+        radius: size * d.radius,
+        vx: speed * d.vx,
+        vy: speed * d.vy,
+        angular_velocity: d.angular_velocity / time,
+        mass: density * size * size * d.mass,
         ..*d
     };
-    mapped(simulation, material, walls, disc, |side| side, 4.0)
+    let mut image = mapped(simulation, material, walls, disc, |side| side, size * size);
+    image.time_step *= time;
+    image.free_drag /= time;
+    image
+}
+
+/// Twice the size at half the density: the time step stays, and every number of a run is multiplied by a power of two.
+fn doubled(simulation: &Simulation) -> Simulation {
+    scaled(simulation, 2.0, 0.5)
+}
+
+/// What [`Averages`] become at `size` times the size: K/k, η and f stay, σ/E and r̄ grow with it.
+fn enlarged(averages: &Averages, size: f64) -> Averages {
+    let mut large = *averages;
+    for stress in [
+        &mut large.stress_xx,
+        &mut large.stress_yy,
+        &mut large.stress_xy,
+        &mut large.stress_yx,
+        &mut large.pressure,
+        &mut large.mean_radius,
+    ] {
+        *stress *= size;
+    }
+    large
 }
 
 /// K/k, η and f stay and σ/E doubles, to the last bit.
 fn assert_doubled(small: &Averages, large: &Averages) {
-    let mut expected = *small;
-    for stress in [
-        &mut expected.stress_xx,
-        &mut expected.stress_yy,
-        &mut expected.stress_xy,
-        &mut expected.stress_yx,
-        &mut expected.pressure,
-        &mut expected.mean_radius,
-    ] {
-        *stress *= 2.0;
+    assert_eq!(*large, enlarged(small, 2.0));
+}
+
+/// Stops of a packing strained at `rate` times the default rates.
+fn stops_at(start: &Simulation, strains: [f64; 2], rate: f64) -> Vec<Averages> {
+    let Rates { expansion, contraction } = Rates::default();
+    let rates = Rates { expansion: rate * expansion, contraction: rate * contraction };
+    let path = strains.map(Strains::thermal);
+    let ramp = follow(&mut start.clone(), &path, rates, |_, _| ()).unwrap();
+    assert!(ramp.failure.is_none());
+    ramp.stops.iter().map(|stop| stop.averages).collect()
+}
+
+/// Four times the size at equal density: times double, rates halve, and all is powers of two again: exact.
+#[test]
+fn four_times_the_size_at_equal_density_is_exact() {
+    let small = packed(Compression::Horizontal, &Material::default()).simulation;
+    let large = scaled(&small, 4.0, 1.0);
+    for strains in [[0.005, 0.02], [-0.005, -0.01]] {
+        let expected = stops_at(&small, strains, 1.0).iter().map(|a| enlarged(a, 4.0)).collect::<Vec<_>>();
+        assert_eq!(stops_at(&large, strains, 0.5), expected);
     }
-    assert_eq!(*large, expected);
+}
+
+/// Twice the size at equal density: times grow by √2, which rounds. Measured differences are below 2e-14; 1e-9 leaves room
+/// for what sliding and opening contacts make of round-off, and is far below what one contact more or less would do.
+#[test]
+fn twice_the_size_at_equal_density_doubles_stress_alone() {
+    let small = packed(Compression::Horizontal, &Material::default()).simulation;
+    let large = scaled(&small, 2.0, 1.0);
+    for strains in [[0.005, 0.02], [-0.005, -0.01]] {
+        let expected = stops_at(&small, strains, 1.0);
+        let found = stops_at(&large, strains, std::f64::consts::FRAC_1_SQRT_2);
+        for (a, b) in expected.iter().map(|a| enlarged(a, 2.0)).zip(&found) {
+            for (value, expected, scale) in [
+                (b.stress_xx, a.stress_xx, a.pressure),
+                (b.stress_yy, a.stress_yy, a.pressure),
+                (b.stress_xy, a.stress_xy, a.pressure),
+                (b.conductivity_xx, a.conductivity_xx, a.conductivity_xx),
+                (b.conductivity_yy, a.conductivity_yy, a.conductivity_yy),
+                (b.porosity, a.porosity, 1.0),
+                (b.mean_radius, a.mean_radius, a.mean_radius),
+            ] {
+                assert!((value - expected).abs() <= 1e-9 * scale, "{b:?} {a:?}");
+            }
+            assert!((b.fabric_index - a.fabric_index).abs() < 1e-9, "{b:?} {a:?}");
+        }
+    }
 }
 
 /// Compression from loose to jammed and relaxation, by hand: the walls of [`pack`] have a speed of their own.

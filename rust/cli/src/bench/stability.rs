@@ -10,7 +10,9 @@ use std::path::PathBuf;
 #[command(
     after_help = "Mechanical: the packing is shaken a little and runs 4000 steps; a step counts as unstable when the \
 kinetic energy ends above a thousand times that of the shake. Thermal: one disc in two is heated by 1 K and heat \
-flows for 4000 sub-steps; unstable when a temperature leaves the range it began in by 10 K. Both limits by bisection."
+flows for 4000 sub-steps; unstable when a temperature leaves the range of discs and walls by 10 K. Both limits by \
+bisection. Shock: walls 100 K above the grains for 500 steps, heat and expansion on, as they stay while the limits are \
+sought."
 )]
 pub struct Arguments {
     /// Porosities to pack 500 discs to.
@@ -19,9 +21,15 @@ pub struct Arguments {
     /// States to measure as well.
     #[arg(long, value_name = "FILE")]
     state: Vec<PathBuf>,
+    /// Measure these states under thermal shock, too.
+    #[arg(long)]
+    shock: bool,
 }
 
 const STEPS: u64 = 4000;
+/// Walls above the grains [K], and the steps after which the limits are sought.
+const SHOCK: f64 = 100.0;
+const SHOCK_STEPS: u64 = 500;
 /// Factors on the predicted limit between which the measured one is sought, and how finely.
 const FACTORS: [f64; 2] = [0.5, 2.0];
 const BISECTIONS: u32 = 6;
@@ -37,16 +45,30 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     }
     for path in &arguments.state {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        line(&name, &crate::rve::read_state(path)?);
+        let state = crate::rve::read_state(path)?;
+        line(&name, &state);
+        if arguments.shock {
+            line(&format!("{name}, shock"), &shocked(state)?);
+        }
     }
     Ok(())
+}
+
+/// The state after a thermal shock has begun.
+fn shocked(mut simulation: Simulation) -> Result<Simulation, CliError> {
+    let hottest = simulation.discs.iter().map(|d| d.temperature).fold(f64::NEG_INFINITY, f64::max);
+    simulation.enable_heat(Thermal::default(), [WallHeat::Temperature(hottest + SHOCK); 4]);
+    simulation.run(SHOCK_STEPS).map_err(msdd_rve::RveError::from)?;
+    Ok(simulation)
 }
 
 fn line(name: &str, simulation: &Simulation) {
     let mechanical = time_step::stable_step(simulation);
     let mechanical_ratio = largest_factor(|factor| shaken_is_stable(simulation, factor * mechanical));
     let mut warm = simulation.clone();
-    warm.enable_heat(Thermal { expansion: 0.0, ..Thermal::default() }, [WallHeat::Insulated; 4]);
+    if warm.heat().is_none() {
+        warm.enable_heat(Thermal { expansion: 0.0, ..Thermal::default() }, [WallHeat::Insulated; 4]);
+    }
     (0..200).for_each(|_| warm.conduct(1e-9)); // lets the power iteration converge
     let thermal = warm.heat().map_or(f64::NAN, |heat| heat.stable_step());
     let thermal_ratio = largest_factor(|factor| heat_is_stable(&warm, factor * thermal));
@@ -75,7 +97,8 @@ fn shaken_is_stable(start: &Simulation, step: f64) -> bool {
     let mut simulation = start.clone();
     for (k, disc) in simulation.discs.iter_mut().enumerate() {
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-        (disc.vx, disc.vy) = (1e-4 * sign, 1e-4);
+        disc.vx += 1e-4 * sign;
+        disc.vy += 1e-4;
     }
     let shake = kinetic_energy(&simulation);
     simulation.time_step = step;
@@ -88,8 +111,15 @@ fn shaken_is_stable(start: &Simulation, step: f64) -> bool {
 fn heat_is_stable(start: &Simulation, step: f64) -> bool {
     let mut simulation = start.clone();
     for disc in simulation.discs.iter_mut().step_by(2) {
-        disc.temperature = 1.0;
+        disc.temperature += 1.0;
     }
+    let walls = simulation.heat().map_or([WallHeat::Insulated; 4], |heat| heat.walls);
+    let fixed = walls.iter().filter_map(|wall| match wall {
+        WallHeat::Temperature(temperature) => Some(*temperature),
+        _ => None,
+    });
+    let all = simulation.discs.iter().map(|d| d.temperature).chain(fixed);
+    let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), t| (l.min(t), h.max(t)));
     (0..STEPS).for_each(|_| simulation.conduct_once(step));
-    simulation.discs.iter().all(|d| (-10.0..11.0).contains(&d.temperature))
+    simulation.discs.iter().all(|d| (low - 10.0..high + 10.0).contains(&d.temperature))
 }
