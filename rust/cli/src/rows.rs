@@ -76,7 +76,8 @@ fn thermal_rows(records: &[&(&Record, Value)]) -> Vec<StateRow> {
 
 /// Neighbouring stops of the wall-strain ramps. Each starts from the packed state.
 fn wall_strains(mechanics: &[&(&Record, Value)], thermal: &[&(&Record, Value)]) -> Vec<WallStrain> {
-    let strain = |fields: &Value| [&fields["strain_xx"], &fields["strain_yy"]].map(|v| v.as_f64().unwrap_or(0.0));
+    let strain =
+        |fields: &Value| [&fields["strain_xx"], &fields["strain_yy"]].map(|v| v.as_f64().unwrap_or(0.0));
     let mut ramps: BTreeMap<(i64, &str), Vec<(StateRow, [f64; 2])>> = BTreeMap::new();
     for entry in mechanics {
         if let Some(row) = state_row(entry, &entry.0.ramp, entry.0.stop) {
@@ -85,7 +86,8 @@ fn wall_strains(mechanics: &[&(&Record, Value)], thermal: &[&(&Record, Value)]) 
     }
     for ((packing, _), ramp) in &mut ramps {
         if ramp.iter().all(|(row, _)| row.stop != 0) {
-            let packed = thermal.iter().chain(mechanics).find(|e| e.0.packing == *packing && e.0.ramp == "packed");
+            let packed =
+                thermal.iter().chain(mechanics).find(|e| e.0.packing == *packing && e.0.ramp == "packed");
             ramp.extend(packed.and_then(|entry| Some((state_row(entry, "packed", 0)?, [0.0; 2]))));
         }
         ramp.sort_by_key(|(row, _)| row.stop);

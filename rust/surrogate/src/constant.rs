@@ -1,12 +1,12 @@
 //! The trivial surrogate: nothing changes. What a simulation without microscale would assume.
 
+use crate::SurrogateError;
 use crate::dataset::StateRow;
 use crate::kernel::{LANES, Lanes};
 use crate::model_file::{field, hash, json, schema};
 use crate::solid_fraction::SolidFraction;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
 use crate::training::TrainingOptions;
-use crate::SurrogateError;
 use serde::{Deserialize, Serialize};
 
 /// Raise the number when a reader of the old schema would misread the new.
@@ -142,7 +142,8 @@ mod tests {
         let answer = model.evaluate(&state, 0.04);
         assert_eq!(answer.state.map(|lanes| lanes[2]), state);
         let packed: Vec<_> = rows.iter().filter(|row| row.stop == 0).collect();
-        let mean = packed.iter().map(|r| 0.5 * (r.stress_xx + r.stress_yy)).sum::<f64>() / packed.len() as f64;
+        let mean =
+            packed.iter().map(|r| 0.5 * (r.stress_xx + r.stress_yy)).sum::<f64>() / packed.len() as f64;
         assert!((answer.stress[0][0] - mean).abs() < 1e-15);
         assert_eq!(read(&model.to_json()).expect("own text"), model);
         let wrong = model.to_json().replace(SCHEMA, "msdd-constant-model-2");

@@ -32,16 +32,16 @@ pub mod mechanics;
 pub mod model;
 pub mod model_file;
 pub mod models;
-pub mod noise;
 pub mod network;
+pub mod noise;
 pub mod paper;
 pub mod perceptron;
-pub mod state;
 pub mod region;
 pub mod scaling;
 pub mod score;
 pub mod scores;
 pub mod solid_fraction;
+pub mod state;
 pub mod surrogate;
 #[cfg(test)]
 mod synthetic;

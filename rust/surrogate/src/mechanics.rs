@@ -74,9 +74,8 @@ impl Mechanics {
         let weight = |s: &WallStrain| 1.0 / (s.strain[0].powi(2) + s.strain[1].powi(2));
         let stress = samples.iter().flat_map(|s| {
             let ([ex, ey], root) = (s.strain, s.pressure.sqrt());
-            let row = |own: f64, other: f64, ratio: f64| {
-                [-own, -own * root, -own * ratio, -other, -other * root]
-            };
+            let row =
+                |own: f64, other: f64, ratio: f64| [-own, -own * root, -own * ratio, -other, -other * root];
             [
                 (row(ex, ey, s.stress_ratio), s.stress[0], weight(s)),
                 (row(ey, ex, -s.stress_ratio), s.stress[1], weight(s)),
@@ -142,10 +141,7 @@ impl Mechanics {
         Scatter {
             stress: relative(&|s, t| {
                 let [ex, ey] = s.strain;
-                [
-                    [s.stress[0], -(t.c11 * ex + t.c12 * ey)],
-                    [s.stress[1], -(t.c12 * ex + t.c22 * ey)],
-                ]
+                [[s.stress[0], -(t.c11 * ex + t.c12 * ey)], [s.stress[1], -(t.c12 * ex + t.c22 * ey)]]
             }),
             porosity: relative(&|s, t| {
                 [[s.delta_porosity, t.porosity * (s.strain[0] + s.strain[1])], [0.0; 2]]
@@ -189,10 +185,7 @@ mod tests {
                 pressure,
                 stress_ratio,
                 porosity,
-                stress: [
-                    -(t.c11 * strain[0] + t.c12 * strain[1]),
-                    -(t.c12 * strain[0] + t.c22 * strain[1]),
-                ],
+                stress: [-(t.c11 * strain[0] + t.c12 * strain[1]), -(t.c12 * strain[0] + t.c22 * strain[1])],
                 delta_porosity: t.porosity * (strain[0] + strain[1]),
                 delta_fabric_index: t.fabric_index * difference,
                 delta_fabric_conductivity: t.fabric_conductivity * difference,

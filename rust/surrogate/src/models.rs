@@ -48,9 +48,7 @@ pub const MODELS: [Kind; 3] = [
         name: "state",
         about: "all state variables, the stress among them, advance with the strain; conductivity read from the state",
         schema: "msdd-state-model-",
-        train: |data, options| {
-            Ok(Box::new(state::training::train(&data.rows, &data.mechanical, options)?))
-        },
+        train: |data, options| Ok(Box::new(state::training::train(&data.rows, &data.mechanical, options)?)),
         read: |text| Ok(Box::new(state::file::read(text)?)),
     },
 ];

@@ -2,8 +2,8 @@
 
 use crate::kernel::{LANES, Lanes};
 use crate::model::Model;
-use crate::training::TrainingOptions;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
+use crate::training::TrainingOptions;
 
 impl Surrogate for Model {
     fn kind(&self) -> &'static str {
@@ -74,7 +74,10 @@ mod tests {
         let direct = Model::evaluate(&model, 0.13, 0.02, 0.001);
         let answer = Surrogate::evaluate(&model, &[0.13, 0.02, 0.0, 0.0, 0.0, 0.0], 0.001);
         assert_eq!(answer.state[0][3], 0.13 + direct.delta_porosity);
-        assert_eq!((answer.conductivity[1][0], answer.stress[0][7]), (direct.conductivity_yy, direct.stress_xx));
+        assert_eq!(
+            (answer.conductivity[1][0], answer.stress[0][7]),
+            (direct.conductivity_yy, direct.stress_xx)
+        );
         assert!(answer.inside(0));
         let far = Surrogate::evaluate(&model, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.0], -0.2);
         assert!(far.outside[0][0] > 0.2 && far.outside[MAX_STATE][0] < -0.1 && !far.inside(0));

@@ -88,8 +88,10 @@ mod tests {
     #[test]
     fn recovers_the_law_that_made_the_samples() {
         let law = WallFriction { limit: 0.27, slip: 0.6, samples: 30, scatter: 0.0 };
-        let samples: Vec<WallSlip> =
-            (0..31).map(|i| 0.1 * f64::from(i)).map(|slip| WallSlip { slip, friction: law.at(slip) }).collect();
+        let samples: Vec<WallSlip> = (0..31)
+            .map(|i| 0.1 * f64::from(i))
+            .map(|slip| WallSlip { slip, friction: law.at(slip) })
+            .collect();
         let found = WallFriction::fit(&samples).expect("enough samples");
         assert!((found.limit - 0.27).abs() < 1e-6 && (found.slip - 0.6).abs() < 1e-6, "{found:?}");
         assert!(found.scatter < 1e-7 && found.samples == 30);

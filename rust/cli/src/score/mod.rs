@@ -7,11 +7,11 @@ use crate::files::{read_text, write_atomically};
 use crate::rows::training_data;
 use clap::Args;
 use msdd_rve::database::read;
+use msdd_surrogate::SurrogateError;
 use msdd_surrogate::composition::Composed;
 use msdd_surrogate::models::{self, TrainingData};
 use msdd_surrogate::score::{OneStep, Score, ramps, score};
 use msdd_surrogate::surrogate::Surrogate;
-use msdd_surrogate::SurrogateError;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -93,7 +93,9 @@ fn print(score: &Score) {
     }
     line(if score.held_out { "held-out packings" } else { "all packings" }, &score.unseen);
     println!();
-    println!("A strain in increments; rms error, relative in % (eta, f: absolute); mean of 30 packings: largest");
+    println!(
+        "A strain in increments; rms error, relative in % (eta, f: absolute); mean of 30 packings: largest"
+    );
     println!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
     for c in &score.composed {
         row(c);

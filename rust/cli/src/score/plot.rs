@@ -22,12 +22,14 @@ pub fn all(model: &dyn Surrogate, ramps: &[Ramp]) -> Result<Vec<(&'static str, S
 }
 
 fn parity(model: &dyn Surrogate, ramps: &[Ramp]) -> Result<String, Box<dyn std::error::Error>> {
-    let names = ["increment of porosity", "increment of fabric index", "increment of f_K", "K/k", "stress, reduced"];
+    let names =
+        ["increment of porosity", "increment of fabric index", "increment of f_K", "K/k", "stress, reduced"];
     let pairs = one_step_pairs(model, ramps);
     let panels: Vec<_> = names.iter().zip(&pairs).filter(|(_, pairs)| !pairs.is_empty()).collect();
     let mut svg = String::new();
     {
-        let root = SVGBackend::with_string(&mut svg, (PANEL * panels.len() as u32, PANEL)).into_drawing_area();
+        let root =
+            SVGBackend::with_string(&mut svg, (PANEL * panels.len() as u32, PANEL)).into_drawing_area();
         root.fill(&WHITE)?;
         for (area, (name, pairs)) in root.split_evenly((1, panels.len())).iter().zip(panels) {
             let all = pairs.iter().flatten();

@@ -29,7 +29,8 @@ impl Variables {
     pub const ALL: Self = Self { fabric_conductivity: true, stress_deviator: true };
 
     pub fn names(self) -> &'static [&'static str] {
-        let all = &["porosity", "fabric_index", "reduced_pressure", "fabric_conductivity", "reduced_deviator"];
+        let all =
+            &["porosity", "fabric_index", "reduced_pressure", "fabric_conductivity", "reduced_deviator"];
         match (self.fabric_conductivity, self.stress_deviator) {
             (true, true) => all,
             (true, false) => &all[..4],
@@ -197,7 +198,12 @@ impl FeatureRanges {
 
     /// As [`crate::surrogate::Answer::outside`]. The deviator is judged as q̃/p̃.
     #[inline(always)]
-    pub fn outside(&self, variables: Variables, state: &StateLanes, strain: &Lanes) -> [Lanes; MAX_STATE + 1] {
+    pub fn outside(
+        &self,
+        variables: Variables,
+        state: &StateLanes,
+        strain: &Lanes,
+    ) -> [Lanes; MAX_STATE + 1] {
         let mut outside = [[0.0; LANES]; MAX_STATE + 1];
         let beyond = |values: &Lanes, range: Range| values.map(|v| v - range.clamp(v));
         outside[POROSITY] = beyond(&state[POROSITY], self.porosity);
