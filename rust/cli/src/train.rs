@@ -35,8 +35,11 @@ pub struct Arguments {
     /// Levenberg–Marquardt steps at most.
     #[arg(long)]
     epochs: Option<u32>,
+    /// Epochs without a better validation error after which a start ends.
+    #[arg(long)]
+    patience: Option<u32>,
     /// State model: neurons of the hidden layers of the rates' network, one or two layers.
-    #[arg(long, value_delimiter = ',', default_value = "8")]
+    #[arg(long, value_delimiter = ',', default_value = "4")]
     hidden: Vec<usize>,
     /// State model: the same of the readout's.
     #[arg(long, value_delimiter = ',', default_value = "4")]
@@ -71,6 +74,7 @@ fn options(arguments: &Arguments, dataset: &Dataset) -> Result<StateOptions, Cli
     common.seed = arguments.seed;
     common.restarts = arguments.restarts.unwrap_or(common.restarts);
     common.max_epochs = arguments.epochs.unwrap_or(common.max_epochs);
+    common.patience = arguments.patience.unwrap_or(common.patience);
     common.database = provenance(arguments, dataset)?;
     options.hidden = arguments.hidden.clone();
     options.readout_hidden = arguments.readout.clone();

@@ -273,7 +273,15 @@ mod tests {
     use super::*;
 
     fn spec(compression: Compression) -> PackingSpec {
-        PackingSpec { discs: 120, seed: 7, porosity: 0.13, compression, radius_min: 3e-3, radius_max: 7e-3, ..PackingSpec::default() }
+        PackingSpec {
+            discs: 120,
+            seed: 7,
+            porosity: 0.13,
+            compression,
+            radius_min: 3e-3,
+            radius_max: 7e-3,
+            ..PackingSpec::default()
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use msdd_dem::{Disc, Side, Walls};
 use msdd_rve::{
-    Averages, Compression, Material, Outcome, Packed, PackingSpec, Rates, RegionKind, Simulation, Strains,
+    Averages, Compression, Material, Outcome, Packed, PackingSpec, Protocol, RegionKind, Simulation, Strains,
     expand, follow, homogenise, pack,
 };
 
@@ -152,10 +152,14 @@ fn assert_doubled(small: &Averages, large: &Averages) {
 
 /// Stops of a packing strained at `rate` times the default rates.
 fn stops_at(start: &Simulation, strains: [f64; 2], rate: f64) -> Vec<Averages> {
-    let Rates { expansion, contraction } = Rates::default();
-    let rates = Rates { expansion: rate * expansion, contraction: rate * contraction };
+    let standard = Protocol::default();
+    let protocol = Protocol {
+        expansion_rate: rate * standard.expansion_rate,
+        contraction_rate: rate * standard.contraction_rate,
+        ..standard
+    };
     let path = strains.map(Strains::thermal);
-    let ramp = follow(&mut start.clone(), &path, rates, |_, _| ()).unwrap();
+    let ramp = follow(&mut start.clone(), &path, protocol, |_, _| ()).unwrap();
     assert!(ramp.failure.is_none());
     ramp.stops.iter().map(|stop| stop.averages).collect()
 }

@@ -5,7 +5,7 @@
 
 use msdd_dem::Side;
 use msdd_rve::state::from_json;
-use msdd_rve::{Rates, RegionKind, Simulation, Strains, follow, homogenise, unbalanced_force};
+use msdd_rve::{Protocol, RegionKind, Simulation, Strains, follow, homogenise, unbalanced_force};
 use std::path::PathBuf;
 
 /// Of both engines [1/s].
@@ -70,10 +70,10 @@ fn compare(stop: &str, ours: &Simulation, allowed: f64) -> f64 {
 fn walls_closing_along_x_agree_with_yade() {
     let mut simulation = read(REFERENCE, "state.json");
     let path = [-0.01, -0.02].map(|xx| Strains { xx, ..Strains::default() });
-    let rates = Rates { expansion: RATE, contraction: RATE };
+    let protocol = Protocol { expansion_rate: RATE, contraction_rate: RATE, ..Protocol::default() };
     let start = homogenise(&simulation, RegionKind::Hull).pressure;
     let mut names = ["xx=-0.01", "xx=-0.02"].into_iter();
-    follow(&mut simulation, &path, rates, |stop, state| {
+    follow(&mut simulation, &path, protocol, |stop, state| {
         assert!(stop.averages.pressure > 1.05 * start, "nothing to compare");
         compare(names.next().unwrap(), state, ALLOWED);
     })

@@ -1,5 +1,6 @@
 //! Drift: error of the state after composed increments, as a macroscale solver composes them.
 
+use crate::composition::increment;
 use crate::dataset::{Ramp, strain_between};
 use crate::model::Predictor;
 use serde::{Deserialize, Serialize};
@@ -62,7 +63,7 @@ fn drift(predictor: &Predictor, ramps: &[&Ramp], increments: u32) -> Drift {
     }
 }
 
-/// η, Kxx, Kyy, σxx, σyy after a strain in equal increments (equal in (1 + ε), as radii compound).
+/// η, Kxx, Kyy, σxx, σyy after a strain in equal increments of the radii.
 fn composed(
     predictor: &Predictor,
     mut porosity: f64,
@@ -70,10 +71,9 @@ fn composed(
     total: f64,
     increments: u32,
 ) -> [f64; 5] {
-    let strain = (total.ln_1p() / f64::from(increments)).exp_m1();
     let mut end = predictor.evaluate(porosity, fabric_index, 0.0);
-    for _ in 0..increments {
-        end = predictor.evaluate(porosity, fabric_index, strain);
+    for k in 0..increments {
+        end = predictor.evaluate(porosity, fabric_index, increment(total, k, increments));
         porosity += end.delta_porosity;
         fabric_index += end.delta_fabric_index;
     }

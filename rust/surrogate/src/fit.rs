@@ -1,11 +1,11 @@
 //! The network's fit to samples as a least-squares problem. JᵀJ grows batch by batch; J as a whole never exists.
 
 use crate::dataset::Sample;
-use crate::kernel::{LANES, Lanes};
+use crate::kernel::{LANES, Lanes, add_outer_products};
 use crate::levenberg_marquardt::{LeastSquares, NormalEquations};
 use crate::network::{HIDDEN, HIDDEN_WEIGHTS, INPUTS, Network, OUTPUTS, WEIGHTS, padded};
 use crate::scaling::{OutputScales, TrainedRange};
-use nalgebra::{DMatrix, DVector, DVectorView};
+use nalgebra::{DMatrix, DVector};
 
 /// Eight samples, scaled. Weight 0 marks padding.
 struct Octet {
@@ -24,9 +24,7 @@ pub struct NetworkFit {
 /// Sums are formed per part and added in order, so that the thread count does not change the bits.
 const PARTS: usize = 8;
 /// Octets whose rows of J are held at a time.
-const BATCH: usize = 32;
-/// Rows of the lower triangle of JᵀJ computed at a time.
-const TILE: usize = HIDDEN_WEIGHTS / 3;
+const BATCH: usize = 8;
 
 impl NetworkFit {
     pub fn new(samples: &[Sample], range: &TrainedRange, scales: &OutputScales, threads: usize) -> Self {
@@ -96,57 +94,42 @@ impl Octet {
     }
 }
 
+/// Width of a row of J with its residual behind, padded for the kernel.
+const WIDTH: usize = (WEIGHTS + 1).next_multiple_of(16);
+
 /// JᵀJ (lower triangle) and Jᵀr of some octets.
 fn part_equations(network: &Network, octets: &[Octet]) -> (DMatrix<f64>, DVector<f64>) {
-    let mut matrix = DMatrix::zeros(WEIGHTS, WEIGHTS);
-    let mut gradient = DVector::zeros(WEIGHTS);
+    let mut products = vec![0.0; WIDTH * WIDTH];
+    let mut rows = vec![0.0; BATCH * LANES * WIDTH];
     for batch in octets.chunks(BATCH) {
         for output in 0..OUTPUTS {
-            add_output(network, batch, output, &mut matrix, &mut gradient);
+            let rows = &mut rows[..batch.len() * LANES * WIDTH];
+            fill_rows(network, batch, output, rows);
+            add_outer_products(rows, WIDTH, &mut products);
         }
     }
-    (matrix, gradient)
+    let entry = |i: usize, j: usize| products[i * WIDTH + j];
+    let matrix = DMatrix::from_fn(WEIGHTS, WEIGHTS, |i, j| entry(i.max(j), i.min(j)));
+    (matrix, DVector::from_fn(WEIGHTS, |j, _| entry(WEIGHTS, j)))
 }
 
-/// Adds one output's rows of J. Such a row is zero but for the hidden layers' weights and the output's own.
-fn add_output(
-    network: &Network,
-    batch: &[Octet],
-    output: usize,
-    matrix: &mut DMatrix<f64>,
-    gradient: &mut DVector<f64>,
-) {
-    let rows = batch.len() * LANES;
-    // Transposed: one column a sample.
-    let mut hidden = DMatrix::zeros(HIDDEN_WEIGHTS, rows);
-    let mut own = DMatrix::zeros(HIDDEN + 1, rows);
-    let mut residual = DVector::zeros(rows);
-    for (index, octet) in batch.iter().enumerate() {
+/// One output's rows of (J | r). Such a row is zero but for the hidden layers' weights and the output's own.
+fn fill_rows(network: &Network, batch: &[Octet], output: usize, rows: &mut [f64]) {
+    rows.fill(0.0);
+    let place = HIDDEN_WEIGHTS + output * (HIDDEN + 1);
+    for (octet, rows) in batch.iter().zip(rows.chunks_exact_mut(LANES * WIDTH)) {
         let neurons = network.activations(&octet.inputs);
-        for lane in 0..LANES {
-            let row = index * LANES + lane;
+        for (lane, row) in rows.chunks_exact_mut(WIDTH).enumerate() {
             let weight = octet.weights[output][lane];
-            residual[row] = weight * (neurons.outputs[output][lane] - octet.targets[output][lane]);
-            let mut column = hidden.column_mut(row);
-            network.gradient(&octet.inputs, &neurons, lane, output, column.as_mut_slice());
-            column *= weight;
-            let values = neurons.hidden_2.map(|lanes| lanes[lane]);
-            own.view_mut((0, row), (HIDDEN, 1))
-                .copy_from(&(DVectorView::from_slice(&values, HIDDEN) * weight));
-            own[(HIDDEN, row)] = weight;
+            network.gradient(&octet.inputs, &neurons, lane, output, &mut row[..HIDDEN_WEIGHTS]);
+            for (own, hidden) in row[place..].iter_mut().zip(&neurons.hidden_2) {
+                *own = hidden[lane];
+            }
+            row[place + HIDDEN] = 1.0;
+            row[..WEIGHTS].iter_mut().for_each(|entry| *entry *= weight);
+            row[WEIGHTS] = weight * (neurons.outputs[output][lane] - octet.targets[output][lane]);
         }
     }
-    let (hidden_t, own_t) = (hidden.transpose(), own.transpose());
-    for first in (0..HIDDEN_WEIGHTS).step_by(TILE) {
-        let width = first + TILE;
-        let mut tile = matrix.view_mut((first, 0), (TILE, width));
-        tile.gemm(1.0, &hidden.rows(first, TILE), &hidden_t.columns(0, width), 1.0);
-    }
-    let place = HIDDEN_WEIGHTS + output * (HIDDEN + 1);
-    matrix.view_mut((place, 0), (HIDDEN + 1, HIDDEN_WEIGHTS)).gemm(1.0, &own, &hidden_t, 1.0);
-    matrix.view_mut((place, place), (HIDDEN + 1, HIDDEN + 1)).gemm(1.0, &own, &own_t, 1.0);
-    gradient.rows_mut(0, HIDDEN_WEIGHTS).gemv(1.0, &hidden, &residual, 1.0);
-    gradient.rows_mut(place, HIDDEN + 1).gemv(1.0, &own, &residual, 1.0);
 }
 
 #[cfg(test)]

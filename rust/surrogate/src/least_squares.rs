@@ -5,6 +5,9 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 /// Added to the unit diagonal of the scaled normal equations: features that are combinations of each other share.
 const RIDGE: f64 = 1e-10;
 
+/// Refinements of the solution, which take the addition out again where the features are independent.
+const REFINEMENTS: usize = 4;
+
 /// Coefficients c that minimise Σ w (c·x − y)², from (x, y, w); zero when no sample has weight.
 pub fn fit<const N: usize>(samples: impl Iterator<Item = ([f64; N], f64, f64)>) -> [f64; N] {
     let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
@@ -20,18 +23,23 @@ pub fn fit<const N: usize>(samples: impl Iterator<Item = ([f64; N], f64, f64)>) 
         norm if norm > 0.0 => 1.0 / norm,
         _ => 0.0,
     });
-    let scaled = DMatrix::from_fn(N, N, |i, j| {
-        let entry = matrix[i.max(j)][i.min(j)] * scale[i] * scale[j];
-        if i == j { 1.0 + RIDGE } else { entry }
-    });
+    let scaled =
+        DMatrix::from_fn(
+            N,
+            N,
+            |i, j| {
+                if i == j { 1.0 } else { matrix[i.max(j)][i.min(j)] * scale[i] * scale[j] }
+            },
+        );
     let right = DVector::from_fn(N, |i, _| right[i] * scale[i]);
-    match Cholesky::new(scaled) {
-        Some(factors) => {
-            let solution = factors.solve(&right);
-            std::array::from_fn(|i| solution[i] * scale[i])
-        }
-        None => [0.0; N],
+    let Some(factors) = Cholesky::new(&scaled + DMatrix::identity(N, N) * RIDGE) else { return [0.0; N] };
+    let mut solution = factors.solve(&right);
+    for _ in 0..REFINEMENTS {
+        let residual =
+            DVector::from_fn(N, |i, _| (0..N).fold(right[i], |sum, j| sum - scaled[(i, j)] * solution[j]));
+        solution += factors.solve(&residual);
     }
+    std::array::from_fn(|i| solution[i] * scale[i])
 }
 
 #[cfg(test)]

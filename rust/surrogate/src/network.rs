@@ -30,8 +30,8 @@ impl Network {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(restart + 1); // stream 0 belongs to the split
         let mut weights = Vec::with_capacity(WEIGHTS);
-        for (inputs, neurons) in [(INPUTS, HIDDEN), (HIDDEN, HIDDEN)] {
-            let length = 0.7 * (neurons as f64).powf(1.0 / inputs as f64);
+        // 0.7 neurons^(1/inputs), written out: powers differ in the last bit between mathematical libraries.
+        for (inputs, neurons, length) in [(INPUTS, HIDDEN, 1.763_889_4), (HIDDEN, HIDDEN, 0.832_444_8)] {
             for _ in 0..neurons {
                 let direction: Vec<f64> = (0..inputs).map(|_| symmetric_unit(&mut random)).collect();
                 let norm = direction.iter().map(|w| w * w).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);

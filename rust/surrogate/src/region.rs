@@ -83,6 +83,11 @@ impl Region {
         }
     }
 
+    /// Number of half-spaces in this many dimensions.
+    pub fn support_count(dimensions: usize) -> usize {
+        if dimensions <= MAX_STATE { normals(dimensions).len() } else { 0 }
+    }
+
     /// How far beyond the nearest half-space; 0 inside.
     pub fn beyond_hull(&self, point: &Coordinates) -> f64 {
         let normals = normals(self.dimensions);
@@ -111,6 +116,9 @@ pub struct Spread {
 const BINS: usize = 6;
 
 impl Spread {
+    /// Number of bins.
+    pub const BINS: usize = BINS;
+
     /// From residuals of a fit at states of known p̃: (p̃, relative error of K) and (p̃, error of dp̃/dε).
     pub fn of(pressure: Range, conductivity: &[(f64, f64)], rate: &[(f64, f64)]) -> Self {
         let mut spread = Self { pressure, conductivity: vec![0.0; BINS], pressure_rate: vec![0.0; BINS] };

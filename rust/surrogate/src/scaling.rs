@@ -107,7 +107,10 @@ impl OutputScales {
         let strain = sample.inputs[2];
         let increment = |delta: f64, scale: f64| match strain {
             0.0 => (0.0, 0.0), // exact by construction
-            _ => (delta / (strain * scale), (strain.abs() / largest_strain).powf(INCREMENT_WEIGHT_POWER)),
+            // Weight √|ε|: |ε| would fit Δ, whose large strains rule, though small steps live on the rate; 1 would fit the
+            // rate Δ/ε, where the noise of small strains rules. Paper silent (its network fits Δ); all three drift alike
+            // within the scatter, but 1 once ended with a useless Δf.
+            _ => (delta / (strain * scale), (strain.abs() / largest_strain).sqrt()),
         };
         let state = |value: f64, range: Range| ((value - range.min) / range.width(), 1.0);
         let [delta_porosity, delta_fabric_index, kxx, kyy, sxx, syy] = sample.outputs;
@@ -122,12 +125,6 @@ impl OutputScales {
         ]
     }
 }
-
-/// Weight of an increment's residual grows with |ε| to this power: 1 would fit Δ, whose large strains rule, though
-/// small steps live on the rate; 0 would fit the rate Δ/ε, where the noise of small strains rules. Paper silent (its
-/// network fits Δ). Tried 0, 0.5 and 1 on 47 packings and several seeds: drift alike within the scatter, but 0 once
-/// ended with a useless Δf.
-const INCREMENT_WEIGHT_POWER: f64 = 0.5;
 
 /// Ranges and scales of training samples.
 ///

@@ -83,9 +83,9 @@ pub fn ramps(model: &dyn Surrogate, rows: &[StateRow], plan_hash: &str) -> Resul
     Ok(Ramps { seen: split.training, unseen: split.test })
 }
 
-/// Scores of a model; `noise_rows` are all rows there are, for the noise floor.
+/// Scores of a model.
 pub fn score(model: &dyn Surrogate, ramps: &Ramps) -> Score {
-    let all: Vec<Ramp> = ramps.seen.iter().chain(&ramps.unseen).cloned().collect();
+    let all: Vec<Ramp> = ramps.seen.iter().chain(&ramps.unseen).cloned().collect(); // noise needs many
     let mut composed = Vec::new();
     for strain in STRAINS {
         let paths = composition::paths(&ramps.unseen, strain);
@@ -186,32 +186,32 @@ fn there_and_back(model: &dyn Surrogate, ramps: &[Ramp], strain: f64, increments
     ThereAndBack { strain, increments, pressure, conductivity, porosity }
 }
 
-/// Start states, each with its mirror image, as points for the noise; an odd quantity of the end changes sign.
+/// Increments of the noise floor's residuals.
+const FLOOR_INCREMENTS: u32 = 50;
+
+/// Noise of the model's errors over the start states: what is no smooth function of the start in them, none can learn.
+/// Errors serve better than the data itself, whose steep slopes would swamp the noise. Each path counts twice, once
+/// turned by 90°.
 fn floor(model: &dyn Surrogate, ramps: &[Ramp], strain: f64) -> Floor {
     let columns = model.state_names();
-    let mut samples: [Vec<(i64, Vec<f64>, f64)>; 5] = Default::default();
-    for path in composition::paths(ramps, strain) {
+    let paths = composition::paths(ramps, strain);
+    let ends = composition::ends(model, &paths, FLOOR_INCREMENTS);
+    let (mut samples, mut squares): ([Vec<(i64, Vec<f64>, f64)>; 5], [f64; 5]) = Default::default();
+    for (path, [data, predicted]) in paths.iter().zip(&ends) {
         let state = state_of(model, path.from);
-        for turned in [false, true] {
-            let sign = if turned { -1.0 } else { 1.0 };
-            let point: Vec<f64> =
-                columns.iter().zip(state).map(|(name, v)| coordinate(name, v, sign, &state)).collect();
-            let end = path.to;
-            let [kxx, kyy] = composition::conductivity(model, end);
-            let (k, s) = if turned { (kyy, end.stress_yy) } else { (kxx, end.stress_xx) };
-            let pressure = 0.5 * (end.stress_xx + end.stress_yy);
-            for (samples, y) in
-                samples.iter_mut().zip([k, s, pressure, end.porosity, sign * end.fabric_index])
-            {
-                samples.push((path.from.packing, point.clone(), y));
+        for (sign, quantities) in [(1.0, [0, 2, 4, 5, 6]), (-1.0, [1, 3, 4, 5, 6])] {
+            let coordinates = columns.iter().zip(state);
+            let point: Vec<f64> = coordinates.map(|(name, v)| coordinate(name, v, sign, &state)).collect();
+            for (k, quantity) in quantities.into_iter().enumerate() {
+                let turned = if quantity == 6 { sign } else { 1.0 };
+                let error = turned * (predicted[quantity] - data[quantity]);
+                samples[k].push((path.from.packing, point.clone(), error));
+                squares[k] += data[quantity] * data[quantity];
             }
         }
     }
     let noise = |k: usize| noise::deviation(&scaled(&samples[k]));
-    let relative = |k: usize| {
-        let square = samples[k].iter().map(|(_, _, y)| y * y).sum::<f64>() / samples[k].len() as f64;
-        noise(k).map(|deviation| deviation / square.sqrt())
-    };
+    let relative = |k: usize| noise(k).map(|d| d / (squares[k] / samples[k].len() as f64).sqrt());
     Floor {
         strain,
         conductivity: relative(0),

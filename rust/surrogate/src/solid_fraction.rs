@@ -2,8 +2,8 @@
 
 use crate::SurrogateError;
 use crate::dataset::StateRow;
+use crate::least_squares;
 use crate::scaling::Range;
-use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 /// Least-squares polynomial: solid fraction = Σ c_i η^i for packed states. Overlaps count twice in it, so that
@@ -19,11 +19,6 @@ pub struct SolidFraction {
     pub residual: f64,
 }
 
-/// Degree of the polynomial when there are enough states.
-const DEGREE: usize = 2;
-/// Relative to the largest singular value.
-const RANK_LIMIT: f64 = 1e-12;
-
 impl SolidFraction {
     /// Fit to the packed states (stop 0) among the rows.
     ///
@@ -34,17 +29,20 @@ impl SolidFraction {
         if packed.is_empty() {
             return Err(SurrogateError::Data("no packed state (stop 0)".to_string()));
         }
-        let columns = (DEGREE + 1).min(packed.len());
-        let powers =
-            DMatrix::from_fn(packed.len(), columns, |i, power| packed[i].porosity.powi(power as i32));
-        let solid = DVector::from_fn(packed.len(), |i, _| 1.0 - packed[i].porosity_sum_of_areas);
-        let decomposition = powers.clone().svd(true, true);
-        let limit = RANK_LIMIT * decomposition.singular_values.max();
-        let coefficients =
-            decomposition.solve(&solid, limit).map_err(|e| SurrogateError::Data(e.to_string()))?;
-        let residual = (&powers * &coefficients - solid).norm() / (packed.len() as f64).sqrt();
+        let powers = |row: &StateRow| [1.0, row.porosity, row.porosity * row.porosity];
+        let solid = |row: &StateRow| 1.0 - row.porosity_sum_of_areas;
+        let coefficients = least_squares::fit(packed.iter().map(|row| (powers(row), solid(row), 1.0)));
+        let error = |row: &StateRow| {
+            powers(row)
+                .iter()
+                .zip(&coefficients)
+                .map(|(x, c)| x * c)
+                .fold(-solid(row), |sum, term| sum + term)
+        };
+        let square = packed.iter().map(|row| error(row) * error(row)).fold(0.0, |sum, term| sum + term);
+        let residual = (square / packed.len() as f64).sqrt();
         let porosity = Range::of(packed.iter().map(|row| row.porosity));
-        Ok(Self { coefficients: coefficients.as_slice().to_vec(), porosity, residual })
+        Ok(Self { coefficients: coefficients.to_vec(), porosity, residual })
     }
 
     /// Solid fraction with overlaps counted twice [-] of a packed state of this porosity.

@@ -150,6 +150,18 @@ impl File {
                 );
             }
         }
+        let Region { dimensions, support, states, spacing } = &self.region;
+        let sound = *dimensions == self.variables.names().len()
+            && support.len() == Region::support_count(*dimensions)
+            && !states.is_empty()
+            && *spacing > 0.0;
+        if !sound {
+            return field("region", format!("{dimensions} dimensions"), "that of the variables, with states");
+        }
+        let Spread { conductivity, pressure_rate, .. } = &self.spread;
+        if conductivity.len() != Spread::BINS || pressure_rate.len() != Spread::BINS {
+            return field("spread (bins)", conductivity.len(), "6");
+        }
         Ok(())
     }
 }

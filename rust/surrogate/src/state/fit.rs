@@ -5,11 +5,14 @@ use crate::levenberg_marquardt::{LeastSquares, NormalEquations};
 use crate::perceptron::{Neurons, Perceptron, WIDTH};
 use nalgebra::{DMatrix, DVector};
 
+/// Coefficients of a residual at most.
+pub const TERMS: usize = 4;
+
 /// One residual: max(Σ c_o y_o, floor) − target, the o from `first` on. Weights are in c, floor and target.
 #[derive(Clone, Copy, Debug)]
 pub struct Residual {
     pub first: usize,
-    pub coefficients: [f64; 3],
+    pub coefficients: [f64; TERMS],
     /// Below it the prediction is cut off, as p̃ at zero.
     pub floor: f64,
     pub target: f64,
@@ -54,8 +57,33 @@ impl PerceptronFit {
     }
 
     /// Width of a row of J with its residual behind, padded for the kernel.
-    fn width(weights: usize) -> usize {
+    pub(super) fn width(weights: usize) -> usize {
         (weights + 1).next_multiple_of(16)
+    }
+
+    /// Number of residuals.
+    pub(super) fn count(&self) -> f64 {
+        self.residuals
+    }
+
+    /// Lower triangle of (J | r)ᵀ (J | r).
+    pub(super) fn summed_products(&self, network: &Perceptron) -> Vec<f64> {
+        let width = Self::width(network.weights.len());
+        let mut sum = vec![0.0; width * width];
+        for part in self.by_part(|octets| Self::products(network, octets)) {
+            sum.iter_mut().zip(&part).for_each(|(sum, part)| *sum += part);
+        }
+        sum
+    }
+
+    /// Means over `count` residuals from the products.
+    pub(super) fn equations(products: &[f64], weights: usize, count: f64) -> NormalEquations {
+        let width = Self::width(weights);
+        let entry = |i: usize, j: usize| products[i * width + j] / count;
+        NormalEquations {
+            matrix: DMatrix::from_fn(weights, weights, |i, j| entry(i.max(j), i.min(j))),
+            gradient: DVector::from_fn(weights, |j, _| entry(weights, j)),
+        }
     }
 
     /// Σ r² of some octets.
@@ -89,8 +117,7 @@ impl PerceptronFit {
                 row.fill(0.0);
                 if value > residual.floor {
                     let mut c = [0.0; WIDTH];
-                    c[residual.first..][..3.min(WIDTH - residual.first)]
-                        .copy_from_slice(&residual.coefficients[..3.min(WIDTH - residual.first)]);
+                    c.iter_mut().skip(residual.first).zip(residual.coefficients).for_each(|(c, r)| *c = r);
                     network.gradient(&neurons, *lane, &c[..network.outputs()], &mut row[..weights]);
                 }
                 row[weights] = value.max(residual.floor) - residual.target;
@@ -140,21 +167,7 @@ impl LeastSquares for PerceptronFit {
     }
 
     fn normal_equations(&self, parameters: &DVector<f64>) -> NormalEquations {
-        let network = self.network(parameters);
-        let (weights, mut sum) = (network.weights.len(), Vec::new());
-        for part in self.by_part(|octets| Self::products(&network, octets)) {
-            if sum.is_empty() {
-                sum = part;
-            } else {
-                sum.iter_mut().zip(&part).for_each(|(sum, part)| *sum += part);
-            }
-        }
-        let width = Self::width(weights);
-        sum.resize(width * width, 0.0);
-        let entry = |i: usize, j: usize| sum[i * width + j] / self.residuals;
-        NormalEquations {
-            matrix: DMatrix::from_fn(weights, weights, |i, j| entry(i.max(j), i.min(j))),
-            gradient: DVector::from_fn(weights, |j, _| entry(weights, j)),
-        }
+        let sum = self.summed_products(&self.network(parameters));
+        Self::equations(&sum, parameters.len(), self.residuals)
     }
 }

@@ -11,6 +11,7 @@
 //! | [`variables`] | which variables the state has, their features and scales |
 //! | [`rates`] | advance of the state |
 //! | [`readout`] | conductivity, and odd quantities that the state does not carry |
+//! | [`composed_fit`] | fit of the rates to composed increments |
 //! | [`pairs`] | pairs of stops and states as samples |
 //! | [`fit`] | fit of a network as a least-squares problem |
 //! | [`mean`] | the mean state, when the stress at the start is not known |
@@ -18,6 +19,7 @@
 //! | [`file`] | its file |
 //! | [`training`] | the whole training |
 
+pub mod composed_fit;
 pub mod file;
 pub mod fit;
 pub mod mean;

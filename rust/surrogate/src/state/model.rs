@@ -136,3 +136,144 @@ impl Surrogate for StateModel {
         self.solid_fraction.at(porosity)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::LANES;
+    use crate::state::training::{Mechanical, StateOptions, train};
+    use crate::synthetic;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::{Rng, SeedableRng};
+
+    fn model() -> StateModel {
+        let mut options = StateOptions::default();
+        (options.common.max_epochs, options.common.restarts) = (15, 2);
+        train(&synthetic::rows(12, 4), &Mechanical::default(), &options).expect("good rows")
+    }
+
+    /// Eight states: inside, at the edges, and far outside of what grains can have.
+    fn wild(random: &mut ChaCha8Rng) -> (StateLanes, Lanes) {
+        let mut unit = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        let scale = [1.0, 10.0, 1e3, 1e12][(4.0 * unit()) as usize];
+        let mut signed = |size: f64| -> Lanes { std::array::from_fn(|_| size * (2.0 * unit() - 1.0)) };
+        let mut state = [[0.0; LANES]; MAX_STATE];
+        for (column, size) in state.iter_mut().zip([0.3, 0.3, 0.3, 0.3, 0.2]) {
+            *column = signed(size * scale);
+        }
+        let mut strain = signed(0.1 * scale.min(9.0));
+        state[PRESSURE][0] = 0.0;
+        state[PRESSURE][1] = f64::MIN_POSITIVE;
+        strain[2] = 0.0;
+        (state, strain)
+    }
+
+    #[test]
+    fn a_million_wild_queries_give_no_nan_no_tension_and_positive_conductivity() {
+        let (model, mut random) = (model(), ChaCha8Rng::seed_from_u64(9));
+        for _ in 0..125_000 {
+            let (mut state, strain) = wild(&mut random);
+            for _ in 0..2 {
+                let answer = model.block(&state, &strain);
+                let numbers = answer.state.iter().chain(&answer.conductivity).chain(&answer.stress);
+                assert!(numbers.flatten().all(|value| value.is_finite()), "{state:?} {strain:?}");
+                assert!(answer.conductivity.iter().flatten().all(|k| *k > 0.0), "{state:?} {strain:?}");
+                assert!(answer.stress.iter().flatten().all(|s| *s >= 0.0), "{state:?} {strain:?}");
+                assert!(answer.outside.iter().flatten().all(|o| !o.is_nan()));
+                state = answer.state;
+            }
+        }
+    }
+
+    #[test]
+    fn a_turn_by_90_degrees_turns_the_answer_to_the_bit_and_zero_strain_changes_nothing() {
+        let (model, mut random) = (model(), ChaCha8Rng::seed_from_u64(3));
+        for _ in 0..2000 {
+            let (state, strain) = wild(&mut random);
+            let answer = model.block(&state, &strain);
+            let mut turned = state;
+            model.core.variables.odd().for_each(|k| turned[k] = turned[k].map(|v| -v));
+            let other = model.block(&turned, &strain);
+            assert_eq!(other.conductivity, [answer.conductivity[1], answer.conductivity[0]]);
+            assert_eq!(other.stress, [answer.stress[1], answer.stress[0]]);
+            let mut back = other.state;
+            model.core.variables.odd().for_each(|k| back[k] = back[k].map(|v| -v));
+            assert_eq!(back, answer.state);
+            // An allowed state stays as it is.
+            assert_eq!(model.block(&answer.state, &[0.0; LANES]).state, answer.state);
+        }
+    }
+
+    #[test]
+    fn contraction_ends_without_stress_and_expansion_brings_it_back() {
+        let model = model();
+        let start = model.initial_state(&Known { porosity: 0.16, fabric_index: 0.05, ..Known::default() });
+        assert!(start[PRESSURE] > 0.0);
+        let run = |mut state: [f64; MAX_STATE], strain: f64, count: usize| {
+            let mut answer = model.evaluate(&state, strain);
+            for _ in 1..count {
+                state = answer.state.map(|column| column[0]);
+                answer = model.evaluate(&state, strain);
+            }
+            answer
+        };
+        let loose = run(start, -1e-4, 2000);
+        assert_eq!((loose.stress[0][0], loose.stress[1][0]), (0.0, 0.0));
+        assert!(loose.conductivity[0][0] > 0.0 && loose.conductivity[0][0] < 1e-3);
+        let again = run(loose.state.map(|column| column[0]), 1e-4, 4000);
+        assert!(again.stress[0][0] > 0.01 && again.conductivity[0][0] > 0.05, "{:?}", again.stress);
+    }
+
+    #[test]
+    fn what_is_known_of_the_start_is_kept_and_the_rest_is_the_mean() {
+        let model = model();
+        let known = Known {
+            porosity: 0.12,
+            fabric_index: 0.01,
+            fabric_conductivity: Some(0.03),
+            reduced_stress: Some([0.0625, 0.0375]),
+        };
+        let state = model.initial_state(&known);
+        assert_eq!(state[..4], [0.12, 0.01, 0.05, 0.03]);
+        assert_eq!(state[4], 0.0125);
+        let mean = model.initial_state(&Known { porosity: 0.12, fabric_index: 0.01, ..Known::default() });
+        let law = 0.4 * 0.08 + 4.0 * 0.08 * 0.08; // of the synthetic states
+        assert!((mean[PRESSURE] - law).abs() < 0.05 * law, "{mean:?}");
+        let doubt = model.doubt(&state).expect("the model knows its region");
+        assert!(doubt.distance.is_finite() && doubt.conductivity_spread >= 0.0);
+        let far = model.doubt(&[0.5, 0.0, 0.4, 0.0, 0.0, 0.0]).expect("the model knows its region");
+        assert!(far.beyond_hull > 1.0 && far.distance > 3.0, "{far:?}");
+    }
+
+    #[test]
+    fn same_seed_gives_the_same_bytes_whatever_the_thread_count() {
+        let text = |threads: usize| {
+            let mut options = StateOptions::default();
+            (options.common.max_epochs, options.common.restarts) = (6, 3);
+            options.common.threads = threads;
+            train(&synthetic::rows(8, 3), &Mechanical::default(), &options).expect("good rows").to_json()
+        };
+        assert_eq!(text(1), text(2));
+    }
+
+    #[test]
+    fn bad_files_are_refused_with_the_reason() {
+        let good: serde_json::Value = serde_json::from_str(&model().to_json()).expect("JSON");
+        let refused = |pointer: &str, value: serde_json::Value, expected: &str| {
+            let mut changed = good.clone();
+            *changed.pointer_mut(pointer).expect("key") = value;
+            let message = crate::state::file::read(&changed.to_string()).expect_err(pointer).to_string();
+            assert!(message.contains(expected), "{pointer}: {message}");
+        };
+        refused("/schema", "msdd-state-model-9".into(), "msdd-state-model-9");
+        refused("/rates/network/weights/3", 1e300.into(), "rates.network.weights[3]");
+        refused("/rates/network/sizes/0", 7.into(), "rates.network.sizes");
+        refused("/readouts", serde_json::json!([]), "readouts");
+        refused("/ranges/porosity/max", (-1.0).into(), "ranges.porosity");
+        refused("/variables/stress_deviator", false.into(), "rates.network.sizes");
+        let mut extra = good.clone();
+        extra["surprise"] = 1.into();
+        let message = crate::state::file::read(&extra.to_string()).expect_err("unknown key").to_string();
+        assert!(message.contains("surprise"), "{message}");
+    }
+}

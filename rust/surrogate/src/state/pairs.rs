@@ -1,7 +1,7 @@
 //! Pairs of stops as samples of the rates' fit, states as samples of the readout's, and the composed error.
 
-use super::fit::{Residual, Sample};
-use super::rates::{self, EVEN_OUTPUTS, Rates};
+use super::fit::{Residual, Sample, TERMS};
+use super::rates::{self, EVEN_OUTPUTS, Rates, direction};
 use super::readout::CONDUCTIVITY_FLOOR;
 use super::training::residual;
 use super::variables::{
@@ -10,8 +10,8 @@ use super::variables::{
 use crate::composition::increment;
 use crate::dataset::{Ramp, strain_between};
 use crate::kernel::LANES;
-use crate::perceptron::{Neurons, Perceptron};
-use crate::surrogate::{MAX_STATE, StateLanes};
+use crate::perceptron::Perceptron;
+use crate::surrogate::MAX_STATE;
 
 /// Two stops of a ramp, the later one after the strain.
 #[derive(Clone, Copy, Debug)]
@@ -132,7 +132,7 @@ fn rate_sample(
     let relative = share / (pair.to.state[PRESSURE] + PRESSURE_SCALE);
     let even = |output: usize, column: usize, weight: f64| {
         let (by_strain, mean) = (pair.strain * rates.scale[column], pair.strain * rates.offset[column]);
-        residual(output, [weight * by_strain, 0.0, 0.0], weight * (delta(column) - mean))
+        residual(output, [weight * by_strain, 0.0, 0.0, 0.0], weight * (delta(column) - mean))
     };
     let mut residuals = vec![even(0, POROSITY, share * WEIGHT_POROSITY)];
     if pair.from.jammed {
@@ -147,8 +147,11 @@ fn rate_sample(
                 column if Some(column) == variables.deviator() => relative,
                 _ => share,
             };
-            let c = features.odd.map(|odd| weight * pair.strain * rates.scale[column] * odd[0]);
-            residuals.push(residual(EVEN_OUTPUTS + k * count, c, weight * delta(column)));
+            let by_output = weight * pair.strain * rates.scale[column];
+            let mut c = [0.0; TERMS];
+            (0..count).for_each(|i| c[i] = by_output * features.odd[i][0]);
+            c[count] = by_output * direction(pair.strain) * features.odd[k][0];
+            residuals.push(residual(EVEN_OUTPUTS + k * (count + 1), c, weight * delta(column)));
         }
     }
     Sample { inputs, residuals }
@@ -175,8 +178,8 @@ fn readout_sample(variables: Variables, carried: bool, ranges: &FeatureRanges, p
     let (offset, scale) = READOUT_SCALES;
     let h = ((point.conductivity - CONDUCTIVITY_FLOOR) / features.root_pressure[0]).sqrt();
     // δK/K = 2 δh/h
-    let mut residuals = vec![residual(0, [2.0 * scale / h, 0.0, 0.0], 2.0 * (h - offset) / h)];
-    let odd = features.odd.map(|lanes| lanes[0]);
+    let mut residuals = vec![residual(0, [2.0 * scale / h, 0.0, 0.0, 0.0], 2.0 * (h - offset) / h)];
+    let odd = [features.odd[0][0], features.odd[1][0], features.odd[2][0], 0.0];
     let mut first = 1;
     if !carried {
         residuals.push(residual(first, odd, point.fabric_conductivity));
@@ -188,59 +191,57 @@ fn readout_sample(variables: Variables, carried: bool, ranges: &FeatureRanges, p
     Sample { inputs, residuals }
 }
 
-/// A packed state and where its ramp ends, jammed.
-pub struct Paths {
-    from: Vec<StateLanes>,
-    to: Vec<Vec<(Point, f64)>>,
+/// A ramp as a solver meets it: a start, and stops one after the other.
+#[derive(Clone, Debug)]
+pub struct Track {
+    pub start: [f64; MAX_STATE],
+    pub stops: Vec<Stop>,
 }
 
-/// Paths from the first stop of each ramp to its last jammed one, in blocks.
-pub fn paths(variables: Variables, kind: ConductivityKind, ramps: &[Ramp]) -> Paths {
-    let path = |ramp: &Ramp| {
-        let first = ramp.states.first()?;
-        let last = ramp.states.iter().rfind(|row| row.load_bearing && row.stop != first.stop)?;
-        let (from, to) = (Point::new(variables, kind, first)?, Point::new(variables, kind, last)?);
-        (from.jammed && to.jammed).then_some((from, to, strain_between(first, last)))
-    };
-    let all: Vec<_> = ramps.iter().filter_map(path).collect();
-    let mut paths = Paths { from: Vec::new(), to: Vec::new() };
-    for chunk in all.chunks(LANES) {
-        let lane_of = |lane: usize| &chunk[lane.min(chunk.len() - 1)].0.state;
-        paths.from.push(std::array::from_fn(|k| std::array::from_fn(|lane| lane_of(lane)[k])));
-        paths.to.push(chunk.iter().map(|(_, to, strain)| (*to, *strain)).collect());
+/// A stop of a track and the strain from the one before.
+#[derive(Clone, Copy, Debug)]
+pub struct Stop {
+    pub to: Point,
+    pub strain: f64,
+}
+
+/// Largest increment on a track: smaller ones do not change the composed error.
+const LARGEST_INCREMENT: f64 = 0.0025;
+
+impl Stop {
+    /// Increments that compose to the strain.
+    pub fn increments(&self) -> impl Iterator<Item = f64> {
+        let (strain, count) = (self.strain, (self.strain.abs() / LARGEST_INCREMENT).ceil().max(1.0) as u32);
+        (0..count).map(move |k| increment(strain, k, count))
     }
-    paths
 }
 
-/// Increments of the composed error: enough that more do not change it.
-const INCREMENTS: u32 = 20;
-
-/// Mean square of the weighted errors at the end of the paths, composed.
-pub fn composed_error(variables: Variables, ranges: &FeatureRanges, rates: &Rates, paths: &Paths) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    let mut neurons = Neurons::new();
-    for (from, ends) in paths.from.iter().zip(&paths.to) {
-        let mut state = *from;
-        for k in 0..INCREMENTS {
-            let strain =
-                std::array::from_fn(|lane| ends.get(lane).map_or(0.0, |e| increment(e.1, k, INCREMENTS)));
-            let features = ranges.features(variables, &state, &strain);
-            state = rates.advanced(variables, &state, &strain, &features, &mut neurons);
-        }
-        for (lane, (end, _)) in ends.iter().enumerate() {
-            let relative = 1.0 / (end.state[PRESSURE] + PRESSURE_SCALE);
-            for column in 0..variables.names().len() {
-                let weight = match column {
-                    POROSITY => WEIGHT_POROSITY,
-                    FABRIC_INDEX => WEIGHT_FABRIC_INDEX,
-                    PRESSURE => relative,
-                    column if Some(column) == variables.deviator() => relative,
-                    _ => 1.0,
-                };
-                sum += (weight * (state[column][lane] - end.state[column])).powi(2);
-                count += 1.0;
+/// Each ramp from its start and from its middle, up to the first stop without stress.
+pub fn tracks(variables: Variables, kind: ConductivityKind, ramps: &[Ramp]) -> Vec<Track> {
+    let track = |ramp: &Ramp, first: usize| {
+        let start = Point::new(variables, kind, ramp.states.get(first)?)?;
+        let mut stops = Vec::new();
+        for pair in ramp.states[first..].windows(2) {
+            let to = Point::new(variables, kind, &pair[1])?;
+            stops.push(Stop { to, strain: strain_between(&pair[0], &pair[1]) });
+            if !to.jammed {
+                break;
             }
         }
+        (start.jammed && !stops.is_empty()).then_some(Track { start: start.state, stops })
+    };
+    let firsts = |ramp: &'_ Ramp| [0, ramp.states.len() / 2];
+    ramps.iter().flat_map(|ramp| firsts(ramp).into_iter().filter_map(move |f| track(ramp, f))).collect()
+}
+
+/// Weight of the error of a column at the end of a path.
+pub fn end_weight(variables: Variables, column: usize, end: &Point) -> f64 {
+    let relative = 1.0 / (end.state[PRESSURE] + PRESSURE_SCALE);
+    match column {
+        POROSITY => WEIGHT_POROSITY,
+        FABRIC_INDEX => WEIGHT_FABRIC_INDEX,
+        PRESSURE => relative,
+        column if Some(column) == variables.deviator() => relative,
+        _ => 1.0,
     }
-    if count > 0.0 { sum / count } else { 0.0 }
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Rates {
     /// Even features in; outputs: rates of η and p̃, then for each odd variable its rate's coefficients of the odd
-    /// features.
+    /// features, and one of its own feature times the strain's sign.
     pub network: Perceptron,
     /// Rate dx/dε of each state column [-] at output 0: nonzero for the even ones.
     pub offset: [f64; MAX_STATE],
@@ -31,7 +31,7 @@ pub const EVEN_OUTPUTS: usize = 2;
 /// Layer sizes of the rates' network.
 pub fn sizes(variables: Variables, hidden: &[usize]) -> Vec<usize> {
     let odd = variables.odd_count();
-    [&[RATE_INPUTS], hidden, &[EVEN_OUTPUTS + odd * odd]].concat()
+    [&[RATE_INPUTS], hidden, &[EVEN_OUTPUTS + odd * (odd + 1)]].concat()
 }
 
 impl Rates {
@@ -58,8 +58,9 @@ impl Rates {
         let count = variables.odd_count();
         for (k, column) in variables.odd().enumerate() {
             for lane in 0..LANES {
-                let first = EVEN_OUTPUTS + k * count;
-                let sum = odd_sum(&outputs[first..first + count], &features.odd, lane);
+                let first = EVEN_OUTPUTS + k * (count + 1);
+                let sum = odd_sum(&outputs[first..first + count], &features.odd, lane)
+                    + direction(strain[lane]) * outputs[first + count][lane] * features.odd[k][lane];
                 next[column][lane] += strain[lane] * (self.scale[column] * sum);
             }
         }
@@ -84,6 +85,20 @@ impl Rates {
                 next[column][lane] = next[column][lane].clamp(-pressure, pressure);
             }
         }
+    }
+}
+
+/// Sign of the strain, 0 for none. Sliding contacts do not slide back: measured, the deviator fades on contraction much
+/// faster than it grows on expansion, whatever the size of the increments, so a rate that is smooth in ε cannot compose to
+/// both. η and p̃ do not see the sign: they are reversible, small to and fro does not let them creep.
+#[inline(always)]
+pub fn direction(strain: f64) -> f64 {
+    if strain > 0.0 {
+        1.0
+    } else if strain < 0.0 {
+        -1.0
+    } else {
+        0.0
     }
 }
 

@@ -1,7 +1,8 @@
 //! Training of the state model.
 
+use super::composed_fit::RatesFit;
 use super::file::Provenance;
-use super::fit::{PerceptronFit, Residual, Sample};
+use super::fit::{PerceptronFit, Residual, TERMS};
 use super::mean::MeanState;
 use super::model::{Core, StateModel};
 use super::pairs::{self, Pair};
@@ -40,7 +41,7 @@ impl Default for StateOptions {
         Self {
             common: TrainingOptions { restarts: 4, max_epochs: 150, ..TrainingOptions::default() },
             variables: Variables::ALL,
-            hidden: vec![8],
+            hidden: vec![4],
             readout_hidden: vec![4],
         }
     }
@@ -66,7 +67,7 @@ pub struct FitReport {
     pub stopping: Stopping,
     /// Mean squared weighted residual.
     pub training_error: f64,
-    /// What chose the epoch and the start: for the rates the composed error on the validation packings.
+    /// The same on the validation packings; it chose the epoch and the start.
     pub validation_error: f64,
 }
 
@@ -104,15 +105,18 @@ pub fn train(
     let scaled =
         |rates: &Rates, pairs: &[Pair]| pairs::rate_samples(options.variables, &ranges, rates, pairs);
     let blank = pairs::blank_rates(options.variables, &options.hidden, &parts.training, &split.training);
-    let with = |weights: &DVector<f64>| {
-        let network = Perceptron { weights: weights.as_slice().to_vec(), ..blank.network.clone() };
-        Rates { network, ..blank.clone() }
+    let fit = |ramps: &[Ramp], pairs: &[Pair], threads| RatesFit {
+        single: PerceptronFit::new(blank.network.sizes.clone(), &scaled(&blank, pairs), threads),
+        tracks: pairs::tracks(options.variables, kinds[0], ramps),
+        variables: options.variables,
+        ranges: &ranges,
+        rates: &blank,
     };
-    let paths = pairs::paths(options.variables, kinds[0], &split.validation);
-    let validate =
-        |weights: &DVector<f64>| pairs::composed_error(options.variables, &ranges, &with(weights), &paths);
-    let (network, rates_report) =
-        best_of_starts(&blank.network.sizes, &scaled(&blank, &parts.training), validate, options, 0);
+    let validation = fit(&split.validation, &parts.validation, 1);
+    let threads = options.fit_threads();
+    let training = fit(&split.training, &parts.training, threads);
+    let (network, rates_report) = best_of_starts(&training, &validation, &blank.network.sizes, options, 0);
+    drop((training, validation));
     let rates = Rates { network, ..blank };
 
     let (mut readouts, mut readout_reports) = (Vec::new(), Vec::new());
@@ -122,10 +126,10 @@ pub fn train(
         let samples = |ramps: &[Ramp]| {
             pairs::readout_samples(options.variables, carried, &ranges, &points(ramps, *kind))
         };
-        let validation = PerceptronFit::new(sizes.clone(), &samples(&split.validation), 1);
-        let validate = |weights: &DVector<f64>| validation.mean_square(weights);
+        let fit = |ramps, threads| PerceptronFit::new(sizes.clone(), &samples(ramps), threads);
+        let (training, validation) = (fit(&split.training, options.fit_threads()), fit(&split.validation, 1));
         let stream = 100 * (index as u64 + 1);
-        let (network, report) = best_of_starts(&sizes, &samples(&split.training), validate, options, stream);
+        let (network, report) = best_of_starts(&training, &validation, &sizes, options, stream);
         let (offset, scale) = pairs::READOUT_SCALES;
         readouts.push(Readout { kind: *kind, network, offset, scale, carried });
         readout_reports.push(report);
@@ -163,6 +167,12 @@ pub fn train(
 }
 
 impl StateOptions {
+    /// Threads of one fit, when the starts share them.
+    fn fit_threads(&self) -> usize {
+        let threads = self.common.threads_used();
+        (threads / threads.min(self.common.restarts as usize).max(1)).max(1)
+    }
+
     fn check(&self) -> Result<(), SurrogateError> {
         self.common.check()?;
         for (key, layers) in [("hidden", &self.hidden), ("readout_hidden", &self.readout_hidden)] {
@@ -236,26 +246,26 @@ fn held_out(model: &StateModel, ramps: &[Ramp]) -> Vec<Composed> {
 /// On the largest component of the mean gradient; errors are of order 1e-3, so this is a minimum for all purposes.
 const GRADIENT_LIMIT: f64 = 1e-10;
 
-/// Fits a network from several starts and keeps the one with the lowest `validate`. The starts run side by side; which
-/// is kept does not depend on how many do.
-fn best_of_starts(
+/// Fits a network from several starts and keeps the one with the lowest validation error. The starts run side by side;
+/// which is kept does not depend on how many do.
+fn best_of_starts<P: LeastSquares + Sync>(
+    training: &P,
+    validation: &P,
     sizes: &[usize],
-    samples: &[Sample],
-    validate: impl Fn(&DVector<f64>) -> f64 + Sync,
     options: &StateOptions,
     stream: u64,
 ) -> (Perceptron, FitReport) {
     let starts = options.common.restarts as usize;
-    let threads = options.common.threads_used();
-    let side_by_side = threads.min(starts);
-    let fit = PerceptronFit::new(sizes.to_vec(), samples, (threads / side_by_side).max(1));
-    let one = |restart: u32| fit_from(&fit, sizes, restart, &validate, options, stream);
+    let side_by_side = options.common.threads_used().min(starts);
+    let one = |restart: usize| {
+        let stream = stream + restart as u64 + 1;
+        let start = Perceptron::initial(sizes, options.common.seed, stream);
+        fit_from(training, validation, start, restart as u32, options)
+    };
     let mut all: Vec<(Perceptron, FitReport)> = std::thread::scope(|scope| {
         let one = &one;
         let worker = |first: usize| {
-            scope.spawn(move || {
-                (first..starts).step_by(side_by_side).map(|s| one(s as u32)).collect::<Vec<_>>()
-            })
+            scope.spawn(move || (first..starts).step_by(side_by_side).map(one).collect::<Vec<_>>())
         };
         let workers: Vec<_> = (0..side_by_side).map(worker).collect();
         let results = workers.into_iter().map(|worker| worker.join());
@@ -267,20 +277,19 @@ fn best_of_starts(
     all.swap_remove(0)
 }
 
-fn fit_from(
-    fit: &PerceptronFit,
-    sizes: &[usize],
+/// Minimises the training error; keeps the weights with the best validation error.
+fn fit_from<P: LeastSquares>(
+    training: &P,
+    validation: &P,
+    start: Perceptron,
     restart: u32,
-    validate: &impl Fn(&DVector<f64>) -> f64,
     options: &StateOptions,
-    stream: u64,
 ) -> (Perceptron, FitReport) {
-    let start = Perceptron::initial(sizes, options.common.seed, stream + u64::from(restart) + 1);
-    let start = DVector::from_vec(start.weights);
-    let mut best = (0, start.clone(), fit.mean_square(&start), validate(&start));
+    let (sizes, start) = (start.sizes, DVector::from_vec(start.weights));
+    let mut best = (0, start.clone(), training.mean_square(&start), validation.mean_square(&start));
     let limits = Limits { max_epochs: options.common.max_epochs, gradient: GRADIENT_LIMIT };
-    let minimum = minimise(fit, start, limits, |epoch, weights, training_error| {
-        let validation_error = validate(weights);
+    let minimum = minimise(training, start, limits, |epoch, weights, training_error| {
+        let validation_error = validation.mean_square(weights);
         if validation_error < best.3 {
             best = (epoch, weights.clone(), training_error, validation_error);
         }
@@ -297,10 +306,10 @@ fn fit_from(
         training_error,
         validation_error,
     };
-    (Perceptron { sizes: sizes.to_vec(), weights: weights.as_slice().to_vec() }, report)
+    (Perceptron { sizes, weights: weights.as_slice().to_vec() }, report)
 }
 
 /// Residual of one output.
-pub(super) fn residual(first: usize, coefficients: [f64; 3], target: f64) -> Residual {
+pub(super) fn residual(first: usize, coefficients: [f64; TERMS], target: f64) -> Residual {
     Residual { first, coefficients, floor: f64::NEG_INFINITY, target }
 }

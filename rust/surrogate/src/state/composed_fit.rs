@@ -1,0 +1,190 @@
+//! Fit of the rates to what they are judged by: composed increments along whole ramps, beside single large steps.
+//!
+//! Small steps from a packed state are the stiffest part of the data, and single steps alone would make them the rule
+//! for every small step: the composed deviator then drifts. So the residuals are of both kinds.
+
+use super::fit::PerceptronFit;
+use super::pairs::{self, Track};
+use super::rates::{EVEN_OUTPUTS, Rates, direction};
+use super::variables::{FeatureRanges, POROSITY, PRESSURE, Variables};
+use crate::kernel::{LANES, add_outer_products};
+use crate::levenberg_marquardt::{LeastSquares, NormalEquations};
+use crate::perceptron::{Neurons, Perceptron, WIDTH};
+use crate::surrogate::{MAX_STATE, StateLanes};
+use nalgebra::DVector;
+
+/// Single steps and tracks together.
+pub struct RatesFit<'a> {
+    pub single: PerceptronFit,
+    pub tracks: Vec<Track>,
+    pub variables: Variables,
+    pub ranges: &'a FeatureRanges,
+    pub rates: &'a Rates,
+}
+
+/// State perturbation of the forward differences; the state's variables are of order 0.1.
+const PERTURBATION: f64 = 1e-7;
+
+impl RatesFit<'_> {
+    fn with(&self, parameters: &DVector<f64>) -> Rates {
+        let network =
+            Perceptron { sizes: self.rates.network.sizes.clone(), weights: parameters.as_slice().to_vec() };
+        Rates { network, ..self.rates.clone() }
+    }
+
+    /// Follows a track; `row` gets each residual, and its gradient by the weights when asked for.
+    fn follow(&self, rates: &Rates, track: &Track, gradient: bool, mut row: impl FnMut(f64, &[f64])) {
+        let (names, weights) = (self.variables.names().len(), rates.network.weights.len());
+        let mut sensitivity = vec![vec![0.0; if gradient { weights } else { 0 }]; names];
+        let mut state = track.start;
+        let mut neurons = Neurons::new();
+        let mut scaled = vec![0.0; if gradient { weights } else { 0 }];
+        for stop in &track.stops {
+            for strain in stop.increments() {
+                state = self.step(rates, &state, strain, &mut neurons, gradient.then_some(&mut sensitivity));
+            }
+            for column in 0..names {
+                let weight = pairs::end_weight(self.variables, column, &stop.to);
+                if weight == 0.0 || !(stop.to.jammed || column == POROSITY || column == PRESSURE) {
+                    continue;
+                }
+                if gradient {
+                    scaled.iter_mut().zip(&sensitivity[column]).for_each(|(s, d)| *s = weight * d);
+                }
+                row(weight * (state[column] - stop.to.state[column]), &scaled);
+            }
+        }
+    }
+
+    /// One increment of one state, and of its sensitivity to the weights: S' = (∂x'/∂x) S + ∂x'/∂w.
+    fn step(
+        &self,
+        rates: &Rates,
+        state: &[f64; MAX_STATE],
+        strain: f64,
+        neurons: &mut Neurons,
+        sensitivity: Option<&mut Vec<Vec<f64>>>,
+    ) -> [f64; MAX_STATE] {
+        // Lane 0 is the state itself; the others are perturbed in one variable each.
+        let lanes: StateLanes = std::array::from_fn(|column| {
+            std::array::from_fn(|lane| state[column] + if lane == column + 1 { PERTURBATION } else { 0.0 })
+        });
+        // Features of zero strain: the rate in the limit of many increments. The single steps teach the large ones.
+        let features = self.ranges.features(self.variables, &lanes, &[0.0; LANES]);
+        let next = rates.advanced(self.variables, &lanes, &[strain; LANES], &features, neurons);
+        let Some(sensitivity) = sensitivity else { return next.map(|column| column[0]) };
+        let names = self.variables.names().len();
+        let old = std::mem::take(sensitivity);
+        let count = self.variables.odd_count();
+        for column in 0..names {
+            let mut row = vec![0.0; rates.network.weights.len()];
+            let cut = next[PRESSURE][0] == 0.0 && column != POROSITY;
+            if !cut {
+                let mut c = [0.0; WIDTH];
+                let by_output = strain * rates.scale[column];
+                match self.variables.odd().position(|odd| odd == column) {
+                    Some(k) => {
+                        let first = EVEN_OUTPUTS + k * (count + 1);
+                        for (i, odd) in features.odd[..count].iter().enumerate() {
+                            c[first + i] = by_output * odd[0];
+                        }
+                        c[first + count] = by_output * direction(strain) * features.odd[k][0];
+                    }
+                    None => c[usize::from(column == PRESSURE)] = by_output,
+                }
+                rates.network.gradient(neurons, 0, &c[..rates.network.outputs()], &mut row);
+            }
+            for (by, old) in old.iter().enumerate() {
+                let slope = (next[column][by + 1] - next[column][0]) / PERTURBATION;
+                row.iter_mut().zip(old).for_each(|(row, old)| *row += slope * old);
+            }
+            sensitivity.push(row);
+        }
+        next.map(|column| column[0])
+    }
+
+    fn track_count(&self) -> f64 {
+        let mut count = 0.0;
+        let rates = self.rates;
+        self.tracks.iter().for_each(|track| self.follow(rates, track, false, |_, _| count += 1.0));
+        count
+    }
+}
+
+impl LeastSquares for RatesFit<'_> {
+    fn mean_square(&self, parameters: &DVector<f64>) -> f64 {
+        let rates = self.with(parameters);
+        let (mut sum, mut count) = (0.0, 0.0);
+        for track in &self.tracks {
+            self.follow(&rates, track, false, |residual, _| {
+                sum += residual * residual;
+                count += 1.0;
+            });
+        }
+        let single = self.single.count();
+        (sum + single * self.single.mean_square(parameters)) / (single + count)
+    }
+
+    fn normal_equations(&self, parameters: &DVector<f64>) -> NormalEquations {
+        let rates = self.with(parameters);
+        let weights = parameters.len();
+        let mut matrix = self.single.summed_products(&rates.network);
+        let width = PerceptronFit::width(weights);
+        let mut rows = Vec::new();
+        for track in &self.tracks {
+            rows.clear();
+            self.follow(&rates, track, true, |residual, gradient| {
+                let start = rows.len();
+                rows.extend_from_slice(gradient);
+                rows.push(residual);
+                rows.resize(start + width, 0.0);
+            });
+            add_outer_products(&rows, width, &mut matrix);
+        }
+        PerceptronFit::equations(&matrix, weights, self.single.count() + self.track_count())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::training::StateOptions;
+    use crate::{dataset, scaling, state::variables::ConductivityKind, synthetic};
+
+    #[test]
+    fn gradient_along_tracks_is_that_of_the_mean_square() {
+        let (variables, kind) = (Variables::ALL, ConductivityKind::Affine);
+        let mut ramps = dataset::ramps(&synthetic::rows(8, 4)).expect("good rows");
+        // Away from unjamming, where the state has a kink.
+        ramps.retain(|ramp| ramp.states.iter().all(|row| row.stress_xx + row.stress_yy > 0.02));
+        assert!(ramps.len() > 6);
+        let pairs = pairs::pairs(variables, kind, &ramps);
+        let strains = scaling::Range::of(pairs.iter().map(|pair| pair.strain));
+        let ranges = FeatureRanges::of(&pairs::points(variables, kind, &ramps), strains);
+        let mut rates = pairs::blank_rates(variables, &StateOptions::default().hidden, &pairs, &ramps);
+        rates.network = Perceptron::initial(&rates.network.sizes, 5, 1);
+        let fit = RatesFit {
+            single: PerceptronFit::new(rates.network.sizes.clone(), &[], 1),
+            tracks: pairs::tracks(variables, kind, &ramps),
+            variables,
+            ranges: &ranges,
+            rates: &rates,
+        };
+        let start = DVector::from_vec(rates.network.weights.clone());
+        let equations = fit.normal_equations(&start);
+        for index in (0..start.len()).step_by(7) {
+            let at = |by: f64| {
+                let mut moved = start.clone();
+                moved[index] += by;
+                fit.mean_square(&moved)
+            };
+            let numeric = (at(1e-6) - at(-1e-6)) / 2e-6 / 2.0;
+            let analytic = equations.gradient[index];
+            let largest = equations.gradient.amax();
+            assert!(
+                (analytic - numeric).abs() < 1e-4 * largest,
+                "{index}: {analytic} against {numeric}, largest {largest}"
+            );
+        }
+    }
+}
