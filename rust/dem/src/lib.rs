@@ -17,6 +17,7 @@
 //! | `slabs` | forces and motion in parts, for threads |
 //! | `pace` | whether threads pay at the moment |
 //! | [`heat`] | thermal pipes, sub-stepped (Eq. 5) |
+//! | `pipes` | the pipes between discs, in slabs |
 //! | [`time_step`] | bound on the stable step |
 //! | [`run`] | many steps, watched; typed failures |
 //! | [`audit`] | where the energy goes |
@@ -35,6 +36,7 @@ pub mod law;
 pub mod material;
 mod neighbours;
 mod pace;
+mod pipes;
 pub mod restore;
 pub mod run;
 pub mod simulation;
@@ -44,7 +46,7 @@ pub mod walls;
 
 pub use contact::Contact;
 pub use disc::Disc;
-pub use heat::{HeatPipes, Thermal, WallHeat};
+pub use heat::{HeatPipes, HeatState, Thermal, WallHeat};
 pub use kernel::Simd;
 pub use material::{Material, MaterialError};
 pub use restore::RunState;

@@ -2,7 +2,7 @@
 
 use crate::disc::Disc;
 use crate::forces::Load;
-use crate::heat::{HeatPipes, Thermal, WallHeat};
+use crate::heat::{HeatPipes, HeatState, Thermal, WallHeat};
 use crate::kernel::{Motion, Simd};
 use crate::law::PairLaw;
 use crate::material::Material;
@@ -186,6 +186,18 @@ impl Simulation {
         self.pipes = Some(Box::new(HeatPipes::new(thermal, walls, &self.discs)));
     }
 
+    /// Turns heat on where an earlier run stood; radii, reference radii and temperatures are those of its state.
+    ///
+    /// # Panics
+    /// When `state` has not one value a disc.
+    pub fn resume_heat(&mut self, thermal: Thermal, walls: [WallHeat; 4], state: HeatState) {
+        let lengths = [state.reference_temperature.len(), state.mode.len()];
+        assert_eq!(lengths, [self.discs.len(); 2], "one value a disc");
+        let mut pipes = HeatPipes::new(thermal, walls, &self.discs);
+        pipes.set_state(state);
+        self.pipes = Some(Box::new(pipes));
+    }
+
     /// The heat pipes, when heat is on.
     pub fn heat(&self) -> Option<&HeatPipes> {
         self.pipes.as_deref()
@@ -194,8 +206,8 @@ impl Simulation {
     /// Conducts heat over `dt` [s] on the present geometry, without motion; nothing when heat is off.
     pub fn conduct(&mut self, dt: f64) {
         if let Some(mut pipes) = self.pipes.take() {
-            pipes.connect(self);
-            pipes.conduct(&mut self.discs, dt);
+            pipes.connect(self, self.shared);
+            pipes.conduct(self.shared, &mut self.discs, dt);
             self.pipes = Some(pipes);
         }
     }
@@ -213,7 +225,7 @@ impl Simulation {
     /// out where it turns unstable.
     pub fn conduct_once(&mut self, dt: f64) {
         if let Some(pipes) = &mut self.pipes {
-            pipes.substep(&mut self.discs, dt);
+            pipes.substeps(false, &mut self.discs, dt, 1);
         }
     }
 

@@ -47,7 +47,7 @@ fn line(name: &str, simulation: &Simulation) {
     let mechanical_ratio = largest_factor(|factor| shaken_is_stable(simulation, factor * mechanical));
     let mut warm = simulation.clone();
     warm.enable_heat(Thermal { expansion: 0.0, ..Thermal::default() }, [WallHeat::Insulated; 4]);
-    (0..200).for_each(|_| warm.conduct(1e-9)); // lets the power iteration converge
+    (0..1500).for_each(|_| warm.conduct(1e-9)); // lets the power iteration converge
     let thermal = warm.heat().map_or(f64::NAN, |heat| heat.stable_step());
     let thermal_ratio = largest_factor(|factor| heat_is_stable(&warm, factor * thermal));
     println!(
