@@ -49,7 +49,7 @@ pub struct Settled {
 }
 
 /// Steps until the forces balance. `since` is the step count at which the present load stage began.
-pub(crate) fn settle(simulation: &mut Simulation, since: u64) -> Result<Settled, RveError> {
+pub fn settle(simulation: &mut Simulation, since: u64) -> Result<Settled, RveError> {
     let end = simulation.steps + STEP_CAP;
     let mut unbalanced = f64::INFINITY;
     while unbalanced >= UNBALANCED_LIMIT && simulation.steps < end {
