@@ -11,6 +11,8 @@ pub enum CliError {
     #[error(transparent)]
     Database(#[from] msdd_rve::database::DatabaseError),
     #[error(transparent)]
+    Reference(#[from] msdd_reference::ReferenceError),
+    #[error(transparent)]
     Rve(#[from] msdd_rve::RveError),
     #[error("{file}: {source}")]
     State { file: PathBuf, source: msdd_rve::state::StateError },

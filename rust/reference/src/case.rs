@@ -43,6 +43,8 @@ pub struct Case {
     pub initial_temperature: f64,
     /// In the order of [`Side`].
     pub walls: [WallHeat; 4],
+    /// Lower left corner of the box in the case's coordinates [m].
+    pub origin: [f64; 2],
     /// Width and height of the box [m].
     pub size: [f64; 2],
     /// The simulation ends here [s].
@@ -72,6 +74,7 @@ impl Case {
             mean_radius,
             initial_temperature: initial_temperature(&temperature)?,
             walls: read_walls(&temperature)?,
+            origin: low,
             size: [high[0] - low[0], high[1] - low[1]],
             end_time: end_time(&control)?,
             probes: probes(&control)?.into_iter().map(|[x, y]| [x - low[0], y - low[1]]).collect(),

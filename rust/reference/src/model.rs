@@ -84,12 +84,17 @@ impl ModelSpec {
     }
 }
 
-/// Packs the box of a case. `progress` hears how much of the way is done, 0 to 1.
+/// Packs the box of a case; results do not depend on `threads`. `progress` hears how much of the way is done, 0 to 1.
 ///
 /// # Errors
 /// [`ReferenceError::Parameter`] when the case's grains do not fill the box; [`ReferenceError::Rve`] when the packing
 /// fails.
-pub fn pack(spec: ModelSpec, case: &Case, mut progress: impl FnMut(f64)) -> Result<Model, ReferenceError> {
+pub fn pack(
+    spec: ModelSpec,
+    case: &Case,
+    threads: usize,
+    mut progress: impl FnMut(f64),
+) -> Result<Model, ReferenceError> {
     spec.check()?;
     case.material.check().map_err(msdd_rve::RveError::from)?;
     let [width, height] = case.size.map(|length| length * spec.scale());
@@ -102,6 +107,7 @@ pub fn pack(spec: ModelSpec, case: &Case, mut progress: impl FnMut(f64)) -> Resu
     let slippery = Material { friction_angle: PACKING_FRICTION.atan(), ..case.material.clone() };
     let mut simulation = Simulation::new(slippery, discs, Walls::around(start_width, height));
     simulation.free_drag = FREE_DRAG;
+    simulation.set_threads(threads)?;
     close(&mut simulation, width, |done| progress(0.9 * done))?;
     simulation.material = case.material.clone();
     let settled = settle(&mut simulation, 0)?;

@@ -5,7 +5,7 @@ mod stability;
 use crate::error::CliError;
 use crate::rve::read_state;
 use clap::{Args, Subcommand, ValueEnum};
-use msdd_dem::{Simd, Stage};
+use msdd_dem::{Simd, Stage, Thermal, WallHeat};
 use msdd_rve::{Compression, Material, PackingSpec, Simulation, pack};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ pub enum Command {
 #[derive(Args)]
 #[command(
     after_help = "Each block of 500 steps starts from the given state and expands it at 0.1 1/s, so that the cost \
-is that of a dense, moving assembly. Without --state, discs are packed isotropically to a porosity of 0.12 first."
+is that of a dense, moving assembly; with --heat, the grains expand as they warm instead. Without --state, discs are packed isotropically to a porosity of 0.12 first."
 )]
 pub struct DemArguments {
     /// Discs to pack when no state is given.
@@ -37,6 +37,9 @@ pub struct DemArguments {
     /// Instruction set; default: the widest there is.
     #[arg(long, value_enum)]
     simd: Option<SimdName>,
+    /// Conduct heat as well: grains at 50 K between walls at 100 K.
+    #[arg(long)]
+    heat: bool,
     /// Threads of one simulation; small assemblies stay on one.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     threads: u32,
@@ -81,6 +84,10 @@ fn dem(arguments: &DemArguments) -> Result<(), CliError> {
         .map_err(|error| CliError::Message(format!("--threads {}: {error}", arguments.threads)))?;
     start.reset_strain();
     start.set_strain_rate(STRAIN_RATE);
+    if arguments.heat {
+        start.discs.iter_mut().for_each(|disc| disc.temperature = 50.0);
+        start.enable_heat(Thermal::default(), [WallHeat::Temperature(100.0); 4]);
+    }
     let json = serde_json::to_string_pretty(&measure(&start, arguments.steps, arguments.threads));
     println!("{}", json.map_err(|error| CliError::Message(error.to_string()))?);
     Ok(())
