@@ -29,6 +29,9 @@ pub struct Simulation {
     /// Whether moving walls carry the grains along (affine motion); their own velocities are relative to that then. Off
     /// as in the paper.
     pub affine: bool,
+    /// Whether walls shrink and stretch with the affine motion: carried grains do not slip along them then. Friction of
+    /// the long walls of a box would drag the grains to its ends otherwise.
+    pub affine_walls: bool,
     /// Steps taken.
     pub steps: u64,
     /// t [s].
@@ -90,6 +93,7 @@ impl Simulation {
             step_choice: StepChoice::Adaptive { safety: time_step::SAFETY },
             free_drag: 0.0,
             affine: false,
+            affine_walls: false,
             steps: 0,
             time: 0.0,
             pipes: None,
@@ -350,6 +354,7 @@ impl Simulation {
         let flow = self.flow();
         let law = PairLaw::new(&self.material, self.time_step, flow.gradient);
         for side in Side::ALL {
+            let flow = if self.affine_walls { flow.normal_to(side) } else { flow };
             self.wall_force[side as usize] =
                 self.slab_loads.add_wall(law, side, (&self.walls, flow), &self.discs, &mut self.neighbours);
         }

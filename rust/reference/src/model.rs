@@ -2,7 +2,8 @@
 //!
 //! The box ends at exactly the size of the case, so the area of the discs fixes how much of it they fill when overlaps
 //! count twice; friction while packing decides at what porosity they jam, hence the pressure (method: loose packing,
-//! walls close along x, grains carried along).
+//! walls close along x, grains and long walls carried along: with walls
+//! that stay, their friction leaves one end of the box at three times the pressure of the other.
 
 use crate::ReferenceError;
 use crate::case::Case;
@@ -153,7 +154,7 @@ fn close(
 ) -> Result<(), ReferenceError> {
     let way = simulation.walls.width() - width;
     let solid: f64 = simulation.discs.iter().map(Disc::area).sum();
-    simulation.affine = true;
+    (simulation.affine, simulation.affine_walls) = (true, true);
     loop {
         let left = simulation.walls.width() - width;
         let loose = 1.0 - solid / simulation.walls.area() > DENSE_POROSITY;
@@ -168,7 +169,7 @@ fn close(
     }
     simulation.walls.stop();
     simulation.walls.position[1] = width;
-    simulation.affine = false;
+    (simulation.affine, simulation.affine_walls) = (false, false);
     Ok(())
 }
 
