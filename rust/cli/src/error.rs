@@ -11,6 +11,8 @@ pub enum CliError {
     #[error(transparent)]
     Database(#[from] msdd_rve::database::DatabaseError),
     #[error(transparent)]
+    Reference(#[from] msdd_reference::ReferenceError),
+    #[error(transparent)]
     Rve(#[from] msdd_rve::RveError),
     #[error("{source}; the last good state, after {steps} steps at t = {time} s, is in {file}")]
     Stopped { source: msdd_rve::RveError, file: PathBuf, steps: u64, time: f64 },

@@ -6,6 +6,7 @@ mod database;
 mod error;
 mod files;
 mod progress;
+mod reference;
 mod rows;
 mod rve;
 mod score;
@@ -39,6 +40,9 @@ enum Command {
     /// Pack, expand and average a single RVE.
     #[command(subcommand)]
     Rve(rve::Command),
+    /// The box of a case by discrete elements: the reference that the solver is compared with.
+    #[command(subcommand)]
+    Reference(reference::Command),
     /// Measure speed; prints JSON.
     #[command(subcommand)]
     Bench(bench::Command),
@@ -54,6 +58,7 @@ fn main() -> ExitCode {
     let result = match Program::parse().command {
         Command::Database(command) => database::run(&command),
         Command::Rve(command) => rve::run(&command),
+        Command::Reference(command) => reference::run(&command),
         Command::Bench(command) => bench::run(&command),
         Command::Train(arguments) => train::run(&arguments),
         Command::Score(arguments) => score::run(&arguments),

@@ -180,7 +180,8 @@ pub fn read_state(path: &Path) -> Result<Simulation, CliError> {
     state::from_json(&read_text(path)?).map_err(failed)
 }
 
-fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
+/// Writes a state file.
+pub fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
     let failed = |source| CliError::State { file: path.to_path_buf(), source };
     write_atomically(path, state::to_json(simulation).map_err(failed)?.as_bytes())
 }

@@ -9,6 +9,7 @@ use crate::disc::Disc;
 use crate::network::Network;
 use crate::simulation::Simulation;
 use crate::walls::Side;
+use serde::{Deserialize, Serialize};
 
 /// Thermal parameters of the grains (Table 2).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +78,21 @@ pub struct HeatPipes {
     since_estimate: u32,
 }
 
+/// What has to be kept of [`HeatPipes`], beside temperatures and radii, so that a run continues bit for bit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeatState {
+    /// T at which each disc has its reference radius [K].
+    pub reference_temperature: Vec<f64>,
+    /// Heat that came in through each wall so far [J].
+    pub wall_heat: [f64; 4],
+    pub substeps: u64,
+    /// Estimate of the stiffest mode, one value a disc, its rate λ_max [1/s], and the steps since.
+    pub mode: Vec<f64>,
+    pub largest_rate: f64,
+    pub since_estimate: u32,
+}
+
 /// Length of the common chord of two circles at centre distance `d` [m]: the contact area on 1 m depth.
 pub fn chord([r1, r2]: [f64; 2], d: f64) -> f64 {
     // Distance of the chord from the first centre.
@@ -116,6 +132,27 @@ impl HeatPipes {
             largest_rate: 0.0,
             since_estimate: 0,
         }
+    }
+
+    /// What a checkpoint has to hold.
+    pub fn state(&self) -> HeatState {
+        HeatState {
+            reference_temperature: self.reference_temperature.clone(),
+            wall_heat: self.wall_heat,
+            substeps: self.substeps,
+            mode: self.mode.clone(),
+            largest_rate: self.largest_rate,
+            since_estimate: self.since_estimate,
+        }
+    }
+
+    pub(crate) fn set_state(&mut self, state: HeatState) {
+        self.reference_temperature = state.reference_temperature;
+        self.wall_heat = state.wall_heat;
+        self.substeps = state.substeps;
+        self.mode = state.mode;
+        self.largest_rate = state.largest_rate;
+        self.since_estimate = state.since_estimate;
     }
 
     /// Takes pipes and conductances from the present geometry.

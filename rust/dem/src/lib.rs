@@ -50,7 +50,7 @@ pub mod walls;
 
 pub use contact::Contact;
 pub use disc::Disc;
-pub use heat::{HeatPipes, Thermal, WallHeat};
+pub use heat::{HeatPipes, HeatState, Thermal, WallHeat};
 pub use kernel::Simd;
 pub use material::{Material, MaterialError};
 pub use restore::RunState;

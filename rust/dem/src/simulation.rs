@@ -2,7 +2,7 @@
 
 use crate::disc::Disc;
 use crate::forces::Load;
-use crate::heat::{HeatPipes, Thermal, WallHeat};
+use crate::heat::{HeatPipes, HeatState, Thermal, WallHeat};
 use crate::kernel::{Motion, Simd};
 use crate::law::PairLaw;
 use crate::material::Material;
@@ -30,6 +30,9 @@ pub struct Simulation {
     /// Whether moving walls carry the grains along (affine motion); their own velocities are relative to that then. Off
     /// as in the paper.
     pub affine: bool,
+    /// Whether walls shrink and stretch with the affine motion: carried grains do not slip along them then. Friction of
+    /// the long walls of a box would drag the grains to its ends otherwise.
+    pub affine_walls: bool,
     /// Steps taken.
     pub steps: u64,
     /// t [s].
@@ -91,6 +94,7 @@ impl Simulation {
             step_choice: StepChoice::Adaptive { safety: time_step::SAFETY },
             free_drag: 0.0,
             affine: false,
+            affine_walls: false,
             steps: 0,
             time: 0.0,
             pipes: None,
@@ -179,6 +183,18 @@ impl Simulation {
     pub fn enable_heat(&mut self, thermal: Thermal, walls: [WallHeat; 4]) {
         self.reset_strain();
         self.pipes = Some(Box::new(HeatPipes::new(thermal, walls, &self.discs)));
+    }
+
+    /// Turns heat on where an earlier run stood; radii, reference radii and temperatures are those of its state.
+    ///
+    /// # Panics
+    /// When `state` has not one value a disc.
+    pub fn resume_heat(&mut self, thermal: Thermal, walls: [WallHeat; 4], state: HeatState) {
+        let lengths = [state.reference_temperature.len(), state.mode.len()];
+        assert_eq!(lengths, [self.discs.len(); 2], "one value a disc");
+        let mut pipes = HeatPipes::new(thermal, walls, &self.discs);
+        pipes.set_state(state);
+        self.pipes = Some(Box::new(pipes));
     }
 
     /// The heat pipes, when heat is on.
@@ -355,6 +371,7 @@ impl Simulation {
             law: PairLaw::new(&self.material, dt, flow.gradient, conductivity),
             walls: &self.walls,
             flow,
+            affine_walls: self.affine_walls,
             motion: Motion {
                 damping: self.material.damping,
                 keep_free: (1.0 - self.free_drag * dt).max(0.0),

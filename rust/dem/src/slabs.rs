@@ -26,6 +26,8 @@ pub(crate) struct Sweep<'a> {
     pub law: PairLaw,
     pub walls: &'a Walls,
     pub flow: Flow,
+    /// Whether the walls shrink and stretch with the flow.
+    pub affine_walls: bool,
     pub motion: Motion,
     /// New radii are this times the reference radii [m]; None: they stay.
     pub radii: Option<(f64, &'a [f64])>,
@@ -158,7 +160,8 @@ impl Task<'_> {
             mark(Stage::Pairs);
             for side in Side::ALL {
                 let contacts = self.walls[side as usize].take_below(block.rows.end);
-                let walls = (sweep.walls, sweep.flow);
+                let flow = if sweep.affine_walls { sweep.flow.normal_to(side) } else { sweep.flow };
+                let walls = (sweep.walls, flow);
                 let force = forces::add_wall(sweep.law, side, walls, contacts, (begin, discs), loads);
                 let [normal, tangential] = &mut swept.wall_force[side as usize];
                 *normal += force[0];

@@ -48,6 +48,15 @@ impl Flow {
     /// Grains that no flow carries.
     pub const NONE: Self = Self { gradient: [0.0; 2], at_origin: [0.0; 2] };
 
+    /// The part normal to a wall: what a wall that is carried along itself leaves as slip.
+    pub fn normal_to(self, side: Side) -> Self {
+        let normal = side.normal().map(f64::abs);
+        Self {
+            gradient: [normal[0] * self.gradient[0], normal[1] * self.gradient[1]],
+            at_origin: [normal[0] * self.at_origin[0], normal[1] * self.at_origin[1]],
+        }
+    }
+
     /// u [m/s] at (x, y).
     #[inline(always)]
     pub fn at(&self, x: f64, y: f64) -> [f64; 2] {

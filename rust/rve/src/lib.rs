@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`pack`](mod@pack) | random discs, walls close to a target porosity, relax |
 //! | [`expand`](mod@expand) | ramps of thermal strain and wall strain, with stops |
+//! | [`place`] | seeded random numbers, loose starts |
 //! | [`settle`] | relaxation to static equilibrium, with its outcome |
 //! | [`region`] | the averaging region: a convex polygon |
 //! | [`area`] | exact area of a union of discs inside a polygon |
@@ -27,7 +28,7 @@ pub mod homogenise;
 pub mod last_good;
 pub mod network;
 pub mod pack;
-mod place;
+pub mod place;
 pub mod region;
 mod resistors;
 pub mod settle;

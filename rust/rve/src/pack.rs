@@ -15,7 +15,7 @@ const START_DENSITY: f64 = 0.42;
 /// Speed of each wall [m/s]. At most 0.05 is quasi-static for 500 discs; slower changes no statistics.
 const WALL_SPEED: f64 = 0.03;
 /// Drag on contact-free discs while an RVE is made [1/s]: the paper's damping leaves them flying for ever.
-pub(crate) const FREE_DRAG: f64 = 20.0;
+pub const FREE_DRAG: f64 = 20.0;
 /// Compression is given up after this many times the steps that the way of the walls needs.
 const STEP_CAP_FACTOR: f64 = 1.5;
 

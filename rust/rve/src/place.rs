@@ -9,7 +9,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 const ATTEMPTS: u32 = 100_000;
 
 /// Seeded stream of uniform numbers. ChaCha8's output is fixed by its definition, so seeds keep their meaning.
-pub(crate) struct Random(ChaCha8Rng);
+pub struct Random(ChaCha8Rng);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
@@ -24,13 +24,13 @@ impl Random {
 }
 
 /// `count` radii, uniform in [low, high) [m].
-pub(crate) fn radii(random: &mut Random, count: usize, low: f64, high: f64) -> Vec<f64> {
+pub fn radii(random: &mut Random, count: usize, low: f64, high: f64) -> Vec<f64> {
     (0..count).map(|_| random.uniform(low, high)).collect()
 }
 
 /// Places discs of the given radii in [0, width] × [0, height] without overlap, the largest first, and returns them
 /// ordered by place (lines of cells), so that neighbours lie near in memory.
-pub(crate) fn scatter(
+pub fn scatter(
     random: &mut Random,
     mut radii: Vec<f64>,
     width: f64,

@@ -60,11 +60,7 @@ pub struct Settled {
 }
 
 /// Steps until the forces balance. `since` is the step count at which the present load stage began.
-pub(crate) fn settle(
-    simulation: &mut Simulation,
-    relaxation: Relaxation,
-    since: u64,
-) -> Result<Settled, RveError> {
+pub fn settle(simulation: &mut Simulation, relaxation: Relaxation, since: u64) -> Result<Settled, RveError> {
     let balanced = |simulation: &Simulation| unbalanced_force(simulation) < UNBALANCED_LIMIT;
     match relaxation {
         Relaxation::Fire => {

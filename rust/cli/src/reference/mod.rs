@@ -1,0 +1,300 @@
+//! `msdd reference`: the box of a case by discrete elements.
+
+mod summary;
+
+use crate::error::CliError;
+use crate::files::write_atomically;
+use crate::progress::Progress;
+use crate::rve::{read_state, write_state};
+use clap::{Args, Subcommand};
+use msdd_dem::Simulation;
+use msdd_reference::model::{DISCS, ModelSpec, check_state, pack, statistics};
+use msdd_reference::run::Watch;
+use msdd_reference::{
+    Case, ReferenceError, RunSpec, Statistics, fields, mesh, results::Results, run as run_case,
+};
+use msdd_rve::vtk;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Pack the initial model of a case, and print its statistics beside the paper's.
+    Pack(PackArguments),
+    /// Run a case; a killed run resumes.
+    Run(RunArguments),
+    /// Write the initial fields of the solver from windows of the packed model.
+    Fields(FieldsArguments),
+    /// Table of results: mean and scatter over the seeds; or how far two runs differ.
+    Summary(summary::Arguments),
+}
+
+/// Which packed model.
+#[derive(Args)]
+pub struct ModelArguments {
+    /// Case folder: materials, temperatures, times and box are read from its files.
+    #[arg(long, value_name = "DIR")]
+    case: PathBuf,
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Fewer discs get a smaller box of the same shape and porosity.
+    #[arg(long, default_value_t = DISCS)]
+    discs: usize,
+    /// Packed model (state file); packed and written when missing. Default: results/reference/packed_seed<N>.json.
+    #[arg(long, value_name = "FILE")]
+    state: Option<PathBuf>,
+    #[arg(long, default_value_t = threads(), value_parser = clap::value_parser!(u32).range(1..=64))]
+    threads: u32,
+}
+
+#[derive(Args)]
+#[command(after_help = "Example: msdd reference pack --case cases/H --seed 1")]
+pub struct PackArguments {
+    #[command(flatten)]
+    model: ModelArguments,
+    /// Pack again even if there is a model.
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Args)]
+#[command(after_help = "Example: msdd reference run --case cases/HC --seed 1 --out results/reference
+writes HC_seed1.json and HC_seed1.csv there, and HC_seed1.checkpoint.json while it runs.")]
+pub struct RunArguments {
+    #[command(flatten)]
+    model: ModelArguments,
+    /// Folder for the results.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// End [s]; default: endTime of the case.
+    #[arg(long)]
+    end: Option<f64>,
+    /// Between two lines of the time series [s].
+    #[arg(long, default_value_t = 0.1)]
+    interval: f64,
+    /// Profiles along x over the run.
+    #[arg(long, default_value_t = 21)]
+    profiles: usize,
+    /// Largest mechanical step [s]; default: from the stability bound.
+    #[arg(long)]
+    time_step: Option<f64>,
+    /// Seconds between two checkpoints, at least.
+    #[arg(long, default_value_t = 20.0)]
+    checkpoint_every: f64,
+    /// Folder for a ParaView series, one state a profile.
+    #[arg(long, value_name = "DIR")]
+    vtk: Option<PathBuf>,
+}
+
+#[derive(Args)]
+#[command(after_help = "Example: msdd reference fields --case cases/H --seed 1
+writes porosity, fabricIndex, fabricConductivity and stress into cases/H/0 for the mesh in cases/H/constant/polyMesh.")]
+pub struct FieldsArguments {
+    #[command(flatten)]
+    model: ModelArguments,
+    /// Folder for the fields; default: 0 of the case.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+fn threads() -> u32 {
+    std::thread::available_parallelism().map_or(1, |n| n.get().min(2) as u32)
+}
+
+pub fn run(command: &Command) -> Result<(), CliError> {
+    match command {
+        Command::Pack(arguments) => pack_model(arguments),
+        Command::Run(arguments) => run_model(arguments),
+        Command::Fields(arguments) => write_fields(arguments),
+        Command::Summary(arguments) => summary::run(arguments),
+    }
+}
+
+impl ModelArguments {
+    fn path(&self) -> PathBuf {
+        let name = match self.discs {
+            DISCS => format!("packed_seed{}.json", self.seed),
+            discs => format!("packed_{discs}_seed{}.json", self.seed),
+        };
+        self.state.clone().unwrap_or_else(|| Path::new("results/reference").join(name))
+    }
+
+    /// The packed model: from its file, or packed now and written there.
+    fn load(&self, case: &Case) -> Result<Simulation, CliError> {
+        let path = self.path();
+        if !path.exists() {
+            self.pack(case)?;
+        }
+        // Always as read back, so that a run does not depend on whether it packed the model itself.
+        let simulation = read_state(&path)?;
+        let refused = |error: ReferenceError| CliError::Message(format!("{}: {error}", path.display()));
+        check_state(&simulation, case).map_err(refused)?;
+        if self.state.is_none() && simulation.discs.len() != self.discs {
+            let (found, wanted) = (simulation.discs.len(), self.discs);
+            let message = format!("{}: {found} particles, allowed: {wanted}, or --state", path.display());
+            return Err(CliError::Message(message));
+        }
+        Ok(simulation)
+    }
+
+    fn pack(&self, case: &Case) -> Result<(), CliError> {
+        let begin = Instant::now();
+        let mut progress = Progress::new("packing, %", 100);
+        let spec = ModelSpec { discs: self.discs, seed: self.seed };
+        let watch = |done: f64| progress.set((100.0 * done) as u64, 100, "");
+        let model = pack(spec, case, self.threads as usize, watch)?;
+        progress.finish();
+        let path = self.path();
+        write_state(&path, &model.simulation)?;
+        println!(
+            "packed seed {} in {:.1} s: {} after {} steps, {}",
+            self.seed,
+            begin.elapsed().as_secs_f64(),
+            model.settled.outcome.as_str(),
+            model.settled.steps,
+            path.display()
+        );
+        Ok(())
+    }
+}
+
+fn pack_model(arguments: &PackArguments) -> Result<(), CliError> {
+    let case = Case::read(&arguments.model.case)?;
+    if arguments.force {
+        arguments.model.pack(&case)?;
+    }
+    let simulation = arguments.model.load(&case)?;
+    print_statistics(&statistics(&simulation));
+    Ok(())
+}
+
+fn print_statistics(s: &Statistics) {
+    let [low, high] = s.porosity_range;
+    println!("porosity             {:.4}   paper 0.125", s.porosity);
+    println!("  of 10 x 3 regions  {low:.4} to {high:.4}   paper, windows: 0.117 to 0.131");
+    println!("  sum of areas       {:.4}", s.porosity_sum_of_areas);
+    let [low, high] = s.fabric_range;
+    println!("fabric index         {:.4}   paper 0.050", s.fabric_index);
+    println!("  of 10 x 3 regions  {low:.4} to {high:.4}   paper, windows: 0.030 to 0.064");
+    println!("pressure [Pa]        {:.1}", s.pressure);
+    println!("K/k, xx and yy       {:.4} {:.4}", s.conductivity[0], s.conductivity[1]);
+    println!("coordination         {:.3}, rattlers {}", s.coordination, s.rattlers);
+}
+
+fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
+    let case = Case::read(&arguments.model.case)?;
+    let start = arguments.model.load(&case)?;
+    let every = Duration::try_from_secs_f64(arguments.checkpoint_every);
+    let spec = RunSpec {
+        seed: arguments.model.seed,
+        end: arguments.end.unwrap_or(case.end_time),
+        interval: arguments.interval,
+        profiles: arguments.profiles,
+        time_step: arguments.time_step,
+        threads: arguments.model.threads as usize,
+        checkpoint_every: every.map_err(|error| CliError::Message(format!("--checkpoint-every: {error}")))?,
+    };
+    let name = format!("{}_seed{}", case.name, arguments.model.seed);
+    let file = |suffix: &str| arguments.out.join(format!("{name}.{suffix}"));
+    let checkpoint = file("checkpoint.json");
+    let begin = Instant::now();
+    let results = watched(&case, &start, &spec, &checkpoint, arguments.vtk.as_deref())?;
+    let json = serde_json::to_string(&results).map_err(ReferenceError::from)?;
+    write_atomically(&file("json"), json.as_bytes())?;
+    write_atomically(&file("csv"), results.series.to_csv().as_bytes())?;
+    let _ = std::fs::remove_file(&checkpoint);
+    report(&name, &results, begin.elapsed());
+    Ok(())
+}
+
+fn watched(
+    case: &Case,
+    start: &Simulation,
+    spec: &RunSpec,
+    checkpoint: &Path,
+    vtk: Option<&Path>,
+) -> Result<Results, CliError> {
+    // In milliseconds of simulated time.
+    let total = (1e3 * spec.end).ceil() as u64;
+    let mut progress = Progress::new("simulated ms", total);
+    let io = |error: CliError| ReferenceError::Write(std::io::Error::other(error.to_string()));
+    let mut watch = Watch {
+        progress: &mut |time| progress.set(((1e3 * time) as u64).min(total), total, ""),
+        profile: &mut |times, simulation| match vtk {
+            Some(folder) => write_vtk(folder, times, simulation).map_err(io),
+            None => Ok(()),
+        },
+        save: &mut |text| write_atomically(checkpoint, text.as_bytes()).map_err(io),
+    };
+    let results = run_case(case, start, spec, checkpoint, &mut watch)?;
+    progress.finish();
+    Ok(results)
+}
+
+/// The state at the last of `times` [s], and the series of all of them.
+fn write_vtk(folder: &Path, times: &[f64], simulation: &Simulation) -> Result<(), CliError> {
+    for (name, text) in [("particles", vtk::particles(simulation)), ("contacts", vtk::contacts(simulation))] {
+        let file = |k: usize| format!("{name}_{k:04}.vtp");
+        write_atomically(&folder.join(file(times.len() - 1)), text.as_bytes())?;
+        let list: Vec<(f64, String)> = times.iter().enumerate().map(|(k, &time)| (time, file(k))).collect();
+        write_atomically(&folder.join(format!("{name}.pvd")), vtk::series(&list).as_bytes())?;
+    }
+    Ok(())
+}
+
+fn report(name: &str, results: &Results, elapsed: Duration) {
+    let last = |column: &str| results.series.column(column).and_then(|values| values.last().copied());
+    let show = |column: &str| last(column).map_or("-".to_string(), |value| format!("{value:.4}"));
+    println!(
+        "{name}: {} steps, {} thermal sub-steps in {:.1} s; at the end T {}, porosity {}, fabric index {}, \
+         pressure {} Pa, K/k {} {}",
+        results.steps,
+        results.thermal_substeps,
+        elapsed.as_secs_f64(),
+        show("T_mean"),
+        show("porosity"),
+        show("fabric_index"),
+        show("pressure"),
+        show("conductivity_xx"),
+        show("conductivity_yy"),
+    );
+}
+
+fn write_fields(arguments: &FieldsArguments) -> Result<(), CliError> {
+    let case = Case::read(&arguments.model.case)?;
+    let centres = mesh::cell_centres(&case.folder)?;
+    let simulation = arguments.model.load(&case)?;
+    let scale = simulation.walls.width() / case.size[0];
+    let [left, _, bottom, _] = simulation.walls.position;
+    let at = |[x, y]: [f64; 2]| [left + scale * (x - case.origin[0]), bottom + scale * (y - case.origin[1])];
+    let centres: Vec<[f64; 2]> = centres.into_iter().map(at).collect();
+    let begin = Instant::now();
+    let averages = fields::around(&simulation, &centres, arguments.model.threads as usize)?;
+    let note = format!(
+        "Windows of {} mm of {} packed grains, seed {}: written by msdd reference fields",
+        1e3 * fields::WINDOW,
+        simulation.discs.len(),
+        arguments.model.seed
+    );
+    let out = arguments.out.clone().unwrap_or_else(|| case.folder.join("0"));
+    for (name, text) in fields::files(&averages, &note) {
+        write_atomically(&out.join(name), text.as_bytes())?;
+    }
+    println!(
+        "{} cells in {:.1} s: porosity {:.4} to {:.4}, fabric index {:.4} to {:.4}, pressure {:.1} to {:.1} Pa, {}",
+        averages.len(),
+        begin.elapsed().as_secs_f64(),
+        least(&averages, |a| a.porosity),
+        -least(&averages, |a| -a.porosity),
+        least(&averages, |a| a.fabric_index),
+        -least(&averages, |a| -a.fabric_index),
+        least(&averages, |a| a.pressure),
+        -least(&averages, |a| -a.pressure),
+        out.display()
+    );
+    Ok(())
+}
+
+fn least(averages: &[msdd_rve::Averages], value: impl Fn(&msdd_rve::Averages) -> f64) -> f64 {
+    averages.iter().map(value).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,146 @@
+//! `msdd reference summary`: what the seeds agree on, and what the step size costs.
+
+use crate::error::CliError;
+use crate::files::{read_text, write_atomically};
+use clap::Args;
+use msdd_reference::results::Results;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+#[command(after_help = "Examples:
+  msdd reference summary results/reference/*_seed?.json --out results/reference/summary.json
+  msdd reference summary results/fine/H_seed1.json results/reference/H_seed1.json --differences")]
+pub struct Arguments {
+    /// Results of `msdd reference run`.
+    #[arg(required = true, value_name = "FILE")]
+    results: Vec<PathBuf>,
+    /// Largest difference of each column of the series of two results, at the times of the first.
+    #[arg(long)]
+    differences: bool,
+    /// Also write the table as JSON.
+    #[arg(long, value_name = "FILE", conflicts_with = "differences")]
+    out: Option<PathBuf>,
+}
+
+/// Times at which a case is summed up, over its end: 5, 10 and 20 s of 20.
+const MOMENTS: [f64; 3] = [0.25, 0.5, 1.0];
+/// Columns that are left out of the table: single contacts, single discs.
+const LEFT_OUT: [&str; 2] = ["tangential_force", "mobilised"];
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let results: Vec<Results> = arguments.results.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
+    if arguments.differences {
+        return match results.as_slice() {
+            [first, second] => differences(first, second),
+            _ => Err(CliError::Message("--differences: give two results".to_string())),
+        };
+    }
+    let mut cases: BTreeMap<&str, Vec<&Results>> = BTreeMap::new();
+    for result in &results {
+        cases.entry(&result.case).or_default().push(result);
+    }
+    let mut summary = Map::new();
+    for (case, results) in cases {
+        summary.insert(case.to_string(), table(case, &results)?);
+    }
+    match &arguments.out {
+        Some(path) => {
+            let text =
+                serde_json::to_string_pretty(&summary).map_err(|e| CliError::Message(e.to_string()))?;
+            write_atomically(path, text.as_bytes())
+        }
+        None => Ok(()),
+    }
+}
+
+fn read(path: &Path) -> Result<Results, CliError> {
+    let failed = |error| CliError::Message(format!("{}: {error}", path.display()));
+    serde_json::from_str(&read_text(path)?).map_err(failed)
+}
+
+/// Prints and returns mean and standard deviation over the seeds of the columns at several moments.
+fn table(case: &str, results: &[&Results]) -> Result<Value, CliError> {
+    let seeds: Vec<u64> = results.iter().map(|result| result.seed).collect();
+    let times = column(results[0], "time")?;
+    let end = times.last().copied().unwrap_or(0.0);
+    let moments = MOMENTS.map(|part| part * end);
+    println!("{case}, seeds {seeds:?}: mean +- standard deviation over the seeds");
+    println!("{:<22} {}", "", moments.map(|t| format!("{:>26}", format!("{t} s"))).join(""));
+    let mut columns = Map::new();
+    let shown = |name: &&String| *name != "time" && !LEFT_OUT.iter().any(|part| name.starts_with(part));
+    for name in results[0].series.columns.iter().filter(shown) {
+        let mut line = Vec::new();
+        for moment in moments {
+            let at = results.iter().map(|result| value_at(result, name, moment));
+            line.push(mean_and_deviation(&at.collect::<Result<Vec<f64>, _>>()?));
+        }
+        let cells = line.iter().map(|(mean, sd)| format!("{:>26}", format!("{mean:.5} +- {sd:.5}")));
+        println!("{name:<22} {}", cells.collect::<String>());
+        columns.insert(name.clone(), json!(line.iter().map(|(m, s)| json!([m, s])).collect::<Vec<_>>()));
+    }
+    Ok(json!({"seeds": seeds, "times": moments, "mean_and_deviation": columns}))
+}
+
+fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let square: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
+    (mean, if values.len() > 1 { (square / (count - 1.0)).sqrt() } else { 0.0 })
+}
+
+/// Prints how far the second result is from the first.
+fn differences(first: &Results, second: &Results) -> Result<(), CliError> {
+    let times = column(first, "time")?;
+    let step = |result: &Results| match result.time_step {
+        Some(step) => format!("steps of {step} s"),
+        None => "steps from the bound".to_string(),
+    };
+    println!("{} with {} against {} with {}", second.case, step(second), first.case, step(first));
+    println!("{:<22} {:>14} {:>14} {:>14}", "", "largest", "at time [s]", "range of first");
+    for name in first.series.columns.iter().filter(|name| *name != "time") {
+        let (mut largest, mut when) = (0.0f64, 0.0);
+        let values = column(first, name)?;
+        for (&time, value) in times.iter().zip(&values) {
+            let difference = (value_at(second, name, time)? - value).abs();
+            if difference > largest {
+                (largest, when) = (difference, time);
+            }
+        }
+        let range = values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+            - values.iter().copied().fold(f64::INFINITY, f64::min);
+        println!("{name:<22} {largest:>14.6} {when:>14} {range:>14.6}");
+    }
+    Ok(())
+}
+
+fn column(result: &Results, name: &str) -> Result<Vec<f64>, CliError> {
+    let missing = || CliError::Message(format!("{} seed {}: no column {name}", result.case, result.seed));
+    result.series.column(name).filter(|values| !values.is_empty()).ok_or_else(missing)
+}
+
+/// Value of a column at a time, linear between the lines of the series.
+fn value_at(result: &Results, name: &str, time: f64) -> Result<f64, CliError> {
+    let (times, values) = (column(result, "time")?, column(result, name)?);
+    let after = times.partition_point(|&t| t < time - 1e-9);
+    Ok(match after {
+        0 => values[0],
+        k if k == times.len() => values[k - 1],
+        k => {
+            let share = (time - times[k - 1]) / (times[k] - times[k - 1]);
+            values[k - 1] + share * (values[k] - values[k - 1])
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scatter_of_seeds() {
+        assert_eq!(mean_and_deviation(&[3.0]), (3.0, 0.0));
+        assert_eq!(mean_and_deviation(&[1.0, 2.0, 3.0]), (2.0, 1.0));
+    }
+}

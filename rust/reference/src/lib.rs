@@ -1,0 +1,57 @@
+//! The reference: all grains of a case's box by discrete elements (section 3.2), run from the solver's own case files.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`dictionary`] | OpenFOAM dictionaries as `foamDictionary -expand` prints them |
+//! | [`case`] | material, temperatures, box and times of a case folder |
+//! | [`mesh`] | cell centres of a case's mesh |
+//! | [`model`] | the packed initial model and its statistics |
+//! | [`window`] | averages over rectangles of it |
+//! | [`mod@observe`] | what is recorded of a state: series, sub-regions, profiles |
+//! | [`run`](mod@run) | heat, expansion and motion to the end time |
+//! | [`checkpoint`] | what a killed run continues from |
+//! | [`fields`] | initial fields for the solver |
+//! | [`results`] | result files |
+#![forbid(unsafe_code)]
+
+pub mod case;
+pub mod checkpoint;
+pub mod dictionary;
+pub mod fields;
+pub mod mesh;
+pub mod model;
+pub mod observe;
+pub mod results;
+pub mod run;
+pub mod window;
+
+pub use case::Case;
+pub use model::{Model, ModelSpec, Statistics};
+pub use run::{RunSpec, run};
+
+use std::path::PathBuf;
+
+/// What can be wrong with a case, or go wrong in a run.
+#[derive(Debug, thiserror::Error)]
+pub enum ReferenceError {
+    #[error("{file}: {key} = {value}, allowed: {allowed}", file = file.display())]
+    Key { file: PathBuf, key: String, value: String, allowed: String },
+    #[error("{file}: line {line}: {problem}", file = file.display())]
+    Syntax { file: PathBuf, line: usize, problem: String },
+    #[error("cannot read {file}: {problem}", file = file.display())]
+    Read { file: PathBuf, problem: String },
+    #[error("{key} = {value}, allowed: {allowed}")]
+    Parameter { key: &'static str, value: String, allowed: String },
+    #[error("checkpoint {file}: {problem}", file = file.display())]
+    Checkpoint { file: PathBuf, problem: String },
+    #[error(transparent)]
+    Rve(#[from] msdd_rve::RveError),
+    #[error(transparent)]
+    State(#[from] msdd_rve::state::StateError),
+    #[error(transparent)]
+    Failure(#[from] msdd_dem::Failure),
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+    #[error("cannot write: {0}")]
+    Write(#[from] std::io::Error),
+}

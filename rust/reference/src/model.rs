@@ -1,0 +1,215 @@
+//! The initial model (section 3.2.1): the box full of discs, packed to rest, and its statistics.
+//!
+//! The box ends at exactly the size of the case, so the area of the discs fixes how much of it they fill when overlaps
+//! count twice; friction while packing decides at what porosity they jam, hence the pressure (method: loose packing,
+//! walls close along x, grains and long walls carried along). With walls
+//! that stay, their friction leaves one end of the box at three times the pressure of the other.
+
+use crate::ReferenceError;
+use crate::case::Case;
+use crate::window::{grid, window};
+use msdd_dem::{Disc, Material, Simulation, Walls};
+use msdd_rve::pack::FREE_DRAG;
+use msdd_rve::place::{Random, radii, scatter};
+use msdd_rve::region::whole_box;
+use msdd_rve::settle::{Settled, settle};
+use msdd_rve::{Cut, Relaxation, homogenise_in};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// Discs in the box of the cases, as in the paper; fewer discs get a smaller box of the same shape.
+pub const DISCS: usize = 15_000;
+/// Smallest and largest radius over the mean: 3 and 7 mm of 5.
+const RADIUS_RANGE: [f64; 2] = [0.6, 1.4];
+/// 1 − Σ π r² / area of the box. The paper's 12.5 % counts overlaps once; with the friction below this gives it.
+pub const SUM_POROSITY: f64 = 0.105;
+/// tan φ while the box is packed. Paper silent; chosen because the material's own 0.546 jams at 12.9–13.1 %.
+pub const PACKING_FRICTION: f64 = 0.3;
+/// Area fraction of the discs at the start.
+const START_DENSITY: f64 = 0.42;
+/// Strain rate of the box [1/s] while grains hardly touch, and from the sum-of-areas porosity below on.
+const LOOSE_RATE: f64 = 0.1;
+const DENSE_RATE: f64 = 0.02;
+const DENSE_POROSITY: f64 = 0.25;
+/// Steps between two looks at the way left.
+const RUN: u64 = 50;
+/// Sub-regions of the box along x and y (section 3.2.1).
+pub const SUB_REGIONS: [usize; 2] = [10, 3];
+
+/// What to pack. The size of the box and the grains are those of the case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ModelSpec {
+    pub discs: usize,
+    pub seed: u64,
+}
+
+/// A packed box at rest.
+#[derive(Clone, Debug)]
+pub struct Model {
+    pub simulation: Simulation,
+    pub settled: Settled,
+}
+
+/// What the paper tells about its initial model, and what it does not.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// η of the box, overlaps counted once [-]; paper: 0.125.
+    pub porosity: f64,
+    pub porosity_sum_of_areas: f64,
+    /// η of the sub-regions, least and largest; paper (in windows): 0.117 to 0.131.
+    pub porosity_range: [f64; 2],
+    /// f of the box [-]; paper: 0.050.
+    pub fabric_index: f64,
+    /// f of the sub-regions, least and largest; paper (in windows): 0.030 to 0.064.
+    pub fabric_range: [f64; 2],
+    /// p [Pa], compression positive.
+    pub pressure: f64,
+    /// K/k [-].
+    pub conductivity: [f64; 2],
+    pub coordination: f64,
+    pub rattlers: u64,
+}
+
+impl ModelSpec {
+    /// The box over that of the case [-].
+    pub fn scale(&self) -> f64 {
+        (self.discs as f64 / DISCS as f64).sqrt()
+    }
+
+    fn check(&self) -> Result<(), ReferenceError> {
+        if (100..=1_000_000).contains(&self.discs) {
+            return Ok(());
+        }
+        let (value, allowed) = (self.discs.to_string(), "100 to 1000000".to_string());
+        Err(ReferenceError::Parameter { key: "discs", value, allowed })
+    }
+}
+
+/// Packs the box of a case; results do not depend on `threads`. `progress` hears how much of the way is done, 0 to 1.
+///
+/// # Errors
+/// [`ReferenceError::Parameter`] when the case's grains do not fill the box; [`ReferenceError::Rve`] when the packing
+/// fails.
+pub fn pack(
+    spec: ModelSpec,
+    case: &Case,
+    threads: usize,
+    mut progress: impl FnMut(f64),
+) -> Result<Model, ReferenceError> {
+    spec.check()?;
+    case.material.check().map_err(msdd_rve::RveError::from)?;
+    let [width, height] = case.size.map(|length| length * spec.scale());
+    let mut random = Random::new(spec.seed);
+    let radii = fitting_radii(&mut random, spec, case, width * height)?;
+    let start_width = (1.0 - SUM_POROSITY) * width / START_DENSITY;
+    // Placed with x and y exchanged: discs are then numbered column by column, so that neighbours lie near in memory.
+    let discs = scatter(&mut random, radii, height, start_width, case.material.density)?;
+    let discs = discs.into_iter().map(|disc| Disc { x: disc.y, y: disc.x, ..disc }).collect();
+    let slippery = Material { friction_angle: PACKING_FRICTION.atan(), ..case.material.clone() };
+    let mut simulation = Simulation::new(slippery, discs, Walls::around(start_width, height));
+    simulation.free_drag = FREE_DRAG;
+    simulation.set_threads(threads)?;
+    close(&mut simulation, width, |done| progress(0.9 * done))?;
+    simulation.material = case.material.clone();
+    let settled = settle(&mut simulation, Relaxation::Damped, 0)?;
+    progress(1.0);
+    simulation.reset_strain();
+    (simulation.time, simulation.steps) = (0.0, 0);
+    Ok(Model { simulation, settled })
+}
+
+/// Radii of the case's distribution, scaled a little so that they fill the area [m²] to [`SUM_POROSITY`].
+fn fitting_radii(
+    random: &mut Random,
+    spec: ModelSpec,
+    case: &Case,
+    area: f64,
+) -> Result<Vec<f64>, ReferenceError> {
+    let [low, high] = RADIUS_RANGE.map(|ratio| ratio * case.mean_radius);
+    let mut radii = radii(random, spec.discs, low, high);
+    let filled: f64 = radii.iter().map(|r| PI * r * r).sum();
+    let factor = ((1.0 - SUM_POROSITY) * area / filled).sqrt();
+    // The mean square of few random radii scatters more: 0.2 % in the factor with 15 000.
+    let slack = 0.01 * (DISCS as f64 / spec.discs as f64).sqrt().max(1.0);
+    if (factor - 1.0).abs() > slack {
+        return Err(ReferenceError::Parameter {
+            key: "meanRadius",
+            value: format!("{} m", case.mean_radius),
+            allowed: format!(
+                "about {:.4e} m, for {DISCS} discs to fill the box of {:?} m",
+                factor * case.mean_radius,
+                case.size
+            ),
+        });
+    }
+    radii.iter_mut().for_each(|radius| *radius *= factor);
+    Ok(radii)
+}
+
+/// Moves the right wall to `width` [m], grains carried along.
+fn close(
+    simulation: &mut Simulation,
+    width: f64,
+    mut progress: impl FnMut(f64),
+) -> Result<(), ReferenceError> {
+    let way = simulation.walls.width() - width;
+    let solid: f64 = simulation.discs.iter().map(Disc::area).sum();
+    (simulation.affine, simulation.affine_walls) = (true, true);
+    loop {
+        let left = simulation.walls.width() - width;
+        let loose = 1.0 - solid / simulation.walls.area() > DENSE_POROSITY;
+        let speed = simulation.walls.width() * if loose { LOOSE_RATE } else { DENSE_RATE };
+        let steps = (left / (speed * simulation.time_step)).ceil();
+        if steps < 1.0 || left < 1e-12 {
+            break;
+        }
+        simulation.walls.normal_velocity = [0.0, -left / (steps * simulation.time_step), 0.0, 0.0];
+        simulation.run((steps as u64).min(RUN))?;
+        progress(1.0 - left / way);
+    }
+    simulation.walls.stop();
+    simulation.walls.position[1] = width;
+    (simulation.affine, simulation.affine_walls) = (false, false);
+    Ok(())
+}
+
+/// Statistics of a box.
+pub fn statistics(simulation: &Simulation) -> Statistics {
+    let whole = homogenise_in(simulation, &whole_box(simulation), Cut::Clip);
+    let (mut porosity_range, mut fabric_range) = ([f64::INFINITY, f64::NEG_INFINITY], [1.0, -1.0f64]);
+    for (low, high) in grid(simulation, SUB_REGIONS[0], SUB_REGIONS[1]) {
+        let part = window(simulation, low, high);
+        let widen = |range: &mut [f64; 2], v: f64| *range = [range[0].min(v), range[1].max(v)];
+        widen(&mut porosity_range, part.porosity);
+        widen(&mut fabric_range, part.fabric_index);
+    }
+    Statistics {
+        porosity: whole.porosity,
+        porosity_sum_of_areas: whole.porosity_sum_of_areas,
+        porosity_range,
+        fabric_index: whole.fabric_index,
+        fabric_range,
+        pressure: whole.pressure,
+        conductivity: [whole.conductivity_xx, whole.conductivity_yy],
+        coordination: whole.coordination,
+        rattlers: whole.rattlers,
+    }
+}
+
+/// Refuses a state that is not a packed box of this case.
+///
+/// # Errors
+/// [`ReferenceError::Parameter`] with what differs.
+pub fn check_state(simulation: &Simulation, case: &Case) -> Result<(), ReferenceError> {
+    let refuse = |key, value: String, allowed: String| Err(ReferenceError::Parameter { key, value, allowed });
+    if simulation.material != case.material {
+        let (value, allowed) = (format!("{:?}", simulation.material), format!("{:?}", case.material));
+        return refuse("material of the state", value, allowed);
+    }
+    let (width, height) = (simulation.walls.width(), simulation.walls.height());
+    if ((width / height) / (case.size[0] / case.size[1]) - 1.0).abs() > 1e-9 {
+        let allowed = format!("the shape of the case's box, {:?} m", case.size);
+        return refuse("box of the state", format!("{width} x {height} m"), allowed);
+    }
+    Ok(())
+}

@@ -1,0 +1,184 @@
+//! What is recorded of a state: one line of the time series, the table of sub-regions, profiles along x.
+//!
+//! Compression positive. T of a place is given twice: of the closest disc, as in the paper, which may be a rattler, and of
+//! the heat in a window of 40 mm.
+
+use crate::model::SUB_REGIONS;
+use crate::results::Table;
+use crate::window::{corners_around, grid, near, window};
+use msdd_dem::{Side, Simulation};
+use msdd_rve::region::whole_box;
+use msdd_rve::{Averages, Cut, homogenise_in};
+
+/// Side of the window around a probe [m].
+const PROBE_WINDOW: f64 = 0.04;
+/// Bins of a profile.
+const BINS: usize = 20;
+const WALL_NAMES: [&str; 4] = ["left", "right", "bottom", "top"];
+
+/// Columns of the time series for `probes` places.
+pub fn series_columns(probes: usize) -> Vec<String> {
+    let mut names = vec!["time".to_string()];
+    names.extend((1..=probes).map(|k| format!("T_P{k}_disc")));
+    names.extend((1..=probes).map(|k| format!("T_P{k}_window")));
+    names.push("T_mean".to_string());
+    let averages = ["porosity", "fabric_index", "pressure", "stress_xx", "stress_yy", "stress_xy"];
+    names.extend(averages.map(str::to_string));
+    names.extend(["conductivity_xx", "conductivity_yy"].map(str::to_string));
+    for quantity in ["normal_force", "tangential_force", "mobilised_friction", "heat"] {
+        names.extend(WALL_NAMES.map(|wall| format!("{quantity}_{wall}")));
+    }
+    names
+}
+
+/// One line of the time series: K, K/k, Pa, N, J.
+pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]]) -> Vec<f64> {
+    let mut row = vec![simulation.time];
+    row.extend(probes.iter().map(|&at| temperature_of_closest(simulation, at)));
+    row.extend(probes.iter().map(|&at| {
+        let (low, high) = corners_around(simulation, at, PROBE_WINDOW);
+        mean_temperature(simulation, low, high)
+    }));
+    let whole = homogenise_in(simulation, &whole_box(simulation), Cut::Clip);
+    let [left, right, bottom, top] = simulation.walls.position;
+    row.push(mean_temperature(simulation, [left, bottom], [right, top]));
+    row.extend([whole.porosity, whole.fabric_index, whole.pressure]);
+    row.extend([whole.stress_xx, whole.stress_yy, shear_stress(&whole)]);
+    row.extend([whole.conductivity_xx, whole.conductivity_yy]);
+    let walls = wall_loads(simulation);
+    row.extend(walls.map(|load| load.normal));
+    row.extend(walls.map(|load| load.tangential));
+    row.extend(walls.map(|load| load.mobilised));
+    row.extend(simulation.heat().map_or([0.0; 4], |heat| heat.wall_heat));
+    row
+}
+
+/// σ_xy, the mean of the two that Love's formula has.
+pub fn shear_stress(averages: &Averages) -> f64 {
+    0.5 * (averages.stress_xy + averages.stress_yx)
+}
+
+fn temperature_of_closest(simulation: &Simulation, [x, y]: [f64; 2]) -> f64 {
+    let square = |d: &&msdd_dem::Disc| (d.x - x) * (d.x - x) + (d.y - y) * (d.y - y);
+    let closest = simulation.discs.iter().min_by(|a, b| square(a).total_cmp(&square(b)));
+    closest.map_or(f64::NAN, |disc| disc.temperature)
+}
+
+/// Mean T of the discs with their centre in the rectangle, by mass: that of their heat.
+fn mean_temperature(simulation: &Simulation, low: [f64; 2], high: [f64; 2]) -> f64 {
+    let (mut heat, mut mass) = (0.0, 0.0);
+    for disc in simulation.discs.iter().filter(|disc| near(disc, low, high, 0.0)) {
+        heat += disc.mass * disc.temperature;
+        mass += disc.mass;
+    }
+    heat / mass
+}
+
+/// Forces of the grains on a wall.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WallLoad {
+    /// [N], outwards positive.
+    pub normal: f64,
+    /// [N], along the positive coordinate axis.
+    pub tangential: f64,
+    /// Σ |f_t| / Σ f_n of its contacts [-].
+    pub mobilised: f64,
+}
+
+/// Loads of the four walls, in the order of [`Side`].
+pub fn wall_loads(simulation: &Simulation) -> [WallLoad; 4] {
+    let mut loads = [WallLoad::default(); 4];
+    simulation.for_each_contact(|contact| {
+        if let Err(side) = contact.i {
+            let load = &mut loads[side as usize];
+            load.normal += contact.normal_force();
+            load.tangential += tangential_on_wall(side, contact.force());
+            load.mobilised += contact.tangential_force.abs();
+        }
+    });
+    for load in &mut loads {
+        load.mobilised = if load.normal > 0.0 { load.mobilised / load.normal } else { 0.0 };
+    }
+    loads
+}
+
+/// From the force on the disc: the part of its reaction along the wall.
+fn tangential_on_wall(side: Side, [fx, fy]: [f64; 2]) -> f64 {
+    match side {
+        Side::Left | Side::Right => -fy,
+        Side::Bottom | Side::Top => -fx,
+    }
+}
+
+/// Sub-regions, x fastest: centre [m], η, f, K/k, σ [Pa].
+pub fn sub_regions(simulation: &Simulation) -> Table {
+    let columns = [
+        "x",
+        "y",
+        "porosity",
+        "fabric_index",
+        "conductivity_xx",
+        "conductivity_yy",
+        "stress_xx",
+        "stress_yy",
+        "stress_xy",
+        "T",
+    ];
+    let mut table = Table::new(columns.map(str::to_string).to_vec());
+    for (low, high) in grid(simulation, SUB_REGIONS[0], SUB_REGIONS[1]) {
+        let a = window(simulation, low, high);
+        let [x, y] = [0, 1].map(|k| 0.5 * (low[k] + high[k]));
+        let mut row = vec![x, y, a.porosity, a.fabric_index, a.conductivity_xx, a.conductivity_yy];
+        row.extend([a.stress_xx, a.stress_yy, shear_stress(&a), mean_temperature(simulation, low, high)]);
+        table.push(row);
+    }
+    table
+}
+
+/// An empty table of profiles.
+pub fn profile_table() -> Table {
+    let columns = [
+        "time",
+        "x",
+        "T",
+        "displacement_x",
+        "porosity",
+        "stress_xx",
+        "stress_yy",
+        "stress_xy",
+        "friction_bottom",
+        "friction_top",
+        "pressure_bottom",
+        "pressure_top",
+    ];
+    Table::new(columns.map(str::to_string).to_vec())
+}
+
+/// Adds the present profile along x: T of the discs in a bin, displacement of the discs that were in it at the start
+/// [m] (`start` are their centres), stress [Pa], and forces on bottom and top over the length of the bin [Pa].
+pub fn add_profile(table: &mut Table, simulation: &Simulation, start: &[[f64; 2]]) {
+    let [left, right, ..] = simulation.walls.position;
+    let width = (right - left) / BINS as f64;
+    let bin = |x: f64| (((x - left) / width) as usize).min(BINS - 1);
+    let (mut moved, mut count) = ([0.0; BINS], [0.0f64; BINS]);
+    for (disc, [x, _]) in simulation.discs.iter().zip(start) {
+        moved[bin(*x)] += disc.x - x;
+        count[bin(*x)] += 1.0;
+    }
+    let (mut friction, mut pressure) = ([[0.0; 2]; BINS], [[0.0; 2]; BINS]);
+    simulation.for_each_contact(|contact| {
+        if let Err(side @ (Side::Bottom | Side::Top)) = contact.i {
+            let (k, wall) = (bin(simulation.discs[contact.j].x), usize::from(side == Side::Top));
+            friction[k][wall] += tangential_on_wall(side, contact.force()) / width;
+            pressure[k][wall] += contact.normal_force() / width;
+        }
+    });
+    for (k, (low, high)) in grid(simulation, BINS, 1).into_iter().enumerate() {
+        let a = window(simulation, low, high);
+        let mut row =
+            vec![simulation.time, 0.5 * (low[0] + high[0]), mean_temperature(simulation, low, high)];
+        row.extend([moved[k] / count[k].max(1.0), a.porosity, a.stress_xx, a.stress_yy, shear_stress(&a)]);
+        row.extend(friction[k].into_iter().chain(pressure[k]));
+        table.push(row);
+    }
+}

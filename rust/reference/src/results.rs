@@ -1,0 +1,97 @@
+//! Results of a run: one compact JSON file, and its time series as CSV.
+
+use crate::model::Statistics;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+
+/// Name of the schema.
+pub const SCHEMA: &str = "msdd-reference-1";
+/// Significant digits of a number in a table.
+const DIGITS: usize = 7;
+
+/// Named columns of numbers, line by line.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Table {
+    pub columns: Vec<String>,
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    pub fn new(columns: Vec<String>) -> Self {
+        Self { columns, rows: Vec::new() }
+    }
+
+    /// Adds a line, rounded to 7 digits.
+    ///
+    /// # Panics
+    /// When it has not one number a column.
+    pub fn push(&mut self, row: Vec<f64>) {
+        assert_eq!(row.len(), self.columns.len(), "one number a column");
+        self.rows.push(row.into_iter().map(rounded).collect());
+    }
+
+    /// A column by name.
+    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let k = self.columns.iter().position(|column| column == name)?;
+        Some(self.rows.iter().map(|row| row[k]).collect())
+    }
+
+    /// As CSV with a head line.
+    pub fn to_csv(&self) -> String {
+        let mut text = self.columns.join(",");
+        text.push('\n');
+        for row in &self.rows {
+            let line: Vec<String> = row.iter().map(f64::to_string).collect();
+            let _ = writeln!(text, "{}", line.join(","));
+        }
+        text
+    }
+}
+
+fn rounded(value: f64) -> f64 {
+    // −0 would read differently from 0 for nothing.
+    format!("{value:.*e}", DIGITS - 1).parse::<f64>().map_or(value, |value| value + 0.0)
+}
+
+/// What a run was given, and what came out. SI units, compression positive.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Results {
+    pub schema: String,
+    pub case: String,
+    pub seed: u64,
+    pub discs: usize,
+    /// Width and height of the box [m].
+    #[serde(rename = "box")]
+    pub size: [f64; 2],
+    /// Where T was recorded [m].
+    pub probes: Vec<[f64; 2]>,
+    /// The model at the start.
+    pub model: Statistics,
+    /// Mechanical steps, none on the frozen network of a case without expansion, and thermal sub-steps.
+    pub steps: u64,
+    pub thermal_substeps: u64,
+    /// Largest mechanical step asked for [s]; absent: from the engine's bound.
+    pub time_step: Option<f64>,
+    pub series: Table,
+    pub sub_regions_start: Table,
+    pub sub_regions_end: Table,
+    /// Along x, at several times.
+    pub profiles: Table,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_round_and_read_back() {
+        let mut table = Table::new(vec!["a".to_string(), "b".to_string()]);
+        table.push(vec![1.0 / 3.0, -0.0]);
+        assert_eq!(table.to_csv(), "a,b\n0.3333333,0\n");
+        assert_eq!(table.column("b"), Some(vec![0.0]));
+        let text = serde_json::to_string(&table).unwrap();
+        assert_eq!(serde_json::from_str::<Table>(&text).unwrap(), table);
+    }
+}

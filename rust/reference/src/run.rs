@@ -1,0 +1,216 @@
+//! A case from its start to its end: heat, expansion and motion; heat alone, on the frozen network, when the grains do
+//! not expand.
+
+use crate::ReferenceError;
+use crate::case::Case;
+use crate::checkpoint::{Checkpoint, Records};
+use crate::model::statistics;
+use crate::observe::{add_profile, profile_table, series_columns, series_row, sub_regions};
+use crate::results::{Results, SCHEMA, Table};
+use msdd_dem::time_step::{self, SAFETY};
+use msdd_dem::{Excess, Failure, Simulation, StepChoice};
+use msdd_rve::state;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Steps between two looks at the stable time step.
+const RUN: u64 = 50;
+
+/// How to run a case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunSpec {
+    pub seed: u64,
+    /// The run ends here [s]; that of the case in general.
+    pub end: f64,
+    /// Between two lines of the time series [s].
+    pub interval: f64,
+    /// Profiles, evenly over the run, one at the start and one at the end.
+    pub profiles: usize,
+    /// Largest mechanical step [s], also of conduction alone; none: from the engine's bound.
+    pub time_step: Option<f64>,
+    /// Results do not depend on it.
+    pub threads: usize,
+    /// Between two checkpoints, at least.
+    pub checkpoint_every: Duration,
+}
+
+impl RunSpec {
+    fn check(&self) -> Result<(), ReferenceError> {
+        let refuse = |key, value: f64, allowed: &str| {
+            Err(ReferenceError::Parameter { key, value: value.to_string(), allowed: allowed.to_string() })
+        };
+        if !(self.end > 0.0 && self.end.is_finite()) {
+            return refuse("end", self.end, "> 0 s");
+        }
+        if !(self.interval > 0.0 && self.interval <= self.end) {
+            return refuse("interval", self.interval, "> 0 s and at most the end");
+        }
+        match self.time_step {
+            Some(step) if !(step > 0.0 && step <= self.interval) => {
+                refuse("time step", step, "> 0 s and at most the interval")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Times of the series [s]: the start, every interval, the end.
+    fn times(&self) -> Vec<f64> {
+        let count = (self.end / self.interval - 1e-9).ceil() as usize;
+        (0..count).map(|k| k as f64 * self.interval).chain([self.end]).collect()
+    }
+
+    /// Whether the time number `k` of `count` gets a profile.
+    fn has_profile(&self, k: usize, count: usize) -> bool {
+        let parts = self.profiles.max(2) - 1;
+        (0..=parts).any(|part| k == (part * (count - 1) + parts / 2) / parts)
+    }
+}
+
+/// Who watches a run.
+pub struct Watch<'a> {
+    /// Hears the simulated time [s] now and then.
+    pub progress: &'a mut dyn FnMut(f64),
+    /// Sees the state whenever a profile is taken, with the times of the profiles so far [s].
+    pub profile: &'a mut dyn FnMut(&[f64], &Simulation) -> Result<(), ReferenceError>,
+    /// Writes a checkpoint's text beside and renames it.
+    pub save: &'a mut dyn FnMut(&str) -> Result<(), ReferenceError>,
+}
+
+/// Runs a case from a packed box, or goes on from the checkpoint when there is one.
+///
+/// # Errors
+/// [`ReferenceError::Parameter`] for a useless `spec`, [`ReferenceError::Checkpoint`], [`ReferenceError::Failure`] when
+/// the run blows up or a given time step is too long.
+pub fn run(
+    case: &Case,
+    start: &Simulation,
+    spec: &RunSpec,
+    checkpoint: &Path,
+    watch: &mut Watch,
+) -> Result<Results, ReferenceError> {
+    spec.check()?;
+    crate::model::check_state(start, case)?;
+    let scale = start.walls.width() / case.size[0];
+    let probes: Vec<[f64; 2]> = case.probes.iter().map(|at| at.map(|x| x * scale)).collect();
+    let asked = asked(case, start, spec);
+    let (mut simulation, mut records) = match Checkpoint::read(checkpoint, &asked)? {
+        Some(checkpoint) => resume(case, checkpoint)?,
+        None => begin(case, start, probes.len()),
+    };
+    simulation.set_threads(spec.threads)?;
+    let centres: Vec<[f64; 2]> = start.discs.iter().map(|d| [d.x, d.y]).collect();
+    let times = spec.times();
+    let mut saved = Instant::now();
+    let mut profile_times: Vec<f64> = Vec::new();
+    for (k, &time) in times.iter().enumerate() {
+        let profile = spec.has_profile(k, times.len());
+        if profile {
+            profile_times.push(time);
+        }
+        if k < records.series.rows.len() {
+            continue;
+        }
+        advance(&mut simulation, case, spec, time, watch)?;
+        records.series.push(series_row(&simulation, &probes));
+        if profile {
+            add_profile(&mut records.profiles, &simulation, &centres);
+            (watch.profile)(&profile_times, &simulation)?;
+        }
+        if saved.elapsed() >= spec.checkpoint_every && k + 1 < times.len() {
+            if let Some(text) = Checkpoint::text(&asked, &simulation, &records)? {
+                (watch.save)(&text)?;
+            }
+            saved = Instant::now();
+        }
+    }
+    Ok(Results {
+        schema: SCHEMA.to_string(),
+        case: case.name.clone(),
+        seed: spec.seed,
+        discs: start.discs.len(),
+        size: [start.walls.width(), start.walls.height()],
+        probes,
+        model: statistics(start),
+        steps: simulation.steps,
+        thermal_substeps: simulation.heat().map_or(0, |heat| heat.substeps),
+        time_step: spec.time_step,
+        series: records.series,
+        sub_regions_start: records.sub_regions_start,
+        sub_regions_end: sub_regions(&simulation),
+        profiles: records.profiles,
+    })
+}
+
+/// What a run is asked for, in one line: the checkpoint of another is refused.
+fn asked(case: &Case, start: &Simulation, spec: &RunSpec) -> String {
+    let mix =
+        |sum: u64, d: &msdd_dem::Disc| sum.rotate_left(5) ^ d.x.to_bits() ^ d.y.to_bits().rotate_left(32);
+    let place = start.discs.iter().fold(0, mix);
+    format!(
+        "case {} {:?} {:?} {:?} {} K, seed {}, places {place:016x}, end {}, interval {}, profiles {}, step {:?}",
+        case.name,
+        case.material,
+        case.thermal,
+        case.walls,
+        case.initial_temperature,
+        spec.seed,
+        spec.end,
+        spec.interval,
+        spec.profiles,
+        spec.time_step
+    )
+}
+
+fn begin(case: &Case, start: &Simulation, probes: usize) -> (Simulation, Records) {
+    let mut simulation = start.clone();
+    simulation.discs.iter_mut().for_each(|disc| disc.temperature = case.initial_temperature);
+    simulation.enable_heat(case.thermal, case.walls);
+    let records = Records {
+        series: Table::new(series_columns(probes)),
+        sub_regions_start: sub_regions(&simulation),
+        profiles: profile_table(),
+    };
+    (simulation, records)
+}
+
+fn resume(case: &Case, checkpoint: Checkpoint) -> Result<(Simulation, Records), ReferenceError> {
+    let mut simulation = state::from_json(checkpoint.state.get())?;
+    simulation.resume_heat(case.thermal, case.walls, checkpoint.heat);
+    Ok((simulation, checkpoint.records))
+}
+
+/// Goes on to `time` [s], exactly.
+fn advance(
+    simulation: &mut Simulation,
+    case: &Case,
+    spec: &RunSpec,
+    time: f64,
+    watch: &mut Watch,
+) -> Result<(), ReferenceError> {
+    if case.thermal.expansion == 0.0 {
+        // Nothing moves: the engine's thermal sub-steps are all that is needed.
+        let way = time - simulation.time;
+        let steps = spec.time_step.map_or(1.0, |step| (way / step - 1e-9).ceil()).max(1.0);
+        (0..steps as u64).for_each(|_| simulation.conduct(way / steps));
+        simulation.time = time;
+        (watch.progress)(time);
+        return Ok(());
+    }
+    loop {
+        let left = time - simulation.time;
+        if left < 1e-9 {
+            return Ok(());
+        }
+        let bound = time_step::stable_step(simulation);
+        let limit = match spec.time_step {
+            None => SAFETY * bound,
+            Some(step) if step <= bound => step,
+            Some(step) => return Err(Failure::TimeStep { step, bound, time: simulation.time }.into()),
+        };
+        // Equal steps that end at the time.
+        let steps = (left / limit - 1e-9).ceil().max(1.0);
+        simulation.choose_time_step(StepChoice::Fixed { step: left / steps, on_excess: Excess::Refuse })?;
+        simulation.run((steps as u64).min(RUN))?;
+        (watch.progress)(simulation.time);
+    }
+}
