@@ -8,6 +8,7 @@ use crate::law::PairLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
 use crate::pace::Pace;
+use crate::periodic::Periodic;
 use crate::run::Failure;
 use crate::slabs::{self, SlabLoads};
 use crate::time_step::{self, StepChoice};
@@ -21,13 +22,16 @@ pub struct Simulation {
     pub material: Material,
     pub discs: Vec<Disc>,
     pub walls: Walls,
+    /// None between walls. In a periodic box `walls` are the borders of the cell; whether there is one is chosen by the
+    /// constructor and stays.
+    pub periodic: Option<Periodic>,
     /// Δt [s] of the next step; [`Simulation::run`] keeps it as chosen.
     pub time_step: f64,
     pub(crate) step_choice: StepChoice,
     /// Drag on discs without contact force [1/s]; 0 (off) as in the paper, whose damping lets them fly for ever.
     pub free_drag: f64,
     /// Whether moving walls carry the grains along (affine motion); their own velocities are relative to that then. Off
-    /// as in the paper.
+    /// as in the paper; a periodic box always does it.
     pub affine: bool,
     /// Steps taken.
     pub steps: u64,
@@ -79,6 +83,15 @@ impl Stage {
 impl Simulation {
     /// An assembly with given discs in given walls; the friction history is empty.
     pub fn new(material: Material, discs: Vec<Disc>, walls: Walls) -> Self {
+        Self::with_boundary(material, discs, walls, None)
+    }
+
+    pub(crate) fn with_boundary(
+        material: Material,
+        discs: Vec<Disc>,
+        walls: Walls,
+        periodic: Option<Periodic>,
+    ) -> Self {
         let mut simulation = Self {
             material,
             reference_radius: discs.iter().map(|d| d.radius).collect(),
@@ -86,6 +99,7 @@ impl Simulation {
             loads: vec![Load::default(); discs.len()],
             discs,
             walls,
+            periodic,
             time_step: 0.0,
             step_choice: StepChoice::Adaptive { safety: time_step::SAFETY },
             free_drag: 0.0,
@@ -104,7 +118,7 @@ impl Simulation {
             simd: Simd::best(),
             neighbours: Neighbours::default(),
         };
-        simulation.neighbours.rebuild(&simulation.discs, &simulation.walls);
+        simulation.rebuild_neighbours();
         simulation.largest_speed = simulation.discs.iter().map(|d| d.vx.hypot(d.vy)).fold(0.0, f64::max);
         simulation.time_step = time_step::SAFETY * time_step::stable_step(&simulation);
         simulation
@@ -161,8 +175,8 @@ impl Simulation {
     pub fn step_marked(&mut self, mut mark: impl FnMut(Stage)) {
         self.advance_boundaries();
         mark(Stage::Boundaries);
-        if self.neighbours.stale(&self.discs) {
-            self.neighbours.rebuild(&self.discs, &self.walls);
+        if self.neighbours.stale(&self.discs, self.cell().as_ref()) {
+            self.rebuild_neighbours();
         }
         mark(Stage::Neighbours);
         self.sum_pair_forces();
@@ -279,6 +293,14 @@ impl Simulation {
         self.strain += self.strain_rate * dt;
         let growth = self.advance_radii();
         self.carry_discs();
+        if let Some(periodic) = &mut self.periodic {
+            periodic.advance(&self.walls, dt);
+            self.walls.advance(dt);
+            let [xx, yy, xy] = self.flow().gradient;
+            self.neighbours.record_flow((xx * xx + yy * yy + xy * xy).sqrt(), dt);
+            self.neighbours.record_motion(self.largest_speed, 0.0, growth / dt, dt);
+            return;
+        }
         self.walls.advance(dt);
         let wall_speed = self.walls.largest_speed();
         // Carried discs move at most as fast as the walls.
@@ -288,7 +310,15 @@ impl Simulation {
 
     /// The motion that carries the grains along in this step.
     pub(crate) fn flow(&self) -> Flow {
-        if self.affine { self.walls.flow() } else { Flow::NONE }
+        match &self.periodic {
+            Some(periodic) => self.walls.sheared_flow(periodic.shear_rate),
+            None if self.affine => self.walls.flow(),
+            None => Flow::NONE,
+        }
+    }
+
+    fn rebuild_neighbours(&mut self) {
+        self.neighbours.rebuild(&self.discs, &self.walls, self.cell().as_ref());
     }
 
     fn carry_discs(&mut self) {
@@ -331,7 +361,11 @@ impl Simulation {
     fn sum_pair_forces(&mut self) {
         let law = PairLaw::new(&self.material, self.time_step, self.flow().gradient);
         let parallel = self.shared;
+        let count = self.discs.len();
+        self.place_ghosts();
         self.slab_loads.sum_pairs(parallel, (self.simd, law), &self.discs, &mut self.neighbours);
+        self.discs.truncate(count);
+        self.slab_loads.fold(count, &self.neighbours.ghosts);
     }
 
     fn sum_wall_forces(&mut self) {

@@ -10,6 +10,7 @@ use crate::forces::{self, Load};
 use crate::kernel::{self, Motion, Simd};
 use crate::law::PairLaw;
 use crate::neighbours::Neighbours;
+use crate::periodic::Image;
 use crate::walls::{Flow, Side, Walls};
 use rayon::prelude::*;
 
@@ -54,6 +55,18 @@ impl SlabLoads {
             parts.into_par_iter().zip(&mut self.0).for_each(sum);
         } else {
             parts.into_iter().zip(&mut self.0).for_each(sum);
+        }
+    }
+
+    /// Adds the loads of the ghosts of a periodic box, which come after `discs` discs, to those of their owners.
+    pub fn fold(&mut self, discs: usize, ghosts: &[Image]) {
+        if ghosts.is_empty() {
+            return;
+        }
+        // The list of a periodic box is one slab.
+        let (own, of_ghosts) = self.0[0].split_at_mut(discs);
+        for (ghost, load) in ghosts.iter().zip(of_ghosts) {
+            own[ghost.owner as usize].add(load);
         }
     }
 

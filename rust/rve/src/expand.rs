@@ -28,9 +28,12 @@ const RUN: u64 = 50;
 pub struct Strains {
     /// ε of the radii.
     pub thermal: f64,
-    /// Extension of the box along x and y: both walls move by half of it.
+    /// Extension of the box along x and y: both walls (borders) move by half of it.
     pub xx: f64,
     pub yy: f64,
+    /// γ_xy of a periodic box: way of the upper border along x over the height at the start. A box sheared already is
+    /// deformed as it is: s becomes (1 + xx) s + xy H.
+    pub xy: f64,
 }
 
 impl Strains {
@@ -78,8 +81,12 @@ pub fn follow(
     mut visit: impl FnMut(&Stop, &Simulation),
 ) -> Result<Ramp, RveError> {
     check(path, rates)?;
+    if let Some(strains) = path.iter().find(|s| s.xy != 0.0 && simulation.periodic.is_none()) {
+        let allowed = "0 between walls; shear needs a periodic box";
+        return Err(RveError::Parameter { key: "xy", value: strains.xy.to_string(), allowed });
+    }
     simulation.reset_strain();
-    let start = [simulation.walls.width(), simulation.walls.height()];
+    let start = Start::of(simulation);
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
     for &strains in path {
         match advance_to(simulation, strains, start, rates) {
@@ -102,7 +109,8 @@ fn check(path: &[Strains], rates: Rates) -> Result<(), RveError> {
             return Err(RveError::Parameter { key, value: rate.to_string(), allowed: "1e-6 to 100 1/s" });
         }
     }
-    let values = path.iter().flat_map(|s| [("thermal strain", s.thermal), ("xx", s.xx), ("yy", s.yy)]);
+    let values =
+        path.iter().flat_map(|s| [("thermal strain", s.thermal), ("xx", s.xx), ("yy", s.yy), ("xy", s.xy)]);
     for (key, value) in values {
         if !(-0.2..=0.2).contains(&value) {
             return Err(RveError::Parameter { key, value: value.to_string(), allowed: "-0.2 to 0.2" });
@@ -123,20 +131,68 @@ fn check_monotone(stops: &[f64]) -> Result<(), RveError> {
     Ok(())
 }
 
-/// Straight on to `target`, then at rest until the forces balance. `start` is the box at zero strain [m].
+/// The box at zero strain [m].
+#[derive(Clone, Copy)]
+struct Start {
+    width: f64,
+    height: f64,
+    shear_offset: f64,
+}
+
+impl Start {
+    fn of(simulation: &Simulation) -> Self {
+        Self {
+            width: simulation.walls.width(),
+            height: simulation.walls.height(),
+            shear_offset: simulation.periodic.map_or(0.0, |periodic| periodic.shear_offset),
+        }
+    }
+
+    /// What width, height and shear offset are short of `target` [m].
+    fn missing(&self, simulation: &Simulation, target: Strains) -> [f64; 3] {
+        let now = Self::of(simulation);
+        let sheared = self.shear_offset * (1.0 + target.xx) + target.xy * self.height;
+        [
+            self.width * (1.0 + target.xx) - now.width,
+            self.height * (1.0 + target.yy) - now.height,
+            sheared - now.shear_offset,
+        ]
+    }
+}
+
+fn stop_box(simulation: &mut Simulation) {
+    simulation.walls.stop();
+    if let Some(periodic) = &mut simulation.periodic {
+        periodic.shear_rate = 0.0;
+    }
+}
+
+/// Sets the velocities at which the box changes by `missing` in `time` [s].
+fn set_box_velocity(simulation: &mut Simulation, [dx, dy, ds]: [f64; 3], time: f64) {
+    let (vx, vy) = (0.5 * dx / time, 0.5 * dy / time);
+    simulation.walls.normal_velocity = [-vx, vx, -vy, vy];
+    let (width, height) = (simulation.walls.width(), simulation.walls.height());
+    if let Some(periodic) = &mut simulation.periodic {
+        // The flow stretches the offset with the width.
+        let stretched = periodic.shear_offset * dx / width;
+        periodic.shear_rate = (ds - stretched) / time / height;
+    }
+}
+
+/// Straight on to `target`, then at rest until the forces balance.
 fn advance_to(
     simulation: &mut Simulation,
     target: Strains,
-    [width, height]: [f64; 2],
+    start: Start,
     rates: Rates,
 ) -> Result<Stop, RveError> {
     let since = simulation.steps;
     loop {
-        let walls = &simulation.walls;
         let thermal = target.thermal - simulation.strain();
-        let (dx, dy) =
-            (width * (1.0 + target.xx) - walls.width(), height * (1.0 + target.yy) - walls.height());
-        let largest = thermal.abs().max(dx.abs() / width).max(dy.abs() / height);
+        let missing = start.missing(simulation, target);
+        let [dx, dy, ds] = missing;
+        let (width, height) = (start.width, start.height);
+        let largest = thermal.abs().max(dx.abs() / width).max(dy.abs() / height).max(ds.abs() / height);
         // Contacts open when radii shrink or walls recede.
         let loosening = 2.0 * thermal < dx / width + dy / height;
         let rate = if loosening { rates.contraction } else { rates.expansion };
@@ -147,12 +203,11 @@ fn advance_to(
         // Equal steps that end at the stop, or the first of them.
         let time = steps * simulation.time_step;
         simulation.set_strain_rate(thermal / time);
-        let (vx, vy) = (0.5 * dx / time, 0.5 * dy / time);
-        simulation.walls.normal_velocity = [-vx, vx, -vy, vy];
+        set_box_velocity(simulation, missing, time);
         simulation.run((steps as u64).min(RUN))?;
     }
     simulation.set_strain_rate(0.0);
-    simulation.walls.stop();
+    stop_box(simulation);
     let settled = settle(simulation, since)?;
     let averages = homogenise(simulation, RegionKind::default());
     Ok(Stop { strains: target, settled, averages })

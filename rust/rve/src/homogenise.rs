@@ -73,7 +73,7 @@ pub fn homogenise(simulation: &Simulation, kind: RegionKind) -> Averages {
     homogenise_in(simulation, &region(simulation, kind), Cut::Clip)
 }
 
-/// Averages over a given region.
+/// Averages over a given region; of a periodic box that must be the cell, see [`region`].
 pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Averages {
     let mut sums = Sums::default();
     let mut degree = vec![0u32; simulation.discs.len()];
@@ -81,7 +81,9 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
         contact.discs().for_each(|k| degree[k] += 1);
         if let Ok(i) = contact.i {
             let (a, b) = (&simulation.discs[i], &simulation.discs[contact.j]);
-            let weight = region.share_inside([a.x, a.y], [b.x, b.y]);
+            // Every contact of a periodic cell counts once, with its whole branch.
+            let whole = simulation.periodic.is_some();
+            let weight = if whole { 1.0 } else { region.share_inside([a.x, a.y], [b.x, b.y]) };
             if weight > 0.0 {
                 let weight = if cut == Cut::Whole { 1.0 } else { weight };
                 sums.add(&contact, [a.radius, b.radius], weight);
@@ -95,9 +97,11 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
     let [sxx, syy, sxy, syx] = sums.stress.map(|sum| sum * per_area);
     let disc_area: f64 = simulation.discs.iter().map(|d| d.area()).sum();
     let porosity = porosity(simulation, region);
+    let whole = simulation.periodic.is_some();
+    let covered = if whole { disc_area } else { sum_of_areas(&simulation.discs, region) };
     Averages {
         porosity,
-        overlap_fraction: sum_of_areas(&simulation.discs, region) * per_area - (1.0 - porosity),
+        overlap_fraction: covered * per_area - (1.0 - porosity),
         porosity_sum_of_areas: 1.0 - disc_area / simulation.walls.area(),
         fabric_index: sums.fabric / (sums.contacts.max(1)) as f64,
         fabric_conductivity: if kxx + kyy > 0.0 { (kxx - kyy) / (kxx + kyy) } else { 0.0 },

@@ -27,7 +27,7 @@ pub mod vtk;
 pub use expand::{Ramp, Rates, Stop, Strains, expand, follow};
 pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
-pub use pack::{Compression, Packed, PackingSpec, pack};
+pub use pack::{Boundary, Compression, Packed, PackingSpec, pack};
 pub use region::{Cut, RegionKind};
 pub use settle::{Outcome, Settled, unbalanced_force};
 
@@ -42,6 +42,8 @@ pub enum RveError {
     NoRoom { placed: usize, wanted: usize },
     #[error("packing stopped at porosity {reached:.4} after {steps} steps, target {target:.4}")]
     TargetNotReached { reached: f64, target: f64, steps: u64 },
+    #[error(transparent)]
+    Cell(#[from] msdd_dem::periodic::SmallCell),
     #[error(transparent)]
     Failure(#[from] msdd_dem::Failure),
 }

@@ -1,10 +1,10 @@
-//! Packing: walls close on randomly placed discs until a target porosity, then the assembly relaxes (section 2.4).
+//! Packing: walls, or the borders of a periodic box, close on randomly placed discs until a target porosity, then the assembly relaxes (section 2.4).
 
 use crate::area::porosity_of_box;
-use crate::place::{Random, radii, scatter};
+use crate::place::{Random, radii, scatter, scatter_periodic};
 use crate::settle::{Settled, settle};
 use crate::{Material, RveError, Simulation};
-use msdd_dem::{Side, Walls};
+use msdd_dem::{Periodic, Side, Walls};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -27,6 +27,23 @@ pub enum Compression {
     Horizontal,
 }
 
+/// What is around the box.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Boundary {
+    /// Four rigid walls, as in the paper.
+    #[default]
+    Walls,
+    /// Nothing: the box repeats itself, and carries the grains along as it deforms.
+    Periodic,
+}
+
+impl Boundary {
+    fn is_walls(&self) -> bool {
+        *self == Self::Walls
+    }
+}
+
 /// What to pack.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -39,6 +56,8 @@ pub struct PackingSpec {
     /// Radii are uniform between these [m].
     pub radius_min: f64,
     pub radius_max: f64,
+    #[serde(default, skip_serializing_if = "Boundary::is_walls")]
+    pub boundary: Boundary,
 }
 
 /// A packed assembly at rest in resting walls, at zero strain.
@@ -95,8 +114,17 @@ fn loose_start(spec: &PackingSpec, material: &Material) -> Result<Simulation, Rv
             (area / START_DENSITY / side, side)
         }
     };
-    let discs = scatter(&mut random, radii, width, height, material.density)?;
-    let mut simulation = Simulation::new(material.clone(), discs, Walls::around(width, height));
+    let walls = Walls::around(width, height);
+    let mut simulation = match spec.boundary {
+        Boundary::Walls => {
+            let discs = scatter(&mut random, radii, width, height, material.density)?;
+            Simulation::new(material.clone(), discs, walls)
+        }
+        Boundary::Periodic => {
+            let discs = scatter_periodic(&mut random, radii, width, height, material.density)?;
+            Simulation::new_periodic(material.clone(), discs, walls, Periodic::default())?
+        }
+    };
     simulation.free_drag = FREE_DRAG;
     Ok(simulation)
 }

@@ -13,6 +13,8 @@ pub enum RegionKind {
     Hull,
     /// The box inset by 0.8 r̄ from the walls (authors' later code).
     Inset,
+    /// The whole box, wall contacts left out. A periodic box has no rim, and is always averaged over its whole cell.
+    Cell,
 }
 
 /// How contacts that the region's border crosses count in K and σ.
@@ -99,20 +101,25 @@ fn half_hull<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Vec<[f64; 2]> {
     chain
 }
 
-/// The whole box.
+/// The whole box; of a periodic box the rectangle that holds each point of the cell once.
 pub fn whole_box(simulation: &Simulation) -> Polygon {
     let [left, right, bottom, top] = simulation.walls.position;
     Polygon::rectangle([left, bottom], [right, top])
 }
 
-/// The averaging region of an RVE. Falls back to the inset box when fewer than three discs span the hull.
+/// The averaging region of an RVE; the cell, whatever the kind, when it is periodic. Falls back to the inset box when fewer than three discs span the hull.
 pub fn region(simulation: &Simulation, kind: RegionKind) -> Polygon {
     let inset = || {
         let [left, right, bottom, top] = simulation.walls.position;
         let d = INSET * simulation.mean_radius();
         Polygon::rectangle([left + d, bottom + d], [right - d, top - d])
     };
+    if let Some(cell) = simulation.cell() {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|fraction| cell.point(fraction));
+        return Polygon { corners: corners.to_vec() };
+    }
     match kind {
+        RegionKind::Cell => whole_box(simulation),
         RegionKind::Inset => inset(),
         RegionKind::Hull => {
             let hull = Polygon::hull(inner_centres(simulation));

@@ -2,15 +2,22 @@
 
 use msdd_dem::{Disc, Side, Walls};
 use msdd_rve::{
-    Averages, Compression, Material, Outcome, Packed, PackingSpec, RegionKind, Simulation, expand,
+    Averages, Boundary, Compression, Material, Outcome, Packed, PackingSpec, RegionKind, Simulation, expand,
     homogenise, pack,
 };
 
 const KINDS: [RegionKind; 2] = [RegionKind::Hull, RegionKind::Inset];
 
 fn packed(compression: Compression, material: &Material) -> Packed {
-    let spec =
-        PackingSpec { discs: 200, seed: 3, porosity: 0.12, compression, radius_min: 3e-3, radius_max: 7e-3 };
+    let spec = PackingSpec {
+        discs: 200,
+        seed: 3,
+        porosity: 0.12,
+        compression,
+        radius_min: 3e-3,
+        radius_max: 7e-3,
+        boundary: Boundary::Walls,
+    };
     let packed = pack(&spec, material).unwrap();
     assert_eq!(packed.settled.outcome, Outcome::Settled);
     packed

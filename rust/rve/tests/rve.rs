@@ -1,11 +1,20 @@
 //! Packing and expansion of small RVEs, held against exact laws.
 
 use msdd_rve::{
-    Compression, Material, Outcome, PackingSpec, Rates, RegionKind, Strains, expand, follow, homogenise, pack,
+    Boundary, Compression, Material, Outcome, PackingSpec, Rates, RegionKind, Strains, expand, follow,
+    homogenise, pack,
 };
 
 fn spec(compression: Compression) -> PackingSpec {
-    PackingSpec { discs: 120, seed: 7, porosity: 0.12, compression, radius_min: 3e-3, radius_max: 7e-3 }
+    PackingSpec {
+        discs: 120,
+        seed: 7,
+        porosity: 0.12,
+        compression,
+        radius_min: 3e-3,
+        radius_max: 7e-3,
+        boundary: Boundary::Walls,
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! State files: exact continuation, foreign states, refused nonsense.
 
 use msdd_rve::state::{from_json, to_json};
-use msdd_rve::{Compression, Material, PackingSpec, RegionKind, Simulation, homogenise, pack};
+use msdd_rve::{Boundary, Compression, Material, PackingSpec, RegionKind, Simulation, homogenise, pack};
 
 fn packed() -> Simulation {
     let spec = PackingSpec {
@@ -11,6 +11,7 @@ fn packed() -> Simulation {
         compression: Compression::Horizontal,
         radius_min: 3e-3,
         radius_max: 7e-3,
+        boundary: Boundary::Walls,
     };
     pack(&spec, &Material::default()).unwrap().simulation
 }

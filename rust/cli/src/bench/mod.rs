@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::rve::read_state;
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_dem::{Simd, Stage};
-use msdd_rve::{Compression, Material, PackingSpec, Simulation, pack};
+use msdd_rve::{Boundary, Compression, Material, PackingSpec, Simulation, pack};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -88,8 +88,15 @@ fn dem(arguments: &DemArguments) -> Result<(), CliError> {
 
 fn packed(discs: usize) -> Result<Simulation, CliError> {
     let compression = Compression::Isotropic;
-    let spec =
-        PackingSpec { discs, seed: 1, porosity: 0.12, compression, radius_min: 3e-3, radius_max: 7e-3 };
+    let spec = PackingSpec {
+        discs,
+        seed: 1,
+        porosity: 0.12,
+        compression,
+        radius_min: 3e-3,
+        radius_max: 7e-3,
+        boundary: Boundary::Walls,
+    };
     Ok(pack(&spec, &Material::default())?.simulation)
 }
 

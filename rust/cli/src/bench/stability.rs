@@ -3,7 +3,7 @@
 use crate::error::CliError;
 use clap::Args;
 use msdd_dem::{Simulation, Thermal, WallHeat, time_step};
-use msdd_rve::{Compression, Material, PackingSpec, pack};
+use msdd_rve::{Boundary, Compression, Material, PackingSpec, pack};
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -31,7 +31,15 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     println!("                      predicted  measured  ratio     predicted  measured  ratio");
     for &porosity in &arguments.porosity {
         let (discs, compression) = (500, Compression::Isotropic);
-        let spec = PackingSpec { discs, seed: 1, porosity, compression, radius_min: 3e-3, radius_max: 7e-3 };
+        let spec = PackingSpec {
+            discs,
+            seed: 1,
+            porosity,
+            compression,
+            radius_min: 3e-3,
+            radius_max: 7e-3,
+            boundary: Boundary::Walls,
+        };
         let packed = pack(&spec, &Material::default())?;
         line(&format!("porosity {porosity}"), &packed.simulation);
     }

@@ -1,7 +1,7 @@
 //! What to make: a TOML file.
 
 use super::DatabaseError;
-use crate::{Compression, Material, PackingSpec};
+use crate::{Boundary, Compression, Material, PackingSpec};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -90,6 +90,7 @@ impl Plan {
                         compression,
                         radius_min: self.radius_min,
                         radius_max: self.radius_max,
+                        boundary: Boundary::Walls,
                     };
                     jobs.push(Job { packing, spec });
                 }
