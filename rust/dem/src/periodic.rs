@@ -12,6 +12,7 @@
 
 use crate::contacts::PairList;
 use crate::disc::Disc;
+use crate::material::Material;
 use crate::neighbours::Grid;
 use crate::simulation::Simulation;
 use crate::walls::Walls;
@@ -55,10 +56,11 @@ pub struct Cell {
     pub shear_offset: f64,
 }
 
-/// An image of a disc.
+/// An image of a disc: disc number `owner`, moved by [`Cell::displacement`] of `shift`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Image {
     pub owner: u32,
+    /// [0, 0] is the disc itself.
     pub shift: Shift,
 }
 
@@ -182,7 +184,7 @@ impl Simulation {
     /// # Errors
     /// [`SmallCell`] when a disc could meet two images of another.
     pub fn new_periodic(
-        material: crate::Material,
+        material: Material,
         discs: Vec<Disc>,
         walls: Walls,
         periodic: Periodic,

@@ -156,7 +156,7 @@ impl Simulation {
     }
 
     /// Chooses the number of threads for [`Simulation::take_steps`] and [`Simulation::run`]. Results do not depend on it.
-    /// Assemblies below a few thousand discs stay on one: their steps are too short to share.
+    /// Periodic boxes and assemblies below a few thousand discs stay on one: their steps are too short to share.
     ///
     /// # Errors
     /// What the system says when it has no more threads.

@@ -176,6 +176,33 @@ fn averages_do_not_depend_on_where_the_cell_begins() {
     }
 }
 
+/// Nor does what happens then: the same history in another place.
+#[test]
+fn expansion_does_not_depend_on_where_the_cell_begins() {
+    let start = packed(120);
+    let after = |mut simulation: Simulation| {
+        let target = Strains { thermal: 0.004, xy: 0.004, ..Strains::default() };
+        let ramp = follow(&mut simulation, &[target], Rates::default(), |_, _| ()).unwrap();
+        ramp.stops[0].averages
+    };
+    let at_rest = |simulation: &Simulation, fraction| {
+        let mut image = moved(simulation, fraction);
+        image.discs.iter_mut().for_each(|d| (d.vx, d.vy, d.angular_velocity) = (0.0, 0.0, 0.0));
+        image.free_drag = simulation.free_drag;
+        image
+    };
+    let reference = after(at_rest(&start, [0.0, 0.0]));
+    let averages = after(at_rest(&start, [0.43, 0.29]));
+    close("pressure", averages.pressure / reference.pressure, 1.0, 1e-6);
+    close(
+        "shear stress",
+        averages.stress_xy / reference.pressure,
+        reference.stress_xy / reference.pressure,
+        1e-6,
+    );
+    close("K", averages.conductivity_xx, reference.conductivity_xx, 1e-6);
+}
+
 /// Radii grown by 1 + ε in a fixed cell and a cell shrunk by it are the same up to size, which p̃ = p/(E r̄) is free of.
 #[test]
 fn isotropic_cell_strain_is_thermal_strain() {
