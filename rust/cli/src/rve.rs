@@ -5,9 +5,9 @@ use crate::files::{read_text, write_atomically};
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_rve::{
-    Averages, Axis, Compression, Cut, Material, PackingSpec, Preparation, Protocol, RegionKind, Relaxation,
-    RveError, Settled, Simulation, Strains, follow, heat_check, homogenise_in, last_good, pack_watched,
-    region, state, unbalanced_force, vtk,
+    Averages, Axis, Boundary, Compression, Cut, Material, PackingSpec, Preparation, Protocol, RegionKind,
+    Relaxation, RveError, Settled, Simulation, Strains, follow, heat_check, homogenise_in, last_good,
+    pack_watched, region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -39,6 +39,9 @@ pub struct PackArguments {
     /// Directions in which the walls close.
     #[arg(long, value_enum, default_value_t = CompressionName::Isotropic)]
     compression: CompressionName,
+    /// Rigid walls, or a periodic box.
+    #[arg(long, value_enum, default_value_t = BoundaryName::Walls)]
+    boundary: BoundaryName,
     /// Radii are uniform between these [m].
     #[arg(long, default_value_t = 3e-3)]
     radius_min: f64,
@@ -61,7 +64,8 @@ pub struct PackArguments {
 #[command(after_help = "Examples:
   msdd rve expand --state state.json --strain 0.02 --out out.json
   msdd rve expand --state state.json --stops 0.01,0.02,0.05 --out out.json   (writes the last, prints all)
-  msdd rve expand --state state.json --xx=-0.01,-0.02 --out out.json            (walls close along x)")]
+  msdd rve expand --state state.json --xx=-0.01,-0.02 --out out.json            (walls close along x)
+  msdd rve expand --state periodic.json --xy 0.01,0.02 --out out.json            (shear of a periodic box)")]
 pub struct ExpandArguments {
     /// State to start from; strains count from its radii.
     #[arg(long, value_name = "FILE")]
@@ -78,6 +82,9 @@ pub struct ExpandArguments {
     /// Extension of the box along y at the stops.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     yy: Vec<f64>,
+    /// Shear γxy of a periodic box at the stops.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    xy: Vec<f64>,
     /// Moving walls carry the grains along.
     #[arg(long)]
     affine: bool,
@@ -104,7 +111,8 @@ pub struct ExpandArguments {
 pub struct HomogeniseArguments {
     #[arg(long, value_name = "FILE")]
     state: PathBuf,
-    /// Averaging region: hull of the inner discs, or the box inset by 0.8 mean radii.
+    /// Averaging region: hull of the inner discs, the box inset by 0.8 mean radii, or the whole box; of a periodic box
+    /// always the cell.
     #[arg(long, value_enum, default_value_t = RegionName::Inset)]
     region: RegionName,
     /// Contacts that the border crosses count with their share inside, or wholly.
@@ -139,9 +147,16 @@ enum CompressionName {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
+enum BoundaryName {
+    Walls,
+    Periodic,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
 enum RegionName {
     Hull,
     Inset,
+    Cell,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -209,6 +224,10 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
         radius_min: arguments.radius_min,
         radius_max: arguments.radius_max,
         relaxation: arguments.relaxation.into(),
+        boundary: match arguments.boundary {
+            BoundaryName::Walls => Boundary::Walls,
+            BoundaryName::Periodic => Boundary::Periodic,
+        },
     };
     let packed = pack_watched(&spec, &Preparation::default(), &Material::default())
         .map_err(|stopped| failed(&arguments.out, stopped.error, stopped.last_good.as_deref()))?;
@@ -240,9 +259,10 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
             written = series.add((written_stops + 1) as f64, simulation);
         }
         written_stops += 1;
-        let Strains { thermal, xx, yy } = stop.strains;
+        let Strains { thermal, xx, yy, xy } = stop.strains;
         let walls = if xx == 0.0 && yy == 0.0 { String::new() } else { format!(", walls {xx:+} {yy:+}") };
-        report(&format!("strain {thermal:+}{walls}"), &stop.settled, &stop.averages);
+        let shear = if xy == 0.0 { String::new() } else { format!(", shear {xy:+}") };
+        report(&format!("strain {thermal:+}{walls}{shear}"), &stop.settled, &stop.averages);
     })?;
     written?;
     match ramp.failure {
@@ -254,10 +274,10 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
 /// The stops: as many as the longest list has, absent lists are zero.
 fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
     let thermal = arguments.strain.map_or_else(|| arguments.stops.clone(), |strain| vec![strain]);
-    let lists = [("stops", &thermal), ("xx", &arguments.xx), ("yy", &arguments.yy)];
+    let lists = [("stops", &thermal), ("xx", &arguments.xx), ("yy", &arguments.yy), ("xy", &arguments.xy)];
     let count = lists.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
     if count == 0 {
-        return Err(CliError::Message("give --strain, --stops, --xx or --yy".to_string()));
+        return Err(CliError::Message("give --strain, --stops, --xx, --yy or --xy".to_string()));
     }
     if let Some((name, list)) = lists.iter().find(|(_, list)| !list.is_empty() && list.len() != count) {
         return Err(CliError::Message(format!(
@@ -270,6 +290,7 @@ fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
         thermal: at(&thermal, stop),
         xx: at(&arguments.xx, stop),
         yy: at(&arguments.yy, stop),
+        xy: at(&arguments.xy, stop),
     };
     Ok((0..count).map(strains).collect())
 }
@@ -296,6 +317,7 @@ fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
     let kind = match arguments.region {
         RegionName::Hull => RegionKind::Hull,
         RegionName::Inset => RegionKind::Inset,
+        RegionName::Cell => RegionKind::Cell,
     };
     let cut = match arguments.cut {
         CutName::Clip => Cut::Clip,

@@ -1,6 +1,7 @@
 //! One force-bearing contact, as averages and audits want to see it.
 
 use crate::law::{pair_stiffness, wall_stiffness};
+use crate::periodic::{Image, Shift};
 use crate::simulation::Simulation;
 use crate::walls::Side;
 
@@ -11,9 +12,11 @@ pub struct Contact {
     pub i: Result<usize, Side>,
     /// Second partner.
     pub j: usize,
+    /// In a periodic box, the shift of the image of j that i touches.
+    pub shift: Shift,
     /// Unit normal.
     pub normal: [f64; 2],
-    /// Centre to centre; of a wall contact, the foot of the centre on the wall to the centre [m].
+    /// Centre to centre, of j's image in a periodic box; of a wall contact, the foot of the centre on the wall to the centre [m].
     pub branch: [f64; 2],
     /// δ [m].
     pub overlap: f64,
@@ -35,6 +38,14 @@ impl Contact {
         [normal * nx - tangential * ny, normal * ny + tangential * nx]
     }
 
+    /// ½ s_n δ² + ½ f_t²/s_t [J].
+    pub fn energy(&self, stiffness_ratio: f64) -> f64 {
+        let (normal, tangential) = (self.normal_force(), self.tangential_force);
+        // Without tangential stiffness there is no f_t to divide.
+        let along = if tangential == 0.0 { 0.0 } else { tangential * tangential / stiffness_ratio };
+        0.5 * (normal * normal + along) / self.stiffness
+    }
+
     /// The one or two discs of the contact.
     pub fn discs(&self) -> impl Iterator<Item = usize> + use<> {
         self.i.ok().into_iter().chain(std::iter::once(self.j))
@@ -46,7 +57,7 @@ impl Simulation {
     pub fn for_each_contact(&self, mut visit: impl FnMut(Contact)) {
         let pairs = &self.neighbours.pairs;
         for (k, (&i, &j)) in pairs.i().iter().zip(pairs.j()).enumerate() {
-            if let Some(contact) = self.pair_contact(i as usize, j as usize, pairs.tangential[k]) {
+            if let Some(contact) = self.pair_contact(i as usize, self.image_of(j), pairs.tangential[k]) {
                 visit(contact);
             }
         }
@@ -65,14 +76,19 @@ impl Simulation {
         }
     }
 
-    fn pair_contact(&self, i: usize, j: usize, tangential_force: f64) -> Option<Contact> {
-        let (a, b) = (&self.discs[i], &self.discs[j]);
+    fn pair_contact(&self, i: usize, image: Image, tangential_force: f64) -> Option<Contact> {
+        let Image { owner, shift } = image;
+        let (a, mut b) = (&self.discs[i], self.discs[owner as usize]);
+        if let Some(cell) = self.cell().filter(|_| shift != [0, 0]) {
+            b = cell.image(&b, shift);
+        }
         let branch = [b.x - a.x, b.y - a.y];
         let distance = (branch[0] * branch[0] + branch[1] * branch[1]).sqrt();
         let overlap = a.radius + b.radius - distance;
         (overlap > 0.0).then(|| Contact {
             i: Ok(i),
-            j,
+            j: owner as usize,
+            shift,
             normal: [branch[0] / distance, branch[1] / distance],
             branch,
             overlap,
@@ -90,6 +106,7 @@ impl Simulation {
         (overlap > 0.0).then(|| Contact {
             i: Err(side),
             j,
+            shift: [0, 0],
             normal,
             branch: [distance * normal[0], distance * normal[1]],
             overlap,

@@ -8,6 +8,7 @@ use std::ops::Range;
 /// adds nothing. Every index is below [`PairList::discs`], checked when the list is built: the kernels rely on it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairList {
+    /// Discs, ghosts included.
     discs: usize,
     /// Row i is `start[i]..start[i + 1]`.
     start: Vec<u32>,
@@ -92,10 +93,21 @@ impl SlabPairs<'_> {
 
 impl PairList {
     /// A list over `discs` discs. `partners(i, row)` puts the partners j > i of disc i into `row`, in any order.
-    pub(crate) fn build(discs: usize, mut partners: impl FnMut(usize, &mut Vec<u32>)) -> Self {
+    pub(crate) fn build(discs: usize, partners: impl FnMut(usize, &mut Vec<u32>)) -> Self {
+        Self::build_over(discs, discs, (slab_count(discs), BLOCK_ROWS), partners)
+    }
+
+    /// As [`PairList::build`], with a row for each of the first `rows` of `discs` discs, in a given number of
+    /// slabs with blocks of so many rows.
+    pub(crate) fn build_over(
+        rows: usize,
+        discs: usize,
+        (slabs, block_rows): (usize, usize),
+        mut partners: impl FnMut(usize, &mut Vec<u32>),
+    ) -> Self {
         let mut list = Self { discs, start: vec![0], ..Self::default() };
         let mut row = Vec::new();
-        for i in 0..discs {
+        for i in 0..rows {
             row.clear();
             partners(i, &mut row);
             row.sort_unstable();
@@ -105,18 +117,17 @@ impl PairList {
             list.start.push(list.j.len() as u32);
         }
         list.tangential = vec![0.0; list.j.len()];
-        list.slabs = list.divide();
+        list.slabs = list.divide(slabs, block_rows);
         list
     }
 
-    fn divide(&self) -> Vec<Slab> {
-        let count = slab_count(self.discs);
-        let edge = |s: usize| self.discs * s / count;
+    fn divide(&self, count: usize, block_rows: usize) -> Vec<Slab> {
+        let edge = |s: usize| self.rows() * s / count;
         let mut slabs: Vec<Slab> = Vec::with_capacity(count);
         for s in 0..count {
             let rows = edge(s)..edge(s + 1);
-            let begins = rows.clone().step_by(BLOCK_ROWS);
-            let block = |begin: usize| self.block(begin..rows.end.min(begin + BLOCK_ROWS));
+            let begins = rows.clone().step_by(block_rows);
+            let block = |begin: usize| self.block(begin..rows.end.min(begin + block_rows));
             let blocks: Vec<Block> = begins.map(block).collect();
             let reach = blocks.iter().map(|block| block.reach).max().unwrap_or(rows.end);
             let earlier = slabs.iter().map(|slab| slab.reach).max().unwrap_or(0);
@@ -161,6 +172,11 @@ impl PairList {
                 self.tangential[k] = old.tangential_of(self.i[k] as usize, self.j[k]);
             }
         }
+    }
+
+    /// Number of rows; discs behind them are ghosts.
+    pub(crate) fn rows(&self) -> usize {
+        self.start.len().saturating_sub(1)
     }
 
     /// Number of discs that the indices refer to.

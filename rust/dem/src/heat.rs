@@ -177,7 +177,8 @@ impl HeatPipes {
     pub(crate) fn follow(&mut self, simulation: &Simulation) {
         let pairs = &simulation.neighbours.pairs;
         if self.of_rebuild != Some(simulation.neighbours.rebuilds) {
-            let ends = pairs.i().iter().copied().zip(pairs.j().iter().copied());
+            let partners = pairs.j().iter().map(|&j| simulation.image_of(j).owner);
+            let ends = pairs.i().iter().copied().zip(partners);
             self.network = Network::new(simulation.discs.len(), ends);
             self.of_rebuild = Some(simulation.neighbours.rebuilds);
         }

@@ -28,14 +28,14 @@ pub(crate) struct PairLaw {
     pub wall_factor: f64,
     /// Δt [s].
     pub dt: f64,
-    /// ∂u_x/∂x, ∂u_y/∂y [1/s] of the motion that carries the grains along, see [`crate::walls::Flow`].
-    pub gradient: [f64; 2],
+    /// ∂u_x/∂x, ∂u_y/∂y, ∂u_x/∂y [1/s] of the motion that carries the grains along, see [`crate::walls::Flow`].
+    pub gradient: [f64; 3],
     /// k [W/(m K)] of the grains, when heat is on.
     pub conductivity: Option<f64>,
 }
 
 impl PairLaw {
-    pub fn new(material: &Material, dt: f64, gradient: [f64; 2], conductivity: Option<f64>) -> Self {
+    pub fn new(material: &Material, dt: f64, gradient: [f64; 3], conductivity: Option<f64>) -> Self {
         Self {
             young_modulus: material.young_modulus,
             stiffness_ratio: material.stiffness_ratio,
@@ -96,7 +96,8 @@ pub(crate) fn pair_force<V: Vector, const HEAT: bool>(
     let half = all(0.5) * overlap;
     let (arm_a, arm_b) = (ar - half, br - half);
     // Velocity of j relative to i at the contact, along t.
-    let (vx, vy) = (bvx - avx + all(law.gradient[0]) * dx, bvy - avy + all(law.gradient[1]) * dy);
+    let [xx, yy, xy] = law.gradient;
+    let (vx, vy) = (bvx - avx + all(xx) * dx + all(xy) * dy, bvy - avy + all(yy) * dy);
     let speed = vy * nx - vx * ny - (arm_a * aw + arm_b * bw);
     let stiffness = all(2.0 * law.young_modulus) * (ar * br) * (quotient * distance);
     let normal = stiffness * overlap;

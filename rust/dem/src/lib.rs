@@ -1,4 +1,4 @@
-//! Two-dimensional discrete element engine for discs between flat walls.
+//! Two-dimensional discrete element engine for discs between flat walls, or in a periodic box.
 //!
 //! Discs are cylinders of unit length (1 m) in a plane. SI units throughout; forces are those on the 1 m depth.
 //! [`Simulation::step`] reads as the algorithm: boundaries, neighbours, contact forces, motion.
@@ -9,6 +9,7 @@
 //! | [`law`] | contact law as pure functions (Table 1) |
 //! | [`disc`] | one grain, packed in one cache line |
 //! | [`walls`] | the box: four flat walls with prescribed velocities |
+//! | [`periodic`] | periodic boxes: the cell, images, ghosts |
 //! | [`contact`] | one contact, as averages see it |
 //! | [`contacts`] | candidate pairs in rows, with friction history |
 //! | `neighbours` | the search that fills the rows |
@@ -39,6 +40,7 @@ pub mod material;
 mod neighbours;
 mod network;
 mod pace;
+pub mod periodic;
 mod relax;
 pub mod restore;
 pub mod run;
@@ -53,6 +55,7 @@ pub use disc::Disc;
 pub use heat::{HeatPipes, HeatState, Thermal, WallHeat};
 pub use kernel::Simd;
 pub use material::{Material, MaterialError};
+pub use periodic::{Cell, Image, Periodic};
 pub use restore::RunState;
 pub use run::Failure;
 pub use simulation::{Simulation, Stage};

@@ -2,6 +2,7 @@
 
 use crate::contacts::{PairList, WallContacts};
 use crate::disc::Disc;
+use crate::periodic::{self, Cell, Image};
 use crate::walls::{Side, Walls};
 
 /// Surfaces closer than this times the mean radius become candidates. Chosen by speed: wider rows cost force
@@ -13,12 +14,16 @@ const SKIN_OVER_MEAN_RADIUS: f64 = 0.25;
 pub struct Neighbours {
     pub pairs: PairList,
     pub walls: [WallContacts; 4],
+    /// Images among the pairs of a periodic box, by owner and shift; numbered after the discs.
+    pub ghosts: Vec<Image>,
     skin: f64,
     /// Bound on how much the gap of any pair has closed since the last rebuild [m].
     closed: f64,
     /// The part of it that growing radii and moving walls closed.
     closed_by_boundaries: f64,
-    /// Centres at the last rebuild.
+    /// Largest distance at which a pair was taken [m].
+    reach: f64,
+    /// Centres at the last rebuild; in a periodic box as fractions of the cell, which the flow keeps.
     built_at: Vec<[f64; 2]>,
     /// Rebuilds so far.
     pub rebuilds: u64,
@@ -29,11 +34,11 @@ impl Neighbours {
     ///
     /// First by the bound on speeds, which costs nothing; when that is used up, by how far the discs have really
     /// come, which then replaces it: discs that tremble about a place do not force rebuilds.
-    pub fn stale(&mut self, discs: &[Disc]) -> bool {
+    pub fn stale(&mut self, discs: &[Disc], cell: Option<&Cell>) -> bool {
         if self.closed < self.skin {
             return false;
         }
-        self.closed = self.closed_by_boundaries + self.closed_by_motion(discs);
+        self.closed = self.closed_by_boundaries + self.closed_by_motion(discs, cell);
         // The measure costs about as much as a step, so it should be good for a few.
         self.closed > 0.8 * self.skin
     }
@@ -46,10 +51,18 @@ impl Neighbours {
         self.closed += 2.0 * speed * dt + boundaries;
     }
 
-    /// Sum of the two largest displacements since the last rebuild [m].
-    fn closed_by_motion(&self, discs: &[Disc]) -> f64 {
+    /// Counts the deformation of a periodic cell: `rate` [1/s] bounds the velocity gradient. A pair that is no candidate
+    /// is farther than its reach, and no part of its way counts before it has come that near.
+    pub fn record_flow(&mut self, rate: f64, dt: f64) {
+        self.closed += rate * self.reach * dt;
+        self.closed_by_boundaries += rate * self.reach * dt;
+    }
+
+    /// Sum of the two largest displacements, relative to the flow of a periodic box, since the last rebuild [m].
+    fn closed_by_motion(&self, discs: &[Disc], cell: Option<&Cell>) -> f64 {
         let (mut largest, mut second) = (0.0f64, 0.0f64);
-        for (disc, [x, y]) in discs.iter().zip(&self.built_at) {
+        for (disc, &built_at) in discs.iter().zip(&self.built_at) {
+            let [x, y] = cell.map_or(built_at, |cell| cell.point(built_at));
             let (dx, dy) = (disc.x - x, disc.y - y);
             let square = dx * dx + dy * dy;
             second = second.max(square.min(largest));
@@ -59,19 +72,41 @@ impl Neighbours {
     }
 
     /// Finds all candidates afresh and carries the friction history over.
-    pub fn rebuild(&mut self, discs: &[Disc], walls: &Walls) {
+    pub fn rebuild(&mut self, discs: &[Disc], walls: &Walls, cell: Option<&Cell>) {
         let mean_radius = discs.iter().map(|d| d.radius).sum::<f64>() / discs.len().max(1) as f64;
         self.skin = SKIN_OVER_MEAN_RADIUS * mean_radius;
         self.closed = 0.0;
         self.closed_by_boundaries = 0.0;
-        self.built_at = discs.iter().map(|d| [d.x, d.y]).collect();
+        // Radii grow by less than the skin until the next rebuild.
+        self.reach = discs.iter().fold(0.0f64, |r, d| r.max(2.0 * d.radius)) + 2.0 * self.skin;
+        let place = |d: &Disc| cell.map_or([d.x, d.y], |cell| cell.fraction(d.x, d.y));
+        self.built_at = discs.iter().map(place).collect();
         self.rebuilds += 1;
+        if let Some(cell) = cell {
+            self.rebuild_periodic(discs, cell);
+            return;
+        }
         let old = std::mem::take(&mut self.pairs);
         self.pairs = pairs_within(discs, self.skin);
         self.pairs.inherit(&old);
         for side in Side::ALL {
             self.rebuild_wall(side, discs, walls);
         }
+    }
+
+    fn rebuild_periodic(&mut self, discs: &[Disc], cell: &Cell) {
+        let (mut pairs, ghosts) = periodic::pairs_within(discs, self.skin, cell);
+        let count = discs.len();
+        let known = self.pairs.rows() == count;
+        for k in 0..if known { pairs.len() } else { 0 } {
+            let (i, j) = (pairs.i()[k], pairs.j()[k]);
+            let old = match (j as usize).checked_sub(count) {
+                None => Some(j),
+                Some(ghost) => periodic::index_of(&ghosts[ghost], count, &self.ghosts),
+            };
+            pairs.tangential[k] = old.map_or(0.0, |old| self.pairs.tangential_of(i as usize, old));
+        }
+        (self.pairs, self.ghosts) = (pairs, ghosts);
     }
 
     fn rebuild_wall(&mut self, side: Side, discs: &[Disc], walls: &Walls) {
@@ -87,7 +122,7 @@ impl Neighbours {
 }
 
 /// Uniform grid over the bounding box of the centres: `first[c]..first[c + 1]` of `disc` are the discs of cell c.
-struct Grid {
+pub(crate) struct Grid {
     origin: [f64; 2],
     cell: f64,
     columns: usize,
@@ -97,7 +132,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn new(discs: &[Disc], cell: f64) -> Self {
+    pub(crate) fn new(discs: &[Disc], cell: f64) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for d in discs {
             low = [low[0].min(d.x), low[1].min(d.y)];
@@ -147,7 +182,7 @@ impl Grid {
     }
 
     /// Calls `visit` with every disc in the 3 × 3 cells around `disc`.
-    fn around(&self, disc: &Disc, mut visit: impl FnMut(u32)) {
+    pub(crate) fn around(&self, disc: &Disc, mut visit: impl FnMut(u32)) {
         let (column, line) = self.column_and_line(disc);
         let columns = column.saturating_sub(1)..=(column + 1).min(self.columns - 1);
         for l in line.saturating_sub(1)..=(line + 1).min(self.lines - 1) {
@@ -215,10 +250,10 @@ mod tests {
         ];
         let walls = Walls { position: [-0.9, 5.5, -5.0, 5.0], ..Walls::around(1.0, 1.0) };
         let mut neighbours = Neighbours::default();
-        neighbours.rebuild(&discs, &walls);
+        neighbours.rebuild(&discs, &walls, None);
         neighbours.pairs.tangential.copy_from_slice(&[3.0, -4.0]);
         neighbours.walls[0].tangential[0] = 7.0;
-        neighbours.rebuild(&discs, &walls);
+        neighbours.rebuild(&discs, &walls, None);
         assert_eq!(neighbours.pairs.tangential, [3.0, -4.0]);
         assert_eq!(neighbours.walls[0].tangential_of(0), 7.0);
         assert_eq!(neighbours.walls[1].disc, [] as [u32; 0]);

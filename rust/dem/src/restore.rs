@@ -1,5 +1,6 @@
 //! What a state file has to hold beside discs, walls and friction history so that a run continues bit for bit.
 
+use crate::periodic::{Image, Shift, forward, index_of};
 use crate::simulation::Simulation;
 use crate::walls::Side;
 
@@ -48,8 +49,21 @@ impl Simulation {
     /// same number whichever of two discs is called i. Returns false when the two are not near each other.
     pub fn set_tangential_force(&mut self, i: Result<usize, Side>, j: usize, force: f64) -> bool {
         match i {
-            Ok(i) => self.neighbours.pairs.set_tangential(i.min(j), i.max(j) as u32, force),
+            Ok(i) => self.set_tangential_force_across(i, j, [0, 0], force),
             Err(side) => self.neighbours.walls[side as usize].set_tangential(j as u32, force),
         }
+    }
+
+    /// As [`Simulation::set_tangential_force`], of disc i and the image of j by `shift` in a periodic box.
+    pub fn set_tangential_force_across(&mut self, i: usize, j: usize, shift: Shift, force: f64) -> bool {
+        let (i, j) = (i as u32, j as u32);
+        let [a, b] = shift;
+        let (i, image) = if forward(i, j, shift) {
+            (i, Image { owner: j, shift })
+        } else {
+            (j, Image { owner: i, shift: [-a, -b] })
+        };
+        let index = index_of(&image, self.discs.len(), &self.neighbours.ghosts);
+        index.is_some_and(|index| self.neighbours.pairs.set_tangential(i as usize, index, force))
     }
 }

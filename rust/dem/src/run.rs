@@ -1,5 +1,6 @@
 //! Many steps in a row, watched: the time step follows the contacts, and a state that has gone wrong ends the run.
 
+use crate::periodic::{SmallCell, check_size};
 use crate::simulation::Simulation;
 use crate::time_step::{self, Excess, StepChoice};
 
@@ -34,6 +35,8 @@ pub enum Failure {
     Speed { disc: usize, ratio: f64, time: f64 },
     #[error("t = {time} s: time step {step:.3e} s exceeds the stability bound {bound:.3e} s")]
     TimeStep { step: f64, bound: f64, time: f64 },
+    #[error("t = {time} s: {problem}")]
+    Cell { problem: SmallCell, time: f64 },
 }
 
 impl Simulation {
@@ -89,6 +92,10 @@ impl Simulation {
     /// Looks for signs of a blow-up.
     pub fn check(&self) -> Result<(), Failure> {
         let time = self.time;
+        if self.periodic.is_some() {
+            let largest = self.discs.iter().map(|d| d.radius).fold(0.0, f64::max);
+            check_size(&self.walls, largest).map_err(|problem| Failure::Cell { problem, time })?;
+        }
         for (disc, d) in self.discs.iter().enumerate() {
             if !(d.x + d.y + d.vx + d.vy + d.angular_velocity).is_finite() {
                 return Err(Failure::NonFinite { disc, time });

@@ -8,6 +8,7 @@ use crate::law::PairLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
 use crate::pace::Pace;
+use crate::periodic::Periodic;
 use crate::run::{Failure, LastGood};
 use crate::slabs::{SlabLoads, Sweep};
 use crate::team;
@@ -22,13 +23,16 @@ pub struct Simulation {
     pub material: Material,
     pub discs: Vec<Disc>,
     pub walls: Walls,
+    /// None between walls. In a periodic box `walls` are the borders of the cell; whether there is one is chosen by the
+    /// constructor and stays.
+    pub periodic: Option<Periodic>,
     /// Δt [s] of the next step; [`Simulation::run`] keeps it as chosen.
     pub time_step: f64,
     pub(crate) step_choice: StepChoice,
     /// Drag on discs without contact force [1/s]; 0 (off) as in the paper, whose damping lets them fly for ever.
     pub free_drag: f64,
     /// Whether moving walls carry the grains along (affine motion); their own velocities are relative to that then. Off
-    /// as in the paper.
+    /// as in the paper; a periodic box always does it.
     pub affine: bool,
     /// Whether walls shrink and stretch with the affine motion: carried grains do not slip along them then. Friction of
     /// the long walls of a box would drag the grains to its ends otherwise.
@@ -83,6 +87,15 @@ impl Stage {
 impl Simulation {
     /// An assembly with given discs in given walls; the friction history is empty.
     pub fn new(material: Material, discs: Vec<Disc>, walls: Walls) -> Self {
+        Self::with_boundary(material, discs, walls, None)
+    }
+
+    pub(crate) fn with_boundary(
+        material: Material,
+        discs: Vec<Disc>,
+        walls: Walls,
+        periodic: Option<Periodic>,
+    ) -> Self {
         let mut simulation = Self {
             material,
             reference_radius: discs.iter().map(|d| d.radius).collect(),
@@ -90,6 +103,7 @@ impl Simulation {
             loads: SlabLoads::default(),
             discs,
             walls,
+            periodic,
             time_step: 0.0,
             step_choice: StepChoice::Adaptive { safety: time_step::SAFETY },
             free_drag: 0.0,
@@ -109,7 +123,7 @@ impl Simulation {
             simd: Simd::preferred(),
             neighbours: Neighbours::default(),
         };
-        simulation.neighbours.rebuild(&simulation.discs, &simulation.walls);
+        simulation.rebuild_neighbours();
         simulation.largest_speed = simulation.discs.iter().map(Disc::speed).fold(0.0, f64::max);
         simulation.time_step = time_step::SAFETY * time_step::stable_step(&simulation);
         simulation
@@ -147,7 +161,7 @@ impl Simulation {
     }
 
     /// Chooses the number of threads for [`Simulation::take_steps`] and [`Simulation::run`]. Results do not depend on it.
-    /// Assemblies below a few thousand discs stay on one: their steps are too short to share.
+    /// Periodic boxes and assemblies below a few thousand discs stay on one: their steps are too short to share.
     ///
     /// # Errors
     /// What the system says when it has no more threads.
@@ -167,7 +181,7 @@ impl Simulation {
     pub fn step_marked(&mut self, mut mark: impl FnMut(Stage)) {
         self.advance_boundaries();
         mark(Stage::Boundaries);
-        if self.neighbours.stale(&self.discs) {
+        if self.neighbours.stale(&self.discs, self.cell().as_ref()) {
             self.find_neighbours();
         }
         mark(Stage::Neighbours);
@@ -270,7 +284,7 @@ impl Simulation {
 
     /// Runs the neighbour search now, due or not. Results do not depend on when it runs.
     pub fn rebuild_neighbours(&mut self) {
-        self.neighbours.rebuild(&self.discs, &self.walls);
+        self.neighbours.rebuild(&self.discs, &self.walls, self.cell().as_ref());
     }
 
     /// How often the neighbour search has run.
@@ -299,6 +313,14 @@ impl Simulation {
         self.strain += self.strain_rate * dt;
         let growth = self.advance_radii();
         self.carry_discs();
+        if let Some(periodic) = &mut self.periodic {
+            periodic.advance(&self.walls, dt);
+            self.walls.advance(dt);
+            let [xx, yy, xy] = self.flow().gradient;
+            self.neighbours.record_flow((xx * xx + yy * yy + xy * xy).sqrt(), dt);
+            self.neighbours.record_motion(self.largest_speed, 0.0, growth / dt, dt);
+            return;
+        }
         self.walls.advance(dt);
         let wall_speed = self.walls.largest_speed();
         // Carried discs move at most as fast as the walls.
@@ -308,7 +330,11 @@ impl Simulation {
 
     /// The motion that carries the grains along in this step.
     pub(crate) fn flow(&self) -> Flow {
-        if self.affine { self.walls.flow() } else { Flow::NONE }
+        match &self.periodic {
+            Some(periodic) => self.walls.sheared_flow(periodic.shear_rate),
+            None if self.affine => self.walls.flow(),
+            None => Flow::NONE,
+        }
     }
 
     fn carry_discs(&mut self) {
@@ -348,12 +374,17 @@ impl Simulation {
     }
 
     fn find_neighbours(&mut self) {
+        self.scale_radii();
+        self.rebuild_neighbours();
+    }
+
+    /// Sets the radii when the strain rate alone does.
+    fn scale_radii(&mut self) {
         if let Some(factor) = self.radius_factor() {
             for (disc, radius) in self.discs.iter_mut().zip(&self.reference_radius) {
                 disc.radius = radius * factor;
             }
         }
-        self.neighbours.rebuild(&self.discs, &self.walls);
     }
 
     /// Radii over reference radii when the strain rate alone sets them.
@@ -364,6 +395,11 @@ impl Simulation {
 
     /// Radii, contact forces and motion.
     fn sweep(&mut self, mark: impl FnMut(Stage)) {
+        let count = self.discs.len();
+        if self.periodic.is_some() {
+            self.scale_radii();
+            self.place_ghosts();
+        }
         let (dt, flow) = (self.time_step, self.flow());
         let conductivity = self.pipes.as_ref().map(|pipes| pipes.thermal.conductivity);
         let sweep = Sweep {
@@ -380,6 +416,7 @@ impl Simulation {
             radii: self.radius_factor().map(|factor| (factor, self.reference_radius.as_slice())),
         };
         let swept = self.loads.sweep(self.shared, sweep, &mut self.discs, &mut self.neighbours, mark);
+        self.discs.truncate(count);
         self.wall_force = swept.wall_force;
         self.largest_speed = swept.fastest2.sqrt();
     }

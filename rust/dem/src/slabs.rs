@@ -14,6 +14,7 @@ use crate::forces::{self, Load};
 use crate::kernel::{self, Motion, SharedDiscs, Simd};
 use crate::law::PairLaw;
 use crate::neighbours::Neighbours;
+use crate::periodic::Image;
 use crate::simulation::Stage;
 use crate::team;
 use crate::walls::{Flow, Side, Walls};
@@ -61,7 +62,8 @@ impl SlabLoads {
         slabs.zip(&self.0).flat_map(|(slab, loads)| &loads[..slab.rows.len()])
     }
 
-    /// Sweeps over all discs, side by side when `parallel`; `mark` is called as the stages end, not when `parallel`.
+    /// Sweeps over all discs, side by side when `parallel`; `mark` is called as the stages end, not when `parallel`. In a
+    /// periodic box the ghosts come behind the discs, in place and with their radii; they do not move.
     pub fn sweep(
         &mut self,
         parallel: bool,
@@ -75,7 +77,7 @@ impl SlabLoads {
         for slab in &slabs {
             sweep.scale(&mut discs[slab.rows.start..slab.shared], slab.rows.start);
         }
-        let Neighbours { pairs, walls, .. } = neighbours;
+        let Neighbours { pairs, walls, ghosts, .. } = neighbours;
         let mut walls = walls.each_mut().map(|contacts| contacts.parts(&slabs).into_iter());
         let views = SharedDiscs::divide(discs, &slabs);
         let parts = pairs.parts(sweep.law.conductivity.is_some()).into_iter().zip(views).zip(&mut self.0);
@@ -83,7 +85,7 @@ impl SlabLoads {
             .filter_map(|((pairs, discs), loads)| {
                 let [left, right, bottom, top] = &mut walls;
                 let walls = [left.next()?, right.next()?, bottom.next()?, top.next()?];
-                Some(Task { pairs, discs, walls, loads })
+                Some(Task { pairs, discs, walls, ghosts, loads })
             })
             .collect();
         let swept = if parallel {
@@ -133,6 +135,8 @@ struct Task<'a> {
     pairs: SlabPairs<'a>,
     discs: SharedDiscs<'a>,
     walls: [WallPart<'a>; 4],
+    /// Of a periodic box, which is one block: images behind the discs, whose loads are their owners'.
+    ghosts: &'a [Image],
     loads: &'a mut Vec<Load>,
 }
 
@@ -166,6 +170,12 @@ impl Task<'_> {
                 let [normal, tangential] = &mut swept.wall_force[side as usize];
                 *normal += force[0];
                 *tangential += force[1];
+            }
+            if !self.ghosts.is_empty() {
+                let (own, of_ghosts) = self.loads.split_at_mut(block.rows.end);
+                for (ghost, load) in self.ghosts.iter().zip(of_ghosts) {
+                    own[ghost.owner as usize].add(load);
+                }
             }
             mark(Stage::Walls);
             let movable = begin.max(own.start)..block.rows.end;

@@ -38,21 +38,22 @@ pub struct Walls {
 /// large box is compressed everywhere at once instead of from its rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
-    /// ∂u_x/∂x, ∂u_y/∂y [1/s].
-    pub gradient: [f64; 2],
+    /// ∂u_x/∂x, ∂u_y/∂y, ∂u_x/∂y [1/s].
+    pub gradient: [f64; 3],
     /// u at the origin of the coordinates [m/s].
     pub at_origin: [f64; 2],
 }
 
 impl Flow {
     /// Grains that no flow carries.
-    pub const NONE: Self = Self { gradient: [0.0; 2], at_origin: [0.0; 2] };
+    pub const NONE: Self = Self { gradient: [0.0; 3], at_origin: [0.0; 2] };
 
     /// The part normal to a wall: what a wall that is carried along itself leaves as slip.
     pub fn normal_to(self, side: Side) -> Self {
         let normal = side.normal().map(f64::abs);
+        let [xx, yy, xy] = self.gradient;
         Self {
-            gradient: [normal[0] * self.gradient[0], normal[1] * self.gradient[1]],
+            gradient: [normal[0] * xx, normal[1] * yy, normal[0] * xy],
             at_origin: [normal[0] * self.at_origin[0], normal[1] * self.at_origin[1]],
         }
     }
@@ -60,7 +61,8 @@ impl Flow {
     /// u [m/s] at (x, y).
     #[inline(always)]
     pub fn at(&self, x: f64, y: f64) -> [f64; 2] {
-        [self.at_origin[0] + self.gradient[0] * x, self.at_origin[1] + self.gradient[1] * y]
+        let [xx, yy, xy] = self.gradient;
+        [self.at_origin[0] + xx * x + xy * y, self.at_origin[1] + yy * y]
     }
 }
 
@@ -73,7 +75,14 @@ impl Walls {
             (gradient, velocity[low] - gradient * self.position[low])
         };
         let ((xx, x0), (yy, y0)) = (axis(0, 1), axis(2, 3));
-        Flow { gradient: [xx, yy], at_origin: [x0, y0] }
+        Flow { gradient: [xx, yy, 0.0], at_origin: [x0, y0] }
+    }
+
+    /// The flow of a periodic box: it shears besides, and the lower border keeps its x.
+    pub fn sheared_flow(&self, shear_rate: f64) -> Flow {
+        let Flow { gradient: [xx, yy, _], at_origin: [x0, y0] } = self.flow();
+        let bottom = self.position[Side::Bottom as usize];
+        Flow { gradient: [xx, yy, shear_rate], at_origin: [x0 - shear_rate * bottom, y0] }
     }
 
     /// Resting walls around [0, width] × [0, height] [m].

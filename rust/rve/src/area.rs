@@ -8,17 +8,46 @@
 
 use crate::region::{Polygon, whole_box};
 use libm::{acos, atan2, cos, sin};
-use msdd_dem::{Disc, Simulation};
+use msdd_dem::{Cell, Disc, Simulation};
 use std::f64::consts::{PI, TAU};
 
-/// Porosity of the region [-], overlaps counted once: 1 − area(union ∩ region) / area(region).
+/// Porosity of the region [-], overlaps counted once: 1 − area(union ∩ region) / area(region). Of a periodic box it is
+/// always that of the whole cell.
 pub fn porosity(simulation: &Simulation, region: &Polygon) -> f64 {
+    if let Some(cell) = simulation.cell() {
+        return 1.0 - covered_cell(simulation, &cell) / simulation.walls.area();
+    }
     1.0 - union_area(&simulation.discs, &overlapping(simulation), region) / region.area()
 }
 
 /// Porosity of the whole box [-].
 pub fn porosity_of_box(simulation: &Simulation) -> f64 {
     porosity(simulation, &whole_box(simulation))
+}
+
+/// Area of the union of all discs and their images in the cell [m²]: that of the images in the rectangle W × H.
+fn covered_cell(simulation: &Simulation, cell: &Cell) -> f64 {
+    let discs = &simulation.discs;
+    let images = cell.images(discs, discs.iter().map(|d| d.radius).fold(0.0, f64::max));
+    let mut of_owner = vec![Vec::new(); discs.len()];
+    for (k, image) in images.iter().enumerate() {
+        of_owner[image.owner as usize].push(k);
+    }
+    let mut partners = vec![Vec::new(); images.len()];
+    simulation.for_each_contact(|contact| {
+        let Ok(i) = contact.i else { return };
+        for &p in &of_owner[i] {
+            let touched = [0, 1].map(|k| images[p].shift[k] + contact.shift[k]);
+            // Images that are not near the rectangle hide nothing in it.
+            if let Some(&q) = of_owner[contact.j].iter().find(|&&q| images[q].shift == touched) {
+                partners[p].push(q);
+                partners[q].push(p);
+            }
+        }
+    });
+    let placed: Vec<Disc> =
+        images.iter().map(|image| cell.image(&discs[image.owner as usize], image.shift)).collect();
+    union_area(&placed, &partners, &whole_box(simulation))
 }
 
 /// The discs that overlap each disc.

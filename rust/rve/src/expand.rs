@@ -32,9 +32,12 @@ const RUN: u64 = 50;
 pub struct Strains {
     /// ε of the radii.
     pub thermal: f64,
-    /// Extension of the box along x and y: both walls move by half of it.
+    /// Extension of the box along x and y: both walls (borders) move by half of it.
     pub xx: f64,
     pub yy: f64,
+    /// γ_xy of a periodic box: way of the upper border along x over the height at the start. A box sheared already is
+    /// deformed as it is: s becomes (1 + xx) s + xy H.
+    pub xy: f64,
 }
 
 impl Strains {
@@ -82,9 +85,13 @@ pub fn follow(
     mut visit: impl FnMut(&Stop, &Simulation),
 ) -> Result<Ramp, RveError> {
     check(path, protocol)?;
+    if let Some(strains) = path.iter().find(|s| s.xy != 0.0 && simulation.periodic.is_none()) {
+        let allowed = "0 between walls; shear needs a periodic box";
+        return Err(RveError::Parameter { key: "xy", value: strains.xy.to_string(), allowed });
+    }
     simulation.reset_strain();
     simulation.keep_last_good(last_good::EVERY);
-    let start = [simulation.walls.width(), simulation.walls.height()];
+    let start = Start::of(simulation);
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
     for &strains in path {
         match advance_to(simulation, strains, start, protocol) {
@@ -110,7 +117,8 @@ fn check(path: &[Strains], protocol: Protocol) -> Result<(), RveError> {
             return Err(RveError::Parameter { key, value: rate.to_string(), allowed: "1e-6 to 100 1/s" });
         }
     }
-    let values = path.iter().flat_map(|s| [("thermal strain", s.thermal), ("xx", s.xx), ("yy", s.yy)]);
+    let values =
+        path.iter().flat_map(|s| [("thermal strain", s.thermal), ("xx", s.xx), ("yy", s.yy), ("xy", s.xy)]);
     for (key, value) in values {
         if !(-0.2..=0.2).contains(&value) {
             return Err(RveError::Parameter { key, value: value.to_string(), allowed: "-0.2 to 0.2" });
@@ -131,15 +139,63 @@ fn check_monotone(stops: &[f64]) -> Result<(), RveError> {
     Ok(())
 }
 
-/// Straight on to `target`, then at rest until the forces balance. `start` is the box at zero strain [m].
+/// The box at zero strain [m].
+#[derive(Clone, Copy)]
+struct Start {
+    width: f64,
+    height: f64,
+    shear_offset: f64,
+}
+
+impl Start {
+    fn of(simulation: &Simulation) -> Self {
+        Self {
+            width: simulation.walls.width(),
+            height: simulation.walls.height(),
+            shear_offset: simulation.periodic.map_or(0.0, |periodic| periodic.shear_offset),
+        }
+    }
+
+    /// What width, height and shear offset are short of `target` [m].
+    fn missing(&self, simulation: &Simulation, target: Strains) -> [f64; 3] {
+        let now = Self::of(simulation);
+        let sheared = self.shear_offset * (1.0 + target.xx) + target.xy * self.height;
+        [
+            self.width * (1.0 + target.xx) - now.width,
+            self.height * (1.0 + target.yy) - now.height,
+            sheared - now.shear_offset,
+        ]
+    }
+}
+
+fn stop_box(simulation: &mut Simulation) {
+    simulation.walls.stop();
+    if let Some(periodic) = &mut simulation.periodic {
+        periodic.shear_rate = 0.0;
+    }
+}
+
+/// Sets the velocities at which the box changes by `missing` in `time` [s].
+fn set_box_velocity(simulation: &mut Simulation, [dx, dy, ds]: [f64; 3], time: f64) {
+    let (vx, vy) = (0.5 * dx / time, 0.5 * dy / time);
+    simulation.walls.normal_velocity = [-vx, vx, -vy, vy];
+    let (width, height) = (simulation.walls.width(), simulation.walls.height());
+    if let Some(periodic) = &mut simulation.periodic {
+        // The flow stretches the offset with the width.
+        let stretched = periodic.shear_offset * dx / width;
+        periodic.shear_rate = (ds - stretched) / time / height;
+    }
+}
+
+/// Straight on to `target`, then at rest until the forces balance.
 fn advance_to(
     simulation: &mut Simulation,
     target: Strains,
-    [width, height]: [f64; 2],
+    start: Start,
     protocol: Protocol,
 ) -> Result<Stop, RveError> {
     let since = simulation.steps;
-    stopwatch::time(Stage::Strain, || strain_to(simulation, target, [width, height], protocol))?;
+    stopwatch::time(Stage::Strain, || strain_to(simulation, target, start, protocol))?;
     rest(simulation, target, protocol.relaxation, since)
 }
 
@@ -151,7 +207,7 @@ pub(crate) fn rest(
     since: u64,
 ) -> Result<Stop, RveError> {
     simulation.set_strain_rate(0.0);
-    simulation.walls.stop();
+    stop_box(simulation);
     let settled = stopwatch::time(Stage::StrainSettle, || settle(simulation, relaxation, since))?;
     let averages = stopwatch::time(Stage::Averaging, || homogenise(simulation, RegionKind::default()));
     Ok(Stop { strains, settled, averages })
@@ -160,15 +216,15 @@ pub(crate) fn rest(
 fn strain_to(
     simulation: &mut Simulation,
     target: Strains,
-    [width, height]: [f64; 2],
+    start: Start,
     protocol: Protocol,
 ) -> Result<(), RveError> {
     loop {
-        let walls = &simulation.walls;
         let thermal = target.thermal - simulation.strain();
-        let (dx, dy) =
-            (width * (1.0 + target.xx) - walls.width(), height * (1.0 + target.yy) - walls.height());
-        let largest = thermal.abs().max(dx.abs() / width).max(dy.abs() / height);
+        let missing = start.missing(simulation, target);
+        let [dx, dy, ds] = missing;
+        let (width, height) = (start.width, start.height);
+        let largest = thermal.abs().max(dx.abs() / width).max(dy.abs() / height).max(ds.abs() / height);
         // Contacts open when radii shrink or walls recede.
         let loosening = 2.0 * thermal < dx / width + dy / height;
         let rate = if loosening { protocol.contraction_rate } else { protocol.expansion_rate };
@@ -179,8 +235,7 @@ fn strain_to(
         // Equal steps that end at the stop, or the first of them.
         let time = steps * simulation.time_step;
         simulation.set_strain_rate(thermal / time);
-        let (vx, vy) = (0.5 * dx / time, 0.5 * dy / time);
-        simulation.walls.normal_velocity = [-vx, vx, -vy, vy];
+        set_box_velocity(simulation, missing, time);
         simulation.run((steps as u64).min(RUN))?;
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::area::{porosity, sum_of_areas};
 use crate::network::Network;
-use crate::region::{Cut, Polygon, RegionKind, region};
+use crate::region::{Cut, Polygon, RegionKind, contact_share, region};
 use msdd_dem::heat::chord;
 use msdd_dem::{Contact, Simulation};
 use serde::{Deserialize, Serialize};
@@ -85,7 +85,7 @@ pub fn homogenise(simulation: &Simulation, kind: RegionKind) -> Averages {
     homogenise_in(simulation, &region(simulation, kind), Cut::Clip)
 }
 
-/// Averages over a given region.
+/// Averages over a given region; of a periodic box that must be the cell, see [`region`].
 pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Averages {
     let mut sums = Sums::default();
     let mut degree = vec![0u32; simulation.discs.len()];
@@ -93,9 +93,8 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
         contact.discs().for_each(|k| degree[k] += 1);
         if let Ok(i) = contact.i {
             let (a, b) = (&simulation.discs[i], &simulation.discs[contact.j]);
-            let weight = region.share_inside([a.x, a.y], [b.x, b.y]);
+            let weight = contact_share(simulation, region, cut, [i, contact.j]);
             if weight > 0.0 {
-                let weight = if cut == Cut::Whole { 1.0 } else { weight };
                 sums.add(&contact, [a.radius, b.radius], weight);
             }
         }
@@ -108,9 +107,11 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
     let [sxx, syy, sxy, syx] = sums.stress.map(|sum| sum * per_area);
     let disc_area: f64 = simulation.discs.iter().map(|d| d.area()).sum();
     let porosity = porosity(simulation, region);
+    let whole = simulation.periodic.is_some();
+    let covered = if whole { disc_area } else { sum_of_areas(&simulation.discs, region) };
     Averages {
         porosity,
-        overlap_fraction: sum_of_areas(&simulation.discs, region) * per_area - (1.0 - porosity),
+        overlap_fraction: covered * per_area - (1.0 - porosity),
         porosity_sum_of_areas: 1.0 - disc_area / simulation.walls.area(),
         fabric_index: sums.fabric / (sums.contacts.max(1)) as f64,
         fabric_xx: sums.fabric_squares[0] / (sums.contacts.max(1)) as f64,

@@ -42,7 +42,9 @@ pub use expand::{Protocol, Ramp, Stop, Strains, expand, follow};
 pub use heat_check::{Axis, HeatCheck, heat_check};
 pub use homogenise::{Averages, homogenise, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
-pub use pack::{Compression, Packed, PackingSpec, Preparation, Stopped, pack, pack_as, pack_watched};
+pub use pack::{
+    Boundary, Compression, Packed, PackingSpec, Preparation, Stopped, pack, pack_as, pack_watched,
+};
 pub use region::{Cut, RegionKind};
 pub use settle::{Outcome, Relaxation, Settled, unbalanced_force};
 pub use slide::slide;
@@ -59,6 +61,8 @@ pub enum RveError {
     NoRoom { placed: usize, wanted: usize },
     #[error("packing stopped at porosity {reached:.4} after {steps} steps, target {target:.4}")]
     TargetNotReached { reached: f64, target: f64, steps: u64 },
+    #[error(transparent)]
+    Cell(#[from] msdd_dem::periodic::SmallCell),
     #[error(transparent)]
     Failure(#[from] msdd_dem::Failure),
 }

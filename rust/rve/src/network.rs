@@ -5,10 +5,10 @@
 //! shows little: windows of 500 discs solved with a margin of 8 mean radii give the same within 0.1 %. Only branches
 //! enter, no positions: contacts through the border of a periodic cell are like any other.
 
-use crate::region::{Cut, Polygon};
+use crate::region::{Cut, Polygon, contact_share};
 use crate::resistors::Resistors;
-use msdd_dem::Simulation;
 use msdd_dem::heat::conductance;
+use msdd_dem::{Disc, Simulation};
 
 /// A contact as a resistor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,8 +34,11 @@ pub struct Network {
 impl Network {
     /// The network of a region: discs with their centre inside that touch no wall are free. Discs at a wall must not be,
     /// or the wall would insulate where the gradient is imposed (up to 7 % low). Wall contacts are left out of the average.
+    /// In a periodic box all discs are free: it has no border.
     pub fn of_region(simulation: &Simulation, region: &Polygon, cut: Cut) -> Self {
-        let mut free: Vec<bool> = simulation.discs.iter().map(|d| region.contains([d.x, d.y])).collect();
+        let cell = simulation.periodic.is_some();
+        let mut free: Vec<bool> =
+            simulation.discs.iter().map(|d| cell || region.contains([d.x, d.y])).collect();
         simulation.for_each_contact(|contact| {
             if contact.i.is_err() {
                 free[contact.j] = false;
@@ -44,11 +47,7 @@ impl Network {
         let mut links = Vec::new();
         simulation.for_each_contact(|contact| {
             let Ok(i) = contact.i else { return };
-            let (a, b) = (&simulation.discs[i], &simulation.discs[contact.j]);
-            let share = match (region.share_inside([a.x, a.y], [b.x, b.y]), cut) {
-                (share, Cut::Whole) if share > 0.0 => 1.0,
-                (share, _) => share,
-            };
+            let share = contact_share(simulation, region, cut, [i, contact.j]);
             if share > 0.0 || free[i] || free[contact.j] {
                 let conductance = conductance(&contact, &simulation.discs, 1.0);
                 links.push(Link { i, j: contact.j, branch: contact.branch, conductance, share });
@@ -113,7 +112,12 @@ pub(crate) fn sorted_along(
     axis: usize,
     chosen: impl Fn(usize) -> bool,
 ) -> Vec<usize> {
-    let at = |k: usize| [simulation.discs[k].x, simulation.discs[k].y][axis];
+    let at = |k: usize| {
+        let Disc { x, y, .. } = simulation.discs[k];
+        // Folded, so that discs on both sides of a periodic border come close together.
+        simulation.cell().map_or([x, y], |cell| cell.fraction(x, y).map(|f| (f - f.floor() - 0.5).abs()))
+            [axis]
+    };
     let mut order: Vec<usize> = (0..simulation.discs.len()).filter(|&k| chosen(k)).collect();
     order.sort_by(|&a, &b| at(a).total_cmp(&at(b)));
     order

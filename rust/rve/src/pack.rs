@@ -1,12 +1,12 @@
-//! Packing: walls close on randomly placed discs until a target porosity, then the assembly relaxes (section 2.4).
+//! Packing: walls, or the borders of a periodic box, close on randomly placed discs until a target porosity, then the assembly relaxes (section 2.4).
 
 use crate::area::porosity_of_box;
 use crate::last_good;
-use crate::place::{Random, radii, scatter};
+use crate::place::{Random, radii, scatter, scatter_periodic};
 use crate::settle::{Relaxation, Settled, settle};
 use crate::stopwatch::{self, Stage};
 use crate::{Material, RveError, Simulation};
-use msdd_dem::{Side, Walls};
+use msdd_dem::{Periodic, Side, Walls};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -45,6 +45,23 @@ impl Compression {
     }
 }
 
+/// What is around the box.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Boundary {
+    /// Four rigid walls, as in the paper.
+    #[default]
+    Walls,
+    /// Nothing: the box repeats itself, and carries the grains along as it deforms.
+    Periodic,
+}
+
+impl Boundary {
+    fn is_walls(&self) -> bool {
+        *self == Self::Walls
+    }
+}
+
 /// What to pack.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -57,6 +74,8 @@ pub struct PackingSpec {
     /// Radii are uniform between these [m].
     pub radius_min: f64,
     pub radius_max: f64,
+    #[serde(default, skip_serializing_if = "Boundary::is_walls")]
+    pub boundary: Boundary,
     #[serde(default)]
     pub relaxation: Relaxation,
 }
@@ -71,6 +90,7 @@ impl Default for PackingSpec {
             compression: Compression::Isotropic,
             radius_min: 3e-3,
             radius_max: 7e-3,
+            boundary: Boundary::default(),
             relaxation: Relaxation::default(),
         }
     }
@@ -214,8 +234,17 @@ fn loose_start(spec: &PackingSpec, aspect: f64, material: &Material) -> Result<S
     let radii = radii(&mut random, spec.discs, spec.radius_min, spec.radius_max);
     let area: f64 = radii.iter().map(|r| PI * r * r).sum();
     let (width, height) = start_box(spec, aspect, area);
-    let discs = scatter(&mut random, radii, width, height, material.density)?;
-    let mut simulation = Simulation::new(material.clone(), discs, Walls::around(width, height));
+    let walls = Walls::around(width, height);
+    let mut simulation = match spec.boundary {
+        Boundary::Walls => {
+            let discs = scatter(&mut random, radii, width, height, material.density)?;
+            Simulation::new(material.clone(), discs, walls)
+        }
+        Boundary::Periodic => {
+            let discs = scatter_periodic(&mut random, radii, width, height, material.density)?;
+            Simulation::new_periodic(material.clone(), discs, walls, Periodic::default())?
+        }
+    };
     simulation.free_drag = FREE_DRAG;
     Ok(simulation)
 }

@@ -64,6 +64,45 @@ fn overlap(disc: &Disc, x: f64, y: f64, radius: f64) -> bool {
     dx * dx + dy * dy < reach * reach
 }
 
+/// As [`scatter`], in a periodic box: discs may lie across its border, and clash with images.
+pub(crate) fn scatter_periodic(
+    random: &mut Random,
+    mut radii: Vec<f64>,
+    width: f64,
+    height: f64,
+    density: f64,
+) -> Result<Vec<Disc>, RveError> {
+    let wanted = radii.len();
+    radii.sort_by(|a, b| b.total_cmp(a));
+    let size = 2.0 * radii.first().copied().unwrap_or(1.0);
+    // Whole cells, so that neighbours are in the next ones around the border too.
+    let [columns, lines] = [width, height].map(|length| ((length / size) as usize).max(1));
+    let index = |x: f64, length: f64, count: usize| ((x / length * count as f64) as usize).min(count - 1);
+    let nearest = |d: f64, length: f64| d - length * (d / length).round();
+    let clashes = |d: &Disc, x: f64, y: f64, radius: f64| {
+        let (dx, dy, reach) = (nearest(d.x - x, width), nearest(d.y - y, height), d.radius + radius);
+        dx * dx + dy * dy < reach * reach
+    };
+    let mut cells: Vec<Vec<Disc>> = vec![Vec::new(); columns * lines];
+    for (placed, radius) in radii.into_iter().enumerate() {
+        let free = (0..ATTEMPTS).find_map(|_| {
+            let (x, y) = (random.uniform(0.0, width), random.uniform(0.0, height));
+            let (column, line) = (index(x, width, columns), index(y, height, lines));
+            let clash = [columns - 1, 0, 1].into_iter().any(|c| {
+                [lines - 1, 0, 1].into_iter().any(|l| {
+                    cells[(line + l) % lines * columns + (column + c) % columns]
+                        .iter()
+                        .any(|d| clashes(d, x, y, radius))
+                })
+            });
+            (!clash).then_some((x, y, line * columns + column))
+        });
+        let (x, y, home) = free.ok_or(RveError::NoRoom { placed, wanted })?;
+        cells[home].push(Disc::at_rest(x, y, radius, density));
+    }
+    Ok(cells.into_iter().flatten().collect())
+}
+
 fn around(index: usize, count: usize) -> std::ops::RangeInclusive<usize> {
     index.saturating_sub(1)..=(index + 1).min(count - 1)
 }

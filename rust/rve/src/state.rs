@@ -3,11 +3,16 @@
 //!
 //! Walls are −1 left, −2 right, −3 bottom, −4 top, always as i of a contact. n points from i to j (from the wall
 //! inwards), t = (−n_y, n_x), the force on j is f_n n + f_t t.
+//!
+//! A periodic box says so, with its shear offset s; it has no wall contacts, particles may lie outside of it, and a
+//! contact is that of i with the image of j moved by shift_x (W, 0) + shift_y (s, H); no shifts: all zero.
 
 use msdd_dem::run::LARGEST_OVERLAP;
-use msdd_dem::{Disc, Material, MaterialError, RunState, Side, Simulation, Walls};
+use msdd_dem::{Disc, Material, MaterialError, Periodic, RunState, Side, Simulation, Walls};
 use serde::{Deserialize, Serialize};
 
+/// How far a disc of a periodic box may be from it, in box lengths: beyond, its place has lost digits.
+const FARTHEST_CELL: f64 = 1000.0;
 /// Name of the schema.
 pub const SCHEMA: &str = "msdd-state-1";
 
@@ -54,6 +59,11 @@ struct Bounds {
     x_max: f64,
     y_min: f64,
     y_max: f64,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    periodic: bool,
+    /// [m]; 0 when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    shear_offset: Option<f64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -79,6 +89,10 @@ struct Contacts {
     i: Vec<i64>,
     j: Vec<i64>,
     tangential_force: Vec<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    shift_x: Option<Vec<i32>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    shift_y: Option<Vec<i32>>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -93,6 +107,9 @@ struct Run {
     reference_radius: Vec<f64>,
     wall_normal_velocity: [f64; 4],
     wall_tangential_velocity: [f64; 4],
+    /// [1/s], of a periodic box.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    shear_rate: Option<f64>,
 }
 
 /// The state as JSON text. Numbers are in the shortest form that reads back exactly.
@@ -103,7 +120,14 @@ pub fn to_json(simulation: &Simulation) -> Result<String, StateError> {
     let file = File {
         schema: SCHEMA.to_string(),
         material: simulation.material.clone(),
-        bounds: Bounds { x_min, x_max, y_min, y_max },
+        bounds: Bounds {
+            x_min,
+            x_max,
+            y_min,
+            y_max,
+            periodic: simulation.periodic.is_some(),
+            shear_offset: simulation.periodic.map(|periodic| periodic.shear_offset),
+        },
         particles: Particles {
             x: column(|d| d.x),
             y: column(|d| d.y),
@@ -125,6 +149,7 @@ pub fn to_json(simulation: &Simulation) -> Result<String, StateError> {
             reference_radius: run.reference_radius,
             wall_normal_velocity: simulation.walls.normal_velocity,
             wall_tangential_velocity: simulation.walls.tangential_velocity,
+            shear_rate: simulation.periodic.map(|periodic| periodic.shear_rate),
         }),
     };
     Ok(serde_json::to_string(&file)?)
@@ -132,11 +157,17 @@ pub fn to_json(simulation: &Simulation) -> Result<String, StateError> {
 
 fn contacts(simulation: &Simulation) -> Contacts {
     let mut columns = Contacts::default();
+    let (mut shift_x, mut shift_y) = (Vec::new(), Vec::new());
     simulation.for_each_contact(|contact| {
         columns.i.push(contact.i.map_or_else(|side| -1 - side as i64, |i| i as i64));
         columns.j.push(contact.j as i64);
         columns.tangential_force.push(contact.tangential_force);
+        shift_x.push(contact.shift[0]);
+        shift_y.push(contact.shift[1]);
     });
+    if simulation.periodic.is_some() {
+        (columns.shift_x, columns.shift_y) = (Some(shift_x), Some(shift_y));
+    }
     columns
 }
 
@@ -153,8 +184,18 @@ pub fn from_json(text: &str) -> Result<Simulation, StateError> {
     file.material.check()?;
     let walls = walls(file.bounds)?;
     let discs = discs(&file.particles)?;
-    check_overlaps(&discs, &walls)?;
-    let mut simulation = Simulation::new(file.material, discs, walls);
+    let mut simulation = match periodic(file.bounds)? {
+        None => {
+            check_inside(&discs, &walls)?;
+            Simulation::new(file.material, discs, walls)
+        }
+        Some(periodic) => {
+            check_near(&discs, &walls)?;
+            Simulation::new_periodic(file.material, discs, walls, periodic)
+                .map_err(|problem| StateError::Box(problem.to_string()))?
+        }
+    };
+    check_overlaps(&simulation)?;
     simulation.free_drag = crate::pack::FREE_DRAG;
     set_contacts(&mut simulation, &file.contacts)?;
     if let Some(run) = file.run {
@@ -210,8 +251,33 @@ fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {
     Ok((0..expected).map(disc).collect())
 }
 
-/// Discs must have their centre in the box, and must not overlap by more than the mean of their radii.
-fn check_overlaps(discs: &[Disc], walls: &Walls) -> Result<(), StateError> {
+/// Shear of a periodic box; none between walls.
+fn periodic(bounds: Bounds) -> Result<Option<Periodic>, StateError> {
+    let shear_offset = bounds.shear_offset.unwrap_or(0.0);
+    if !shear_offset.is_finite() || (bounds.shear_offset.is_some() && !bounds.periodic) {
+        return Err(StateError::Box(format!(
+            "shear_offset = {shear_offset}, allowed: finite, with periodic = true"
+        )));
+    }
+    Ok(bounds.periodic.then_some(Periodic { shear_offset, shear_rate: 0.0 }))
+}
+
+/// Discs of a periodic box drift, but not far.
+fn check_near(discs: &[Disc], walls: &Walls) -> Result<(), StateError> {
+    let [left, right, bottom, top] = walls.position;
+    let reach = FARTHEST_CELL * walls.width().max(walls.height());
+    for (particle, disc) in discs.iter().enumerate() {
+        let axes = [("x", disc.x, 0.5 * (left + right)), ("y", disc.y, 0.5 * (bottom + top))];
+        if let Some((column, value, _)) = axes.into_iter().find(|(_, x, middle)| (x - middle).abs() > reach) {
+            let allowed = "at most 1000 box lengths from the box";
+            return Err(StateError::Particle { particle, column, value, allowed });
+        }
+    }
+    Ok(())
+}
+
+/// Discs must have their centre in the box.
+fn check_inside(discs: &[Disc], walls: &Walls) -> Result<(), StateError> {
     for (particle, disc) in discs.iter().enumerate() {
         let outside = Side::ALL.into_iter().find(|&side| walls.distance(side, disc.x, disc.y) <= 0.0);
         if let Some(side) = outside {
@@ -222,11 +288,15 @@ fn check_overlaps(discs: &[Disc], walls: &Walls) -> Result<(), StateError> {
             return Err(StateError::Particle { particle, column, value, allowed: "inside the box" });
         }
     }
-    let probe = Simulation::new(Material::default(), discs.to_vec(), walls.clone());
+    Ok(())
+}
+
+/// Discs must not overlap by more than the mean of their radii.
+fn check_overlaps(simulation: &Simulation) -> Result<(), StateError> {
     let mut problem = None;
-    probe.for_each_contact(|contact| {
+    simulation.for_each_contact(|contact| {
         if let Ok(i) = contact.i {
-            let mean = 0.5 * (discs[i].radius + discs[contact.j].radius);
+            let mean = 0.5 * (simulation.discs[i].radius + simulation.discs[contact.j].radius);
             if contact.overlap > LARGEST_OVERLAP * mean && problem.is_none() {
                 problem = Some(StateError::Particle {
                     particle: contact.j,
@@ -249,24 +319,53 @@ fn set_contacts(simulation: &mut Simulation, columns: &Contacts) -> Result<(), S
             return Err(StateError::Length { column, found, expected });
         }
     }
+    let shifts = shifts(columns, simulation.periodic.is_some())?;
     let count = simulation.discs.len() as i64;
     for contact in 0..expected {
         let (i, j, force) = (columns.i[contact], columns.j[contact], columns.tangential_force[contact]);
         let problem = |problem: String| StateError::Contact { contact, problem };
-        if !((-4..count).contains(&i) && (0..count).contains(&j) && i != j) {
+        let lowest = if simulation.periodic.is_some() { 0 } else { -4 };
+        if !((lowest..count).contains(&i) && (0..count).contains(&j) && i != j) {
             return Err(problem(format!(
-                "i = {i}, j = {j}, allowed: i from -4, both below {count}, different"
+                "i = {i}, j = {j}, allowed: i from {lowest}, both below {count}, different"
             )));
         }
         if !force.is_finite() {
             return Err(problem(format!("tangential_force = {force}, allowed: finite")));
         }
-        let first = if i < 0 { Err(Side::ALL[(-1 - i) as usize]) } else { Ok(i as usize) };
-        if !simulation.set_tangential_force(first, j as usize, force) {
-            return Err(problem(format!("{i} and {j} are not near each other")));
+        let shift = shifts[contact];
+        let near = match usize::try_from(i) {
+            Ok(i) => simulation.set_tangential_force_across(i, j as usize, shift, force),
+            Err(_) => simulation.set_tangential_force(Err(Side::ALL[(-1 - i) as usize]), j as usize, force),
+        };
+        if !near {
+            let across = if shift == [0, 0] { String::new() } else { format!(" moved by {shift:?} cells") };
+            return Err(problem(format!("{i} and {j}{across} are not near each other")));
         }
     }
     Ok(())
+}
+
+/// Shift of j's image of each contact.
+fn shifts(columns: &Contacts, periodic: bool) -> Result<Vec<[i32; 2]>, StateError> {
+    let expected = columns.i.len();
+    let mut shifts = vec![[0, 0]; expected];
+    let given = [("contacts.shift_x", &columns.shift_x), ("contacts.shift_y", &columns.shift_y)];
+    for (axis, (column, values)) in given.into_iter().enumerate() {
+        let Some(values) = values else { continue };
+        if values.len() != expected {
+            return Err(StateError::Length { column, found: values.len(), expected });
+        }
+        for (contact, &value) in values.iter().enumerate() {
+            // Discs and images are near the box (see `check_near`), so shifts are small.
+            if value != 0 && (!periodic || value.unsigned_abs() > 4 * FARTHEST_CELL as u32) {
+                let problem = format!("{column} = {value}, allowed: 0, or up to 4000 in a periodic box");
+                return Err(StateError::Contact { contact, problem });
+            }
+            shifts[contact][axis] = value;
+        }
+    }
+    Ok(shifts)
 }
 
 fn set_run(simulation: &mut Simulation, run: Run) -> Result<(), StateError> {
@@ -280,6 +379,15 @@ fn set_run(simulation: &mut Simulation, run: Run) -> Result<(), StateError> {
         return Err(StateError::Run(
             "time_step and reference_radius must be > 0, free_drag >= 0".to_string(),
         ));
+    }
+    let shear_rate = run.shear_rate.unwrap_or(0.0);
+    match &mut simulation.periodic {
+        Some(periodic) if shear_rate.is_finite() => periodic.shear_rate = shear_rate,
+        None if run.shear_rate.is_none() => (),
+        _ => {
+            let problem = format!("shear_rate = {shear_rate}, allowed: finite, in a periodic box");
+            return Err(StateError::Run(problem));
+        }
     }
     simulation.free_drag = run.free_drag;
     simulation.walls.normal_velocity = run.wall_normal_velocity;

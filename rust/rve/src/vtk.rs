@@ -25,9 +25,18 @@ pub fn particles(simulation: &Simulation) -> String {
 pub fn contacts(simulation: &Simulation) -> String {
     let (mut points, mut normal, mut tangential) = (Vec::new(), Vec::new(), Vec::new());
     simulation.for_each_contact(|contact| {
-        let disc = &simulation.discs[contact.j];
         let [dx, dy] = contact.branch;
-        points.push(format!("{} {} 0 {} {} 0", disc.x - dx, disc.y - dy, disc.x, disc.y));
+        points.push(match contact.i {
+            // Across a periodic border: from i to where it meets the image of j.
+            Ok(i) if contact.shift != [0, 0] => {
+                let disc = &simulation.discs[i];
+                format!("{} {} 0 {} {} 0", disc.x, disc.y, disc.x + dx, disc.y + dy)
+            }
+            _ => {
+                let disc = &simulation.discs[contact.j];
+                format!("{} {} 0 {} {} 0", disc.x - dx, disc.y - dy, disc.x, disc.y)
+            }
+        });
         normal.push(contact.normal_force().to_string());
         tangential.push(contact.tangential_force.to_string());
     });

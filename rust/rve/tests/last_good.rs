@@ -35,7 +35,7 @@ fn the_last_good_state_fails_again_in_the_same_way() {
 #[test]
 fn a_path_that_fails_keeps_what_came_before() {
     let mut simulation = packed(0.06);
-    let closed = Strains { thermal: 0.2, xx: -0.2, yy: -0.2 };
+    let closed = Strains { thermal: 0.2, xx: -0.2, yy: -0.2, xy: 0.0 };
     let path = [Strains::thermal(0.01), closed];
     let ramp = follow(
         &mut simulation,

@@ -74,6 +74,7 @@ fn quarter_turn_permutes_the_averages() {
         expected.conductivity_network_yy = b.conductivity_network_yy;
         expected.conductivity_network_xy = b.conductivity_network_xy;
         expected.fabric_index = -a.fabric_index;
+        (expected.fabric_xx, expected.fabric_yy) = (a.fabric_yy, a.fabric_xx);
         expected.fabric_conductivity = -a.fabric_conductivity;
         (expected.conductivity_xx, expected.conductivity_yy) = (a.conductivity_yy, a.conductivity_xx);
         expected.conductivity_xy = -a.conductivity_xy;

@@ -2,7 +2,7 @@
 
 use super::DatabaseError;
 use crate::slide::Slide;
-use crate::{Compression, Material, PackingSpec, Preparation, Relaxation};
+use crate::{Boundary, Compression, Material, PackingSpec, Preparation, Relaxation};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -241,6 +241,7 @@ impl Plan {
             compression,
             radius_min: self.radius_min,
             radius_max: self.radius_max,
+            boundary: Boundary::Walls,
             relaxation: self.relaxation,
         };
         let aspect = if kind == Kind::WallShear { SHEAR_ASPECT } else { 1.0 };

@@ -1,0 +1,229 @@
+//! Fully periodic boxes: no walls, the cell repeats itself in x and in a second direction that shear may tilt.
+//!
+//! The cell is the box of [`crate::walls::Walls`] between its positions; the image of a disc by the shift (a, b) is the
+//! disc moved by a (W, 0) + b (s, H), W and H the width and height of the box and s the shear offset. The cell deforms
+//! by `walls.normal_velocity` and the shear rate, and always carries the grains along: velocities of discs are relative
+//! to [`crate::walls::Flow`]. Positions are never wrapped, so that the shift between two discs stays what it is.
+//!
+//! A pair across the border is a pair of the list like any other, with a ghost as its second disc: an image of a disc
+//! that is placed anew in each step behind the real discs. The first disc is the one from which the shift is positive
+//! (b with a = 0, else a), so each pair occurs once. Ghosts are numbered by owner and shift, hence the order of all sums
+//! does not depend on when the list was rebuilt.
+
+use crate::contacts::PairList;
+use crate::disc::Disc;
+use crate::material::Material;
+use crate::neighbours::Grid;
+use crate::simulation::Simulation;
+use crate::walls::Walls;
+
+/// Shear of a periodic box, beside the positions and normal velocities of [`Walls`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Periodic {
+    /// s [m]: displacement along x of the upper image relative to the lower.
+    pub shear_offset: f64,
+    /// ∂u_x/∂y [1/s].
+    pub shear_rate: f64,
+}
+
+/// Numbers of cells along x and y between two images.
+pub type Shift = [i32; 2];
+
+/// Width and height are at least this times the largest radius: a disc must not meet two images of another.
+pub const SMALLEST_CELL: f64 = 4.0;
+
+/// A periodic box that is too small for its discs.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "periodic box: {side} = {length} m, allowed: above {SMALLEST_CELL} times the largest radius, {radius} m"
+)]
+pub struct SmallCell {
+    /// "width" or "height".
+    pub side: &'static str,
+    pub length: f64,
+    pub radius: f64,
+}
+
+/// The periodic cell at one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
+    /// Lower left corner [m].
+    pub origin: [f64; 2],
+    /// W and H [m].
+    pub width: f64,
+    pub height: f64,
+    /// s [m].
+    pub shear_offset: f64,
+}
+
+/// An image of a disc: disc number `owner`, moved by [`Cell::displacement`] of `shift`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Image {
+    pub owner: u32,
+    /// [0, 0] is the disc itself.
+    pub shift: Shift,
+}
+
+impl Cell {
+    pub(crate) fn new(walls: &Walls, periodic: &Periodic) -> Self {
+        let [left, _, bottom, _] = walls.position;
+        let (width, height) = (walls.width(), walls.height());
+        Self { origin: [left, bottom], width, height, shear_offset: periodic.shear_offset }
+    }
+
+    /// a (W, 0) + b (s, H) [m].
+    pub fn displacement(&self, [a, b]: Shift) -> [f64; 2] {
+        let (a, b) = (f64::from(a), f64::from(b));
+        [a * self.width + b * self.shear_offset, b * self.height]
+    }
+
+    /// The disc, moved by a shift.
+    pub fn image(&self, disc: &Disc, shift: Shift) -> Disc {
+        let [dx, dy] = self.displacement(shift);
+        Disc { x: disc.x + dx, y: disc.y + dy, ..*disc }
+    }
+
+    /// Coordinates of a point along the cell vectors; 0 to 1 in the cell.
+    pub fn fraction(&self, x: f64, y: f64) -> [f64; 2] {
+        let up = (y - self.origin[1]) / self.height;
+        [(x - self.origin[0] - up * self.shear_offset) / self.width, up]
+    }
+
+    /// The point [m] of given [`Cell::fraction`].
+    pub fn point(&self, [along, up]: [f64; 2]) -> [f64; 2] {
+        [self.origin[0] + along * self.width + up * self.shear_offset, self.origin[1] + up * self.height]
+    }
+
+    /// The shift that brings a point into the rectangle W × H, which holds each disc once as the cell itself does.
+    fn home(&self, x: f64, y: f64) -> Shift {
+        let b = -((y - self.origin[1]) / self.height).floor();
+        let a = -((x + b * self.shear_offset - self.origin[0]) / self.width).floor();
+        [a as i32, b as i32]
+    }
+
+    /// All images with their centre in the rectangle W × H grown by `margin` < H on each side: that of each disc in the
+    /// rectangle first, in the order of the discs.
+    pub fn images(&self, discs: &[Disc], margin: f64) -> Vec<Image> {
+        let discs = (0u32..).zip(discs);
+        let homes: Vec<Image> =
+            discs.clone().map(|(owner, d)| Image { owner, shift: self.home(d.x, d.y) }).collect();
+        let mut images = homes.clone();
+        for ((owner, disc), home) in discs.zip(&homes) {
+            for b in home.shift[1].saturating_sub(1)..=home.shift[1].saturating_add(1) {
+                let [dx, dy] = self.displacement([0, b]);
+                let (x, y) = (disc.x + dx - self.origin[0], disc.y + dy - self.origin[1]);
+                if y < -margin || y > self.height + margin {
+                    continue;
+                }
+                let first = ((-margin - x) / self.width).ceil() as i32;
+                let last = ((self.width + margin - x) / self.width).floor() as i32;
+                let copies = (first..=last).map(|a| [a, b]).filter(|&shift| shift != home.shift);
+                images.extend(copies.map(|shift| Image { owner, shift }));
+            }
+        }
+        images
+    }
+}
+
+impl Periodic {
+    /// Shears for the time `dt` [s]; `walls` are those of the beginning. The cell vector (s, H) moves with the flow.
+    pub(crate) fn advance(&mut self, walls: &Walls, dt: f64) {
+        let stretching = walls.flow().gradient[0];
+        self.shear_offset += dt * (stretching * self.shear_offset + self.shear_rate * walls.height());
+    }
+}
+
+/// The orientation of a pair in which its shift is positive: whether (i, j, shift) has it.
+pub(crate) fn forward(i: u32, j: u32, shift: Shift) -> bool {
+    if shift == [0, 0] { i < j } else { shift > [0, 0] }
+}
+
+/// All pairs closer than `skin`, images included, and the ghosts in it, numbered after the discs.
+pub(crate) fn pairs_within(discs: &[Disc], skin: f64, cell: &Cell) -> (PairList, Vec<Image>) {
+    let largest = discs.iter().fold(0.0f64, |r, d| r.max(d.radius));
+    let images = cell.images(discs, 2.0 * largest + skin);
+    let placed: Vec<Disc> =
+        images.iter().map(|image| cell.image(&discs[image.owner as usize], image.shift)).collect();
+    let mut rows: Vec<Vec<Image>> = vec![Vec::new(); discs.len()];
+    if !discs.is_empty() {
+        let grid = Grid::new(&placed, 2.0 * largest + skin);
+        for (i, row) in rows.iter_mut().enumerate() {
+            grid.around(&placed[i], |m| {
+                let (a, b, image) = (&placed[i], &placed[m as usize], &images[m as usize]);
+                let shift = [0, 1].map(|k| image.shift[k].wrapping_sub(images[i].shift[k]));
+                let reach = a.radius + b.radius + skin;
+                let (dx, dy) = (b.x - a.x, b.y - a.y);
+                if forward(i as u32, image.owner, shift) && dx * dx + dy * dy < reach * reach {
+                    row.push(Image { owner: image.owner, shift });
+                }
+            });
+        }
+    }
+    let mut ghosts: Vec<Image> = rows.iter().flatten().copied().filter(|g| g.shift != [0, 0]).collect();
+    ghosts.sort_unstable();
+    ghosts.dedup();
+    let count = discs.len();
+    let list = PairList::build_over(count, count + ghosts.len(), (1, count.max(1)), |i, row| {
+        row.extend(rows[i].iter().map(|partner| index_of(partner, count, &ghosts).unwrap_or(u32::MAX)));
+    });
+    (list, ghosts)
+}
+
+/// Number of an image in a list over `count` discs and `ghosts`.
+pub(crate) fn index_of(image: &Image, count: usize, ghosts: &[Image]) -> Option<u32> {
+    if image.shift == [0, 0] {
+        return Some(image.owner);
+    }
+    ghosts.binary_search(image).ok().map(|k| (count + k) as u32)
+}
+
+impl Simulation {
+    /// An assembly in a periodic box between the positions of `walls`; the friction history is empty. Discs may lie
+    /// anywhere: their images fill the cell.
+    ///
+    /// # Errors
+    /// [`SmallCell`] when a disc could meet two images of another.
+    pub fn new_periodic(
+        material: Material,
+        discs: Vec<Disc>,
+        walls: Walls,
+        periodic: Periodic,
+    ) -> Result<Self, SmallCell> {
+        let largest = discs.iter().map(|d| d.radius).fold(0.0, f64::max);
+        check_size(&walls, largest)?;
+        Ok(Self::with_boundary(material, discs, walls, Some(periodic)))
+    }
+
+    /// The cell of a periodic box; none between walls.
+    pub fn cell(&self) -> Option<Cell> {
+        self.periodic.as_ref().map(|periodic| Cell::new(&self.walls, periodic))
+    }
+
+    /// What a number in the pair list stands for: a disc, or an image of one.
+    pub(crate) fn image_of(&self, index: u32) -> Image {
+        match (index as usize).checked_sub(self.discs.len()) {
+            None => Image { owner: index, shift: [0, 0] },
+            Some(ghost) => self.neighbours.ghosts[ghost],
+        }
+    }
+
+    /// Puts the ghosts behind the discs, at their present places.
+    pub(crate) fn place_ghosts(&mut self) {
+        if let Some(cell) = self.cell() {
+            for ghost in &self.neighbours.ghosts {
+                let image = cell.image(&self.discs[ghost.owner as usize], ghost.shift);
+                self.discs.push(image);
+            }
+        }
+    }
+}
+
+/// Refuses cells in which a disc of radius `largest` could meet two images of another.
+pub(crate) fn check_size(walls: &Walls, largest: f64) -> Result<(), SmallCell> {
+    for (side, length) in [("width", walls.width()), ("height", walls.height())] {
+        if length <= SMALLEST_CELL * largest {
+            return Err(SmallCell { side, length, radius: largest });
+        }
+    }
+    Ok(())
+}
