@@ -321,7 +321,7 @@ fn set_contacts(simulation: &mut Simulation, columns: &Contacts) -> Result<(), S
     }
     let shifts = shifts(columns, simulation.periodic.is_some())?;
     let count = simulation.discs.len() as i64;
-    for contact in 0..expected {
+    for (contact, shift) in shifts.into_iter().enumerate() {
         let (i, j, force) = (columns.i[contact], columns.j[contact], columns.tangential_force[contact]);
         let problem = |problem: String| StateError::Contact { contact, problem };
         let lowest = if simulation.periodic.is_some() { 0 } else { -4 };
@@ -333,7 +333,6 @@ fn set_contacts(simulation: &mut Simulation, columns: &Contacts) -> Result<(), S
         if !force.is_finite() {
             return Err(problem(format!("tangential_force = {force}, allowed: finite")));
         }
-        let shift = shifts[contact];
         let near = match usize::try_from(i) {
             Ok(i) => simulation.set_tangential_force_across(i, j as usize, shift, force),
             Err(_) => simulation.set_tangential_force(Err(Side::ALL[(-1 - i) as usize]), j as usize, force),

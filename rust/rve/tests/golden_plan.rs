@@ -8,6 +8,8 @@ const PLAN: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 11\n\
     ramps = [\"up\", \"down\", \"up_down\"]\nstops = [0.01]\n\
     [[mechanics]]\ndiscs = 40\nporosities = [0.12]\ncompressions = [\"intermediate\"]\n\
     packing_friction_angles = [0.3]\nrepeats = 1\nramps = [\"yy\"]\nstops = [0.01]\n\
+    [[mechanics]]\ndiscs = 40\nboundary = \"periodic\"\nporosities = [0.12]\ncompressions = [\"isotropic\"]\n\
+    repeats = 1\nramps = [\"xy\"]\nstops = [0.01]\n\
     [[wall_shear]]\ndiscs = 40\nporosities = [0.12]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.001]\n";
 
 /// Version, and pressure, conductivity and steps of each row as that version gives them.
@@ -21,8 +23,11 @@ up_down 1 5.50789e3 5.10990e-1 1326
 packed 0 4.23301e3 4.19895e-1 2556
 yy -1 4.45601e3 4.30164e-1 862
 yy 1 4.01035e3 4.09560e-1 1359
-packed 0 4.51975e3 3.90421e-1 2858
-wall_shear 1 4.55669e3 4.00454e-1 1170
+packed 0 2.62593e3 3.18822e-1 2897
+xy -1 2.62289e3 3.17931e-1 1384
+xy 1 2.60046e3 3.16389e-1 1384
+packed 0 4.88252e3 4.80689e-1 3165
+wall_shear 1 5.00578e3 4.88704e-1 1177
 ",
 );
 

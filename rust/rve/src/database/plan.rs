@@ -61,6 +61,9 @@ pub struct Block {
     /// values lie beyond it. Default: the stops backwards, then 0.
     #[serde(default)]
     pub return_stops: Vec<f64>,
+    /// What is around the boxes; default: walls. Periodic boxes are averaged over their whole cell.
+    #[serde(default)]
+    pub boundary: Boundary,
     /// Which way the walls of `wall_shear` move; default: same.
     #[serde(default)]
     pub slide: Option<Slide>,
@@ -95,6 +98,8 @@ pub enum RampName {
     Xx,
     /// The same with the y walls.
     Yy,
+    /// A periodic box is sheared along x, one way (stops −1, −2, …) and, from the packed state again, the other.
+    Xy,
     /// Bottom and top move along x.
     WallShear,
 }
@@ -119,7 +124,7 @@ impl Kind {
     fn ramps(self) -> (&'static [RampName], &'static [RampName]) {
         match self {
             Self::Thermal => (&[RampName::Up, RampName::Down], &[RampName::UpDown, RampName::DownUp]),
-            Self::Mechanics => (&[RampName::Xx, RampName::Yy], &[]),
+            Self::Mechanics => (&[RampName::Xx, RampName::Yy], &[RampName::Xy]),
             Self::WallShear => (&[RampName::WallShear], &[]),
         }
     }
@@ -160,7 +165,7 @@ impl Job {
             RampName::Down => numbered(&self.stops, -1.0),
             RampName::UpDown => numbered(&self.return_stops, 1.0),
             RampName::DownUp => numbered(&self.return_stops, -1.0),
-            RampName::Xx | RampName::Yy => {
+            RampName::Xx | RampName::Yy | RampName::Xy => {
                 let closing = numbered(&self.stops, -1.0).into_iter().map(|(stop, strain)| (-stop, strain));
                 closing.chain(numbered(&self.stops, 1.0)).collect()
             }
@@ -241,7 +246,7 @@ impl Plan {
             compression,
             radius_min: self.radius_min,
             radius_max: self.radius_max,
-            boundary: Boundary::Walls,
+            boundary: block.boundary,
             relaxation: self.relaxation,
         };
         let aspect = if kind == Kind::WallShear { SHEAR_ASPECT } else { 1.0 };
@@ -299,6 +304,9 @@ impl Block {
         if self.slide.is_some() && kind != Kind::WallShear {
             return Err("slide: allowed in [[wall_shear]] only".into());
         }
+        if self.boundary == Boundary::Periodic && kind == Kind::WallShear {
+            return Err("boundary: periodic: allowed in [[thermal]] and [[mechanics]] only".into());
+        }
         self.check_ramps(kind)
     }
 
@@ -320,6 +328,9 @@ impl Block {
             if !(usual.contains(ramp) || more.contains(ramp)) {
                 let allowed: Vec<&str> = usual.iter().chain(more).map(|r| r.as_str()).collect();
                 return problem(format!("allowed: {}", allowed.join(", ")));
+            }
+            if *ramp == RampName::Xy && self.boundary != Boundary::Periodic {
+                return problem("needs boundary = \"periodic\"".to_string());
             }
             if ramps[..k].contains(ramp) {
                 return problem("is named twice".to_string());
@@ -352,6 +363,7 @@ impl RampName {
             Self::DownUp => "down_up",
             Self::Xx => "xx",
             Self::Yy => "yy",
+            Self::Xy => "xy",
             Self::WallShear => "wall_shear",
         }
     }

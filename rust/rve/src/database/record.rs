@@ -1,7 +1,7 @@
 //! One row of the database: one state of one packing.
 
 use super::plan::{Job, Kind, RampName};
-use crate::{Averages, Compression, Material, Outcome, RegionKind, Settled, Strains};
+use crate::{Averages, Boundary, Compression, Material, Outcome, RegionKind, Settled, Strains};
 use serde::{Deserialize, Serialize};
 
 /// A column: name, SQLite type, unit, meaning.
@@ -32,8 +32,8 @@ record! {
     compression: Compression, "TEXT", "-", "isotropic: walls close in x and y; horizontal: in x only; intermediate: twice as fast in x as in y";
     target_porosity: f64, "REAL", "-", "porosity of the whole box at which the walls stopped, overlaps counted once";
     packing_friction_angle: f64, "REAL", "rad", "friction angle of the grains while the walls closed; the material's own afterwards";
-    ramp: RampName, "TEXT", "-", "packed: before any strain; up, down: radii grow, shrink; up_down, down_up: back from the last stop of up, down; xx, yy: walls move along x, y; wall_shear: bottom and top move along x";
-    stop: i64, "INTEGER", "-", "place on the ramp from 1; 0 is the packed state; of xx and yy: negative closing, positive opening, both from the packed state";
+    ramp: RampName, "TEXT", "-", "packed: before any strain; up, down: radii grow, shrink; up_down, down_up: back from the last stop of up, down; xx, yy: walls move along x, y; xy: shear of a periodic box; wall_shear: bottom and top move along x";
+    stop: i64, "INTEGER", "-", "place on the ramp from 1; 0 is the packed state; of xx, yy and xy: negative closing or shear against x, positive opening or shear along x, both from the packed state";
     strain: f64, "REAL", "-", "radial thermal strain relative to the packed state, growth positive";
     strain_xx: f64, "REAL", "-", "extension of the box along x relative to the packed state, extension positive";
     strain_yy: f64, "REAL", "-", "extension of the box along y relative to the packed state, extension positive";
@@ -145,8 +145,14 @@ impl Record {
             strain: place.strains.thermal,
             strain_xx: place.strains.xx,
             strain_yy: place.strains.yy,
+            strain_xy: place.strains.xy,
             wall_slip: place.slip,
-            region: RegionKind::default().as_str().to_string(),
+            region: match job.spec.boundary {
+                Boundary::Walls => RegionKind::default(),
+                Boundary::Periodic => RegionKind::Cell,
+            }
+            .as_str()
+            .to_string(),
             young_modulus: material.young_modulus,
             ..record
         }

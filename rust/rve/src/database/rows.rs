@@ -44,6 +44,7 @@ fn place(ramp: RampName, (stop, value): (i64, f64)) -> Place {
         RampName::Up | RampName::Down | RampName::UpDown | RampName::DownUp => place.strains.thermal = value,
         RampName::Xx => place.strains.xx = value,
         RampName::Yy => place.strains.yy = value,
+        RampName::Xy => place.strains.xy = value,
         RampName::WallShear => place.slip = value,
     }
     place
@@ -69,7 +70,7 @@ impl Walk<'_> {
         match self.job.kind {
             Kind::Thermal => self.thermal(ramp, &stops),
             Kind::Mechanics => {
-                // Closing and opening start from the packed state each.
+                // Closing and opening, and both ways of shear, start from the packed state each.
                 let (closing, opening) = stops.split_at(stops.partition_point(|place| place.stop < 0));
                 [closing, opening].into_iter().flat_map(|branch| self.strain(branch)).collect()
             }
