@@ -124,10 +124,14 @@ pub(crate) fn pair_force<V: Vector, const HEAT: bool>(
     })
 }
 
+/// Square of the speed [m²/s²] from which on a disc counts as at rest. Drag lets free discs slow down without end, and the
+/// damping force over a speed whose square underflows is not finite.
+const REST: f64 = 1e-200;
+
 /// |f_d|/|v| of the damping force f_d = −μ |f_c| v/|v| [kg/s], from the squares of force and speed. Zero at rest.
 #[inline(always)]
 pub(crate) fn damping_scale<V: Vector>(damping: V, force2: V, speed2: V) -> V {
-    let moving = speed2.greater(speed2.like(0.0));
+    let moving = speed2.greater(speed2.like(REST));
     let ratio = force2 / V::select(moving, speed2, speed2.like(1.0));
     V::select(moving, damping * ratio.sqrt(), speed2.like(0.0))
 }
@@ -153,5 +157,7 @@ mod tests {
     fn damping_is_mu_force_over_speed_and_vanishes_at_rest() {
         assert_eq!(damping_scale(0.1, 25.0, 4.0), 0.25);
         assert_eq!(damping_scale(0.1, 25.0, 0.0), 0.0);
+        assert_eq!(damping_scale(0.1, 25.0, 1e-310), 0.0);
+        assert!((damping_scale(0.1, 25.0, 1e-198) * 1e-99 - 0.5).abs() < 1e-12);
     }
 }
