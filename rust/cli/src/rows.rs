@@ -74,11 +74,14 @@ fn thermal_rows(records: &[&(&Record, Value)]) -> Vec<StateRow> {
     rows
 }
 
+/// A state and the strains ε_xx, ε_yy of the box.
+type Strained = (StateRow, [f64; 2]);
+
 /// Neighbouring stops of the wall-strain ramps. Each starts from the packed state.
 fn wall_strains(mechanics: &[&(&Record, Value)], thermal: &[&(&Record, Value)]) -> Vec<WallStrain> {
     let strain =
         |fields: &Value| [&fields["strain_xx"], &fields["strain_yy"]].map(|v| v.as_f64().unwrap_or(0.0));
-    let mut ramps: BTreeMap<(i64, &str), Vec<(StateRow, [f64; 2])>> = BTreeMap::new();
+    let mut ramps: BTreeMap<(i64, &str), Vec<Strained>> = BTreeMap::new();
     for entry in mechanics {
         if let Some(row) = state_row(entry, entry.0.ramp.as_str(), entry.0.stop) {
             ramps.entry((entry.0.packing, entry.0.ramp.as_str())).or_default().push((row, strain(&entry.1)));

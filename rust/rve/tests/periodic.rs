@@ -283,7 +283,7 @@ fn nonsense_in_a_periodic_state_is_refused() {
     let message = |change: &dyn Fn(&mut serde_json::Value)| {
         let mut json = good.clone();
         change(&mut json);
-        from_json(&json.to_string()).err().expect("refused").to_string()
+        from_json(&json.to_string()).expect_err("refused").to_string()
     };
     assert!(message(&|j| j["contacts"]["i"][0] = (-1).into()).contains("i = -1"));
     assert!(message(&|j| j["contacts"]["shift_x"][0] = 7.into()).contains("not near each other"));

@@ -3,7 +3,7 @@
 use crate::error::CliError;
 use clap::Args;
 use msdd_dem::{Simulation, Thermal, WallHeat, time_step};
-use msdd_rve::{Boundary, Compression, Material, PackingSpec, pack};
+use msdd_rve::{Compression, Material, PackingSpec, pack};
 use std::path::PathBuf;
 
 #[derive(Args)]

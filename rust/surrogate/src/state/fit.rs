@@ -25,10 +25,13 @@ pub struct Sample {
     pub residuals: Vec<Residual>,
 }
 
+/// Scaled inputs of eight samples, and each residual with the lane of its sample.
+type Octet = (Vec<Lanes>, Vec<(usize, Residual)>);
+
 /// The fit of one network to samples.
 pub struct PerceptronFit {
     sizes: Vec<usize>,
-    octets: Vec<(Vec<Lanes>, Vec<(usize, Residual)>)>,
+    octets: Vec<Octet>,
     residuals: f64,
     threads: usize,
 }
@@ -87,7 +90,7 @@ impl PerceptronFit {
     }
 
     /// Σ r² of some octets.
-    fn sum_of_squares(network: &Perceptron, octets: &[(Vec<Lanes>, Vec<(usize, Residual)>)]) -> f64 {
+    fn sum_of_squares(network: &Perceptron, octets: &[Octet]) -> f64 {
         let mut neurons = Neurons::new();
         let mut sum = 0.0;
         for (inputs, residuals) in octets {
@@ -102,7 +105,7 @@ impl PerceptronFit {
     }
 
     /// Lower triangle of (J | r)ᵀ (J | r) of some octets.
-    fn products(network: &Perceptron, octets: &[(Vec<Lanes>, Vec<(usize, Residual)>)]) -> Vec<f64> {
+    fn products(network: &Perceptron, octets: &[Octet]) -> Vec<f64> {
         let weights = network.weights.len();
         let width = Self::width(weights);
         let mut matrix = vec![0.0; width * width];
@@ -133,7 +136,7 @@ impl PerceptronFit {
     }
 
     /// The parts' results, in order.
-    fn by_part<T: Send>(&self, work: impl Fn(&[(Vec<Lanes>, Vec<(usize, Residual)>)]) -> T + Sync) -> Vec<T> {
+    fn by_part<T: Send>(&self, work: impl Fn(&[Octet]) -> T + Sync) -> Vec<T> {
         let length = self.octets.len().div_ceil(PARTS).max(1);
         let parts: Vec<_> = self.octets.chunks(length).collect();
         let share = parts.len().div_ceil(self.threads).max(1);
