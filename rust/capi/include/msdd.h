@@ -1,4 +1,4 @@
-/* MSDD: surrogate models of granular representative volume elements (RVEs).
+/* MSDD: representative volume elements (RVEs) of granular media, and surrogate models of them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  *
@@ -6,9 +6,11 @@
  *  - Every function that can fail returns an int32_t status: MSDD_OK (0) or one of enum msdd_status.
  *    The text of the last failure on the calling thread is in msdd_last_error().
  *  - Outputs are written only on success.
- *  - Handles are opaque and immutable once loaded: any number of threads may read one at a time.
- *  - Structs that may grow start with struct_size; set it to sizeof the struct.
- *  - SI units. Compression is positive. Nothing here prints, starts threads or installs handlers.
+ *  - Handles are opaque. A surrogate is immutable: any number of threads may use one at a time. An RVE changes: one
+ *    thread at a time.
+ *  - Structs start with struct_size; set it to sizeof the struct, and all that you do not use to 0.
+ *  - SI units; strains without unit. Strain: extension positive. Stress: compression positive.
+ *  - Nothing here prints or installs handlers, and no threads start unless their number is an argument.
  *  - Floating-point exceptions must be masked while a function runs (the IEEE default). A program that traps them
  *    (OpenFOAM does) masks them around each call; the C++ wrapper msdd.hpp does it for you.
  */
@@ -23,21 +25,40 @@ extern "C" {
 #endif
 
 /** Version of this interface. Compare with msdd_abi_version() before anything else is called. */
-#define MSDD_ABI_VERSION 1u
+#define MSDD_ABI_VERSION 2u
 
 enum msdd_status {
     MSDD_OK = 0,
     /** A null pointer, a wrong struct_size, or a parameter outside its allowed range. */
     MSDD_INVALID_ARGUMENT = 1,
-    /** A file could not be read. */
+    /** A file could not be read or written. */
     MSDD_IO = 2,
-    /** A model file was read but is damaged, of another schema, or inconsistent. */
+    /** A model file was read but is damaged, of another schema, or inconsistent; or a plug-in that is not one. */
     MSDD_MODEL = 3,
     /** An input column holds NaN or infinity; the text names column and index. */
     MSDD_NON_FINITE = 4,
+    /** An RVE could not be packed or strained (it blew up, found no room, did not reach its target), or a state or plan
+     *  is none. */
+    MSDD_RVE = 5,
+    /** The progress call-back asked to stop. What was made until then is kept. */
+    MSDD_CANCELLED = 6,
     /** A bug on our side (a caught panic). */
     MSDD_INTERNAL = 255
 };
+
+/** Version of the interface the library was built with; equals MSDD_ABI_VERSION when header and library agree. */
+uint32_t msdd_abi_version(void);
+
+/** Version of the library, for example "0.1.0". Static storage. */
+const char *msdd_version(void);
+
+/** Text of the last failure on this thread, "" if none. Valid until the next msdd call on this thread. */
+const char *msdd_last_error(void);
+
+/** Frees a text that a function of this header returned through a char **; NULL is allowed. */
+void msdd_text_free(char *text);
+
+/* ------------------------------------------------------------------------------------------------ surrogate models */
 
 /** A loaded surrogate model: opaque, immutable. */
 typedef struct msdd_surrogate msdd_surrogate;
@@ -50,49 +71,84 @@ typedef struct msdd_material {
     double mean_radius;          /**< mean grain radius in the initial state, r [m], > 0 */
 } msdd_material;
 
-/** One batch of cells: columns of length `cells`, each contiguous. Algorithm 1, steps 1 and 2, of the paper. */
+/** One batch of cells: columns of length `cells`, each contiguous. Algorithm 1, steps 1 and 2, of the paper.
+ *
+ *  The state of a cell is what the model carries from step to step: msdd_surrogate_state_size columns without unit, named
+ *  by msdd_surrogate_state_name; the first two are porosity (overlaps counted once) and fabric_index (F_xx - F_yy).
+ *  A column may be input and output at once. */
 typedef struct msdd_batch {
     size_t struct_size;                 /**< sizeof(msdd_batch) */
     size_t cells;                       /**< length of every column */
     /* in */
-    const double *porosity;             /**< eta^n [-], overlaps counted once */
-    const double *fabric_index;         /**< f^n = F_xx - F_yy [-] */
-    const double *thermal_strain;       /**< epsilon^n [-]: radial strain of this increment, relative to the current radius */
-    const double *total_thermal_strain; /**< alpha (T^n - T^0) [-], this increment included; NULL = 0 everywhere */
-    /* out; any of them may be NULL when not wanted */
-    double *delta_porosity;             /**< eta^{n+1} - eta^n [-] */
-    double *delta_fabric_index;         /**< f^{n+1} - f^n [-] */
-    double *conductivity_xx;            /**< K_xx^{n+1} [W/(m K)] */
-    double *conductivity_yy;            /**< K_yy^{n+1} [W/(m K)] */
-    double *stress_xx;                  /**< sigma_xx^{n+1} [Pa], compression positive */
-    double *stress_yy;                  /**< sigma_yy^{n+1} [Pa], compression positive */
-    uint8_t *clamped;                   /**< 1 where an input lay outside the trained range and was clamped to it, else 0 */
-    size_t clamped_cells;               /**< out: number of such cells in this batch */
+    const double *const *state;         /**< state columns before the step */
+    const double *thermal_strain;       /**< radial strain of the grains in this step, relative to the current radius */
+    const double *total_thermal_strain; /**< alpha (T - T0), this step included; NULL = 0 everywhere */
+    const double *strain_xx;            /**< mechanical strain of the cell along x, after the thermal one; NULL = 0 */
+    const double *strain_yy;            /**< the same along y; either needs a model that has a tangent */
+    /* out; any of them may be NULL when not wanted, and so may single columns */
+    double *const *next_state;          /**< state columns after the step */
+    double *conductivity_xx;            /**< K_xx after the step [W/(m K)] */
+    double *conductivity_yy;            /**< K_yy after the step [W/(m K)] */
+    double *stress_xx;                  /**< sigma_xx after the step [Pa] */
+    double *stress_yy;                  /**< sigma_yy after the step [Pa] */
+    double *c11;                        /**< -d sigma_xx/d strain_xx after the step [Pa]; these need a tangent, too */
+    double *c22;                        /**< -d sigma_yy/d strain_yy [Pa] */
+    double *c12;                        /**< -d sigma_xx/d strain_yy = -d sigma_yy/d strain_xx [Pa] */
+    double *porosity_rate;              /**< d porosity/d (strain_xx + strain_yy) */
+    double *fabric_index_rate;          /**< d fabric_index/d (strain_xx - strain_yy) */
+    uint8_t *clamped;                   /**< 1 where an input lay outside the trained range, else 0 */
+    double *const *outside;             /**< state_size + 1 columns, the last for thermal_strain: how far outside, in the
+                                             input's own unit, negative below and positive above; 0 inside */
+    double *spread;                     /**< relative standard deviation of K between RVEs of equal state; NaN if the
+                                             model does not know. Costs more than the rest */
+    size_t clamped_cells;               /**< number of cells with an input outside */
 } msdd_batch;
 
-/** Version of the interface the library was built with; equals MSDD_ABI_VERSION when header and library agree. */
-uint32_t msdd_abi_version(void);
+/** What is known of the cells at the start; what is missing is the mean of the training's packed states. */
+typedef struct msdd_initial {
+    size_t struct_size;                /**< sizeof(msdd_initial) */
+    size_t cells;                      /**< length of every column */
+    const double *porosity;            /**< overlaps counted once */
+    const double *fabric_index;        /**< F_xx - F_yy */
+    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy); NULL = not known */
+    const double *stress_xx;           /**< [Pa]; NULL = not known; both or none */
+    const double *stress_yy;           /**< [Pa] */
+} msdd_initial;
 
-/** Version of the library, for example "0.1.0". Static storage. */
-const char *msdd_version(void);
-
-/** Text of the last failure on this thread, "" if none. Valid until the next msdd call on this thread. */
-const char *msdd_last_error(void);
-
-/** Loads a model. `source`: NULL or "builtin" for the model compiled into the library, else a path of a model file.
- *  On success *out owns the model; free it with msdd_surrogate_free. */
+/** Loads a model. `source`: NULL or "builtin" for the default model compiled into the library ("builtin:state";
+ *  "builtin:paper" is the network of the paper); "plugin:PATH" for a shared library, see msdd_plugin.h; else a path of a
+ *  model file. On success *out owns the model; free it with msdd_surrogate_free. Plug-ins stay loaded until the program
+ *  ends. */
 int32_t msdd_surrogate_load(const char *source, msdd_surrogate **out);
 
 /** SHA-256 of the model file's bytes, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
 const char *msdd_surrogate_hash(const msdd_surrogate *surrogate);
 
-/** Description of the model (name, trained range, material, provenance) as one JSON object. Owned by the model.
+/** Description of the model (kind, name, state columns, conductivity, provenance) as one JSON object. Owned by the model.
  *  NULL for a null handle. */
 const char *msdd_surrogate_describe(const msdd_surrogate *surrogate);
 
-/** Evaluates the model for every cell of the batch. Cells are independent: a cell's answer does not depend on the
- *  batch it is in. */
-int32_t msdd_surrogate_evaluate(const msdd_surrogate *surrogate, const msdd_material *material, msdd_batch *batch);
+/** Number of state columns, at least 2; 0 for a null handle. */
+size_t msdd_surrogate_state_size(const msdd_surrogate *surrogate);
+
+/** Name of a state column, for example "porosity". Owned by the model. NULL beyond the last. */
+const char *msdd_surrogate_state_name(const msdd_surrogate *surrogate, size_t column);
+
+/** 1 when the model has a mechanical tangent, else 0. */
+int32_t msdd_surrogate_has_tangent(const msdd_surrogate *surrogate);
+
+/** Wall friction mobilised after the slip s [m]: limit s/(s + slip), from the database's slipping walls. `limit` [-] and
+ *  `slip` [m] may be NULL. Fails with MSDD_INVALID_ARGUMENT when the model has none. */
+int32_t msdd_surrogate_wall_friction(const msdd_surrogate *surrogate, const msdd_material *material, double *limit,
+                                     double *slip);
+
+/** State columns of cells at the start: state_size writable columns in `state`. */
+int32_t msdd_surrogate_initial_state(const msdd_surrogate *surrogate, const msdd_material *material,
+                                     const msdd_initial *initial, double *const *state);
+
+/** Takes every cell of the batch through one step. Cells are independent: a cell's answer does not depend on the
+ *  batch it is in. Zero strain leaves the state as it is, bit for bit. */
+int32_t msdd_surrogate_advance(const msdd_surrogate *surrogate, const msdd_material *material, msdd_batch *batch);
 
 /** Solid fraction with overlaps counted twice (sum of grain areas over area [-]) of an initial state with the given
  *  porosity (overlaps once): a fit to the database. The bulk density that conserves mass is rho * solid_fraction. */
@@ -101,6 +157,84 @@ int32_t msdd_surrogate_solid_fraction(const msdd_surrogate *surrogate, size_t ce
 
 /** Frees a model; NULL is allowed. */
 void msdd_surrogate_free(msdd_surrogate *surrogate);
+
+/* ---------------------------------------------------------------------------------------------------------- RVEs */
+
+/** A box of grains, simulated by discrete elements. */
+typedef struct msdd_rve msdd_rve;
+
+/** Averages over an RVE's averaging region. */
+typedef struct msdd_averages {
+    size_t struct_size;             /**< sizeof(msdd_averages) */
+    double porosity;                /**< overlaps counted once [-] */
+    double porosity_sum_of_areas;   /**< 1 - sum of grain areas / area of the box [-] */
+    double fabric_index;            /**< F_xx - F_yy [-], Eq. 8 */
+    double fabric_conductivity;     /**< (K_xx - K_yy)/(K_xx + K_yy), affine [-] */
+    double conductivity_xx;         /**< K_xx/k, affine [-], Eq. 9 */
+    double conductivity_yy;
+    double conductivity_xy;
+    double conductivity_network_xx; /**< K_xx/k, resistor network solved [-] */
+    double conductivity_network_yy;
+    double conductivity_network_xy;
+    double stress_xx;               /**< [Pa], Eq. 10 */
+    double stress_yy;
+    double stress_xy;
+    double stress_yx;
+    double pressure;                /**< (stress_xx + stress_yy)/2 [Pa] */
+    double coordination;            /**< contacts of a grain that has any [-] */
+    double mean_radius;             /**< current [m] */
+    uint64_t rattlers;              /**< grains without contact */
+    uint64_t contacts;              /**< between grains, in the region */
+} msdd_averages;
+
+/** How a strain of an RVE ended. */
+enum msdd_outcome {
+    MSDD_SETTLED = 0,  /**< forces balance */
+    MSDD_CAPPED = 1,   /**< the step cap came first */
+    MSDD_UNJAMMED = 2  /**< bears no load */
+};
+
+/** Packs an RVE. `specification` is a JSON object; keys, with their defaults: "discs" 500, "seed" 1, "porosity" 0.12,
+ *  "compression" "isotropic" (or "horizontal", "intermediate"), "boundary" "walls" (or "periodic"), "radius_min" 3e-3,
+ *  "radius_max" 7e-3 [m], "relaxation" "damped" (or "fire"), "material" {"density" 3000 [kg/m3], "young_modulus" 1e7 [Pa],
+ *  "stiffness_ratio" 0.8, "friction_angle" 0.5 [rad], "wall_stiffness_factor" 1, "damping" 0.1}. NULL means "{}".
+ *  Same specification, same bytes. On success *out owns the RVE; free it with msdd_rve_free. */
+int32_t msdd_rve_pack(const char *specification, msdd_rve **out);
+
+/** Reads an RVE from the JSON text of a state file. */
+int32_t msdd_rve_from_json(const char *text, msdd_rve **out);
+
+/** The RVE as the JSON text of a state file, which continues bit for bit; free it with msdd_text_free. */
+int32_t msdd_rve_to_json(const msdd_rve *rve, char **out);
+
+/** A copy. */
+int32_t msdd_rve_clone(const msdd_rve *rve, msdd_rve **out);
+
+/** Strains an RVE relative to its present state and relaxes it: `thermal` of the radii, `xx` and `yy` of the box along x
+ *  and y, `xy` (way of the top along x over the height) of a periodic one; each from -0.2 to 0.2. *outcome (may be NULL)
+ *  is one of enum msdd_outcome. After a failure the RVE is as before. */
+int32_t msdd_rve_strain(msdd_rve *rve, double thermal, double xx, double yy, double xy, int32_t *outcome);
+
+/** Averages over the box less 0.8 mean radii at the walls; of a periodic box over the whole. */
+int32_t msdd_rve_homogenise(const msdd_rve *rve, msdd_averages *averages);
+
+/** Frees an RVE; NULL is allowed. */
+void msdd_rve_free(msdd_rve *rve);
+
+/* ------------------------------------------------------------------------------------------------------ databases */
+
+/** Hears of every finished packing, on the thread that called; any value but 0 stops the generation. `user` is the
+ *  caller's. */
+typedef int32_t (*msdd_progress)(void *user, uint64_t done, uint64_t total, uint64_t failed);
+
+/** Makes the database of a plan (the text of a TOML file as in cases/database), or goes on with one that was begun, on
+ *  `threads` threads (0 = 1). `progress` may be NULL. */
+int32_t msdd_database_generate(const char *plan, const char *path, uint32_t threads, msdd_progress progress,
+                               void *user);
+
+/** Writes a database as CSV, with its column dictionary and provenance beside it; *rows (may be NULL) is their number.
+ *  A name that ends in .gz is compressed. */
+int32_t msdd_database_export_csv(const char *database, const char *csv, uint64_t *rows);
 
 #ifdef __cplusplus
 }

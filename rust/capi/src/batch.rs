@@ -1,101 +1,193 @@
-//! Evaluation of a batch: all checks first, then block by block straight into the caller's columns.
+//! One step of a batch: all checks first, then block by block straight into the caller's columns.
 
+use crate::abi::msdd_batch;
 use crate::columns::{Input, Output};
-use crate::ffi::{msdd_batch, msdd_material};
 use crate::si::Si;
 use crate::status::Failure;
-use msdd_surrogate::Model;
+use msdd_surrogate::Surrogate;
 use msdd_surrogate::kernel::{LANES, Lanes};
+use msdd_surrogate::surrogate::{Answer, MAX_STATE, StateLanes};
 
 /// Columns of a batch.
-struct Columns {
-    inputs: [Input; 3],
+pub(crate) struct Columns {
+    cells: usize,
+    state: Vec<Input>,
+    thermal_strain: Input,
     total_thermal_strain: Option<Input>,
-    delta_porosity: Output<f64>,
-    delta_fabric_index: Output<f64>,
-    conductivity_xx: Output<f64>,
-    conductivity_yy: Output<f64>,
-    stress_xx: Output<f64>,
-    stress_yy: Output<f64>,
+    /// Mechanical strains along x and y.
+    strain: [Option<Input>; 2],
+    next_state: Vec<Output<f64>>,
+    conductivity: [Output<f64>; 2],
+    stress: [Output<f64>; 2],
+    /// c11, c22, c12; rates of porosity and fabric index.
+    tangent: [Output<f64>; 5],
     clamped: Output<u8>,
+    /// None, or one a state column and one for the thermal strain.
+    outside: Vec<Output<f64>>,
+    spread: Output<f64>,
 }
 
-/// Evaluates the batch; returns the number of clamped cells.
+/// Grains eleven times their size: no state that a model describes, and far from overflow.
+const LARGEST_STRAIN: f64 = 10.0;
+/// Mechanical strain of one step at most: the tangent is a linear law.
+const LARGEST_STEP: f64 = 0.2;
+
+/// A column has to fit into memory; else pointers to its end would wrap.
+pub(crate) fn check_length(cells: usize) -> Result<(), Failure> {
+    match cells > isize::MAX as usize / size_of::<f64>() {
+        true => Err(Failure::argument("cells", cells, "number of cells")),
+        false => Ok(()),
+    }
+}
+
+/// Writable columns from a caller's array of them; each may be null.
 ///
 /// # Safety
-/// The batch's pointers, unless null, point to `cells` values; those of outputs are writable by this thread alone.
-pub(crate) unsafe fn evaluate(
-    model: &Model,
-    material: &msdd_material,
-    batch: &msdd_batch,
-) -> Result<usize, Failure> {
-    let si = Si::new(material)?;
-    // SAFETY: passed on to the caller.
-    let columns = unsafe { Columns::new(batch)? };
-    columns.check()?;
-    Ok((0..batch.cells).step_by(LANES).map(|first| columns.fill(model, &si, first, batch.cells)).sum())
+/// `columns`, unless null, points to `count` pointers, each null or to `cells` values that this thread alone uses.
+pub(crate) unsafe fn outputs(
+    name: &'static str,
+    columns: *const *mut f64,
+    count: usize,
+    cells: usize,
+) -> Result<Vec<Output<f64>>, Failure> {
+    if columns.is_null() {
+        return Err(Failure::Null(name));
+    }
+    // SAFETY: `count` pointers, and what they point to, by this function's contract.
+    Ok((0..count).map(|k| unsafe { Output::new(columns.add(k).read(), cells) }).collect())
 }
 
 impl Columns {
     /// # Safety
-    /// As for [`evaluate`].
-    unsafe fn new(batch: &msdd_batch) -> Result<Self, Failure> {
-        let cells = batch.cells;
-        // A column has to fit into memory; else pointers to its end would wrap.
-        if cells > isize::MAX as usize / size_of::<f64>() {
-            return Err(Failure::argument("batch.cells", cells, "number of cells"));
+    /// The batch's pointers, unless null, point to `cells` values, those of `state` and `next_state` to as many columns
+    /// as the model's state has, `outside` to one more; outputs are writable by this thread alone.
+    pub unsafe fn new(model: &dyn Surrogate, batch: &msdd_batch) -> Result<Self, Failure> {
+        let (cells, names) = (batch.cells, model.state_names());
+        check_length(cells)?;
+        if batch.state.is_null() {
+            return Err(Failure::Null("state"));
         }
-        let total = batch.total_thermal_strain;
+        let optional = |name, start: *const f64| match start.is_null() {
+            true => Ok(None),
+            // SAFETY: passed on to the caller.
+            false => unsafe { Input::new(name, start, cells) }.map(Some),
+        };
+        let several = |name, columns: *const *mut f64, count| match columns.is_null() {
+            true => Ok(Vec::new()),
+            // SAFETY: passed on to the caller.
+            false => unsafe { outputs(name, columns, count, cells) },
+        };
         // SAFETY: passed on to the caller, for all columns.
         unsafe {
+            let state =
+                names.iter().enumerate().map(|(k, name)| Input::new(name, batch.state.add(k).read(), cells));
+            let output = |start: *mut f64| Output::new(start, cells);
             Ok(Self {
-                inputs: [
-                    Input::new("porosity", batch.porosity, cells)?,
-                    Input::new("fabric_index", batch.fabric_index, cells)?,
-                    Input::new("thermal_strain", batch.thermal_strain, cells)?,
-                ],
-                total_thermal_strain: match total.is_null() {
-                    true => None,
-                    false => Some(Input::new("total_thermal_strain", total, cells)?),
-                },
-                delta_porosity: Output::new(batch.delta_porosity, cells),
-                delta_fabric_index: Output::new(batch.delta_fabric_index, cells),
-                conductivity_xx: Output::new(batch.conductivity_xx, cells),
-                conductivity_yy: Output::new(batch.conductivity_yy, cells),
-                stress_xx: Output::new(batch.stress_xx, cells),
-                stress_yy: Output::new(batch.stress_yy, cells),
+                cells,
+                state: state.collect::<Result<_, _>>()?,
+                thermal_strain: Input::new("thermal_strain", batch.thermal_strain, cells)?,
+                total_thermal_strain: optional("total_thermal_strain", batch.total_thermal_strain)?,
+                strain: [optional("strain_xx", batch.strain_xx)?, optional("strain_yy", batch.strain_yy)?],
+                next_state: several("next_state", batch.next_state, names.len())?,
+                conductivity: [output(batch.conductivity_xx), output(batch.conductivity_yy)],
+                stress: [output(batch.stress_xx), output(batch.stress_yy)],
+                tangent: [batch.c11, batch.c22, batch.c12, batch.porosity_rate, batch.fabric_index_rate]
+                    .map(output),
                 clamped: Output::new(batch.clamped, cells),
+                outside: several("outside", batch.outside, names.len() + 1)?,
+                spread: output(batch.spread),
             })
         }
     }
 
-    fn check(&self) -> Result<(), Failure> {
-        self.inputs.iter().chain(&self.total_thermal_strain).try_for_each(Input::check_finite)?;
-        let Some(total) = &self.total_thermal_strain else { return Ok(()) };
-        match total.position(|strain| strain <= -1.0 || strain > LARGEST_STRAIN) {
-            None => Ok(()),
-            Some(cell) => {
-                let name = format!("{}[{cell}]", total.name);
-                Err(Failure::argument(name, total.at(cell), "above -1, to 10"))
-            }
+    /// Takes all cells through the step; returns the number with an input outside the trained range.
+    pub fn advance(&self, model: &dyn Surrogate, si: &Si) -> Result<usize, Failure> {
+        self.check(model)?;
+        Ok((0..self.cells).step_by(LANES).map(|first| self.fill(model, si, first)).sum())
+    }
+
+    fn check(&self, model: &dyn Surrogate) -> Result<(), Failure> {
+        let inputs = self.state.iter().chain([&self.thermal_strain]).chain(&self.total_thermal_strain);
+        inputs.chain(self.strain.iter().flatten()).try_for_each(Input::check_finite)?;
+        let range = |column: &Input, low: f64, high: f64, allowed: &str| {
+            let Some(cell) = column.position(|value| value <= low || value > high) else { return Ok(()) };
+            Err(Failure::argument(format!("{}[{cell}]", column.name), column.at(cell), allowed))
+        };
+        for column in self.total_thermal_strain.iter().chain([&self.thermal_strain]) {
+            range(column, -1.0, LARGEST_STRAIN, "above -1, to 10")?;
+        }
+        for column in self.strain.iter().flatten() {
+            range(column, -LARGEST_STEP, LARGEST_STEP, "above -0.2, to 0.2")?;
+        }
+        if model.mechanics().is_none() && (self.deforms() || self.tangent.iter().any(Output::is_wanted)) {
+            let wanted = "strain_xx, strain_yy, c11, c22, c12, porosity_rate, fabric_index_rate";
+            let allowed = format!("NULL: model \"{}\" has no mechanical tangent", model.name());
+            return Err(Failure::argument(wanted, "not NULL", allowed));
+        }
+        Ok(())
+    }
+
+    fn deforms(&self) -> bool {
+        self.strain.iter().any(Option::is_some)
+    }
+
+    /// Cells `first` to `first + 7`; returns how many of them had an input outside the trained range.
+    fn fill(&self, model: &dyn Surrogate, si: &Si, first: usize) -> usize {
+        // All of a block's inputs are read before any output is written: a column may be both.
+        let lanes_or_zero =
+            |column: &Option<Input>| column.map_or([0.0; LANES], |column| column.lanes(first));
+        let mut state: StateLanes = [[0.0; LANES]; MAX_STATE];
+        for (lanes, column) in state.iter_mut().zip(&self.state) {
+            *lanes = column.lanes(first);
+        }
+        let total = lanes_or_zero(&self.total_thermal_strain);
+        let strain = [0, 1].map(|k| lanes_or_zero(&self.strain[k]));
+        let mut answer = model.block(&state, &self.thermal_strain.lanes(first));
+        if self.deforms() {
+            let deformed = model.deformed(&answer.state, &strain);
+            answer = Answer { outside: answer.outside, ..model.block(&deformed, &[0.0; LANES]) };
+        }
+        self.write(model, si, first, &answer, &total);
+        let here = LANES.min(self.cells - first);
+        (0..here).filter(|lane| !answer.inside(*lane)).count()
+    }
+
+    fn write(&self, model: &dyn Surrogate, si: &Si, first: usize, answer: &Answer, total: &Lanes) {
+        for (column, lanes) in self.next_state.iter().zip(&answer.state) {
+            column.write(first, lanes);
+        }
+        for k in [0, 1] {
+            self.conductivity[k].write(first, &si.conductivity(answer.conductivity[k]));
+            self.stress[k].write(first, &si.stress(answer.stress[k], total));
+        }
+        self.clamped.write(first, &std::array::from_fn(|lane| u8::from(!answer.inside(lane))));
+        let strain = [&answer.outside[MAX_STATE]];
+        for (column, lanes) in
+            self.outside.iter().zip(answer.outside[..self.state.len()].iter().chain(strain))
+        {
+            column.write(first, lanes);
+        }
+        let lane_state = |lane: usize| answer.state.map(|column| column[lane]);
+        if self.tangent.iter().any(Output::is_wanted) {
+            let tangents: [_; LANES] = std::array::from_fn(|lane| model.tangent(&lane_state(lane)));
+            let stiffness = |pick: fn(&msdd_surrogate::mechanics::Tangent) -> f64| {
+                si.stress(std::array::from_fn(|lane| tangents[lane].as_ref().map_or(0.0, pick)), total)
+            };
+            let rate = |pick: fn(&msdd_surrogate::mechanics::Tangent) -> f64| -> Lanes {
+                std::array::from_fn(|lane| tangents[lane].as_ref().map_or(0.0, pick))
+            };
+            let columns = [
+                stiffness(|t| t.c11),
+                stiffness(|t| t.c22),
+                stiffness(|t| t.c12),
+                rate(|t| t.porosity),
+                rate(|t| t.fabric_index),
+            ];
+            self.tangent.iter().zip(&columns).for_each(|(column, lanes)| column.write(first, lanes));
+        }
+        if self.spread.is_wanted() {
+            let spread = |lane| model.doubt(&lane_state(lane)).map_or(f64::NAN, |d| d.conductivity_spread);
+            self.spread.write(first, &std::array::from_fn(spread));
         }
     }
-
-    /// Evaluates the cells `first` to `first + 7`; returns how many of them were clamped.
-    fn fill(&self, model: &Model, si: &Si, first: usize, cells: usize) -> usize {
-        // All of a block's inputs are read before any output is written: a column may be both.
-        let block = model.block(&self.inputs.map(|column| column.lanes(first)));
-        let total: Lanes = self.total_thermal_strain.map_or([0.0; LANES], |column| column.lanes(first));
-        self.delta_porosity.write(first, &block.delta_porosity);
-        self.delta_fabric_index.write(first, &block.delta_fabric_index);
-        self.conductivity_xx.write(first, &si.conductivity(block.conductivity_xx));
-        self.conductivity_yy.write(first, &si.conductivity(block.conductivity_yy));
-        self.stress_xx.write(first, &si.stress(block.stress_xx, &total));
-        self.stress_yy.write(first, &si.stress(block.stress_yy, &total));
-        self.clamped.write(first, &block.clamped.map(u8::from));
-        block.clamped.iter().take(cells - first).filter(|clamped| **clamped).count()
-    }
 }
-
-/// Grains eleven times their size: no state that the model describes, and far from overflow.
-const LARGEST_STRAIN: f64 = 10.0;

@@ -69,6 +69,20 @@ impl<T: Copy> Output<T> {
         Self { start, length }
     }
 
+    /// Whether the caller gave the column.
+    pub fn is_wanted(&self) -> bool {
+        !self.start.is_null()
+    }
+
+    /// Writes one cell. Out of bounds is a bug and panics.
+    pub fn write_one(&self, cell: usize, value: T) {
+        assert!(cell < self.length);
+        if !self.start.is_null() {
+            // SAFETY: in bounds, and writable by the contract of `new`.
+            unsafe { self.start.add(cell).write(value) };
+        }
+    }
+
     /// Writes the cells from `first` on; values beyond the column's end are padding.
     pub fn write(&self, first: usize, values: &[T; LANES]) {
         if self.start.is_null() {

@@ -1,19 +1,22 @@
-//! C ABI of MSDD. `include/msdd.h` is the truth; this crate follows it.
+//! C ABI of MSDD. `include/msdd.h` is the truth, `msdd-abi` is what bindgen makes of it, and this crate follows.
 //!
 //! | module | what |
 //! |---|---|
-//! | [`ffi`] | the header's types |
 //! | [`exports`] | the header's functions: pointers checked, then safe code |
+//! | `handles` | what the opaque handles are |
 //! | `columns` | a caller's columns |
 //! | `batch` | checks and evaluation of a batch |
 //! | `si` | dimensionless answers to SI units |
 //! | `status` | errors to status codes and text; panics stop here |
 
+pub use msdd_abi as abi;
+
 mod batch;
 mod columns;
 pub mod exports;
-pub mod ffi;
+mod handles;
 mod si;
+mod signatures;
 mod status;
 #[cfg(test)]
 mod tests;

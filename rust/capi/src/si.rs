@@ -1,6 +1,6 @@
 //! Dimensionless answers to SI units: the one place.
 
-use crate::ffi::msdd_material;
+use crate::abi::msdd_material;
 use crate::status::Failure;
 use msdd_surrogate::kernel::Lanes;
 
@@ -25,6 +25,11 @@ impl Si {
     /// K = k K̃ [W/(m K)].
     pub fn conductivity(&self, dimensionless: Lanes) -> Lanes {
         dimensionless.map(|value| self.conductivity * value)
+    }
+
+    /// σ̃ = σ ℓ/(E r), initial radius [-].
+    pub fn reduced(&self, stress: f64) -> f64 {
+        stress / self.stress
     }
 
     /// σ = σ̃ E r̄ / ℓ [Pa] with the current mean radius r̄ = r (1 + α (T − T⁰)).

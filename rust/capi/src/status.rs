@@ -1,6 +1,8 @@
 //! Errors to status codes. The one place where panics are stopped.
 
-use crate::ffi::{MSDD_INTERNAL, MSDD_INVALID_ARGUMENT, MSDD_IO, MSDD_MODEL, MSDD_NON_FINITE, MSDD_OK};
+use crate::abi;
+use msdd_rve::database::DatabaseError;
+use msdd_rve::{RveError, state::StateError};
 use msdd_surrogate::SurrogateError;
 use std::any::Any;
 use std::cell::RefCell;
@@ -20,6 +22,14 @@ pub(crate) enum Failure {
     File { path: String, error: std::io::Error },
     #[error("model \"{path}\": {error}")]
     Model { path: String, error: SurrogateError },
+    #[error("{0}")]
+    Rve(#[from] RveError),
+    #[error("{0}")]
+    State(#[from] StateError),
+    #[error("{0}")]
+    Database(#[from] DatabaseError),
+    #[error("stopped by the progress call-back")]
+    Cancelled,
 }
 
 impl Failure {
@@ -28,14 +38,24 @@ impl Failure {
     }
 
     fn status(&self) -> i32 {
-        match self {
-            Self::Null(_) | Self::Argument { .. } => MSDD_INVALID_ARGUMENT,
-            Self::File { .. } => MSDD_IO,
-            Self::Model { .. } => MSDD_MODEL,
-            Self::NonFinite { .. } => MSDD_NON_FINITE,
-        }
+        let status = match self {
+            Self::Null(_) | Self::Argument { .. } | Self::Rve(RveError::Parameter { .. }) => {
+                abi::MSDD_INVALID_ARGUMENT
+            }
+            Self::File { .. } => abi::MSDD_IO,
+            Self::Database(DatabaseError::Plan { .. }) | Self::Rve(_) | Self::State(_) => abi::MSDD_RVE,
+            Self::Database(_) => abi::MSDD_IO,
+            Self::Model { .. } => abi::MSDD_MODEL,
+            Self::NonFinite { .. } => abi::MSDD_NON_FINITE,
+            Self::Cancelled => abi::MSDD_CANCELLED,
+        };
+        status as i32
     }
 }
+
+/// The header's constants as statuses.
+pub(crate) const OK: i32 = abi::MSDD_OK as i32;
+pub(crate) const INTERNAL: i32 = abi::MSDD_INTERNAL as i32;
 
 thread_local! {
     static LAST_ERROR: RefCell<CString> = RefCell::default();
@@ -44,10 +64,10 @@ thread_local! {
 /// Runs the body of an export: the status of its result, its text kept for [`last_error`].
 ///
 /// Unwind safety: bodies write to the caller's memory last, after everything that may panic has been checked, and keep
-/// no state of their own; a batch left half-written by a bug is reported as [`MSDD_INTERNAL`].
+/// no state of their own; a batch left half-written by a bug is reported as [`INTERNAL`].
 pub(crate) fn status(body: impl FnOnce() -> Result<(), Failure>) -> i32 {
     match catch_unwind(AssertUnwindSafe(body)) {
-        Ok(Ok(())) => MSDD_OK,
+        Ok(Ok(())) => OK,
         Ok(Err(failure)) => {
             remember(failure.to_string());
             failure.status()
@@ -56,7 +76,7 @@ pub(crate) fn status(body: impl FnOnce() -> Result<(), Failure>) -> i32 {
             remember(format!("internal error (a bug in msdd): {}", panic_text(&*panic)));
             // Dropping a payload may panic in turn; a few leaked bytes are the safer choice.
             std::mem::forget(panic);
-            MSDD_INTERNAL
+            INTERNAL
         }
     }
 }

@@ -55,6 +55,8 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    // A reader that closes the pipe, such as head, ends the program instead of making it panic.
+    sigpipe::reset();
     let result = match Program::parse().command {
         Command::Database(command) => database::run(&command),
         Command::Rve(command) => rve::run(&command),

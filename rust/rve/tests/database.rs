@@ -3,6 +3,7 @@
 use msdd_rve::database::{
     DatabaseError, Kind, Plan, RampName, Run, export_csv, generate, merge, read, record::COLUMNS,
 };
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const PLAN: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\
@@ -24,7 +25,7 @@ fn plan() -> Plan {
 }
 
 fn make(plan: &Plan, path: &Path, threads: usize) {
-    generate(plan, path, &Run { threads, ..Run::default() }, |_| ()).unwrap();
+    generate(plan, path, &Run { threads, ..Run::default() }, |_| ControlFlow::Continue(())).unwrap();
 }
 
 fn bytes(path: &Path) -> Vec<u8> {
@@ -112,17 +113,21 @@ fn a_stopped_run_resumes_to_the_same_bytes_and_another_plan_is_refused() {
     drop(connection);
     let mut seen = Vec::new();
     let run = Run { threads: 2, ..Run::default() };
-    generate(&plan(), &halved, &run, |progress| seen.push(progress.done)).unwrap();
+    generate(&plan(), &halved, &run, |progress| {
+        seen.push(progress.done);
+        ControlFlow::Continue(())
+    })
+    .unwrap();
     assert_eq!(seen, [3, 4, 5, 6]);
     assert_eq!(bytes(&whole), bytes(&halved));
     make(&plan(), &halved, 1);
     assert_eq!(bytes(&whole), bytes(&halved));
 
     let other = Plan::parse(&PLAN.replace("seed = 3", "seed = 4"), "plan").unwrap();
-    let error = generate(&other, &whole, &run, |_| ()).unwrap_err();
+    let error = generate(&other, &whole, &run, |_| ControlFlow::Continue(())).unwrap_err();
     assert!(matches!(&error, DatabaseError::Mismatch { key: "plan_hash", .. }), "{error}");
     let shard = Run { shard: "1/2".parse().unwrap(), ..Run::default() };
-    let error = generate(&plan(), &whole, &shard, |_| ()).unwrap_err();
+    let error = generate(&plan(), &whole, &shard, |_| ControlFlow::Continue(())).unwrap_err();
     assert!(matches!(&error, DatabaseError::Mismatch { key: "shard", .. }), "{error}");
 }
 
@@ -132,13 +137,13 @@ fn shards_merge_to_the_bytes_of_one_process_and_gaps_and_duplicates_are_found() 
     let shard = |text: &str| {
         let path = folder.join(format!("{}.msdd", text.replace('/', "-")));
         let run = Run { shard: text.parse().unwrap(), threads: 1, commit: text.replace('/', "of") };
-        generate(&plan(), &path, &run, |_| ()).unwrap();
+        generate(&plan(), &path, &run, |_| ControlFlow::Continue(())).unwrap();
         path
     };
     let shards = ["1/3", "2/3", "3/3"].map(shard);
     let (whole, merged) = (folder.join("whole.msdd"), folder.join("merged.msdd"));
     let run = Run { commit: "1of3, 2of3, 3of3".to_string(), ..Run::default() };
-    generate(&plan(), &whole, &run, |_| ()).unwrap();
+    generate(&plan(), &whole, &run, |_| ControlFlow::Continue(())).unwrap();
     let [a, b, c] = shards.clone();
     assert_eq!(merge(&[c, a, b], &merged).unwrap(), ROWS);
     assert_eq!(bytes(&whole), bytes(&merged));

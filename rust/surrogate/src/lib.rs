@@ -53,4 +53,5 @@ pub use error::SurrogateError;
 pub use levenberg_marquardt::Stopping;
 pub use model::{Block, Model, Prediction};
 pub use model_file::DatabaseProvenance;
+pub use surrogate::Surrogate;
 pub use training::{Progress, Report, TrainingOptions, train};

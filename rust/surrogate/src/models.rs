@@ -65,6 +65,33 @@ pub fn kind(name: &str) -> Result<&'static Kind, SurrogateError> {
     })
 }
 
+/// Name of the default model compiled into the library; the others follow a colon.
+pub const BUILTIN: &str = "builtin";
+
+/// Texts of the models compiled into the library, the default first.
+const SHIPPED: [(&str, &str); 2] =
+    [("state", include_str!("../models/state.json")), ("paper", include_str!("../models/default.json"))];
+
+/// A model compiled into the library: `builtin`, `builtin:state` or `builtin:paper`.
+///
+/// # Errors
+/// [`SurrogateError::Option`] that lists the names there are.
+pub fn builtin(name: &str) -> Trained {
+    let wanted = name.strip_prefix(BUILTIN).map(|rest| rest.strip_prefix(':').unwrap_or(rest));
+    let shipped = match wanted {
+        Some("") => SHIPPED.first(),
+        wanted => SHIPPED.iter().find(|(shipped, _)| wanted == Some(shipped)),
+    };
+    match shipped {
+        Some((_, text)) => read(text),
+        None => Err(SurrogateError::Option {
+            key: "model",
+            value: name.to_string(),
+            allowed: "builtin, builtin:state, builtin:paper",
+        }),
+    }
+}
+
 /// Reads the text of a model file of any kind; its schema tells which.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! What every surrogate model can do. A model is immutable once made and may be asked from several threads.
 
 use crate::kernel::{LANES, Lanes};
-use crate::mechanics::Mechanics;
+use crate::mechanics::{Mechanics, Tangent};
 use crate::state::variables::ConductivityKind;
 use crate::training::TrainingOptions;
 use crate::wall_friction::WallFriction;
@@ -93,6 +93,15 @@ pub trait Surrogate: Send + Sync {
     fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer;
     /// Doubt about one cell's answer; `None` when the model carries no such data. Slower than an evaluation.
     fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt>;
+    /// Mechanical tangent at a state, reduced as the stress is; `None` when the model has none.
+    fn tangent(&self, _state: &[f64; MAX_STATE]) -> Option<Tangent> {
+        None
+    }
+    /// State after mechanical strains of the cells along x and y (extension positive), linear by the tangent; p̃ ≥ 0 and
+    /// |q̃| ≤ p̃ hold. Zero strain, or a model without tangent, leaves it as it is.
+    fn deformed(&self, state: &StateLanes, _strain: &[Lanes; 2]) -> StateLanes {
+        *state
+    }
     /// Sum-of-areas solid fraction [-] of a packed state of this porosity.
     fn solid_fraction(&self, porosity: f64) -> f64;
 

@@ -11,6 +11,7 @@ use crate::simd::SimdArgument;
 use clap::{Args, Subcommand};
 use msdd_rve::database::{Plan, Run, Shard, export_csv, generate, merge, read};
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -111,6 +112,7 @@ fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
             failed => format!("({failed} failed)"),
         };
         bar.set(progress.done as u64, progress.total as u64, &note);
+        ControlFlow::Continue(())
     })?;
     bar.finish();
     let timing = timing::Timing::new(&made, run.threads, start.elapsed().as_secs_f64());

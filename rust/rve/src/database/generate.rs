@@ -6,6 +6,7 @@ use super::rows::rows;
 use super::store::Store;
 use super::{DatabaseError, Shard};
 use crate::stopwatch::{self, Seconds};
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
@@ -39,7 +40,7 @@ pub struct Progress {
 /// Fills the database at `path` with what the shard of the plan still lacks. Each packing is stored whole in one
 /// transaction as soon as it is made: a killed run loses only what it was working on. The most expensive packings are
 /// made first, so that no thread is left alone with one at the end; the finished file has them in plan order.
-/// `progress` is called after each.
+/// `progress` is called after each, and may end the run there.
 ///
 /// # Errors
 /// [`DatabaseError::Mismatch`] when the file holds another plan or shard, or was made by another engine version; storage
@@ -48,7 +49,7 @@ pub fn generate(
     plan: &Plan,
     path: &Path,
     run: &Run,
-    mut progress: impl FnMut(Progress),
+    mut progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Progress, DatabaseError> {
     let mut store = Store::open_for(path, plan, run)?;
     let stored = store.packings()?;
@@ -57,7 +58,10 @@ pub fn generate(
     todo.retain(|job| !stored.contains(&job.packing));
     todo.sort_by_key(|job| std::cmp::Reverse(job.spec.discs * job.rows().len()));
     let mut state = Progress { done: total - todo.len(), total, ..Progress::default() };
-    progress(state);
+    if progress(state).is_break() {
+        return Ok(state);
+    }
+    let mut stopped = false;
     make(plan, &todo, run.threads, |records, seconds| {
         let begin = std::time::Instant::now();
         store.insert(&records)?;
@@ -68,9 +72,12 @@ pub fn generate(
         for (sum, seconds) in state.seconds.iter_mut().zip(seconds) {
             *sum += seconds;
         }
-        progress(state);
-        Ok(())
+        stopped = progress(state).is_break();
+        Ok(if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
     })?;
+    if stopped {
+        return Ok(state);
+    }
     let begin = std::time::Instant::now();
     store.finish()?;
     state.storing += begin.elapsed().as_secs_f64();
@@ -82,7 +89,7 @@ fn make(
     plan: &Plan,
     todo: &[Job],
     threads: usize,
-    mut store: impl FnMut(Vec<Record>, Seconds) -> Result<(), DatabaseError>,
+    mut store: impl FnMut(Vec<Record>, Seconds) -> Result<ControlFlow<()>, DatabaseError>,
 ) -> Result<(), DatabaseError> {
     let next = AtomicUsize::new(0);
     let stop = AtomicBool::new(false);
@@ -100,8 +107,13 @@ fn make(
             });
         }
         drop(sender);
-        receiver.into_iter().try_for_each(|(records, seconds)| {
-            store(records, seconds).inspect_err(|_| stop.store(true, Ordering::Relaxed))
-        })
+        for (records, seconds) in receiver {
+            let stored = store(records, seconds);
+            if !matches!(stored, Ok(ControlFlow::Continue(()))) {
+                stop.store(true, Ordering::Relaxed);
+                return stored.map(|_| ());
+            }
+        }
+        Ok(())
     })
 }

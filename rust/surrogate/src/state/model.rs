@@ -4,7 +4,8 @@ use super::mean::MeanState;
 use super::rates::Rates;
 use super::readout::Readout;
 use super::variables::{ConductivityKind, FABRIC_INDEX, FeatureRanges, POROSITY, PRESSURE, Variables};
-use crate::kernel::Lanes;
+use crate::kernel::{LANES, Lanes};
+use crate::mechanics::Tangent;
 use crate::perceptron::Neurons;
 use crate::region::{Region, Spread};
 use crate::solid_fraction::SolidFraction;
@@ -119,6 +120,34 @@ impl Surrogate for StateModel {
 
     fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer {
         self.core.block(state, strain)
+    }
+
+    fn tangent(&self, state: &[f64; MAX_STATE]) -> Option<Tangent> {
+        let pressure = state[PRESSURE];
+        let deviator = self.core.variables.deviator().map_or(0.0, |column| state[column]);
+        let ratio = if pressure > 0.0 { deviator / pressure } else { 0.0 };
+        self.mechanics.as_ref().map(|law| law.tangent(pressure, ratio, state[POROSITY]))
+    }
+
+    fn deformed(&self, state: &StateLanes, strain: &[Lanes; 2]) -> StateLanes {
+        let variables = self.core.variables;
+        let mut next = *state;
+        for lane in 0..LANES {
+            let Some(t) = self.tangent(&state.map(|column| column[lane])) else { return next };
+            let [xx, yy] = strain.map(|column| column[lane]);
+            let [sxx, syy] = [t.c11 * xx + t.c12 * yy, t.c12 * xx + t.c22 * yy];
+            let pressure = (state[PRESSURE][lane] - 0.5 * (sxx + syy)).max(0.0);
+            next[PRESSURE][lane] = pressure;
+            next[POROSITY][lane] += t.porosity * (xx + yy);
+            next[FABRIC_INDEX][lane] += t.fabric_index * (xx - yy);
+            if let Some(column) = variables.fabric_conductivity() {
+                next[column][lane] += t.fabric_conductivity * (xx - yy);
+            }
+            if let Some(column) = variables.deviator() {
+                next[column][lane] = (state[column][lane] - 0.5 * (sxx - syy)).clamp(-pressure, pressure);
+            }
+        }
+        next
     }
 
     fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt> {

@@ -1,6 +1,7 @@
 use super::*;
 use crate::database::plan::RampName;
 use crate::database::{Plan, Run, generate, read};
+use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 const PLAN: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\
@@ -12,7 +13,8 @@ fn dataset() -> Dataset {
     let make = || {
         let path = std::env::temp_dir().join(format!("msdd-check-{}.msdd", std::process::id()));
         let _ = std::fs::remove_file(&path);
-        generate(&Plan::parse(PLAN, "plan").unwrap(), &path, &Run::default(), |_| ()).unwrap();
+        generate(&Plan::parse(PLAN, "plan").unwrap(), &path, &Run::default(), |_| ControlFlow::Continue(()))
+            .unwrap();
         let dataset = read(&path).unwrap();
         std::fs::remove_file(&path).unwrap();
         dataset

@@ -1,0 +1,272 @@
+//! Functions of `msdd.h` about surrogate models.
+
+use super::{sized, string, writable};
+use crate::abi::{msdd_batch, msdd_initial, msdd_material, msdd_surrogate};
+use crate::batch::{self, Columns};
+use crate::columns::{Input, Output};
+use crate::handles::SurrogateHandle;
+use crate::si::Si;
+use crate::status::{Failure, status, value};
+use ::msdd_surrogate::kernel::LANES;
+use ::msdd_surrogate::surrogate::Known;
+use ::msdd_surrogate::{Surrogate, models};
+use std::ffi::c_char;
+use std::ptr::null;
+
+/// `msdd_surrogate_load`
+///
+/// # Safety
+/// `source` is null or a C string; `out` is null or writable.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_load(source: *const c_char, out: *mut *mut msdd_surrogate) -> i32 {
+    status(|| {
+        let out = writable("out", out)?;
+        let source = match source.is_null() {
+            true => models::BUILTIN.to_string(),
+            // SAFETY: not null, a C string by this function's contract.
+            false => unsafe { string("source", source)? },
+        };
+        let handle = Box::into_raw(Box::new(SurrogateHandle::new(load(&source)?)));
+        // SAFETY: not null, writable by this function's contract.
+        unsafe { out.write(handle.cast()) };
+        Ok(())
+    })
+}
+
+fn load(source: &str) -> Result<Box<dyn Surrogate>, Failure> {
+    let failed = |error| Failure::Model { path: source.to_string(), error };
+    if source == models::BUILTIN || source.starts_with("builtin:") {
+        return models::builtin(source).map_err(failed);
+    }
+    let text =
+        std::fs::read_to_string(source).map_err(|error| Failure::File { path: source.to_string(), error })?;
+    models::read(&text).map_err(failed)
+}
+
+/// The model behind a handle.
+///
+/// # Safety
+/// `surrogate` is null or a live handle.
+unsafe fn handle<'a>(surrogate: *const msdd_surrogate) -> Option<&'a SurrogateHandle> {
+    // SAFETY: null or live by this function's contract; live handles come from `msdd_surrogate_load`.
+    unsafe { surrogate.cast::<SurrogateHandle>().as_ref() }
+}
+
+/// As [`handle`], for functions that need it.
+///
+/// # Safety
+/// As for [`handle`].
+unsafe fn model<'a>(surrogate: *const msdd_surrogate) -> Result<&'a dyn Surrogate, Failure> {
+    // SAFETY: passed on to the caller.
+    unsafe { handle(surrogate) }.map(|handle| &*handle.model).ok_or(Failure::Null("surrogate"))
+}
+
+/// `msdd_surrogate_hash`
+///
+/// # Safety
+/// `surrogate` is null or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_hash(surrogate: *const msdd_surrogate) -> *const c_char {
+    // SAFETY: null or live by this function's contract.
+    let handle = unsafe { handle(surrogate) };
+    value(null(), || handle.map_or(null(), |handle| handle.hash.as_ptr()))
+}
+
+/// `msdd_surrogate_describe`
+///
+/// # Safety
+/// `surrogate` is null or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_describe(surrogate: *const msdd_surrogate) -> *const c_char {
+    // SAFETY: null or live by this function's contract.
+    let handle = unsafe { handle(surrogate) };
+    value(null(), || handle.map_or(null(), |handle| handle.description.as_ptr()))
+}
+
+/// `msdd_surrogate_state_size`
+///
+/// # Safety
+/// `surrogate` is null or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_state_size(surrogate: *const msdd_surrogate) -> usize {
+    // SAFETY: null or live by this function's contract.
+    let handle = unsafe { handle(surrogate) };
+    value(0, || handle.map_or(0, |handle| handle.state_names.len()))
+}
+
+/// `msdd_surrogate_state_name`
+///
+/// # Safety
+/// `surrogate` is null or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_state_name(
+    surrogate: *const msdd_surrogate,
+    column: usize,
+) -> *const c_char {
+    // SAFETY: null or live by this function's contract.
+    let handle = unsafe { handle(surrogate) };
+    let name = || handle.and_then(|handle| handle.state_names.get(column));
+    value(null(), || name().map_or(null(), |name| name.as_ptr()))
+}
+
+/// `msdd_surrogate_has_tangent`
+///
+/// # Safety
+/// `surrogate` is null or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_has_tangent(surrogate: *const msdd_surrogate) -> i32 {
+    // SAFETY: null or live by this function's contract.
+    let handle = unsafe { handle(surrogate) };
+    value(0, || handle.map_or(0, |handle| i32::from(handle.model.mechanics().is_some())))
+}
+
+/// `msdd_surrogate_wall_friction`
+///
+/// # Safety
+/// `surrogate` is null or a live handle; `material` is null or points to its struct; the outputs are null or writable.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_wall_friction(
+    surrogate: *const msdd_surrogate,
+    material: *const msdd_material,
+    limit: *mut f64,
+    slip: *mut f64,
+) -> i32 {
+    status(|| {
+        // SAFETY: null or live, and null or pointing to its struct, by this function's contract.
+        let (model, material) = unsafe { (model(surrogate)?, sized("material", material)?) };
+        Si::new(&material)?;
+        let friction = model.wall_friction().ok_or_else(|| {
+            Failure::argument("surrogate", model.name(), "a model trained with slipping walls")
+        })?;
+        for (out, value) in [(limit, friction.limit), (slip, friction.slip * material.mean_radius)] {
+            if !out.is_null() {
+                // SAFETY: not null, writable by this function's contract.
+                unsafe { out.write(value) };
+            }
+        }
+        Ok(())
+    })
+}
+
+/// `msdd_surrogate_initial_state`
+///
+/// # Safety
+/// `surrogate` is null or a live handle; the structs' pointers are null or point to their struct; the columns are null or
+/// hold `cells` values; `state` is null or holds as many writable columns as the state has.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_initial_state(
+    surrogate: *const msdd_surrogate,
+    material: *const msdd_material,
+    initial: *const msdd_initial,
+    state: *const *mut f64,
+) -> i32 {
+    status(|| {
+        // SAFETY: null or live, and null or pointing to their structs, by this function's contract.
+        let (model, material, initial) =
+            unsafe { (model(surrogate)?, sized("material", material)?, sized("initial", initial)?) };
+        let (si, cells) = (Si::new(&material)?, initial.cells);
+        batch::check_length(cells)?;
+        let optional = |name, start: *const f64| match start.is_null() {
+            true => Ok(None),
+            // SAFETY: `cells` values by this function's contract.
+            false => unsafe { Input::new(name, start, cells) }.map(Some),
+        };
+        // SAFETY: null or `cells` values by this function's contract.
+        let (porosity, fabric_index) = unsafe {
+            (
+                Input::new("porosity", initial.porosity, cells)?,
+                Input::new("fabric_index", initial.fabric_index, cells)?,
+            )
+        };
+        let fabric_conductivity = optional("fabric_conductivity", initial.fabric_conductivity)?;
+        let stress = [optional("stress_xx", initial.stress_xx)?, optional("stress_yy", initial.stress_yy)?];
+        if stress[0].is_some() != stress[1].is_some() {
+            return Err(Failure::argument("stress_xx, stress_yy", "one of them", "both or none"));
+        }
+        let given = [Some(porosity), Some(fabric_index), fabric_conductivity, stress[0], stress[1]];
+        given.iter().flatten().try_for_each(Input::check_finite)?;
+        // SAFETY: writable columns by this function's contract.
+        let columns = unsafe { batch::outputs("state", state, model.state_names().len(), cells)? };
+        for cell in 0..cells {
+            let known = Known {
+                porosity: porosity.at(cell),
+                fabric_index: fabric_index.at(cell),
+                fabric_conductivity: fabric_conductivity.map(|column| column.at(cell)),
+                reduced_stress: match stress {
+                    [Some(xx), Some(yy)] => Some([xx, yy].map(|column| si.reduced(column.at(cell)))),
+                    _ => None,
+                },
+            };
+            for (column, value) in columns.iter().zip(model.initial_state(&known)) {
+                column.write_one(cell, value);
+            }
+        }
+        Ok(())
+    })
+}
+
+/// `msdd_surrogate_advance`
+///
+/// # Safety
+/// `surrogate` is null or a live handle; the others are null or point to their struct (to its `struct_size` at least);
+/// the batch's columns are null or hold `cells` values, those of outputs writable by this thread alone.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_advance(
+    surrogate: *const msdd_surrogate,
+    material: *const msdd_material,
+    batch: *mut msdd_batch,
+) -> i32 {
+    status(|| {
+        // SAFETY: null or live, and null or pointing to their structs, by this function's contract.
+        let (model, material, given) =
+            unsafe { (model(surrogate)?, sized("material", material)?, sized("batch", batch.cast_const())?) };
+        // SAFETY: the columns are as this function's contract says.
+        let columns = unsafe { Columns::new(model, &given)? };
+        let clamped_cells = columns.advance(model, &Si::new(&material)?)?;
+        // SAFETY: not null, and of full size, as checked.
+        unsafe { (*batch).clamped_cells = clamped_cells };
+        Ok(())
+    })
+}
+
+/// `msdd_surrogate_solid_fraction`
+///
+/// # Safety
+/// `surrogate` is null or a live handle; the columns are null or hold `cells` values, the output's writable by this
+/// thread alone.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_solid_fraction(
+    surrogate: *const msdd_surrogate,
+    cells: usize,
+    porosity: *const f64,
+    solid_fraction: *mut f64,
+) -> i32 {
+    status(|| {
+        // SAFETY: null or live by this function's contract.
+        let model = unsafe { model(surrogate)? };
+        batch::check_length(cells)?;
+        // SAFETY: null or `cells` values by this function's contract.
+        let (input, output) =
+            unsafe { (Input::new("porosity", porosity, cells)?, Output::new(solid_fraction, cells)) };
+        if solid_fraction.is_null() && cells > 0 {
+            return Err(Failure::Null("solid_fraction"));
+        }
+        input.check_finite()?;
+        for first in (0..cells).step_by(LANES) {
+            output.write(first, &input.lanes(first).map(|porosity| model.solid_fraction(porosity)));
+        }
+        Ok(())
+    })
+}
+
+/// `msdd_surrogate_free`
+///
+/// # Safety
+/// `surrogate` is null or a live handle, which nobody uses from now on.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_free(surrogate: *mut msdd_surrogate) {
+    if !surrogate.is_null() {
+        // SAFETY: made by `Box::into_raw` in `msdd_surrogate_load`, and freed once, by this function's contract.
+        value((), || drop(unsafe { Box::from_raw(surrogate.cast::<SurrogateHandle>()) }));
+    }
+}

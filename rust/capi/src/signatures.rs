@@ -1,0 +1,44 @@
+//! The header's declarations and our functions have the same types, or this does not compile.
+
+use crate::{abi, exports};
+
+macro_rules! same {
+    ($($name:ident($($argument:ty),*) $(-> $result:ty)?;)*) => {
+        /// Number of functions in the header, and by its type-checking the proof that each is exported as declared.
+        #[cfg(test)]
+        pub(crate) const FUNCTIONS: &[&str] = &[$(stringify!($name)),*];
+        const _: () = {
+            $(const _: [unsafe extern "C" fn($($argument),*) $(-> $result)?; 2] = [abi::$name, exports::$name];)*
+        };
+    };
+}
+
+use abi::{msdd_averages, msdd_batch, msdd_initial, msdd_material, msdd_progress, msdd_rve, msdd_surrogate};
+use std::ffi::{c_char, c_void};
+
+same! {
+    msdd_abi_version() -> u32;
+    msdd_version() -> *const c_char;
+    msdd_last_error() -> *const c_char;
+    msdd_text_free(*mut c_char);
+    msdd_surrogate_load(*const c_char, *mut *mut msdd_surrogate) -> i32;
+    msdd_surrogate_hash(*const msdd_surrogate) -> *const c_char;
+    msdd_surrogate_describe(*const msdd_surrogate) -> *const c_char;
+    msdd_surrogate_state_size(*const msdd_surrogate) -> usize;
+    msdd_surrogate_state_name(*const msdd_surrogate, usize) -> *const c_char;
+    msdd_surrogate_has_tangent(*const msdd_surrogate) -> i32;
+    msdd_surrogate_wall_friction(*const msdd_surrogate, *const msdd_material, *mut f64, *mut f64) -> i32;
+    msdd_surrogate_initial_state(*const msdd_surrogate, *const msdd_material, *const msdd_initial, *const *mut f64) -> i32;
+    msdd_surrogate_advance(*const msdd_surrogate, *const msdd_material, *mut msdd_batch) -> i32;
+    msdd_surrogate_solid_fraction(*const msdd_surrogate, usize, *const f64, *mut f64) -> i32;
+    msdd_surrogate_free(*mut msdd_surrogate);
+    msdd_rve_pack(*const c_char, *mut *mut msdd_rve) -> i32;
+    msdd_rve_from_json(*const c_char, *mut *mut msdd_rve) -> i32;
+    msdd_rve_to_json(*const msdd_rve, *mut *mut c_char) -> i32;
+    msdd_rve_clone(*const msdd_rve, *mut *mut msdd_rve) -> i32;
+    msdd_rve_strain(*mut msdd_rve, f64, f64, f64, f64, *mut i32) -> i32;
+    msdd_rve_homogenise(*const msdd_rve, *mut msdd_averages) -> i32;
+    msdd_rve_free(*mut msdd_rve);
+    msdd_database_generate(*const c_char, *const c_char, u32, msdd_progress, *mut c_void) -> i32;
+    msdd_database_export_csv(*const c_char, *const c_char, *mut u64) -> i32;
+}
