@@ -66,12 +66,14 @@ impl RunSpec {
     }
 }
 
+/// Sees the state whenever a profile is taken, with the times of the profiles so far [s].
+pub type OnProfile<'a> = &'a mut dyn FnMut(&[f64], &Simulation) -> Result<(), ReferenceError>;
+
 /// Who watches a run.
 pub struct Watch<'a> {
     /// Hears the simulated time [s] now and then.
     pub progress: &'a mut dyn FnMut(f64),
-    /// Sees the state whenever a profile is taken, with the times of the profiles so far [s].
-    pub profile: &'a mut dyn FnMut(&[f64], &Simulation) -> Result<(), ReferenceError>,
+    pub profile: OnProfile<'a>,
     /// Writes a checkpoint's text beside and renames it.
     pub save: &'a mut dyn FnMut(&str) -> Result<(), ReferenceError>,
 }
