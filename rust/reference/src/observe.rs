@@ -6,8 +6,9 @@
 use crate::model::SUB_REGIONS;
 use crate::results::Table;
 use msdd_dem::{Side, Simulation};
+use msdd_rve::network::Network;
 use msdd_rve::region::whole_box;
-use msdd_rve::{Averages, Cut, homogenise_in, windows};
+use msdd_rve::{Averages, Cut, homogenise_affine_in, windows};
 
 /// Side of the window around a probe [m].
 const PROBE_WINDOW: f64 = 0.04;
@@ -26,7 +27,7 @@ pub fn series_columns(probes: usize) -> Vec<String> {
     names.push("T_mean".to_string());
     let averages = ["porosity", "fabric_index", "pressure", "stress_xx", "stress_yy", "stress_xy"];
     names.extend(averages.map(str::to_string));
-    names.extend(CONDUCTIVITIES.map(str::to_string));
+    names.extend(["conductivity_xx", "conductivity_yy"].map(str::to_string));
     for quantity in ["normal_force", "tangential_force", "mobilised_friction", "heat"] {
         names.extend(WALL_NAMES.map(|wall| format!("{quantity}_{wall}")));
     }
@@ -41,12 +42,12 @@ pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]]) -> Vec<f64> {
         let corner = |side: f64| at.map(|x| x + side * 0.5 * PROBE_WINDOW);
         mean_temperature(simulation, corner(-1.0), corner(1.0))
     }));
-    let whole = homogenise_in(simulation, &whole_box(simulation), Cut::Clip);
+    let whole = homogenise_affine_in(simulation, &whole_box(simulation), Cut::Clip);
     let [left, right, bottom, top] = simulation.walls.position;
     row.push(mean_temperature(simulation, [left, bottom], [right, top]));
     row.extend([whole.porosity, whole.fabric_index, whole.pressure]);
     row.extend([whole.stress_xx, whole.stress_yy, shear_stress(&whole)]);
-    row.extend(conductivities(&whole));
+    row.extend([whole.conductivity_xx, whole.conductivity_yy]);
     let walls = wall_loads(simulation);
     row.extend(walls.map(|load| load.normal));
     row.extend(walls.map(|load| load.tangential));
@@ -58,6 +59,19 @@ pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]]) -> Vec<f64> {
 /// σ_xy, the mean of the two that Love's formula has.
 pub fn shear_stress(averages: &Averages) -> f64 {
     0.5 * (averages.stress_xy + averages.stress_yx)
+}
+
+/// An empty table of the box's conductivity by the solved network, which is too dear for each line of the series.
+pub fn network_table() -> Table {
+    let columns = ["time", "conductivity_network_xx", "conductivity_network_yy"];
+    Table::new(columns.map(str::to_string).to_vec())
+}
+
+/// Adds the present K/k.
+pub fn add_network(table: &mut Table, simulation: &Simulation) {
+    let region = whole_box(simulation);
+    let [xx, yy, _] = Network::of_region(simulation, &region, Cut::Clip).conductivity(region.area());
+    table.push(vec![simulation.time, xx, yy]);
 }
 
 fn conductivities(a: &Averages) -> [f64; 4] {
