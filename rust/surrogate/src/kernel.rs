@@ -51,6 +51,20 @@ macro_rules! dispatch {
     };
 }
 
+/// Instruction set that the kernels take on this machine: "avx512", "avx2" or "scalar".
+pub fn simd() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+            return "avx512";
+        }
+        if is_x86_feature_detected!("avx2") {
+            return "avx2";
+        }
+    }
+    "scalar"
+}
+
 dispatch! {
     /// Runs a [`crate::perceptron::Perceptron`] on the inputs in layer 0; leaves all neurons' values.
     pub fn forward(sizes: &[usize], weights: &[f64], neurons: &mut Neurons) = forward_portable

@@ -168,13 +168,13 @@ fn there_and_back(model: &dyn Surrogate, ramps: &[Ramp], strain: f64, increments
         let still = model.block(&start, &[0.0; LANES]);
         let there = composed(block, &start, &[strain; LANES], increments);
         let back = composed(block, &there.state, &[-strain / (1.0 + strain); LANES], increments);
-        for lane in 0..chunk.len() {
+        for (lane, porosity) in start[0].iter().enumerate().take(chunk.len()) {
             let pressure = |a: &crate::surrogate::Answer| a.stress[0][lane] + a.stress[1][lane];
             let mean = |a: &crate::surrogate::Answer| a.conductivity[0][lane] + a.conductivity[1][lane];
             let values = [
                 [pressure(&back) - pressure(&still), pressure(&still)],
                 [mean(&back) - mean(&still), mean(&still)],
-                [back.state[0][lane] - start[0][lane], 1.0],
+                [back.state[0][lane] - porosity, 1.0],
             ];
             for (sum, value) in sums.iter_mut().zip(values) {
                 sum[0] += value[0] * value[0];
@@ -196,7 +196,7 @@ fn floor(model: &dyn Surrogate, ramps: &[Ramp], strain: f64) -> Floor {
     let columns = model.state_names();
     let paths = composition::paths(ramps, strain);
     let ends = composition::ends(model, &paths, FLOOR_INCREMENTS);
-    let (mut samples, mut squares): ([Vec<(i64, Vec<f64>, f64)>; 5], [f64; 5]) = Default::default();
+    let (mut samples, mut squares): ([Vec<noise::Sample>; 5], [f64; 5]) = Default::default();
     for (path, [data, predicted]) in paths.iter().zip(&ends) {
         let state = state_of(model, path.from);
         for (sign, quantities) in [(1.0, [0, 2, 4, 5, 6]), (-1.0, [1, 3, 4, 5, 6])] {
@@ -233,7 +233,7 @@ fn coordinate(name: &str, value: f64, sign: f64, state: &[f64]) -> f64 {
 }
 
 /// Coordinates over their standard deviation.
-fn scaled(samples: &[(i64, Vec<f64>, f64)]) -> Vec<(i64, Vec<f64>, f64)> {
+fn scaled(samples: &[noise::Sample]) -> Vec<noise::Sample> {
     let Some((_, first, _)) = samples.first() else { return Vec::new() };
     let count = samples.len() as f64;
     let scale: Vec<(f64, f64)> = (0..first.len())

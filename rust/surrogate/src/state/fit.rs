@@ -25,10 +25,16 @@ pub struct Sample {
     pub residuals: Vec<Residual>,
 }
 
+/// Eight samples: scaled inputs, and residuals with their lanes.
+struct Octet {
+    inputs: Vec<Lanes>,
+    residuals: Vec<(usize, Residual)>,
+}
+
 /// The fit of one network to samples.
 pub struct PerceptronFit {
     sizes: Vec<usize>,
-    octets: Vec<(Vec<Lanes>, Vec<(usize, Residual)>)>,
+    octets: Vec<Octet>,
     residuals: f64,
     threads: usize,
 }
@@ -45,7 +51,7 @@ impl PerceptronFit {
             let inputs = (0..sizes[0]).map(|k| std::array::from_fn(|lane| lane_of(lane).inputs[k])).collect();
             let residuals = chunk.iter().enumerate();
             let residuals = residuals.flat_map(|(lane, s)| s.residuals.iter().map(move |r| (lane, *r)));
-            (inputs, residuals.collect())
+            Octet { inputs, residuals: residuals.collect() }
         };
         let residuals = samples.iter().map(|sample| sample.residuals.len()).sum::<usize>().max(1) as f64;
         let octets = samples.chunks(LANES).map(octet).collect();
@@ -87,10 +93,10 @@ impl PerceptronFit {
     }
 
     /// Σ r² of some octets.
-    fn sum_of_squares(network: &Perceptron, octets: &[(Vec<Lanes>, Vec<(usize, Residual)>)]) -> f64 {
+    fn sum_of_squares(network: &Perceptron, octets: &[Octet]) -> f64 {
         let mut neurons = Neurons::new();
         let mut sum = 0.0;
-        for (inputs, residuals) in octets {
+        for Octet { inputs, residuals } in octets {
             neurons.layers[0][..inputs.len()].copy_from_slice(inputs);
             let last = network.run(&mut neurons);
             for (lane, residual) in residuals {
@@ -102,13 +108,13 @@ impl PerceptronFit {
     }
 
     /// Lower triangle of (J | r)ᵀ (J | r) of some octets.
-    fn products(network: &Perceptron, octets: &[(Vec<Lanes>, Vec<(usize, Residual)>)]) -> Vec<f64> {
+    fn products(network: &Perceptron, octets: &[Octet]) -> Vec<f64> {
         let weights = network.weights.len();
         let width = Self::width(weights);
         let mut matrix = vec![0.0; width * width];
         let mut rows = vec![0.0; BATCH * width];
         let (mut neurons, mut filled) = (Neurons::new(), 0);
-        for (inputs, residuals) in octets {
+        for Octet { inputs, residuals } in octets {
             neurons.layers[0][..inputs.len()].copy_from_slice(inputs);
             let last = network.run(&mut neurons);
             for (lane, residual) in residuals {
@@ -133,7 +139,7 @@ impl PerceptronFit {
     }
 
     /// The parts' results, in order.
-    fn by_part<T: Send>(&self, work: impl Fn(&[(Vec<Lanes>, Vec<(usize, Residual)>)]) -> T + Sync) -> Vec<T> {
+    fn by_part<T: Send>(&self, work: impl Fn(&[Octet]) -> T + Sync) -> Vec<T> {
         let length = self.octets.len().div_ceil(PARTS).max(1);
         let parts: Vec<_> = self.octets.chunks(length).collect();
         let share = parts.len().div_ceil(self.threads).max(1);
