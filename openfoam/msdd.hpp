@@ -57,12 +57,37 @@ inline void check(std::int32_t status)
     }
 }
 
+/** Throws when the library is of another interface than the header. */
+inline void checkVersion()
+{
+    const std::uint32_t found = msdd_abi_version();
+    if (found != MSDD_ABI_VERSION)
+    {
+        throw Error
+        (
+            MSDD_INVALID_ARGUMENT,
+            "libmsdd has interface version " + std::to_string(found) + ", msdd.h has "
+          + std::to_string(MSDD_ABI_VERSION) + ": rebuild both from the same source"
+        );
+    }
+}
+
 struct Free
 {
     void operator()(msdd_surrogate* surrogate) const noexcept
     {
         const MaskedTraps masked;
         msdd_surrogate_free(surrogate);
+    }
+    void operator()(msdd_rve* rve) const noexcept
+    {
+        const MaskedTraps masked;
+        msdd_rve_free(rve);
+    }
+    void operator()(char* text) const noexcept
+    {
+        const MaskedTraps masked;
+        msdd_text_free(text);
     }
 };
 
@@ -98,35 +123,63 @@ inline std::string version()
     return msdd_version();
 }
 
+/** What is known of so many cells at the start, with its size filled in; set the columns by name. */
+inline msdd_initial initial(std::size_t cells) noexcept
+{
+    msdd_initial result = msdd_initial();
+    result.struct_size = sizeof(msdd_initial);
+    result.cells = cells;
+    return result;
+}
+
 /** A surrogate model: immutable, movable, not copyable. */
 class Surrogate
 {
 public:
-    /** Loads a model: "builtin", or the path of a model file. Throws Error. */
+    /** Loads a model: "builtin", "builtin:paper", or the path of a model file. Throws Error. */
     explicit Surrogate(const std::string& source = "builtin")
     {
         const detail::MaskedTraps masked;
-        const std::uint32_t found = msdd_abi_version();
-        if (found != MSDD_ABI_VERSION)
-        {
-            throw Error
-            (
-                MSDD_INVALID_ARGUMENT,
-                "libmsdd has interface version " + std::to_string(found) + ", msdd.h has "
-              + std::to_string(MSDD_ABI_VERSION) + ": rebuild both from the same source"
-            );
-        }
+        detail::checkVersion();
         msdd_surrogate* handle = nullptr;
         detail::check(msdd_surrogate_load(source.c_str(), &handle));
         handle_.reset(handle);
     }
 
-    /** Algorithm 1, steps 1 and 2, for every cell of the batch; fills its outputs. Throws Error, and then has written
-     *  nothing. */
-    void evaluate(const msdd_material& material, msdd_batch& batch) const
+    /** Number of state columns; 0 after a move. */
+    std::size_t stateSize() const
     {
         const detail::MaskedTraps masked;
-        detail::check(msdd_surrogate_evaluate(handle_.get(), &material, &batch));
+        return msdd_surrogate_state_size(handle_.get());
+    }
+
+    /** Name of a state column, for example "porosity"; empty beyond the last. */
+    std::string stateName(std::size_t column) const
+    {
+        const detail::MaskedTraps masked;
+        return text(msdd_surrogate_state_name(handle_.get(), column));
+    }
+
+    /** State columns of cells at the start. Throws Error. */
+    void initialState(const msdd_material& material, const msdd_initial& initial, double* const* state) const
+    {
+        const detail::MaskedTraps masked;
+        detail::check(msdd_surrogate_initial_state(handle_.get(), &material, &initial, state));
+    }
+
+    /** Algorithm 1, steps 1 and 2, for every cell of the batch; fills its outputs. Throws Error, and then has written
+     *  nothing. */
+    void advance(const msdd_material& material, msdd_batch& batch) const
+    {
+        const detail::MaskedTraps masked;
+        detail::check(msdd_surrogate_advance(handle_.get(), &material, &batch));
+    }
+
+    /** Whether the model has a mechanical tangent. */
+    bool hasTangent() const
+    {
+        const detail::MaskedTraps masked;
+        return msdd_surrogate_has_tangent(handle_.get()) != 0;
     }
 
     /** Solid fractions, overlaps counted twice [-], of initial states of the given porosities. Throws Error. */
@@ -154,6 +207,74 @@ private:
     static std::string text(const char* pointer) { return pointer ? pointer : ""; }
 
     std::unique_ptr<msdd_surrogate, detail::Free> handle_;
+};
+
+/** A box of grains, simulated by discrete elements: movable, not copyable but by clone. One thread at a time. */
+class Rve
+{
+public:
+    /** Packs by a specification, a JSON object; see msdd_rve_pack. Throws Error. */
+    static Rve pack(const std::string& specification = "{}")
+    {
+        const detail::MaskedTraps masked;
+        detail::checkVersion();
+        msdd_rve* handle = nullptr;
+        detail::check(msdd_rve_pack(specification.c_str(), &handle));
+        return Rve(handle);
+    }
+
+    /** Reads the text of a state file. Throws Error. */
+    static Rve fromJson(const std::string& text)
+    {
+        const detail::MaskedTraps masked;
+        detail::checkVersion();
+        msdd_rve* handle = nullptr;
+        detail::check(msdd_rve_from_json(text.c_str(), &handle));
+        return Rve(handle);
+    }
+
+    /** Text of a state file. Throws Error. */
+    std::string toJson() const
+    {
+        const detail::MaskedTraps masked;
+        char* text = nullptr;
+        detail::check(msdd_rve_to_json(handle_.get(), &text));
+        const std::unique_ptr<char, detail::Free> owner(text);
+        return text;
+    }
+
+    Rve clone() const
+    {
+        const detail::MaskedTraps masked;
+        msdd_rve* handle = nullptr;
+        detail::check(msdd_rve_clone(handle_.get(), &handle));
+        return Rve(handle);
+    }
+
+    /** Strains relative to the present state and relaxes; returns one of enum msdd_outcome. Throws Error, and then the
+     *  box is as before. */
+    std::int32_t strain(double thermal, double xx = 0, double yy = 0, double xy = 0)
+    {
+        const detail::MaskedTraps masked;
+        std::int32_t outcome = MSDD_SETTLED;
+        detail::check(msdd_rve_strain(handle_.get(), thermal, xx, yy, xy, &outcome));
+        return outcome;
+    }
+
+    /** Averages over the averaging region. Throws Error. */
+    msdd_averages homogenise() const
+    {
+        const detail::MaskedTraps masked;
+        msdd_averages result = msdd_averages();
+        result.struct_size = sizeof(msdd_averages);
+        detail::check(msdd_rve_homogenise(handle_.get(), &result));
+        return result;
+    }
+
+private:
+    explicit Rve(msdd_rve* handle) : handle_(handle) {}
+
+    std::unique_ptr<msdd_rve, detail::Free> handle_;
 };
 
 } // namespace msdd

@@ -1,104 +1,100 @@
-//! Rows of a database as the surrogate's training data. Columns are taken by name, so that databases of an older schema,
-//! which lack some, do as well.
+//! Rows of a database as the surrogate's training data.
 
-use msdd_rve::database::Record;
+use msdd_rve::database::{Kind, RampName, Record};
 use msdd_surrogate::StateRow;
 use msdd_surrogate::mechanics::WallStrain;
 use msdd_surrogate::models::TrainingData;
 use msdd_surrogate::state::training::Mechanical;
 use msdd_surrogate::state::variables::stress_ratio;
 use msdd_surrogate::wall_friction::WallSlip;
-use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// What training can use: all but failures.
 pub fn training_data(records: &[Record]) -> TrainingData {
-    let records: Vec<(&Record, Value)> = records.iter().map(|r| (r, serde_json::json!(r))).collect();
-    let kind = |fields: &Value| fields["kind"].as_str().unwrap_or("thermal").to_string();
-    let of = |wanted: &str| records.iter().filter(|(_, f)| kind(f) == wanted).collect::<Vec<_>>();
-    let thermal = of("thermal");
+    let of = |kind: Kind| records.iter().filter(move |r| r.kind == kind).collect::<Vec<_>>();
     TrainingData {
-        rows: thermal_rows(&thermal),
+        rows: thermal_rows(&of(Kind::Thermal)),
         mechanical: Mechanical {
-            wall_strains: wall_strains(&of("mechanics"), &thermal),
-            wall_slips: of("wall_shear").into_iter().filter_map(wall_slip).collect(),
+            wall_strains: wall_strains(&of(Kind::Mechanics)),
+            wall_slips: of(Kind::WallShear).into_iter().filter_map(wall_slip).collect(),
         },
     }
 }
 
 /// Stresses become dimensionless, σ ℓ/(E r̄) with ℓ = 1 m and the current r̄; the solid fraction is that of the averaging
-/// region.
-fn state_row((record, fields): &(&Record, Value), ramp: &str, stop: i64) -> Option<StateRow> {
-    let scale = record.young_modulus * record.mean_radius?;
-    let network = |key: &str| fields[key].as_f64();
+/// region. `None` for a stop that was not reached.
+fn state_row(record: &Record, ramp: RampName, stop: i64) -> Option<StateRow> {
+    let network = [record.conductivity_network_xx, record.conductivity_network_yy];
     Some(StateRow {
         packing: record.packing,
-        ramp: ramp.to_string(),
+        ramp: ramp.as_str().to_string(),
         stop,
         strain: record.strain,
         porosity: record.porosity?,
         fabric_index: record.fabric_index?,
         conductivity_xx: record.conductivity_xx?,
         conductivity_yy: record.conductivity_yy?,
-        conductivity_network: network("conductivity_network_xx")
-            .and_then(|xx| Some([xx, network("conductivity_network_yy")?])),
-        stress_xx: record.stress_xx? / scale,
-        stress_yy: record.stress_yy? / scale,
+        conductivity_network: network[0].zip(network[1]).map(|(xx, yy)| [xx, yy]),
+        stress_xx: record.stress_xx_reduced?,
+        stress_yy: record.stress_yy_reduced?,
         porosity_sum_of_areas: record.porosity? - record.overlap_fraction?,
-        load_bearing: record.outcome != "unjammed",
+        load_bearing: record.bears_load(),
     })
 }
 
 /// The packed state is stop 0 of the ramps that start from it; a reversed ramp starts from the end of the other.
-fn thermal_rows(records: &[&(&Record, Value)]) -> Vec<StateRow> {
+fn thermal_rows(records: &[&Record]) -> Vec<StateRow> {
     let mut rows = Vec::new();
-    let mut last: BTreeMap<(i64, &str), &(&Record, Value)> = BTreeMap::new();
-    for entry in records {
-        let record = entry.0;
-        let key = (record.packing, record.ramp.as_str());
-        if last.get(&key).is_none_or(|other| other.0.stop < record.stop) {
-            last.insert(key, entry);
+    let mut last: BTreeMap<(i64, RampName), &Record> = BTreeMap::new();
+    for &record in records {
+        let key = (record.packing, record.ramp);
+        if last.get(&key).is_none_or(|other| other.stop < record.stop) {
+            last.insert(key, record);
         }
-        match record.ramp.as_str() {
-            "packed" => rows.extend(["up", "down"].iter().filter_map(|ramp| state_row(entry, ramp, 0))),
-            ramp => rows.extend(state_row(entry, ramp, record.stop)),
+        match record.ramp {
+            RampName::Packed => {
+                rows.extend([RampName::Up, RampName::Down].iter().filter_map(|r| state_row(record, *r, 0)));
+            }
+            ramp => rows.extend(state_row(record, ramp, record.stop)),
         }
     }
-    for (reversed, parent) in [("up_down", "up"), ("down_up", "down")] {
+    for (reversed, parent) in [(RampName::UpDown, RampName::Up), (RampName::DownUp, RampName::Down)] {
         let turned: Vec<i64> = last.keys().filter(|(_, ramp)| *ramp == reversed).map(|(p, _)| *p).collect();
         for packing in turned {
-            let turn = last.get(&(packing, parent)).and_then(|entry| state_row(entry, reversed, -1));
+            let turn = last.get(&(packing, parent)).and_then(|record| state_row(record, reversed, -1));
             rows.extend(turn);
         }
     }
     rows
 }
 
-/// A state and the strains ε_xx, ε_yy of the box.
-type Strained = (StateRow, [f64; 2]);
+/// Neighbouring stops of the ramps along x and y, the packed state between closing and opening, boxes with walls and
+/// periodic ones alike. Shear (xy) is left out: the tangent takes its modulus as (c11 − c12)/2.
+fn wall_strains(mechanics: &[&Record]) -> Vec<WallStrain> {
+    let mut ramps: BTreeMap<(i64, RampName), Vec<&Record>> = BTreeMap::new();
+    for record in mechanics.iter().filter(|r| matches!(r.ramp, RampName::Xx | RampName::Yy)) {
+        ramps.entry((record.packing, record.ramp)).or_default().push(record);
+    }
+    for packed in mechanics.iter().filter(|r| r.ramp == RampName::Packed) {
+        for ramp in [RampName::Xx, RampName::Yy] {
+            ramps.entry((packed.packing, ramp)).or_default().push(packed);
+        }
+    }
+    let mut samples = Vec::new();
+    for ramp in ramps.values_mut() {
+        ramp.sort_by_key(|record| record.stop);
+        samples.extend(ramp.windows(2).filter_map(|pair| wall_strain(pair[0], pair[1])));
+    }
+    samples
+}
 
-/// Neighbouring stops of the wall-strain ramps. Each starts from the packed state.
-fn wall_strains(mechanics: &[&(&Record, Value)], thermal: &[&(&Record, Value)]) -> Vec<WallStrain> {
-    let strain =
-        |fields: &Value| [&fields["strain_xx"], &fields["strain_yy"]].map(|v| v.as_f64().unwrap_or(0.0));
-    let mut ramps: BTreeMap<(i64, &str), Vec<Strained>> = BTreeMap::new();
-    for entry in mechanics {
-        if let Some(row) = state_row(entry, entry.0.ramp.as_str(), entry.0.stop) {
-            ramps.entry((entry.0.packing, entry.0.ramp.as_str())).or_default().push((row, strain(&entry.1)));
-        }
+/// Differences between two stops next to each other; `None` when one was not reached.
+fn wall_strain(a: &Record, b: &Record) -> Option<WallStrain> {
+    if a.stop + 1 != b.stop {
+        return None;
     }
-    for ((packing, _), ramp) in &mut ramps {
-        if ramp.iter().all(|(row, _)| row.stop != 0) {
-            let packed = thermal
-                .iter()
-                .chain(mechanics)
-                .find(|e| e.0.packing == *packing && e.0.ramp.as_str() == "packed");
-            ramp.extend(packed.and_then(|entry| Some((state_row(entry, "packed", 0)?, [0.0; 2]))));
-        }
-        ramp.sort_by_key(|(row, _)| row.stop);
-    }
-    let sample = |pair: &[(StateRow, [f64; 2])]| between(&pair[0], &pair[1]);
-    ramps.values().flat_map(|ramp| ramp.windows(2).filter_map(sample)).collect()
+    let state = |record: &Record| state_row(record, record.ramp, record.stop);
+    between(&(state(a)?, [a.strain_xx, a.strain_yy]), &(state(b)?, [b.strain_xx, b.strain_yy]))
 }
 
 fn between((a, strain_a): &(StateRow, [f64; 2]), (b, strain_b): &(StateRow, [f64; 2])) -> Option<WallStrain> {
@@ -126,7 +122,7 @@ fn between((a, strain_a): &(StateRow, [f64; 2]), (b, strain_b): &(StateRow, [f64
     })
 }
 
-fn wall_slip((record, fields): &(&Record, Value)) -> Option<WallSlip> {
-    let slip = fields["wall_slip"].as_f64()?.abs() / record.mean_radius?;
-    Some(WallSlip { slip, friction: fields["wall_friction"].as_f64()?.abs() })
+fn wall_slip(record: &Record) -> Option<WallSlip> {
+    let slip = record.wall_slip.abs() / record.mean_radius?;
+    Some(WallSlip { slip, friction: record.wall_friction?.abs() })
 }

@@ -18,6 +18,7 @@ pub struct Records {
     pub series: Table,
     pub sub_regions_start: Table,
     pub profiles: Table,
+    pub network: Table,
 }
 
 /// Where a run stands.

@@ -2,14 +2,16 @@
 
 use crate::ReferenceError;
 use crate::observe::shear_stress;
-use crate::window::{corners_around, window};
 use msdd_dem::Simulation;
-use msdd_rve::Averages;
+use msdd_rve::window::crop;
+use msdd_rve::{Averages, window_around};
 use rayon::prelude::*;
 use std::fmt::Write;
 
 /// Side of a window [m]: about 500 discs (section 3.2.1).
 pub const WINDOW: f64 = 0.215;
+/// Height of a band of the box [m].
+const BAND: f64 = 0.05;
 
 /// Averages around each of the centres [m], on `threads` threads; results do not depend on them.
 ///
@@ -28,11 +30,25 @@ pub fn around(
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build();
     let pool = pool.map_err(std::io::Error::other)?;
+    let bands = bands(simulation);
     let average = |&centre: &[f64; 2]| {
-        let (low, high) = corners_around(simulation, centre, WINDOW);
-        window(simulation, low, high)
+        let band = (((centre[1] - bottom) / BAND) as usize).min(bands.len() - 1);
+        window_around(&bands[band], centre, WINDOW).averages
     };
     Ok(pool.install(|| centres.par_iter().map(average).collect()))
+}
+
+/// The box in overlapping bands, each with all that windows around its centres depend on, so that a window passes over
+/// few discs.
+fn bands(simulation: &Simulation) -> Vec<Simulation> {
+    let [left, right, bottom, top] = simulation.walls.position;
+    let count = ((top - bottom) / BAND).ceil() as usize;
+    let band = |k: usize| {
+        // A window at a wall is shifted inside by up to half of its side.
+        let (low, high) = (bottom + k as f64 * BAND - WINDOW, bottom + (k + 1) as f64 * BAND + WINDOW);
+        crop(simulation, [left, low], [right, high])
+    };
+    (0..count).map(band).collect()
 }
 
 /// The field files: name and text. `note` says where they come from.
@@ -77,4 +93,48 @@ fn field(
     }
     text + ");\nboundaryField\n{\n    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\"\n    {\n        \
             type    zeroGradient;\n    }\n}\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use msdd_dem::{Disc, Material, Walls};
+
+    /// Overlapping discs, no two rows alike, in a box of several bands.
+    fn heap() -> Simulation {
+        let disc = |k: u32| {
+            let (x, y) = (f64::from(k % 40), f64::from(k / 40));
+            let (dx, dy) = (0.1 * (y * 3.7).sin(), 0.1 * (x * 2.3).cos());
+            Disc::at_rest(0.01 * (0.5 + x + dx), 0.01 * (0.5 + y + dy), 5.8e-3, 1.0)
+        };
+        Simulation::new(Material::default(), (0..1600).map(disc).collect(), Walls::around(0.4, 0.4))
+    }
+
+    #[test]
+    fn a_window_of_a_band_is_that_of_the_whole() {
+        let heap = heap();
+        let centres = [[0.01, 0.01], [0.2, 0.149], [0.3, 0.21], [0.39, 0.399]];
+        for (centre, found) in centres.iter().zip(around(&heap, &centres, 2).unwrap()) {
+            let whole = window_around(&heap, *centre, WINDOW).averages;
+            assert_eq!(found, whole, "{centre:?}");
+        }
+        let error = around(&heap, &[[0.5, 0.1]], 1).unwrap_err().to_string();
+        assert!(error.contains("cell centre = [0.5, 0.1] m"), "{error}");
+    }
+
+    #[test]
+    fn stress_is_written_tension_positive() {
+        let heap = heap();
+        let averages = around(&heap, &[[0.2, 0.2]], 1).unwrap();
+        let files = files(&averages, "note");
+        let text = &files.iter().find(|file| file.0 == "stress").unwrap().1;
+        let line = text.lines().skip_while(|line| *line != "(").nth(1).unwrap();
+        let values: Vec<f64> =
+            line.trim_matches(['(', ')']).split(' ').map(|word| word.parse().unwrap()).collect();
+        assert!(averages[0].stress_xx > 0.0, "the heap is compressed");
+        assert!(
+            (values[0] + averages[0].stress_xx).abs() < 0.01
+                && (values[3] + averages[0].stress_yy).abs() < 0.01
+        );
+    }
 }

@@ -6,7 +6,6 @@
 //! | [`case`] | material, temperatures, box and times of a case folder |
 //! | [`mesh`] | cell centres of a case's mesh |
 //! | [`model`] | the packed initial model and its statistics |
-//! | [`window`] | averages over rectangles of it |
 //! | [`mod@observe`] | what is recorded of a state: series, sub-regions, profiles |
 //! | [`run`](mod@run) | heat, expansion and motion to the end time |
 //! | [`checkpoint`] | what a killed run continues from |
@@ -23,7 +22,6 @@ pub mod model;
 pub mod observe;
 pub mod results;
 pub mod run;
-pub mod window;
 
 pub use case::Case;
 pub use model::{Model, ModelSpec, Statistics};

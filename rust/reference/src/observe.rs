@@ -5,15 +5,18 @@
 
 use crate::model::SUB_REGIONS;
 use crate::results::Table;
-use crate::window::{corners_around, grid, near, window};
 use msdd_dem::{Side, Simulation};
+use msdd_rve::network::Network;
 use msdd_rve::region::whole_box;
-use msdd_rve::{Averages, Cut, homogenise_in};
+use msdd_rve::{Averages, Cut, homogenise_affine_in, windows};
 
 /// Side of the window around a probe [m].
 const PROBE_WINDOW: f64 = 0.04;
 /// Bins of a profile.
 const BINS: usize = 20;
+/// K/k: affine estimate (Eq. 9) and network of contacts solved.
+const CONDUCTIVITIES: [&str; 4] =
+    ["conductivity_xx", "conductivity_yy", "conductivity_network_xx", "conductivity_network_yy"];
 const WALL_NAMES: [&str; 4] = ["left", "right", "bottom", "top"];
 
 /// Columns of the time series for `probes` places.
@@ -36,10 +39,10 @@ pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]]) -> Vec<f64> {
     let mut row = vec![simulation.time];
     row.extend(probes.iter().map(|&at| temperature_of_closest(simulation, at)));
     row.extend(probes.iter().map(|&at| {
-        let (low, high) = corners_around(simulation, at, PROBE_WINDOW);
-        mean_temperature(simulation, low, high)
+        let corner = |side: f64| at.map(|x| x + side * 0.5 * PROBE_WINDOW);
+        mean_temperature(simulation, corner(-1.0), corner(1.0))
     }));
-    let whole = homogenise_in(simulation, &whole_box(simulation), Cut::Clip);
+    let whole = homogenise_affine_in(simulation, &whole_box(simulation), Cut::Clip);
     let [left, right, bottom, top] = simulation.walls.position;
     row.push(mean_temperature(simulation, [left, bottom], [right, top]));
     row.extend([whole.porosity, whole.fabric_index, whole.pressure]);
@@ -58,6 +61,23 @@ pub fn shear_stress(averages: &Averages) -> f64 {
     0.5 * (averages.stress_xy + averages.stress_yx)
 }
 
+/// An empty table of the box's conductivity by the solved network, which is too dear for each line of the series.
+pub fn network_table() -> Table {
+    let columns = ["time", "conductivity_network_xx", "conductivity_network_yy"];
+    Table::new(columns.map(str::to_string).to_vec())
+}
+
+/// Adds the present K/k.
+pub fn add_network(table: &mut Table, simulation: &Simulation) {
+    let region = whole_box(simulation);
+    let [xx, yy, _] = Network::of_region(simulation, &region, Cut::Clip).conductivity(region.area());
+    table.push(vec![simulation.time, xx, yy]);
+}
+
+fn conductivities(a: &Averages) -> [f64; 4] {
+    [a.conductivity_xx, a.conductivity_yy, a.conductivity_network_xx, a.conductivity_network_yy]
+}
+
 fn temperature_of_closest(simulation: &Simulation, [x, y]: [f64; 2]) -> f64 {
     let square = |d: &&msdd_dem::Disc| (d.x - x) * (d.x - x) + (d.y - y) * (d.y - y);
     let closest = simulation.discs.iter().min_by(|a, b| square(a).total_cmp(&square(b)));
@@ -67,7 +87,9 @@ fn temperature_of_closest(simulation: &Simulation, [x, y]: [f64; 2]) -> f64 {
 /// Mean T of the discs with their centre in the rectangle, by mass: that of their heat.
 fn mean_temperature(simulation: &Simulation, low: [f64; 2], high: [f64; 2]) -> f64 {
     let (mut heat, mut mass) = (0.0, 0.0);
-    for disc in simulation.discs.iter().filter(|disc| near(disc, low, high, 0.0)) {
+    let inside =
+        |at: &&msdd_dem::Disc| (low[0]..=high[0]).contains(&at.x) && (low[1]..=high[1]).contains(&at.y);
+    for disc in simulation.discs.iter().filter(inside) {
         heat += disc.mass * disc.temperature;
         mass += disc.mass;
     }
@@ -110,26 +132,18 @@ fn tangential_on_wall(side: Side, [fx, fy]: [f64; 2]) -> f64 {
     }
 }
 
-/// Sub-regions, x fastest: centre [m], η, f, K/k, σ [Pa].
+/// Sub-regions, x fastest: centre [m], η, f, K/k, σ [Pa], T [K].
 pub fn sub_regions(simulation: &Simulation) -> Table {
-    let columns = [
-        "x",
-        "y",
-        "porosity",
-        "fabric_index",
-        "conductivity_xx",
-        "conductivity_yy",
-        "stress_xx",
-        "stress_yy",
-        "stress_xy",
-        "T",
-    ];
-    let mut table = Table::new(columns.map(str::to_string).to_vec());
-    for (low, high) in grid(simulation, SUB_REGIONS[0], SUB_REGIONS[1]) {
-        let a = window(simulation, low, high);
-        let [x, y] = [0, 1].map(|k| 0.5 * (low[k] + high[k]));
-        let mut row = vec![x, y, a.porosity, a.fabric_index, a.conductivity_xx, a.conductivity_yy];
-        row.extend([a.stress_xx, a.stress_yy, shear_stress(&a), mean_temperature(simulation, low, high)]);
+    let mut columns = vec!["x", "y", "porosity", "fabric_index"];
+    columns.extend(CONDUCTIVITIES);
+    columns.extend(["stress_xx", "stress_yy", "stress_xy", "T"]);
+    let mut table = Table::new(columns.into_iter().map(str::to_string).collect());
+    for part in windows(simulation, SUB_REGIONS[0], SUB_REGIONS[1]) {
+        let (a, low, high) = (&part.averages, part.low, part.high);
+        let mut row = [0, 1].map(|k| 0.5 * (low[k] + high[k])).to_vec();
+        row.extend([a.porosity, a.fabric_index]);
+        row.extend(conductivities(a));
+        row.extend([a.stress_xx, a.stress_yy, shear_stress(a), mean_temperature(simulation, low, high)]);
         table.push(row);
     }
     table
@@ -173,11 +187,11 @@ pub fn add_profile(table: &mut Table, simulation: &Simulation, start: &[[f64; 2]
             pressure[k][wall] += contact.normal_force() / width;
         }
     });
-    for (k, (low, high)) in grid(simulation, BINS, 1).into_iter().enumerate() {
-        let a = window(simulation, low, high);
+    for (k, part) in windows(simulation, BINS, 1).iter().enumerate() {
+        let (a, low, high) = (&part.averages, part.low, part.high);
         let mut row =
             vec![simulation.time, 0.5 * (low[0] + high[0]), mean_temperature(simulation, low, high)];
-        row.extend([moved[k] / count[k].max(1.0), a.porosity, a.stress_xx, a.stress_yy, shear_stress(&a)]);
+        row.extend([moved[k] / count[k].max(1.0), a.porosity, a.stress_xx, a.stress_yy, shear_stress(a)]);
         row.extend(friction[k].into_iter().chain(pressure[k]));
         table.push(row);
     }

@@ -79,6 +79,8 @@ pub struct Results {
     pub sub_regions_end: Table,
     /// Along x, at several times.
     pub profiles: Table,
+    /// K/k of the box by the solved network of contacts, at the times of the profiles.
+    pub network: Table,
 }
 
 #[cfg(test)]

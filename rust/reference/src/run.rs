@@ -5,7 +5,9 @@ use crate::ReferenceError;
 use crate::case::Case;
 use crate::checkpoint::{Checkpoint, Records};
 use crate::model::statistics;
-use crate::observe::{add_profile, profile_table, series_columns, series_row, sub_regions};
+use crate::observe::{
+    add_network, add_profile, network_table, profile_table, series_columns, series_row, sub_regions,
+};
 use crate::results::{Results, SCHEMA, Table};
 use msdd_dem::time_step::{self, SAFETY};
 use msdd_dem::{Excess, Failure, Simulation, StepChoice};
@@ -66,15 +68,14 @@ impl RunSpec {
     }
 }
 
-/// Sees the times of the profiles so far [s] and the state.
-type SeeProfile<'a> = dyn FnMut(&[f64], &Simulation) -> Result<(), ReferenceError> + 'a;
+/// Sees the state whenever a profile is taken, with the times of the profiles so far [s].
+pub type OnProfile<'a> = &'a mut dyn FnMut(&[f64], &Simulation) -> Result<(), ReferenceError>;
 
 /// Who watches a run.
 pub struct Watch<'a> {
     /// Hears the simulated time [s] now and then.
     pub progress: &'a mut dyn FnMut(f64),
-    /// Sees the state whenever a profile is taken, with the times of the profiles so far [s].
-    pub profile: &'a mut SeeProfile<'a>,
+    pub profile: OnProfile<'a>,
     /// Writes a checkpoint's text beside and renames it.
     pub save: &'a mut dyn FnMut(&str) -> Result<(), ReferenceError>,
 }
@@ -117,6 +118,7 @@ pub fn run(
         records.series.push(series_row(&simulation, &probes));
         if profile {
             add_profile(&mut records.profiles, &simulation, &centres);
+            add_network(&mut records.network, &simulation);
             (watch.profile)(&profile_times, &simulation)?;
         }
         if saved.elapsed() >= spec.checkpoint_every && k + 1 < times.len() {
@@ -141,6 +143,7 @@ pub fn run(
         sub_regions_start: records.sub_regions_start,
         sub_regions_end: sub_regions(&simulation),
         profiles: records.profiles,
+        network: records.network,
     })
 }
 
@@ -172,6 +175,7 @@ fn begin(case: &Case, start: &Simulation, probes: usize) -> (Simulation, Records
         series: Table::new(series_columns(probes)),
         sub_regions_start: sub_regions(&simulation),
         profiles: profile_table(),
+        network: network_table(),
     };
     (simulation, records)
 }

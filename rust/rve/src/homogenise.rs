@@ -87,6 +87,18 @@ pub fn homogenise(simulation: &Simulation, kind: RegionKind) -> Averages {
 
 /// Averages over a given region; of a periodic box that must be the cell, see [`region`].
 pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Averages {
+    let [xx, yy, xy] = Network::of_region(simulation, region, cut).conductivity(region.area());
+    Averages {
+        conductivity_network_xx: xx,
+        conductivity_network_yy: yy,
+        conductivity_network_xy: xy,
+        ..homogenise_affine_in(simulation, region, cut)
+    }
+}
+
+/// As [`homogenise_in`] without solving the network, which costs the more, the larger the region: its conductivities are
+/// NaN.
+pub fn homogenise_affine_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Averages {
     let mut sums = Sums::default();
     let mut degree = vec![0u32; simulation.discs.len()];
     simulation.for_each_contact(|contact| {
@@ -102,7 +114,6 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
     let rattlers = degree.iter().filter(|&&d| d == 0).count();
     let bearing = (degree.len() - rattlers).max(1);
     let per_area = 1.0 / region.area();
-    let [nxx, nyy, nxy] = Network::of_region(simulation, region, cut).conductivity(region.area());
     let [kxx, kyy, kxy] = sums.conductance.map(|sum| sum * per_area);
     let [sxx, syy, sxy, syx] = sums.stress.map(|sum| sum * per_area);
     let disc_area: f64 = simulation.discs.iter().map(|d| d.area()).sum();
@@ -120,9 +131,9 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
         conductivity_xx: kxx,
         conductivity_yy: kyy,
         conductivity_xy: kxy,
-        conductivity_network_xx: nxx,
-        conductivity_network_yy: nyy,
-        conductivity_network_xy: nxy,
+        conductivity_network_xx: f64::NAN,
+        conductivity_network_yy: f64::NAN,
+        conductivity_network_xy: f64::NAN,
         stress_xx: sxx,
         stress_yy: syy,
         stress_xy: sxy,

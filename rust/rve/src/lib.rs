@@ -40,7 +40,7 @@ pub mod window;
 
 pub use expand::{Protocol, Ramp, Stop, Strains, expand, follow};
 pub use heat_check::{Axis, HeatCheck, heat_check};
-pub use homogenise::{Averages, homogenise, homogenise_in};
+pub use homogenise::{Averages, homogenise, homogenise_affine_in, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
 pub use pack::{
     Boundary, Compression, Packed, PackingSpec, Preparation, Stopped, pack, pack_as, pack_watched,

@@ -8,6 +8,8 @@
 
 use crate::network::{HIDDEN, INPUTS, OUTPUTS, WEIGHTS};
 use crate::perceptron::Neurons;
+use crate::state::model::Core;
+use crate::surrogate::{Answer, StateLanes};
 
 /// Cells in a block: one AVX-512 register of f64.
 pub const LANES: usize = 8;
@@ -51,13 +53,39 @@ macro_rules! dispatch {
     };
 }
 
+/// Instruction set that the kernels take on this machine: "avx512", "avx2" or "scalar".
+pub fn simd() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
+            return "avx512";
+        }
+        if is_x86_feature_detected!("avx2") {
+            return "avx2";
+        }
+    }
+    "scalar"
+}
+
+dispatch! {
+    /// Eight queries of a state model, as [`Core::block`], which it is the whole of: compiled as one piece, so that not
+    /// only the networks but the features and limits between them are vectorised.
+    pub fn state_block(core: &Core, state: &StateLanes, strain: &Lanes, answer: &mut Answer) = state_block_portable
+}
+
+#[inline(always)]
+fn state_block_portable(core: &Core, state: &StateLanes, strain: &Lanes, answer: &mut Answer) {
+    core.block_into(state, strain, answer);
+}
+
 dispatch! {
     /// Runs a [`crate::perceptron::Perceptron`] on the inputs in layer 0; leaves all neurons' values.
     pub fn forward(sizes: &[usize], weights: &[f64], neurons: &mut Neurons) = forward_portable
 }
 
+/// As [`forward`], for callers that are compiled per instruction set themselves.
 #[inline(always)]
-fn forward_portable(sizes: &[usize], weights: &[f64], neurons: &mut Neurons) {
+pub fn forward_portable(sizes: &[usize], weights: &[f64], neurons: &mut Neurons) {
     let mut rest = weights;
     for layer in 1..sizes.len() {
         let (inputs, count) = (sizes[layer - 1], sizes[layer]);
@@ -65,16 +93,39 @@ fn forward_portable(sizes: &[usize], weights: &[f64], neurons: &mut Neurons) {
         rest = after;
         let (before, behind) = neurons.layers.split_at_mut(layer);
         let (before, values) = (&before[layer - 1][..inputs], &mut behind[0][..count]);
-        for (value, row) in values.iter_mut().zip(here.chunks_exact(inputs + 1)) {
-            let mut sum = [row[inputs]; LANES];
-            for (input, weight) in before.iter().zip(row) {
-                for lane in 0..LANES {
-                    sum[lane] += weight * input[lane];
-                }
-            }
-            *value = if layer + 1 < sizes.len() { sum.map(tanh) } else { sum };
+        let hidden = layer + 1 < sizes.len();
+        // Four neurons at a time: their chains of additions and tanh overlap in the pipeline.
+        let mut fours = values.chunks_exact_mut(4);
+        let mut rows = here.chunks_exact(4 * (inputs + 1));
+        for (values, rows) in fours.by_ref().zip(rows.by_ref()) {
+            neurons_of::<4>(values, rows, before, hidden);
+        }
+        let rest = rows.remainder().chunks_exact(inputs + 1);
+        for (value, row) in fours.into_remainder().iter_mut().zip(rest) {
+            neurons_of::<1>(std::slice::from_mut(value), row, before, hidden);
         }
     }
+}
+
+/// N neurons of one layer, which depend on each other in nothing.
+#[inline(always)]
+fn neurons_of<const N: usize>(values: &mut [Lanes], rows: &[f64], before: &[Lanes], hidden: bool) {
+    let width = before.len() + 1;
+    let mut sums: [Lanes; N] = std::array::from_fn(|n| [rows[n * width + before.len()]; LANES]);
+    for (k, input) in before.iter().enumerate() {
+        for (n, sum) in sums.iter_mut().enumerate() {
+            let weight = rows[n * width + k];
+            for lane in 0..LANES {
+                sum[lane] += weight * input[lane];
+            }
+        }
+    }
+    if hidden {
+        for value in sums.as_flattened_mut() {
+            *value = tanh(*value);
+        }
+    }
+    values[..N].copy_from_slice(&sums);
 }
 
 /// Runs the network on a block of scaled inputs, with the widest instruction set that the machine has.

@@ -3,11 +3,14 @@
 /// Neighbours of the Gamma test.
 const NEIGHBOURS: usize = 8;
 
+/// Group, x and y.
+pub type Sample = (i64, Vec<f64>, f64);
+
 /// Standard deviation of the part of y that is no smooth function of x, from (group, x, y): the Gamma test (Stefánsson,
 /// Končar and Jones 1997). Half the mean squared difference of y between k-th nearest neighbours is regressed on their
 /// mean squared distance; the intercept is the variance of the noise. Neighbours are of other groups, since states of
 /// one packing share its noise. `None` with too few samples.
-pub fn deviation(samples: &[(i64, Vec<f64>, f64)]) -> Option<f64> {
+pub fn deviation(samples: &[Sample]) -> Option<f64> {
     let mut gamma = [0.0; NEIGHBOURS];
     let mut delta = [0.0; NEIGHBOURS];
     if samples.len() < 5 * NEIGHBOURS {

@@ -196,8 +196,7 @@ fn floor(model: &dyn Surrogate, ramps: &[Ramp], strain: f64) -> Floor {
     let columns = model.state_names();
     let paths = composition::paths(ramps, strain);
     let ends = composition::ends(model, &paths, FLOOR_INCREMENTS);
-    let mut samples: [Vec<(i64, Vec<f64>, f64)>; 5] = Default::default();
-    let mut squares = [0.0; 5];
+    let (mut samples, mut squares): ([Vec<noise::Sample>; 5], [f64; 5]) = Default::default();
     for (path, [data, predicted]) in paths.iter().zip(&ends) {
         let state = state_of(model, path.from);
         for (sign, quantities) in [(1.0, [0, 2, 4, 5, 6]), (-1.0, [1, 3, 4, 5, 6])] {
@@ -234,7 +233,7 @@ fn coordinate(name: &str, value: f64, sign: f64, state: &[f64]) -> f64 {
 }
 
 /// Coordinates over their standard deviation.
-fn scaled(samples: &[(i64, Vec<f64>, f64)]) -> Vec<(i64, Vec<f64>, f64)> {
+fn scaled(samples: &[noise::Sample]) -> Vec<noise::Sample> {
     let Some((_, first, _)) = samples.first() else { return Vec::new() };
     let count = samples.len() as f64;
     let scale: Vec<(f64, f64)> = (0..first.len())

@@ -26,7 +26,7 @@ pub struct Known {
 }
 
 /// Answer for a block of eight cells.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Answer {
     /// State after the strain; equal to the state before, bit for bit, for zero strain and a state the model allows.
     pub state: StateLanes,

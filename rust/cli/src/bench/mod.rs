@@ -1,5 +1,6 @@
 //! `msdd bench`: speed, as JSON.
 
+mod inference;
 mod stability;
 
 use crate::error::CliError;
@@ -18,6 +19,8 @@ pub enum Command {
     Dem(DemArguments),
     /// Largest stable mechanical and thermal steps: predicted by the bounds, and measured.
     Stability(stability::Arguments),
+    /// Cost of a surrogate's query, by size of the batch.
+    Inference(inference::Arguments),
 }
 
 #[derive(Args)]
@@ -53,6 +56,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Dem(arguments) => dem(arguments),
         Command::Stability(arguments) => stability::run(arguments),
+        Command::Inference(arguments) => inference::run(arguments),
     }
 }
 

@@ -176,8 +176,11 @@ fn print_statistics(s: &Statistics) {
     let [low, high] = s.fabric_range;
     println!("fabric index         {:.4}   paper 0.050", s.fabric_index);
     println!("  of 10 x 3 regions  {low:.4} to {high:.4}   paper, windows: 0.030 to 0.064");
-    println!("pressure [Pa]        {:.1}", s.pressure);
-    println!("K/k, xx and yy       {:.4} {:.4}", s.conductivity[0], s.conductivity[1]);
+    println!("pressure [Pa]        {:.1}, stress_xx over stress_yy {:.3}", s.pressure, s.stress_ratio);
+    let [left, right] = s.stress_xx_ends;
+    println!("stress_xx at the ends {left:.1} {right:.1} Pa, mean of the left and right tenth");
+    let ([xx, yy], [nxx, nyy]) = (s.conductivity, s.conductivity_network);
+    println!("K/k, xx and yy       {xx:.4} {yy:.4}, network {nxx:.4} {nyy:.4}");
     println!("coordination         {:.3}, rattlers {}", s.coordination, s.rattlers);
 }
 

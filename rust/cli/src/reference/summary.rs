@@ -3,7 +3,7 @@
 use crate::error::CliError;
 use crate::files::{read_text, write_atomically};
 use clap::Args;
-use msdd_reference::results::Results;
+use msdd_reference::results::{Results, Table};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -24,8 +24,10 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// Times at which a case is summed up, over its end: 5, 10 and 20 s of 20.
-const MOMENTS: [f64; 3] = [0.25, 0.5, 1.0];
+/// Times at which a case is summed up, over its end: 0, 1, 5, 10 and 20 s of 20.
+const MOMENTS: [f64; 5] = [0.0, 0.05, 0.25, 0.5, 1.0];
+/// Columns of the profiles whose scatter at the end is given.
+const PROFILES: [&str; 6] = ["T", "displacement_x", "porosity", "stress_xx", "stress_yy", "stress_xy"];
 /// Columns that are left out of the table: single contacts, single discs.
 const LEFT_OUT: [&str; 2] = ["tangential_force", "mobilised"];
 
@@ -67,20 +69,56 @@ fn table(case: &str, results: &[&Results]) -> Result<Value, CliError> {
     let end = times.last().copied().unwrap_or(0.0);
     let moments = MOMENTS.map(|part| part * end);
     println!("{case}, seeds {seeds:?}: mean +- standard deviation over the seeds");
-    println!("{:<22} {}", "", moments.map(|t| format!("{:>26}", format!("{t} s"))).join(""));
+    println!("{:<24}{}", "", moments.map(|t| format!("{:>24}", format!("{t} s"))).join(""));
     let mut columns = Map::new();
     let shown = |name: &&String| *name != "time" && !LEFT_OUT.iter().any(|part| name.starts_with(part));
-    for name in results[0].series.columns.iter().filter(shown) {
+    let names = results[0].series.columns.iter().chain(&results[0].network.columns);
+    for name in names.filter(shown) {
         let mut line = Vec::new();
         for moment in moments {
             let at = results.iter().map(|result| value_at(result, name, moment));
             line.push(mean_and_deviation(&at.collect::<Result<Vec<f64>, _>>()?));
         }
-        let cells = line.iter().map(|(mean, sd)| format!("{:>26}", format!("{mean:.5} +- {sd:.5}")));
-        println!("{name:<22} {}", cells.collect::<String>());
+        let cells = line.iter().map(|(mean, sd)| format!("{:>24}", shown_pair(*mean, *sd)));
+        println!("{name:<24}{}", cells.collect::<String>());
         columns.insert(name.clone(), json!(line.iter().map(|(m, s)| json!([m, s])).collect::<Vec<_>>()));
     }
-    Ok(json!({"seeds": seeds, "times": moments, "mean_and_deviation": columns}))
+    let profiles = profile_scatter(results)?;
+    Ok(json!({"seeds": seeds, "times": moments, "mean_and_deviation": columns, "profiles_at_end": profiles}))
+}
+
+/// Five significant digits of the mean, the deviation to the same place.
+fn shown_pair(mean: f64, deviation: f64) -> String {
+    let size = mean.abs().max(deviation).max(1e-9).log10().floor() as i32;
+    let decimals = usize::try_from(4 - size).unwrap_or(0);
+    format!("{mean:.decimals$} +- {deviation:.decimals$}")
+}
+
+/// Prints and returns mean along x and root mean square along x of the deviation over the seeds, of the last profiles.
+fn profile_scatter(results: &[&Results]) -> Result<Value, CliError> {
+    let mut scatter = Map::new();
+    for name in PROFILES {
+        let mut last = Vec::new();
+        for result in results {
+            let times = column_of(result, &result.profiles, "time")?;
+            let values = column_of(result, &result.profiles, name)?;
+            let end = times.last().copied().unwrap_or(0.0);
+            let at_end: Vec<f64> =
+                times.iter().zip(values).filter(|(t, _)| **t == end).map(|(_, v)| v).collect();
+            last.push(at_end);
+        }
+        let bins = last[0].len();
+        let (mut mean, mut square) = (0.0, 0.0);
+        for bin in 0..bins {
+            let values: Vec<f64> = last.iter().filter_map(|values| values.get(bin).copied()).collect();
+            let (m, deviation) = mean_and_deviation(&values);
+            mean += m / bins as f64;
+            square += deviation * deviation / bins as f64;
+        }
+        println!("{:<24}{:>24}", format!("profile {name}, end"), shown_pair(mean, square.sqrt()));
+        scatter.insert(name.to_string(), json!([mean, square.sqrt()]));
+    }
+    Ok(Value::Object(scatter))
 }
 
 fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
@@ -115,14 +153,21 @@ fn differences(first: &Results, second: &Results) -> Result<(), CliError> {
     Ok(())
 }
 
+/// A column of the series.
 fn column(result: &Results, name: &str) -> Result<Vec<f64>, CliError> {
-    let missing = || CliError::Message(format!("{} seed {}: no column {name}", result.case, result.seed));
-    result.series.column(name).filter(|values| !values.is_empty()).ok_or_else(missing)
+    column_of(result, &result.series, name)
 }
 
-/// Value of a column at a time, linear between the lines of the series.
+fn column_of(result: &Results, table: &Table, name: &str) -> Result<Vec<f64>, CliError> {
+    let missing = || CliError::Message(format!("{} seed {}: no column {name}", result.case, result.seed));
+    table.column(name).filter(|values| !values.is_empty()).ok_or_else(missing)
+}
+
+/// Value of a column of the series or of the network's table at a time, linear between the lines.
 fn value_at(result: &Results, name: &str, time: f64) -> Result<f64, CliError> {
-    let (times, values) = (column(result, "time")?, column(result, name)?);
+    let in_series = result.series.columns.iter().any(|column| column == name);
+    let table = if in_series { &result.series } else { &result.network };
+    let (times, values) = (column_of(result, table, "time")?, column_of(result, table, name)?);
     let after = times.partition_point(|&t| t < time - 1e-9);
     Ok(match after {
         0 => values[0],
@@ -142,5 +187,8 @@ mod tests {
     fn scatter_of_seeds() {
         assert_eq!(mean_and_deviation(&[3.0]), (3.0, 0.0));
         assert_eq!(mean_and_deviation(&[1.0, 2.0, 3.0]), (2.0, 1.0));
+        assert_eq!(shown_pair(2491.8, 10.0), "2491.8 +- 10.0");
+        assert_eq!(shown_pair(0.12345, 0.001), "0.12345 +- 0.00100");
+        assert_eq!(shown_pair(-83.0, 0.5), "-83.000 +- 0.500");
     }
 }

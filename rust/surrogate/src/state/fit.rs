@@ -25,8 +25,11 @@ pub struct Sample {
     pub residuals: Vec<Residual>,
 }
 
-/// Scaled inputs of eight samples, and each residual with the lane of its sample.
-type Octet = (Vec<Lanes>, Vec<(usize, Residual)>);
+/// Eight samples: scaled inputs, and residuals with their lanes.
+struct Octet {
+    inputs: Vec<Lanes>,
+    residuals: Vec<(usize, Residual)>,
+}
 
 /// The fit of one network to samples.
 pub struct PerceptronFit {
@@ -48,7 +51,7 @@ impl PerceptronFit {
             let inputs = (0..sizes[0]).map(|k| std::array::from_fn(|lane| lane_of(lane).inputs[k])).collect();
             let residuals = chunk.iter().enumerate();
             let residuals = residuals.flat_map(|(lane, s)| s.residuals.iter().map(move |r| (lane, *r)));
-            (inputs, residuals.collect())
+            Octet { inputs, residuals: residuals.collect() }
         };
         let residuals = samples.iter().map(|sample| sample.residuals.len()).sum::<usize>().max(1) as f64;
         let octets = samples.chunks(LANES).map(octet).collect();
@@ -93,7 +96,7 @@ impl PerceptronFit {
     fn sum_of_squares(network: &Perceptron, octets: &[Octet]) -> f64 {
         let mut neurons = Neurons::new();
         let mut sum = 0.0;
-        for (inputs, residuals) in octets {
+        for Octet { inputs, residuals } in octets {
             neurons.layers[0][..inputs.len()].copy_from_slice(inputs);
             let last = network.run(&mut neurons);
             for (lane, residual) in residuals {
@@ -111,7 +114,7 @@ impl PerceptronFit {
         let mut matrix = vec![0.0; width * width];
         let mut rows = vec![0.0; BATCH * width];
         let (mut neurons, mut filled) = (Neurons::new(), 0);
-        for (inputs, residuals) in octets {
+        for Octet { inputs, residuals } in octets {
             neurons.layers[0][..inputs.len()].copy_from_slice(inputs);
             let last = network.run(&mut neurons);
             for (lane, residual) in residuals {

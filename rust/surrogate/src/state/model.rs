@@ -4,7 +4,7 @@ use super::mean::MeanState;
 use super::rates::Rates;
 use super::readout::Readout;
 use super::variables::{ConductivityKind, FABRIC_INDEX, FeatureRanges, POROSITY, PRESSURE, Variables};
-use crate::kernel::{LANES, Lanes};
+use crate::kernel::{self, LANES, Lanes};
 use crate::mechanics::Tangent;
 use crate::perceptron::Neurons;
 use crate::region::{Region, Spread};
@@ -42,14 +42,22 @@ pub struct Core {
 impl Core {
     /// As [`Surrogate::block`].
     pub fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer {
+        let mut answer = Answer::default();
+        kernel::state_block(self, state, strain, &mut answer);
+        answer
+    }
+
+    /// The work of [`Core::block`], compiled per instruction set by [`kernel::state_block`].
+    #[inline(always)]
+    pub(crate) fn block_into(&self, state: &StateLanes, strain: &Lanes, answer: &mut Answer) {
         let mut neurons = Neurons::new();
         let (variables, ranges) = (self.variables, &self.ranges);
         let features = ranges.features(variables, state, strain);
-        let next = self.rates.advanced(variables, state, strain, &features, &mut neurons);
-        let features = ranges.features(variables, &next, strain);
-        let (conductivity, stress) =
-            self.readouts[self.active].answer(variables, &next, &features, &mut neurons);
-        Answer { state: next, conductivity, stress, outside: ranges.outside(variables, state, strain) }
+        answer.state = self.rates.advanced(variables, state, strain, &features, &mut neurons);
+        let features = ranges.features(variables, &answer.state, strain);
+        (answer.conductivity, answer.stress) =
+            self.readouts[self.active].answer(variables, &answer.state, &features, &mut neurons);
+        answer.outside = ranges.outside(variables, state, strain);
     }
 }
 
@@ -171,6 +179,7 @@ mod tests {
     use super::*;
     use crate::kernel::LANES;
     use crate::state::training::{Mechanical, StateOptions, train};
+    use crate::surrogate::{Batch, evaluate_batch};
     use crate::synthetic;
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -230,6 +239,44 @@ mod tests {
             assert_eq!(back, answer.state);
             // An allowed state stays as it is.
             assert_eq!(model.block(&answer.state, &[0.0; LANES]).state, answer.state);
+        }
+    }
+
+    #[test]
+    fn every_instruction_set_and_every_place_in_any_batch_gives_the_same_bits() {
+        let (model, mut random) = (model(), ChaCha8Rng::seed_from_u64(5));
+        for _ in 0..500 {
+            let (state, strain) = wild(&mut random);
+            let answer = model.block(&state, &strain);
+            let mut portable = Answer::default();
+            model.core.block_into(&state, &strain, &mut portable);
+            assert_eq!(format!("{answer:?}"), format!("{portable:?}"));
+        }
+        let cells = 19;
+        let blocks: Vec<_> = (0..3).map(|_| wild(&mut random)).collect();
+        let cell = |i: usize, k: usize| blocks[i / LANES].0[k][i % LANES];
+        let strain: Vec<f64> = (0..cells).map(|i| blocks[i / LANES].1[i % LANES]).collect();
+        let columns: Vec<Vec<f64>> = (0..5).map(|k| (0..cells).map(|i| cell(i, k)).collect()).collect();
+        for first in 0..cells {
+            for last in first + 1..=cells {
+                let from: Vec<&[f64]> = columns.iter().map(|column| &column[first..last]).collect();
+                let mut to = vec![vec![0.0; last - first]; 5];
+                let mut next: Vec<&mut [f64]> = to.iter_mut().map(Vec::as_mut_slice).collect();
+                let mut batch = Batch {
+                    strain: &strain[first..last],
+                    state: &from,
+                    next_state: &mut next,
+                    conductivity: None,
+                    stress: None,
+                    outside: None,
+                };
+                evaluate_batch(&model, &mut batch);
+                for i in first..last {
+                    let state = std::array::from_fn(|k| if k < 5 { cell(i, k) } else { 0.0 });
+                    let alone = model.evaluate(&state, strain[i]);
+                    assert!((0..5).all(|k| to[k][i - first].to_bits() == alone.state[k][0].to_bits()));
+                }
+            }
         }
     }
 

@@ -46,7 +46,7 @@ impl Rates {
         neurons: &mut Neurons,
     ) -> StateLanes {
         neurons.layers[0][..RATE_INPUTS].copy_from_slice(&features.even);
-        let last = self.network.run(neurons);
+        let last = self.network.run_inlined(neurons);
         let outputs = &neurons.layers[last];
         let mut next = *state;
         for (output, column) in [POROSITY, PRESSURE].into_iter().enumerate() {

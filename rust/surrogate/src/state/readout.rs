@@ -45,7 +45,7 @@ impl Readout {
         neurons: &mut Neurons,
     ) -> ([Lanes; 2], [Lanes; 2]) {
         neurons.layers[0][..READOUT_INPUTS].copy_from_slice(&features.even[..READOUT_INPUTS]);
-        let last = self.network.run(neurons);
+        let last = self.network.run_inlined(neurons);
         let outputs = &neurons.layers[last];
         let (mut conductivity, mut stress) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2]);
         let count = variables.odd_count();

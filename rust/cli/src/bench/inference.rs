@@ -1,0 +1,86 @@
+//! `msdd bench inference`: cost of a surrogate's query.
+
+use crate::error::CliError;
+use crate::files::read_text;
+use clap::Args;
+use msdd_surrogate::kernel;
+use msdd_surrogate::models;
+use msdd_surrogate::surrogate::{Batch, Known, MAX_STATE, Surrogate, evaluate_batch};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(Args)]
+#[command(after_help = "All outputs of a query are written: state, conductivity, stress. One thread.")]
+pub struct Arguments {
+    /// Model file; may be given several times.
+    #[arg(long, value_name = "FILE", required = true)]
+    model: Vec<PathBuf>,
+    /// Queries to time for each batch size.
+    #[arg(long, default_value_t = 3_000_000)]
+    queries: usize,
+}
+
+/// Cells in a batch: one, a register's, a scene's, more than the caches hold.
+const BATCHES: [usize; 4] = [1, 64, 3_000, 1_000_000];
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let mut results = Map::new();
+    for file in &arguments.model {
+        let failed = |source| CliError::Model { file: file.clone(), source };
+        let model = models::read(&read_text(file)?).map_err(failed)?;
+        let times = BATCHES.map(|cells| {
+            json!({
+                "batch": cells,
+                "ns_per_query": nanoseconds(model.as_ref(), cells, arguments.queries),
+            })
+        });
+        let entry = json!({ "file": file, "hash": model.hash(), "batches": times });
+        results.insert(model.name().to_string(), entry);
+    }
+    let result = json!({ "simd": kernel::simd(), "models": Value::Object(results) });
+    let text = serde_json::to_string_pretty(&result);
+    println!("{}", text.map_err(|error| CliError::Message(error.to_string()))?);
+    Ok(())
+}
+
+/// Strains of both signs, small as a solver's.
+fn strain(cell: usize) -> f64 {
+    1e-5 * ((cell % 7) as f64 - 3.0)
+}
+
+/// Nanoseconds a query in the fastest of several rounds: what the code costs when nothing else disturbs it.
+fn nanoseconds(model: &dyn Surrogate, cells: usize, queries: usize) -> f64 {
+    let start = |cell: usize| {
+        let porosity = 0.08 + 0.1 * (cell % 97) as f64 / 97.0;
+        let fabric_index = 0.1 * ((cell % 31) as f64 / 31.0 - 0.5);
+        model.initial_state(&Known { porosity, fabric_index, ..Known::default() })
+    };
+    let states: Vec<[f64; MAX_STATE]> = (0..cells).map(start).collect();
+    let names = model.state_names().len();
+    let from: Vec<Vec<f64>> = (0..names).map(|k| states.iter().map(|state| state[k]).collect()).collect();
+    let (mut to, mut outputs) = (from.clone(), vec![vec![0.0; cells]; 4]);
+    let strain: Vec<f64> = (0..cells).map(strain).collect();
+    let from: Vec<&[f64]> = from.iter().map(Vec::as_slice).collect();
+    let rounds = 10;
+    let repeats = (queries / (rounds * cells)).max(1);
+    let mut best = f64::INFINITY;
+    for _ in 0..rounds {
+        let begin = Instant::now();
+        for _ in 0..repeats {
+            let mut next: Vec<&mut [f64]> = to.iter_mut().map(Vec::as_mut_slice).collect();
+            let [kxx, kyy, sxx, syy] = outputs.get_disjoint_mut([0, 1, 2, 3]).expect("four columns");
+            let mut batch = Batch {
+                strain: &strain,
+                state: &from,
+                next_state: &mut next,
+                conductivity: Some([kxx, kyy]),
+                stress: Some([sxx, syy]),
+                outside: None,
+            };
+            std::hint::black_box(evaluate_batch(model, &mut batch));
+        }
+        best = best.min(begin.elapsed().as_secs_f64() * 1e9 / (repeats * cells) as f64);
+    }
+    best
+}
