@@ -8,7 +8,7 @@ use clap::Args;
 use msdd_rve::database::{Dataset, read};
 use msdd_surrogate::state::training::StateOptions;
 use msdd_surrogate::state::variables::Variables;
-use msdd_surrogate::{DatabaseProvenance, models};
+use msdd_surrogate::{DatabaseProvenance, model_file, models};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -42,7 +42,7 @@ pub struct Arguments {
     #[arg(long, value_delimiter = ',', default_value = "4")]
     hidden: Vec<usize>,
     /// State model: the same of the readout's.
-    #[arg(long, value_delimiter = ',', default_value = "4")]
+    #[arg(long, value_delimiter = ',', default_value = "8")]
     readout: Vec<usize>,
     /// State model: leave a variable out of the state, fabric_conductivity or deviator.
     #[arg(long, value_delimiter = ',')]
@@ -103,7 +103,10 @@ fn provenance(arguments: &Arguments, dataset: &Dataset) -> Result<DatabaseProven
         move |error: String| CliError::Message(format!("{path}: provenance {key}: {error}"))
     };
     let number = |key: &'static str| value(key)?.parse::<f64>().map_err(|error| bad(key)(error.to_string()));
+    let rows = serde_json::to_string(&dataset.records)
+        .map_err(|error| CliError::Message(format!("{}: {error}", arguments.database.display())))?;
     Ok(DatabaseProvenance {
+        rows_hash: Some(model_file::hash(&rows)),
         plan_hash: value("plan_hash")?.clone(),
         engine_version: value("engine_version")?.clone(),
         material: serde_json::from_str(value("material")?)

@@ -70,8 +70,9 @@ impl Mechanics {
         if samples.len() < LEAST_SAMPLES {
             return None;
         }
-        // Relative to the strain, so that small steps count as much as large ones.
-        let weight = |s: &WallStrain| 1.0 / (s.strain[0].powi(2) + s.strain[1].powi(2));
+        // Between the error of the stress and that of the tangent: a rearrangement of a few grains changes the stress by
+        // as much in a small step as in a large one, and would rule the fit if slopes counted alike.
+        let weight = |s: &WallStrain| 1.0 / s.strain[0].hypot(s.strain[1]);
         let stress = samples.iter().flat_map(|s| {
             let ([ex, ey], root) = (s.strain, s.pressure.sqrt());
             let row =

@@ -18,6 +18,9 @@ pub const SCHEMA: &str = "msdd-model-1";
 pub struct DatabaseProvenance {
     /// SHA-256 of the plan's text.
     pub plan_hash: String,
+    /// SHA-256 of the rows as JSON, in order; a plan run by another engine gives other rows. Older files lack it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rows_hash: Option<String>,
     /// Version of the program that made the database.
     pub engine_version: String,
     /// Grain parameters of the database.
@@ -88,7 +91,8 @@ pub(crate) fn json<T: Serialize>(value: &T) -> String {
     serde_json::to_string_pretty(value).unwrap_or_else(|error| unreachable!("{error}"))
 }
 
-pub(crate) fn hash(text: &str) -> String {
+/// SHA-256 of a text, 64 hexadecimal digits.
+pub fn hash(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -141,7 +141,8 @@ pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
         let here = first..cells.min(first + LANES);
         let lanes = |column: &[f64]| -> Lanes {
             let part = &column[here.clone()];
-            std::array::from_fn(|lane| part[lane.min(part.len() - 1)])
+            // The last block may be short: its last cell fills it.
+            part.try_into().unwrap_or_else(|_| std::array::from_fn(|lane| part[lane.min(part.len() - 1)]))
         };
         let mut state = [[0.0; LANES]; MAX_STATE];
         for (lanes_of, column) in state.iter_mut().zip(batch.state) {

@@ -56,12 +56,14 @@ impl Rates {
             }
         }
         let count = variables.odd_count();
+        let signs = strain.map(direction);
         for (k, column) in variables.odd().enumerate() {
+            let first = EVEN_OUTPUTS + k * (count + 1);
+            let sum = odd_sum(&outputs[first..first + count], &features.odd);
+            let (own, odd) = (&outputs[first + count], &features.odd[k]);
             for lane in 0..LANES {
-                let first = EVEN_OUTPUTS + k * (count + 1);
-                let sum = odd_sum(&outputs[first..first + count], &features.odd, lane)
-                    + direction(strain[lane]) * outputs[first + count][lane] * features.odd[k][lane];
-                next[column][lane] += strain[lane] * (self.scale[column] * sum);
+                let rate = sum[lane] + signs[lane] * own[lane] * odd[lane];
+                next[column][lane] += strain[lane] * (self.scale[column] * rate);
             }
         }
         self.limit(variables, state, &mut next);
@@ -71,18 +73,25 @@ impl Rates {
     /// Keeps the state one that grains can have: 0 ≤ η < 1, p̃ ≥ 0, no tension, and no stress before the grains touch.
     #[inline(always)]
     fn limit(&self, variables: Variables, state: &StateLanes, next: &mut StateLanes) {
+        let mut pressure = [0.0; LANES];
         for lane in 0..LANES {
             next[POROSITY][lane] = next[POROSITY][lane].clamp(0.0, POROSITY_LIMIT);
-            let apart = state[PRESSURE][lane] <= 0.0 && next[POROSITY][lane] >= self.unjamming_porosity;
-            let pressure = if apart { 0.0 } else { next[PRESSURE][lane].max(0.0) };
-            next[PRESSURE][lane] = pressure;
-            for column in std::iter::once(FABRIC_INDEX).chain(variables.fabric_conductivity()) {
+            let apart = (state[PRESSURE][lane] <= 0.0) & (next[POROSITY][lane] >= self.unjamming_porosity);
+            let allowed = next[PRESSURE][lane].max(0.0);
+            pressure[lane] = if apart { 0.0 } else { allowed };
+        }
+        next[PRESSURE] = pressure;
+        for column in std::iter::once(FABRIC_INDEX).chain(variables.fabric_conductivity()) {
+            for lane in 0..LANES {
                 // Without contacts there is no fabric to change.
-                let value = if pressure > 0.0 { next[column][lane] } else { state[column][lane] };
+                let (new, old) = (next[column][lane], state[column][lane]);
+                let value = if pressure[lane] > 0.0 { new } else { old };
                 next[column][lane] = value.clamp(-FABRIC_LIMIT, FABRIC_LIMIT);
             }
-            if let Some(column) = variables.deviator() {
-                next[column][lane] = next[column][lane].clamp(-pressure, pressure);
+        }
+        if let Some(column) = variables.deviator() {
+            for lane in 0..LANES {
+                next[column][lane] = next[column][lane].max(-pressure[lane]).min(pressure[lane]);
             }
         }
     }
@@ -104,6 +113,12 @@ pub fn direction(strain: f64) -> f64 {
 
 /// Σ y_i b_i over the odd features.
 #[inline(always)]
-pub fn odd_sum(coefficients: &[Lanes], odd: &[Lanes; MAX_ODD], lane: usize) -> f64 {
-    coefficients.iter().zip(odd).map(|(y, b)| y[lane] * b[lane]).fold(0.0, |sum, term| sum + term)
+pub fn odd_sum(coefficients: &[Lanes], odd: &[Lanes; MAX_ODD]) -> Lanes {
+    let mut sum = [0.0; LANES];
+    for (y, b) in coefficients.iter().zip(odd) {
+        for lane in 0..LANES {
+            sum[lane] += y[lane] * b[lane];
+        }
+    }
+    sum
 }

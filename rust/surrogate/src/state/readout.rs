@@ -49,26 +49,30 @@ impl Readout {
         let outputs = &neurons.layers[last];
         let (mut conductivity, mut stress) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2]);
         let count = variables.odd_count();
-        let read = |first: usize, lane: usize| {
-            odd_sum(&outputs[first..first + count], &features.odd, lane).clamp(-RATIO_LIMIT, RATIO_LIMIT)
+        let read = |first: usize| {
+            let sum = odd_sum(&outputs[first..first + count], &features.odd);
+            sum.map(|value| value.clamp(-RATIO_LIMIT, RATIO_LIMIT))
         };
         let after_fabric = if self.carried { 1 } else { 1 + count };
+        let fabric = match variables.fabric_conductivity() {
+            Some(column) if self.carried => state[column].map(|v| v.clamp(-RATIO_LIMIT, RATIO_LIMIT)),
+            _ => read(1),
+        };
+        let pressure = &state[PRESSURE];
+        let deviator = match variables.deviator() {
+            Some(column) => state[column],
+            None => {
+                let ratio = read(after_fabric);
+                std::array::from_fn(|lane| pressure[lane] * ratio[lane])
+            }
+        };
         for lane in 0..LANES {
             let h = self.offset + self.scale * outputs[0][lane];
             let mean = CONDUCTIVITY_FLOOR + features.root_pressure[lane] * (h * h);
-            let fabric = match variables.fabric_conductivity() {
-                Some(column) if self.carried => state[column][lane].clamp(-RATIO_LIMIT, RATIO_LIMIT),
-                _ => read(1, lane),
-            };
-            conductivity[0][lane] = mean * (1.0 + fabric);
-            conductivity[1][lane] = mean * (1.0 - fabric);
-            let pressure = state[PRESSURE][lane];
-            let deviator = match variables.deviator() {
-                Some(column) => state[column][lane],
-                None => pressure * read(after_fabric, lane),
-            };
-            stress[0][lane] = pressure + deviator;
-            stress[1][lane] = pressure - deviator;
+            conductivity[0][lane] = mean * (1.0 + fabric[lane]);
+            conductivity[1][lane] = mean * (1.0 - fabric[lane]);
+            stress[0][lane] = pressure[lane] + deviator[lane];
+            stress[1][lane] = pressure[lane] - deviator[lane];
         }
         (conductivity, stress)
     }

@@ -39,10 +39,10 @@ pub struct StateOptions {
 impl Default for StateOptions {
     fn default() -> Self {
         Self {
-            common: TrainingOptions { restarts: 4, max_epochs: 150, ..TrainingOptions::default() },
+            common: TrainingOptions { restarts: 2, max_epochs: 40, ..TrainingOptions::default() },
             variables: Variables::ALL,
             hidden: vec![4],
-            readout_hidden: vec![4],
+            readout_hidden: vec![8],
         }
     }
 }
