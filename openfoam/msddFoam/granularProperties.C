@@ -102,7 +102,7 @@ void Foam::granularProperties::readSurrogate()
 
 Foam::fileName Foam::granularProperties::modelPath() const
 {
-    if (model_ == "builtin")
+    if (model_ == "builtin" || model_.startsWith("builtin:"))
     {
         return model_;
     }

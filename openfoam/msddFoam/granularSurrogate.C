@@ -5,6 +5,9 @@
 \*---------------------------------------------------------------------------*/
 
 #include "granularSurrogate.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+
+#include <cctype>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -41,8 +44,6 @@ Foam::granularSurrogate::granularSurrogate
             properties.meanRadius().value()
         )
     ),
-    deltaPorosity_(cells),
-    deltaFabricIndex_(cells),
     conductivityXX_(cells),
     conductivityYY_(cells),
     stressXX_(cells),
@@ -78,7 +79,7 @@ msdd::Surrogate Foam::granularSurrogate::load
     {
         FatalIOErrorInFunction(dict)
             << "Entry 'model' is " << properties.model()
-            << ", allowed: builtin, or a readable model file: "
+            << ", allowed: builtin, builtin:paper, or a readable model file: "
             << error.what() << exit(FatalIOError);
         throw;
     }
@@ -87,23 +88,186 @@ msdd::Surrogate Foam::granularSurrogate::load
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::granularSurrogate::query
+template<class Type>
+Foam::autoPtr<Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>>
+Foam::granularSurrogate::given(const word& name, const fvMesh& mesh)
+{
+    typedef GeometricField<Type, fvPatchField, volMesh> fieldType;
+
+    IOobject header
+    (
+        name, mesh.time().timeName(), mesh,
+        IOobject::MUST_READ, IOobject::NO_WRITE, false
+    );
+    autoPtr<fieldType> field;
+
+    if (header.typeHeaderOk<fieldType>(true))
+    {
+        field.reset(new fieldType(header, mesh));
+    }
+    return field;
+}
+
+
+Foam::List<Foam::scalar*> Foam::granularSurrogate::stateColumns
 (
-    const volScalarField& porosity,
-    const volScalarField& fabricIndex,
+    volScalarField& porosity,
+    volScalarField& fabricIndex
+)
+{
+    List<scalar*> columns(2 + extraState_.size());
+
+    columns[0] = porosity.primitiveFieldRef().data();
+    columns[1] = fabricIndex.primitiveFieldRef().data();
+    forAll(extraState_, i)
+    {
+        columns[2 + i] = extraState_[i].primitiveFieldRef().data();
+    }
+    return columns;
+}
+
+
+void Foam::granularSurrogate::readState
+(
+    volScalarField& porosity,
+    volScalarField& fabricIndex
+)
+{
+    const fvMesh& mesh = porosity.mesh();
+    const label extra = label(model_.stateSize()) - 2;
+
+    PtrList<volScalarField> known(extra);
+    label missing = 0;
+    extraState_.resize(extra);
+    forAll(extraState_, i)
+    {
+        // reduced_pressure becomes reducedPressure
+        word name;
+        bool capital = false;
+        for (const char c : model_.stateName(2 + i))
+        {
+            if (c != '_')
+            {
+                name += capital ? char(std::toupper(c)) : c;
+            }
+            capital = (c == '_');
+        }
+        extraState_.set
+        (
+            i,
+            new volScalarField
+            (
+                IOobject
+                (
+                    name, mesh.time().timeName(), mesh,
+                    IOobject::NO_READ, IOobject::AUTO_WRITE
+                ),
+                mesh,
+                dimensionedScalar(dimless, Zero),
+                extrapolatedCalculatedFvPatchScalarField::typeName
+            )
+        );
+        autoPtr<volScalarField> field(given<scalar>(name, mesh));
+        if (field.valid())
+        {
+            known.set(i, field.release());
+        }
+        else
+        {
+            ++missing;
+        }
+    }
+
+    if (missing)
+    {
+        fillState(porosity, fabricIndex);
+    }
+    forAll(known, i)
+    {
+        if (known.set(i))
+        {
+            extraState_[i].primitiveFieldRef() = known[i].primitiveField();
+        }
+        extraState_[i].correctBoundaryConditions();
+    }
+    if (extra)
+    {
+        Info<< "State of the model beside porosity and fabricIndex:";
+        forAll(extraState_, i)
+        {
+            Info<< ' ' << extraState_[i].name()
+                << (known.set(i) ? " (read)" : "");
+        }
+        Info<< nl << endl;
+    }
+}
+
+
+void Foam::granularSurrogate::fillState
+(
+    volScalarField& porosity,
+    volScalarField& fabricIndex
+)
+{
+    const fvMesh& mesh = porosity.mesh();
+    const autoPtr<volScalarField> fabricConductivity
+    (
+        given<scalar>("fabricConductivity", mesh)
+    );
+    const autoPtr<volSymmTensorField> stress
+    (
+        given<symmTensor>("stress", mesh)
+    );
+
+    msdd_initial initial(msdd::initial(porosity.size()));
+    scalarField xx, yy;
+
+    if (fabricConductivity.valid())
+    {
+        initial.fabric_conductivity =
+            fabricConductivity().primitiveField().cdata();
+    }
+    if (stress.valid())
+    {
+        // Tension positive becomes compression positive
+        xx = -stress().primitiveField().component(symmTensor::XX);
+        yy = -stress().primitiveField().component(symmTensor::YY);
+        initial.stress_xx = xx.cdata();
+        initial.stress_yy = yy.cdata();
+    }
+
+    // Porosity and fabric index come back as they are
+    const List<scalar*> columns(stateColumns(porosity, fabricIndex));
+    initial.porosity = columns[0];
+    initial.fabric_index = columns[1];
+
+    try
+    {
+        model_.initialState(material_, initial, columns.cdata());
+    }
+    catch (const std::exception& error)
+    {
+        failed("the initial state", error);
+    }
+}
+
+
+void Foam::granularSurrogate::advance
+(
+    volScalarField& porosity,
+    volScalarField& fabricIndex,
     const volScalarField& thermalStrainIncrement,
     const volScalarField& thermalStrain
 )
 {
-    msdd_batch batch(msdd::batch(deltaPorosity_.size()));
+    const List<scalar*> columns(stateColumns(porosity, fabricIndex));
+    msdd_batch batch(msdd::batch(porosity.size()));
 
-    batch.porosity = porosity.primitiveField().cdata();
-    batch.fabric_index = fabricIndex.primitiveField().cdata();
+    batch.state = columns.cdata();
+    batch.next_state = columns.cdata();
     batch.thermal_strain = thermalStrainIncrement.primitiveField().cdata();
     batch.total_thermal_strain = thermalStrain.primitiveField().cdata();
 
-    batch.delta_porosity = deltaPorosity_.data();
-    batch.delta_fabric_index = deltaFabricIndex_.data();
     batch.conductivity_xx = conductivityXX_.data();
     batch.conductivity_yy = conductivityYY_.data();
     batch.stress_xx = stressXX_.data();
@@ -111,7 +275,7 @@ void Foam::granularSurrogate::query
 
     try
     {
-        model_.evaluate(material_, batch);
+        model_.advance(material_, batch);
     }
     catch (const std::exception& error)
     {
@@ -120,20 +284,13 @@ void Foam::granularSurrogate::query
 
     ++queries_;
     clamped_ += batch.clamped_cells;
-}
 
-
-void Foam::granularSurrogate::advance
-(
-    volScalarField& porosity,
-    volScalarField& fabricIndex
-) const
-{
-    porosity.primitiveFieldRef() += deltaPorosity_;
     porosity.correctBoundaryConditions();
-
-    fabricIndex.primitiveFieldRef() += deltaFabricIndex_;
     fabricIndex.correctBoundaryConditions();
+    forAll(extraState_, i)
+    {
+        extraState_[i].correctBoundaryConditions();
+    }
 }
 
 

@@ -113,7 +113,7 @@ impl Columns {
             let Some(cell) = column.position(|value| value <= low || value > high) else { return Ok(()) };
             Err(Failure::argument(format!("{}[{cell}]", column.name), column.at(cell), allowed))
         };
-        for column in &self.total_thermal_strain {
+        if let Some(column) = &self.total_thermal_strain {
             range(column, -1.0, LARGEST_STRAIN, "above -1, to 10")?;
         }
         for column in self.strain.iter().flatten() {

@@ -4,7 +4,7 @@ use crate::{abi, exports};
 
 macro_rules! same {
     ($($name:ident($($argument:ty),*) $(-> $result:ty)?;)*) => {
-        /// Number of functions in the header, and by its type-checking the proof that each is exported as declared.
+        /// The functions compared.
         #[cfg(test)]
         pub(crate) const FUNCTIONS: &[&str] = &[$(stringify!($name)),*];
         const _: () = {
@@ -41,4 +41,18 @@ same! {
     msdd_rve_free(*mut msdd_rve);
     msdd_database_generate(*const c_char, *const c_char, u32, msdd_progress, *mut c_void) -> i32;
     msdd_database_export_csv(*const c_char, *const c_char, *mut u64) -> i32;
+}
+
+/// Every function of the header is compared above.
+#[test]
+fn no_function_of_the_header_is_left_out() {
+    let header = include_str!("../include/msdd.h");
+    let code = header.split("*/").filter_map(|part| part.split("/*").next()).collect::<String>();
+    let declared: Vec<&str> = code
+        .split(';')
+        .filter(|declaration| !declaration.contains("typedef") && declaration.contains('('))
+        .filter_map(|declaration| declaration.split('(').next()?.rsplit([' ', '*', '\n']).next())
+        .filter(|name| name.starts_with("msdd_"))
+        .collect();
+    assert_eq!(declared, FUNCTIONS);
 }

@@ -423,7 +423,7 @@ fn an_rve_from_packing_to_text_and_back() {
         assert_eq!(msdd_rve_strain(rve, 0.0, 0.0, 0.0, 0.01, null_mut()), MSDD_INVALID_ARGUMENT);
         assert_eq!(averages(rve).pressure.to_bits(), end.pressure.to_bits());
         msdd_text_free(json);
-        [rve, twin, back].map(|handle| msdd_rve_free(handle));
+        [rve, twin, back].into_iter().for_each(|handle| msdd_rve_free(handle));
     }
 }
 

@@ -74,7 +74,7 @@ impl Model {
     /// # Errors
     /// Those of [`Model::from_json`]; a test guards against them.
     pub fn builtin() -> Result<Self, SurrogateError> {
-        Self::from_json(include_str!("../models/default.json"))
+        Self::from_json(include_str!("../models/paper.json"))
     }
 
     /// Reads the text of a model file.

@@ -70,7 +70,7 @@ pub const BUILTIN: &str = "builtin";
 
 /// Texts of the models compiled into the library, the default first.
 const SHIPPED: [(&str, &str); 2] =
-    [("state", include_str!("../models/state.json")), ("paper", include_str!("../models/default.json"))];
+    [("state", include_str!("../models/state.json")), ("paper", include_str!("../models/paper.json"))];
 
 /// A model compiled into the library: `builtin`, `builtin:state` or `builtin:paper`.
 ///

@@ -18,18 +18,27 @@ const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_V
 };
 
 /// `msdd_abi_version`
+///
+/// # Safety
+/// No conditions.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn msdd_abi_version() -> u32 {
     MSDD_ABI_VERSION
 }
 
 /// `msdd_version`
+///
+/// # Safety
+/// No conditions.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn msdd_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
 /// `msdd_last_error`
+///
+/// # Safety
+/// No conditions.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn msdd_last_error() -> *const c_char {
     value(c"".as_ptr(), last_error)

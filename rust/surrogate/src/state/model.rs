@@ -52,12 +52,13 @@ impl Core {
     pub(crate) fn block_into(&self, state: &StateLanes, strain: &Lanes, answer: &mut Answer) {
         let mut neurons = Neurons::new();
         let (variables, ranges) = (self.variables, &self.ranges);
+        answer.outside = ranges.outside(variables, state, strain);
+        let strain = &strain.map(|strain| ranges.thermal_strain.clamp(strain));
         let features = ranges.features(variables, state, strain);
         answer.state = self.rates.advanced(variables, state, strain, &features, &mut neurons);
         let features = ranges.features(variables, &answer.state, strain);
         (answer.conductivity, answer.stress) =
             self.readouts[self.active].answer(variables, &answer.state, &features, &mut neurons);
-        answer.outside = ranges.outside(variables, state, strain);
     }
 }
 
