@@ -27,14 +27,18 @@ pub struct msdd_material {
 const _: () = {
     ["Size of msdd_material"][::core::mem::size_of::<msdd_material>() - 32usize];
     ["Alignment of msdd_material"][::core::mem::align_of::<msdd_material>() - 8usize];
-    ["Offset of field: msdd_material::struct_size"]
-        [::core::mem::offset_of!(msdd_material, struct_size) - 0usize];
-    ["Offset of field: msdd_material::thermal_conductivity"]
-        [::core::mem::offset_of!(msdd_material, thermal_conductivity) - 8usize];
-    ["Offset of field: msdd_material::young_modulus"]
-        [::core::mem::offset_of!(msdd_material, young_modulus) - 16usize];
-    ["Offset of field: msdd_material::mean_radius"]
-        [::core::mem::offset_of!(msdd_material, mean_radius) - 24usize];
+    [
+        "Offset of field: msdd_material::struct_size",
+    ][::core::mem::offset_of!(msdd_material, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_material::thermal_conductivity",
+    ][::core::mem::offset_of!(msdd_material, thermal_conductivity) - 8usize];
+    [
+        "Offset of field: msdd_material::young_modulus",
+    ][::core::mem::offset_of!(msdd_material, young_modulus) - 16usize];
+    [
+        "Offset of field: msdd_material::mean_radius",
+    ][::core::mem::offset_of!(msdd_material, mean_radius) - 24usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -65,34 +69,69 @@ pub struct msdd_batch {
 const _: () = {
     ["Size of msdd_batch"][::core::mem::size_of::<msdd_batch>() - 168usize];
     ["Alignment of msdd_batch"][::core::mem::align_of::<msdd_batch>() - 8usize];
-    ["Offset of field: msdd_batch::struct_size"][::core::mem::offset_of!(msdd_batch, struct_size) - 0usize];
-    ["Offset of field: msdd_batch::cells"][::core::mem::offset_of!(msdd_batch, cells) - 8usize];
-    ["Offset of field: msdd_batch::state"][::core::mem::offset_of!(msdd_batch, state) - 16usize];
-    ["Offset of field: msdd_batch::thermal_strain"]
-        [::core::mem::offset_of!(msdd_batch, thermal_strain) - 24usize];
-    ["Offset of field: msdd_batch::total_thermal_strain"]
-        [::core::mem::offset_of!(msdd_batch, total_thermal_strain) - 32usize];
-    ["Offset of field: msdd_batch::strain_xx"][::core::mem::offset_of!(msdd_batch, strain_xx) - 40usize];
-    ["Offset of field: msdd_batch::strain_yy"][::core::mem::offset_of!(msdd_batch, strain_yy) - 48usize];
-    ["Offset of field: msdd_batch::next_state"][::core::mem::offset_of!(msdd_batch, next_state) - 56usize];
-    ["Offset of field: msdd_batch::conductivity_xx"]
-        [::core::mem::offset_of!(msdd_batch, conductivity_xx) - 64usize];
-    ["Offset of field: msdd_batch::conductivity_yy"]
-        [::core::mem::offset_of!(msdd_batch, conductivity_yy) - 72usize];
-    ["Offset of field: msdd_batch::stress_xx"][::core::mem::offset_of!(msdd_batch, stress_xx) - 80usize];
-    ["Offset of field: msdd_batch::stress_yy"][::core::mem::offset_of!(msdd_batch, stress_yy) - 88usize];
-    ["Offset of field: msdd_batch::c11"][::core::mem::offset_of!(msdd_batch, c11) - 96usize];
-    ["Offset of field: msdd_batch::c22"][::core::mem::offset_of!(msdd_batch, c22) - 104usize];
-    ["Offset of field: msdd_batch::c12"][::core::mem::offset_of!(msdd_batch, c12) - 112usize];
-    ["Offset of field: msdd_batch::porosity_rate"]
-        [::core::mem::offset_of!(msdd_batch, porosity_rate) - 120usize];
-    ["Offset of field: msdd_batch::fabric_index_rate"]
-        [::core::mem::offset_of!(msdd_batch, fabric_index_rate) - 128usize];
-    ["Offset of field: msdd_batch::clamped"][::core::mem::offset_of!(msdd_batch, clamped) - 136usize];
-    ["Offset of field: msdd_batch::outside"][::core::mem::offset_of!(msdd_batch, outside) - 144usize];
-    ["Offset of field: msdd_batch::spread"][::core::mem::offset_of!(msdd_batch, spread) - 152usize];
-    ["Offset of field: msdd_batch::clamped_cells"]
-        [::core::mem::offset_of!(msdd_batch, clamped_cells) - 160usize];
+    [
+        "Offset of field: msdd_batch::struct_size",
+    ][::core::mem::offset_of!(msdd_batch, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_batch::cells",
+    ][::core::mem::offset_of!(msdd_batch, cells) - 8usize];
+    [
+        "Offset of field: msdd_batch::state",
+    ][::core::mem::offset_of!(msdd_batch, state) - 16usize];
+    [
+        "Offset of field: msdd_batch::thermal_strain",
+    ][::core::mem::offset_of!(msdd_batch, thermal_strain) - 24usize];
+    [
+        "Offset of field: msdd_batch::total_thermal_strain",
+    ][::core::mem::offset_of!(msdd_batch, total_thermal_strain) - 32usize];
+    [
+        "Offset of field: msdd_batch::strain_xx",
+    ][::core::mem::offset_of!(msdd_batch, strain_xx) - 40usize];
+    [
+        "Offset of field: msdd_batch::strain_yy",
+    ][::core::mem::offset_of!(msdd_batch, strain_yy) - 48usize];
+    [
+        "Offset of field: msdd_batch::next_state",
+    ][::core::mem::offset_of!(msdd_batch, next_state) - 56usize];
+    [
+        "Offset of field: msdd_batch::conductivity_xx",
+    ][::core::mem::offset_of!(msdd_batch, conductivity_xx) - 64usize];
+    [
+        "Offset of field: msdd_batch::conductivity_yy",
+    ][::core::mem::offset_of!(msdd_batch, conductivity_yy) - 72usize];
+    [
+        "Offset of field: msdd_batch::stress_xx",
+    ][::core::mem::offset_of!(msdd_batch, stress_xx) - 80usize];
+    [
+        "Offset of field: msdd_batch::stress_yy",
+    ][::core::mem::offset_of!(msdd_batch, stress_yy) - 88usize];
+    [
+        "Offset of field: msdd_batch::c11",
+    ][::core::mem::offset_of!(msdd_batch, c11) - 96usize];
+    [
+        "Offset of field: msdd_batch::c22",
+    ][::core::mem::offset_of!(msdd_batch, c22) - 104usize];
+    [
+        "Offset of field: msdd_batch::c12",
+    ][::core::mem::offset_of!(msdd_batch, c12) - 112usize];
+    [
+        "Offset of field: msdd_batch::porosity_rate",
+    ][::core::mem::offset_of!(msdd_batch, porosity_rate) - 120usize];
+    [
+        "Offset of field: msdd_batch::fabric_index_rate",
+    ][::core::mem::offset_of!(msdd_batch, fabric_index_rate) - 128usize];
+    [
+        "Offset of field: msdd_batch::clamped",
+    ][::core::mem::offset_of!(msdd_batch, clamped) - 136usize];
+    [
+        "Offset of field: msdd_batch::outside",
+    ][::core::mem::offset_of!(msdd_batch, outside) - 144usize];
+    [
+        "Offset of field: msdd_batch::spread",
+    ][::core::mem::offset_of!(msdd_batch, spread) - 152usize];
+    [
+        "Offset of field: msdd_batch::clamped_cells",
+    ][::core::mem::offset_of!(msdd_batch, clamped_cells) - 160usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -109,16 +148,27 @@ pub struct msdd_initial {
 const _: () = {
     ["Size of msdd_initial"][::core::mem::size_of::<msdd_initial>() - 56usize];
     ["Alignment of msdd_initial"][::core::mem::align_of::<msdd_initial>() - 8usize];
-    ["Offset of field: msdd_initial::struct_size"]
-        [::core::mem::offset_of!(msdd_initial, struct_size) - 0usize];
-    ["Offset of field: msdd_initial::cells"][::core::mem::offset_of!(msdd_initial, cells) - 8usize];
-    ["Offset of field: msdd_initial::porosity"][::core::mem::offset_of!(msdd_initial, porosity) - 16usize];
-    ["Offset of field: msdd_initial::fabric_index"]
-        [::core::mem::offset_of!(msdd_initial, fabric_index) - 24usize];
-    ["Offset of field: msdd_initial::fabric_conductivity"]
-        [::core::mem::offset_of!(msdd_initial, fabric_conductivity) - 32usize];
-    ["Offset of field: msdd_initial::stress_xx"][::core::mem::offset_of!(msdd_initial, stress_xx) - 40usize];
-    ["Offset of field: msdd_initial::stress_yy"][::core::mem::offset_of!(msdd_initial, stress_yy) - 48usize];
+    [
+        "Offset of field: msdd_initial::struct_size",
+    ][::core::mem::offset_of!(msdd_initial, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_initial::cells",
+    ][::core::mem::offset_of!(msdd_initial, cells) - 8usize];
+    [
+        "Offset of field: msdd_initial::porosity",
+    ][::core::mem::offset_of!(msdd_initial, porosity) - 16usize];
+    [
+        "Offset of field: msdd_initial::fabric_index",
+    ][::core::mem::offset_of!(msdd_initial, fabric_index) - 24usize];
+    [
+        "Offset of field: msdd_initial::fabric_conductivity",
+    ][::core::mem::offset_of!(msdd_initial, fabric_conductivity) - 32usize];
+    [
+        "Offset of field: msdd_initial::stress_xx",
+    ][::core::mem::offset_of!(msdd_initial, stress_xx) - 40usize];
+    [
+        "Offset of field: msdd_initial::stress_yy",
+    ][::core::mem::offset_of!(msdd_initial, stress_yy) - 48usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -153,58 +203,94 @@ pub struct msdd_averages {
 const _: () = {
     ["Size of msdd_averages"][::core::mem::size_of::<msdd_averages>() - 160usize];
     ["Alignment of msdd_averages"][::core::mem::align_of::<msdd_averages>() - 8usize];
-    ["Offset of field: msdd_averages::struct_size"]
-        [::core::mem::offset_of!(msdd_averages, struct_size) - 0usize];
-    ["Offset of field: msdd_averages::porosity"][::core::mem::offset_of!(msdd_averages, porosity) - 8usize];
-    ["Offset of field: msdd_averages::porosity_sum_of_areas"]
-        [::core::mem::offset_of!(msdd_averages, porosity_sum_of_areas) - 16usize];
-    ["Offset of field: msdd_averages::fabric_index"]
-        [::core::mem::offset_of!(msdd_averages, fabric_index) - 24usize];
-    ["Offset of field: msdd_averages::fabric_conductivity"]
-        [::core::mem::offset_of!(msdd_averages, fabric_conductivity) - 32usize];
-    ["Offset of field: msdd_averages::conductivity_xx"]
-        [::core::mem::offset_of!(msdd_averages, conductivity_xx) - 40usize];
-    ["Offset of field: msdd_averages::conductivity_yy"]
-        [::core::mem::offset_of!(msdd_averages, conductivity_yy) - 48usize];
-    ["Offset of field: msdd_averages::conductivity_xy"]
-        [::core::mem::offset_of!(msdd_averages, conductivity_xy) - 56usize];
-    ["Offset of field: msdd_averages::conductivity_network_xx"]
-        [::core::mem::offset_of!(msdd_averages, conductivity_network_xx) - 64usize];
-    ["Offset of field: msdd_averages::conductivity_network_yy"]
-        [::core::mem::offset_of!(msdd_averages, conductivity_network_yy) - 72usize];
-    ["Offset of field: msdd_averages::conductivity_network_xy"]
-        [::core::mem::offset_of!(msdd_averages, conductivity_network_xy) - 80usize];
-    ["Offset of field: msdd_averages::stress_xx"]
-        [::core::mem::offset_of!(msdd_averages, stress_xx) - 88usize];
-    ["Offset of field: msdd_averages::stress_yy"]
-        [::core::mem::offset_of!(msdd_averages, stress_yy) - 96usize];
-    ["Offset of field: msdd_averages::stress_xy"]
-        [::core::mem::offset_of!(msdd_averages, stress_xy) - 104usize];
-    ["Offset of field: msdd_averages::stress_yx"]
-        [::core::mem::offset_of!(msdd_averages, stress_yx) - 112usize];
-    ["Offset of field: msdd_averages::pressure"][::core::mem::offset_of!(msdd_averages, pressure) - 120usize];
-    ["Offset of field: msdd_averages::coordination"]
-        [::core::mem::offset_of!(msdd_averages, coordination) - 128usize];
-    ["Offset of field: msdd_averages::mean_radius"]
-        [::core::mem::offset_of!(msdd_averages, mean_radius) - 136usize];
-    ["Offset of field: msdd_averages::rattlers"][::core::mem::offset_of!(msdd_averages, rattlers) - 144usize];
-    ["Offset of field: msdd_averages::contacts"][::core::mem::offset_of!(msdd_averages, contacts) - 152usize];
+    [
+        "Offset of field: msdd_averages::struct_size",
+    ][::core::mem::offset_of!(msdd_averages, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_averages::porosity",
+    ][::core::mem::offset_of!(msdd_averages, porosity) - 8usize];
+    [
+        "Offset of field: msdd_averages::porosity_sum_of_areas",
+    ][::core::mem::offset_of!(msdd_averages, porosity_sum_of_areas) - 16usize];
+    [
+        "Offset of field: msdd_averages::fabric_index",
+    ][::core::mem::offset_of!(msdd_averages, fabric_index) - 24usize];
+    [
+        "Offset of field: msdd_averages::fabric_conductivity",
+    ][::core::mem::offset_of!(msdd_averages, fabric_conductivity) - 32usize];
+    [
+        "Offset of field: msdd_averages::conductivity_xx",
+    ][::core::mem::offset_of!(msdd_averages, conductivity_xx) - 40usize];
+    [
+        "Offset of field: msdd_averages::conductivity_yy",
+    ][::core::mem::offset_of!(msdd_averages, conductivity_yy) - 48usize];
+    [
+        "Offset of field: msdd_averages::conductivity_xy",
+    ][::core::mem::offset_of!(msdd_averages, conductivity_xy) - 56usize];
+    [
+        "Offset of field: msdd_averages::conductivity_network_xx",
+    ][::core::mem::offset_of!(msdd_averages, conductivity_network_xx) - 64usize];
+    [
+        "Offset of field: msdd_averages::conductivity_network_yy",
+    ][::core::mem::offset_of!(msdd_averages, conductivity_network_yy) - 72usize];
+    [
+        "Offset of field: msdd_averages::conductivity_network_xy",
+    ][::core::mem::offset_of!(msdd_averages, conductivity_network_xy) - 80usize];
+    [
+        "Offset of field: msdd_averages::stress_xx",
+    ][::core::mem::offset_of!(msdd_averages, stress_xx) - 88usize];
+    [
+        "Offset of field: msdd_averages::stress_yy",
+    ][::core::mem::offset_of!(msdd_averages, stress_yy) - 96usize];
+    [
+        "Offset of field: msdd_averages::stress_xy",
+    ][::core::mem::offset_of!(msdd_averages, stress_xy) - 104usize];
+    [
+        "Offset of field: msdd_averages::stress_yx",
+    ][::core::mem::offset_of!(msdd_averages, stress_yx) - 112usize];
+    [
+        "Offset of field: msdd_averages::pressure",
+    ][::core::mem::offset_of!(msdd_averages, pressure) - 120usize];
+    [
+        "Offset of field: msdd_averages::coordination",
+    ][::core::mem::offset_of!(msdd_averages, coordination) - 128usize];
+    [
+        "Offset of field: msdd_averages::mean_radius",
+    ][::core::mem::offset_of!(msdd_averages, mean_radius) - 136usize];
+    [
+        "Offset of field: msdd_averages::rattlers",
+    ][::core::mem::offset_of!(msdd_averages, rattlers) - 144usize];
+    [
+        "Offset of field: msdd_averages::contacts",
+    ][::core::mem::offset_of!(msdd_averages, contacts) - 152usize];
 };
 pub const MSDD_SETTLED: msdd_outcome = 0;
 pub const MSDD_CAPPED: msdd_outcome = 1;
 pub const MSDD_UNJAMMED: msdd_outcome = 2;
 pub type msdd_outcome = ::core::ffi::c_uint;
 pub type msdd_progress = ::core::option::Option<
-    unsafe extern "C" fn(user: *mut ::core::ffi::c_void, done: u64, total: u64, failed: u64) -> i32,
+    unsafe extern "C" fn(
+        user: *mut ::core::ffi::c_void,
+        done: u64,
+        total: u64,
+        failed: u64,
+    ) -> i32,
 >;
 unsafe extern "C" {
     pub fn msdd_abi_version() -> u32;
     pub fn msdd_version() -> *const ::core::ffi::c_char;
     pub fn msdd_last_error() -> *const ::core::ffi::c_char;
     pub fn msdd_text_free(text: *mut ::core::ffi::c_char);
-    pub fn msdd_surrogate_load(source: *const ::core::ffi::c_char, out: *mut *mut msdd_surrogate) -> i32;
-    pub fn msdd_surrogate_hash(surrogate: *const msdd_surrogate) -> *const ::core::ffi::c_char;
-    pub fn msdd_surrogate_describe(surrogate: *const msdd_surrogate) -> *const ::core::ffi::c_char;
+    pub fn msdd_surrogate_load(
+        source: *const ::core::ffi::c_char,
+        out: *mut *mut msdd_surrogate,
+    ) -> i32;
+    pub fn msdd_surrogate_hash(
+        surrogate: *const msdd_surrogate,
+    ) -> *const ::core::ffi::c_char;
+    pub fn msdd_surrogate_describe(
+        surrogate: *const msdd_surrogate,
+    ) -> *const ::core::ffi::c_char;
     pub fn msdd_surrogate_state_size(surrogate: *const msdd_surrogate) -> usize;
     pub fn msdd_surrogate_state_name(
         surrogate: *const msdd_surrogate,
@@ -235,9 +321,18 @@ unsafe extern "C" {
         solid_fraction: *mut f64,
     ) -> i32;
     pub fn msdd_surrogate_free(surrogate: *mut msdd_surrogate);
-    pub fn msdd_rve_pack(specification: *const ::core::ffi::c_char, out: *mut *mut msdd_rve) -> i32;
-    pub fn msdd_rve_from_json(text: *const ::core::ffi::c_char, out: *mut *mut msdd_rve) -> i32;
-    pub fn msdd_rve_to_json(rve: *const msdd_rve, out: *mut *mut ::core::ffi::c_char) -> i32;
+    pub fn msdd_rve_pack(
+        specification: *const ::core::ffi::c_char,
+        out: *mut *mut msdd_rve,
+    ) -> i32;
+    pub fn msdd_rve_from_json(
+        text: *const ::core::ffi::c_char,
+        out: *mut *mut msdd_rve,
+    ) -> i32;
+    pub fn msdd_rve_to_json(
+        rve: *const msdd_rve,
+        out: *mut *mut ::core::ffi::c_char,
+    ) -> i32;
     pub fn msdd_rve_clone(rve: *const msdd_rve, out: *mut *mut msdd_rve) -> i32;
     pub fn msdd_rve_strain(
         rve: *mut msdd_rve,
@@ -247,7 +342,10 @@ unsafe extern "C" {
         xy: f64,
         outcome: *mut i32,
     ) -> i32;
-    pub fn msdd_rve_homogenise(rve: *const msdd_rve, averages: *mut msdd_averages) -> i32;
+    pub fn msdd_rve_homogenise(
+        rve: *const msdd_rve,
+        averages: *mut msdd_averages,
+    ) -> i32;
     pub fn msdd_rve_free(rve: *mut msdd_rve);
     pub fn msdd_database_generate(
         plan: *const ::core::ffi::c_char,

@@ -2,6 +2,7 @@
 //! libclang. `tests/header.rs` makes them afresh and compares.
 
 #[allow(non_camel_case_types, unused, clippy::all)]
+#[rustfmt::skip]
 mod bindings;
 
 pub use bindings::*;
