@@ -166,7 +166,7 @@ impl HeatPipes {
             }
         });
         self.network = Network::new(simulation.discs.len(), ends.into_iter());
-        self.network.set(&values);
+        self.network.set(false, &values);
         self.of_rebuild = None;
         self.connect_walls(simulation);
         self.estimate_largest_rate();
@@ -182,7 +182,7 @@ impl HeatPipes {
             self.network = Network::new(simulation.discs.len(), ends);
             self.of_rebuild = Some(simulation.neighbours.rebuilds);
         }
-        self.network.set(&pairs.conductance);
+        self.network.set(simulation.shared, &pairs.conductance);
         self.connect_walls(simulation);
         self.since_estimate += 1;
         if self.largest_rate == 0.0 || self.since_estimate >= STEPS_AN_ESTIMATE {
@@ -216,7 +216,7 @@ impl HeatPipes {
         let mut image = vec![0.0; self.mode.len()];
         let mode = &mut self.mode;
         for _ in 0..POWER_ITERATIONS {
-            self.network.inflow(mode, &mut image);
+            self.network.inflow(false, mode, &mut image);
             let (mut over, mut under, mut largest) = (0.0, 0.0, 0.0f64);
             for (((image, mode), walls), per) in
                 image.iter_mut().zip(mode.iter()).zip(&to_walls).zip(&self.per_capacity)
@@ -245,18 +245,18 @@ impl HeatPipes {
         2.0 / self.largest_rate
     }
 
-    /// Conducts over `dt` [s] through the connected pipes.
-    pub(crate) fn conduct(&mut self, discs: &mut [Disc], dt: f64) {
+    /// Conducts over `dt` [s] through the connected pipes; side by side when `parallel`.
+    pub(crate) fn conduct(&mut self, parallel: bool, discs: &mut [Disc], dt: f64) {
         let count = (dt / (SAFETY * self.stable_step())).ceil().max(1.0);
-        self.take_substeps(discs, count as u64, dt / count);
+        self.take_substeps(parallel, discs, count as u64, dt / count);
     }
 
     /// Takes `count` explicit Euler steps of `dt` [s].
-    pub(crate) fn take_substeps(&mut self, discs: &mut [Disc], count: u64, dt: f64) {
+    pub(crate) fn take_substeps(&mut self, parallel: bool, discs: &mut [Disc], count: u64, dt: f64) {
         self.temperature.clear();
         self.temperature.extend(discs.iter().map(|disc| disc.temperature));
         for _ in 0..count {
-            self.network.inflow(&self.temperature, &mut self.flow);
+            self.network.inflow(parallel, &self.temperature, &mut self.flow);
             for side in Side::ALL {
                 let inflow = self.add_wall_flow(side);
                 self.wall_heat[side as usize] += dt * inflow;

@@ -4,8 +4,12 @@
 //!
 //! (Adding each pipe's flow to both its ends, or gathering eight rows at once, was measured to take twice as long.)
 
+use crate::team;
+
 /// Rows of a slice.
 const ROWS: usize = 8;
+/// Parts that threads share, of as many rows each. More parts than threads: one that is held up leaves its work to others.
+const PARTS: usize = 8;
 
 /// Pipes between nodes. Rows are in the order of the other ends, so sums do not depend on pipes of conductance 0.
 #[derive(Clone, Debug, Default)]
@@ -56,16 +60,28 @@ impl Network {
         network
     }
 
-    /// Sets the conductances of all pipes [W/K].
-    pub fn set(&mut self, conductance: &[f64]) {
-        for (value, &pipe) in self.conductance.iter_mut().zip(&self.pipe) {
-            *value = conductance[pipe as usize];
-        }
+    /// Sets the conductances of all pipes [W/K]; side by side when `parallel`.
+    pub fn set(&mut self, parallel: bool, conductance: &[f64]) {
+        let part = part_length(parallel, self.pipe.len());
+        let parts = self.conductance.chunks_mut(part).zip(self.pipe.chunks(part));
+        shared(parallel, parts, |(values, pipes)| {
+            for (value, &pipe) in values.iter_mut().zip(pipes) {
+                *value = conductance[pipe as usize];
+            }
+        });
     }
 
-    /// Net flow into each node, Σ_pipes h (x_other − x_own).
-    pub fn inflow(&self, x: &[f64], flow: &mut [f64]) {
-        for (slice, (flow, own)) in flow.chunks_mut(ROWS).zip(x.chunks(ROWS)).enumerate() {
+    /// Net flow into each node, Σ_pipes h (x_other − x_own); side by side when `parallel`.
+    pub fn inflow(&self, parallel: bool, x: &[f64], flow: &mut [f64]) {
+        let slices = part_length(parallel, self.start.len() - 1);
+        let parts = flow.chunks_mut(slices * ROWS).zip((0..).step_by(slices));
+        shared(parallel, parts, |(flow, first)| self.part_of_inflow(x, first, flow));
+    }
+
+    /// As [`Network::inflow`], into the nodes of the slices from `first` on.
+    fn part_of_inflow(&self, x: &[f64], first: usize, flow: &mut [f64]) {
+        let own = &x[first * ROWS..];
+        for (slice, (flow, own)) in (first..).zip(flow.chunks_mut(ROWS).zip(own.chunks(ROWS))) {
             let entries = self.start[slice] as usize..self.start[slice + 1] as usize;
             let length = entries.len() / own.len();
             let (mut others, mut conductances) = (&self.other[entries.clone()], &self.conductance[entries]);
@@ -99,6 +115,20 @@ impl Network {
     }
 }
 
+/// Length of a part of so many items.
+fn part_length(parallel: bool, items: usize) -> usize {
+    items.div_ceil(if parallel { PARTS } else { 1 }).max(1)
+}
+
+/// `work` on each part.
+fn shared<T: Send>(parallel: bool, parts: impl Iterator<Item = T>, work: impl Fn(T) + Sync) {
+    if parallel {
+        team::share(parts.collect(), work);
+    } else {
+        parts.for_each(work);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,10 +151,14 @@ mod tests {
             diagonal[j] += value;
         }
         let mut network = Network::new(nodes, ends.iter().copied());
-        network.set(&conductance);
+        network.set(false, &conductance);
         let mut flow = vec![f64::NAN; nodes];
-        network.inflow(&x, &mut flow);
+        network.inflow(false, &x, &mut flow);
         // Small integers: sums are exact.
+        assert_eq!(flow, expected);
+        flow.fill(f64::NAN);
+        network.set(true, &conductance);
+        network.inflow(true, &x, &mut flow);
         assert_eq!(flow, expected);
         assert_eq!(network.sums(nodes), diagonal);
     }

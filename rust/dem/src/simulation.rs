@@ -58,7 +58,7 @@ pub struct Simulation {
     pool: Option<Arc<rayon::ThreadPool>>,
     pace: Pace,
     /// Whether the present step is shared among the pool's threads.
-    shared: bool,
+    pub(crate) shared: bool,
     pub(crate) last_good: Option<LastGood>,
 }
 
@@ -224,7 +224,7 @@ impl Simulation {
     fn conduct_through(&mut self, dt: f64, update: fn(&mut HeatPipes, &Self)) {
         if let Some(mut pipes) = self.pipes.take() {
             update(&mut pipes, self);
-            pipes.conduct(&mut self.discs, dt);
+            pipes.conduct(self.shared, &mut self.discs, dt);
             self.pipes = Some(pipes);
         }
     }
@@ -242,7 +242,7 @@ impl Simulation {
     /// out where it turns unstable.
     pub fn conduct_once(&mut self, dt: f64) {
         if let Some(pipes) = &mut self.pipes {
-            pipes.take_substeps(&mut self.discs, 1, dt);
+            pipes.take_substeps(false, &mut self.discs, 1, dt);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Closed forms that one step after the other has to meet.
 
 use super::*;
+use crate::heat::{Thermal, WallHeat};
 use crate::walls::Side;
 use std::f64::consts::PI;
 
@@ -223,10 +224,13 @@ fn threads_do_not_change_the_bits() {
         simulation.set_strain_rate(0.2);
         simulation.set_threads(threads).unwrap();
         simulation.run(120).unwrap();
+        simulation.enable_heat(Thermal::default(), [WallHeat::Temperature(20.0); 4]);
+        simulation.run(60).unwrap();
         simulation
     };
     let (one, three) = (run(1), run(3));
     assert_eq!(one.discs, three.discs);
+    assert!(one.discs.iter().any(|disc| disc.temperature > 0.0));
     assert_eq!(one.wall_force, three.wall_force);
     let mut contacts = 0;
     one.for_each_contact(|_| contacts += 1);
