@@ -17,12 +17,15 @@ Description
     modelling of granular media with thermal expansion), in its order.
 
 Usage
-    Reads   T, porosity, fabricIndex; constant/granularProperties:
+    Reads   T, porosity, fabricIndex; at the start also stress (tension
+            positive) and fabricConductivity, if there are such files;
+            constant/granularProperties:
 
         surrogate
         {
             type        network;
-            model       builtin;    // or a model file, relative to the case
+            model       builtin;    // or builtin:paper, or a model file,
+                                    // relative to the case
             hash        "...";      // optional: SHA-256 the file must have
         }
         density, youngModulus, thermalConductivity, heatCapacity,
@@ -31,8 +34,10 @@ Usage
 
     Writes  T, porosity, fabricIndex, conductivity, stress (tension positive),
             pressure (compression positive), bulkDensity, particleDensity,
-            thermalStrain; for restarts initialTemperature and
-            thermalStrainIncrement; postProcessing/msddFoam/summary.json
+            thermalStrain; for restarts initialTemperature,
+            thermalStrainIncrement and the rest of the model's state
+            (reducedPressure, fabricConductivity, reducedDeviator);
+            postProcessing/msddFoam/summary.json
 
     The mesh is two-dimensional, in x and y.
 

@@ -33,7 +33,7 @@ enum msdd_status {
     MSDD_INVALID_ARGUMENT = 1,
     /** A file could not be read or written. */
     MSDD_IO = 2,
-    /** A model file was read but is damaged, of another schema, or inconsistent; or a plug-in that is not one. */
+    /** A model file was read but is damaged, of another schema, or inconsistent. */
     MSDD_MODEL = 3,
     /** An input column holds NaN or infinity; the text names column and index. */
     MSDD_NON_FINITE = 4,
@@ -110,15 +110,15 @@ typedef struct msdd_initial {
     size_t cells;                      /**< length of every column */
     const double *porosity;            /**< overlaps counted once */
     const double *fabric_index;        /**< F_xx - F_yy */
-    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy); NULL = not known */
+    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), of the kind of conductivity that the model answers
+                                            with (describe: "conductivity"); NULL = not known */
     const double *stress_xx;           /**< [Pa]; NULL = not known; both or none */
     const double *stress_yy;           /**< [Pa] */
 } msdd_initial;
 
 /** Loads a model. `source`: NULL or "builtin" for the default model compiled into the library ("builtin:state";
- *  "builtin:paper" is the network of the paper); "plugin:PATH" for a shared library, see msdd_plugin.h; else a path of a
- *  model file. On success *out owns the model; free it with msdd_surrogate_free. Plug-ins stay loaded until the program
- *  ends. */
+ *  "builtin:paper" is the network of the paper); else a path of a model file. On success *out owns the model; free it with
+ *  msdd_surrogate_free. */
 int32_t msdd_surrogate_load(const char *source, msdd_surrogate **out);
 
 /** SHA-256 of the model file's bytes, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
