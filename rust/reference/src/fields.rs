@@ -70,9 +70,15 @@ pub fn files(averages: &[Averages], note: &str) -> Vec<(&'static str, String)> {
     vec![
         scalar("porosity", "Initial porosity, overlaps counted once", |a| a.porosity),
         scalar("fabricIndex", "Initial fabric index F_xx - F_yy", |a| a.fabric_index),
-        scalar("fabricConductivity", "Initial (K_xx - K_yy)/(K_xx + K_yy)", |a| a.fabric_conductivity),
+        scalar("fabricConductivity", "Initial (K_xx - K_yy)/(K_xx + K_yy), network", network_anisotropy),
         ("stress", field("stress", kind, &stress_note, stress)),
     ]
+}
+
+/// (K_xx − K_yy)/(K_xx + K_yy) of the solved network, which is what the default model carries; 0 without conduction.
+fn network_anisotropy(a: &Averages) -> f64 {
+    let (xx, yy) = (a.conductivity_network_xx, a.conductivity_network_yy);
+    if xx + yy > 0.0 { (xx - yy) / (xx + yy) } else { 0.0 }
 }
 
 /// One field: class, type of its values, dimensions; a note; the values.
