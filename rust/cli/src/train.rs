@@ -5,7 +5,7 @@ use crate::files::write_atomically;
 use crate::rows::training_data;
 use crate::score;
 use clap::Args;
-use msdd_rve::database::{Dataset, read};
+use msdd_rve::database::{Dataset, read_all};
 use msdd_surrogate::state::training::StateOptions;
 use msdd_surrogate::state::variables::Variables;
 use msdd_surrogate::{DatabaseProvenance, model_file, models};
@@ -14,9 +14,9 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Database, or the CSV that was exported from one.
-    #[arg(long, value_name = "FILE")]
-    database: PathBuf,
+    /// Database, or the CSV that was exported from one; given several times, all of them together.
+    #[arg(long, value_name = "FILE", required = true)]
+    database: Vec<PathBuf>,
     /// Model file (JSON) to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
@@ -42,7 +42,7 @@ pub struct Arguments {
     #[arg(long, value_delimiter = ',', default_value = "4")]
     hidden: Vec<usize>,
     /// State model: the same of the readout's.
-    #[arg(long, value_delimiter = ',', default_value = "8")]
+    #[arg(long, value_delimiter = ',', default_value = "4")]
     readout: Vec<usize>,
     /// State model: leave a variable out of the state, fabric_conductivity or deviator.
     #[arg(long, value_delimiter = ',')]
@@ -50,9 +50,9 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let dataset = read(&arguments.database)?;
+    let dataset = read_all(&arguments.database)?;
     let data = training_data(&dataset.records);
-    let failed = |source| CliError::Training { file: arguments.database.clone(), source };
+    let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
     let kind = models::kind(&arguments.model).map_err(failed)?;
     let options = options(arguments, &dataset)?;
     let begin = Instant::now();
@@ -94,17 +94,17 @@ fn options(arguments: &Arguments, dataset: &Dataset) -> Result<StateOptions, Cli
 
 fn provenance(arguments: &Arguments, dataset: &Dataset) -> Result<DatabaseProvenance, CliError> {
     let value = |key: &str| {
-        let missing = || format!("{}: no {key} in its provenance", arguments.database.display());
+        let missing = || format!("{}: no {key} in its provenance", arguments.database[0].display());
         dataset.provenance.get(key).ok_or_else(|| CliError::Message(missing()))
     };
     let bad = |key: &str| {
-        let path = arguments.database.display().to_string();
+        let path = arguments.database[0].display().to_string();
         let key = key.to_string();
         move |error: String| CliError::Message(format!("{path}: provenance {key}: {error}"))
     };
     let number = |key: &'static str| value(key)?.parse::<f64>().map_err(|error| bad(key)(error.to_string()));
     let rows = serde_json::to_string(&dataset.records)
-        .map_err(|error| CliError::Message(format!("{}: {error}", arguments.database.display())))?;
+        .map_err(|error| CliError::Message(format!("{}: {error}", arguments.database[0].display())))?;
     Ok(DatabaseProvenance {
         rows_hash: Some(model_file::hash(&rows)),
         plan_hash: value("plan_hash")?.clone(),

@@ -7,8 +7,8 @@ use crate::network::{HIDDEN, HIDDEN_WEIGHTS, INPUTS, Network, OUTPUTS, WEIGHTS, 
 use crate::scaling::{OutputScales, TrainedRange};
 use nalgebra::{DMatrix, DVector};
 
-/// Eight samples, scaled. Weight 0 marks padding.
-struct Octet {
+/// Samples of a block, scaled. Weight 0 marks padding.
+struct Block {
     inputs: [Lanes; INPUTS],
     targets: [Lanes; OUTPUTS],
     weights: [Lanes; OUTPUTS],
@@ -16,46 +16,46 @@ struct Octet {
 
 /// Residuals weight · (y − target) over samples and outputs.
 pub struct NetworkFit {
-    octets: Vec<Octet>,
+    blocks: Vec<Block>,
     residuals: f64,
     threads: usize,
 }
 
 /// Sums are formed per part and added in order, so that the thread count does not change the bits.
 const PARTS: usize = 8;
-/// Octets whose rows of J are held at a time.
-const BATCH: usize = 8;
+/// Blocks whose rows of J are held at a time.
+const BATCH: usize = 2;
 
 impl NetworkFit {
     pub fn new(samples: &[Sample], range: &TrainedRange, scales: &OutputScales, threads: usize) -> Self {
         let strain = range.thermal_strain;
         let largest_strain = strain.max.abs().max(strain.min.abs());
-        let octet = |chunk: &[Sample]| {
+        let block = |chunk: &[Sample]| {
             let targets: Vec<_> = chunk.iter().map(|s| scales.targets(s, largest_strain)).collect();
             let last = chunk.len() - 1;
             let inputs = std::array::from_fn(|k| padded(chunk.len(), |lane| chunk[lane].inputs[k]));
             let weight = |lane: usize, o: usize| if lane <= last { targets[lane][o].1 } else { 0.0 };
-            Octet {
+            Block {
                 inputs: range.scaled(&range.clamp(&inputs).0),
                 targets: std::array::from_fn(|o| padded(chunk.len(), |lane| targets[lane][o].0)),
                 weights: std::array::from_fn(|o| std::array::from_fn(|lane| weight(lane, o))),
             }
         };
         Self {
-            octets: samples.chunks(LANES).map(octet).collect(),
+            blocks: samples.chunks(LANES).map(block).collect(),
             residuals: (samples.len() * OUTPUTS) as f64,
             threads: threads.clamp(1, PARTS),
         }
     }
 
     /// The parts' results, in order.
-    fn by_part<T: Send>(&self, work: impl Fn(&[Octet]) -> T + Sync) -> Vec<T> {
-        let length = self.octets.len().div_ceil(PARTS).max(1);
-        let parts: Vec<&[Octet]> = self.octets.chunks(length).collect();
+    fn by_part<T: Send>(&self, work: impl Fn(&[Block]) -> T + Sync) -> Vec<T> {
+        let length = self.blocks.len().div_ceil(PARTS).max(1);
+        let parts: Vec<&[Block]> = self.blocks.chunks(length).collect();
         let share = parts.len().div_ceil(self.threads).max(1);
         let work = &work;
         std::thread::scope(|scope| {
-            let start = |parts: &'_ [&'_ [Octet]]| parts.iter().map(|part| work(part)).collect::<Vec<T>>();
+            let start = |parts: &'_ [&'_ [Block]]| parts.iter().map(|part| work(part)).collect::<Vec<T>>();
             let workers: Vec<_> =
                 parts.chunks(share).map(|share| scope.spawn(move || start(share))).collect();
             let results = workers.into_iter().map(|worker| worker.join());
@@ -68,13 +68,13 @@ impl LeastSquares for NetworkFit {
     fn mean_square(&self, parameters: &DVector<f64>) -> f64 {
         let network = Network::from_slice(parameters.as_slice());
         let sums =
-            self.by_part(|octets| octets.iter().map(|octet| octet.sum_of_squares(&network)).sum::<f64>());
+            self.by_part(|blocks| blocks.iter().map(|block| block.sum_of_squares(&network)).sum::<f64>());
         sums.iter().sum::<f64>() / self.residuals
     }
 
     fn normal_equations(&self, parameters: &DVector<f64>) -> NormalEquations {
         let network = Network::from_slice(parameters.as_slice());
-        let mut parts = self.by_part(|octets| part_equations(&network, octets)).into_iter();
+        let mut parts = self.by_part(|blocks| part_equations(&network, blocks)).into_iter();
         let zero = || (DMatrix::zeros(WEIGHTS, WEIGHTS), DVector::zeros(WEIGHTS));
         let (mut matrix, mut gradient) = parts.next().unwrap_or_else(zero);
         for (part_matrix, part_gradient) in parts {
@@ -85,7 +85,7 @@ impl LeastSquares for NetworkFit {
     }
 }
 
-impl Octet {
+impl Block {
     fn sum_of_squares(&self, network: &Network) -> f64 {
         let outputs = network.activations(&self.inputs).outputs;
         let residual =
@@ -94,40 +94,52 @@ impl Octet {
     }
 }
 
-/// Width of a row of J with its residual behind, padded for the kernel.
-const WIDTH: usize = (WEIGHTS + 1).next_multiple_of(16);
+/// Weights of an output neuron, bias included.
+const OWN: usize = HIDDEN + 1;
+/// Width of a row: derivatives by the hidden layers' weights and by the output's own, which are all that are not zero; the
+/// residual; padding for the kernel.
+const WIDTH: usize = (HIDDEN_WEIGHTS + OWN + 1).next_multiple_of(LANES);
+/// Place of the residual.
+const RESIDUAL: usize = HIDDEN_WEIGHTS + OWN;
 
-/// JᵀJ (lower triangle) and Jᵀr of some octets.
-fn part_equations(network: &Network, octets: &[Octet]) -> (DMatrix<f64>, DVector<f64>) {
-    let mut products = vec![0.0; WIDTH * WIDTH];
+/// JᵀJ and Jᵀr of some blocks.
+fn part_equations(network: &Network, blocks: &[Block]) -> (DMatrix<f64>, DVector<f64>) {
+    let mut products: [Vec<f64>; OUTPUTS] = std::array::from_fn(|_| vec![0.0; WIDTH * WIDTH]);
     let mut rows = vec![0.0; BATCH * LANES * WIDTH];
-    for batch in octets.chunks(BATCH) {
-        for output in 0..OUTPUTS {
+    for batch in blocks.chunks(BATCH) {
+        for (output, products) in products.iter_mut().enumerate() {
             let rows = &mut rows[..batch.len() * LANES * WIDTH];
             fill_rows(network, batch, output, rows);
-            add_outer_products(rows, WIDTH, &mut products);
+            add_outer_products(rows, WIDTH, products);
         }
     }
-    let entry = |i: usize, j: usize| products[i * WIDTH + j];
-    let matrix = DMatrix::from_fn(WEIGHTS, WEIGHTS, |i, j| entry(i.max(j), i.min(j)));
-    (matrix, DVector::from_fn(WEIGHTS, |j, _| entry(WEIGHTS, j)))
+    let (mut matrix, mut gradient) = (DMatrix::zeros(WEIGHTS, WEIGHTS), DVector::zeros(WEIGHTS));
+    for (output, products) in products.iter().enumerate() {
+        let own = HIDDEN_WEIGHTS + output * OWN;
+        let weight = |k: usize| if k < HIDDEN_WEIGHTS { k } else { own + k - HIDDEN_WEIGHTS };
+        for i in 0..RESIDUAL {
+            gradient[weight(i)] += products[RESIDUAL * WIDTH + i];
+            for j in 0..RESIDUAL {
+                matrix[(weight(i), weight(j))] += products[i.max(j) * WIDTH + i.min(j)];
+            }
+        }
+    }
+    (matrix, gradient)
 }
 
-/// One output's rows of (J | r). Such a row is zero but for the hidden layers' weights and the output's own.
-fn fill_rows(network: &Network, batch: &[Octet], output: usize, rows: &mut [f64]) {
-    rows.fill(0.0);
-    let place = HIDDEN_WEIGHTS + output * (HIDDEN + 1);
-    for (octet, rows) in batch.iter().zip(rows.chunks_exact_mut(LANES * WIDTH)) {
-        let neurons = network.activations(&octet.inputs);
+/// One output's rows of (J | r).
+fn fill_rows(network: &Network, batch: &[Block], output: usize, rows: &mut [f64]) {
+    for (block, rows) in batch.iter().zip(rows.chunks_exact_mut(LANES * WIDTH)) {
+        let neurons = network.activations(&block.inputs);
         for (lane, row) in rows.chunks_exact_mut(WIDTH).enumerate() {
-            let weight = octet.weights[output][lane];
-            network.gradient(&octet.inputs, &neurons, lane, output, &mut row[..HIDDEN_WEIGHTS]);
-            for (own, hidden) in row[place..].iter_mut().zip(&neurons.hidden_2) {
+            let weight = block.weights[output][lane];
+            network.gradient(&block.inputs, &neurons, lane, output, &mut row[..HIDDEN_WEIGHTS]);
+            for (own, hidden) in row[HIDDEN_WEIGHTS..].iter_mut().zip(&neurons.hidden_2) {
                 *own = hidden[lane];
             }
-            row[place + HIDDEN] = 1.0;
-            row[..WEIGHTS].iter_mut().for_each(|entry| *entry *= weight);
-            row[WEIGHTS] = weight * (neurons.outputs[output][lane] - octet.targets[output][lane]);
+            row[HIDDEN_WEIGHTS + HIDDEN] = 1.0;
+            row[..RESIDUAL].iter_mut().for_each(|entry| *entry *= weight);
+            row[RESIDUAL] = weight * (neurons.outputs[output][lane] - block.targets[output][lane]);
         }
     }
 }
@@ -174,9 +186,9 @@ mod tests {
         let [ahead, behind] =
             [1.0, -1.0].map(|s| Network::from_slice((&start + &direction * (s * step)).as_slice()));
         let mut expected = 0.0;
-        for octet in &fit.octets {
-            let (a, b) = (ahead.activations(&octet.inputs), behind.activations(&octet.inputs));
-            for (o, weights) in octet.weights.iter().enumerate() {
+        for block in &fit.blocks {
+            let (a, b) = (ahead.activations(&block.inputs), behind.activations(&block.inputs));
+            for (o, weights) in block.weights.iter().enumerate() {
                 for (lane, weight) in weights.iter().enumerate() {
                     expected += (weight * (a.outputs[o][lane] - b.outputs[o][lane]) / (2.0 * step)).powi(2);
                 }

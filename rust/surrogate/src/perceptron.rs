@@ -77,13 +77,6 @@ impl Perceptron {
         self.sizes.len() - 1
     }
 
-    /// As [`Perceptron::run`], compiled into its caller.
-    #[inline(always)]
-    pub fn run_inlined(&self, neurons: &mut Neurons) -> usize {
-        kernel::forward_portable(&self.sizes, &self.weights, neurons);
-        self.sizes.len() - 1
-    }
-
     /// Gradient by the weights of Σ_o c_o y_o of one lane, for `neurons` as [`Perceptron::run`] left them.
     pub fn gradient(&self, neurons: &Neurons, lane: usize, c: &[f64], gradient: &mut [f64]) {
         let mut delta = [0.0; WIDTH];

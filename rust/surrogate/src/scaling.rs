@@ -29,9 +29,12 @@ impl Range {
         (self.min..=self.max).contains(&value)
     }
 
-    /// The nearest value inside.
+    /// The nearest value inside. Written with comparisons, which are one instruction each; max and min, which look after
+    /// NaN, are three.
+    #[inline(always)]
     pub fn clamp(&self, value: f64) -> f64 {
-        value.max(self.min).min(self.max)
+        let value = if value > self.min { value } else { self.min };
+        if value < self.max { value } else { self.max }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::wall_friction::WallFriction;
 /// Most state variables of any model.
 pub const MAX_STATE: usize = 6;
 
-/// State columns of a block of eight cells; those beyond the model's [`Surrogate::state_names`] are zero.
+/// State columns of a block of cells; those beyond the model's [`Surrogate::state_names`] are zero.
 pub type StateLanes = [Lanes; MAX_STATE];
 
 /// What is known of a cell at the start. The stress is reduced: σ ℓ/(E r̄), ℓ = 1 m, compression positive.
@@ -25,7 +25,7 @@ pub struct Known {
     pub reduced_stress: Option<[f64; 2]>,
 }
 
-/// Answer for a block of eight cells.
+/// Answer for a block of cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Answer {
     /// State after the strain; equal to the state before, bit for bit, for zero strain and a state the model allows.
@@ -43,6 +43,17 @@ impl Answer {
     /// Whether a lane's inputs all lay in the trained range.
     pub fn inside(&self, lane: usize) -> bool {
         self.outside.iter().all(|column| column[lane] == 0.0)
+    }
+
+    /// Which lanes had an input outside the trained range.
+    pub fn lanes_outside(&self) -> [bool; LANES] {
+        let mut outside = [false; LANES];
+        for column in &self.outside {
+            for (outside, beyond) in outside.iter_mut().zip(column) {
+                *outside |= *beyond != 0.0;
+            }
+        }
+        outside
     }
 }
 
@@ -88,9 +99,13 @@ pub trait Surrogate: Send + Sync {
     /// The state of a cell of which no more may be known than η and f: what is missing is the mean of the training's
     /// packed states.
     fn initial_state(&self, known: &Known) -> [f64; MAX_STATE];
-    /// Evaluates eight cells: `strain` is the radial thermal strain relative to the current radii (above −1). Finite
+    /// Evaluates a block of cells: `strain` is the radial thermal strain relative to the current radii (above −1). Finite
     /// inputs give finite answers; a lane's answer depends on that lane alone.
     fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer;
+    /// As [`Surrogate::block`], into an answer that is there: a batch needs only one.
+    fn block_into(&self, state: &StateLanes, strain: &Lanes, answer: &mut Answer) {
+        *answer = self.block(state, strain);
+    }
     /// Doubt about one cell's answer; `None` when the model carries no such data. Slower than an evaluation.
     fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt>;
     /// Mechanical tangent at a state, reduced as the stress is; `None` when the model has none.
@@ -136,21 +151,21 @@ pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
     let names = model.state_names().len();
     assert!(batch.state.len() == names && batch.next_state.len() == names, "{names} state columns");
     let cells = batch.strain.len();
-    let mut count = 0;
+    let (mut count, mut answer, mut state) = (0, Answer::default(), [[0.0; LANES]; MAX_STATE]);
     for first in (0..cells).step_by(LANES) {
         let here = first..cells.min(first + LANES);
-        let lanes = |column: &[f64]| -> Lanes {
-            let part = &column[here.clone()];
+        let lanes = |column: &[f64]| match column[first..].first_chunk::<LANES>() {
+            Some(full) => *full,
             // The last block may be short: its last cell fills it.
-            part.try_into().unwrap_or_else(|_| std::array::from_fn(|lane| part[lane.min(part.len() - 1)]))
+            None => std::array::from_fn(|lane| column[(first + lane).min(cells - 1)]),
         };
-        let mut state = [[0.0; LANES]; MAX_STATE];
         for (lanes_of, column) in state.iter_mut().zip(batch.state) {
             *lanes_of = lanes(column);
         }
-        let answer = model.block(&state, &lanes(batch.strain));
-        let write = |column: &mut [f64], lanes: &Lanes| {
-            column[here.clone()].copy_from_slice(&lanes[..here.len()]);
+        model.block_into(&state, &lanes(batch.strain), &mut answer);
+        let write = |column: &mut [f64], lanes: &Lanes| match column[first..].first_chunk_mut::<LANES>() {
+            Some(full) => *full = *lanes,
+            None => column[here.clone()].copy_from_slice(&lanes[..here.len()]),
         };
         for (column, lanes) in batch.next_state.iter_mut().zip(&answer.state) {
             write(column, lanes);
@@ -168,7 +183,7 @@ pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
                 write(column, lanes);
             }
         }
-        count += (0..here.len()).filter(|lane| !answer.inside(*lane)).count();
+        count += answer.lanes_outside()[..here.len()].iter().filter(|outside| **outside).count();
     }
     count
 }

@@ -5,11 +5,11 @@ mod plot;
 mod timing;
 
 use crate::error::CliError;
-use crate::files::read_text;
+use crate::files::{read_text, write_atomically};
 use crate::progress::Progress;
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand};
-use msdd_rve::database::{Plan, Run, Shard, export_csv, generate, merge, read};
+use msdd_rve::database::{Effort, Offenders, Plan, Run, Shard, export_csv, generate, merge, read};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -25,6 +25,8 @@ pub enum Command {
     Export(ExportArguments),
     /// Check exact laws on every row; print symmetry, size effects and noise floor. Status 1 when a law is violated.
     Check(check::Arguments),
+    /// Plan RVEs around the states that a solver asked about outside a model's range.
+    Plan(PlanArguments),
     /// Draw the inputs with their hulls, and K and sigma against porosity.
     Plot(plot::Arguments),
 }
@@ -51,6 +53,28 @@ pub struct GenerateArguments {
     timing: Option<PathBuf>,
     #[command(flatten)]
     simd: SimdArgument,
+}
+
+#[derive(Args)]
+#[command(
+    after_help = "Then generate the plan, and train on both: msdd train --database OLD --database NEW --out MODEL"
+)]
+pub struct PlanArguments {
+    /// Cells outside the range, as msddFoam writes them to postProcessing/msddFoam/offenders.json.
+    #[arg(long, value_name = "FILE")]
+    from: PathBuf,
+    /// The plan of the model's database: radii and material are taken from it.
+    #[arg(long, value_name = "FILE")]
+    like: PathBuf,
+    /// The plan (TOML) to write.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Discs in a packing.
+    #[arg(long, default_value_t = 500)]
+    discs: usize,
+    /// Packings for each porosity and kind of compression.
+    #[arg(long, default_value_t = 4)]
+    repeats: u32,
 }
 
 #[derive(Args)]
@@ -90,8 +114,24 @@ pub fn run(command: &Command) -> Result<(), CliError> {
             Ok(())
         }
         Command::Check(arguments) => check::run(arguments),
+        Command::Plan(arguments) => plan(arguments),
         Command::Plot(arguments) => plot::run(arguments),
     }
+}
+
+fn plan(arguments: &PlanArguments) -> Result<(), CliError> {
+    let offenders = Offenders::parse(&read_text(&arguments.from)?, &arguments.from.display().to_string())?;
+    let like = Plan::parse(&read_text(&arguments.like)?, &arguments.like.display().to_string())?;
+    let effort = Effort { discs: arguments.discs, repeats: arguments.repeats };
+    let plan = offenders.plan(&like, effort)?;
+    write_atomically(&arguments.out, plan.text.as_bytes())?;
+    let (cells, packings) = (offenders.rows.len(), plan.jobs().len());
+    println!(
+        "{packings} packings, {} states for {cells} queries outside, in {}",
+        plan.rows(),
+        arguments.out.display()
+    );
+    Ok(())
 }
 
 fn make(arguments: &GenerateArguments) -> Result<(), CliError> {

@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::files::{read_text, write_atomically};
 use crate::rows::training_data;
 use clap::Args;
-use msdd_rve::database::read;
+use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
 use msdd_surrogate::composition::Composed;
 use msdd_surrogate::models::{self, TrainingData};
@@ -16,14 +16,14 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Model file.
-    #[arg(long, value_name = "FILE")]
-    model: PathBuf,
-    /// Database, or the CSV that was exported from one. When it is the one of the training, the packings that were held
-    /// out then are scored, else all.
-    #[arg(long, value_name = "FILE")]
-    database: PathBuf,
-    /// JSON to write.
+    /// Model file; given several times, the models' main figures are set side by side at the end.
+    #[arg(long, value_name = "FILE", required = true)]
+    model: Vec<PathBuf>,
+    /// Database, or the CSV that was exported from one; given several times, all of them together. When it is the one of
+    /// the training, the packings that were held out then are scored, else all.
+    #[arg(long, value_name = "FILE", required = true)]
+    database: Vec<PathBuf>,
+    /// JSON to write: a list, one entry a model.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Folder for the plots (SVG): parity, response surfaces.
@@ -32,26 +32,56 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let failed = |source| CliError::Model { file: arguments.model.clone(), source };
-    let model = models::read(&read_text(&arguments.model)?).map_err(failed)?;
-    let dataset = read(&arguments.database)?;
+    let dataset = read_all(&arguments.database)?;
     let data = training_data(&dataset.records);
     let plan_hash = dataset.provenance.get("plan_hash").cloned().unwrap_or_default();
-    let failed = |source| CliError::Training { file: arguments.database.clone(), source };
-    let ramps = ramps(model.as_ref(), &data.rows, &plan_hash).map_err(failed)?;
-    let result = score(model.as_ref(), &ramps);
-    print(&result);
+    let mut scores = Vec::new();
+    for file in &arguments.model {
+        let failed = |source| CliError::Model { file: file.clone(), source };
+        let model = models::read(&read_text(file)?).map_err(failed)?;
+        let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
+        let ramps = ramps(model.as_ref(), &data.rows, &plan_hash).map_err(failed)?;
+        let result = score(model.as_ref(), &ramps);
+        print(&result);
+        println!();
+        scores.push(result);
+        if let Some(folder) = &arguments.plot {
+            let folder = if arguments.model.len() > 1 { folder.join(model.name()) } else { folder.clone() };
+            for (name, svg) in plot::all(model.as_ref(), &ramps.unseen)? {
+                write_atomically(&folder.join(name), svg.as_bytes())?;
+            }
+        }
+    }
+    if scores.len() > 1 {
+        print_side_by_side(&scores);
+    }
     if let Some(path) = &arguments.json {
-        let text = serde_json::to_string_pretty(&result)
+        let text = serde_json::to_string_pretty(&scores)
             .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
         write_atomically(path, (text + "\n").as_bytes())?;
     }
-    if let Some(folder) = &arguments.plot {
-        for (name, svg) in plot::all(model.as_ref(), &ramps.unseen)? {
-            write_atomically(&folder.join(name), svg.as_bytes())?;
-        }
-    }
     Ok(())
+}
+
+/// Increments at which models are set side by side: a solver takes many small ones.
+const MANY: u32 = 500;
+
+fn print_side_by_side(scores: &[Score]) {
+    println!("Side by side: R2 of one step; rms error of K, sigma in % after a strain in {MANY} increments");
+    print!("{:<16} {:>7} {:>7} {:>7}", "model", "d eta", "K", "sigma");
+    let strains = [0.02, -0.02, 0.05, -0.05];
+    strains.iter().for_each(|strain| print!(" {:>15}", format!("{:+.0} %: K sigma", 100.0 * strain)));
+    println!();
+    for score in scores {
+        let s = &score.unseen;
+        print!("{:<16} {:>7.4} {:>7.4} {:>7.4}", score.name, s.delta_porosity, s.conductivity, s.stress);
+        for strain in strains {
+            let found = score.composed.iter().find(|c| c.strain == strain && c.increments == MANY);
+            let errors = found.map(|c| format!("{:.1} {:.1}", 100.0 * c.conductivity, 100.0 * c.stress));
+            print!(" {:>15}", errors.unwrap_or_default());
+        }
+        println!();
+    }
 }
 
 /// What `msdd train` says of a fresh model.

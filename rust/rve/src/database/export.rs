@@ -3,6 +3,7 @@
 use super::DatabaseError;
 use super::record::{COLUMNS, Record};
 use super::store::Store;
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -120,4 +121,40 @@ pub fn read(path: &Path) -> Result<Dataset, DatabaseError> {
     let provenance = serde_json::from_str(&text)
         .map_err(|error| DatabaseError::Format { path: origin, problem: error.to_string() })?;
     Ok(Dataset { records, provenance })
+}
+
+/// What must be equal in databases that are read as one: rows of other grains or another engine do not mix.
+const SHARED: [&str; 5] = ["engine_version", "material", "radius_distribution", "radius_min", "radius_max"];
+
+/// Reads several databases as one. Packings are numbered on from file to file; the plan's hash is then of all plans.
+///
+/// # Errors
+/// Those of [`read`]; [`DatabaseError::Mismatch`] for databases of different grains or engines.
+pub fn read_all(paths: &[PathBuf]) -> Result<Dataset, DatabaseError> {
+    let mut all = Dataset { records: Vec::new(), provenance: BTreeMap::new() };
+    let mut plans = Vec::new();
+    for path in paths {
+        let Dataset { mut records, provenance } = read(path)?;
+        let first = plans.is_empty();
+        plans.push(provenance.get("plan_hash").cloned().unwrap_or_default());
+        if first {
+            all = Dataset { records, provenance };
+            continue;
+        }
+        for key in SHARED {
+            let [found, expected] =
+                [&provenance, &all.provenance].map(|p| p.get(key).cloned().unwrap_or_default());
+            if found != expected {
+                return Err(DatabaseError::Mismatch { path: path.clone(), key, found, expected });
+            }
+        }
+        let next = all.records.iter().map(|record| record.packing + 1).max().unwrap_or(0);
+        records.iter_mut().for_each(|record| record.packing += next);
+        all.records.append(&mut records);
+    }
+    if plans.len() > 1 {
+        let hash = Sha256::digest(plans.concat()).iter().map(|byte| format!("{byte:02x}")).collect();
+        all.provenance.insert("plan_hash".to_string(), hash);
+    }
+    Ok(all)
 }

@@ -8,6 +8,7 @@
 //! | [`store`] | the SQLite file: schema, provenance, resume |
 //! | [`generate`](mod@generate) | makes the rows, on several threads |
 //! | [`merge`](mod@merge) | shards made on several machines become one file |
+//! | [`offenders`] | a plan from queries outside a model's range |
 //! | [`export`] | CSV with a column dictionary; reading any form |
 //! | [`check`] | exact laws on every row, statistics, noise floor |
 
@@ -15,15 +16,17 @@ pub mod check;
 pub mod export;
 pub mod generate;
 pub mod merge;
+pub mod offenders;
 pub mod plan;
 pub mod record;
 mod rows;
 mod shard;
 pub mod store;
 
-pub use export::{Dataset, export_csv, read};
+pub use export::{Dataset, export_csv, read, read_all};
 pub use generate::{Progress, Run, generate};
 pub use merge::merge;
+pub use offenders::{Effort, Offenders};
 pub use plan::{Kind, Plan, RampName};
 pub use record::Record;
 pub use shard::Shard;

@@ -7,7 +7,7 @@ use super::fit::PerceptronFit;
 use super::pairs::{self, Track};
 use super::rates::{EVEN_OUTPUTS, Rates, direction};
 use super::variables::{FeatureRanges, POROSITY, PRESSURE, Variables};
-use crate::kernel::{LANES, add_outer_products};
+use crate::kernel::{self, LANES, RateInputs, add_outer_products};
 use crate::levenberg_marquardt::{LeastSquares, NormalEquations};
 use crate::perceptron::{Neurons, Perceptron, WIDTH};
 use crate::surrogate::{MAX_STATE, StateLanes};
@@ -70,8 +70,11 @@ impl RatesFit<'_> {
             std::array::from_fn(|lane| state[column] + if lane == column + 1 { PERTURBATION } else { 0.0 })
         });
         // Features of zero strain: the rate in the limit of many increments. The single steps teach the large ones.
-        let features = self.ranges.features(self.variables, &lanes, &[0.0; LANES]);
-        let next = rates.advanced(self.variables, &lanes, &[strain; LANES], &features, neurons);
+        let features = &self.ranges.features(self.variables, &lanes, &[0.0; LANES]);
+        let from =
+            RateInputs { variables: self.variables, state: &lanes, strain: &[strain; LANES], features };
+        let mut next = lanes;
+        kernel::advance(rates, from, neurons, &mut next);
         let Some(sensitivity) = sensitivity else { return next.map(|column| column[0]) };
         let names = self.variables.names().len();
         let old = std::mem::take(sensitivity);

@@ -25,8 +25,8 @@ pub struct Sample {
     pub residuals: Vec<Residual>,
 }
 
-/// Eight samples: scaled inputs, and residuals with their lanes.
-struct Octet {
+/// Samples of a block: scaled inputs, and residuals with their lanes.
+struct Block {
     inputs: Vec<Lanes>,
     residuals: Vec<(usize, Residual)>,
 }
@@ -34,7 +34,7 @@ struct Octet {
 /// The fit of one network to samples.
 pub struct PerceptronFit {
     sizes: Vec<usize>,
-    octets: Vec<Octet>,
+    blocks: Vec<Block>,
     residuals: f64,
     threads: usize,
 }
@@ -46,16 +46,16 @@ const BATCH: usize = 128;
 
 impl PerceptronFit {
     pub fn new(sizes: Vec<usize>, samples: &[Sample], threads: usize) -> Self {
-        let octet = |chunk: &[Sample]| {
+        let block = |chunk: &[Sample]| {
             let lane_of = |lane: usize| &chunk[lane.min(chunk.len() - 1)];
             let inputs = (0..sizes[0]).map(|k| std::array::from_fn(|lane| lane_of(lane).inputs[k])).collect();
             let residuals = chunk.iter().enumerate();
             let residuals = residuals.flat_map(|(lane, s)| s.residuals.iter().map(move |r| (lane, *r)));
-            Octet { inputs, residuals: residuals.collect() }
+            Block { inputs, residuals: residuals.collect() }
         };
         let residuals = samples.iter().map(|sample| sample.residuals.len()).sum::<usize>().max(1) as f64;
-        let octets = samples.chunks(LANES).map(octet).collect();
-        Self { sizes, octets, residuals, threads: threads.clamp(1, PARTS) }
+        let blocks = samples.chunks(LANES).map(block).collect();
+        Self { sizes, blocks, residuals, threads: threads.clamp(1, PARTS) }
     }
 
     fn network(&self, parameters: &DVector<f64>) -> Perceptron {
@@ -64,7 +64,7 @@ impl PerceptronFit {
 
     /// Width of a row of J with its residual behind, padded for the kernel.
     pub(super) fn width(weights: usize) -> usize {
-        (weights + 1).next_multiple_of(16)
+        (weights + 1).next_multiple_of(LANES)
     }
 
     /// Number of residuals.
@@ -76,7 +76,7 @@ impl PerceptronFit {
     pub(super) fn summed_products(&self, network: &Perceptron) -> Vec<f64> {
         let width = Self::width(network.weights.len());
         let mut sum = vec![0.0; width * width];
-        for part in self.by_part(|octets| Self::products(network, octets)) {
+        for part in self.by_part(|blocks| Self::products(network, blocks)) {
             sum.iter_mut().zip(&part).for_each(|(sum, part)| *sum += part);
         }
         sum
@@ -92,11 +92,11 @@ impl PerceptronFit {
         }
     }
 
-    /// Σ r² of some octets.
-    fn sum_of_squares(network: &Perceptron, octets: &[Octet]) -> f64 {
+    /// Σ r² of some blocks.
+    fn sum_of_squares(network: &Perceptron, blocks: &[Block]) -> f64 {
         let mut neurons = Neurons::new();
         let mut sum = 0.0;
-        for Octet { inputs, residuals } in octets {
+        for Block { inputs, residuals } in blocks {
             neurons.layers[0][..inputs.len()].copy_from_slice(inputs);
             let last = network.run(&mut neurons);
             for (lane, residual) in residuals {
@@ -107,14 +107,14 @@ impl PerceptronFit {
         sum
     }
 
-    /// Lower triangle of (J | r)ᵀ (J | r) of some octets.
-    fn products(network: &Perceptron, octets: &[Octet]) -> Vec<f64> {
+    /// Lower triangle of (J | r)ᵀ (J | r) of some blocks.
+    fn products(network: &Perceptron, blocks: &[Block]) -> Vec<f64> {
         let weights = network.weights.len();
         let width = Self::width(weights);
         let mut matrix = vec![0.0; width * width];
         let mut rows = vec![0.0; BATCH * width];
         let (mut neurons, mut filled) = (Neurons::new(), 0);
-        for Octet { inputs, residuals } in octets {
+        for Block { inputs, residuals } in blocks {
             neurons.layers[0][..inputs.len()].copy_from_slice(inputs);
             let last = network.run(&mut neurons);
             for (lane, residual) in residuals {
@@ -139,9 +139,9 @@ impl PerceptronFit {
     }
 
     /// The parts' results, in order.
-    fn by_part<T: Send>(&self, work: impl Fn(&[Octet]) -> T + Sync) -> Vec<T> {
-        let length = self.octets.len().div_ceil(PARTS).max(1);
-        let parts: Vec<_> = self.octets.chunks(length).collect();
+    fn by_part<T: Send>(&self, work: impl Fn(&[Block]) -> T + Sync) -> Vec<T> {
+        let length = self.blocks.len().div_ceil(PARTS).max(1);
+        let parts: Vec<_> = self.blocks.chunks(length).collect();
         let share = parts.len().div_ceil(self.threads).max(1);
         if self.threads == 1 {
             return parts.into_iter().map(work).collect();
@@ -168,7 +168,7 @@ impl Residual {
 impl LeastSquares for PerceptronFit {
     fn mean_square(&self, parameters: &DVector<f64>) -> f64 {
         let network = self.network(parameters);
-        let sums = self.by_part(|octets| Self::sum_of_squares(&network, octets));
+        let sums = self.by_part(|blocks| Self::sum_of_squares(&network, blocks));
         sums.iter().fold(0.0, |sum, part| sum + part) / self.residuals
     }
 

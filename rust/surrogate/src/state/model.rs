@@ -3,10 +3,12 @@
 use super::mean::MeanState;
 use super::rates::Rates;
 use super::readout::Readout;
-use super::variables::{ConductivityKind, FABRIC_INDEX, FeatureRanges, POROSITY, PRESSURE, Variables};
+use super::variables::{
+    ConductivityKind, FABRIC_INDEX, FeatureRanges, Features, POROSITY, PRESSURE, Variables, stress_ratios,
+};
+use crate::kernel::vector::Vector;
 use crate::kernel::{self, LANES, Lanes};
 use crate::mechanics::Tangent;
-use crate::perceptron::Neurons;
 use crate::region::{Region, Spread};
 use crate::solid_fraction::SolidFraction;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
@@ -49,16 +51,21 @@ impl Core {
 
     /// The work of [`Core::block`], compiled per instruction set by [`kernel::state_block`].
     #[inline(always)]
-    pub(crate) fn block_into(&self, state: &StateLanes, strain: &Lanes, answer: &mut Answer) {
-        let mut neurons = Neurons::new();
-        let (variables, ranges) = (self.variables, &self.ranges);
-        answer.outside = ranges.outside(variables, state, strain);
-        let strain = &strain.map(|strain| ranges.thermal_strain.clamp(strain));
-        let features = ranges.features(variables, state, strain);
-        answer.state = self.rates.advanced(variables, state, strain, &features, &mut neurons);
-        let features = ranges.features(variables, &answer.state, strain);
-        (answer.conductivity, answer.stress) =
-            self.readouts[self.active].answer(variables, &answer.state, &features, &mut neurons);
+    pub(crate) fn block_into<V: Vector>(&self, state: &StateLanes, strain: &Lanes, answer: &mut Answer) {
+        let mut buffers = kernel::buffers();
+        let (variables, ranges, network) = (self.variables, &self.ranges, &self.rates.network);
+        let ratio = stress_ratios::<V>(variables, state);
+        ranges.outside::<V>(variables, state, &ratio, strain, &mut answer.outside);
+        let limits = [ranges.thermal_strain.min, ranges.thermal_strain.max].map(V::all);
+        let mut allowed = [0.0; LANES];
+        V::read(strain).within(limits[0], limits[1]).write(&mut allowed);
+        let mut features = Features::default();
+        ranges.fill_features::<V>(variables, state, &ratio, &allowed, &mut features);
+        let outputs = kernel::outputs::<V>(&network.sizes, &network.weights, &features.even, &mut buffers);
+        self.rates.advanced::<V>(variables, state, &allowed, &features, outputs, &mut answer.state);
+        let ratio = stress_ratios::<V>(variables, &answer.state);
+        ranges.fill_features::<V>(variables, &answer.state, &ratio, &allowed, &mut features);
+        self.readouts[self.active].answer::<V>(variables, &features, &mut buffers, answer);
     }
 }
 
@@ -131,6 +138,10 @@ impl Surrogate for StateModel {
         self.core.block(state, strain)
     }
 
+    fn block_into(&self, state: &StateLanes, strain: &Lanes, answer: &mut Answer) {
+        kernel::state_block(&self.core, state, strain, answer);
+    }
+
     fn tangent(&self, state: &[f64; MAX_STATE]) -> Option<Tangent> {
         let pressure = state[PRESSURE];
         let deviator = self.core.variables.deviator().map_or(0.0, |column| state[column]);
@@ -178,7 +189,7 @@ impl Surrogate for StateModel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::LANES;
+    use crate::kernel::vector::Portable;
     use crate::state::training::{Mechanical, StateOptions, train};
     use crate::surrogate::{Batch, evaluate_batch};
     use crate::synthetic;
@@ -224,6 +235,42 @@ mod tests {
         }
     }
 
+    /// Flags of invalid, divide-by-zero and overflow that the arithmetic since the last call has raised.
+    #[cfg(target_arch = "x86_64")]
+    #[allow(unsafe_code)]
+    fn raised() -> u32 {
+        let (mut flags, mut cleared) = (0u32, 0u32);
+        // SAFETY: stores and loads the thread's control register; of its bits only the sticky flags change.
+        unsafe {
+            std::arch::asm!("stmxcsr [{}]", in(reg) &mut flags);
+            cleared |= flags & !0b11_1111;
+            std::arch::asm!("ldmxcsr [{}]", in(reg) &cleared);
+        }
+        flags & 0b1101
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[test]
+    fn no_query_raises_invalid_division_by_zero_or_overflow() {
+        let (model, mut random) = (model(), ChaCha8Rng::seed_from_u64(13));
+        let _ = raised();
+        assert_ne!(
+            {
+                let _ = std::hint::black_box(1.0) / std::hint::black_box(0.0f64);
+                raised()
+            },
+            0
+        );
+        for _ in 0..20_000 {
+            let (state, strain) = wild(&mut random);
+            let _ = raised();
+            let mut answer = model.block(&state, &strain);
+            assert_eq!(raised(), 0, "{state:?} {strain:?}");
+            model.core.block_into::<Portable>(&state, &strain, &mut answer);
+            assert_eq!(raised(), 0, "{state:?} {strain:?}");
+        }
+    }
+
     #[test]
     fn a_turn_by_90_degrees_turns_the_answer_to_the_bit_and_zero_strain_changes_nothing() {
         let (model, mut random) = (model(), ChaCha8Rng::seed_from_u64(3));
@@ -250,7 +297,7 @@ mod tests {
             let (state, strain) = wild(&mut random);
             let answer = model.block(&state, &strain);
             let mut portable = Answer::default();
-            model.core.block_into(&state, &strain, &mut portable);
+            model.core.block_into::<Portable>(&state, &strain, &mut portable);
             assert_eq!(format!("{answer:?}"), format!("{portable:?}"));
         }
         let cells = 19;

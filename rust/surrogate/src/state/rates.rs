@@ -1,8 +1,9 @@
 //! Advance of the state: Δx = ε · g(x, ε).
 
 use super::variables::{FABRIC_INDEX, Features, MAX_ODD, POROSITY, PRESSURE, RATE_INPUTS, Variables};
-use crate::kernel::{LANES, Lanes};
-use crate::perceptron::{Neurons, Perceptron};
+use crate::kernel::Lanes;
+use crate::kernel::vector::Vector;
+use crate::perceptron::Perceptron;
 use crate::surrogate::{MAX_STATE, StateLanes};
 use serde::{Deserialize, Serialize};
 
@@ -35,64 +36,57 @@ pub fn sizes(variables: Variables, hidden: &[usize]) -> Vec<usize> {
 }
 
 impl Rates {
-    /// The state after a strain.
+    /// The state after a strain, in the model's columns of `next`; `outputs` are those of the network at the features.
     #[inline(always)]
-    pub fn advanced(
+    pub fn advanced<V: Vector>(
         &self,
         variables: Variables,
         state: &StateLanes,
         strain: &Lanes,
         features: &Features,
-        neurons: &mut Neurons,
-    ) -> StateLanes {
-        neurons.layers[0][..RATE_INPUTS].copy_from_slice(&features.even);
-        let last = self.network.run_inlined(neurons);
-        let outputs = &neurons.layers[last];
-        let mut next = *state;
+        outputs: &[Lanes],
+        next: &mut StateLanes,
+    ) {
+        let strain = V::read(strain);
         for (output, column) in [POROSITY, PRESSURE].into_iter().enumerate() {
-            for lane in 0..LANES {
-                let rate = self.offset[column] + self.scale[column] * outputs[output][lane];
-                next[column][lane] += strain[lane] * rate;
-            }
+            let (offset, scale) = (V::all(self.offset[column]), V::all(self.scale[column]));
+            let rate = V::read(&outputs[output]).fused(scale, offset);
+            strain.fused(rate, V::read(&state[column])).write(&mut next[column]);
         }
         let count = variables.odd_count();
-        let signs = strain.map(direction);
+        let direction = strain.where_greater(
+            V::zero(),
+            V::all(1.0),
+            V::zero().where_greater(strain, V::all(-1.0), V::zero()),
+        );
         for (k, column) in variables.odd().enumerate() {
-            let first = EVEN_OUTPUTS + k * (count + 1);
-            let sum = odd_sum(&outputs[first..first + count], &features.odd);
-            let (own, odd) = (&outputs[first + count], &features.odd[k]);
-            for lane in 0..LANES {
-                let rate = sum[lane] + signs[lane] * own[lane] * odd[lane];
-                next[column][lane] += strain[lane] * (self.scale[column] * rate);
-            }
+            let own = &outputs[EVEN_OUTPUTS + k * (count + 1)..][..count + 1];
+            let sum = odd_sum::<V>(&own[..count], &features.odd);
+            let rate = (direction * V::read(&own[count])).fused(V::read(&features.odd[k]), sum);
+            let rate = rate * V::all(self.scale[column]);
+            strain.fused(rate, V::read(&state[column])).write(&mut next[column]);
         }
-        self.limit(variables, state, &mut next);
-        next
+        self.limit::<V>(variables, state, next);
     }
 
     /// Keeps the state one that grains can have: 0 ≤ η < 1, p̃ ≥ 0, no tension, and no stress before the grains touch.
     #[inline(always)]
-    fn limit(&self, variables: Variables, state: &StateLanes, next: &mut StateLanes) {
-        let mut pressure = [0.0; LANES];
-        for lane in 0..LANES {
-            next[POROSITY][lane] = next[POROSITY][lane].clamp(0.0, POROSITY_LIMIT);
-            let apart = (state[PRESSURE][lane] <= 0.0) & (next[POROSITY][lane] >= self.unjamming_porosity);
-            let allowed = next[PRESSURE][lane].max(0.0);
-            pressure[lane] = if apart { 0.0 } else { allowed };
-        }
-        next[PRESSURE] = pressure;
+    fn limit<V: Vector>(&self, variables: Variables, state: &StateLanes, next: &mut StateLanes) {
+        let zero = V::zero();
+        let porosity = V::read(&next[POROSITY]).within(zero, V::all(POROSITY_LIMIT));
+        porosity.write(&mut next[POROSITY]);
+        let allowed = V::read(&next[PRESSURE]).at_least(zero);
+        let touching = V::all(self.unjamming_porosity).where_greater(porosity, allowed, zero);
+        let pressure = V::read(&state[PRESSURE]).where_greater(zero, allowed, touching);
+        pressure.write(&mut next[PRESSURE]);
         for column in std::iter::once(FABRIC_INDEX).chain(variables.fabric_conductivity()) {
-            for lane in 0..LANES {
-                // Without contacts there is no fabric to change.
-                let (new, old) = (next[column][lane], state[column][lane]);
-                let value = if pressure[lane] > 0.0 { new } else { old };
-                next[column][lane] = value.clamp(-FABRIC_LIMIT, FABRIC_LIMIT);
-            }
+            // Without contacts there is no fabric to change.
+            let (new, old) = (V::read(&next[column]), V::read(&state[column]));
+            let value = pressure.where_greater(zero, new, old);
+            value.within(V::all(-FABRIC_LIMIT), V::all(FABRIC_LIMIT)).write(&mut next[column]);
         }
         if let Some(column) = variables.deviator() {
-            for lane in 0..LANES {
-                next[column][lane] = next[column][lane].max(-pressure[lane]).min(pressure[lane]);
-            }
+            V::read(&next[column]).within(zero - pressure, pressure).write(&mut next[column]);
         }
     }
 }
@@ -113,12 +107,10 @@ pub fn direction(strain: f64) -> f64 {
 
 /// Σ y_i b_i over the odd features.
 #[inline(always)]
-pub fn odd_sum(coefficients: &[Lanes], odd: &[Lanes; MAX_ODD]) -> Lanes {
-    let mut sum = [0.0; LANES];
+pub fn odd_sum<V: Vector>(coefficients: &[Lanes], odd: &[Lanes; MAX_ODD]) -> V {
+    let mut sum = V::zero();
     for (y, b) in coefficients.iter().zip(odd) {
-        for lane in 0..LANES {
-            sum[lane] += y[lane] * b[lane];
-        }
+        sum = V::read(y).fused(V::read(b), sum);
     }
     sum
 }

@@ -2,9 +2,10 @@
 
 use super::rates::odd_sum;
 use super::variables::{ConductivityKind, Features, PRESSURE, READOUT_INPUTS, Variables};
-use crate::kernel::{LANES, Lanes};
-use crate::perceptron::{Neurons, Perceptron};
-use crate::surrogate::StateLanes;
+use crate::kernel::vector::Vector;
+use crate::kernel::{self, Buffers};
+use crate::perceptron::Perceptron;
+use crate::surrogate::Answer;
 use serde::{Deserialize, Serialize};
 
 /// Readout of one kind of conductivity.
@@ -33,47 +34,40 @@ impl Readout {
         [&[READOUT_INPUTS], hidden, &[1 + missing * variables.odd_count()]].concat()
     }
 
-    /// K_xx/k, K_yy/k and reduced σ_xx, σ_yy of a state.
+    /// Conductivity and stress of the answer's state.
     ///
     /// Mean K = floor + √p̃ h², so K tends to the floor with the stress and never falls below it.
     #[inline(always)]
-    pub fn answer(
+    pub fn answer<V: Vector>(
         &self,
         variables: Variables,
-        state: &StateLanes,
         features: &Features,
-        neurons: &mut Neurons,
-    ) -> ([Lanes; 2], [Lanes; 2]) {
-        neurons.layers[0][..READOUT_INPUTS].copy_from_slice(&features.even[..READOUT_INPUTS]);
-        let last = self.network.run_inlined(neurons);
-        let outputs = &neurons.layers[last];
-        let (mut conductivity, mut stress) = ([[0.0; LANES]; 2], [[0.0; LANES]; 2]);
+        buffers: &mut Buffers,
+        answer: &mut Answer,
+    ) {
+        let outputs =
+            kernel::outputs::<V>(&self.network.sizes, &self.network.weights, &features.even, buffers);
         let count = variables.odd_count();
-        let read = |first: usize| {
-            let sum = odd_sum(&outputs[first..first + count], &features.odd);
-            sum.map(|value| value.clamp(-RATIO_LIMIT, RATIO_LIMIT))
-        };
         let after_fabric = if self.carried { 1 } else { 1 + count };
+        let limits = [V::all(-RATIO_LIMIT), V::all(RATIO_LIMIT)];
         let fabric = match variables.fabric_conductivity() {
-            Some(column) if self.carried => state[column].map(|v| v.clamp(-RATIO_LIMIT, RATIO_LIMIT)),
-            _ => read(1),
+            Some(column) if self.carried => V::read(&answer.state[column]),
+            _ => odd_sum::<V>(&outputs[1..1 + count], &features.odd),
         };
-        let pressure = &state[PRESSURE];
+        let fabric = fabric.within(limits[0], limits[1]);
+        let pressure = V::read(&answer.state[PRESSURE]);
         let deviator = match variables.deviator() {
-            Some(column) => state[column],
+            Some(column) => V::read(&answer.state[column]),
             None => {
-                let ratio = read(after_fabric);
-                std::array::from_fn(|lane| pressure[lane] * ratio[lane])
+                let ratio = odd_sum::<V>(&outputs[after_fabric..after_fabric + count], &features.odd);
+                ratio.within(limits[0], limits[1]) * pressure
             }
         };
-        for lane in 0..LANES {
-            let h = self.offset + self.scale * outputs[0][lane];
-            let mean = CONDUCTIVITY_FLOOR + features.root_pressure[lane] * (h * h);
-            conductivity[0][lane] = mean * (1.0 + fabric[lane]);
-            conductivity[1][lane] = mean * (1.0 - fabric[lane]);
-            stress[0][lane] = pressure[lane] + deviator[lane];
-            stress[1][lane] = pressure[lane] - deviator[lane];
-        }
-        (conductivity, stress)
+        let h = V::read(&outputs[0]).fused(V::all(self.scale), V::all(self.offset));
+        let mean = V::read(&features.root_pressure).fused(h * h, V::all(CONDUCTIVITY_FLOOR));
+        (mean * (V::all(1.0) + fabric)).write(&mut answer.conductivity[0]);
+        (mean * (V::all(1.0) - fabric)).write(&mut answer.conductivity[1]);
+        (pressure + deviator).write(&mut answer.stress[0]);
+        (pressure - deviator).write(&mut answer.stress[1]);
     }
 }

@@ -42,7 +42,7 @@ impl Default for StateOptions {
             common: TrainingOptions { restarts: 2, max_epochs: 40, ..TrainingOptions::default() },
             variables: Variables::ALL,
             hidden: vec![4],
-            readout_hidden: vec![8],
+            readout_hidden: vec![4],
         }
     }
 }
@@ -224,7 +224,8 @@ fn spread(core: &Core, split: &Split, kind: ConductivityKind) -> Spread {
         rate.push((start, (answer.state[PRESSURE][0] - end) / pair.strain));
     }
     for point in pairs::points(core.variables, kind, &unseen).iter().filter(|p| p.jammed) {
-        let answer = core.block(&point.state.map(|v| [v; crate::kernel::LANES]), &[0.0; 8]);
+        let answer =
+            core.block(&point.state.map(|v| [v; crate::kernel::LANES]), &[0.0; crate::kernel::LANES]);
         let mean = 0.5 * (answer.conductivity[0][0] + answer.conductivity[1][0]);
         conductivity.push((point.state[PRESSURE], mean / point.conductivity - 1.0));
     }

@@ -2,6 +2,7 @@
 
 use crate::SurrogateError;
 use crate::dataset::StateRow;
+use crate::kernel::vector::{Portable, Vector};
 use crate::kernel::{LANES, Lanes};
 use crate::scaling::Range;
 use crate::surrogate::{MAX_STATE, StateLanes};
@@ -142,6 +143,7 @@ pub const READOUT_INPUTS: usize = 3;
 pub const RATE_INPUTS: usize = 4;
 
 /// Features of a block of cells.
+#[derive(Clone, Debug, Default)]
 pub struct Features {
     /// On [-1, 1]: η, √p̃, the square of the last odd feature, ε.
     pub even: [Lanes; RATE_INPUTS],
@@ -170,56 +172,78 @@ impl FeatureRanges {
         }
     }
 
+    /// Features of a block of states. `ratio`: their q̃/p̃, see [`stress_ratios`]. Odd ones that are not carried are left.
     #[inline(always)]
-    pub fn features(&self, variables: Variables, state: &StateLanes, strain: &Lanes) -> Features {
+    pub fn fill_features<V: Vector>(
+        &self,
+        variables: Variables,
+        state: &StateLanes,
+        ratio: &Lanes,
+        strain: &Lanes,
+        features: &mut Features,
+    ) {
         let root = Range { min: 0.0, max: self.pressure.max.sqrt() };
-        let pressure = &state[PRESSURE];
-        let root_pressure = pressure.map(|p| self.pressure.clamp(p).sqrt());
-        let mut odd = [[0.0; LANES]; MAX_ODD];
-        odd[0] = scaled(&state[FABRIC_INDEX], self.fabric_index);
+        let root_pressure = clamped(V::read(&state[PRESSURE]), self.pressure).sqrt();
+        root_pressure.write(&mut features.root_pressure);
+        let mut last = scaled(V::read(&state[FABRIC_INDEX]), self.fabric_index);
+        last.write(&mut features.odd[0]);
         let mut count = 1;
         if let Some(column) = variables.fabric_conductivity() {
-            odd[count] = scaled(&state[column], self.fabric_conductivity);
-            count += 1;
+            last = scaled(V::read(&state[column]), self.fabric_conductivity);
+            last.write(&mut features.odd[1]);
+            count = 2;
         }
-        if let Some(column) = variables.deviator() {
-            let ratio = std::array::from_fn(|lane| stress_ratio(state[column][lane], pressure[lane]));
-            odd[count] = scaled(&ratio, self.stress_ratio);
-            count += 1;
+        if variables.stress_deviator {
+            last = scaled(V::read(ratio), self.stress_ratio);
+            last.write(&mut features.odd[count]);
         }
-        let even = [
-            scaled(&state[POROSITY], self.porosity),
-            scaled(&root_pressure, root),
-            odd[count - 1].map(|value| 2.0 * value * value - 1.0),
-            scaled(strain, self.thermal_strain),
-        ];
-        Features { even, odd, root_pressure }
+        let [porosity, pressure, square, thermal_strain] = &mut features.even;
+        scaled(V::read(&state[POROSITY]), self.porosity).write(porosity);
+        scaled(root_pressure, root).write(pressure);
+        ((last + last) * last - V::all(1.0)).write(square);
+        scaled(V::read(strain), self.thermal_strain).write(thermal_strain);
+    }
+
+    /// Features of a block of states, for callers in no hurry.
+    pub fn features(&self, variables: Variables, state: &StateLanes, strain: &Lanes) -> Features {
+        let (ratio, mut features) = (stress_ratios::<Portable>(variables, state), Features::default());
+        self.fill_features::<Portable>(variables, state, &ratio, strain, &mut features);
+        features
     }
 
     /// As [`crate::surrogate::Answer::outside`]. The deviator is judged as q̃/p̃.
     #[inline(always)]
-    pub fn outside(
+    pub fn outside<V: Vector>(
         &self,
         variables: Variables,
         state: &StateLanes,
+        ratio: &Lanes,
         strain: &Lanes,
-    ) -> [Lanes; MAX_STATE + 1] {
-        let mut outside = [[0.0; LANES]; MAX_STATE + 1];
-        let beyond = |values: &Lanes, range: Range| values.map(|v| v - range.clamp(v));
-        outside[POROSITY] = beyond(&state[POROSITY], self.porosity);
-        outside[FABRIC_INDEX] = beyond(&state[FABRIC_INDEX], self.fabric_index);
-        outside[PRESSURE] = beyond(&state[PRESSURE], self.pressure);
+        outside: &mut [Lanes; MAX_STATE + 1],
+    ) {
+        beyond::<V>(&state[POROSITY], self.porosity).write(&mut outside[POROSITY]);
+        beyond::<V>(&state[FABRIC_INDEX], self.fabric_index).write(&mut outside[FABRIC_INDEX]);
+        beyond::<V>(&state[PRESSURE], self.pressure).write(&mut outside[PRESSURE]);
         if let Some(column) = variables.fabric_conductivity() {
-            outside[column] = beyond(&state[column], self.fabric_conductivity);
+            beyond::<V>(&state[column], self.fabric_conductivity).write(&mut outside[column]);
         }
         if let Some(column) = variables.deviator() {
-            let at = |lane: usize| stress_ratio(state[column][lane], state[PRESSURE][lane].max(0.0));
-            let ratio = beyond(&std::array::from_fn(at), self.stress_ratio);
-            outside[column] = std::array::from_fn(|lane| ratio[lane] * state[PRESSURE][lane].max(0.0));
+            let pressure = V::read(&state[PRESSURE]).at_least(V::zero());
+            (beyond::<V>(ratio, self.stress_ratio) * pressure).write(&mut outside[column]);
         }
-        outside[MAX_STATE] = beyond(strain, self.thermal_strain);
-        outside
+        beyond::<V>(strain, self.thermal_strain).write(&mut outside[MAX_STATE]);
     }
+}
+
+/// q̃/p̃ of a block of states; 0 when the deviator is not carried. Tension counts as no pressure.
+#[inline(always)]
+pub fn stress_ratios<V: Vector>(variables: Variables, state: &StateLanes) -> Lanes {
+    let mut ratios = [0.0; LANES];
+    if let Some(column) = variables.deviator() {
+        let pressure = V::read(&state[PRESSURE]).at_least(V::zero());
+        (V::read(&state[column]) / (pressure + V::all(PRESSURE_FLOOR))).write(&mut ratios);
+    }
+    ratios
 }
 
 impl FeatureRanges {
@@ -261,9 +285,21 @@ impl FeatureRanges {
     }
 }
 
+#[inline(always)]
+fn clamped<V: Vector>(values: V, range: Range) -> V {
+    values.within(V::all(range.min), V::all(range.max))
+}
+
 /// Clamped to the range and brought to [-1, 1].
 #[inline(always)]
-fn scaled(values: &Lanes, range: Range) -> Lanes {
+fn scaled<V: Vector>(values: V, range: Range) -> V {
     let (middle, half) = (0.5 * (range.min + range.max), (0.5 * range.width()).max(f64::MIN_POSITIVE));
-    values.map(|value| (range.clamp(value) - middle) / half)
+    (clamped(values, range) - V::all(middle)) * V::all(1.0 / half)
+}
+
+/// How far outside the range, negative below it.
+#[inline(always)]
+fn beyond<V: Vector>(values: &Lanes, range: Range) -> V {
+    let values = V::read(values);
+    values - clamped(values, range)
 }
