@@ -6,8 +6,8 @@ use msdd_surrogate::network::padded;
 
 /// A readable column of the caller's.
 #[derive(Clone, Copy)]
-pub(crate) struct Input {
-    pub name: &'static str,
+pub(crate) struct Input<'a> {
+    pub name: &'a str,
     start: *const f64,
     length: usize,
 }
@@ -19,15 +19,31 @@ pub(crate) struct Output<T> {
     length: usize,
 }
 
-impl Input {
+impl<'a> Input<'a> {
     /// # Safety
     /// `start`, unless null, points to `length` values that stay readable while the column is in use.
-    pub unsafe fn new(name: &'static str, start: *const f64, length: usize) -> Result<Self, Failure> {
+    pub unsafe fn new(name: &'a str, start: *const f64, length: usize) -> Result<Self, Failure> {
         // A batch of no cells may come without columns.
         if start.is_null() && length > 0 {
-            Err(Failure::Null(name))
+            Err(Failure::Null(name.to_string()))
         } else {
             Ok(Self { name, start, length })
+        }
+    }
+
+    pub fn length(&self) -> usize {
+        self.length
+    }
+
+    /// All of the column.
+    ///
+    /// # Safety
+    /// Nobody writes to the column while the slice is in use.
+    pub unsafe fn slice(&self) -> &[f64] {
+        match self.start.is_null() {
+            true => &[],
+            // SAFETY: readable by the contract of `new`, and not written to by this function's.
+            false => unsafe { std::slice::from_raw_parts(self.start, self.length) },
         }
     }
 
@@ -56,7 +72,9 @@ impl Input {
     pub fn check_finite(&self) -> Result<(), Failure> {
         match self.position(|value| !value.is_finite()) {
             None => Ok(()),
-            Some(index) => Err(Failure::NonFinite { column: self.name, index, value: self.at(index) }),
+            Some(index) => {
+                Err(Failure::NonFinite { column: self.name.to_string(), index, value: self.at(index) })
+            }
         }
     }
 }
@@ -92,5 +110,15 @@ impl<T: Copy> Output<T> {
         // SAFETY: `count` values from `first` on lie inside the column, writable by the contract of `new`; `values` is
         // ours, so the two do not overlap.
         unsafe { self.start.add(first).copy_from_nonoverlapping(values.as_ptr(), count) };
+    }
+
+    /// Writes the whole column.
+    pub fn write_all(&self, values: &[T]) {
+        assert_eq!(values.len(), self.length);
+        if !self.start.is_null() {
+            // SAFETY: as many values as the column has, writable by the contract of `new`; `values` is ours, so the two do
+            // not overlap.
+            unsafe { self.start.copy_from_nonoverlapping(values.as_ptr(), self.length) };
+        }
     }
 }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`exports`] | the header's functions: pointers checked, then safe code |
 //! | `handles` | what the opaque handles are |
+//! | `model` | what the exports ask of a model, our own or a plug-in |
 //! | `columns` | a caller's columns |
 //! | `batch` | checks and evaluation of a batch |
 //! | `si` | dimensionless answers to SI units |
@@ -15,6 +16,7 @@ mod batch;
 mod columns;
 pub mod exports;
 mod handles;
+mod model;
 mod si;
 mod signatures;
 mod status;

@@ -1,6 +1,7 @@
 //! Errors to status codes. The one place where panics are stopped.
 
 use crate::abi;
+use msdd_plugin::PluginError;
 use msdd_rve::database::DatabaseError;
 use msdd_rve::{RveError, state::StateError};
 use msdd_surrogate::SurrogateError;
@@ -13,15 +14,17 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     #[error("{0} is NULL")]
-    Null(&'static str),
+    Null(String),
     #[error("{name} = {value}, allowed: {allowed}")]
     Argument { name: String, value: String, allowed: String },
     #[error("{column}[{index}] = {value} is not finite")]
-    NonFinite { column: &'static str, index: usize, value: f64 },
+    NonFinite { column: String, index: usize, value: f64 },
     #[error("cannot read model file \"{path}\": {error}")]
     File { path: String, error: std::io::Error },
     #[error("model \"{path}\": {error}")]
     Model { path: String, error: SurrogateError },
+    #[error("{0}")]
+    Plugin(#[from] PluginError),
     #[error("{0}")]
     Rve(#[from] RveError),
     #[error("{0}")]
@@ -33,6 +36,10 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
+    pub fn null(name: &str) -> Self {
+        Self::Null(name.to_string())
+    }
+
     pub fn argument(name: impl ToString, value: impl ToString, allowed: impl ToString) -> Self {
         Self::Argument { name: name.to_string(), value: value.to_string(), allowed: allowed.to_string() }
     }
@@ -42,7 +49,8 @@ impl Failure {
             Self::Null(_) | Self::Argument { .. } | Self::Rve(RveError::Parameter { .. }) => {
                 abi::MSDD_INVALID_ARGUMENT
             }
-            Self::File { .. } => abi::MSDD_IO,
+            Self::File { .. } | Self::Plugin(PluginError::Read { .. }) => abi::MSDD_IO,
+            Self::Plugin(_) => abi::MSDD_PLUGIN,
             Self::Database(DatabaseError::Plan { .. }) | Self::Rve(_) | Self::State(_) => abi::MSDD_RVE,
             Self::Database(_) => abi::MSDD_IO,
             Self::Model { .. } => abi::MSDD_MODEL,
