@@ -234,6 +234,48 @@ void rveSwellsUnderTraps()
     EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "xy"));
 }
 
+/// Whatever leaves the call-back, the next run goes on from there.
+void databaseIsMadeInSeveralGoes(const std::string& path)
+{
+    const std::string plan =
+        "radius_min = 3e-3\nradius_max = 7e-3\nseed = 5\n[[thermal]]\ndiscs = 40\nporosities = [0.13]\n"
+        "compressions = [\"isotropic\"]\nrepeats = 3\nstops = [0.001]\n";
+    const msdd::Database database(path);
+    std::uint64_t most = 0;
+    const std::pair<int, std::string> error = thrown
+    (
+        [&]
+        {
+            database.generate(plan, 1, [&](std::uint64_t done, std::uint64_t total, std::uint64_t failed)
+            {
+                EXPECT(total == 3 && failed == 0);
+                most = done;
+                return done < 1;
+            });
+        }
+    );
+    EXPECT(error.first == MSDD_CANCELLED && most == 1);
+    bool passed = false;
+    try
+    {
+        database.generate(plan, 1, [](std::uint64_t done, std::uint64_t, std::uint64_t) -> bool
+        {
+            if (done == 2) { throw std::out_of_range("mine"); }
+            return true;
+        });
+    }
+    catch (const std::out_of_range& mine)
+    {
+        passed = has(mine.what(), "mine");
+    }
+    EXPECT(passed);
+    database.generate(plan, 2);
+    EXPECT(database.exportCsv(path + ".csv") == 9);
+    EXPECT(fegetexcept() == traps);
+    EXPECT(thrown([&] { database.generate("seed = 1"); }).first == MSDD_RVE);
+    EXPECT(thrown([] { msdd::Database("/no/such/folder/a.msdd").exportCsv("/tmp/none.csv"); }).first == MSDD_IO);
+}
+
 void loadingFailsWithTheReason()
 {
     std::pair<int, std::string> error = thrown([] { msdd::Surrogate("/no/such/model.json"); });
@@ -258,8 +300,13 @@ void handlesMove()
 
 } // namespace
 
-int main()
+int main(int argc, char** argv)
 {
+    if (argc != 2)
+    {
+        std::fprintf(stderr, "usage: wrapper FOLDER\n");
+        return 2;
+    }
     feenableexcept(traps);
     guardMasksAndRestores();
     loadingFailsWithTheReason();
@@ -275,6 +322,7 @@ int main()
     }
     badInputThrowsAndWritesNothing(surrogate);
     rveSwellsUnderTraps();
+    databaseIsMadeInSeveralGoes(std::string(argv[1]) + "/a.msdd");
     EXPECT(fegetexcept() == traps);
     EXPECT(invalidTraps());
     std::printf("wrapper.cpp: %s\n", failures ? "FAILED" : "ok");
