@@ -302,9 +302,9 @@ void handlesMove()
 
 int main(int argc, char** argv)
 {
-    if (argc != 2)
+    if (argc != 3)
     {
-        std::fprintf(stderr, "usage: wrapper FOLDER\n");
+        std::fprintf(stderr, "usage: wrapper FOLDER PLUGIN\n");
         return 2;
     }
     feenableexcept(traps);
@@ -312,7 +312,8 @@ int main(int argc, char** argv)
     loadingFailsWithTheReason();
     handlesMove();
     const msdd::Surrogate surrogate;
-    for (const char* name : {"builtin", "builtin:paper"})
+    const std::string plugin = std::string("plugin:") + argv[2];
+    for (const char* name : {"builtin", "builtin:paper", plugin.c_str()})
     {
         const msdd::Surrogate model(name);
         farOutsideIsClamped(model);

@@ -10,7 +10,7 @@
  *    thread at a time.
  *  - Structs start with struct_size; set it to sizeof the struct, and all that you do not use to 0.
  *  - SI units; strains without unit. Strain: extension positive. Stress: compression positive.
- *  - Nothing here prints or installs handlers, and no threads start unless their number is an argument.
+ *  - Nothing here prints or handles signals, and no threads start unless their number is an argument.
  *  - Floating-point exceptions must be masked while a function runs (the IEEE default). A program that traps them
  *    (OpenFOAM does) masks them around each call; the C++ wrapper msdd.hpp does it for you.
  */

@@ -122,3 +122,63 @@ impl<T: Copy> Output<T> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every length around a block, every place in it: also what Miri looks at.
+    #[test]
+    fn columns_read_and_write_their_cells_and_no_others() {
+        for length in 0..20 {
+            let values: Vec<f64> = (0..length).map(|i| i as f64 + 0.5).collect();
+            let mut written = vec![-7.0; length + 1];
+            // SAFETY: as many values; the last of `written` is not part of the column.
+            let (input, output) = unsafe {
+                (
+                    Input::new("x", values.as_ptr(), length).expect("not null"),
+                    Output::new(written.as_mut_ptr(), length),
+                )
+            };
+            for first in (0..length).step_by(LANES) {
+                output.write(first, &input.lanes(first));
+            }
+            assert!(written[..length] == values && written[length] == -7.0);
+            output.write_all(&vec![1.0; length]);
+            if length > 0 {
+                output.write_one(length - 1, 2.0);
+                assert_eq!((written[length - 1], input.at(length - 1)), (2.0, length as f64 - 0.5));
+            }
+            // SAFETY: nobody writes to `values`.
+            assert_eq!(unsafe { input.slice() }, values);
+            assert!(input.check_finite().is_ok() && input.position(|v| v > 3.0) == (length > 3).then_some(3));
+        }
+    }
+
+    #[test]
+    fn one_column_may_be_input_and_output() {
+        let mut column: Vec<f64> = (0..13).map(f64::from).collect();
+        let start = column.as_mut_ptr();
+        // SAFETY: thirteen values, which nobody else touches.
+        let (input, output) =
+            unsafe { (Input::new("x", start, 13).expect("not null"), Output::new(start, 13)) };
+        for first in [0, 8] {
+            output.write(first, &input.lanes(first).map(|value| 2.0 * value));
+        }
+        assert_eq!(column, (0..13).map(|i| f64::from(2 * i)).collect::<Vec<f64>>());
+    }
+
+    #[test]
+    fn null_is_no_column_but_of_no_cells() {
+        // SAFETY: null.
+        let (none, empty) =
+            unsafe { (Input::new("x", std::ptr::null(), 3), Input::new("x", std::ptr::null(), 0)) };
+        assert!(none.is_err_and(|error| error.to_string() == "x is NULL"));
+        // SAFETY: empty; null outputs are not written.
+        unsafe {
+            assert!(empty.expect("empty").slice().is_empty());
+            Output::<f64>::new(std::ptr::null_mut(), 3).write(0, &[1.0; LANES]);
+            Output::<u8>::new(std::ptr::null_mut(), 2).write_all(&[1, 2]);
+        }
+    }
+}

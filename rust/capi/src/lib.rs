@@ -8,7 +8,8 @@
 //! | `columns` | a caller's columns |
 //! | `batch` | checks and evaluation of a batch |
 //! | `si` | dimensionless answers to SI units |
-//! | `status` | errors to status codes and text; panics stop here |
+//! | `status` | errors to status codes and text |
+//! | `panics` | panics stop here |
 
 pub use msdd_abi as abi;
 
@@ -17,6 +18,7 @@ mod columns;
 pub mod exports;
 mod handles;
 mod model;
+mod panics;
 mod si;
 mod signatures;
 mod status;

@@ -1,14 +1,12 @@
-//! Errors to status codes. The one place where panics are stopped.
+//! Errors to status codes and text.
 
-use crate::abi;
+use crate::{abi, panics};
 use msdd_plugin::PluginError;
 use msdd_rve::database::DatabaseError;
 use msdd_rve::{RveError, state::StateError};
 use msdd_surrogate::SurrogateError;
-use std::any::Any;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What an export can fail with.
 #[derive(Debug, thiserror::Error)]
@@ -74,16 +72,14 @@ thread_local! {
 /// Unwind safety: bodies write to the caller's memory last, after everything that may panic has been checked, and keep
 /// no state of their own; a batch left half-written by a bug is reported as [`INTERNAL`].
 pub(crate) fn status(body: impl FnOnce() -> Result<(), Failure>) -> i32 {
-    match catch_unwind(AssertUnwindSafe(body)) {
+    match panics::caught(body) {
         Ok(Ok(())) => OK,
         Ok(Err(failure)) => {
             remember(failure.to_string());
             failure.status()
         }
-        Err(panic) => {
-            remember(format!("internal error (a bug in msdd): {}", panic_text(&*panic)));
-            // Dropping a payload may panic in turn; a few leaked bytes are the safer choice.
-            std::mem::forget(panic);
+        Err(text) => {
+            remember(format!("internal error (a bug in msdd): {text}"));
             INTERNAL
         }
     }
@@ -97,11 +93,6 @@ pub(crate) fn value<T>(fallback: T, body: impl FnOnce() -> T) -> T {
         Ok(())
     });
     result
-}
-
-fn panic_text(panic: &(dyn Any + Send)) -> &str {
-    let text = panic.downcast_ref::<&str>().copied();
-    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no text")
 }
 
 fn remember(text: String) {

@@ -38,6 +38,8 @@ pub unsafe extern "C" fn msdd_surrogate_load(source: *const c_char, out: *mut *m
 const PLUGIN: &str = "plugin:";
 
 fn load(source: &str) -> Result<Box<dyn BatchModel>, Failure> {
+    #[cfg(feature = "inject-panic")]
+    assert_ne!(source, "panic", "injected");
     if let Some(path) = source.strip_prefix(PLUGIN) {
         return Ok(Box::new(Plugin::load(Path::new(path))?));
     }

@@ -1,4 +1,5 @@
 //! Models and cells for tests through the C interface.
+#![allow(dead_code)] // each test uses a part
 
 use msdd::abi::{self, msdd_batch, msdd_initial, msdd_material, msdd_surrogate};
 use msdd::exports::*;
