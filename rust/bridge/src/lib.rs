@@ -1,6 +1,6 @@
 //! Test only: `cargo test` drives the real C++ wrapper, `msdd.hpp`, through cxx. Nothing here is shipped: a panic under cxx
 //! ends the process, so the production boundary is `msdd.h`.
-#![deny(unsafe_op_in_unsafe_fn)]
+#![allow(unsafe_code)] // the bridge; what is behind it is C++
 
 // The wrapper calls the library's exports: link them.
 use msdd as _;

@@ -10,6 +10,7 @@
 //! | `si` | dimensionless answers to SI units |
 //! | `status` | errors to status codes and text |
 //! | `panics` | panics stop here |
+#![allow(unsafe_code)] // the C boundary
 
 pub use msdd_abi as abi;
 

@@ -1,5 +1,6 @@
 //! What every model has to keep to, whoever made it: one suite over the built-in network, a model from a file, the worked
 //! example of a C plug-in, and the built-in network exported as a plug-in.
+#![allow(unsafe_code)] // the C interface is what is tested
 
 mod common;
 

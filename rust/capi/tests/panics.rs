@@ -1,4 +1,5 @@
 //! A bug of ours (a panic, made by the feature `inject-panic`) is status 255 with a text, and prints nothing.
+#![allow(unsafe_code)] // the C interface is what is tested
 
 mod common;
 

@@ -8,7 +8,7 @@
 //!
 //! Foreign code is trusted with memory, as every library of a process is, and with nothing else: statuses are plain
 //! integers, texts are copied, outputs go into our own columns and are looked at before anybody sees them.
-#![deny(unsafe_op_in_unsafe_fn)]
+#![allow(unsafe_code)] // calls of foreign code
 
 mod error;
 mod library;
