@@ -149,6 +149,16 @@ public:
         handle_.reset(handle);
     }
 
+    /** The same model that answers with conductivities of a kind, "affine" or "network"; see describe for those that it was
+     *  trained for. Throws Error for any other. */
+    Surrogate withConductivity(const std::string& kind) const
+    {
+        const detail::MaskedTraps masked;
+        msdd_surrogate* handle = nullptr;
+        detail::check(msdd_surrogate_with_conductivity(handle_.get(), kind.c_str(), &handle));
+        return Surrogate(handle);
+    }
+
     /** Number of state columns; 0 after a move. */
     std::size_t stateSize() const
     {
@@ -207,6 +217,8 @@ public:
     }
 
 private:
+    explicit Surrogate(msdd_surrogate* handle) : handle_(handle) {}
+
     static std::string text(const char* pointer) { return pointer ? pointer : ""; }
 
     std::unique_ptr<msdd_surrogate, detail::Free> handle_;

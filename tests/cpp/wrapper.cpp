@@ -234,6 +234,20 @@ void rveSwellsUnderTraps()
     EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "xy"));
 }
 
+/// The affine estimate lies above the network's; the state is the same.
+void conductivityIsChosen(const msdd::Surrogate& surrogate)
+{
+    const msdd::Surrogate affine = surrogate.withConductivity("affine");
+    const msdd::Surrogate network = affine.withConductivity("network");
+    Cells upper(affine, 3), lower(network, 3);
+    upper.advance(affine);
+    lower.advance(network);
+    EXPECT(upper.kxx[1] > lower.kxx[1] && upper.kyy[1] > lower.kyy[1] && upper.next == lower.next);
+    EXPECT(has(affine.describe(), "\"conductivity\":\"affine\"") && affine.hash() == network.hash());
+    const std::pair<int, std::string> error = thrown([&] { surrogate.withConductivity("exact"); });
+    EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "kind = exact, allowed: "));
+}
+
 /// Whatever leaves the call-back, the next run goes on from there.
 void databaseIsMadeInSeveralGoes(const std::string& path)
 {
@@ -321,6 +335,7 @@ int main(int argc, char** argv)
         tendenciesAreGranular(model);
         answersDoNotDependOnTheBatch(model);
     }
+    conductivityIsChosen(surrogate);
     badInputThrowsAndWritesNothing(surrogate);
     rveSwellsUnderTraps();
     databaseIsMadeInSeveralGoes(std::string(argv[1]) + "/a.msdd");

@@ -523,6 +523,11 @@ unsafe extern "C" {
         source: *const ::core::ffi::c_char,
         out: *mut *mut msdd_surrogate,
     ) -> i32;
+    pub fn msdd_surrogate_with_conductivity(
+        surrogate: *const msdd_surrogate,
+        kind: *const ::core::ffi::c_char,
+        out: *mut *mut msdd_surrogate,
+    ) -> i32;
     pub fn msdd_surrogate_hash(
         surrogate: *const msdd_surrogate,
     ) -> *const ::core::ffi::c_char;

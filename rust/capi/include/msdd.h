@@ -112,8 +112,8 @@ typedef struct msdd_initial {
     size_t cells;                      /**< length of every column */
     const double *porosity;            /**< overlaps counted once */
     const double *fabric_index;        /**< F_xx - F_yy */
-    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), of the kind of conductivity that the model answers
-                                            with (describe: "conductivity"); NULL = not known */
+    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), of the kind that the model's state carries
+                                            (describe: "fabric_conductivity"); NULL = not known */
     const double *stress_xx;           /**< [Pa]; NULL = not known; both or none */
     const double *stress_yy;           /**< [Pa] */
 } msdd_initial;
@@ -124,10 +124,16 @@ typedef struct msdd_initial {
  *  with msdd_surrogate_free. */
 int32_t msdd_surrogate_load(const char *source, msdd_surrogate **out);
 
+/** The same model that answers with conductivities of a kind: "affine" (Eq. 9 of the paper, an upper bound) or "network"
+ *  (resistor network solved). Describe lists the kinds it was trained for as "conductivities"; any other fails with
+ *  MSDD_INVALID_ARGUMENT. The state is the same, and so is the kind of its initial fabric_conductivity. On success *out owns
+ *  the new handle; either may be freed first. */
+int32_t msdd_surrogate_with_conductivity(const msdd_surrogate *surrogate, const char *kind, msdd_surrogate **out);
+
 /** SHA-256 of the bytes of the model file or plug-in, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
 const char *msdd_surrogate_hash(const msdd_surrogate *surrogate);
 
-/** Description of the model (kind, name, state columns, conductivity, provenance) as one JSON object. Owned by the model.
+/** Description of the model (kind, name, state columns, conductivities, provenance) as one JSON object. Owned by the model.
  *  NULL for a null handle. */
 const char *msdd_surrogate_describe(const msdd_surrogate *surrogate);
 

@@ -3,10 +3,11 @@
 use crate::model::BatchModel;
 use crate::status::c_string;
 use std::ffi::CString;
+use std::sync::Arc;
 
 /// Behind `msdd_surrogate`.
 pub(crate) struct SurrogateHandle {
-    pub model: Box<dyn BatchModel>,
+    pub model: Arc<dyn BatchModel>,
     pub hash: CString,
     pub description: CString,
     pub names: Vec<String>,
@@ -15,7 +16,7 @@ pub(crate) struct SurrogateHandle {
 }
 
 impl SurrogateHandle {
-    pub fn new(model: Box<dyn BatchModel>) -> Self {
+    pub fn new(model: Arc<dyn BatchModel>) -> Self {
         let names = model.state_names();
         Self {
             hash: c_string(model.hash()),

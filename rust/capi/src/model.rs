@@ -8,8 +8,10 @@ use crate::status::Failure;
 use msdd_plugin::Plugin;
 use msdd_surrogate::Surrogate;
 use msdd_surrogate::kernel::LANES;
+use msdd_surrogate::state::variables::ConductivityKind;
 use msdd_surrogate::surrogate::Known;
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// A model behind a handle.
 pub(crate) trait BatchModel: Send + Sync {
@@ -19,6 +21,12 @@ pub(crate) trait BatchModel: Send + Sync {
     /// What a user would ask about it, as a JSON object.
     fn description(&self) -> Value;
     fn state_names(&self) -> Vec<String>;
+    /// Kind of conductivity that it answers with.
+    fn conductivity(&self) -> &'static str;
+    /// The kinds that it could answer with.
+    fn conductivities(&self) -> Vec<&'static str>;
+    /// The same model with another of them.
+    fn with_conductivity(&self, kind: &str) -> Option<Arc<dyn BatchModel>>;
     fn has_tangent(&self) -> bool;
     /// Limit [-] and slip [mean radii].
     fn wall_friction(&self) -> Option<[f64; 2]>;
@@ -61,7 +69,9 @@ impl BatchModel for Own {
             "name": model.name(),
             "hash": model.hash(),
             "state": model.state_names(),
-            "conductivity": model.conductivity_kind(),
+            "conductivity": self.conductivity(),
+            "conductivities": self.conductivities(),
+            "fabric_conductivity": model.fabric_conductivity_kind(),
             "mechanics": model.mechanics(),
             "wall_friction": model.wall_friction(),
             "schema": file["schema"],
@@ -71,6 +81,19 @@ impl BatchModel for Own {
 
     fn state_names(&self) -> Vec<String> {
         self.0.state_names().iter().map(|name| name.to_string()).collect()
+    }
+
+    fn conductivity(&self) -> &'static str {
+        self.0.conductivity_kind().as_str()
+    }
+
+    fn conductivities(&self) -> Vec<&'static str> {
+        self.0.conductivity_kinds().into_iter().map(ConductivityKind::as_str).collect()
+    }
+
+    fn with_conductivity(&self, kind: &str) -> Option<Arc<dyn BatchModel>> {
+        let kind = self.0.conductivity_kinds().into_iter().find(|known| known.as_str() == kind)?;
+        Some(Arc::new(Own(self.0.answering_with(kind)?)))
     }
 
     fn has_tangent(&self) -> bool {
@@ -124,13 +147,29 @@ impl BatchModel for Plugin {
             "name": self.name(),
             "hash": self.hash(),
             "state": Plugin::state_names(self),
-            "conductivity": if self.network_conductivity() { "network" } else { "affine" },
+            "conductivity": self.conductivity(),
+            "conductivities": self.conductivities(),
+            "fabric_conductivity": self.conductivity(),
             "wall_friction": friction.map(|f| json!({"limit": f.limit, "slip": f.slip})),
         })
     }
 
     fn state_names(&self) -> Vec<String> {
         Plugin::state_names(self).to_vec()
+    }
+
+    fn conductivity(&self) -> &'static str {
+        let kind =
+            if self.network_conductivity() { ConductivityKind::Network } else { ConductivityKind::Affine };
+        kind.as_str()
+    }
+
+    fn conductivities(&self) -> Vec<&'static str> {
+        vec![self.conductivity()]
+    }
+
+    fn with_conductivity(&self, _kind: &str) -> Option<Arc<dyn BatchModel>> {
+        None
     }
 
     fn has_tangent(&self) -> bool {

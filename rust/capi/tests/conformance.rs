@@ -268,6 +268,57 @@ fn mechanical_strain_follows_the_tangent() {
     assert_eq!(count, 2, "the built-in model and its export have tangents");
 }
 
+/// A model answers with the kinds that it was trained for, and says so when it was not.
+#[test]
+fn conductivity_is_affine_or_network_by_choice() {
+    let with = |model: &Model, kind: &std::ffi::CStr| {
+        let mut out = null_mut();
+        // SAFETY: live handle, a C string, and a writable pointer.
+        let status = unsafe { msdd_surrogate_with_conductivity(model.0, kind.as_ptr(), &mut out) };
+        if status == OK { Ok(Model(out)) } else { Err((status, last_error())) }
+    };
+    each(|name, model| {
+        let description: serde_json::Value =
+            serde_json::from_str(&model.text(msdd_surrogate_describe)).expect("JSON");
+        for kind in [c"affine", c"network"] {
+            let text = kind.to_str().expect("UTF-8");
+            let known = description["conductivities"].as_array().expect("kinds").iter().any(|k| k == text);
+            match with(model, kind) {
+                Ok(other) => {
+                    assert!(known, "{name} {text}");
+                    let (mut a, mut b) = (Cells::new(model, 40), Cells::new(&other, 40));
+                    a.advance(model);
+                    b.advance(&other);
+                    // The same state and stress; the same K when it is the same kind, else another.
+                    assert!(a.next == b.next && a.outputs[2..] == b.outputs[2..], "{name} {text}");
+                    assert_eq!(
+                        a.outputs[0] == b.outputs[0],
+                        description["conductivity"] == text,
+                        "{name} {text}"
+                    );
+                }
+                Err((status, message)) => {
+                    assert!(!known && status == INVALID, "{name} {text}: {message}");
+                    assert!(message.contains(&format!("kind = {text}, allowed: ")), "{name}: {message}");
+                }
+            }
+        }
+        let (status, message) = with(model, c"exact").err().expect("no such kind");
+        assert!(status == INVALID && message.contains("kind = exact, allowed: "), "{name}: {message}");
+    });
+    // The built-in model has both; a copy outlives its origin, and the affine estimate is an upper bound.
+    let affine = with(&Model::load("builtin").expect("good"), c"affine").unwrap_or_else(|e| panic!("{e:?}"));
+    let network = with(&affine, c"network").unwrap_or_else(|e| panic!("{e:?}"));
+    let (mut upper, mut lower) = (Cells::new(&affine, 60), Cells::new(&network, 60));
+    upper.advance(&affine);
+    lower.advance(&network);
+    let mean = |cells: &Cells, cell: usize| cells.outputs[0][cell] + cells.outputs[1][cell];
+    for cell in 0..60 {
+        let ratio = mean(&upper, cell) / mean(&lower, cell);
+        assert!(ratio > 1.0 && ratio < 1.2, "{cell}: {ratio}");
+    }
+}
+
 /// What goes out through the table and comes back is the same model, to the bit.
 #[test]
 fn the_exported_model_is_the_built_in_one() {

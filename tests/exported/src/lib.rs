@@ -5,6 +5,7 @@
 use msdd_abi::{
     MSDD_PLUGIN_VERSION, msdd_plugin_start, msdd_plugin_step, msdd_plugin_tangent, msdd_plugin_v1,
 };
+use msdd_surrogate::state::variables::ConductivityKind;
 use msdd_surrogate::surrogate::{Known, MAX_STATE};
 use msdd_surrogate::{Surrogate, models};
 use std::ffi::{CString, c_char};
@@ -36,7 +37,7 @@ static EXPORTED: LazyLock<Exported> = LazyLock::new(|| {
     let table = msdd_plugin_v1 {
         struct_size: size_of::<msdd_plugin_v1>(),
         version: MSDD_PLUGIN_VERSION,
-        network_conductivity: 0,
+        network_conductivity: u32::from(model.conductivity_kind() == ConductivityKind::Network),
         name: names[names.len() - 1],
         state_size: names.len() - 1,
         state_names: names.as_ptr(),

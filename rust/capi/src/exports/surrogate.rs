@@ -13,6 +13,7 @@ use msdd_plugin::Plugin;
 use std::ffi::c_char;
 use std::path::Path;
 use std::ptr::null;
+use std::sync::Arc;
 
 /// `msdd_surrogate_load`
 ///
@@ -37,19 +38,19 @@ pub unsafe extern "C" fn msdd_surrogate_load(source: *const c_char, out: *mut *m
 /// What a source starts with that is a shared library.
 const PLUGIN: &str = "plugin:";
 
-fn load(source: &str) -> Result<Box<dyn BatchModel>, Failure> {
+fn load(source: &str) -> Result<Arc<dyn BatchModel>, Failure> {
     #[cfg(feature = "inject-panic")]
     assert_ne!(source, "panic", "injected");
     if let Some(path) = source.strip_prefix(PLUGIN) {
-        return Ok(Box::new(Plugin::load(Path::new(path))?));
+        return Ok(Arc::new(Plugin::load(Path::new(path))?));
     }
     let failed = |error| Failure::Model { path: source.to_string(), error };
     if source == models::BUILTIN || source.starts_with("builtin:") {
-        return Ok(Box::new(Own(models::builtin(source).map_err(failed)?)));
+        return Ok(Arc::new(Own(models::builtin(source).map_err(failed)?)));
     }
     let text =
         std::fs::read_to_string(source).map_err(|error| Failure::File { path: source.to_string(), error })?;
-    Ok(Box::new(Own(models::read(&text).map_err(failed)?)))
+    Ok(Arc::new(Own(models::read(&text).map_err(failed)?)))
 }
 
 /// The model behind a handle.
@@ -68,6 +69,35 @@ unsafe fn handle<'a>(surrogate: *const msdd_surrogate) -> Option<&'a SurrogateHa
 unsafe fn needed<'a>(surrogate: *const msdd_surrogate) -> Result<&'a SurrogateHandle, Failure> {
     // SAFETY: passed on to the caller.
     unsafe { handle(surrogate) }.ok_or_else(|| Failure::null("surrogate"))
+}
+
+/// `msdd_surrogate_with_conductivity`
+///
+/// # Safety
+/// `surrogate` is null or a live handle; `kind` is null or a C string; `out` is null or writable.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_with_conductivity(
+    surrogate: *const msdd_surrogate,
+    kind: *const c_char,
+    out: *mut *mut msdd_surrogate,
+) -> i32 {
+    status(|| {
+        // SAFETY: null or live, and null or a C string, by this function's contract.
+        let (handle, kind) = unsafe { (needed(surrogate)?, string("kind", kind)?) };
+        let out = writable("out", out)?;
+        let model = match handle.model.conductivity() == kind {
+            true => handle.model.clone(),
+            false => handle.model.with_conductivity(&kind).ok_or_else(|| {
+                let allowed = handle.model.conductivities().join(", ");
+                let name = handle.model.name();
+                Failure::argument("kind", &kind, format!("{allowed}: what model \"{name}\" was trained for"))
+            })?,
+        };
+        let handle = Box::into_raw(Box::new(SurrogateHandle::new(model)));
+        // SAFETY: not null, writable by this function's contract.
+        unsafe { out.write(handle.cast()) };
+        Ok(())
+    })
 }
 
 /// `msdd_surrogate_hash`

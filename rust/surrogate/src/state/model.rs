@@ -91,6 +91,19 @@ impl Surrogate for StateModel {
         self.core.readouts[self.core.active].kind
     }
 
+    fn conductivity_kinds(&self) -> Vec<ConductivityKind> {
+        self.core.readouts.iter().map(|readout| readout.kind).collect()
+    }
+
+    fn fabric_conductivity_kind(&self) -> ConductivityKind {
+        let carried = self.core.readouts.iter().find(|readout| readout.carried);
+        carried.unwrap_or(&self.core.readouts[0]).kind
+    }
+
+    fn answering_with(&self, kind: ConductivityKind) -> Option<Box<dyn Surrogate>> {
+        Some(Box::new(self.clone().with_conductivity(kind)?))
+    }
+
     fn mechanics(&self) -> Option<&crate::mechanics::Mechanics> {
         self.mechanics.as_ref()
     }
