@@ -233,7 +233,7 @@ void msdd_rve_free(msdd_rve *rve);
 /* ------------------------------------------------------------------------------------------------------ databases */
 
 /** Hears of every finished packing, on the thread that called; any value but 0 stops the generation. `user` is the
- *  caller's. */
+ *  caller's. It must not throw, or leave by longjmp. */
 typedef int32_t (*msdd_progress)(void *user, uint64_t done, uint64_t total, uint64_t failed);
 
 /** Makes the database of a plan (the text of a TOML file as in cases/database), or goes on with one that was begun, on
