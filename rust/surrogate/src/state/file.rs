@@ -167,12 +167,10 @@ impl File {
 
     /// What is fitted beside the networks: sound numbers, so that they give sound answers.
     fn check_laws(&self) -> Result<(), SurrogateError> {
-        let (mean, spread, solid) = (&self.mean_state, &self.spread, &self.solid_fraction);
-        for (key, Range { min, max }) in [
-            ("mean_state.porosity", mean.porosity),
-            ("spread.pressure", spread.pressure),
-            ("solid_fraction.porosity", solid.porosity),
-        ] {
+        let (mean, spread) = (&self.mean_state, &self.spread);
+        for (key, Range { min, max }) in
+            [("mean_state.porosity", mean.porosity), ("spread.pressure", spread.pressure)]
+        {
             if !(0.0 <= min && min <= max && max <= 1e3) {
                 return field(key, format!("{min} to {max}"), "0 <= min <= max <= 1e3");
             }
@@ -191,7 +189,7 @@ impl File {
             &mean.fabric_conductivity_of_both,
         ];
         check_coefficients("mean_state", &mean_laws)?;
-        check_coefficients("solid_fraction", &[&solid.coefficients])?;
+        self.solid_fraction.check()?;
         if let Some(m) = &self.mechanics {
             let laws = [&m.c11[..], &m.c12, &m.porosity, &m.fabric_index, &m.fabric_conductivity];
             check_coefficients("mechanics", &laws)?;

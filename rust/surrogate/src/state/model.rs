@@ -363,7 +363,7 @@ mod tests {
         refused("/variables/stress_deviator", false.into(), "rates.network.sizes");
         refused("/spread/conductivity/2", (-1.0).into(), "spread.conductivity = -1");
         refused("/mean_state/porosity/max", (-1.0).into(), "mean_state.porosity");
-        refused("/solid_fraction/coefficients/0", 1e300.into(), "solid_fraction (a coefficient)");
+        refused("/solid_fraction/coefficients/0", 1e300.into(), "solid_fraction.coefficients");
         let mut extra = good.clone();
         extra["surprise"] = 1.into();
         let message = crate::state::file::read(&extra.to_string()).expect_err("unknown key").to_string();
