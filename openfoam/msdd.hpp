@@ -11,6 +11,8 @@
 #include <cfenv>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -136,7 +138,8 @@ inline msdd_initial initial(std::size_t cells) noexcept
 class Surrogate
 {
 public:
-    /** Loads a model: "builtin", "builtin:paper", or the path of a model file. Throws Error. */
+    /** Loads a model: "builtin", "builtin:paper", "plugin:" and the path of a plug-in, or the path of a model file.
+     *  Throws Error. */
     explicit Surrogate(const std::string& source = "builtin")
     {
         const detail::MaskedTraps masked;
@@ -144,6 +147,16 @@ public:
         msdd_surrogate* handle = nullptr;
         detail::check(msdd_surrogate_load(source.c_str(), &handle));
         handle_.reset(handle);
+    }
+
+    /** The same model that answers with conductivities of a kind, "affine" or "network"; see describe for those that it was
+     *  trained for. Throws Error for any other. */
+    Surrogate withConductivity(const std::string& kind) const
+    {
+        const detail::MaskedTraps masked;
+        msdd_surrogate* handle = nullptr;
+        detail::check(msdd_surrogate_with_conductivity(handle_.get(), kind.c_str(), &handle));
+        return Surrogate(handle);
     }
 
     /** Number of state columns; 0 after a move. */
@@ -204,6 +217,8 @@ public:
     }
 
 private:
+    explicit Surrogate(msdd_surrogate* handle) : handle_(handle) {}
+
     static std::string text(const char* pointer) { return pointer ? pointer : ""; }
 
     std::unique_ptr<msdd_surrogate, detail::Free> handle_;
@@ -275,6 +290,71 @@ private:
     explicit Rve(msdd_rve* handle) : handle_(handle) {}
 
     std::unique_ptr<msdd_rve, detail::Free> handle_;
+};
+
+/** A file of results of simulated RVEs; made by a plan, and the ground of a model's training. */
+class Database
+{
+public:
+    /** Hears of every finished packing: done, total, failed; false stops the generation. May throw. Floating-point
+     *  traps are masked while it runs. */
+    typedef std::function<bool(std::uint64_t, std::uint64_t, std::uint64_t)> Progress;
+
+    explicit Database(const std::string& path) : path_(path) {}
+
+    const std::string& path() const noexcept { return path_; }
+
+    /** Makes what is still missing of a plan (the text of a TOML file), on so many threads. Throws Error, with the status
+     *  MSDD_CANCELLED when `progress` stopped it, and what `progress` throws; what was made until then is kept. */
+    void generate(const std::string& plan, std::uint32_t threads = 1, Progress progress = Progress()) const
+    {
+        const detail::MaskedTraps masked;
+        detail::checkVersion();
+        Listener listener = {progress, std::exception_ptr()};
+        const std::int32_t status = msdd_database_generate
+        (
+            plan.c_str(), path_.c_str(), threads, progress ? &Listener::hear : nullptr, &listener
+        );
+        if (listener.thrown)
+        {
+            std::rethrow_exception(listener.thrown);
+        }
+        detail::check(status);
+    }
+
+    /** Writes a CSV file, compressed if its name ends in .gz; returns the number of rows. Throws Error. */
+    std::uint64_t exportCsv(const std::string& csv) const
+    {
+        const detail::MaskedTraps masked;
+        detail::checkVersion();
+        std::uint64_t rows = 0;
+        detail::check(msdd_database_export_csv(path_.c_str(), csv.c_str(), &rows));
+        return rows;
+    }
+
+private:
+    struct Listener
+    {
+        Progress progress;
+        std::exception_ptr thrown;
+
+        /** An exception may not pass through the library: it waits outside. */
+        static std::int32_t hear(void* user, std::uint64_t done, std::uint64_t total, std::uint64_t failed)
+        {
+            Listener& self = *static_cast<Listener*>(user);
+            try
+            {
+                return self.progress(done, total, failed) ? 0 : 1;
+            }
+            catch (...)
+            {
+                self.thrown = std::current_exception();
+                return 1;
+            }
+        }
+    };
+
+    std::string path_;
 };
 
 } // namespace msdd

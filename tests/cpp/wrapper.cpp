@@ -96,7 +96,11 @@ struct Cells
         batch.stress_xx = sxx.data();
         batch.stress_yy = syy.data();
         batch.clamped = clamped.data();
-        surrogate.advance(msdd::material(100, youngModulus, 5e-3), batch);
+        const msdd_material grains = msdd::material(100, youngModulus, 5e-3);
+        std::feclearexcept(FE_ALL_EXCEPT);
+        surrogate.advance(grains, batch);
+        // Without the guard, the flag of an inexact result would be up, at least.
+        EXPECT(std::fetestexcept(FE_ALL_EXCEPT) == 0);
         return batch.clamped_cells;
     }
 };
@@ -234,6 +238,62 @@ void rveSwellsUnderTraps()
     EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "xy"));
 }
 
+/// The affine estimate lies above the network's; the state is the same.
+void conductivityIsChosen(const msdd::Surrogate& surrogate)
+{
+    const msdd::Surrogate affine = surrogate.withConductivity("affine");
+    const msdd::Surrogate network = affine.withConductivity("network");
+    Cells upper(affine, 3), lower(network, 3);
+    upper.advance(affine);
+    lower.advance(network);
+    EXPECT(upper.kxx[1] > lower.kxx[1] && upper.kyy[1] > lower.kyy[1] && upper.next == lower.next);
+    EXPECT(has(affine.describe(), "\"conductivity\":\"affine\"") && affine.hash() == network.hash());
+    const std::pair<int, std::string> error = thrown([&] { surrogate.withConductivity("exact"); });
+    EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "kind = exact, allowed: "));
+}
+
+/// Whatever leaves the call-back, the next run goes on from there.
+void databaseIsMadeInSeveralGoes(const std::string& path)
+{
+    const std::string plan =
+        "radius_min = 3e-3\nradius_max = 7e-3\nseed = 5\n[[thermal]]\ndiscs = 40\nporosities = [0.13]\n"
+        "compressions = [\"isotropic\"]\nrepeats = 3\nstops = [0.001]\n";
+    const msdd::Database database(path);
+    std::uint64_t most = 0;
+    const std::pair<int, std::string> error = thrown
+    (
+        [&]
+        {
+            database.generate(plan, 1, [&](std::uint64_t done, std::uint64_t total, std::uint64_t failed)
+            {
+                EXPECT(total == 3 && failed == 0);
+                most = done;
+                return done < 1;
+            });
+        }
+    );
+    EXPECT(error.first == MSDD_CANCELLED && most == 1);
+    bool passed = false;
+    try
+    {
+        database.generate(plan, 1, [](std::uint64_t done, std::uint64_t, std::uint64_t) -> bool
+        {
+            if (done == 2) { throw std::out_of_range("mine"); }
+            return true;
+        });
+    }
+    catch (const std::out_of_range& mine)
+    {
+        passed = has(mine.what(), "mine");
+    }
+    EXPECT(passed);
+    database.generate(plan, 2);
+    EXPECT(database.exportCsv(path + ".csv") == 9);
+    EXPECT(fegetexcept() == traps);
+    EXPECT(thrown([&] { database.generate("seed = 1"); }).first == MSDD_RVE);
+    EXPECT(thrown([] { msdd::Database("/no/such/folder/a.msdd").exportCsv("/tmp/none.csv"); }).first == MSDD_IO);
+}
+
 void loadingFailsWithTheReason()
 {
     std::pair<int, std::string> error = thrown([] { msdd::Surrogate("/no/such/model.json"); });
@@ -258,14 +318,20 @@ void handlesMove()
 
 } // namespace
 
-int main()
+int main(int argc, char** argv)
 {
+    if (argc != 3)
+    {
+        std::fprintf(stderr, "usage: wrapper FOLDER PLUGIN\n");
+        return 2;
+    }
     feenableexcept(traps);
     guardMasksAndRestores();
     loadingFailsWithTheReason();
     handlesMove();
     const msdd::Surrogate surrogate;
-    for (const char* name : {"builtin", "builtin:paper"})
+    const std::string plugin = std::string("plugin:") + argv[2];
+    for (const char* name : {"builtin", "builtin:paper", plugin.c_str()})
     {
         const msdd::Surrogate model(name);
         farOutsideIsClamped(model);
@@ -273,8 +339,10 @@ int main()
         tendenciesAreGranular(model);
         answersDoNotDependOnTheBatch(model);
     }
+    conductivityIsChosen(surrogate);
     badInputThrowsAndWritesNothing(surrogate);
     rveSwellsUnderTraps();
+    databaseIsMadeInSeveralGoes(std::string(argv[1]) + "/a.msdd");
     EXPECT(fegetexcept() == traps);
     EXPECT(invalidTraps());
     std::printf("wrapper.cpp: %s\n", failures ? "FAILED" : "ok");

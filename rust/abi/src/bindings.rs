@@ -1,6 +1,7 @@
 //! What bindgen makes of `msdd.h`; `cargo test -p msdd-abi --test header` holds it against the header.
 
 pub const MSDD_ABI_VERSION: u32 = 2;
+pub const MSDD_PLUGIN_VERSION: u32 = 1;
 pub const MSDD_OK: msdd_status = 0;
 pub const MSDD_INVALID_ARGUMENT: msdd_status = 1;
 pub const MSDD_IO: msdd_status = 2;
@@ -8,6 +9,7 @@ pub const MSDD_MODEL: msdd_status = 3;
 pub const MSDD_NON_FINITE: msdd_status = 4;
 pub const MSDD_RVE: msdd_status = 5;
 pub const MSDD_CANCELLED: msdd_status = 6;
+pub const MSDD_PLUGIN: msdd_status = 7;
 pub const MSDD_INTERNAL: msdd_status = 255;
 pub type msdd_status = ::core::ffi::c_uint;
 #[repr(C)]
@@ -276,6 +278,242 @@ pub type msdd_progress = ::core::option::Option<
         failed: u64,
     ) -> i32,
 >;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct msdd_plugin_start {
+    pub struct_size: usize,
+    pub cells: usize,
+    pub porosity: *const f64,
+    pub fabric_index: *const f64,
+    pub fabric_conductivity: *const f64,
+    pub stress_xx: *const f64,
+    pub stress_yy: *const f64,
+    pub state: *const *mut f64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    ["Size of msdd_plugin_start"][::core::mem::size_of::<msdd_plugin_start>() - 64usize];
+    [
+        "Alignment of msdd_plugin_start",
+    ][::core::mem::align_of::<msdd_plugin_start>() - 8usize];
+    [
+        "Offset of field: msdd_plugin_start::struct_size",
+    ][::core::mem::offset_of!(msdd_plugin_start, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_plugin_start::cells",
+    ][::core::mem::offset_of!(msdd_plugin_start, cells) - 8usize];
+    [
+        "Offset of field: msdd_plugin_start::porosity",
+    ][::core::mem::offset_of!(msdd_plugin_start, porosity) - 16usize];
+    [
+        "Offset of field: msdd_plugin_start::fabric_index",
+    ][::core::mem::offset_of!(msdd_plugin_start, fabric_index) - 24usize];
+    [
+        "Offset of field: msdd_plugin_start::fabric_conductivity",
+    ][::core::mem::offset_of!(msdd_plugin_start, fabric_conductivity) - 32usize];
+    [
+        "Offset of field: msdd_plugin_start::stress_xx",
+    ][::core::mem::offset_of!(msdd_plugin_start, stress_xx) - 40usize];
+    [
+        "Offset of field: msdd_plugin_start::stress_yy",
+    ][::core::mem::offset_of!(msdd_plugin_start, stress_yy) - 48usize];
+    [
+        "Offset of field: msdd_plugin_start::state",
+    ][::core::mem::offset_of!(msdd_plugin_start, state) - 56usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct msdd_plugin_step {
+    pub struct_size: usize,
+    pub cells: usize,
+    pub state: *const *const f64,
+    pub thermal_strain: *const f64,
+    pub next_state: *const *mut f64,
+    pub conductivity_xx: *mut f64,
+    pub conductivity_yy: *mut f64,
+    pub stress_xx: *mut f64,
+    pub stress_yy: *mut f64,
+    pub outside: *const *mut f64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    ["Size of msdd_plugin_step"][::core::mem::size_of::<msdd_plugin_step>() - 80usize];
+    [
+        "Alignment of msdd_plugin_step",
+    ][::core::mem::align_of::<msdd_plugin_step>() - 8usize];
+    [
+        "Offset of field: msdd_plugin_step::struct_size",
+    ][::core::mem::offset_of!(msdd_plugin_step, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_plugin_step::cells",
+    ][::core::mem::offset_of!(msdd_plugin_step, cells) - 8usize];
+    [
+        "Offset of field: msdd_plugin_step::state",
+    ][::core::mem::offset_of!(msdd_plugin_step, state) - 16usize];
+    [
+        "Offset of field: msdd_plugin_step::thermal_strain",
+    ][::core::mem::offset_of!(msdd_plugin_step, thermal_strain) - 24usize];
+    [
+        "Offset of field: msdd_plugin_step::next_state",
+    ][::core::mem::offset_of!(msdd_plugin_step, next_state) - 32usize];
+    [
+        "Offset of field: msdd_plugin_step::conductivity_xx",
+    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_xx) - 40usize];
+    [
+        "Offset of field: msdd_plugin_step::conductivity_yy",
+    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_yy) - 48usize];
+    [
+        "Offset of field: msdd_plugin_step::stress_xx",
+    ][::core::mem::offset_of!(msdd_plugin_step, stress_xx) - 56usize];
+    [
+        "Offset of field: msdd_plugin_step::stress_yy",
+    ][::core::mem::offset_of!(msdd_plugin_step, stress_yy) - 64usize];
+    [
+        "Offset of field: msdd_plugin_step::outside",
+    ][::core::mem::offset_of!(msdd_plugin_step, outside) - 72usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct msdd_plugin_tangent {
+    pub struct_size: usize,
+    pub cells: usize,
+    pub state: *const *const f64,
+    pub c11: *mut f64,
+    pub c22: *mut f64,
+    pub c12: *mut f64,
+    pub porosity_rate: *mut f64,
+    pub fabric_index_rate: *mut f64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    [
+        "Size of msdd_plugin_tangent",
+    ][::core::mem::size_of::<msdd_plugin_tangent>() - 64usize];
+    [
+        "Alignment of msdd_plugin_tangent",
+    ][::core::mem::align_of::<msdd_plugin_tangent>() - 8usize];
+    [
+        "Offset of field: msdd_plugin_tangent::struct_size",
+    ][::core::mem::offset_of!(msdd_plugin_tangent, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_plugin_tangent::cells",
+    ][::core::mem::offset_of!(msdd_plugin_tangent, cells) - 8usize];
+    [
+        "Offset of field: msdd_plugin_tangent::state",
+    ][::core::mem::offset_of!(msdd_plugin_tangent, state) - 16usize];
+    [
+        "Offset of field: msdd_plugin_tangent::c11",
+    ][::core::mem::offset_of!(msdd_plugin_tangent, c11) - 24usize];
+    [
+        "Offset of field: msdd_plugin_tangent::c22",
+    ][::core::mem::offset_of!(msdd_plugin_tangent, c22) - 32usize];
+    [
+        "Offset of field: msdd_plugin_tangent::c12",
+    ][::core::mem::offset_of!(msdd_plugin_tangent, c12) - 40usize];
+    [
+        "Offset of field: msdd_plugin_tangent::porosity_rate",
+    ][::core::mem::offset_of!(msdd_plugin_tangent, porosity_rate) - 48usize];
+    [
+        "Offset of field: msdd_plugin_tangent::fabric_index_rate",
+    ][::core::mem::offset_of!(msdd_plugin_tangent, fabric_index_rate) - 56usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct msdd_plugin_v1 {
+    pub struct_size: usize,
+    pub version: u32,
+    pub network_conductivity: u32,
+    pub name: *const ::core::ffi::c_char,
+    pub state_size: usize,
+    pub state_names: *const *const ::core::ffi::c_char,
+    pub initial_state: ::core::option::Option<
+        unsafe extern "C" fn(start: *const msdd_plugin_start) -> i32,
+    >,
+    pub advance: ::core::option::Option<
+        unsafe extern "C" fn(step: *const msdd_plugin_step) -> i32,
+    >,
+    pub solid_fraction: ::core::option::Option<
+        unsafe extern "C" fn(
+            cells: usize,
+            porosity: *const f64,
+            solid_fraction: *mut f64,
+        ) -> i32,
+    >,
+    pub tangent: ::core::option::Option<
+        unsafe extern "C" fn(tangent: *const msdd_plugin_tangent) -> i32,
+    >,
+    pub deform: ::core::option::Option<
+        unsafe extern "C" fn(
+            cells: usize,
+            state: *const *const f64,
+            strain_xx: *const f64,
+            strain_yy: *const f64,
+            next_state: *const *mut f64,
+        ) -> i32,
+    >,
+    pub spread: ::core::option::Option<
+        unsafe extern "C" fn(
+            cells: usize,
+            state: *const *const f64,
+            spread: *mut f64,
+        ) -> i32,
+    >,
+    pub last_error: ::core::option::Option<
+        unsafe extern "C" fn() -> *const ::core::ffi::c_char,
+    >,
+    pub wall_friction_limit: f64,
+    pub wall_friction_slip: f64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    ["Size of msdd_plugin_v1"][::core::mem::size_of::<msdd_plugin_v1>() - 112usize];
+    ["Alignment of msdd_plugin_v1"][::core::mem::align_of::<msdd_plugin_v1>() - 8usize];
+    [
+        "Offset of field: msdd_plugin_v1::struct_size",
+    ][::core::mem::offset_of!(msdd_plugin_v1, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_plugin_v1::version",
+    ][::core::mem::offset_of!(msdd_plugin_v1, version) - 8usize];
+    [
+        "Offset of field: msdd_plugin_v1::network_conductivity",
+    ][::core::mem::offset_of!(msdd_plugin_v1, network_conductivity) - 12usize];
+    [
+        "Offset of field: msdd_plugin_v1::name",
+    ][::core::mem::offset_of!(msdd_plugin_v1, name) - 16usize];
+    [
+        "Offset of field: msdd_plugin_v1::state_size",
+    ][::core::mem::offset_of!(msdd_plugin_v1, state_size) - 24usize];
+    [
+        "Offset of field: msdd_plugin_v1::state_names",
+    ][::core::mem::offset_of!(msdd_plugin_v1, state_names) - 32usize];
+    [
+        "Offset of field: msdd_plugin_v1::initial_state",
+    ][::core::mem::offset_of!(msdd_plugin_v1, initial_state) - 40usize];
+    [
+        "Offset of field: msdd_plugin_v1::advance",
+    ][::core::mem::offset_of!(msdd_plugin_v1, advance) - 48usize];
+    [
+        "Offset of field: msdd_plugin_v1::solid_fraction",
+    ][::core::mem::offset_of!(msdd_plugin_v1, solid_fraction) - 56usize];
+    [
+        "Offset of field: msdd_plugin_v1::tangent",
+    ][::core::mem::offset_of!(msdd_plugin_v1, tangent) - 64usize];
+    [
+        "Offset of field: msdd_plugin_v1::deform",
+    ][::core::mem::offset_of!(msdd_plugin_v1, deform) - 72usize];
+    [
+        "Offset of field: msdd_plugin_v1::spread",
+    ][::core::mem::offset_of!(msdd_plugin_v1, spread) - 80usize];
+    [
+        "Offset of field: msdd_plugin_v1::last_error",
+    ][::core::mem::offset_of!(msdd_plugin_v1, last_error) - 88usize];
+    [
+        "Offset of field: msdd_plugin_v1::wall_friction_limit",
+    ][::core::mem::offset_of!(msdd_plugin_v1, wall_friction_limit) - 96usize];
+    [
+        "Offset of field: msdd_plugin_v1::wall_friction_slip",
+    ][::core::mem::offset_of!(msdd_plugin_v1, wall_friction_slip) - 104usize];
+};
 unsafe extern "C" {
     pub fn msdd_abi_version() -> u32;
     pub fn msdd_version() -> *const ::core::ffi::c_char;
@@ -283,6 +521,11 @@ unsafe extern "C" {
     pub fn msdd_text_free(text: *mut ::core::ffi::c_char);
     pub fn msdd_surrogate_load(
         source: *const ::core::ffi::c_char,
+        out: *mut *mut msdd_surrogate,
+    ) -> i32;
+    pub fn msdd_surrogate_with_conductivity(
+        surrogate: *const msdd_surrogate,
+        kind: *const ::core::ffi::c_char,
         out: *mut *mut msdd_surrogate,
     ) -> i32;
     pub fn msdd_surrogate_hash(
@@ -359,4 +602,5 @@ unsafe extern "C" {
         csv: *const ::core::ffi::c_char,
         rows: *mut u64,
     ) -> i32;
+    pub fn msdd_plugin_v1_table() -> *const msdd_plugin_v1;
 }

@@ -10,7 +10,7 @@
  *    thread at a time.
  *  - Structs start with struct_size; set it to sizeof the struct, and all that you do not use to 0.
  *  - SI units; strains without unit. Strain: extension positive. Stress: compression positive.
- *  - Nothing here prints or installs handlers, and no threads start unless their number is an argument.
+ *  - Nothing here prints or handles signals, and no threads start unless their number is an argument.
  *  - Floating-point exceptions must be masked while a function runs (the IEEE default). A program that traps them
  *    (OpenFOAM does) masks them around each call; the C++ wrapper msdd.hpp does it for you.
  */
@@ -42,6 +42,8 @@ enum msdd_status {
     MSDD_RVE = 5,
     /** The progress call-back asked to stop. What was made until then is kept. */
     MSDD_CANCELLED = 6,
+    /** A plug-in is none, is of another version, failed, or gave an answer that no packing of grains has. */
+    MSDD_PLUGIN = 7,
     /** A bug on our side (a caught panic). */
     MSDD_INTERNAL = 255
 };
@@ -110,21 +112,28 @@ typedef struct msdd_initial {
     size_t cells;                      /**< length of every column */
     const double *porosity;            /**< overlaps counted once */
     const double *fabric_index;        /**< F_xx - F_yy */
-    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), of the kind of conductivity that the model answers
-                                            with (describe: "conductivity"); NULL = not known */
+    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), of the kind that the model's state carries
+                                            (describe: "fabric_conductivity"); NULL = not known */
     const double *stress_xx;           /**< [Pa]; NULL = not known; both or none */
     const double *stress_yy;           /**< [Pa] */
 } msdd_initial;
 
 /** Loads a model. `source`: NULL or "builtin" for the default model compiled into the library ("builtin:state";
- *  "builtin:paper" is the network of the paper); else a path of a model file. On success *out owns the model; free it with
- *  msdd_surrogate_free. */
+ *  "builtin:paper" is the network of the paper); "plugin:" and the path of a shared library that defines
+ *  msdd_plugin_v1_table, see the end of this header; else a path of a model file. On success *out owns the model; free it
+ *  with msdd_surrogate_free. */
 int32_t msdd_surrogate_load(const char *source, msdd_surrogate **out);
 
-/** SHA-256 of the model file's bytes, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
+/** The same model that answers with conductivities of a kind: "affine" (Eq. 9 of the paper, an upper bound) or "network"
+ *  (resistor network solved). Describe lists the kinds it was trained for as "conductivities"; any other fails with
+ *  MSDD_INVALID_ARGUMENT. The state is the same, and so is the kind of its initial fabric_conductivity. On success *out owns
+ *  the new handle; either may be freed first. */
+int32_t msdd_surrogate_with_conductivity(const msdd_surrogate *surrogate, const char *kind, msdd_surrogate **out);
+
+/** SHA-256 of the bytes of the model file or plug-in, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
 const char *msdd_surrogate_hash(const msdd_surrogate *surrogate);
 
-/** Description of the model (kind, name, state columns, conductivity, provenance) as one JSON object. Owned by the model.
+/** Description of the model (kind, name, state columns, conductivities, provenance) as one JSON object. Owned by the model.
  *  NULL for a null handle. */
 const char *msdd_surrogate_describe(const msdd_surrogate *surrogate);
 
@@ -224,7 +233,7 @@ void msdd_rve_free(msdd_rve *rve);
 /* ------------------------------------------------------------------------------------------------------ databases */
 
 /** Hears of every finished packing, on the thread that called; any value but 0 stops the generation. `user` is the
- *  caller's. */
+ *  caller's. It must not throw, or leave by longjmp. */
 typedef int32_t (*msdd_progress)(void *user, uint64_t done, uint64_t total, uint64_t failed);
 
 /** Makes the database of a plan (the text of a TOML file as in cases/database), or goes on with one that was begun, on
@@ -235,6 +244,97 @@ int32_t msdd_database_generate(const char *plan, const char *path, uint32_t thre
 /** Writes a database as CSV, with its column dictionary and provenance beside it; *rows (may be NULL) is their number.
  *  A name that ends in .gz is compressed. */
 int32_t msdd_database_export_csv(const char *database, const char *csv, uint64_t *rows);
+
+/* ------------------------------------------------------------------------------------------------------- plug-ins */
+
+/* A plug-in is a shared library with a surrogate of somebody else's: it includes this header, needs nothing of libmsdd,
+ * and defines one function, msdd_plugin_v1_table. Worked example: rust/capi/examples/effective_medium.c.
+ *
+ *  - No SI: a plug-in answers K/k and reduced stresses sigma l/(E r), l = 1 m, r the current mean radius, compression
+ *    positive. The library alone knows the material and converts. Strain: extension positive.
+ *  - Its functions return 0, or any other number for a failure, and may be called from several threads at once.
+ *    Inputs are finite; columns are never NULL, but where it says so. Outputs do not overlap inputs.
+ *  - Cells are independent of each other. Zero strain leaves the state as it is, bit for bit.
+ *  - Every output has to be finite, and K above zero: the library checks that and refuses the step otherwise.
+ *  - It is never unloaded. It must not throw, print, or leave by longjmp. */
+
+#define MSDD_PLUGIN_VERSION 1u
+
+/** What is known of cells at the start, and columns for their state. */
+typedef struct msdd_plugin_start {
+    size_t struct_size;                /**< sizeof(msdd_plugin_start) */
+    size_t cells;                      /**< length of every column */
+    const double *porosity;            /**< overlaps counted once */
+    const double *fabric_index;        /**< F_xx - F_yy */
+    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy); NULL = not known */
+    const double *stress_xx;           /**< reduced; NULL = not known; both or none */
+    const double *stress_yy;
+    double *const *state;              /**< out: state_size columns; the first two are the given porosity and
+                                            fabric_index, which a plug-in may not change */
+} msdd_plugin_start;
+
+/** A step of thermal strain. */
+typedef struct msdd_plugin_step {
+    size_t struct_size;           /**< sizeof(msdd_plugin_step) */
+    size_t cells;                 /**< length of every column */
+    const double *const *state;   /**< state_size columns before the step */
+    const double *thermal_strain; /**< radial strain of the grains, relative to the current radius; above -1 */
+    double *const *next_state;    /**< out: state columns after the step */
+    double *conductivity_xx;      /**< out: K_xx/k after the step, > 0 */
+    double *conductivity_yy;
+    double *stress_xx;            /**< out: reduced, after the step */
+    double *stress_yy;
+    double *const *outside;       /**< out: state_size + 1 columns, as in msdd_batch; all 0 before the call, so that one
+                                       without limits leaves them */
+} msdd_plugin_step;
+
+/** Mechanical tangent, as in msdd_batch, reduced as the stress is. */
+typedef struct msdd_plugin_tangent {
+    size_t struct_size;         /**< sizeof(msdd_plugin_tangent) */
+    size_t cells;               /**< length of every column */
+    const double *const *state; /**< state_size columns */
+    double *c11;                /**< out */
+    double *c22;
+    double *c12;
+    double *porosity_rate;
+    double *fabric_index_rate;
+} msdd_plugin_tangent;
+
+/** All that a plug-in is. Its texts and the table itself last as long as the process. */
+typedef struct msdd_plugin_v1 {
+    size_t struct_size;             /**< sizeof(msdd_plugin_v1) */
+    uint32_t version;               /**< MSDD_PLUGIN_VERSION */
+    uint32_t network_conductivity;  /**< 1: K with the resistor network solved; 0: affine, Eq. 9 of the paper */
+    const char *name;               /**< UTF-8 */
+    size_t state_size;              /**< 2 to 64 */
+    const char *const *state_names; /**< state_size texts; the first two are "porosity" and "fabric_index" */
+    /** State at the start. */
+    int32_t (*initial_state)(const msdd_plugin_start *start);
+    /** One step of all cells. */
+    int32_t (*advance)(const msdd_plugin_step *step);
+    /** Solid fraction, overlaps counted twice, of an initial state of a porosity; above 0. NULL = has none. */
+    int32_t (*solid_fraction)(size_t cells, const double *porosity, double *solid_fraction);
+    /** Mechanical tangent; NULL = has none. With it comes `deform`, or neither. */
+    int32_t (*tangent)(const msdd_plugin_tangent *tangent);
+    /** State after mechanical strains of the cells, linear by the tangent. */
+    int32_t (*deform)(size_t cells, const double *const *state, const double *strain_xx, const double *strain_yy,
+                      double *const *next_state);
+    /** Relative standard deviation of K between RVEs of equal state, not negative; NULL = not known. */
+    int32_t (*spread)(size_t cells, const double *const *state, double *spread);
+    /** Text of the last failure on the calling thread, UTF-8, copied at once; NULL = has none. */
+    const char *(*last_error)(void);
+    double wall_friction_limit;     /**< as in msdd_surrogate_wall_friction; 0 = has none */
+    double wall_friction_slip;      /**< [mean radii], > 0 */
+} msdd_plugin_v1;
+
+#if defined(__GNUC__)
+#define MSDD_PLUGIN_EXPORT __attribute__((visibility("default")))
+#else
+#define MSDD_PLUGIN_EXPORT
+#endif
+
+/** The table. A plug-in defines this function; libmsdd does not. */
+MSDD_PLUGIN_EXPORT const msdd_plugin_v1 *msdd_plugin_v1_table(void);
 
 #ifdef __cplusplus
 }

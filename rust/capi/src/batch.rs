@@ -1,5 +1,7 @@
 //! One step of a batch: all checks first, then block by block straight into the caller's columns.
 
+mod foreign;
+
 use crate::abi::msdd_batch;
 use crate::columns::{Input, Output};
 use crate::si::Si;
@@ -9,13 +11,13 @@ use msdd_surrogate::kernel::{LANES, Lanes};
 use msdd_surrogate::surrogate::{Answer, MAX_STATE, StateLanes};
 
 /// Columns of a batch.
-pub(crate) struct Columns {
+pub(crate) struct Columns<'a> {
     cells: usize,
-    state: Vec<Input>,
-    thermal_strain: Input,
-    total_thermal_strain: Option<Input>,
+    state: Vec<Input<'a>>,
+    thermal_strain: Input<'a>,
+    total_thermal_strain: Option<Input<'a>>,
     /// Mechanical strains along x and y.
-    strain: [Option<Input>; 2],
+    strain: [Option<Input<'a>>; 2],
     next_state: Vec<Output<f64>>,
     conductivity: [Output<f64>; 2],
     stress: [Output<f64>; 2],
@@ -51,21 +53,21 @@ pub(crate) unsafe fn outputs(
     cells: usize,
 ) -> Result<Vec<Output<f64>>, Failure> {
     if columns.is_null() {
-        return Err(Failure::Null(name));
+        return Err(Failure::null(name));
     }
     // SAFETY: `count` pointers, and what they point to, by this function's contract.
     Ok((0..count).map(|k| unsafe { Output::new(columns.add(k).read(), cells) }).collect())
 }
 
-impl Columns {
+impl<'a> Columns<'a> {
     /// # Safety
     /// The batch's pointers, unless null, point to `cells` values, those of `state` and `next_state` to as many columns
     /// as the model's state has, `outside` to one more; outputs are writable by this thread alone.
-    pub unsafe fn new(model: &dyn Surrogate, batch: &msdd_batch) -> Result<Self, Failure> {
-        let (cells, names) = (batch.cells, model.state_names());
+    pub unsafe fn new(names: &'a [String], batch: &msdd_batch) -> Result<Self, Failure> {
+        let cells = batch.cells;
         check_length(cells)?;
         if batch.state.is_null() {
-            return Err(Failure::Null("state"));
+            return Err(Failure::null("state"));
         }
         let optional = |name, start: *const f64| match start.is_null() {
             true => Ok(None),
@@ -102,11 +104,12 @@ impl Columns {
 
     /// Takes all cells through the step; returns the number with an input outside the trained range.
     pub fn advance(&self, model: &dyn Surrogate, si: &Si) -> Result<usize, Failure> {
-        self.check(model)?;
-        Ok((0..self.cells).step_by(LANES).map(|first| self.fill(model, si, first)).sum())
+        self.check(model.name(), model.mechanics().is_some())?;
+        let mut answer = Answer::default();
+        Ok((0..self.cells).step_by(LANES).map(|first| self.fill(model, si, first, &mut answer)).sum())
     }
 
-    fn check(&self, model: &dyn Surrogate) -> Result<(), Failure> {
+    fn check(&self, name: &str, has_tangent: bool) -> Result<(), Failure> {
         let inputs = self.state.iter().chain([&self.thermal_strain]).chain(&self.total_thermal_strain);
         inputs.chain(self.strain.iter().flatten()).try_for_each(Input::check_finite)?;
         let range = |column: &Input, low: f64, high: f64, allowed: &str| {
@@ -119,9 +122,9 @@ impl Columns {
         for column in self.strain.iter().flatten() {
             range(column, -LARGEST_STEP, LARGEST_STEP, "above -0.2, to 0.2")?;
         }
-        if model.mechanics().is_none() && (self.deforms() || self.tangent.iter().any(Output::is_wanted)) {
+        if !has_tangent && (self.deforms() || self.tangent.iter().any(Output::is_wanted)) {
             let wanted = "strain_xx, strain_yy, c11, c22, c12, porosity_rate, fabric_index_rate";
-            let allowed = format!("NULL: model \"{}\" has no mechanical tangent", model.name());
+            let allowed = format!("NULL: model \"{name}\" has no mechanical tangent");
             return Err(Failure::argument(wanted, "not NULL", allowed));
         }
         Ok(())
@@ -131,8 +134,9 @@ impl Columns {
         self.strain.iter().any(Option::is_some)
     }
 
-    /// Cells `first` to `first + 7`; returns how many of them had an input outside the trained range.
-    fn fill(&self, model: &dyn Surrogate, si: &Si, first: usize) -> usize {
+    /// The block of cells from `first` on; returns how many of them had an input outside the trained range. `answer` is
+    /// room for the block's.
+    fn fill(&self, model: &dyn Surrogate, si: &Si, first: usize, answer: &mut Answer) -> usize {
         // All of a block's inputs are read before any output is written: a column may be both.
         let lanes_or_zero =
             |column: &Option<Input>| column.map_or([0.0; LANES], |column| column.lanes(first));
@@ -142,17 +146,26 @@ impl Columns {
         }
         let total = lanes_or_zero(&self.total_thermal_strain);
         let strain = [0, 1].map(|k| lanes_or_zero(&self.strain[k]));
-        let mut answer = model.block(&state, &self.thermal_strain.lanes(first));
+        model.block_into(&state, &self.thermal_strain.lanes(first), answer);
         if self.deforms() {
-            let deformed = model.deformed(&answer.state, &strain);
-            answer = Answer { outside: answer.outside, ..model.block(&deformed, &[0.0; LANES]) };
+            let (deformed, outside) = (model.deformed(&answer.state, &strain), answer.outside);
+            model.block_into(&deformed, &[0.0; LANES], answer);
+            answer.outside = outside;
         }
-        self.write(model, si, first, &answer, &total);
-        let here = LANES.min(self.cells - first);
-        (0..here).filter(|lane| !answer.inside(*lane)).count()
+        let outside = answer.lanes_outside();
+        self.write(model, si, first, answer, &outside, &total);
+        outside[..LANES.min(self.cells - first)].iter().filter(|outside| **outside).count()
     }
 
-    fn write(&self, model: &dyn Surrogate, si: &Si, first: usize, answer: &Answer, total: &Lanes) {
+    fn write(
+        &self,
+        model: &dyn Surrogate,
+        si: &Si,
+        first: usize,
+        answer: &Answer,
+        outside: &[bool; LANES],
+        total: &Lanes,
+    ) {
         for (column, lanes) in self.next_state.iter().zip(&answer.state) {
             column.write(first, lanes);
         }
@@ -160,7 +173,7 @@ impl Columns {
             self.conductivity[k].write(first, &si.conductivity(answer.conductivity[k]));
             self.stress[k].write(first, &si.stress(answer.stress[k], total));
         }
-        self.clamped.write(first, &std::array::from_fn(|lane| u8::from(!answer.inside(lane))));
+        self.clamped.write(first, &outside.map(u8::from));
         let strain = [&answer.outside[MAX_STATE]];
         for (column, lanes) in
             self.outside.iter().zip(answer.outside[..self.state.len()].iter().chain(strain))

@@ -22,6 +22,7 @@ same! {
     msdd_last_error() -> *const c_char;
     msdd_text_free(*mut c_char);
     msdd_surrogate_load(*const c_char, *mut *mut msdd_surrogate) -> i32;
+    msdd_surrogate_with_conductivity(*const msdd_surrogate, *const c_char, *mut *mut msdd_surrogate) -> i32;
     msdd_surrogate_hash(*const msdd_surrogate) -> *const c_char;
     msdd_surrogate_describe(*const msdd_surrogate) -> *const c_char;
     msdd_surrogate_state_size(*const msdd_surrogate) -> usize;

@@ -1,27 +1,28 @@
-//! Errors to status codes. The one place where panics are stopped.
+//! Errors to status codes and text.
 
-use crate::abi;
+use crate::{abi, panics};
+use msdd_plugin::PluginError;
 use msdd_rve::database::DatabaseError;
 use msdd_rve::{RveError, state::StateError};
 use msdd_surrogate::SurrogateError;
-use std::any::Any;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What an export can fail with.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     #[error("{0} is NULL")]
-    Null(&'static str),
+    Null(String),
     #[error("{name} = {value}, allowed: {allowed}")]
     Argument { name: String, value: String, allowed: String },
     #[error("{column}[{index}] = {value} is not finite")]
-    NonFinite { column: &'static str, index: usize, value: f64 },
+    NonFinite { column: String, index: usize, value: f64 },
     #[error("cannot read model file \"{path}\": {error}")]
     File { path: String, error: std::io::Error },
     #[error("model \"{path}\": {error}")]
     Model { path: String, error: SurrogateError },
+    #[error("{0}")]
+    Plugin(#[from] PluginError),
     #[error("{0}")]
     Rve(#[from] RveError),
     #[error("{0}")]
@@ -33,6 +34,10 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
+    pub fn null(name: &str) -> Self {
+        Self::Null(name.to_string())
+    }
+
     pub fn argument(name: impl ToString, value: impl ToString, allowed: impl ToString) -> Self {
         Self::Argument { name: name.to_string(), value: value.to_string(), allowed: allowed.to_string() }
     }
@@ -42,7 +47,8 @@ impl Failure {
             Self::Null(_) | Self::Argument { .. } | Self::Rve(RveError::Parameter { .. }) => {
                 abi::MSDD_INVALID_ARGUMENT
             }
-            Self::File { .. } => abi::MSDD_IO,
+            Self::File { .. } | Self::Plugin(PluginError::Read { .. }) => abi::MSDD_IO,
+            Self::Plugin(_) => abi::MSDD_PLUGIN,
             Self::Database(DatabaseError::Plan { .. }) | Self::Rve(_) | Self::State(_) => abi::MSDD_RVE,
             Self::Database(_) => abi::MSDD_IO,
             Self::Model { .. } => abi::MSDD_MODEL,
@@ -66,16 +72,14 @@ thread_local! {
 /// Unwind safety: bodies write to the caller's memory last, after everything that may panic has been checked, and keep
 /// no state of their own; a batch left half-written by a bug is reported as [`INTERNAL`].
 pub(crate) fn status(body: impl FnOnce() -> Result<(), Failure>) -> i32 {
-    match catch_unwind(AssertUnwindSafe(body)) {
+    match panics::caught(body) {
         Ok(Ok(())) => OK,
         Ok(Err(failure)) => {
             remember(failure.to_string());
             failure.status()
         }
-        Err(panic) => {
-            remember(format!("internal error (a bug in msdd): {}", panic_text(&*panic)));
-            // Dropping a payload may panic in turn; a few leaked bytes are the safer choice.
-            std::mem::forget(panic);
+        Err(text) => {
+            remember(format!("internal error (a bug in msdd): {text}"));
             INTERNAL
         }
     }
@@ -89,11 +93,6 @@ pub(crate) fn value<T>(fallback: T, body: impl FnOnce() -> T) -> T {
         Ok(())
     });
     result
-}
-
-fn panic_text(panic: &(dyn Any + Send)) -> &str {
-    let text = panic.downcast_ref::<&str>().copied();
-    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no text")
 }
 
 fn remember(text: String) {

@@ -47,11 +47,12 @@ pub struct MaterialError {
 impl Material {
     /// Refuses values for which the contact law has no meaning; names the first such key.
     pub fn check(&self) -> Result<(), MaterialError> {
-        let positive = |v: f64| v > 0.0 && v.is_finite();
+        // Products of several such numbers stay numbers.
+        let positive = |v: f64| (1e-30..=1e30).contains(&v);
         let quarter_turn = |v: f64| (0.0..std::f64::consts::FRAC_PI_2).contains(&v);
         let table: [(&'static str, f64, bool, &'static str); 6] = [
-            ("density", self.density, positive(self.density), "> 0 kg/m3"),
-            ("young_modulus", self.young_modulus, positive(self.young_modulus), "> 0 Pa"),
+            ("density", self.density, positive(self.density), "1e-30 to 1e30 kg/m3"),
+            ("young_modulus", self.young_modulus, positive(self.young_modulus), "1e-30 to 1e30 Pa"),
             ("stiffness_ratio", self.stiffness_ratio, (0.0..=1.0).contains(&self.stiffness_ratio), "0 to 1"),
             (
                 "friction_angle",
@@ -63,7 +64,7 @@ impl Material {
                 "wall_stiffness_factor",
                 self.wall_stiffness_factor,
                 positive(self.wall_stiffness_factor),
-                "> 0",
+                "1e-30 to 1e30",
             ),
             ("damping", self.damping, (0.0..1.0).contains(&self.damping), "0 <= damping < 1"),
         ];

@@ -150,8 +150,8 @@ impl PackingSpec {
         if !(0.01..=0.3).contains(&self.porosity) {
             return parameter("porosity", self.porosity.to_string(), "0.01 to 0.3");
         }
-        if !(self.radius_min > 0.0 && self.radius_min.is_finite()) {
-            return parameter("radius_min", self.radius_min.to_string(), "> 0 m");
+        if !(1e-30..=1e30).contains(&self.radius_min) {
+            return parameter("radius_min", self.radius_min.to_string(), "1e-30 to 1e30 m");
         }
         if !(self.radius_max >= self.radius_min && self.radius_max <= 10.0 * self.radius_min) {
             return parameter("radius_max", self.radius_max.to_string(), "radius_min to 10 radius_min");

@@ -13,6 +13,9 @@ use serde::{Deserialize, Serialize};
 
 /// How far a disc of a periodic box may be from it, in box lengths: beyond, its place has lost digits.
 const FARTHEST_CELL: f64 = 1000.0;
+/// Largest and smallest magnitude of a state's numbers: products of several stay numbers.
+const LARGEST: f64 = 1e30;
+const SMALLEST: f64 = 1e-30;
 /// Name of the schema.
 pub const SCHEMA: &str = "msdd-state-1";
 
@@ -206,9 +209,10 @@ pub fn from_json(text: &str) -> Result<Simulation, StateError> {
 
 fn walls(bounds: Bounds) -> Result<Walls, StateError> {
     let position = [bounds.x_min, bounds.x_max, bounds.y_min, bounds.y_max];
-    let finite = position.iter().all(|p| p.is_finite());
-    if !(finite && bounds.x_max > bounds.x_min && bounds.y_max > bounds.y_min) {
-        return Err(StateError::Box(format!("{position:?}, allowed: x_min < x_max, y_min < y_max, finite")));
+    let moderate = position.iter().all(|p| p.abs() <= LARGEST);
+    if !(moderate && bounds.x_max > bounds.x_min && bounds.y_max > bounds.y_min) {
+        let allowed = "x_min < x_max, y_min < y_max, from -1e30 to 1e30";
+        return Err(StateError::Box(format!("{position:?}, allowed: {allowed}")));
     }
     Ok(Walls { position, ..Walls::around(1.0, 1.0) })
 }
@@ -217,22 +221,22 @@ fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {
     let expected = columns.x.len();
     let zero = vec![0.0; expected];
     let or_zero = |column: &Option<Vec<f64>>| column.clone().unwrap_or_else(|| zero.clone());
-    let positive = "finite and > 0";
+    let (any, positive) = ("-1e30 to 1e30", "1e-30 to 1e30");
     let table: [(&'static str, Vec<f64>, &'static str); 8] = [
-        ("x", columns.x.clone(), "finite"),
-        ("y", columns.y.clone(), "finite"),
+        ("x", columns.x.clone(), any),
+        ("y", columns.y.clone(), any),
         ("radius", columns.radius.clone(), positive),
         ("mass", columns.mass.clone(), positive),
-        ("vx", or_zero(&columns.vx), "finite"),
-        ("vy", or_zero(&columns.vy), "finite"),
-        ("angular_velocity", or_zero(&columns.angular_velocity), "finite"),
-        ("temperature", or_zero(&columns.temperature), "finite"),
+        ("vx", or_zero(&columns.vx), any),
+        ("vy", or_zero(&columns.vy), any),
+        ("angular_velocity", or_zero(&columns.angular_velocity), any),
+        ("temperature", or_zero(&columns.temperature), any),
     ];
     for (column, values, allowed) in &table {
         if values.len() != expected {
             return Err(StateError::Length { column, found: values.len(), expected });
         }
-        let good = |v: f64| v.is_finite() && (*allowed != positive || v > 0.0);
+        let good = |v: f64| v.abs() <= LARGEST && (*allowed != positive || v >= SMALLEST);
         if let Some((particle, &value)) = values.iter().enumerate().find(|(_, v)| !good(**v)) {
             return Err(StateError::Particle { particle, column, value, allowed });
         }
@@ -254,9 +258,12 @@ fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {
 /// Shear of a periodic box; none between walls.
 fn periodic(bounds: Bounds) -> Result<Option<Periodic>, StateError> {
     let shear_offset = bounds.shear_offset.unwrap_or(0.0);
-    if !shear_offset.is_finite() || (bounds.shear_offset.is_some() && !bounds.periodic) {
+    if shear_offset.is_nan()
+        || shear_offset.abs() > LARGEST
+        || (bounds.shear_offset.is_some() && !bounds.periodic)
+    {
         return Err(StateError::Box(format!(
-            "shear_offset = {shear_offset}, allowed: finite, with periodic = true"
+            "shear_offset = {shear_offset}, allowed: -1e30 to 1e30, with periodic = true"
         )));
     }
     Ok(bounds.periodic.then_some(Periodic { shear_offset, shear_rate: 0.0 }))
@@ -330,8 +337,8 @@ fn set_contacts(simulation: &mut Simulation, columns: &Contacts) -> Result<(), S
                 "i = {i}, j = {j}, allowed: i from {lowest}, both below {count}, different"
             )));
         }
-        if !force.is_finite() {
-            return Err(problem(format!("tangential_force = {force}, allowed: finite")));
+        if force.is_nan() || force.abs() > LARGEST {
+            return Err(problem(format!("tangential_force = {force}, allowed: -1e30 to 1e30 N")));
         }
         let near = match usize::try_from(i) {
             Ok(i) => simulation.set_tangential_force_across(i, j as usize, shift, force),
@@ -371,8 +378,12 @@ fn set_run(simulation: &mut Simulation, run: Run) -> Result<(), StateError> {
     let numbers = [run.time, run.time_step, run.strain, run.strain_rate, run.free_drag];
     let walls = run.wall_normal_velocity.iter().chain(&run.wall_tangential_velocity);
     let all = numbers.iter().chain(walls).chain(&run.reference_radius);
-    if run.reference_radius.len() != simulation.discs.len() || all.clone().any(|v| !v.is_finite()) {
-        return Err(StateError::Run("needs finite numbers and one reference radius a particle".to_string()));
+    if run.reference_radius.len() != simulation.discs.len()
+        || all.clone().any(|v| v.is_nan() || v.abs() > LARGEST)
+    {
+        return Err(StateError::Run(
+            "needs numbers from -1e30 to 1e30 and one reference radius a particle".to_string(),
+        ));
     }
     if !(run.time_step > 0.0 && run.free_drag >= 0.0 && run.reference_radius.iter().all(|&r| r > 0.0)) {
         return Err(StateError::Run(
@@ -381,10 +392,10 @@ fn set_run(simulation: &mut Simulation, run: Run) -> Result<(), StateError> {
     }
     let shear_rate = run.shear_rate.unwrap_or(0.0);
     match &mut simulation.periodic {
-        Some(periodic) if shear_rate.is_finite() => periodic.shear_rate = shear_rate,
+        Some(periodic) if shear_rate.abs() <= LARGEST => periodic.shear_rate = shear_rate,
         None if run.shear_rate.is_none() => (),
         _ => {
-            let problem = format!("shear_rate = {shear_rate}, allowed: finite, in a periodic box");
+            let problem = format!("shear_rate = {shear_rate}, allowed: -1e30 to 1e30, in a periodic box");
             return Err(StateError::Run(problem));
         }
     }

@@ -78,7 +78,7 @@ impl File {
                 return field(key, value, "above 0, to 1e3");
             }
         }
-        Ok(())
+        self.solid_fraction.check()
     }
 }
 

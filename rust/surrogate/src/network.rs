@@ -100,7 +100,7 @@ fn symmetric_unit(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// Eight lanes from `count` <= 8 values; the rest repeats the last, so that no lane holds nonsense.
+/// A block of lanes from `count` values, at least one; the rest repeats the last, so that no lane holds nonsense.
 pub fn padded(count: usize, value: impl Fn(usize) -> f64) -> Lanes {
     std::array::from_fn(|lane| value(lane.min(count.clamp(1, LANES) - 1)))
 }

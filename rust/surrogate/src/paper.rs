@@ -2,6 +2,7 @@
 
 use crate::kernel::{LANES, Lanes};
 use crate::model::Model;
+use crate::state::readout::CONDUCTIVITY_FLOOR;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
 use crate::training::TrainingOptions;
 
@@ -38,7 +39,9 @@ impl Surrogate for Model {
         let block = Model::block(self, &[state[0], state[1], *strain]);
         let mut answer = Answer {
             state: *state,
-            conductivity: [block.conductivity_xx, block.conductivity_yy],
+            // The network's own lower limit is zero, which is no conductivity for a heat equation.
+            conductivity: [block.conductivity_xx, block.conductivity_yy]
+                .map(|lanes| lanes.map(|value| value.max(CONDUCTIVITY_FLOOR))),
             stress: [block.stress_xx, block.stress_yy],
             outside: [[0.0; LANES]; MAX_STATE + 1],
         };

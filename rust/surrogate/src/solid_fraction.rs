@@ -3,6 +3,8 @@
 use crate::SurrogateError;
 use crate::dataset::StateRow;
 use crate::least_squares;
+use crate::model_file::field;
+use crate::network::WEIGHT_LIMIT;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
@@ -43,6 +45,19 @@ impl SolidFraction {
         let residual = (square / packed.len() as f64).sqrt();
         let porosity = Range::of(packed.iter().map(|row| row.porosity));
         Ok(Self { coefficients: coefficients.to_vec(), porosity, residual })
+    }
+
+    /// Refuses what no fit gives.
+    pub(crate) fn check(&self) -> Result<(), SurrogateError> {
+        let Range { min, max } = self.porosity;
+        if !(0.0 <= min && min <= max && max <= 1.0) {
+            return field("solid_fraction.porosity", format!("{min} to {max}"), "0 <= min <= max <= 1");
+        }
+        let unsound = |c: &&f64| c.is_nan() || c.abs() > WEIGHT_LIMIT;
+        match self.coefficients.iter().find(unsound) {
+            Some(value) => field("solid_fraction.coefficients", value, "-1e9 to 1e9"),
+            None => Ok(()),
+        }
     }
 
     /// Solid fraction with overlaps counted twice [-] of a packed state of this porosity.

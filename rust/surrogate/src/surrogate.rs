@@ -82,6 +82,18 @@ pub trait Surrogate: Send + Sync {
     fn conductivity_kind(&self) -> ConductivityKind {
         ConductivityKind::Affine
     }
+    /// The kinds that it can answer with.
+    fn conductivity_kinds(&self) -> Vec<ConductivityKind> {
+        vec![self.conductivity_kind()]
+    }
+    /// The kind that the conductivity's anisotropy f_K of a state is of, whatever kind it answers with.
+    fn fabric_conductivity_kind(&self) -> ConductivityKind {
+        self.conductivity_kind()
+    }
+    /// The same model that answers with another kind; `None` when it was not trained for that.
+    fn answering_with(&self, _kind: ConductivityKind) -> Option<Box<dyn Surrogate>> {
+        None
+    }
     /// Mechanical tangent, if the database had wall-strain ramps.
     fn mechanics(&self) -> Option<&Mechanics> {
         None

@@ -2,6 +2,7 @@
 
 use super::string;
 use crate::abi::msdd_progress;
+use crate::panics;
 use crate::status::{Failure, status};
 use ::msdd_rve::database::{Plan, Run, export_csv, generate};
 use std::ffi::{c_char, c_void};
@@ -26,6 +27,11 @@ pub unsafe extern "C" fn msdd_database_generate(
     status(|| {
         // SAFETY: null or C strings by this function's contract.
         let (plan, path) = unsafe { (string("plan", plan)?, string("path", path)?) };
+        #[cfg(feature = "inject-panic")]
+        if plan == "panic" {
+            std::thread::scope(|scope| scope.spawn(|| panic!("injected into a thread")).join())
+                .expect("a worker");
+        }
         let plan = Plan::parse(&plan, "plan")?;
         if threads > MOST_THREADS {
             return Err(Failure::argument("threads", threads, format!("0 to {MOST_THREADS}")));
@@ -35,8 +41,9 @@ pub unsafe extern "C" fn msdd_database_generate(
         generate(&plan, Path::new(&path), &run, |state| {
             let Some(progress) = progress else { return ControlFlow::Continue(()) };
             // SAFETY: may be called so, by this function's contract; on the caller's thread.
-            let answer =
-                unsafe { progress(user, state.done as u64, state.total as u64, state.failed as u64) };
+            let hear =
+                || unsafe { progress(user, state.done as u64, state.total as u64, state.failed as u64) };
+            let answer = panics::foreign(hear);
             cancelled = answer != 0;
             if cancelled { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;

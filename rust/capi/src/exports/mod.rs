@@ -71,7 +71,7 @@ unsafe fn give_text(out: *mut *mut c_char, text: &str) {
 /// `text` is null or a C string.
 unsafe fn string(name: &'static str, text: *const c_char) -> Result<String, Failure> {
     if text.is_null() {
-        return Err(Failure::Null(name));
+        return Err(Failure::null(name));
     }
     // SAFETY: not null, a C string by this function's contract.
     utf8(name, unsafe { CStr::from_ptr(text) })
@@ -79,7 +79,7 @@ unsafe fn string(name: &'static str, text: *const c_char) -> Result<String, Fail
 
 /// Refuses a null `out`.
 fn writable<T>(name: &'static str, out: *mut T) -> Result<*mut T, Failure> {
-    if out.is_null() { Err(Failure::Null(name)) } else { Ok(out) }
+    if out.is_null() { Err(Failure::null(name)) } else { Ok(out) }
 }
 
 /// Copy of a caller's struct, whose first field is its size.
@@ -88,7 +88,7 @@ fn writable<T>(name: &'static str, out: *mut T) -> Result<*mut T, Failure> {
 /// `pointer` is null or points to a struct that is as long as its first field says and, if that is long enough, a `T`.
 unsafe fn sized<T: Copy>(name: &'static str, pointer: *const T) -> Result<T, Failure> {
     if pointer.is_null() {
-        return Err(Failure::Null(name));
+        return Err(Failure::null(name));
     }
     // SAFETY: not null; every such struct starts with its size.
     let size = unsafe { pointer.cast::<usize>().read() };

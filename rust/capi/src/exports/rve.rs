@@ -72,7 +72,7 @@ unsafe fn give(out: *mut *mut msdd_rve, rve: RveHandle) {
 /// `rve` is null or a live handle.
 unsafe fn handle<'a>(rve: *const msdd_rve) -> Result<&'a RveHandle, Failure> {
     // SAFETY: null or live by this function's contract; live handles come from `give`.
-    unsafe { rve.cast::<RveHandle>().as_ref() }.ok_or(Failure::Null("rve"))
+    unsafe { rve.cast::<RveHandle>().as_ref() }.ok_or_else(|| Failure::null("rve"))
 }
 
 /// `msdd_rve_pack`
@@ -160,7 +160,7 @@ pub unsafe extern "C" fn msdd_rve_strain(
 ) -> i32 {
     status(|| {
         // SAFETY: null or live, and this thread's alone, by this function's contract.
-        let rve = unsafe { rve.cast::<RveHandle>().as_mut() }.ok_or(Failure::Null("rve"))?;
+        let rve = unsafe { rve.cast::<RveHandle>().as_mut() }.ok_or_else(|| Failure::null("rve"))?;
         let mut simulation = rve.simulation.clone();
         let path = [Strains { thermal, xx, yy, xy }];
         let ramp = follow(&mut simulation, &path, Protocol::default(), |_, _| ())?;

@@ -5,13 +5,15 @@ use crate::abi::{msdd_batch, msdd_initial, msdd_material, msdd_surrogate};
 use crate::batch::{self, Columns};
 use crate::columns::{Input, Output};
 use crate::handles::SurrogateHandle;
+use crate::model::{BatchModel, Own, Start};
 use crate::si::Si;
 use crate::status::{Failure, status, value};
-use ::msdd_surrogate::kernel::LANES;
-use ::msdd_surrogate::surrogate::Known;
-use ::msdd_surrogate::{Surrogate, models};
+use ::msdd_surrogate::models;
+use msdd_plugin::Plugin;
 use std::ffi::c_char;
+use std::path::Path;
 use std::ptr::null;
+use std::sync::Arc;
 
 /// `msdd_surrogate_load`
 ///
@@ -33,14 +35,22 @@ pub unsafe extern "C" fn msdd_surrogate_load(source: *const c_char, out: *mut *m
     })
 }
 
-fn load(source: &str) -> Result<Box<dyn Surrogate>, Failure> {
+/// What a source starts with that is a shared library.
+const PLUGIN: &str = "plugin:";
+
+fn load(source: &str) -> Result<Arc<dyn BatchModel>, Failure> {
+    #[cfg(feature = "inject-panic")]
+    assert_ne!(source, "panic", "injected");
+    if let Some(path) = source.strip_prefix(PLUGIN) {
+        return Ok(Arc::new(Plugin::load(Path::new(path))?));
+    }
     let failed = |error| Failure::Model { path: source.to_string(), error };
     if source == models::BUILTIN || source.starts_with("builtin:") {
-        return models::builtin(source).map_err(failed);
+        return Ok(Arc::new(Own(models::builtin(source).map_err(failed)?)));
     }
     let text =
         std::fs::read_to_string(source).map_err(|error| Failure::File { path: source.to_string(), error })?;
-    models::read(&text).map_err(failed)
+    Ok(Arc::new(Own(models::read(&text).map_err(failed)?)))
 }
 
 /// The model behind a handle.
@@ -56,9 +66,38 @@ unsafe fn handle<'a>(surrogate: *const msdd_surrogate) -> Option<&'a SurrogateHa
 ///
 /// # Safety
 /// As for [`handle`].
-unsafe fn model<'a>(surrogate: *const msdd_surrogate) -> Result<&'a dyn Surrogate, Failure> {
+unsafe fn needed<'a>(surrogate: *const msdd_surrogate) -> Result<&'a SurrogateHandle, Failure> {
     // SAFETY: passed on to the caller.
-    unsafe { handle(surrogate) }.map(|handle| &*handle.model).ok_or(Failure::Null("surrogate"))
+    unsafe { handle(surrogate) }.ok_or_else(|| Failure::null("surrogate"))
+}
+
+/// `msdd_surrogate_with_conductivity`
+///
+/// # Safety
+/// `surrogate` is null or a live handle; `kind` is null or a C string; `out` is null or writable.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_surrogate_with_conductivity(
+    surrogate: *const msdd_surrogate,
+    kind: *const c_char,
+    out: *mut *mut msdd_surrogate,
+) -> i32 {
+    status(|| {
+        // SAFETY: null or live, and null or a C string, by this function's contract.
+        let (handle, kind) = unsafe { (needed(surrogate)?, string("kind", kind)?) };
+        let out = writable("out", out)?;
+        let model = match handle.model.conductivity() == kind {
+            true => handle.model.clone(),
+            false => handle.model.with_conductivity(&kind).ok_or_else(|| {
+                let allowed = handle.model.conductivities().join(", ");
+                let name = handle.model.name();
+                Failure::argument("kind", &kind, format!("{allowed}: what model \"{name}\" was trained for"))
+            })?,
+        };
+        let handle = Box::into_raw(Box::new(SurrogateHandle::new(model)));
+        // SAFETY: not null, writable by this function's contract.
+        unsafe { out.write(handle.cast()) };
+        Ok(())
+    })
 }
 
 /// `msdd_surrogate_hash`
@@ -117,7 +156,7 @@ pub unsafe extern "C" fn msdd_surrogate_state_name(
 pub unsafe extern "C" fn msdd_surrogate_has_tangent(surrogate: *const msdd_surrogate) -> i32 {
     // SAFETY: null or live by this function's contract.
     let handle = unsafe { handle(surrogate) };
-    value(0, || handle.map_or(0, |handle| i32::from(handle.model.mechanics().is_some())))
+    value(0, || handle.map_or(0, |handle| i32::from(handle.model.has_tangent())))
 }
 
 /// `msdd_surrogate_wall_friction`
@@ -133,12 +172,12 @@ pub unsafe extern "C" fn msdd_surrogate_wall_friction(
 ) -> i32 {
     status(|| {
         // SAFETY: null or live, and null or pointing to its struct, by this function's contract.
-        let (model, material) = unsafe { (model(surrogate)?, sized("material", material)?) };
+        let (handle, material) = unsafe { (needed(surrogate)?, sized("material", material)?) };
         Si::new(&material)?;
-        let friction = model.wall_friction().ok_or_else(|| {
-            Failure::argument("surrogate", model.name(), "a model trained with slipping walls")
+        let [found_limit, found_slip] = handle.model.wall_friction().ok_or_else(|| {
+            Failure::argument("surrogate", handle.model.name(), "a model trained with slipping walls")
         })?;
-        for (out, value) in [(limit, friction.limit), (slip, friction.slip * material.mean_radius)] {
+        for (out, value) in [(limit, found_limit), (slip, found_slip * material.mean_radius)] {
             if !out.is_null() {
                 // SAFETY: not null, writable by this function's contract.
                 unsafe { out.write(value) };
@@ -162,47 +201,45 @@ pub unsafe extern "C" fn msdd_surrogate_initial_state(
 ) -> i32 {
     status(|| {
         // SAFETY: null or live, and null or pointing to their structs, by this function's contract.
-        let (model, material, initial) =
-            unsafe { (model(surrogate)?, sized("material", material)?, sized("initial", initial)?) };
+        let (handle, material, initial) =
+            unsafe { (needed(surrogate)?, sized("material", material)?, sized("initial", initial)?) };
         let (si, cells) = (Si::new(&material)?, initial.cells);
         batch::check_length(cells)?;
-        let optional = |name, start: *const f64| match start.is_null() {
-            true => Ok(None),
-            // SAFETY: `cells` values by this function's contract.
-            false => unsafe { Input::new(name, start, cells) }.map(Some),
-        };
-        // SAFETY: null or `cells` values by this function's contract.
-        let (porosity, fabric_index) = unsafe {
-            (
-                Input::new("porosity", initial.porosity, cells)?,
-                Input::new("fabric_index", initial.fabric_index, cells)?,
-            )
-        };
-        let fabric_conductivity = optional("fabric_conductivity", initial.fabric_conductivity)?;
-        let stress = [optional("stress_xx", initial.stress_xx)?, optional("stress_yy", initial.stress_yy)?];
-        if stress[0].is_some() != stress[1].is_some() {
-            return Err(Failure::argument("stress_xx, stress_yy", "one of them", "both or none"));
-        }
-        let given = [Some(porosity), Some(fabric_index), fabric_conductivity, stress[0], stress[1]];
-        given.iter().flatten().try_for_each(Input::check_finite)?;
-        // SAFETY: writable columns by this function's contract.
-        let columns = unsafe { batch::outputs("state", state, model.state_names().len(), cells)? };
-        for cell in 0..cells {
-            let known = Known {
-                porosity: porosity.at(cell),
-                fabric_index: fabric_index.at(cell),
-                fabric_conductivity: fabric_conductivity.map(|column| column.at(cell)),
-                reduced_stress: match stress {
-                    [Some(xx), Some(yy)] => Some([xx, yy].map(|column| si.reduced(column.at(cell)))),
-                    _ => None,
-                },
-            };
-            for (column, value) in columns.iter().zip(model.initial_state(&known)) {
-                column.write_one(cell, value);
-            }
-        }
+        // SAFETY: null or `cells` values, and writable columns, by this function's contract.
+        let (start, columns) =
+            unsafe { (start(&initial)?, batch::outputs("state", state, handle.names.len(), cells)?) };
+        handle.model.initial_state(&start, &si, &columns)?;
         Ok(())
     })
+}
+
+/// Checked columns of an initial state.
+///
+/// # Safety
+/// The columns are null or hold `cells` values.
+unsafe fn start<'a>(initial: &msdd_initial) -> Result<Start<'a>, Failure> {
+    let cells = initial.cells;
+    // SAFETY: null or `cells` values by this function's contract.
+    let needed = |name, start: *const f64| unsafe { Input::new(name, start, cells) };
+    let optional = |name, start: *const f64| match start.is_null() {
+        true => Ok(None),
+        false => needed(name, start).map(Some),
+    };
+    let stress = [optional("stress_xx", initial.stress_xx)?, optional("stress_yy", initial.stress_yy)?];
+    let start = Start {
+        cells,
+        porosity: needed("porosity", initial.porosity)?,
+        fabric_index: needed("fabric_index", initial.fabric_index)?,
+        fabric_conductivity: optional("fabric_conductivity", initial.fabric_conductivity)?,
+        stress: match stress {
+            [Some(xx), Some(yy)] => Some([xx, yy]),
+            [None, None] => None,
+            _ => return Err(Failure::argument("stress_xx, stress_yy", "one of them", "both or none")),
+        },
+    };
+    let given = [start.porosity, start.fabric_index].into_iter().chain(start.fabric_conductivity);
+    given.chain(start.stress.into_iter().flatten()).try_for_each(|column| column.check_finite())?;
+    Ok(start)
 }
 
 /// `msdd_surrogate_advance`
@@ -218,11 +255,12 @@ pub unsafe extern "C" fn msdd_surrogate_advance(
 ) -> i32 {
     status(|| {
         // SAFETY: null or live, and null or pointing to their structs, by this function's contract.
-        let (model, material, given) =
-            unsafe { (model(surrogate)?, sized("material", material)?, sized("batch", batch.cast_const())?) };
+        let (handle, material, given) = unsafe {
+            (needed(surrogate)?, sized("material", material)?, sized("batch", batch.cast_const())?)
+        };
         // SAFETY: the columns are as this function's contract says.
-        let columns = unsafe { Columns::new(model, &given)? };
-        let clamped_cells = columns.advance(model, &Si::new(&material)?)?;
+        let columns = unsafe { Columns::new(&handle.names, &given)? };
+        let clamped_cells = handle.model.advance(&columns, &Si::new(&material)?)?;
         // SAFETY: not null, and of full size, as checked.
         unsafe { (*batch).clamped_cells = clamped_cells };
         Ok(())
@@ -243,19 +281,16 @@ pub unsafe extern "C" fn msdd_surrogate_solid_fraction(
 ) -> i32 {
     status(|| {
         // SAFETY: null or live by this function's contract.
-        let model = unsafe { model(surrogate)? };
+        let handle = unsafe { needed(surrogate)? };
         batch::check_length(cells)?;
         // SAFETY: null or `cells` values by this function's contract.
         let (input, output) =
             unsafe { (Input::new("porosity", porosity, cells)?, Output::new(solid_fraction, cells)) };
         if solid_fraction.is_null() && cells > 0 {
-            return Err(Failure::Null("solid_fraction"));
+            return Err(Failure::null("solid_fraction"));
         }
         input.check_finite()?;
-        for first in (0..cells).step_by(LANES) {
-            output.write(first, &input.lanes(first).map(|porosity| model.solid_fraction(porosity)));
-        }
-        Ok(())
+        handle.model.solid_fraction(&input, &output)
     })
 }
 

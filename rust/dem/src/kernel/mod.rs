@@ -7,6 +7,7 @@
 //! The crate's only unsafe code: vector intrinsics, and discs addressed through the rows without bounds checks. What
 //! makes that sound is stated at `Pairs`, whose indices are checked when the list is built, and at `SharedDiscs`.
 #![allow(unsafe_code)]
+#![allow(clippy::undocumented_unsafe_blocks)] // the reasons are stated once, where said above
 
 mod motion;
 mod pairs;

@@ -173,6 +173,9 @@ impl Job {
     }
 }
 
+/// More is a slip of the hand: months of computing.
+const MOST_PACKINGS: u64 = 1_000_000;
+
 impl Plan {
     /// Reads a plan. `file` names it in errors.
     pub fn parse(text: &str, file: &str) -> Result<Self, DatabaseError> {
@@ -205,6 +208,10 @@ impl Plan {
         for (kind, number, block) in self.blocks() {
             let within = |problem| format!("[[{}]] {number}: {problem}", kind.as_str());
             block.check(kind).map_err(within)?;
+        }
+        let packings = self.blocks().map(|(_, _, block)| block.packings()).fold(0, u64::saturating_add);
+        if packings > MOST_PACKINGS {
+            return Err(format!("{packings} packings, allowed: {MOST_PACKINGS}"));
         }
         let jobs = self.jobs();
         if jobs.is_empty() {
@@ -275,6 +282,13 @@ impl Plan {
 }
 
 impl Block {
+    /// How many it asks for.
+    fn packings(&self) -> u64 {
+        let frictions = self.packing_friction_angles.len().max(1);
+        let factors = [self.porosities.len(), self.compressions.len(), frictions].map(|count| count as u64);
+        factors.into_iter().fold(u64::from(self.repeats), u64::saturating_mul)
+    }
+
     fn frictions(&self, material: &Material) -> Vec<f64> {
         match self.packing_friction_angles.as_slice() {
             [] => vec![material.friction_angle],

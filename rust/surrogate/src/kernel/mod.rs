@@ -202,8 +202,8 @@ fn layer_of<'a, V: Vector>(
     if let [last] = last {
         neurons_of::<V, 1>(std::array::from_mut(last), last_row, before, hidden);
     }
-    // SAFETY: fours, twos and the last are all of them, and `neurons_of` wrote each.
-    unsafe { values.assume_init_ref() }
+    // SAFETY: fours, twos and the last are all of them, and `neurons_of` wrote each; the layout is the same.
+    unsafe { &*(std::ptr::from_ref(values) as *const [Lanes]) }
 }
 
 /// N neurons of one layer, which depend on each other in nothing; all of `values` is written.

@@ -162,7 +162,52 @@ impl File {
         if conductivity.len() != Spread::BINS || pressure_rate.len() != Spread::BINS {
             return field("spread (bins)", conductivity.len(), "6");
         }
-        Ok(())
+        self.check_laws()
+    }
+
+    /// What is fitted beside the networks: sound numbers, so that they give sound answers.
+    fn check_laws(&self) -> Result<(), SurrogateError> {
+        let (mean, spread) = (&self.mean_state, &self.spread);
+        for (key, Range { min, max }) in
+            [("mean_state.porosity", mean.porosity), ("spread.pressure", spread.pressure)]
+        {
+            if !(0.0 <= min && min <= max && max <= 1e3) {
+                return field(key, format!("{min} to {max}"), "0 <= min <= max <= 1e3");
+            }
+        }
+        for (key, value) in [("conductivity", &spread.conductivity), ("pressure_rate", &spread.pressure_rate)]
+        {
+            if let Some(value) = value.iter().find(|value| !(0.0..=WEIGHT_LIMIT).contains(*value)) {
+                return field(&format!("spread.{key}"), value, "0 to 1e9");
+            }
+        }
+        let mean_laws = [
+            &mean.pressure[..],
+            &mean.stress_ratio_of_fabric,
+            &mean.stress_ratio_of_both,
+            &mean.fabric_conductivity_of_fabric,
+            &mean.fabric_conductivity_of_both,
+        ];
+        check_coefficients("mean_state", &mean_laws)?;
+        self.solid_fraction.check()?;
+        if let Some(m) = &self.mechanics {
+            let laws = [&m.c11[..], &m.c12, &m.porosity, &m.fabric_index, &m.fabric_conductivity];
+            check_coefficients("mechanics", &laws)?;
+        }
+        match &self.wall_friction {
+            Some(law) if !(law.limit.abs() <= 1e3 && law.slip > 0.0 && law.slip <= 1e6) => {
+                let found = format!("limit {}, slip {}", law.limit, law.slip);
+                field("wall_friction", found, "limit to 1e3, slip above 0, to 1e6")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn check_coefficients(key: &str, laws: &[&[f64]]) -> Result<(), SurrogateError> {
+    match laws.iter().copied().flatten().find(|value| value.is_nan() || value.abs() > WEIGHT_LIMIT) {
+        Some(value) => field(&format!("{key} (a coefficient)"), value, "-1e9 to 1e9"),
+        None => Ok(()),
     }
 }
 

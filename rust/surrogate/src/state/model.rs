@@ -98,6 +98,19 @@ impl Surrogate for StateModel {
         self.core.readouts[self.core.active].kind
     }
 
+    fn conductivity_kinds(&self) -> Vec<ConductivityKind> {
+        self.core.readouts.iter().map(|readout| readout.kind).collect()
+    }
+
+    fn fabric_conductivity_kind(&self) -> ConductivityKind {
+        let carried = self.core.readouts.iter().find(|readout| readout.carried);
+        carried.unwrap_or(&self.core.readouts[0]).kind
+    }
+
+    fn answering_with(&self, kind: ConductivityKind) -> Option<Box<dyn Surrogate>> {
+        Some(Box::new(self.clone().with_conductivity(kind)?))
+    }
+
     fn mechanics(&self) -> Option<&crate::mechanics::Mechanics> {
         self.mechanics.as_ref()
     }
@@ -390,6 +403,9 @@ mod tests {
         refused("/readouts", serde_json::json!([]), "readouts");
         refused("/ranges/porosity/max", (-1.0).into(), "ranges.porosity");
         refused("/variables/stress_deviator", false.into(), "rates.network.sizes");
+        refused("/spread/conductivity/2", (-1.0).into(), "spread.conductivity = -1");
+        refused("/mean_state/porosity/max", (-1.0).into(), "mean_state.porosity");
+        refused("/solid_fraction/coefficients/0", 1e300.into(), "solid_fraction.coefficients");
         let mut extra = good.clone();
         extra["surprise"] = 1.into();
         let message = crate::state::file::read(&extra.to_string()).expect_err("unknown key").to_string();

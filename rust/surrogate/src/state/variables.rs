@@ -85,6 +85,14 @@ pub enum ConductivityKind {
 }
 
 impl ConductivityKind {
+    /// Name in model files and descriptions.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Affine => "affine",
+            Self::Network => "network",
+        }
+    }
+
     /// K_xx/k, K_yy/k of a row; `None` when the database lacks this kind.
     pub fn of(self, row: &StateRow) -> Option<[f64; 2]> {
         match self {

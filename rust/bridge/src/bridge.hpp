@@ -1,0 +1,40 @@
+// C++ side of the test bridge: msdd.hpp in types that cxx knows.
+#pragma once
+
+#include "msdd.hpp"
+#include "rust/cxx.h"
+
+#include <memory>
+
+namespace bridge
+{
+
+struct Cells;
+
+class Model
+{
+public:
+    explicit Model(msdd::Surrogate&& surrogate) : surrogate_(std::move(surrogate)) {}
+
+    std::size_t state_size() const { return surrogate_.stateSize(); }
+    rust::String hash() const { return surrogate_.hash(); }
+    rust::Vec<double> initial_state(rust::Slice<const double> porosity, rust::Slice<const double> fabricIndex) const;
+    void advance(Cells& cells) const;
+    void advance_with_wrong_size(Cells& cells) const;
+
+    msdd::Surrogate& surrogate() { return surrogate_; }
+
+private:
+    void advance(Cells& cells, std::size_t structSize) const;
+
+    msdd::Surrogate surrogate_;
+};
+
+std::unique_ptr<Model> load(rust::Str source);
+std::unique_ptr<Model> moved(Model& model);
+void move_into_itself(Model& model);
+rust::Vec<double> strained_rves(double strain);
+void trap();
+bool trapped_and_clear();
+
+} // namespace bridge

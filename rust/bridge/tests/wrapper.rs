@@ -1,0 +1,158 @@
+//! `msdd.hpp` from Rust: the same bits as the Rust call, exceptions as errors, moves, threads, floating-point traps.
+
+use msdd_bridge::ffi::{self, Cells};
+use msdd_surrogate::surrogate::{Batch, Known, evaluate_batch};
+use msdd_surrogate::{Surrogate, models};
+
+const COUNT: usize = 37;
+
+/// Cells in the initial state, and a strain a cell.
+fn start(model: &ffi::Model) -> Cells {
+    let column = |from: f64, step: f64| (0..COUNT).map(|i| from + step * i as f64).collect::<Vec<f64>>();
+    let empty = vec![-7.0; COUNT];
+    Cells {
+        state: model.initial_state(&column(0.1, 1e-3), &column(0.04, -2e-3)).expect("good"),
+        thermal_strain: column(2e-3, -1e-4),
+        conductivity_xx: empty.clone(),
+        conductivity_yy: empty.clone(),
+        stress_xx: empty.clone(),
+        stress_yy: empty,
+        clamped_cells: 99,
+    }
+}
+
+/// The same step by the Rust call, for grains of k = E = r = 1: dimensionless answers are the SI ones.
+fn in_rust(model: &dyn Surrogate, cells: &Cells) -> Cells {
+    let mut after = cells.clone();
+    let state: Vec<&[f64]> = cells.state.chunks(COUNT).collect();
+    let mut next: Vec<&mut [f64]> = after.state.chunks_mut(COUNT).collect();
+    let mut batch = Batch {
+        strain: &cells.thermal_strain,
+        state: &state,
+        next_state: &mut next,
+        conductivity: Some([&mut after.conductivity_xx, &mut after.conductivity_yy]),
+        stress: Some([&mut after.stress_xx, &mut after.stress_yy]),
+        outside: None,
+    };
+    after.clamped_cells = evaluate_batch(model, &mut batch);
+    after
+}
+
+fn bits(cells: &Cells) -> Vec<u64> {
+    let columns = [&cells.conductivity_xx, &cells.conductivity_yy, &cells.stress_xx, &cells.stress_yy];
+    columns.into_iter().chain([&cells.state]).flatten().map(|value| value.to_bits()).collect()
+}
+
+#[test]
+fn the_wrapper_gives_the_bits_of_the_rust_call() {
+    for name in ["builtin", "builtin:paper"] {
+        let (wrapped, model) = (ffi::load(name).expect("good"), models::builtin(name).expect("good"));
+        assert_eq!(
+            (wrapped.hash().as_str(), wrapped.state_size()),
+            (model.hash(), model.state_names().len())
+        );
+        let mut cells = start(&wrapped);
+        for (i, [porosity, fabric_index]) in
+            (0..COUNT).map(|i| (i, [0, 1].map(|k| cells.state[k * COUNT + i])))
+        {
+            let known = Known { porosity, fabric_index, ..Known::default() };
+            let state = model.initial_state(&known);
+            assert!((0..wrapped.state_size()).all(|k| cells.state[k * COUNT + i] == state[k]));
+        }
+        for _ in 0..30 {
+            let expected = in_rust(&*model, &cells);
+            wrapped.advance(&mut cells).expect("good");
+            assert_eq!(bits(&cells), bits(&expected), "{name}");
+            assert_eq!(cells.clamped_cells, expected.clamped_cells);
+        }
+    }
+}
+
+#[test]
+fn exceptions_arrive_with_the_librarys_text() {
+    let failed = |source: &str| ffi::load(source).err().expect("no model").what().to_string();
+    assert!(failed("/no/such/model.json").contains("cannot read model file \"/no/such/model.json\""));
+    assert!(failed("plugin:/no/such.so").contains("cannot read plug-in \"/no/such.so\""));
+    assert!(failed("builtin:best").contains("builtin:paper"));
+    let model = ffi::load("builtin").expect("good");
+    let mut cells = start(&model);
+    cells.thermal_strain[7] = f64::NAN;
+    let before = bits(&cells);
+    let error = model.advance(&mut cells).expect_err("not finite");
+    assert_eq!(error.what(), "thermal_strain[7] = NaN is not finite");
+    assert_eq!(bits(&cells), before);
+    let error = model.advance_with_wrong_size(&mut start(&model)).expect_err("wrong size");
+    assert!(error.what().contains("batch.struct_size"), "{}", error.what());
+}
+
+/// A handle that was moved from is empty, says so, and frees nothing; the one moved to frees once.
+#[test]
+fn handles_move_and_are_freed_once() {
+    let mut first = ffi::load("builtin").expect("good");
+    let hash = first.hash();
+    let mut second = ffi::moved(first.pin_mut());
+    assert!(second.hash() == hash && first.hash().is_empty() && first.state_size() == 0);
+    let error = first.advance(&mut start(&second)).expect_err("moved from");
+    assert_eq!(error.what(), "surrogate is NULL");
+    ffi::move_into_itself(second.pin_mut());
+    assert_eq!(second.hash(), hash);
+    let third = ffi::moved(second.pin_mut());
+    drop((first, second));
+    // Memory that was freed twice or too early would be in other hands by now.
+    let others: Vec<_> = (0..20).map(|_| ffi::load("builtin:paper").expect("good")).collect();
+    let mut cells = start(&third);
+    third.advance(&mut cells).expect("alive");
+    assert!(third.hash() == hash && others.iter().all(|other| other.hash() != hash));
+}
+
+#[test]
+fn two_threads_share_a_model() {
+    let model = ffi::load("builtin").expect("good");
+    let chain = || {
+        let mut cells = start(&model);
+        (0..200).for_each(|_| model.advance(&mut cells).expect("good"));
+        bits(&cells)
+    };
+    let alone = chain();
+    std::thread::scope(|scope| {
+        let both = [scope.spawn(chain), scope.spawn(chain)];
+        both.into_iter().for_each(|thread| assert_eq!(thread.join().expect("no panic"), alone));
+    });
+    // And an error on one thread is no error on the other.
+    let message = std::thread::scope(|scope| {
+        scope
+            .spawn(|| ffi::load("builtin:best").err().map(|e| e.what().to_string()))
+            .join()
+            .expect("no panic")
+    });
+    assert!(message.is_some() && model.advance(&mut start(&model)).is_ok());
+}
+
+/// With traps on as in OpenFOAM, nothing that the library computes ends the process, and no flag is left behind.
+#[test]
+fn traps_stay_on_and_do_not_fire() {
+    ffi::trap();
+    for name in ["builtin", "builtin:paper"] {
+        let model = ffi::load(name).expect("good");
+        let mut cells = start(&model);
+        assert!(ffi::trapped_and_clear());
+        cells.state[..4].copy_from_slice(&[f64::MAX, -f64::MAX, 1e300, -1e300]);
+        cells.thermal_strain[..8].copy_from_slice(&[
+            0.0,
+            1e300,
+            -0.99,
+            1e6,
+            -1e300,
+            f64::MAX,
+            f64::MIN,
+            5e-324,
+        ]);
+        model.advance(&mut cells).expect("clamped");
+        assert!(ffi::trapped_and_clear() && cells.clamped_cells >= 7);
+        cells.thermal_strain[3] = f64::INFINITY;
+        let refused = model.advance(&mut cells).is_err();
+        assert!(refused && ffi::trapped_and_clear());
+    }
+    let pressures = ffi::strained_rves(0.01).expect("packs");
+    assert!(pressures[0] > 0.0 && pressures[0].to_bits() == pressures[1].to_bits());
+}

@@ -1,0 +1,213 @@
+//! What the exports ask of a model, whole batches at a time, and may fail: foreign code is among them. Our own models
+//! answer through [`Surrogate`], which does not fail.
+
+use crate::batch::Columns;
+use crate::columns::{Input, Output};
+use crate::si::Si;
+use crate::status::Failure;
+use msdd_plugin::Plugin;
+use msdd_surrogate::Surrogate;
+use msdd_surrogate::kernel::LANES;
+use msdd_surrogate::state::variables::ConductivityKind;
+use msdd_surrogate::surrogate::Known;
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+/// A model behind a handle.
+pub(crate) trait BatchModel: Send + Sync {
+    fn name(&self) -> &str;
+    /// SHA-256 of its file.
+    fn hash(&self) -> &str;
+    /// What a user would ask about it, as a JSON object.
+    fn description(&self) -> Value;
+    fn state_names(&self) -> Vec<String>;
+    /// Kind of conductivity that it answers with.
+    fn conductivity(&self) -> &'static str;
+    /// The kinds that it could answer with.
+    fn conductivities(&self) -> Vec<&'static str>;
+    /// The same model with another of them.
+    fn with_conductivity(&self, kind: &str) -> Option<Arc<dyn BatchModel>>;
+    fn has_tangent(&self) -> bool;
+    /// Limit [-] and slip [mean radii].
+    fn wall_friction(&self) -> Option<[f64; 2]>;
+    /// Writes the state of cells at the start; inputs are finite.
+    fn initial_state(&self, start: &Start, si: &Si, state: &[Output<f64>]) -> Result<(), Failure>;
+    /// Takes all cells through a step; returns the number with an input outside the trained range.
+    fn advance(&self, columns: &Columns, si: &Si) -> Result<usize, Failure>;
+    /// Writes solid fractions of initial states; inputs are finite.
+    fn solid_fraction(&self, porosity: &Input, result: &Output<f64>) -> Result<(), Failure>;
+}
+
+/// What is known of cells at the start.
+pub(crate) struct Start<'a> {
+    pub cells: usize,
+    pub porosity: Input<'a>,
+    pub fabric_index: Input<'a>,
+    pub fabric_conductivity: Option<Input<'a>>,
+    /// σ_xx, σ_yy [Pa].
+    pub stress: Option<[Input<'a>; 2]>,
+}
+
+/// A model of [`msdd_surrogate`].
+pub(crate) struct Own(pub Box<dyn Surrogate>);
+
+impl BatchModel for Own {
+    fn name(&self) -> &str {
+        self.0.name()
+    }
+
+    fn hash(&self) -> &str {
+        self.0.hash()
+    }
+
+    /// Of its file, what is not weights.
+    fn description(&self) -> Value {
+        let model = &*self.0;
+        let file: Value = serde_json::from_str(&model.to_json()).unwrap_or_default();
+        json!({
+            "kind": model.kind(),
+            "name": model.name(),
+            "hash": model.hash(),
+            "state": model.state_names(),
+            "conductivity": self.conductivity(),
+            "conductivities": self.conductivities(),
+            "fabric_conductivity": model.fabric_conductivity_kind(),
+            "mechanics": model.mechanics(),
+            "wall_friction": model.wall_friction(),
+            "schema": file["schema"],
+            "provenance": file["provenance"],
+        })
+    }
+
+    fn state_names(&self) -> Vec<String> {
+        self.0.state_names().iter().map(|name| name.to_string()).collect()
+    }
+
+    fn conductivity(&self) -> &'static str {
+        self.0.conductivity_kind().as_str()
+    }
+
+    fn conductivities(&self) -> Vec<&'static str> {
+        self.0.conductivity_kinds().into_iter().map(ConductivityKind::as_str).collect()
+    }
+
+    fn with_conductivity(&self, kind: &str) -> Option<Arc<dyn BatchModel>> {
+        let kind = self.0.conductivity_kinds().into_iter().find(|known| known.as_str() == kind)?;
+        Some(Arc::new(Own(self.0.answering_with(kind)?)))
+    }
+
+    fn has_tangent(&self) -> bool {
+        self.0.mechanics().is_some()
+    }
+
+    fn wall_friction(&self) -> Option<[f64; 2]> {
+        self.0.wall_friction().map(|friction| [friction.limit, friction.slip])
+    }
+
+    fn initial_state(&self, start: &Start, si: &Si, state: &[Output<f64>]) -> Result<(), Failure> {
+        for cell in 0..start.cells {
+            let known = Known {
+                porosity: start.porosity.at(cell),
+                fabric_index: start.fabric_index.at(cell),
+                fabric_conductivity: start.fabric_conductivity.map(|column| column.at(cell)),
+                reduced_stress: start.stress.map(|stress| stress.map(|column| si.reduced(column.at(cell)))),
+            };
+            for (column, value) in state.iter().zip(self.0.initial_state(&known)) {
+                column.write_one(cell, value);
+            }
+        }
+        Ok(())
+    }
+
+    fn advance(&self, columns: &Columns, si: &Si) -> Result<usize, Failure> {
+        columns.advance(&*self.0, si)
+    }
+
+    fn solid_fraction(&self, porosity: &Input, result: &Output<f64>) -> Result<(), Failure> {
+        for first in (0..porosity.length()).step_by(LANES) {
+            result.write(first, &porosity.lanes(first).map(|porosity| self.0.solid_fraction(porosity)));
+        }
+        Ok(())
+    }
+}
+
+impl BatchModel for Plugin {
+    fn name(&self) -> &str {
+        Plugin::name(self)
+    }
+
+    fn hash(&self) -> &str {
+        Plugin::hash(self)
+    }
+
+    fn description(&self) -> Value {
+        let friction = Plugin::wall_friction(self);
+        json!({
+            "kind": "plugin",
+            "name": self.name(),
+            "hash": self.hash(),
+            "state": Plugin::state_names(self),
+            "conductivity": self.conductivity(),
+            "conductivities": self.conductivities(),
+            "fabric_conductivity": self.conductivity(),
+            "wall_friction": friction.map(|f| json!({"limit": f.limit, "slip": f.slip})),
+        })
+    }
+
+    fn state_names(&self) -> Vec<String> {
+        Plugin::state_names(self).to_vec()
+    }
+
+    fn conductivity(&self) -> &'static str {
+        let kind =
+            if self.network_conductivity() { ConductivityKind::Network } else { ConductivityKind::Affine };
+        kind.as_str()
+    }
+
+    fn conductivities(&self) -> Vec<&'static str> {
+        vec![self.conductivity()]
+    }
+
+    fn with_conductivity(&self, _kind: &str) -> Option<Arc<dyn BatchModel>> {
+        None
+    }
+
+    fn has_tangent(&self) -> bool {
+        Plugin::has_tangent(self)
+    }
+
+    fn wall_friction(&self) -> Option<[f64; 2]> {
+        Plugin::wall_friction(self).map(|friction| [friction.limit, friction.slip])
+    }
+
+    fn initial_state(&self, start: &Start, si: &Si, state: &[Output<f64>]) -> Result<(), Failure> {
+        let column = |input: &Input| (0..start.cells).map(|cell| input.at(cell)).collect::<Vec<f64>>();
+        let reduced =
+            |input: &Input| column(input).iter().map(|stress| si.reduced(*stress)).collect::<Vec<f64>>();
+        let stress = start.stress.map(|stress| stress.each_ref().map(reduced));
+        let fabric_conductivity = start.fabric_conductivity.as_ref().map(column);
+        let known = msdd_plugin::Start {
+            porosity: &column(&start.porosity),
+            fabric_index: &column(&start.fabric_index),
+            fabric_conductivity: fabric_conductivity.as_deref(),
+            stress: stress.as_ref().map(|[xx, yy]| [xx.as_slice(), yy]),
+        };
+        for (output, values) in state.iter().zip(Plugin::initial_state(self, &known)?) {
+            output.write_all(&values);
+        }
+        Ok(())
+    }
+
+    fn advance(&self, columns: &Columns, si: &Si) -> Result<usize, Failure> {
+        columns.advance_plugin(self, si)
+    }
+
+    fn solid_fraction(&self, porosity: &Input, result: &Output<f64>) -> Result<(), Failure> {
+        let values: Vec<f64> = (0..porosity.length()).map(|cell| porosity.at(cell)).collect();
+        let answer = Plugin::solid_fraction(self, &values)?.ok_or_else(|| {
+            Failure::argument("surrogate", self.name(), "a plug-in that has solid fractions")
+        })?;
+        result.write_all(&answer);
+        Ok(())
+    }
+}

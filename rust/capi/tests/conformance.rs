@@ -1,0 +1,394 @@
+//! What every model has to keep to, whoever made it: one suite over the built-in network, a model from a file, the worked
+//! example of a C plug-in, and the built-in network exported as a plug-in.
+#![allow(unsafe_code)] // the C interface is what is tested
+
+mod common;
+
+use common::{Cells, MATERIAL, Model, OK, exported, last_error, plugin, text};
+use msdd::abi::{self, msdd_batch, msdd_material, msdd_surrogate};
+use msdd::exports::*;
+use std::ptr::{null, null_mut};
+use std::sync::LazyLock;
+
+const INVALID: i32 = abi::MSDD_INVALID_ARGUMENT as i32;
+
+/// Name and source of each subject.
+static SUBJECTS: LazyLock<[(&str, String); 4]> = LazyLock::new(|| {
+    [
+        ("built-in", "builtin".to_string()),
+        ("file", concat!(env!("CARGO_MANIFEST_DIR"), "/../surrogate/models/paper.json").to_string()),
+        ("C plug-in", plugin("rust/capi/examples/effective_medium.c")),
+        ("exported", exported()),
+    ]
+});
+
+fn each(check: impl Fn(&str, &Model)) {
+    for (name, source) in &*SUBJECTS {
+        let model = Model::load(source).unwrap_or_else(|error| panic!("{name}: {error:?}"));
+        check(name, &model);
+    }
+}
+
+#[test]
+fn a_model_describes_itself() {
+    each(|name, model| {
+        assert!(model.columns() >= 2, "{name}");
+        // SAFETY: live.
+        let column = |k| unsafe { msdd_surrogate_state_name(model.0, k) };
+        assert_eq!([text(column(0)), text(column(1))], ["porosity", "fabric_index"], "{name}");
+        assert!(column(model.columns()).is_null(), "{name}");
+        let hash = model.text(msdd_surrogate_hash);
+        assert!(hash.len() == 64 && hash.chars().all(|c| c.is_ascii_hexdigit()), "{name}");
+        let description: serde_json::Value =
+            serde_json::from_str(&model.text(msdd_surrogate_describe)).expect("JSON");
+        assert_eq!(description["hash"], hash.as_str(), "{name}");
+        assert_eq!(description["state"].as_array().map(Vec::len), Some(model.columns()), "{name}");
+        assert!(
+            ["affine", "network"].contains(&description["conductivity"].as_str().expect("text")),
+            "{name}"
+        );
+    });
+}
+
+#[test]
+fn zero_strain_keeps_the_state_bit_for_bit() {
+    each(|name, model| {
+        let mut cells = Cells::new(model, 71);
+        for zero in [0.0, -0.0] {
+            cells.thermal_strain = vec![zero; 71];
+            cells.strain = [vec![zero; 71], vec![zero; 71]];
+            cells.advance(model);
+            for (before, after) in cells.state.iter().zip(&cells.next) {
+                let bits = |column: &[f64]| column.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(before), bits(after), "{name}");
+            }
+        }
+    });
+}
+
+#[test]
+fn answers_do_not_depend_on_the_batch() {
+    each(|name, model| {
+        let mut all = Cells::new(model, 41);
+        all.advance(model);
+        for count in [1, 7, 8, 9, 17] {
+            for first in [0, 1, 8, 41 - count] {
+                let mut part = all.part(first, count);
+                part.advance(model);
+                for cell in 0..count {
+                    assert_eq!(part.bits(cell), all.bits(first + cell), "{name}, {count} from {first}");
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn answers_are_those_of_grains() {
+    each(|name, model| {
+        let mut states = Cells::new(model, 70);
+        let mut last = [vec![], vec![]];
+        for strain in [-0.02, 0.0, 0.02] {
+            states.thermal_strain = vec![strain; 70];
+            states.strain = [vec![0.0; 70], vec![0.0; 70]];
+            states.total = vec![strain; 70];
+            states.advance(model);
+            assert!(states.outputs[..2].iter().flatten().all(|k| *k > 0.0 && *k < 100.0), "{name} {strain}");
+            assert!(states.outputs[2..4].iter().flatten().all(|s| *s >= 0.0 && *s < 1e5), "{name} {strain}");
+            let now = [states.outputs[0].clone(), states.outputs[2].clone()];
+            for (before, after) in last.iter().zip(&now) {
+                assert!(before.iter().zip(after).all(|(b, a): (&f64, &f64)| a > b), "{name} {strain}");
+            }
+            last = now;
+        }
+        assert!(states.next[0].iter().zip(&states.state[0]).all(|(after, before)| after < before), "{name}");
+        let (porosity, mut solid) = ([0.09, 0.125, 0.15], [0.0; 3]);
+        // SAFETY: live handle, columns of three.
+        let status =
+            unsafe { msdd_surrogate_solid_fraction(model.0, 3, porosity.as_ptr(), solid.as_mut_ptr()) };
+        assert_eq!(status, OK, "{name}: {}", last_error());
+        // Overlaps count twice.
+        assert!(
+            solid.iter().zip(porosity).all(|(s, e)| *s > 1.0 - e && *s < 1.05 - 0.7 * e),
+            "{name} {solid:?}"
+        );
+    });
+}
+
+#[test]
+fn far_outside_is_an_answer_too() {
+    each(|name, model| {
+        // Porosities of .126 to .134: well inside of every model's range.
+        let mut cells = Cells::new(model, 45).part(36, 9);
+        (cells.state[0][1], cells.state[0][2]) = (f64::MAX, f64::MIN);
+        (cells.state[1][3], cells.thermal_strain[4]) = (f64::MAX, 1e6);
+        (cells.state[0][5], cells.state[1][5], cells.thermal_strain[5]) = (1e200, -1e200, -0.999);
+        cells.advance(model);
+        assert_eq!(cells.clamped, [0, 1, 1, 1, 1, 1, 0, 0, 0], "{name}");
+        assert_eq!(cells.clamped_cells, 5, "{name}");
+        assert!(cells.outside[0][1] > 1e300 && cells.outside[0][2] < -1e300, "{name}");
+        assert_eq!(cells.outside.iter().map(|column| column[8]).sum::<f64>(), 0.0, "{name}");
+        assert!(cells.next.iter().flatten().all(|v| v.is_finite()), "{name}");
+        assert!(cells.outputs[..2].iter().flatten().all(|k| *k > 0.0 && *k < 1e6), "{name}");
+    });
+}
+
+#[test]
+fn bad_numbers_are_refused_with_column_and_index_and_nothing_is_written() {
+    let refused = |name: &str, model: &Model, change: &dyn Fn(&mut Cells), status: i32, expected: &str| {
+        let mut cells = Cells::new(model, 13);
+        change(&mut cells);
+        let before = cells.clone();
+        assert_eq!(cells.advance_with(model, |_| ()), status, "{name} {expected}");
+        assert_eq!(last_error(), expected, "{name}");
+        assert!(cells.next == before.next && cells.outputs == before.outputs, "{name}");
+        assert!(cells.clamped == before.clamped && cells.clamped_cells == 99, "{name}");
+    };
+    let non_finite = abi::MSDD_NON_FINITE as i32;
+    each(|name, model| {
+        let nan = |c: &mut Cells| c.state[0][12] = f64::NAN;
+        refused(name, model, &nan, non_finite, "porosity[12] = NaN is not finite");
+        let infinite = |c: &mut Cells| c.state[1][3] = f64::INFINITY;
+        refused(name, model, &infinite, non_finite, "fabric_index[3] = inf is not finite");
+        let strain = |c: &mut Cells| c.thermal_strain[8] = f64::NAN;
+        refused(name, model, &strain, non_finite, "thermal_strain[8] = NaN is not finite");
+        let total = |c: &mut Cells| c.total[0] = -1.5;
+        refused(name, model, &total, INVALID, "total_thermal_strain[0] = -1.5, allowed: above -1, to 10");
+        if model.has_tangent() {
+            let strain = |c: &mut Cells| c.strain[1][6] = f64::NAN;
+            refused(name, model, &strain, non_finite, "strain_yy[6] = NaN is not finite");
+        }
+    });
+}
+
+#[test]
+fn sizes_and_null_pointers_are_refused() {
+    each(|name, model| {
+        let refused = |change: &dyn Fn(&mut msdd_batch), expected: &str| {
+            let status = Cells::new(model, 5).advance_with(model, change);
+            assert_eq!(status, INVALID, "{name} {expected}");
+            assert!(last_error().contains(expected), "{name}: {}", last_error());
+        };
+        refused(&|batch| batch.struct_size -= 8, "batch.struct_size");
+        refused(&|batch| batch.struct_size = 0, "batch.struct_size = 0");
+        refused(&|batch| batch.state = null(), "state is NULL");
+        refused(&|batch| batch.thermal_strain = null(), "thermal_strain is NULL");
+        refused(&|batch| batch.cells = usize::MAX, "cells");
+        if !model.has_tangent() {
+            let column = [0.0; 5];
+            refused(&|batch| batch.strain_xx = column.as_ptr(), "has no mechanical tangent");
+        }
+        let mut batch_of_none = Cells::new(model, 0);
+        let none =
+            |batch: &mut msdd_batch| (batch.thermal_strain, batch.total_thermal_strain) = (null(), null());
+        assert_eq!(batch_of_none.advance_with(model, none), OK, "{name}: {}", last_error());
+        // SAFETY: null handles and structs are refused.
+        unsafe {
+            assert_eq!(msdd_surrogate_advance(model.0, &MATERIAL, null_mut()), INVALID, "{name}");
+            assert_eq!(msdd_surrogate_solid_fraction(model.0, 1, null(), null_mut()), INVALID, "{name}");
+            let half = msdd_material { struct_size: 16, ..MATERIAL };
+            let status = msdd_surrogate_initial_state(model.0, &half, null(), null());
+            assert!(status == INVALID && last_error().contains("material.struct_size = 16"), "{name}");
+        }
+    });
+}
+
+#[test]
+fn only_wanted_columns_are_written_and_a_state_may_advance_in_place() {
+    each(|name, model| {
+        let (mut apart, mut shared) = (Cells::new(model, 19), Cells::new(model, 19));
+        apart.advance(model);
+        let in_place = |batch: &mut msdd_batch| {
+            batch.next_state = batch.state.cast();
+            (batch.stress_xx, batch.clamped, batch.outside) = (null_mut(), null_mut(), null());
+        };
+        assert_eq!(shared.advance_with(model, in_place), OK, "{name}: {}", last_error());
+        assert_eq!(shared.state, apart.next, "{name}");
+        assert!(shared.outputs[2] == [-7.0; 19] && shared.clamped == [9; 19], "{name}");
+        assert_eq!(shared.outputs[0], apart.outputs[0], "{name}");
+        // Even the total strain's column may take an answer.
+        let mut over = apart.part(0, 19);
+        let same = |batch: &mut msdd_batch| batch.conductivity_xx = batch.total_thermal_strain.cast_mut();
+        assert_eq!(over.advance_with(model, same), OK, "{name}: {}", last_error());
+        assert!(over.total == apart.outputs[0] && over.outputs[3..] == apart.outputs[3..], "{name}");
+    });
+}
+
+/// Eight threads ask one handle at once, for many steps.
+#[test]
+fn eight_threads_answer_as_one() {
+    each(|name, model| {
+        let chain = |start: usize| {
+            let mut cells = Cells::new(model, 60);
+            cells.thermal_strain.iter_mut().for_each(|strain| *strain *= 0.01 * (1 + start) as f64);
+            (0..50)
+                .map(|_| {
+                    cells.advance(model);
+                    cells.state.clone_from(&cells.next);
+                    (0..60).map(|cell| cells.bits(cell)).collect::<Vec<_>>()
+                })
+                .collect::<Vec<_>>()
+        };
+        let serial: Vec<_> = (0..8).map(chain).collect();
+        let parallel: Vec<_> = std::thread::scope(|scope| {
+            let threads: Vec<_> = (0..8).map(|k| scope.spawn(move || chain(k))).collect();
+            threads.into_iter().map(|thread| thread.join().expect("no panic")).collect()
+        });
+        assert!(serial == parallel, "{name}");
+    });
+}
+
+#[test]
+fn mechanical_strain_follows_the_tangent() {
+    let mut count = 0;
+    each(|name, model| {
+        if !model.has_tangent() {
+            return;
+        }
+        let mut start = Cells::new(model, 30);
+        (start.thermal_strain, start.total) = (vec![0.0; 30], vec![0.0; 30]);
+        let mut closed = start.clone();
+        start.strain = [vec![0.0; 30], vec![0.0; 30]];
+        closed.strain = [vec![-1e-5; 30], vec![0.0; 30]];
+        start.advance(model);
+        closed.advance(model);
+        for cell in 0..30 {
+            for (stress, stiffness) in [(2, 4), (3, 6)] {
+                let rise = closed.outputs[stress][cell] - start.outputs[stress][cell];
+                let expected = 1e-5 * start.outputs[stiffness][cell];
+                assert!((rise / expected - 1.0).abs() < 0.02, "{name}: {rise} {expected}");
+            }
+            let fall = closed.next[0][cell] - start.next[0][cell];
+            assert!((fall / (-1e-5 * start.outputs[7][cell]) - 1.0).abs() < 1e-6, "{name} {fall}");
+        }
+    });
+    for (_, source) in &*SUBJECTS {
+        count += u32::from(Model::load(source).expect("good").has_tangent());
+    }
+    assert_eq!(count, 2, "the built-in model and its export have tangents");
+}
+
+/// A model answers with the kinds that it was trained for, and says so when it was not.
+#[test]
+fn conductivity_is_affine_or_network_by_choice() {
+    let with = |model: &Model, kind: &std::ffi::CStr| {
+        let mut out = null_mut();
+        // SAFETY: live handle, a C string, and a writable pointer.
+        let status = unsafe { msdd_surrogate_with_conductivity(model.0, kind.as_ptr(), &mut out) };
+        if status == OK { Ok(Model(out)) } else { Err((status, last_error())) }
+    };
+    each(|name, model| {
+        let description: serde_json::Value =
+            serde_json::from_str(&model.text(msdd_surrogate_describe)).expect("JSON");
+        for kind in [c"affine", c"network"] {
+            let text = kind.to_str().expect("UTF-8");
+            let known = description["conductivities"].as_array().expect("kinds").iter().any(|k| k == text);
+            match with(model, kind) {
+                Ok(other) => {
+                    assert!(known, "{name} {text}");
+                    let (mut a, mut b) = (Cells::new(model, 40), Cells::new(&other, 40));
+                    a.advance(model);
+                    b.advance(&other);
+                    // The same state and stress; the same K when it is the same kind, else another.
+                    assert!(a.next == b.next && a.outputs[2..] == b.outputs[2..], "{name} {text}");
+                    assert_eq!(
+                        a.outputs[0] == b.outputs[0],
+                        description["conductivity"] == text,
+                        "{name} {text}"
+                    );
+                }
+                Err((status, message)) => {
+                    assert!(!known && status == INVALID, "{name} {text}: {message}");
+                    assert!(message.contains(&format!("kind = {text}, allowed: ")), "{name}: {message}");
+                }
+            }
+        }
+        let (status, message) = with(model, c"exact").err().expect("no such kind");
+        assert!(status == INVALID && message.contains("kind = exact, allowed: "), "{name}: {message}");
+    });
+    // The built-in model has both; a copy outlives its origin, and the affine estimate is an upper bound.
+    let affine = with(&Model::load("builtin").expect("good"), c"affine").unwrap_or_else(|e| panic!("{e:?}"));
+    let network = with(&affine, c"network").unwrap_or_else(|e| panic!("{e:?}"));
+    let (mut upper, mut lower) = (Cells::new(&affine, 60), Cells::new(&network, 60));
+    upper.advance(&affine);
+    lower.advance(&network);
+    let mean = |cells: &Cells, cell: usize| cells.outputs[0][cell] + cells.outputs[1][cell];
+    for cell in 0..60 {
+        let ratio = mean(&upper, cell) / mean(&lower, cell);
+        assert!(ratio > 1.0 && ratio < 1.2, "{cell}: {ratio}");
+    }
+}
+
+/// What goes out through the table and comes back is the same model, to the bit.
+#[test]
+fn the_exported_model_is_the_built_in_one() {
+    let (built_in, foreign) =
+        (Model::load("builtin").expect("good"), Model::load(&exported()).expect("good"));
+    let (mut a, mut b) = (Cells::new(&built_in, 501), Cells::new(&foreign, 501));
+    for _ in 0..20 {
+        a.advance(&built_in);
+        b.advance(&foreign);
+        assert!((0..501).all(|cell| a.bits(cell) == b.bits(cell)));
+        assert!(a.state == b.state && a.clamped_cells == b.clamped_cells);
+        a.state.clone_from(&a.next);
+        b.state.clone_from(&b.next);
+    }
+    let friction = |model: &Model| {
+        let (mut limit, mut slip) = (0.0, 0.0);
+        // SAFETY: live handle, full struct, writable outputs.
+        let status = unsafe { msdd_surrogate_wall_friction(model.0, &MATERIAL, &mut limit, &mut slip) };
+        (status, limit, slip)
+    };
+    assert_eq!(friction(&built_in), friction(&foreign));
+}
+
+/// The worked example gives the numbers that its comment promises: those of the paper's box within some percent.
+#[test]
+fn the_effective_medium_is_a_sensible_baseline() {
+    let model = Model::load(&SUBJECTS[2].1).expect("good");
+    let mut cells = Cells::new(&model, 1);
+    (cells.state[0][0], cells.state[1][0]) = (0.125, 0.05);
+    (cells.thermal_strain[0], cells.total[0]) = (0.0, 0.0);
+    cells.advance(&model);
+    let [kxx, kyy, sxx, syy] = [0, 1, 2, 3].map(|k| cells.outputs[k][0]);
+    assert!((kxx - 34.0).abs() < 3.0 && (kyy - 28.0).abs() < 3.0, "{kxx} {kyy} W/(m K)");
+    assert!((0.5 * (sxx + syy) - 2600.0).abs() < 400.0, "{sxx} {syy} Pa");
+    (cells.thermal_strain[0], cells.total[0]) = (0.05, 0.05);
+    cells.advance(&model);
+    let rise = 0.5 * (cells.outputs[2][0] + cells.outputs[3][0] - sxx - syy);
+    assert!((rise - 3100.0).abs() < 600.0, "{rise} Pa at 5 %");
+    assert!((cells.outputs[0][0] - 53.0).abs() < 4.0, "{}", cells.outputs[0][0]);
+    assert!((cells.next[0][0] - 0.077).abs() < 0.004, "{}", cells.next[0][0]);
+    // A hundred small steps end where one does.
+    let once = cells.next[0][0];
+    cells.thermal_strain[0] = 1.05f64.powf(0.01) - 1.0;
+    for _ in 0..100 {
+        cells.advance(&model);
+        cells.state.clone_from(&cells.next);
+    }
+    assert!((cells.state[0][0] - once).abs() < 1e-5, "{} {once}", cells.state[0][0]);
+}
+
+/// Statuses tell a file that is not there from one that is no plug-in, and from one that fails.
+#[test]
+fn plugin_failures_have_their_own_statuses() {
+    let plugin_status = abi::MSDD_PLUGIN as i32;
+    let (status, message) = Model::load("plugin:/no/such.so").err().expect("missing");
+    assert!(status == abi::MSDD_IO as i32 && message.contains("/no/such.so"), "{message}");
+    let manifest = concat!("plugin:", env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
+    let (status, message) = Model::load(manifest).err().expect("text");
+    assert!(status == plugin_status && message.contains("is no shared library"), "{message}");
+    let model = Model::load(&plugin("rust/capi/tests/failing_plugin.c")).expect("fit");
+    let mut cells = Cells::new(&model, 12);
+    let before = cells.clone();
+    assert_eq!(cells.advance_with(&model, |_| ()), plugin_status);
+    assert!(last_error().contains("conductivity_xx[5] = -0.3, allowed: finite, above 0"), "{}", last_error());
+    cells.thermal_strain[0] = 0.5;
+    assert_eq!(cells.advance_with(&model, |_| ()), plugin_status);
+    assert!(last_error().contains("advance failed with status 4: hotter than the table"), "{}", last_error());
+    assert!(cells.next == before.next && cells.outputs == before.outputs && cells.clamped_cells == 99);
+    let handle: *const msdd_surrogate = model.0;
+    // SAFETY: live handle, columns of one.
+    let status = unsafe { msdd_surrogate_solid_fraction(handle, 1, &0.1, &mut 0.0) };
+    assert!(status == INVALID && last_error().contains("has solid fractions"), "{}", last_error());
+}

@@ -1,0 +1,24 @@
+/// Why a plug-in was refused or failed. Every text names the plug-in.
+#[derive(Debug, thiserror::Error)]
+pub enum PluginError {
+    /// The file could not be read.
+    #[error("cannot read plug-in \"{path}\": {error}")]
+    Read { path: String, error: std::io::Error },
+    /// The file is no plug-in for this library.
+    #[error("plug-in \"{path}\": {reason}")]
+    Unfit { path: String, reason: String },
+    /// One of its functions returned another status than 0.
+    /// `plugin`: name and path.
+    #[error("plug-in {plugin}: {function} failed with status {status}: {text}")]
+    Failed { plugin: String, function: &'static str, status: i32, text: String },
+    /// One of its functions answered what no packing of grains has.
+    #[error("plug-in {plugin}: {function} answered {column}[{cell}] = {value}, allowed: {allowed}")]
+    Answer {
+        plugin: String,
+        function: &'static str,
+        column: String,
+        cell: usize,
+        value: f64,
+        allowed: &'static str,
+    },
+}
