@@ -1,7 +1,7 @@
 //! Surrogate model of granular RVEs: (η, f, ε) → (Δη, Δf, K/k, σ ℓ/(E r̄)), the paper's Φ (sections 2.6 and 3.1.2).
 //!
 //! Dimensionless throughout; compression positive. Training runs offline ([`train`]); inference is
-//! [`Model::block`], eight cells at a time.
+//! [`Model::block`], a block of cells at a time.
 //!
 //! | module | what |
 //! |---|---|

@@ -25,7 +25,7 @@ pub struct Predictor {
     pub scales: OutputScales,
 }
 
-/// Answers for a block of eight cells; see [`Prediction`] for the fields.
+/// Answers for a block of cells; see [`Prediction`] for the fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
     pub delta_porosity: Lanes,
@@ -95,7 +95,7 @@ impl Model {
         &self.hash
     }
 
-    /// Evaluates eight cells: [`Predictor::block`].
+    /// Evaluates a block of cells: [`Predictor::block`].
     pub fn block(&self, inputs: &[Lanes; INPUTS]) -> Block {
         self.predictor.block(inputs)
     }
@@ -117,7 +117,7 @@ impl Model {
 }
 
 impl Predictor {
-    /// Evaluates eight cells: porosity η^n [-], fabric index f^n [-], thermal strain ε^n [-] (radial, relative to the
+    /// Evaluates a block of cells: porosity η^n [-], fabric index f^n [-], thermal strain ε^n [-] (radial, relative to the
     /// current radii). Finite inputs give finite answers. A lane's answer depends on that lane alone.
     pub fn block(&self, inputs: &[Lanes; INPUTS]) -> Block {
         let (inputs, clamped) = self.range.clamp(inputs);

@@ -1,4 +1,4 @@
-//! The networks' arithmetic in blocks of eight cells, compiled once per instruction set.
+//! The networks' arithmetic in blocks of cells, compiled once per instruction set.
 //!
 //! Every operation acts on each lane alone and in one fixed order, and a multiplication is fused with an addition exactly
 //! where it is written so: all instruction sets give the same bits, and a cell's answer does not depend on its neighbours.
