@@ -1,0 +1,670 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularState.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Errors of a state column are relative to its largest magnitude, and to this
+//- where that is smaller: a fabric near zero needs no digits of its own
+static const scalar smallestScale = 0.02;
+
+//- FatalIOError if any value is no number or outside the open range
+static void checkField
+(
+    const volScalarField& field,
+    const dimensionSet& dims,
+    const scalar low,
+    const scalar high
+)
+{
+    if (field.dimensions() != dims)
+    {
+        FatalErrorInFunction
+            << "Field " << field.name() << " in " << field.objectPath()
+            << " has dimensions " << field.dimensions() << ", allowed: "
+            << dims << exit(FatalError);
+    }
+    forAll(field, celli)
+    {
+        const scalar value = field[celli];
+        if (!std::isfinite(value) || value <= low || value >= high)
+        {
+            FatalErrorInFunction
+                << "Field " << field.name() << " in " << field.objectPath()
+                << " is " << value << " in cell " << celli
+                << ", allowed: between " << low << " and " << high
+                << exit(FatalError);
+        }
+    }
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+void Foam::granularState::columns::setSize(const label count, const label cells)
+{
+    values.resize(count);
+    pointers.resize(count);
+    forAll(values, i)
+    {
+        values[i].resize(cells, Zero);
+        pointers[i] = values[i].data();
+    }
+}
+
+
+Foam::granularState::granularState
+(
+    const granularProperties& properties,
+    const volScalarField& T
+)
+:
+    properties_(properties),
+    mesh_(T.mesh()),
+    model_(granularModel::New(properties, mesh_)),
+    policy_(properties, mesh_, model_->stateNames(), model_->hash()),
+    record_(mesh_),
+    bound_(0),
+    initialTemperature_(io("initialTemperature", IOobject::READ_IF_PRESENT), T),
+    thermalStrainIncrement_
+    (
+        io("thermalStrainIncrement", IOobject::READ_IF_PRESENT),
+        mesh_,
+        dimensionedScalar(dimless, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    bulkDensity_
+    (
+        io("bulkDensity", IOobject::READ_IF_PRESENT),
+        mesh_,
+        dimensionedScalar(dimDensity, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    thermalStrain_
+    (
+        io("thermalStrain"),
+        mesh_,
+        dimensionedScalar(dimless, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    conductivity_
+    (
+        io("conductivity"),
+        mesh_,
+        dimensionedSymmTensor(dimPower/dimLength/dimTemperature, Zero),
+        extrapolatedCalculatedFvPatchSymmTensorField::typeName
+    ),
+    stress_
+    (
+        io("stress"),
+        mesh_,
+        dimensionedSymmTensor(dimPressure, Zero),
+        extrapolatedCalculatedFvPatchSymmTensorField::typeName
+    ),
+    pressure_
+    (
+        io("pressure"),
+        mesh_,
+        dimensionedScalar(dimPressure, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    particleDensity_
+    (
+        io("particleDensity"),
+        mesh_,
+        dimensionedScalar(dimDensity, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    inRegion_
+    (
+        io("inRegion"),
+        mesh_,
+        dimensionedScalar(dimless, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    refreshAlways_(false),
+    queries_(0),
+    asked_(0),
+    cellSteps_(0),
+    clamped_(0),
+    clampedNow_(0),
+    outsideSeen_(false)
+{
+    checkField(T, dimTemperature, -GREAT, GREAT);
+    checkField(initialTemperature_, dimTemperature, -GREAT, GREAT);
+    thermalStrain_.primitiveFieldRef() =
+        properties_.thermalExpansion().value()
+       *(T.primitiveField() - initialTemperature_.primitiveField());
+    inRegion_.primitiveFieldRef() = 1;
+
+    readState();
+    allocate();
+    if (!bulkDensity_.typeHeaderOk<volScalarField>(true))
+    {
+        setInitialBulkDensity();
+    }
+    askStart();
+    findReaders();
+    refresh();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+// extrapolatedCalculated, above, gives boundary faces the value of their cell:
+// a wall conducts as the grains beside it do
+
+Foam::IOobject Foam::granularState::io
+(
+    const word& name,
+    const IOobject::readOption read
+) const
+{
+    return IOobject
+    (
+        name, mesh_.time().timeName(), mesh_, read, IOobject::AUTO_WRITE
+    );
+}
+
+
+template<class Type>
+Foam::autoPtr<Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>>
+Foam::granularState::given(const word& name, const dimensionSet& dims) const
+{
+    typedef GeometricField<Type, fvPatchField, volMesh> fieldType;
+
+    IOobject header
+    (
+        name, mesh_.time().timeName(), mesh_,
+        IOobject::MUST_READ, IOobject::NO_WRITE, false
+    );
+    autoPtr<fieldType> field;
+
+    if (header.typeHeaderOk<fieldType>(true))
+    {
+        field.reset(new fieldType(header, mesh_));
+        if (field().dimensions() != dims)
+        {
+            FatalErrorInFunction
+                << "Field " << name << " in " << field().objectPath()
+                << " has dimensions " << field().dimensions() << ", allowed: "
+                << dims << exit(FatalError);
+        }
+    }
+    return field;
+}
+
+
+void Foam::granularState::readState()
+{
+    const wordList& names = model_->stateNames();
+    PtrList<volScalarField> read(names.size());
+    label missing = 0;
+
+    state_.resize(names.size());
+    forAll(names, i)
+    {
+        if (i < 2)
+        {
+            Info<< "Reading field " << names[i] << endl;
+            state_.set
+            (
+                i,
+                new volScalarField(io(names[i], IOobject::MUST_READ), mesh_)
+            );
+            continue;
+        }
+        autoPtr<volScalarField> field(given<scalar>(names[i], dimless));
+        missing += !field.valid();
+        state_.set
+        (
+            i,
+            new volScalarField
+            (
+                io(names[i]),
+                mesh_,
+                dimensionedScalar(dimless, Zero),
+                extrapolatedCalculatedFvPatchScalarField::typeName
+            )
+        );
+        if (field.valid())
+        {
+            read.set(i, field.release());
+        }
+    }
+    checkField(state_[0], dimless, 0, 1);
+    checkField(state_[1], dimless, -1, 1);
+
+    // Models whose state is all there after a restart need no more
+    if (missing || names.size() == 2)
+    {
+        const auto fabric(given<scalar>("fabricConductivity", dimless));
+        const auto stress(given<symmTensor>("stress", dimPressure));
+        scalarField xx, yy;
+        granularModel::known known;
+        known.size = mesh_.nCells();
+        if (fabric.valid())
+        {
+            known.fabricConductivity = fabric().primitiveField().cdata();
+        }
+        if (stress.valid())
+        {
+            // Tension positive becomes compression positive
+            xx = -stress().primitiveField().component(symmTensor::XX);
+            yy = -stress().primitiveField().component(symmTensor::YY);
+            known.stressXX = xx.cdata();
+            known.stressYY = yy.cdata();
+        }
+
+        List<scalar*> pointers(names.size());
+        forAll(pointers, i)
+        {
+            pointers[i] = state_[i].primitiveFieldRef().data();
+        }
+        known.porosity = pointers[0];
+        known.fabricIndex = pointers[1];
+        model_->initialState(known, pointers.cdata());
+    }
+
+    Info<< "State of the model:";
+    forAll(names, i)
+    {
+        if (read.set(i))
+        {
+            state_[i].primitiveFieldRef() = read[i].primitiveField();
+        }
+        state_[i].correctBoundaryConditions();
+        Info<< ' ' << names[i] << (i < 2 || read.set(i) ? " (read)" : "");
+    }
+    Info<< nl << endl;
+}
+
+
+void Foam::granularState::allocate()
+{
+    const label cells = mesh_.nCells();
+    const label count = state_.size();
+
+    bound_ = model_->smallestStrain();
+    for (conductivityColumns* K : {&K_, &trialK_, &askedK_})
+    {
+        K->xx.resize(cells, Zero);
+        K->yy.resize(cells, Zero);
+        K->xy.resize(model_->diagonal() ? 0 : cells, Zero);
+    }
+    for
+    (
+        scalarField* column :
+        {
+            &stressXX_, &stressYY_, &lastStrain_, &nextIncrement_,
+            &nextStrain_, &strain_, &halfStrain_, &total_, &zero_,
+            &askedXX_, &askedYY_
+        }
+    )
+    {
+        column->resize(cells, Zero);
+    }
+    rows_.setCapacity(cells);
+    before_.setSize(count, cells);
+    full_.setSize(count, cells);
+    half_.setSize(count, cells);
+    after_.setSize(count, cells);
+    outside_.setSize(count + 1, cells);
+}
+
+
+void Foam::granularState::setInitialBulkDensity()
+{
+    // The paper's rho (1 - porosity) takes overlaps from the grains' mass; the
+    // mass-consistent density counts every grain in full.
+    scalarField& density = bulkDensity_.primitiveFieldRef();
+
+    if
+    (
+        properties_.bulkDensity()
+     == granularProperties::bulkDensityModel::massConsistent
+    )
+    {
+        model_->solidFraction(porosity().primitiveField(), density);
+        density *= properties_.density().value();
+    }
+    else
+    {
+        density =
+            properties_.density().value()*(1 - porosity().primitiveField());
+    }
+    bulkDensity_.correctBoundaryConditions();
+    record_.initialMass = gSum(density*mesh_.V());
+}
+
+
+void Foam::granularState::askStart()
+{
+    rows_.clear();
+    forAll(zero_, celli)
+    {
+        rows_.append(celli);
+    }
+    gather(zero_, thermalStrain_.primitiveField());
+
+    const bool restarted = mesh_.time().timeIndex() > 0;
+    const label outside = ask(before_, after_, strain_, false);
+    if (judge(outside, after_, "At the start") && !restarted)
+    {
+        policy_.refuseCut();
+    }
+
+    // What the cells wait for after a restart is not part of this question
+    const scalarField waiting(thermalStrainIncrement_.primitiveField());
+    commit();
+    thermalStrainIncrement_.primitiveFieldRef() = waiting;
+    cellSteps_ = 0;
+
+    // What the cells were last asked for is not known after a restart
+    lastStrain_ = restarted ? 1 : 0;
+}
+
+
+void Foam::granularState::select(const scalarField& strain)
+{
+    rows_.clear();
+    forAll(strain, celli)
+    {
+        const scalar e = strain[celli];
+        if (bound_ > 0 ? mag(e) >= bound_ : (e != 0 || lastStrain_[celli] != 0))
+        {
+            rows_.append(celli);
+        }
+    }
+}
+
+
+void Foam::granularState::gather
+(
+    const scalarField& strain,
+    const scalarField& total
+)
+{
+    forAll(state_, i)
+    {
+        const scalarField& from = state_[i].primitiveField();
+        scalarField& to = before_.values[i];
+        forAll(rows_, row)
+        {
+            to[row] = from[rows_[row]];
+        }
+    }
+    forAll(rows_, row)
+    {
+        strain_[row] = strain[rows_[row]];
+        total_[row] = total[rows_[row]];
+    }
+}
+
+
+Foam::label Foam::granularState::ask
+(
+    columns& from,
+    columns& to,
+    const scalarField& strain,
+    const bool trial,
+    const bool wantOutside
+)
+{
+    granularModel::query query;
+    query.size = rows_.size();
+    query.cells = rows_.cdata();
+    query.state = from.pointers.cdata();
+    query.nextState = to.pointers.cdata();
+    query.strain = strain.cdata();
+    query.totalStrain = total_.cdata();
+    query.conductivityXX = askedK_.xx.data();
+    query.conductivityYY = askedK_.yy.data();
+    query.conductivityXY = askedK_.xy.empty() ? nullptr : askedK_.xy.data();
+    query.stressXX = askedXX_.data();
+    query.stressYY = askedYY_.data();
+    query.outside = wantOutside ? outside_.pointers.cdata() : nullptr;
+    query.trial = trial;
+
+    return query.size ? model_->advance(query) : 0;
+}
+
+
+bool Foam::granularState::judge
+(
+    const label outside,
+    columns& to,
+    const string& when
+)
+{
+    clampedNow_ = outside;
+    const bool any = returnReduce(outside > 0, orOp<bool>());
+    if (any || outsideSeen_)
+    {
+        inRegion_.primitiveFieldRef() = 1;
+        outsideSeen_ = any;
+    }
+    if (!any)
+    {
+        return false;
+    }
+
+    // Once more for how far; models whose cells can be outside remember nothing
+    ask(before_, to, strain_, false, true);
+    forAll(rows_, row)
+    {
+        for (const scalarField& distance : outside_.values)
+        {
+            if (distance[row] != 0)
+            {
+                inRegion_[rows_[row]] = 0;
+            }
+        }
+    }
+    return policy_.judge
+    (
+        rows_, before_.values, strain_, outside_.values, when
+    );
+}
+
+
+Foam::scalar Foam::granularState::extrapolate()
+{
+    forAll(rows_, row)
+    {
+        halfStrain_[row] = std::sqrt(1 + strain_[row]) - 1;
+    }
+    ask(before_, half_, halfStrain_, false);
+    ask(half_, half_, halfStrain_, false);
+
+    // The error of one strain is quadratic, and halved by two halves
+    scalar error = 0;
+    forAll(state_, i)
+    {
+        const scalarField& full = full_.values[i];
+        const scalarField& half = half_.values[i];
+        scalarField& after = after_.values[i];
+        scalar largest = smallestScale, difference = 0;
+        forAll(rows_, row)
+        {
+            after[row] = 2*half[row] - full[row];
+            largest = max(largest, mag(half[row]));
+            difference = max(difference, mag(half[row] - full[row]));
+        }
+        reduce(largest, maxOp<scalar>());
+        error = max(error, 100*difference/largest);
+    }
+
+    // A state that grains can have, its conductivity and stress
+    ask(after_, after_, zero_, false);
+    return returnReduce(error, maxOp<scalar>());
+}
+
+
+void Foam::granularState::scatterConductivity(conductivityColumns& K) const
+{
+    forAll(rows_, row)
+    {
+        K.xx[rows_[row]] = askedK_.xx[row];
+        K.yy[rows_[row]] = askedK_.yy[row];
+    }
+    if (K.xy.size())
+    {
+        forAll(rows_, row)
+        {
+            K.xy[rows_[row]] = askedK_.xy[row];
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularState::strain(const scalarField& from, const scalarField& to)
+{
+    // The factor beta = 1/(1 + alpha (T^n - T^0)) refers the strain to the
+    // radius at step n, which is what the model's strain is relative to
+    const scalar alpha = properties_.thermalExpansion().value();
+    const scalarField& total = thermalStrain_.primitiveField();
+    const scalarField& waiting = thermalStrainIncrement_.primitiveField();
+    const scalarField& start = initialTemperature_.primitiveField();
+
+    forAll(to, celli)
+    {
+        const scalar e = alpha*(to[celli] - from[celli])/(1 + total[celli]);
+        nextIncrement_[celli] =
+            waiting[celli] == 0
+          ? e
+          : (1 + waiting[celli])*(1 + e) - 1;
+        nextStrain_[celli] = alpha*(to[celli] - start[celli]);
+    }
+}
+
+
+void Foam::granularState::commitStrain()
+{
+    thermalStrainIncrement_.primitiveFieldRef() = nextIncrement_;
+    thermalStrain_.primitiveFieldRef() = nextStrain_;
+}
+
+
+bool Foam::granularState::propose
+(
+    const bool proposed,
+    const bool secondOrder,
+    scalar& error
+)
+{
+    const scalarField& strain =
+        proposed ? nextIncrement_ : thermalStrainIncrement_.primitiveField();
+    const scalarField& total =
+        proposed ? nextStrain_ : thermalStrain_.primitiveField();
+
+    error = 0;
+    select(strain);
+    gather(strain, total);
+
+    const bool twice = secondOrder && !model_->exactIncrements();
+    columns& to = twice ? full_ : after_;
+    const label outside = ask(before_, to, strain_, false);
+    const string when("At time " + mesh_.time().timeName());
+
+    if (judge(outside, to, when))
+    {
+        return true;
+    }
+    if (twice)
+    {
+        error = extrapolate();
+    }
+    return false;
+}
+
+
+void Foam::granularState::commit()
+{
+    queries_ += returnReduce(rows_.size(), sumOp<label>()) > 0;
+    asked_ += rows_.size();
+    cellSteps_ += mesh_.nCells();
+    clamped_ += clampedNow_;
+
+    forAll(state_, i)
+    {
+        const scalarField& from = after_.values[i];
+        scalarField& to = state_[i].primitiveFieldRef();
+        forAll(rows_, row)
+        {
+            to[rows_[row]] = from[row];
+        }
+    }
+    scatterConductivity(K_);
+
+    scalarField& waiting = thermalStrainIncrement_.primitiveFieldRef();
+    forAll(rows_, row)
+    {
+        const label celli = rows_[row];
+        stressXX_[celli] = askedXX_[row];
+        stressYY_[celli] = askedYY_[row];
+        lastStrain_[celli] = strain_[row];
+        waiting[celli] = 0;
+    }
+}
+
+
+const Foam::granularState::conductivityColumns&
+Foam::granularState::trialConductivity()
+{
+    trialK_.xx = K_.xx;
+    trialK_.yy = K_.yy;
+    trialK_.xy = K_.xy;
+
+    select(nextIncrement_);
+    gather(nextIncrement_, nextStrain_);
+    ask(before_, after_, strain_, true);
+    scatterConductivity(trialK_);
+
+    return trialK_;
+}
+
+
+int64_t Foam::granularState::asked() const
+{
+    return returnReduce(asked_, sumOp<int64_t>());
+}
+
+
+int64_t Foam::granularState::cellSteps() const
+{
+    return returnReduce(cellSteps_, sumOp<int64_t>());
+}
+
+
+int64_t Foam::granularState::clampedQueries() const
+{
+    return returnReduce(clamped_, sumOp<int64_t>());
+}
+
+
+// ************************************************************************* //
