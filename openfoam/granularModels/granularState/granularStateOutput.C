@@ -158,7 +158,7 @@ void Foam::granularState::writeReport() const
         << "Clamped cell-queries: " << clampedQueries() << nl;
     if (bound_ > 0)
     {
-        Info<< "Strain that cells wait for: at most "
+        Info<< "Strain not asked for yet, the last step included: at most "
             << gMax(mag(waiting)()) << ", bound " << bound_ << nl;
     }
     policy_.write();

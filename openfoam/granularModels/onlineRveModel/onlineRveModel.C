@@ -217,7 +217,7 @@ std::string Foam::granularModels::onlineRve::specification
         << granularProperties::ranged(coeffs_, "stiffnessRatio", 0.8, 0.01, 10)
         << ", \"friction_angle\": "
         << granularProperties::ranged(coeffs_, "frictionAngle", 0.5, 0, 1.5)
-        << "}}";
+        << ", \"wall_stiffness_factor\": 1, \"damping\": 0.1}}";
     return os.str();
 }
 
