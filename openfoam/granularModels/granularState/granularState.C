@@ -168,6 +168,7 @@ Foam::granularState::granularState
     askStart();
     findReaders();
     refresh();
+    record_.refresh = [this]() { refresh(); };
 }
 
 

@@ -29,7 +29,7 @@ namespace Foam
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::runRecord::runRecord(const fvMesh& mesh)
+Foam::runRecord::runRecord(const fvMesh& mesh, const bool registered)
 :
     regIOobject
     (
@@ -40,7 +40,8 @@ Foam::runRecord::runRecord(const fvMesh& mesh)
             "uniform",
             mesh,
             IOobject::READ_IF_PRESENT,
-            IOobject::AUTO_WRITE
+            IOobject::AUTO_WRITE,
+            registered
         )
     ),
     heat(mesh.boundary().size(), Zero)
