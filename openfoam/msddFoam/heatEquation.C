@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "heatEquation.H"
+#include "fvcGrad.H"
 #include "fvmLaplacian.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 
@@ -60,6 +61,7 @@ Foam::heatEquation::heatEquation
     controls_(mesh_.solverDict(T.name())),
     correctors_(correctors),
     aligned_(isAligned(grains.model())),
+    slanted_(false),
     patchHeat_(mesh_.boundary().size(), Zero),
     sourceHeat_(0)
 {
@@ -80,6 +82,7 @@ Foam::heatEquation::heatEquation
             )
         );
         mesh_.setFluxRequired(T.name());
+        findFeet();
     }
     Info<< "Conduction: "
         << (aligned_ ? "n.K.n on the faces (exact here)" : "tensor laplacian")
@@ -152,6 +155,25 @@ void Foam::heatEquation::findAreas()
             patchAreaY_[patchi]
         );
     }
+}
+
+
+void Foam::heatEquation::findFeet()
+{
+    feet_.resize(mesh_.boundary().size());
+    forAll(feet_, patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if (patch.coupled())
+        {
+            continue;
+        }
+        const vectorField n(patch.nf());
+        const vectorField d(patch.Cf() - patch.Cn());
+        feet_[patchi] = d - n*(n & d);
+        slanted_ = slanted_ || max(mag(feet_[patchi])/mag(d)) > alignedSine;
+    }
+    reduce(slanted_, orOp<bool>());
 }
 
 
@@ -284,6 +306,36 @@ void Foam::heatEquation::addTensor(const granularState::conductivityColumns& K)
             (
                 conduction.faceFluxCorrectionPtr()->boundaryField()[patchi]
             );
+        }
+    }
+    if (slanted_)
+    {
+        addWallCorrection();
+    }
+}
+
+
+void Foam::heatEquation::addWallCorrection()
+{
+    const volVectorField gradT(fvc::grad(T_));
+
+    forAll(feet_, patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if (patch.coupled())
+        {
+            continue;
+        }
+        const labelUList& cells = patch.faceCells();
+        const scalarField& internal = TEqn_.internalCoeffs()[patchi];
+        forAll(cells, facei)
+        {
+            // internal = - n.K.n |S| d(snGrad)/dT
+            const scalar heat =
+               -internal[facei]
+               *(feet_[patchi][facei] & gradT[cells[facei]]);
+            TEqn_.source()[cells[facei]] += heat;
+            patchHeat_[patchi] += heat;
         }
     }
 }

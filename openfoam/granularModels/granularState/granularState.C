@@ -381,7 +381,6 @@ void Foam::granularState::askStart()
     const scalarField waiting(thermalStrainIncrement_.primitiveField());
     commit();
     thermalStrainIncrement_.primitiveFieldRef() = waiting;
-    cellSteps_ = 0;
 
     // What the cells were last asked for is not known after a restart
     lastStrain_ = restarted ? 1 : 0;
