@@ -363,11 +363,7 @@ void Foam::granularState::setInitialBulkDensity()
 
 void Foam::granularState::askStart()
 {
-    rows_.clear();
-    forAll(zero_, celli)
-    {
-        rows_.append(celli);
-    }
+    rows_ = identity(mesh_.nCells());
     gather(zero_, thermalStrain_.primitiveField());
 
     const bool restarted = mesh_.time().timeIndex() > 0;
@@ -397,6 +393,10 @@ void Foam::granularState::select(const scalarField& strain)
         {
             rows_.append(celli);
         }
+    }
+    if (rows_.size() && model_->together())
+    {
+        rows_ = identity(strain.size());
     }
 }
 
