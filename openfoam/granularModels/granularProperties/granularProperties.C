@@ -17,6 +17,8 @@ License
 #include "granularProperties.H"
 #include "Time.H"
 
+#include <sstream>
+
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 const Foam::Enum<Foam::granularProperties::bulkDensityModel>
@@ -146,9 +148,12 @@ Foam::scalar Foam::granularProperties::ranged
 
     if (!(value >= low && value <= high))
     {
+        // Streams of OpenFOAM would print limits to the case's writePrecision
+        std::ostringstream limits;
+        limits << low << " to " << high;
         FatalIOErrorInFunction(dict)
             << "Entry '" << key << "' is " << value << ", allowed: "
-            << low << " to " << high << exit(FatalIOError);
+            << limits.str().c_str() << exit(FatalIOError);
     }
     return value;
 }
