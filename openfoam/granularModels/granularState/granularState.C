@@ -649,6 +649,22 @@ Foam::granularState::trialConductivity()
 }
 
 
+void Foam::granularState::extrapolateTemperature(scalarField& T) const
+{
+    const scalar alpha = properties_.thermalExpansion().value();
+    const scalarField& total = thermalStrain_.primitiveField();
+    const scalarField& increment = thermalStrainIncrement_.primitiveField();
+
+    if (alpha > 0 && bound_ == 0)
+    {
+        forAll(T, celli)
+        {
+            T[celli] += increment[celli]*(1 + total[celli])/alpha;
+        }
+    }
+}
+
+
 int64_t Foam::granularState::asked() const
 {
     return returnReduce(asked_, sumOp<int64_t>());

@@ -58,6 +58,8 @@ void Foam::timeSchemes::paper::step()
 {
     advanceTime();
     setLog();
+    Told_ = T_.primitiveField();
+    grains_.extrapolateTemperature(T_.primitiveFieldRef());
 
     // Steps 1 to 3: grains from n to n + 1, strained by what T did last
     scalar error;
@@ -71,7 +73,6 @@ void Foam::timeSchemes::paper::step()
 
     // Step 4: the heat equation
     const scalar deltaT = time_.deltaTValue();
-    Told_ = T_.primitiveField();
     heat_.solve(Told_, deltaT, grains_.conductivityOfCells());
     account(deltaT);
 
