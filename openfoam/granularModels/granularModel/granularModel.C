@@ -54,7 +54,10 @@ Foam::autoPtr<Foam::granularModel> Foam::granularModel::New
     const word type(dict.get<word>("type"));
     const wordList types(dictionaryConstructorTablePtr_->sortedToc());
 
-    wordList allowed({"type", "model", "hash"});
+    wordList allowed
+    ({
+        "type", "model", "hash", "smallestStrain", "outOfRegion"
+    });
     for (const word& name : types)
     {
         allowed.append(name + "Coeffs");

@@ -61,16 +61,15 @@ Foam::granularProperties::granularProperties(const Time& runTime)
             *this,
             bulkDensityModel::massConsistent
         )
-    ),
-    smallestStrain_(ranged(*this, "smallestStrain", 0, 0, 0.01))
+    )
 {
     checkKeys
     (
         *this,
         {
-            "FoamFile", "surrogate", "outOfRegion", "density", "youngModulus",
+            "FoamFile", "surrogate", "density", "youngModulus",
             "thermalConductivity", "heatCapacity", "thermalExpansion",
-            "meanRadius", "bulkDensity", "smallestStrain"
+            "meanRadius", "bulkDensity"
         }
     );
     if (!(thermalExpansion_.value() >= 0))

@@ -139,10 +139,6 @@ Foam::granularModels::onlineRve::onlineRve
     network_
     (
         choice(coeffs_, "conductivity", {"affine", "network"}) == "network"
-    ),
-    smallestStrain_
-    (
-        granularProperties::ranged(coeffs_, "smallestStrain", 1e-4, 0, 0.01)
     )
 {
     if (&coeffs_ != &properties.surrogateDict())
@@ -153,8 +149,7 @@ Foam::granularModels::onlineRve::onlineRve
             {
                 "discs", "seed", "compression", "boundary", "relaxation",
                 "conductivity", "stiffnessRatio", "frictionAngle",
-                "porosityTolerance", "fabricTolerance", "rvePer",
-                "smallestStrain"
+                "porosityTolerance", "fabricTolerance", "rvePer"
             }
         );
     }

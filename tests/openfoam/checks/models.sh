@@ -11,7 +11,7 @@ check "constant: conductivity as in the network's start" test \
     "$(field "$work/serial/0.05/conductivity" | awk 'NR == 1 { printf "%.6f %.6f", $1, $4 }')"
 
 changed paper-network
-grains 'surrogate { model builtin:paper; } outOfRegion { porosity { below clamp; } }'
+grains 'surrogate { model builtin:paper; outOfRegion { porosity { below clamp; } } }'
 mesh_is '12 6 1'
 logged msddFoam
 check "network: the paper's has no state beside porosity and fabric" test ! -e 1/reducedPressure
@@ -19,11 +19,11 @@ check "network: the paper's has no state beside porosity and fabric" test ! -e 1
 online() { # folder, further keys: two cells that heat, boxes of 60 grains
     changed "$1"
     shift
-    grains "surrogate { type onlineRve; onlineRveCoeffs { discs 60; $* } }"
+    grains "surrogate { type onlineRve; onlineRveCoeffs { discs 60; $1 } $2 }"
     controls 'endTime 0.2;'
     mesh_is '2 1 1'
 }
-online online-cell 'smallestStrain 0;'
+online online-cell '' 'smallestStrain 0;'
 logged msddFoam
 cp -r . "$work/online-half.new"
 check "onlineRve: hot cells take porosity" \
@@ -34,17 +34,17 @@ cd "$work/online-half"
 rm -rf 0.15 0.2
 logged msddFoam
 check "onlineRve: restart bit for bit" cmp -s "$work/online-cell/0.2/onlineRve.json" 0.2/onlineRve.json
-online online-waits 'smallestStrain 0.01;'
+online online-waits '' 'smallestStrain 0.01;'
 logged msddFoam
 check "onlineRve: asked less with smallestStrain" \
     test "$(number cell_queries)" -lt "$(cd "$work/online-cell" && number cell_queries)"
-online online-group 'rvePer group;'
+online online-group 'rvePer group;' ''
 logged msddFoam
 check "onlineRve: one box for a group" grep -q '"boxes": 1,' 0.2/onlineRve.json
 check "onlineRve: cells of a group are alike" test "$(field 0.2/porosity | sort -u | wc -l)" = 1
 
 changed waits # increments are summed, not lost
-grains 'smallestStrain 1e-3;'
+grains 'surrogate { smallestStrain 1e-3; }'
 mesh_is '12 6 1'
 logged msddFoam
 check "economy: asked $(number cell_queries) of $(number cell_steps) cell-steps" \

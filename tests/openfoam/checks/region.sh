@@ -4,7 +4,7 @@ hot() { # folder, policy: grains that swell by a fifth
     changed "$1"
     shift
     sed -i 's/uniform 100/uniform 800/' 0/T
-    grains "outOfRegion { $* }"
+    grains "surrogate { outOfRegion { $* } }"
     mesh_is '12 6 1'
 }
 hot region-error
