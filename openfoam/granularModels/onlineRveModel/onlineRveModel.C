@@ -21,6 +21,7 @@ License
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -285,7 +286,7 @@ void Foam::granularModels::onlineRve::pack(const known& cells)
 
 void Foam::granularModels::onlineRve::write(std::ostream& os) const
 {
-    const auto list = [&os](const std::vector<box>& boxes, const box* shared)
+    const auto list = [&os](const std::vector<box>& boxes)
     {
         for (size_t i = 0; i < boxes.size(); ++i)
         {
@@ -302,9 +303,9 @@ void Foam::granularModels::onlineRve::write(std::ostream& os) const
         os << (celli ? ",\n" : "") << groupOf_[celli];
     }
     os << "\n], \"packed\": [\n";
-    list(packed_, nullptr);
+    list(packed_);
     os << "\n], \"boxes_now\": [\n";
-    list(boxes_, nullptr);
+    list(boxes_);
     os << "\n]}\n";
 }
 

@@ -57,9 +57,7 @@ rotated() { # by 90 degrees: x' = H - y, y' = x
     sed -i 's/left/A/; s/right/B/; s/bottom/C/; s/top/D/' 0/T
     sed -i 's/^    A$/    bottom/; s/^    B$/    top/; s/^    C$/    right/; s/^    D$/    left/' 0/T
     sed -i 's/^#include.*fabricIndex.*/&\ninternalField uniform -0.05;/' 0/fabricIndex
-    echo 'width 645; height 2150;' >> system/blockMeshDict
-    sed -i 's/^#include.*/width 645; height 2150;\n&/' system/blockMeshDict
-    python_free_vertices
+    upright_vertices
     mesh_is '6 12 1'
     logged msddFoam
     columns 1/{T,porosity,conductivity,stress}
@@ -74,7 +72,7 @@ rotated() { # by 90 degrees: x' = H - y, y' = x
         check "rotated by 90 degrees: $name differs by $worst <= 1e-11" below "$worst" 1e-11
     done
 }
-python_free_vertices() { # the vertices again, since the included file has expanded them already
+upright_vertices() { # the vertices again, since the included file has expanded them already
     cat >> system/blockMeshDict <<-'END'
 	vertices ((0 0 0) (645 0 0) (645 2150 0) (0 2150 0) (0 0 10) (645 0 10) (645 2150 10) (0 2150 10));
 	END
