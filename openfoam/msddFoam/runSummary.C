@@ -37,7 +37,9 @@ Foam::runSummary::runSummary
 
 Foam::fileName Foam::runSummary::path() const
 {
-    return grains_.mesh().time().globalPath()/"postProcessing/msddFoam/summary.json";
+    return
+        grains_.mesh().time().globalPath()
+       /"postProcessing/msddFoam/summary.json";
 }
 
 
@@ -85,7 +87,8 @@ void Foam::runSummary::write(const label rejected) const
             << "  \"rejected_steps\": " << rejected << ",\n"
             << "  \"model\": {\"source\": " << grains_.model().source()
             << ", \"hash\": " << string(grains_.model().hash())
-            << ", \"library_version\": " << string(granularModel::libraryVersion()) << "},\n"
+            << ", \"library_version\": "
+            << string(granularModel::libraryVersion()) << "},\n"
             << "  \"final\": {\n"
             << "    \"time\": " << time.value() << ",\n"
             << "    \"porosity\": " << meanPorosity << ",\n"

@@ -53,7 +53,8 @@ static word choice
     {
         FatalIOErrorInFunction(dict)
             << "Entry '" << key << "' is '" << value << "', allowed: "
-            << granularProperties::listed(allowed).c_str() << exit(FatalIOError);
+            << granularProperties::listed(allowed).c_str()
+            << exit(FatalIOError);
     }
     return value;
 }
@@ -280,7 +281,8 @@ void Foam::granularModels::onlineRve::pack(const known& cells)
     }
     Info<< "Packed " << returnReduce(label(packed_.size()), sumOp<label>())
         << " groups of cells, "
-        << returnReduce(label(boxes_.size()), sumOp<label>()) << " boxes" << endl;
+        << returnReduce(label(boxes_.size()), sumOp<label>()) << " boxes"
+        << endl;
 }
 
 

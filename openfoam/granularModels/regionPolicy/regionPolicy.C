@@ -159,7 +159,8 @@ void Foam::regionPolicy::act
             << sides[side] << " the region of the model, by up to " << farthest
             << ". Entry '" << name << "/" << sides[side]
             << "' of outOfRegion in constant/granularProperties is error, "
-            << "allowed: " << granularProperties::listed(actionNames.sortedToc()).c_str()
+            << "allowed: "
+            << granularProperties::listed(actionNames.sortedToc()).c_str()
             << ". The cells are in " << path(mesh_.time())
             << exit(FatalIOError);
     }

@@ -94,7 +94,10 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
     {
         FatalIOErrorInFunction(dict)
             << "Entry 'timeScheme' is '" << type << "', allowed: "
-            << granularProperties::listed(dictionaryConstructorTablePtr_->sortedToc()).c_str()
+            << granularProperties::listed
+               (
+                   dictionaryConstructorTablePtr_->sortedToc()
+               ).c_str()
             << exit(FatalIOError);
     }
     Info<< "Selecting timeScheme " << type << endl;
