@@ -1,7 +1,18 @@
 /*---------------------------------------------------------------------------*\
-    MSDD: multiscale data-driven heat conduction in granular media
-    SPDX-License-Identifier: GPL-3.0-or-later
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
 -------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+
 Application
     msddFoam
 
@@ -9,44 +20,34 @@ Description
     Transient heat conduction in a granular medium whose conductivity follows
     from its microstructure, which in turn follows from thermal expansion:
 
-        rho_b c dT/dt = div(K(porosity, fabricIndex) & grad(T))
+        rho_b c dT/dt = div(K(state) & grad(T)) + S
 
-    with K and stress given, cell by cell, by a surrogate model trained on
-    discrete-element simulations of representative volumes. Each time step is
-    Algorithm 1 of Rangel, Franci, Onate and Gimenez (multiscale data-driven
-    modelling of granular media with thermal expansion), in its order.
+    with K, the stress and the change of the state given, cell by cell, by a
+    granularModel. Each step of the paper scheme is Algorithm 1 of Rangel,
+    Franci, Onate and Gimenez (multiscale data-driven modelling of granular
+    media with thermal expansion), in its order.
 
 Usage
     Reads   T, porosity, fabricIndex; at the start also stress (tension
             positive) and fabricConductivity, if there are such files;
-            constant/granularProperties:
-
-        surrogate
-        {
-            type        network;
-            model       builtin;    // or builtin:paper, or a model file,
-                                    // relative to the case
-            hash        "...";      // optional: SHA-256 the file must have
-        }
-        density, youngModulus, thermalConductivity, heatCapacity,
-        thermalExpansion, meanRadius    // of the grains, SI
-        bulkDensity     massConsistent; // or paper
+            constant/granularProperties (keys: cases/common);
+            constant/fvOptions, if there is one: heat sources [W/m^3];
+            system/fvSolution, msddFoam, if there is one (keys: timeScheme.H)
 
     Writes  T, porosity, fabricIndex, conductivity, stress (tension positive),
             pressure (compression positive), bulkDensity, particleDensity,
-            thermalStrain; for restarts initialTemperature,
-            thermalStrainIncrement and the rest of the model's state
-            (reducedPressure, fabricConductivity, reducedDeviator);
-            postProcessing/msddFoam/summary.json
+            thermalStrain, inRegion, spread if the model knows; for restarts
+            initialTemperature, thermalStrainIncrement, the rest of the model's
+            state and uniform/msddFoam;
+            postProcessing/msddFoam/summary.json, and offenders.json if cells
+            were outside the model's region
 
-    The mesh is two-dimensional, in x and y.
+    The mesh is two-dimensional, in x and y. ddtSchemes are not used.
 
 \*---------------------------------------------------------------------------*/
 
 #include "fvCFD.H"
-#include "extrapolatedCalculatedFvPatchFields.H"
-#include "granularProperties.H"
-#include "granularSurrogate.H"
+#include "timeScheme.H"
 #include "runSummary.H"
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
@@ -56,7 +57,7 @@ int main(int argc, char *argv[])
     argList::addNote
     (
         "Heat conduction with thermal expansion in granular media, with"
-        " conductivity and stress from a surrogate model"
+        " conductivity and stress from a granularModel"
     );
 
     const clockTime wallClock;
@@ -69,31 +70,40 @@ int main(int argc, char *argv[])
     if (mesh.solutionD()[vector::Z] != -1)
     {
         FatalErrorInFunction
-            << "The surrogate is two-dimensional, in x and y: the mesh needs"
-            << " empty patches in z" << exit(FatalError);
+            << "The mesh " << mesh.objectRegistry::objectPath()
+            << " is three-dimensional, allowed: two-dimensional in x and y,"
+            << " with empty patches in z" << exit(FatalError);
     }
 
     const granularProperties granular(runTime);
-    granularSurrogate surrogate(granular, mesh.nCells());
-    const runSummary summary(mesh, surrogate, wallClock);
 
-    #include "createFields.H"
+    Info<< "Reading field T\n" << endl;
+    volScalarField T
+    (
+        IOobject
+        (
+            "T", runTime.timeName(), mesh,
+            IOobject::MUST_READ, IOobject::AUTO_WRITE
+        ),
+        mesh
+    );
+
+    granularState grains(granular, T);
+    autoPtr<timeScheme> scheme(timeScheme::New(T, grains, granular));
+    const runSummary summary(grains, wallClock);
 
     Info<< "\nStarting time loop\n" << endl;
 
-    while (runTime.loop())
+    while (runTime.run())
     {
-        Info<< "Time = " << runTime.timeName() << nl;
-
-        #include "updateState.H"
-        #include "TEqn.H"
-        #include "thermalStrain.H"
-
+        scheme->step();
+        grains.finishStep();
         runTime.write();
-        runTime.printExecutionTime(Info);
     }
 
-    summary.write(porosity, fabricIndex, conductivity, stress, pressure);
+    grains.refresh();
+    grains.writeReport();
+    summary.write(scheme->rejected());
 
     Info<< "End\n" << endl;
 

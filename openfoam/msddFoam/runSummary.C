@@ -1,7 +1,17 @@
 /*---------------------------------------------------------------------------*\
-    MSDD: multiscale data-driven heat conduction in granular media
-
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
     SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
 #include "runSummary.H"
@@ -11,13 +21,11 @@
 
 Foam::runSummary::runSummary
 (
-    const fvMesh& mesh,
-    const granularSurrogate& surrogate,
+    const granularState& grains,
     const clockTime& wallClock
 )
 :
-    mesh_(mesh),
-    surrogate_(surrogate),
+    grains_(grains),
     wallClock_(wallClock)
 {
     if (Pstream::master())
@@ -29,37 +37,33 @@ Foam::runSummary::runSummary
 
 Foam::fileName Foam::runSummary::path() const
 {
-    return mesh_.time().globalPath()/"postProcessing/msddFoam/summary.json";
+    return
+        grains_.mesh().time().globalPath()
+       /"postProcessing/msddFoam/summary.json";
 }
 
 
-void Foam::runSummary::write
-(
-    const volScalarField& porosity,
-    const volScalarField& fabricIndex,
-    const volSymmTensorField& conductivity,
-    const volSymmTensorField& stress,
-    const volScalarField& pressure
-) const
+void Foam::runSummary::write(const label rejected) const
 {
-    const Time& time = mesh_.time();
+    const fvMesh& mesh = grains_.mesh();
+    const Time& time = mesh.time();
     const label steps = time.timeIndex() - time.startTimeIndex();
-    const label cells = returnReduce(mesh_.nCells(), sumOp<label>());
-    const int64_t clamped = surrogate_.clampedQueries();
+    const label cells = returnReduce(mesh.nCells(), sumOp<label>());
+    const int64_t clamped = grains_.clampedQueries();
+    const int64_t asked = grains_.asked(), all = grains_.cellSteps();
 
-    const scalar meanPorosity = porosity.weightedAverage(mesh_.V()).value();
-    const scalar meanFabric = fabricIndex.weightedAverage(mesh_.V()).value();
-    const symmTensor meanK = conductivity.weightedAverage(mesh_.V()).value();
-    const symmTensor meanStress = stress.weightedAverage(mesh_.V()).value();
-    const scalar meanPressure = pressure.weightedAverage(mesh_.V()).value();
+    const auto mean = [&mesh](const auto& field)
+    {
+        return field.weightedAverage(mesh.V()).value();
+    };
+    const scalar meanPorosity = mean(grains_.porosity());
+    const scalar meanFabric = mean(grains_.fabricIndex());
+    const symmTensor meanK = mean(grains_.conductivity());
+    const symmTensor meanStress = mean(grains_.stress());
+    const scalar meanPressure = mean(grains_.pressure());
     const scalar wallSeconds = wallClock_.elapsedTime();
 
-    Info<< "Surrogate model: " << surrogate_.source() << ", SHA-256 "
-        << surrogate_.hash() << ", library " << msdd::version() << nl
-        << "Queries: " << surrogate_.queries() << " of " << cells
-        << " cells each" << nl
-        << "Clamped cell-queries: " << clamped << nl
-        << "Steps: " << steps << nl
+    Info<< "Steps: " << steps << ", repeated " << rejected << nl
         << "Wall time: " << wallSeconds << " s" << nl << endl;
 
     if (!Pstream::master())
@@ -76,11 +80,15 @@ void Foam::runSummary::write
             << "  \"wall_seconds\": " << wallSeconds << ",\n"
             << "  \"steps\": " << steps << ",\n"
             << "  \"cells\": " << cells << ",\n"
-            << "  \"queries\": " << surrogate_.queries() << ",\n"
+            << "  \"queries\": " << grains_.queries() << ",\n"
             << "  \"clamped_queries\": " << clamped << ",\n"
-            << "  \"model\": {\"source\": " << string(surrogate_.source())
-            << ", \"hash\": " << string(surrogate_.hash())
-            << ", \"library_version\": " << string(msdd::version()) << "},\n"
+            << "  \"cell_queries\": " << asked << ",\n"
+            << "  \"cell_steps\": " << all << ",\n"
+            << "  \"rejected_steps\": " << rejected << ",\n"
+            << "  \"model\": {\"source\": " << grains_.model().source()
+            << ", \"hash\": " << string(grains_.model().hash())
+            << ", \"library_version\": "
+            << string(granularModel::libraryVersion()) << "},\n"
             << "  \"final\": {\n"
             << "    \"time\": " << time.value() << ",\n"
             << "    \"porosity\": " << meanPorosity << ",\n"

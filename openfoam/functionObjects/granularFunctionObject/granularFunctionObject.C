@@ -1,0 +1,83 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularFunctionObject.H"
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::functionObjects::granularFunctionObject::granularFunctionObject
+(
+    const word& name,
+    const word& file,
+    const Time& runTime,
+    const dictionary& dict
+)
+:
+    fvMeshFunctionObject(name, runTime, dict),
+    writeFile(mesh_, name, file, dict)
+{}
+
+
+// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
+
+const Foam::runRecord&
+Foam::functionObjects::granularFunctionObject::record()
+{
+    if (mesh_.foundObject<runRecord>("msddFoam"))
+    {
+        return mesh_.lookupObject<runRecord>("msddFoam");
+    }
+    // Without the solver: what it left at this time
+    read_.reset(new runRecord(mesh_, false));
+    return read_();
+}
+
+
+void Foam::functionObjects::granularFunctionObject::refresh()
+{
+    const runRecord& found = record();
+    if (found.refresh)
+    {
+        found.refresh();
+    }
+}
+
+
+Foam::Ostream& Foam::functionObjects::granularFunctionObject::line()
+{
+    if (!writtenHeader_)
+    {
+        writeHeader(file());
+        file() << endl;
+        writtenHeader_ = true;
+    }
+    file() << time_.timeName();
+    return file();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::functionObjects::granularFunctionObject::read
+(
+    const dictionary& dict
+)
+{
+    return fvMeshFunctionObject::read(dict) && writeFile::read(dict);
+}
+
+
+// ************************************************************************* //

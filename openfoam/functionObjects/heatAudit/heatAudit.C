@@ -1,0 +1,100 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "heatAudit.H"
+#include "addToRunTimeSelectionTable.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace functionObjects
+{
+    defineTypeNameAndDebug(heatAudit, 0);
+    addToRunTimeSelectionTable(functionObject, heatAudit, dictionary);
+}
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::functionObjects::heatAudit::heatAudit
+(
+    const word& name,
+    const Time& runTime,
+    const dictionary& dict
+)
+:
+    granularFunctionObject(name, typeName, runTime, dict),
+    tolerance_(dict.lookupOrDefault<scalar>("tolerance", GREAT))
+{
+    read(dict);
+}
+
+
+// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
+
+void Foam::functionObjects::heatAudit::writeHeader(Ostream& os) const
+{
+    writeCommented(os, "Time");
+    writeTabbed(os, "stored");
+    writeTabbed(os, "patches");
+    writeTabbed(os, "sources");
+    writeTabbed(os, "exchanged");
+    writeTabbed(os, "relative_difference");
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::functionObjects::heatAudit::write()
+{
+    const runRecord& known = record();
+    const tmp<volScalarField> tT(present<scalar>("T"));
+    const tmp<volScalarField> tT0(present<scalar>("initialTemperature"));
+    const tmp<volScalarField> tbulk(present<scalar>("bulkDensity"));
+    const granularProperties grains(time_);
+    const scalarField& V = mesh_.V();
+
+    const scalar stored = grains.heatCapacity().value()*gSum
+    (
+        tbulk().primitiveField()*V
+       *(tT().primitiveField() - tT0().primitiveField())
+    );
+    const scalar patches = returnReduce(sum(known.heat), sumOp<scalar>());
+    const scalar sources = returnReduce(known.sourceHeat, sumOp<scalar>());
+    const scalar exchanged = returnReduce(known.exchanged, sumOp<scalar>());
+    const scalar difference =
+        mag(stored - patches - sources)/max(exchanged, VSMALL);
+
+    if (Pstream::master())
+    {
+        line()
+            << tab << stored << tab << patches << tab << sources
+            << tab << exchanged << tab << difference << endl;
+    }
+    if (difference > tolerance_)
+    {
+        FatalErrorInFunction
+            << "Heat stored differs from heat received by " << difference
+            << " of the heat exchanged, allowed: " << tolerance_
+            << exit(FatalError);
+    }
+    return true;
+}
+
+
+// ************************************************************************* //

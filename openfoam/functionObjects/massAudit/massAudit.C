@@ -1,0 +1,91 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "massAudit.H"
+#include "addToRunTimeSelectionTable.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace functionObjects
+{
+    defineTypeNameAndDebug(massAudit, 0);
+    addToRunTimeSelectionTable(functionObject, massAudit, dictionary);
+}
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::functionObjects::massAudit::massAudit
+(
+    const word& name,
+    const Time& runTime,
+    const dictionary& dict
+)
+:
+    granularFunctionObject(name, typeName, runTime, dict)
+{
+    read(dict);
+}
+
+
+// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
+
+void Foam::functionObjects::massAudit::writeHeader(Ostream& os) const
+{
+    writeCommented(os, "Time");
+    writeTabbed(os, "mass");
+    writeTabbed(os, "relative_change");
+    writeTabbed(os, "density_mismatch");
+    writeTabbed(os, "density_ratio");
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::functionObjects::massAudit::write()
+{
+    refresh();
+    const tmp<volScalarField> tbulk(present<scalar>("bulkDensity"));
+    const tmp<volScalarField> tparticle(present<scalar>("particleDensity"));
+    const tmp<volScalarField> tporosity(present<scalar>("porosity"));
+    const tmp<volScalarField> tstrain(present<scalar>("thermalStrain"));
+    const granularProperties grains(time_);
+    const scalarField& V = mesh_.V();
+    const scalarField& bulk = tbulk();
+    const scalarField& particle = tparticle();
+
+    const scalar mass = gSum(bulk*V);
+    const scalar before = record().initialMass;
+    const scalarField expanded(sqr(1 + tstrain().primitiveField()));
+    const scalar mismatch =
+        gMax(mag(particle*(1 - tporosity().primitiveField())/bulk - 1)());
+    const scalar ratio =
+        gSum(V*particle*expanded)/gSum(V)/grains.density().value();
+
+    if (Pstream::master())
+    {
+        line()
+            << tab << mass << tab << (before > 0 ? mass/before - 1 : 0)
+            << tab << mismatch << tab << ratio << endl;
+    }
+    return true;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,165 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "constantModel.H"
+#include "addToRunTimeSelectionTable.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace granularModels
+{
+    defineTypeNameAndDebug(constant, 0);
+    addToRunTimeSelectionTable(granularModel, constant, dictionary);
+}
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::granularModels::constant::constant
+(
+    const granularProperties& properties,
+    const fvMesh& mesh
+)
+:
+    surrogateModel
+    (
+        typeName,
+        "model",
+        properties.surrogateDict().optionalSubDict("constantCoeffs")
+           .lookupOrDefault<fileName>("model", "builtin"),
+        "builtin, builtin:paper, or a readable model file",
+        properties,
+        mesh
+    ),
+    conductivity_(Zero),
+    stress_(Zero)
+{
+    stateNames_.resize(2);
+    if (&coeffs_ != &properties.surrogateDict())
+    {
+        granularProperties::checkKeys
+        (
+            coeffs_,
+            {"model", "hash", "conductivity", "stress"}
+        );
+    }
+    if (coeffs_.readIfPresent("conductivity", conductivity_))
+    {
+        const symmTensor& K = conductivity_;
+        if (!(K.xx() > 0 && K.yy() > 0 && sqr(K.xy()) < K.xx()*K.yy()))
+        {
+            OStringStream value;
+            value << K;
+            refuse("conductivity", value.str(), "positive definite [W/(m K)]");
+        }
+    }
+    if (coeffs_.readIfPresent("stress", stress_))
+    {
+        stress_ = -stress_;
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::granularModels::constant::readMean(const known& cells)
+{
+    scalar volume = 0, porosity = 0, fabric = 0;
+    forAll(mesh_.V(), celli)
+    {
+        volume += mesh_.V()[celli];
+        porosity += mesh_.V()[celli]*cells.porosity[celli];
+        fabric += mesh_.V()[celli]*cells.fabricIndex[celli];
+    }
+    reduce(volume, sumOp<scalar>());
+    porosity = returnReduce(porosity, sumOp<scalar>())/volume;
+    fabric = returnReduce(fabric, sumOp<scalar>())/volume;
+
+    known mean;
+    mean.size = 1;
+    mean.porosity = &porosity;
+    mean.fabricIndex = &fabric;
+
+    scalarField values(label(model_.stateSize()));
+    List<scalar*> state(values.size());
+    forAll(state, i)
+    {
+        state[i] = &values[i];
+    }
+    surrogateModel::initialState(mean, state.cdata());
+
+    const scalar zero = 0;
+    symmTensor K(Zero), sigma(Zero);
+    query one;
+    one.size = 1;
+    one.state = state.cdata();
+    one.nextState = state.cdata();
+    one.strain = &zero;
+    one.totalStrain = &zero;
+    one.conductivityXX = &K.xx();
+    one.conductivityYY = &K.yy();
+    one.stressXX = &sigma.xx();
+    one.stressYY = &sigma.yy();
+    surrogateModel::advance(one);
+
+    if (!coeffs_.found("conductivity"))
+    {
+        conductivity_ = K;
+    }
+    if (!coeffs_.found("stress"))
+    {
+        stress_ = sigma;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularModels::constant::initialState
+(
+    const known& cells,
+    scalar* const*
+)
+{
+    readMean(cells);
+}
+
+
+Foam::label Foam::granularModels::constant::advance(const query& cells)
+{
+    for (label row = 0; row < cells.size; ++row)
+    {
+        forAll(stateNames_, i)
+        {
+            cells.nextState[i][row] = cells.state[i][row];
+        }
+        cells.conductivityXX[row] = conductivity_.xx();
+        cells.conductivityYY[row] = conductivity_.yy();
+        if (cells.conductivityXY)
+        {
+            cells.conductivityXY[row] = conductivity_.xy();
+        }
+        cells.stressXX[row] = stress_.xx();
+        cells.stressYY[row] = stress_.yy();
+    }
+    return 0;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,102 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularModel.H"
+#include "msdd.hpp"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(granularModel, 0);
+    defineRunTimeSelectionTable(granularModel, dictionary);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::granularModel::granularModel
+(
+    const word& type,
+    const granularProperties& properties,
+    const fvMesh& mesh
+)
+:
+    properties_(properties),
+    mesh_(mesh),
+    coeffs_(properties.surrogateDict().optionalSubDict(type + "Coeffs")),
+    stateNames_({"porosity", "fabricIndex"})
+{}
+
+
+// * * * * * * * * * * * * * * * * Selectors * * * * * * * * * * * * * * * * //
+
+Foam::autoPtr<Foam::granularModel> Foam::granularModel::New
+(
+    const granularProperties& properties,
+    const fvMesh& mesh
+)
+{
+    const dictionary& dict = properties.surrogateDict();
+    const word type(dict.get<word>("type"));
+    const wordList types(dictionaryConstructorTablePtr_->sortedToc());
+
+    wordList allowed
+    ({
+        "type", "model", "hash", "smallestStrain", "outOfRegion"
+    });
+    for (const word& name : types)
+    {
+        allowed.append(name + "Coeffs");
+    }
+    granularProperties::checkKeys(dict, allowed);
+
+    const auto constructor = dictionaryConstructorTablePtr_->cfind(type);
+    if (!constructor.found())
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'type' is '" << type << "', allowed: "
+            << granularProperties::listed(types).c_str() << exit(FatalIOError);
+    }
+    Info<< "Selecting granularModel " << type << endl;
+    return (*constructor)(properties, mesh);
+}
+
+
+// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
+
+void Foam::granularModel::refuse
+(
+    const word& key,
+    const string& value,
+    const string& allowed
+) const
+{
+    FatalIOErrorInFunction(coeffs_)
+        << "Entry '" << key << "' is " << value.c_str() << ", allowed: "
+        << allowed.c_str() << exit(FatalIOError);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+std::string Foam::granularModel::libraryVersion()
+{
+    return msdd::version();
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,171 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularProperties.H"
+#include "Time.H"
+
+#include <sstream>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::granularProperties::bulkDensityModel>
+Foam::granularProperties::bulkDensityModelNames
+({
+    { bulkDensityModel::massConsistent, "massConsistent" },
+    { bulkDensityModel::paper, "paper" }
+});
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::granularProperties::granularProperties(const Time& runTime)
+:
+    IOdictionary
+    (
+        IOobject
+        (
+            "granularProperties",
+            runTime.constant(),
+            runTime,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE
+        )
+    ),
+    density_(positive("density", dimDensity)),
+    youngModulus_(positive("youngModulus", dimPressure)),
+    thermalConductivity_
+    (
+        positive("thermalConductivity", dimPower/dimLength/dimTemperature)
+    ),
+    heatCapacity_(positive("heatCapacity", dimSpecificHeatCapacity)),
+    thermalExpansion_("thermalExpansion", dimless/dimTemperature, *this),
+    meanRadius_(positive("meanRadius", dimLength)),
+    bulkDensity_
+    (
+        bulkDensityModelNames.getOrDefault
+        (
+            "bulkDensity",
+            *this,
+            bulkDensityModel::massConsistent
+        )
+    )
+{
+    checkKeys
+    (
+        *this,
+        {
+            "FoamFile", "surrogate", "density", "youngModulus",
+            "thermalConductivity", "heatCapacity", "thermalExpansion",
+            "meanRadius", "bulkDensity"
+        }
+    );
+    if (!(thermalExpansion_.value() >= 0))
+    {
+        FatalIOErrorInFunction(*this)
+            << "Entry 'thermalExpansion' is " << thermalExpansion_.value()
+            << ", allowed: >= 0 [1/K]"
+            << exit(FatalIOError);
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::dimensionedScalar Foam::granularProperties::positive
+(
+    const word& key,
+    const dimensionSet& dims
+) const
+{
+    const dimensionedScalar value(key, dims, *this);
+
+    if (!(value.value() > 0))
+    {
+        FatalIOErrorInFunction(*this)
+            << "Entry '" << key << "' is " << value.value()
+            << ", allowed: > 0, in units " << dims
+            << exit(FatalIOError);
+    }
+    return value;
+}
+
+
+// * * * * * * * * * * * * * * Static Functions  * * * * * * * * * * * * * * //
+
+void Foam::granularProperties::checkKeys
+(
+    const dictionary& dict,
+    const wordList& allowed
+)
+{
+    for (const word& key : dict.toc())
+    {
+        if (!allowed.found(key))
+        {
+            FatalIOErrorInFunction(dict)
+                << "Unknown entry '" << key << "', allowed: "
+                << listed(allowed).c_str() << exit(FatalIOError);
+        }
+    }
+}
+
+
+Foam::string Foam::granularProperties::listed(const wordList& words)
+{
+    string text;
+    for (const word& each : words)
+    {
+        text += (text.empty() ? "" : ", ") + each;
+    }
+    return text;
+}
+
+
+Foam::scalar Foam::granularProperties::ranged
+(
+    const dictionary& dict,
+    const word& key,
+    const scalar deflt,
+    const scalar low,
+    const scalar high
+)
+{
+    const scalar value = dict.getOrDefault<scalar>(key, deflt);
+
+    if (!(value >= low && value <= high))
+    {
+        // Streams of OpenFOAM would print limits to the case's writePrecision
+        std::ostringstream limits;
+        limits << low << " to " << high;
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << key << "' is " << value << ", allowed: "
+            << limits.str().c_str() << exit(FatalIOError);
+    }
+    return value;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::fileName Foam::granularProperties::path(const fileName& name) const
+{
+    fileName path(name);
+    path.expand();
+    return path.isAbsolute() ? path : time().globalPath()/path;
+}
+
+
+// ************************************************************************* //

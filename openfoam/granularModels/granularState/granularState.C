@@ -1,0 +1,335 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularState.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Errors of a state column are relative to its largest magnitude, and to this
+//- where that is smaller: a fabric near zero needs no digits of its own
+static const scalar smallestScale = 0.02;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::granularState::select(const scalarField& strain)
+{
+    rows_.clear();
+    forAll(strain, celli)
+    {
+        const scalar e = strain[celli];
+        if (bound_ > 0 ? mag(e) >= bound_ : (e != 0 || lastStrain_[celli] != 0))
+        {
+            rows_.append(celli);
+        }
+    }
+    if (rows_.size() && model_->together())
+    {
+        rows_ = identity(strain.size());
+    }
+}
+
+
+void Foam::granularState::gather
+(
+    const scalarField& strain,
+    const scalarField& total
+)
+{
+    forAll(state_, i)
+    {
+        const scalarField& from = state_[i].primitiveField();
+        scalarField& to = before_.values[i];
+        forAll(rows_, row)
+        {
+            to[row] = from[rows_[row]];
+        }
+    }
+    forAll(rows_, row)
+    {
+        strain_[row] = strain[rows_[row]];
+        total_[row] = total[rows_[row]];
+    }
+}
+
+
+Foam::label Foam::granularState::ask
+(
+    columns& from,
+    columns& to,
+    const scalarField& strain,
+    const bool trial,
+    const bool wantOutside
+)
+{
+    granularModel::query query;
+    query.size = rows_.size();
+    query.cells = rows_.cdata();
+    query.state = from.pointers.cdata();
+    query.nextState = to.pointers.cdata();
+    query.strain = strain.cdata();
+    query.totalStrain = total_.cdata();
+    query.conductivityXX = askedK_.xx.data();
+    query.conductivityYY = askedK_.yy.data();
+    query.conductivityXY = askedK_.xy.empty() ? nullptr : askedK_.xy.data();
+    query.stressXX = askedXX_.data();
+    query.stressYY = askedYY_.data();
+    query.outside = wantOutside ? outside_.pointers.cdata() : nullptr;
+    query.trial = trial;
+
+    return query.size ? model_->advance(query) : 0;
+}
+
+
+bool Foam::granularState::judge
+(
+    const label outside,
+    columns& to,
+    const string& when
+)
+{
+    clampedNow_ = outside;
+    const bool any = returnReduce(outside > 0, orOp<bool>());
+    if (any || outsideSeen_)
+    {
+        inRegion_.primitiveFieldRef() = 1;
+        outsideSeen_ = any;
+    }
+    if (!any)
+    {
+        return false;
+    }
+
+    // Once more for how far; models whose cells can be outside remember nothing
+    ask(before_, to, strain_, false, true);
+    forAll(rows_, row)
+    {
+        for (const scalarField& distance : outside_.values)
+        {
+            if (distance[row] != 0)
+            {
+                inRegion_[rows_[row]] = 0;
+            }
+        }
+    }
+    return policy_.judge
+    (
+        rows_, before_.values, strain_, outside_.values, when
+    );
+}
+
+
+Foam::scalar Foam::granularState::extrapolate()
+{
+    forAll(rows_, row)
+    {
+        halfStrain_[row] = std::sqrt(1 + strain_[row]) - 1;
+    }
+    ask(before_, half_, halfStrain_, false);
+    ask(half_, half_, halfStrain_, false);
+
+    // The error of one strain is quadratic, and halved by two halves
+    scalar error = 0;
+    forAll(state_, i)
+    {
+        const scalarField& full = full_.values[i];
+        const scalarField& half = half_.values[i];
+        scalarField& after = after_.values[i];
+        scalar largest = smallestScale, difference = 0;
+        forAll(rows_, row)
+        {
+            after[row] = 2*half[row] - full[row];
+            largest = max(largest, mag(half[row]));
+            difference = max(difference, mag(half[row] - full[row]));
+        }
+        reduce(largest, maxOp<scalar>());
+        error = max(error, 100*difference/largest);
+    }
+
+    // A state that grains can have, its conductivity and stress
+    ask(after_, after_, zero_, false);
+    return returnReduce(error, maxOp<scalar>());
+}
+
+
+void Foam::granularState::scatterConductivity(conductivityColumns& K) const
+{
+    forAll(rows_, row)
+    {
+        K.xx[rows_[row]] = askedK_.xx[row];
+        K.yy[rows_[row]] = askedK_.yy[row];
+    }
+    if (K.xy.size())
+    {
+        forAll(rows_, row)
+        {
+            K.xy[rows_[row]] = askedK_.xy[row];
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularState::strain(const scalarField& from, const scalarField& to)
+{
+    // The factor beta = 1/(1 + alpha (T^n - T^0)) refers the strain to the
+    // radius at step n, which is what the model's strain is relative to
+    const scalar alpha = properties_.thermalExpansion().value();
+    const scalarField& total = thermalStrain_.primitiveField();
+    const scalarField& waiting = thermalStrainIncrement_.primitiveField();
+    const scalarField& start = initialTemperature_.primitiveField();
+
+    forAll(to, celli)
+    {
+        const scalar e = alpha*(to[celli] - from[celli])/(1 + total[celli]);
+        nextIncrement_[celli] =
+            waiting[celli] == 0
+          ? e
+          : (1 + waiting[celli])*(1 + e) - 1;
+        nextStrain_[celli] = alpha*(to[celli] - start[celli]);
+    }
+}
+
+
+void Foam::granularState::commitStrain()
+{
+    thermalStrainIncrement_.primitiveFieldRef() = nextIncrement_;
+    thermalStrain_.primitiveFieldRef() = nextStrain_;
+}
+
+
+bool Foam::granularState::propose
+(
+    const bool proposed,
+    const bool secondOrder,
+    scalar& error
+)
+{
+    const scalarField& strain =
+        proposed ? nextIncrement_ : thermalStrainIncrement_.primitiveField();
+    const scalarField& total =
+        proposed ? nextStrain_ : thermalStrain_.primitiveField();
+
+    error = 0;
+    select(strain);
+    gather(strain, total);
+
+    const bool twice = secondOrder && !model_->exactIncrements();
+    columns& to = twice ? full_ : after_;
+    const label outside = ask(before_, to, strain_, false);
+    const string when("At time " + mesh_.time().timeName());
+
+    if (judge(outside, to, when))
+    {
+        return true;
+    }
+    if (twice)
+    {
+        error = extrapolate();
+    }
+    return false;
+}
+
+
+void Foam::granularState::commit()
+{
+    queries_ += returnReduce(rows_.size(), sumOp<label>()) > 0;
+    asked_ += rows_.size();
+    cellSteps_ += mesh_.nCells();
+    clamped_ += clampedNow_;
+
+    forAll(state_, i)
+    {
+        const scalarField& from = after_.values[i];
+        scalarField& to = state_[i].primitiveFieldRef();
+        forAll(rows_, row)
+        {
+            to[rows_[row]] = from[row];
+        }
+    }
+    scatterConductivity(K_);
+
+    scalarField& waiting = thermalStrainIncrement_.primitiveFieldRef();
+    forAll(rows_, row)
+    {
+        const label celli = rows_[row];
+        stressXX_[celli] = askedXX_[row];
+        stressYY_[celli] = askedYY_[row];
+        lastStrain_[celli] = strain_[row];
+        waiting[celli] = 0;
+    }
+}
+
+
+const Foam::granularState::conductivityColumns&
+Foam::granularState::trialConductivity()
+{
+    trialK_.xx = K_.xx;
+    trialK_.yy = K_.yy;
+    trialK_.xy = K_.xy;
+
+    select(nextIncrement_);
+    gather(nextIncrement_, nextStrain_);
+    ask(before_, after_, strain_, true);
+    scatterConductivity(trialK_);
+
+    return trialK_;
+}
+
+
+void Foam::granularState::extrapolateTemperature(scalarField& T) const
+{
+    const scalar alpha = properties_.thermalExpansion().value();
+    const scalarField& total = thermalStrain_.primitiveField();
+    const scalarField& increment = thermalStrainIncrement_.primitiveField();
+
+    if (alpha > 0 && bound_ == 0)
+    {
+        forAll(T, celli)
+        {
+            T[celli] += increment[celli]*(1 + total[celli])/alpha;
+        }
+    }
+}
+
+
+int64_t Foam::granularState::asked() const
+{
+    return returnReduce(asked_, sumOp<int64_t>());
+}
+
+
+int64_t Foam::granularState::cellSteps() const
+{
+    return returnReduce(cellSteps_, sumOp<int64_t>());
+}
+
+
+int64_t Foam::granularState::clampedQueries() const
+{
+    return returnReduce(clamped_, sumOp<int64_t>());
+}
+
+
+// ************************************************************************* //

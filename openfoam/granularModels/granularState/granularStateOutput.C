@@ -1,0 +1,168 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularState.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+#include "stringListOps.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::granularState::findReaders()
+{
+    // A function object that names its fields, none of which follows from the
+    // state, cannot see the others; those of this project refresh them
+    const wordHashSet following
+    ({
+        "conductivity", "stress", "pressure", "particleDensity", "inRegion",
+        "spread", "thermalStrain"
+    });
+    const dictionary functions =
+        mesh_.time().controlDict().subOrEmptyDict("functions");
+
+    for (const entry& item : functions)
+    {
+        if (!item.isDict())
+        {
+            continue;
+        }
+        const dictionary& dict = item.dict();
+        wordList fields(dict.lookupOrDefault<wordList>("fields", wordList()));
+        if (dict.found("field"))
+        {
+            fields.append(dict.get<word>("field"));
+        }
+        bool sees = fields.empty();
+        for (const word& field : fields)
+        {
+            sees = sees || following.found(field);
+        }
+        const word type(dict.lookupOrDefault<word>("type", word::null));
+        const wordList ours
+        ({"wallPressure", "subRegions", "heatAudit", "massAudit"});
+        refreshAlways_ = refreshAlways_ || (sees && !ours.found(type));
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularState::refresh()
+{
+    symmTensorField& K = conductivity_.primitiveFieldRef();
+    symmTensorField& sigma = stress_.primitiveFieldRef();
+    scalarField& p = pressure_.primitiveFieldRef();
+
+    forAll(K, celli)
+    {
+        K[celli].xx() = K_.xx[celli];
+        K[celli].yy() = K_.yy[celli];
+
+        // The one place where compression positive becomes tension positive
+        sigma[celli].xx() = -stressXX_[celli];
+        sigma[celli].yy() = -stressYY_[celli];
+        p[celli] = -0.5*(sigma[celli].xx() + sigma[celli].yy());
+    }
+    forAll(K_.xy, celli)
+    {
+        K[celli].xy() = K_.xy[celli];
+    }
+    particleDensity_.primitiveFieldRef() =
+        bulkDensity_.primitiveField()/(1 - porosity().primitiveField());
+
+    forAll(state_, i)
+    {
+        state_[i].correctBoundaryConditions();
+    }
+    thermalStrain_.correctBoundaryConditions();
+    thermalStrainIncrement_.correctBoundaryConditions();
+    conductivity_.correctBoundaryConditions();
+    stress_.correctBoundaryConditions();
+    pressure_.correctBoundaryConditions();
+    particleDensity_.correctBoundaryConditions();
+    inRegion_.correctBoundaryConditions();
+}
+
+
+void Foam::granularState::finishStep()
+{
+    const bool writes = mesh_.time().writeTime();
+
+    if (writes || refreshAlways_)
+    {
+        refresh();
+    }
+    if (writes)
+    {
+        findSpread();
+    }
+}
+
+
+void Foam::granularState::findSpread()
+{
+    List<const scalar*> state(state_.size());
+    forAll(state, i)
+    {
+        state[i] = state_[i].primitiveField().cdata();
+    }
+    granularModel::query query;
+    query.size = mesh_.nCells();
+    query.state = state.cdata();
+    query.strain = zero_.cdata();
+
+    scalarField spread(mesh_.nCells(), Zero);
+    if (!returnReduce(model_->spread(query, spread), andOp<bool>()))
+    {
+        return;
+    }
+    if (!spread_.valid())
+    {
+        spread_.reset
+        (
+            new volScalarField
+            (
+                io("spread"),
+                mesh_,
+                dimensionedScalar(dimless, Zero),
+                extrapolatedCalculatedFvPatchScalarField::typeName
+            )
+        );
+    }
+    spread_().primitiveFieldRef() = spread;
+    spread_().correctBoundaryConditions();
+}
+
+
+void Foam::granularState::writeReport() const
+{
+    const scalarField& waiting = thermalStrainIncrement_.primitiveField();
+
+    Info<< "Surrogate model: " << model_->source() << ", SHA-256 "
+        << string(model_->hash()) << ", library "
+        << string(granularModel::libraryVersion()) << nl
+        << "Queries: " << queries_ << nl
+        << "Cell-steps asked: " << asked() << " of " << cellSteps() << nl
+        << "Clamped cell-queries: " << clampedQueries() << nl;
+    if (bound_ > 0)
+    {
+        Info<< "Strain not asked for yet, the last step included: at most "
+            << gMax(mag(waiting)()) << ", bound " << bound_ << nl;
+    }
+    policy_.write();
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,382 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularState.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- FatalIOError if any value is no number or outside the open range
+static void checkField
+(
+    const volScalarField& field,
+    const dimensionSet& dims,
+    const scalar low,
+    const scalar high
+)
+{
+    if (field.dimensions() != dims)
+    {
+        FatalErrorInFunction
+            << "Field " << field.name() << " in " << field.objectPath()
+            << " has dimensions " << field.dimensions() << ", allowed: "
+            << dims << exit(FatalError);
+    }
+    forAll(field, celli)
+    {
+        const scalar value = field[celli];
+        if (!std::isfinite(value) || value <= low || value >= high)
+        {
+            FatalErrorInFunction
+                << "Field " << field.name() << " in " << field.objectPath()
+                << " is " << value << " in cell " << celli
+                << ", allowed: between " << low << " and " << high
+                << exit(FatalError);
+        }
+    }
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+void Foam::granularState::columns::setSize(const label count, const label cells)
+{
+    values.resize(count);
+    pointers.resize(count);
+    forAll(values, i)
+    {
+        values[i].resize(cells, Zero);
+        pointers[i] = values[i].data();
+    }
+}
+
+
+Foam::granularState::granularState
+(
+    const granularProperties& properties,
+    const volScalarField& T
+)
+:
+    properties_(properties),
+    mesh_(T.mesh()),
+    model_(granularModel::New(properties, mesh_)),
+    policy_(properties, mesh_, model_->stateNames(), model_->hash()),
+    record_(mesh_),
+    bound_(0),
+    initialTemperature_(io("initialTemperature", IOobject::READ_IF_PRESENT), T),
+    thermalStrainIncrement_
+    (
+        io("thermalStrainIncrement", IOobject::READ_IF_PRESENT),
+        mesh_,
+        dimensionedScalar(dimless, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    bulkDensity_
+    (
+        io("bulkDensity", IOobject::READ_IF_PRESENT),
+        mesh_,
+        dimensionedScalar(dimDensity, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    thermalStrain_
+    (
+        io("thermalStrain"),
+        mesh_,
+        dimensionedScalar(dimless, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    conductivity_
+    (
+        io("conductivity"),
+        mesh_,
+        dimensionedSymmTensor(dimPower/dimLength/dimTemperature, Zero),
+        extrapolatedCalculatedFvPatchSymmTensorField::typeName
+    ),
+    stress_
+    (
+        io("stress"),
+        mesh_,
+        dimensionedSymmTensor(dimPressure, Zero),
+        extrapolatedCalculatedFvPatchSymmTensorField::typeName
+    ),
+    pressure_
+    (
+        io("pressure"),
+        mesh_,
+        dimensionedScalar(dimPressure, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    particleDensity_
+    (
+        io("particleDensity"),
+        mesh_,
+        dimensionedScalar(dimDensity, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    inRegion_
+    (
+        io("inRegion"),
+        mesh_,
+        dimensionedScalar(dimless, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    refreshAlways_(false),
+    queries_(0),
+    asked_(0),
+    cellSteps_(0),
+    clamped_(0),
+    clampedNow_(0),
+    outsideSeen_(false)
+{
+    checkField(T, dimTemperature, -GREAT, GREAT);
+    checkField(initialTemperature_, dimTemperature, -GREAT, GREAT);
+    thermalStrain_.primitiveFieldRef() =
+        properties_.thermalExpansion().value()
+       *(T.primitiveField() - initialTemperature_.primitiveField());
+    inRegion_.primitiveFieldRef() = 1;
+
+    readState();
+    allocate();
+    if (!bulkDensity_.typeHeaderOk<volScalarField>(true))
+    {
+        setInitialBulkDensity();
+    }
+    askStart();
+    findReaders();
+    refresh();
+    record_.refresh = [this]() { refresh(); };
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+// extrapolatedCalculated, above, gives boundary faces the value of their cell:
+// a wall conducts as the grains beside it do
+
+Foam::IOobject Foam::granularState::io
+(
+    const word& name,
+    const IOobject::readOption read
+) const
+{
+    return IOobject
+    (
+        name, mesh_.time().timeName(), mesh_, read, IOobject::AUTO_WRITE
+    );
+}
+
+
+template<class Type>
+Foam::autoPtr<Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>>
+Foam::granularState::given(const word& name, const dimensionSet& dims) const
+{
+    typedef GeometricField<Type, fvPatchField, volMesh> fieldType;
+
+    IOobject header
+    (
+        name, mesh_.time().timeName(), mesh_,
+        IOobject::MUST_READ, IOobject::NO_WRITE, false
+    );
+    autoPtr<fieldType> field;
+
+    if (header.typeHeaderOk<fieldType>(true))
+    {
+        field.reset(new fieldType(header, mesh_));
+        if (field().dimensions() != dims)
+        {
+            FatalErrorInFunction
+                << "Field " << name << " in " << field().objectPath()
+                << " has dimensions " << field().dimensions() << ", allowed: "
+                << dims << exit(FatalError);
+        }
+    }
+    return field;
+}
+
+
+void Foam::granularState::readState()
+{
+    const wordList& names = model_->stateNames();
+    PtrList<volScalarField> read(names.size());
+    label missing = 0;
+
+    state_.resize(names.size());
+    forAll(names, i)
+    {
+        if (i < 2)
+        {
+            Info<< "Reading field " << names[i] << endl;
+            state_.set
+            (
+                i,
+                new volScalarField(io(names[i], IOobject::MUST_READ), mesh_)
+            );
+            continue;
+        }
+        autoPtr<volScalarField> field(given<scalar>(names[i], dimless));
+        missing += !field.valid();
+        state_.set
+        (
+            i,
+            new volScalarField
+            (
+                io(names[i]),
+                mesh_,
+                dimensionedScalar(dimless, Zero),
+                extrapolatedCalculatedFvPatchScalarField::typeName
+            )
+        );
+        if (field.valid())
+        {
+            read.set(i, field.release());
+        }
+    }
+    checkField(state_[0], dimless, 0, 1);
+    checkField(state_[1], dimless, -1, 1);
+
+    // Models whose state is all there after a restart need no more
+    if (missing || names.size() == 2)
+    {
+        const auto fabric(given<scalar>("fabricConductivity", dimless));
+        const auto stress(given<symmTensor>("stress", dimPressure));
+        scalarField xx, yy;
+        granularModel::known known;
+        known.size = mesh_.nCells();
+        if (fabric.valid())
+        {
+            known.fabricConductivity = fabric().primitiveField().cdata();
+        }
+        if (stress.valid())
+        {
+            // Tension positive becomes compression positive
+            xx = -stress().primitiveField().component(symmTensor::XX);
+            yy = -stress().primitiveField().component(symmTensor::YY);
+            known.stressXX = xx.cdata();
+            known.stressYY = yy.cdata();
+        }
+
+        List<scalar*> pointers(names.size());
+        forAll(pointers, i)
+        {
+            pointers[i] = state_[i].primitiveFieldRef().data();
+        }
+        known.porosity = pointers[0];
+        known.fabricIndex = pointers[1];
+        model_->initialState(known, pointers.cdata());
+    }
+
+    Info<< "State of the model:";
+    forAll(names, i)
+    {
+        if (read.set(i))
+        {
+            state_[i].primitiveFieldRef() = read[i].primitiveField();
+        }
+        state_[i].correctBoundaryConditions();
+        Info<< ' ' << names[i] << (i < 2 || read.set(i) ? " (read)" : "");
+    }
+    Info<< nl << endl;
+}
+
+
+void Foam::granularState::allocate()
+{
+    const label cells = mesh_.nCells();
+    const label count = state_.size();
+
+    bound_ = model_->smallestStrain();
+    for (conductivityColumns* K : {&K_, &trialK_, &askedK_})
+    {
+        K->xx.resize(cells, Zero);
+        K->yy.resize(cells, Zero);
+        K->xy.resize(model_->diagonal() ? 0 : cells, Zero);
+    }
+    for
+    (
+        scalarField* column :
+        {
+            &stressXX_, &stressYY_, &lastStrain_, &nextIncrement_,
+            &nextStrain_, &strain_, &halfStrain_, &total_, &zero_,
+            &askedXX_, &askedYY_
+        }
+    )
+    {
+        column->resize(cells, Zero);
+    }
+    rows_.setCapacity(cells);
+    before_.setSize(count, cells);
+    full_.setSize(count, cells);
+    half_.setSize(count, cells);
+    after_.setSize(count, cells);
+    outside_.setSize(count + 1, cells);
+}
+
+
+void Foam::granularState::setInitialBulkDensity()
+{
+    // The paper's rho (1 - porosity) takes overlaps from the grains' mass; the
+    // mass-consistent density counts every grain in full.
+    scalarField& density = bulkDensity_.primitiveFieldRef();
+
+    if
+    (
+        properties_.bulkDensity()
+     == granularProperties::bulkDensityModel::massConsistent
+    )
+    {
+        model_->solidFraction(porosity().primitiveField(), density);
+        density *= properties_.density().value();
+    }
+    else
+    {
+        density =
+            properties_.density().value()*(1 - porosity().primitiveField());
+    }
+    bulkDensity_.correctBoundaryConditions();
+    record_.initialMass = gSum(density*mesh_.V());
+}
+
+
+void Foam::granularState::askStart()
+{
+    rows_ = identity(mesh_.nCells());
+    gather(zero_, thermalStrain_.primitiveField());
+
+    const bool restarted = mesh_.time().timeIndex() > 0;
+    const label outside = ask(before_, after_, strain_, false);
+    if (judge(outside, after_, "At the start") && !restarted)
+    {
+        policy_.refuseCut();
+    }
+
+    // What the cells wait for after a restart is not part of this question
+    const scalarField waiting(thermalStrainIncrement_.primitiveField());
+    commit();
+    thermalStrainIncrement_.primitiveFieldRef() = waiting;
+
+    // What the cells were last asked for is not known after a restart
+    lastStrain_ = restarted ? 1 : 0;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,323 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "regionPolicy.H"
+#include "OFstream.H"
+#include "OSspecific.H"
+#include "Time.H"
+
+#include <cctype>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::regionPolicy::action> Foam::regionPolicy::actionNames
+({
+    { action::clamp, "clamp" },
+    { action::warn, "warn" },
+    { action::cutStep, "cutStep" },
+    { action::error, "error" }
+});
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Rows kept on each process
+static const label maxOffenders = 10000;
+
+static const FixedList<word, 2> sides({"below", "above"});
+
+
+//- reducedPressure becomes reduced_pressure, as model and database call it
+static string columnName(const word& field)
+{
+    string name;
+    for (const char c : field)
+    {
+        if (std::isupper(c))
+        {
+            name += '_';
+        }
+        name += char(std::tolower(c));
+    }
+    return name;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::regionPolicy::regionPolicy
+(
+    const granularProperties& properties,
+    const fvMesh& mesh,
+    const wordList& stateNames,
+    const std::string& modelHash
+)
+:
+    mesh_(mesh),
+    dict_(properties.outOfRegionDict()),
+    hash_(modelHash),
+    names_(stateNames),
+    maxFraction_(granularProperties::ranged(dict_, "maxFraction", 1, 0, 1)),
+    cells_(mesh.nCells())
+{
+    names_.append("thermalStrain");
+    actions_.resize(names_.size());
+    warned_.resize(names_.size());
+
+    // Columns that other models have are known, too: a case may change models
+    wordList allowed
+    ({
+        "maxFraction", "porosity", "fabricIndex", "reducedPressure",
+        "fabricConductivity", "reducedDeviator"
+    });
+    allowed.append(names_);
+    granularProperties::checkKeys(dict_, allowed);
+
+    forAll(names_, i)
+    {
+        const word& name = names_[i];
+        const action other =
+            name == "thermalStrain" ? action::cutStep : action::clamp;
+        const FixedList<action, 2> dense
+        ({
+            name == "porosity" ? action::error : other,
+            name == "reducedPressure" ? action::error : other
+        });
+        const dictionary dict(dict_.subOrEmptyDict(name));
+
+        granularProperties::checkKeys(dict, {"below", "above"});
+        forAll(sides, side)
+        {
+            actions_[i][side] =
+                actionNames.getOrDefault(sides[side], dict, dense[side]);
+            warned_[i][side] = false;
+        }
+    }
+    if (Pstream::master())
+    {
+        rm(path(mesh.time()));
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::regionPolicy::keep(const offender& found)
+{
+    const label key =
+        2*(found.cell*names_.size() + found.column) + (found.distance > 0);
+    const auto place = place_.cfind(key);
+
+    if (!place.found() && offenders_.size() < maxOffenders)
+    {
+        place_.insert(key, offenders_.size());
+        offenders_.append(found);
+    }
+    else if
+    (
+        place.found()
+     && mag(found.distance) > mag(offenders_[place.val()].distance)
+    )
+    {
+        offenders_[place.val()] = found;
+    }
+}
+
+
+void Foam::regionPolicy::act
+(
+    const label column,
+    const label side,
+    const label cells,
+    const scalar farthest,
+    const string& when
+)
+{
+    const word& name = names_[column];
+
+    if (actions_[column][side] == action::error)
+    {
+        FatalIOErrorInFunction(dict_)
+            << when.c_str() << ' ' << cells << " cells have " << name << ' '
+            << sides[side] << " the region of the model, by up to " << farthest
+            << ". Entry '" << name << "/" << sides[side]
+            << "' of outOfRegion in constant/granularProperties is error, "
+            << "allowed: "
+            << granularProperties::listed(actionNames.sortedToc()).c_str()
+            << ". The cells are in " << path(mesh_.time())
+            << exit(FatalIOError);
+    }
+    if (actions_[column][side] == action::warn && !warned_[column][side])
+    {
+        warned_[column][side] = true;
+        Warning
+            << when.c_str() << ' ' << cells << " cells have " << name << ' '
+            << sides[side] << " the region of the model, by up to " << farthest
+            << ": the region's end is used" << endl;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::regionPolicy::judge
+(
+    const labelUList& cells,
+    const UList<scalarField>& state,
+    const scalarField& strain,
+    const UList<scalarField>& outside,
+    const string& when
+)
+{
+    labelList counts(2*names_.size() + 1, Zero);
+    scalarList farthest(2*names_.size(), Zero);
+
+    forAll(cells, row)
+    {
+        bool any = false;
+        forAll(names_, i)
+        {
+            const scalar distance = outside[i][row];
+            if (distance == 0)
+            {
+                continue;
+            }
+            any = true;
+            const label side = 2*i + (distance > 0);
+            ++counts[side];
+            farthest[side] = max(farthest[side], mag(distance));
+
+            offender found
+            {
+                cells_.toGlobal(cells[row]), i, distance, strain[row],
+                mesh_.time().value(), scalarList(state.size())
+            };
+            forAll(state, k)
+            {
+                found.state[k] = state[k][row];
+            }
+            keep(found);
+        }
+        counts.last() += any;
+    }
+    Pstream::listCombineGather(counts, plusEqOp<label>());
+    Pstream::listCombineScatter(counts);
+    Pstream::listCombineGather(farthest, maxEqOp<scalar>());
+    Pstream::listCombineScatter(farthest);
+
+    bool ends = counts.last() > maxFraction_*cells_.size();
+    bool cut = false;
+    forAll(farthest, i)
+    {
+        const action what = actions_[i/2][i % 2];
+        ends = ends || (counts[i] && what == action::error);
+        cut = cut || (counts[i] && what == action::cutStep);
+    }
+    if (ends)
+    {
+        write();
+    }
+    forAll(farthest, i)
+    {
+        if (counts[i])
+        {
+            act(i/2, i % 2, counts[i], farthest[i], when);
+        }
+    }
+    if (ends)
+    {
+        FatalIOErrorInFunction(dict_)
+            << when.c_str() << ' ' << counts.last() << " of " << cells_.size()
+            << " cells are outside the region of the model. Entry 'maxFraction'"
+            << " of outOfRegion in constant/granularProperties is "
+            << maxFraction_ << ", allowed: 0 to 1. The cells are in "
+            << path(mesh_.time()) << exit(FatalIOError);
+    }
+    return cut;
+}
+
+
+void Foam::regionPolicy::refuseCut() const
+{
+    write();
+    FatalIOErrorInFunction(dict_)
+        << "Cells are outside the region of the model where outOfRegion in"
+        << " constant/granularProperties says cutStep, but the time step"
+        << " cannot be cut: it is fixed or at minDeltaT, or the state at the"
+        << " start is outside. The cells are in "
+        << path(mesh_.time()) << exit(FatalIOError);
+}
+
+
+void Foam::regionPolicy::write() const
+{
+    OStringStream rows;
+    rows.precision(10);
+    for (const offender& row : offenders_)
+    {
+        rows<< ",\n  {\"state\": [";
+        forAll(row.state, k)
+        {
+            rows<< (k ? ", " : "") << row.state[k];
+        }
+        rows<< "], \"strain\": " << row.strain
+            << ", \"side\": \"" << sides[row.distance > 0].c_str()
+            << "\", \"column\": \"" << columnName(names_[row.column]).c_str()
+            << "\", \"distance\": " << mag(row.distance)
+            << ", \"cell\": " << row.cell << ", \"time\": " << row.time << '}';
+    }
+    List<string> all(Pstream::nProcs());
+    all[Pstream::myProcNo()] = rows.str();
+    Pstream::gatherList(all);
+
+    string text;
+    for (const string& part : all)
+    {
+        text += part;
+    }
+    if (!Pstream::master() || text.empty())
+    {
+        return;
+    }
+
+    const fileName file(path(mesh_.time()));
+    mkDir(file.path());
+    const fileName beside(file + ".part");
+    {
+        OFstream os(beside);
+        os  << "{\"schema\": \"msdd-offenders-1\", \"model_hash\": \""
+            << hash_.c_str() << "\",\n \"state_names\": [";
+        for (label k = 0; k < names_.size() - 1; ++k)
+        {
+            os  << (k ? ", \"" : "\"") << columnName(names_[k]).c_str() << '"';
+        }
+        os  << "],\n \"rows\": [" << text.substr(1).c_str() << "\n]}" << endl;
+    }
+    mv(beside, file);
+}
+
+
+Foam::fileName Foam::regionPolicy::path(const Time& time)
+{
+    return time.globalPath()/"postProcessing/msddFoam/offenders.json";
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,227 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "surrogateModel.H"
+
+#include <cctype>
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- reduced_pressure becomes reducedPressure
+static word fieldName(const std::string& column)
+{
+    word name;
+    bool capital = false;
+    for (const char c : column)
+    {
+        if (c != '_')
+        {
+            name += capital ? char(std::toupper(c)) : c;
+        }
+        capital = (c == '_');
+    }
+    return name;
+}
+
+
+//- The inputs are not finite: nothing to go on with
+static void failed(const char* what, const std::exception& error)
+{
+    FatalErrorInFunction
+        << "The surrogate model failed on " << what << ": " << error.what()
+        << exit(FatalError);
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::granularModels::surrogateModel::surrogateModel
+(
+    const word& type,
+    const word& key,
+    const fileName& source,
+    const string& allowed,
+    const granularProperties& properties,
+    const fvMesh& mesh
+)
+:
+    granularModel(type, properties, mesh),
+    source_(source),
+    model_(load(key, allowed)),
+    material_
+    (
+        msdd::material
+        (
+            properties.thermalConductivity().value(),
+            properties.youngModulus().value(),
+            properties.meanRadius().value()
+        )
+    )
+{
+    stateNames_.resize(label(model_.stateSize()));
+    forAll(stateNames_, i)
+    {
+        stateNames_[i] = fieldName(model_.stateName(i));
+    }
+    checkHash();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+msdd::Surrogate Foam::granularModels::surrogateModel::load
+(
+    const word& key,
+    const string& allowed
+) const
+{
+    const bool builtin = source_ == "builtin" || source_.startsWith("builtin:");
+    const std::string prefix(key == "library" ? "plugin:" : "");
+
+    try
+    {
+        return msdd::Surrogate
+        (
+            builtin ? std::string(source_) : prefix + properties_.path(source_)
+        );
+    }
+    catch (const std::exception& error)
+    {
+        refuse(key, '"' + source_ + '"', allowed + ": " + error.what());
+        throw;
+    }
+}
+
+
+void Foam::granularModels::surrogateModel::checkHash() const
+{
+    string wanted;
+    if
+    (
+        coeffs_.readIfPresent("hash", wanted) && !wanted.empty()
+     && wanted != model_.hash()
+    )
+    {
+        FatalIOErrorInFunction(coeffs_)
+            << "Entry 'hash' is " << wanted << " but model " << source_
+            << " has the hash " << model_.hash() << exit(FatalIOError);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularModels::surrogateModel::initialState
+(
+    const known& cells,
+    scalar* const* state
+)
+{
+    msdd_initial initial(msdd::initial(cells.size));
+    initial.porosity = cells.porosity;
+    initial.fabric_index = cells.fabricIndex;
+    initial.fabric_conductivity = cells.fabricConductivity;
+    initial.stress_xx = cells.stressXX;
+    initial.stress_yy = cells.stressYY;
+
+    try
+    {
+        model_.initialState(material_, initial, state);
+    }
+    catch (const std::exception& error)
+    {
+        failed("the initial state", error);
+    }
+}
+
+
+Foam::label Foam::granularModels::surrogateModel::advance(const query& cells)
+{
+    msdd_batch batch(msdd::batch(cells.size));
+    batch.state = cells.state;
+    batch.next_state = cells.nextState;
+    batch.thermal_strain = cells.strain;
+    batch.total_thermal_strain = cells.totalStrain;
+    batch.conductivity_xx = cells.conductivityXX;
+    batch.conductivity_yy = cells.conductivityYY;
+    batch.stress_xx = cells.stressXX;
+    batch.stress_yy = cells.stressYY;
+    batch.outside = cells.outside;
+
+    try
+    {
+        model_.advance(material_, batch);
+    }
+    catch (const std::exception& error)
+    {
+        failed("the state of the cells", error);
+    }
+    return label(batch.clamped_cells);
+}
+
+
+bool Foam::granularModels::surrogateModel::spread
+(
+    const query& cells,
+    scalarField& result
+) const
+{
+    msdd_batch batch(msdd::batch(cells.size));
+    batch.state = cells.state;
+    batch.thermal_strain = cells.strain;
+    batch.spread = result.data();
+
+    try
+    {
+        model_.advance(material_, batch);
+    }
+    catch (const std::exception& error)
+    {
+        failed("the spread of the cells", error);
+    }
+    return result.empty() || !std::isnan(result[0]);
+}
+
+
+void Foam::granularModels::surrogateModel::solidFraction
+(
+    const scalarField& porosity,
+    scalarField& fraction
+) const
+{
+    try
+    {
+        model_.solidFraction
+        (
+            porosity.size(),
+            porosity.cdata(),
+            fraction.data()
+        );
+    }
+    catch (const std::exception& error)
+    {
+        failed("the initial porosity", error);
+    }
+}
+
+
+// ************************************************************************* //

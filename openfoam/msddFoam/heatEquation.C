@@ -1,0 +1,412 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "heatEquation.H"
+#include "fvcGrad.H"
+#include "fvmLaplacian.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Sine of the angle below which a face counts as aligned: points are read with
+//- ten digits
+static const scalar alignedSine = 1e-7;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::heatEquation::heatEquation
+(
+    volScalarField& T,
+    const granularProperties& properties,
+    const granularState& grains,
+    const label correctors
+)
+:
+    T_(T),
+    mesh_(T.mesh()),
+    sources_(fv::options::New(mesh_)),
+    heatCapacity_
+    (
+        "volumetricHeatCapacity",
+        grains.bulkDensity()*properties.heatCapacity()
+    ),
+    Kxx_
+    (
+        IOobject("Kxx", mesh_.time().timeName(), mesh_),
+        mesh_,
+        dimensionedScalar(properties.thermalConductivity().dimensions(), Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    Kyy_(IOobject("Kyy", mesh_.time().timeName(), mesh_), Kxx_),
+    TEqn_(T, dimPower),
+    controls_(mesh_.solverDict(T.name())),
+    correctors_(correctors),
+    aligned_(isAligned(grains.model())),
+    slanted_(false),
+    patchHeat_(mesh_.boundary().size(), Zero),
+    sourceHeat_(0)
+{
+    if (aligned_)
+    {
+        findAreas();
+    }
+    else
+    {
+        K_.reset
+        (
+            new volSymmTensorField
+            (
+                IOobject("K", mesh_.time().timeName(), mesh_),
+                mesh_,
+                dimensionedSymmTensor(Kxx_.dimensions(), Zero),
+                extrapolatedCalculatedFvPatchSymmTensorField::typeName
+            )
+        );
+        mesh_.setFluxRequired(T.name());
+        findFeet();
+    }
+    Info<< "Conduction: "
+        << (aligned_ ? "n.K.n on the faces (exact here)" : "tensor laplacian")
+        << nl << endl;
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+bool Foam::heatEquation::isAligned(const granularModel& model) const
+{
+    bool aligned = model.diagonal();
+
+    const surfaceVectorField& Sf = mesh_.Sf();
+    const surfaceVectorField delta(mesh_.delta());
+    const auto check = [&](const vector& S, const vector& d)
+    {
+        const vector n(S/mag(S));
+        const scalar axis = max(mag(n.x()), mag(n.y()));
+        aligned = aligned
+         && mag(n ^ d) < alignedSine*mag(d)
+         && 1 - sqr(axis) < sqr(alignedSine);
+    };
+    forAll(mesh_.owner(), facei)
+    {
+        check(Sf[facei], delta[facei]);
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        const vectorField d(patch.delta());
+        forAll(patch, facei)
+        {
+            // The gradient at a wall is taken along its normal: where the
+            // centre lies does not matter but between cells
+            const vector& S = Sf.boundaryField()[patchi][facei];
+            check(S, patch.coupled() ? d[facei] : S);
+        }
+    }
+    return returnReduce(aligned, andOp<bool>());
+}
+
+
+void Foam::heatEquation::findAreas()
+{
+    const auto split = []
+    (
+        const vectorField& Sf,
+        const scalarField& magSf,
+        scalarField& x,
+        scalarField& y
+    )
+    {
+        // Rounded, so that a face takes one component alone
+        x = magSf*neg(mag(Sf.component(vector::Y)) - 0.5*magSf);
+        y = magSf - x;
+    };
+    split(mesh_.Sf(), mesh_.magSf(), areaX_, areaY_);
+
+    const label patches = mesh_.boundary().size();
+    patchAreaX_.resize(patches);
+    patchAreaY_.resize(patches);
+    forAll(patchAreaX_, patchi)
+    {
+        split
+        (
+            mesh_.Sf().boundaryField()[patchi],
+            mesh_.magSf().boundaryField()[patchi],
+            patchAreaX_[patchi],
+            patchAreaY_[patchi]
+        );
+    }
+}
+
+
+void Foam::heatEquation::findFeet()
+{
+    feet_.resize(mesh_.boundary().size());
+    forAll(feet_, patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if (patch.coupled())
+        {
+            continue;
+        }
+        const vectorField n(patch.nf());
+        const vectorField d(patch.Cf() - patch.Cn());
+        feet_[patchi] = d - n*(n & d);
+        slanted_ = slanted_ || max(mag(feet_[patchi])/mag(d)) > alignedSine;
+    }
+    reduce(slanted_, orOp<bool>());
+}
+
+
+void Foam::heatEquation::setStorage(const scalarField& Tstar, const scalar tau)
+{
+    const scalar rate = 1/tau;
+    const scalarField& capacity = heatCapacity_.primitiveField();
+    const scalarField& V = mesh_.V();
+    scalarField& diag = TEqn_.diag();
+    scalarField& source = TEqn_.source();
+
+    forAll(diag, celli)
+    {
+        diag[celli] = rate*capacity[celli]*V[celli];
+        source[celli] = rate*capacity[celli]*Tstar[celli]*V[celli];
+    }
+}
+
+
+void Foam::heatEquation::addAligned
+(
+    const granularState::conductivityColumns& K
+)
+{
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    const scalarField& weights = mesh_.weights();
+    const scalarField& deltaCoeffs = mesh_.deltaCoeffs();
+    scalarField& upper = TEqn_.upper();
+    scalarField& diag = TEqn_.diag();
+
+    forAll(owner, facei)
+    {
+        const label P = owner[facei], N = neighbour[facei];
+        const scalar w = weights[facei];
+        const scalar x = w*(K.xx[P] - K.xx[N]) + K.xx[N];
+        const scalar y = w*(K.yy[P] - K.yy[N]) + K.yy[N];
+        const scalar flux =
+            deltaCoeffs[facei]*(areaX_[facei]*x + areaY_[facei]*y);
+
+        upper[facei] = -flux;
+        diag[P] += flux;
+        diag[N] += flux;
+    }
+
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        const fvPatchScalarField& pT = T_.boundaryField()[patchi];
+        const scalarField& x = patchAreaX_[patchi];
+        const scalarField& y = patchAreaY_[patchi];
+        const labelUList& cells = patch.faceCells();
+        scalarField& internal = TEqn_.internalCoeffs()[patchi];
+        scalarField& boundary = TEqn_.boundaryCoeffs()[patchi];
+
+        if (pT.coupled())
+        {
+            Kxx_.primitiveFieldRef() = K.xx;
+            Kyy_.primitiveFieldRef() = K.yy;
+            Kxx_.correctBoundaryConditions();
+            Kyy_.correctBoundaryConditions();
+            const scalarField otherX
+            (
+                Kxx_.boundaryField()[patchi].patchNeighbourField()
+            );
+            const scalarField otherY
+            (
+                Kyy_.boundaryField()[patchi].patchNeighbourField()
+            );
+            const scalarField& w = patch.weights();
+            const scalarField& delta =
+                mesh_.deltaCoeffs().boundaryField()[patchi];
+
+            internal = pT.gradientInternalCoeffs(delta);
+            boundary = pT.gradientBoundaryCoeffs(delta);
+            forAll(cells, facei)
+            {
+                const label P = cells[facei];
+                const scalar gamma =
+                    x[facei]
+                   *(w[facei]*(K.xx[P] - otherX[facei]) + otherX[facei])
+                  + y[facei]
+                   *(w[facei]*(K.yy[P] - otherY[facei]) + otherY[facei]);
+                internal[facei] *= -gamma;
+                boundary[facei] *= gamma;
+            }
+        }
+        else
+        {
+            internal = pT.gradientInternalCoeffs();
+            boundary = pT.gradientBoundaryCoeffs();
+            forAll(cells, facei)
+            {
+                const label P = cells[facei];
+                const scalar gamma = x[facei]*K.xx[P] + y[facei]*K.yy[P];
+                internal[facei] *= -gamma;
+                boundary[facei] *= gamma;
+            }
+        }
+    }
+}
+
+
+void Foam::heatEquation::addTensor(const granularState::conductivityColumns& K)
+{
+    symmTensorField& cells = K_().primitiveFieldRef();
+    forAll(cells, celli)
+    {
+        cells[celli].xx() = K.xx[celli];
+        cells[celli].yy() = K.yy[celli];
+    }
+    forAll(K.xy, celli)
+    {
+        cells[celli].xy() = K.xy[celli];
+    }
+    K_().correctBoundaryConditions();
+
+    fvScalarMatrix conduction(fvm::laplacian(K_(), T_, "laplacian(K,T)"));
+
+    TEqn_.upper() = -conduction.upper();
+    TEqn_.diag() -= conduction.diag();
+    TEqn_.source() -= conduction.source();
+    forAll(mesh_.boundary(), patchi)
+    {
+        TEqn_.internalCoeffs()[patchi] = -conduction.internalCoeffs()[patchi];
+        TEqn_.boundaryCoeffs()[patchi] = -conduction.boundaryCoeffs()[patchi];
+        if (!mesh_.boundary()[patchi].coupled())
+        {
+            patchHeat_[patchi] = sum
+            (
+                conduction.faceFluxCorrectionPtr()->boundaryField()[patchi]
+            );
+        }
+    }
+    if (slanted_)
+    {
+        addWallCorrection();
+    }
+}
+
+
+void Foam::heatEquation::addWallCorrection()
+{
+    const volVectorField gradT(fvc::grad(T_));
+
+    forAll(feet_, patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if (patch.coupled())
+        {
+            continue;
+        }
+        const labelUList& cells = patch.faceCells();
+        const scalarField& internal = TEqn_.internalCoeffs()[patchi];
+        forAll(cells, facei)
+        {
+            // internal = - n.K.n |S| d(snGrad)/dT
+            const scalar heat =
+               -internal[facei]
+               *(feet_[patchi][facei] & gradT[cells[facei]]);
+            TEqn_.source()[cells[facei]] += heat;
+            patchHeat_[patchi] += heat;
+        }
+    }
+}
+
+
+void Foam::heatEquation::addSources()
+{
+    sourceHeat_ = 0;
+    if (sources_.optionList::empty())
+    {
+        return;
+    }
+    const fvScalarMatrix S(sources_(heatCapacity_, T_));
+    TEqn_ -= S;
+    sources_.constrain(TEqn_);
+    sourceHeat_ = -sum(S.source());
+    if (S.hasDiag())
+    {
+        sourceHeat_ += sum(S.diag()*T_.primitiveField());
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::heatEquation::solve
+(
+    const scalarField& Tstar,
+    const scalar tau,
+    const granularState::conductivityColumns& K
+)
+{
+    for (label corrector = 0; corrector <= correctors_; ++corrector)
+    {
+        T_.boundaryFieldRef().updateCoeffs();
+        patchHeat_ = 0;
+        setStorage(Tstar, tau);
+        if (aligned_)
+        {
+            addAligned(K);
+        }
+        else
+        {
+            addTensor(K);
+        }
+        addSources();
+        TEqn_.solve(controls_);
+
+        if (aligned_)
+        {
+            break;
+        }
+    }
+
+    forAll(patchHeat_, patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if (patch.coupled())
+        {
+            continue;
+        }
+        const scalarField& internal = TEqn_.internalCoeffs()[patchi];
+        const scalarField& boundary = TEqn_.boundaryCoeffs()[patchi];
+        const labelUList& cells = patch.faceCells();
+        forAll(boundary, facei)
+        {
+            patchHeat_[patchi] +=
+                boundary[facei] - internal[facei]*T_[cells[facei]];
+        }
+    }
+}
+
+
+// ************************************************************************* //

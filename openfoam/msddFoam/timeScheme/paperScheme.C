@@ -1,0 +1,85 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "paperScheme.H"
+#include "addToRunTimeSelectionTable.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace timeSchemes
+{
+    defineTypeNameAndDebug(paper, 0);
+    addToRunTimeSelectionTable(timeScheme, paper, dictionary);
+}
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::timeSchemes::paper::paper
+(
+    const dictionary& dict,
+    volScalarField& T,
+    granularState& grains,
+    const granularProperties& properties
+)
+:
+    timeScheme(dict, T, grains, properties)
+{
+    const dictionary& control = time_.controlDict();
+    if (control.lookupOrDefault("adjustTimeStep", false))
+    {
+        FatalIOErrorInFunction(control)
+            << "Entry 'adjustTimeStep' is on, allowed: off, or timeScheme"
+            << " secondOrder in msddFoam of system/fvSolution"
+            << exit(FatalIOError);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::timeSchemes::paper::step()
+{
+    advanceTime();
+    setLog();
+    Told_ = T_.primitiveField();
+    grains_.extrapolateTemperature(T_.primitiveFieldRef());
+
+    // Steps 1 to 3: grains from n to n + 1, strained by what T did last
+    scalar error;
+    if (grains_.propose(false, false, error))
+    {
+        grains_.policy().refuseCut();
+    }
+    grains_.commit();
+
+    // (Mechanics: wall strains of the cells belong here)
+
+    // Step 4: the heat equation
+    const scalar deltaT = time_.deltaTValue();
+    heat_.solve(Told_, deltaT, grains_.conductivityOfCells());
+    account(deltaT);
+
+    // Step 5: thermal strain
+    grains_.strain(Told_, T_.primitiveField());
+    grains_.commitStrain();
+}
+
+
+// ************************************************************************* //

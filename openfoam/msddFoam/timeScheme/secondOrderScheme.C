@@ -1,0 +1,254 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "secondOrderScheme.H"
+#include "addToRunTimeSelectionTable.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace timeSchemes
+{
+    defineTypeNameAndDebug(secondOrder, 0);
+    addToRunTimeSelectionTable(timeScheme, secondOrder, dictionary);
+}
+}
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static const scalar gamma2 = 1 - 1/std::sqrt(2.0);
+
+//- The estimates are of second order in dt
+static const scalar safety = 0.9;
+static const scalar largestGrowth = 3;
+static const scalar largestCut = 0.1;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::timeSchemes::secondOrder::secondOrder
+(
+    const dictionary& dict,
+    volScalarField& T,
+    granularState& grains,
+    const granularProperties& properties
+)
+:
+    timeScheme(dict, T, grains, properties),
+    adaptive_(time_.controlDict().lookupOrDefault("adjustTimeStep", false)),
+    temperatureTolerance_
+    (
+        granularProperties::ranged
+        (
+            dict, "temperatureTolerance", 0.05, 1e-12, 1e6
+        )
+    ),
+    stateTolerance_
+    (
+        granularProperties::ranged(dict, "stateTolerance", 1, 1e-9, 100)
+    ),
+    minDeltaT_
+    (
+        granularProperties::ranged
+        (
+            time_.controlDict(), "minDeltaT", 1e-9, 0, GREAT
+        )
+    ),
+    maxDeltaT_
+    (
+        granularProperties::ranged
+        (
+            time_.controlDict(), "maxDeltaT", GREAT, minDeltaT_, GREAT
+        )
+    ),
+    stage_(T.size(), Zero),
+    rate_(T.size(), Zero),
+    firstHeat_(T.mesh().boundary().size(), Zero),
+    firstSource_(0),
+    rejected_(0),
+    forced_(0)
+{}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
+{
+    const scalar now = time_.value();
+    const word control
+    (
+        time_.controlDict().lookupOrDefault<word>("writeControl", "timeStep")
+    );
+    scalar left = time_.endTime().value() - now;
+
+    if (control == "runTime" || control == "adjustableRunTime")
+    {
+        const scalar interval =
+            time_.controlDict().get<scalar>("writeInterval");
+        const scalar since = now - time_.startTime().value();
+        const scalar next = (std::floor(since/interval + 1e-9) + 1)*interval;
+        left = min(left, next - since);
+    }
+    return left > 0 ? left/std::ceil(left/deltaT - 1e-9) : deltaT;
+}
+
+
+Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
+{
+    scalarField& T = T_.primitiveFieldRef();
+    const scalar start = time_.value();
+
+    // Boundary values are those of the stage's time
+    time_.value() = start + gamma2*deltaT;
+    heat_.solve(Told_, gamma2*deltaT, grains_.conductivityOfCells());
+    firstHeat_ = heat_.patchHeat();
+    firstSource_ = heat_.sourceHeat();
+
+    forAll(T, celli)
+    {
+        rate_[celli] = (T[celli] - Told_[celli])/gamma2;
+        stage_[celli] = Told_[celli] + rate_[celli]/(2*gamma2);
+    }
+    grains_.strain(Told_, stage_);
+    const granularState::conductivityColumns& K = grains_.trialConductivity();
+
+    forAll(T, celli)
+    {
+        stage_[celli] = Told_[celli] + (1 - gamma2)*rate_[celli];
+        T[celli] = Told_[celli] + rate_[celli];     // first guess
+    }
+    time_.value() = start + deltaT;
+    heat_.solve(stage_, gamma2*deltaT, K);
+    time_.value() = start;
+
+    scalar error = 0;
+    forAll(T, celli)
+    {
+        error = max
+        (
+            error,
+            mag(T[celli] - stage_[celli] - gamma2*rate_[celli])
+        );
+    }
+    return returnReduce(error, maxOp<scalar>());
+}
+
+
+Foam::scalar Foam::timeSchemes::secondOrder::attempt
+(
+    const scalar deltaT,
+    bool& cut
+)
+{
+    const scalar error = stages(deltaT)/temperatureTolerance_;
+    cut = false;
+
+    if (adaptive_ && error > 1 && deltaT > minDeltaT_)
+    {
+        return error;
+    }
+    scalar stateError;
+    grains_.strain(Told_, T_.primitiveField());
+    cut = grains_.propose(true, true, stateError);
+
+    return max(error, stateError/stateTolerance_);
+}
+
+
+void Foam::timeSchemes::secondOrder::accountStages(const scalar deltaT)
+{
+    runRecord& record = grains_.record();
+    scalar sources =
+        (1 - gamma2)*firstSource_ + gamma2*heat_.sourceHeat();
+
+    forAll(firstHeat_, patchi)
+    {
+        const scalar heat = deltaT
+           *(
+                (1 - gamma2)*firstHeat_[patchi]
+              + gamma2*heat_.patchHeat()[patchi]
+            );
+        record.heat[patchi] += heat;
+        record.exchanged += mag(heat);
+    }
+    record.sourceHeat += deltaT*sources;
+    record.exchanged += deltaT*mag(sources);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::timeSchemes::secondOrder::step()
+{
+    runRecord& record = grains_.record();
+    scalar deltaT = time_.deltaTValue();
+    scalar error = 0;
+    bool cut = false;
+
+    if (adaptive_)
+    {
+        deltaT = record.nextDeltaT > 0 ? record.nextDeltaT : deltaT;
+        deltaT = landing(max(minDeltaT_, min(maxDeltaT_, deltaT)));
+    }
+    setLog();
+    Told_ = T_.primitiveField();
+
+    while (true)
+    {
+        time_.setDeltaT(deltaT, false);
+        error = attempt(deltaT, cut);
+
+        const bool smallest = !adaptive_ || deltaT <= minDeltaT_;
+        if (cut && smallest)
+        {
+            grains_.policy().refuseCut();
+        }
+        if (!cut && (smallest || error <= 1))
+        {
+            break;
+        }
+        ++rejected_;
+        T_.primitiveFieldRef() = Told_;
+        const scalar factor =
+            cut ? 0.5 : max(largestCut, safety/std::sqrt(error));
+        deltaT = max(minDeltaT_, deltaT*factor);
+    }
+    forced_ += adaptive_ && error > 1;
+
+    accountStages(deltaT);
+    grains_.commitStrain();
+    grains_.commit();
+
+    advanceTime();
+    if (adaptive_)
+    {
+        const scalar factor = safety/std::sqrt(max(error, SMALL));
+        record.nextDeltaT = deltaT*min(largestGrowth, factor);
+        // What the run is over by is judged by half of this
+        time_.setDeltaT(landing(min(maxDeltaT_, record.nextDeltaT)), false);
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,140 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "timeScheme.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(timeScheme, 0);
+    defineRunTimeSelectionTable(timeScheme, dictionary);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::timeScheme::timeScheme
+(
+    const dictionary& dict,
+    volScalarField& T,
+    granularState& grains,
+    const granularProperties& properties
+)
+:
+    dict_(dict),
+    time_(const_cast<Time&>(T.time())),
+    T_(T),
+    grains_(grains),
+    heat_
+    (
+        T,
+        properties,
+        grains,
+        label
+        (
+            granularProperties::ranged
+            (
+                dict, "nNonOrthogonalCorrectors", 0, 0, 100
+            )
+        )
+    ),
+    Told_(T.primitiveField()),
+    logInterval_
+    (
+        label(granularProperties::ranged(dict, "logInterval", 1, 1, 1e9))
+    )
+{}
+
+
+// * * * * * * * * * * * * * * * * Selectors * * * * * * * * * * * * * * * * //
+
+Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
+(
+    volScalarField& T,
+    granularState& grains,
+    const granularProperties& properties
+)
+{
+    const dictionary& solution = T.mesh().solutionDict();
+    const dictionary& dict = solution.optionalSubDict("msddFoam");
+    const word type
+    (
+        &dict == &solution
+      ? word("paper")
+      : dict.lookupOrDefault<word>("timeScheme", "paper")
+    );
+
+    if (&dict != &solution)
+    {
+        granularProperties::checkKeys
+        (
+            dict,
+            {
+                "timeScheme", "nNonOrthogonalCorrectors",
+                "temperatureTolerance", "stateTolerance", "logInterval"
+            }
+        );
+    }
+    const auto constructor = dictionaryConstructorTablePtr_->cfind(type);
+    if (!constructor.found())
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'timeScheme' is '" << type << "', allowed: "
+            << granularProperties::listed
+               (
+                   dictionaryConstructorTablePtr_->sortedToc()
+               ).c_str()
+            << exit(FatalIOError);
+    }
+    Info<< "Selecting timeScheme " << type << endl;
+    return (*constructor)(dict, T, grains, properties);
+}
+
+
+// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
+
+void Foam::timeScheme::advanceTime()
+{
+    ++time_;
+    if (time_.timeIndex() % logInterval_ == 0 || time_.writeTime())
+    {
+        Info<< "Time = " << time_.timeName() << nl;
+    }
+}
+
+
+void Foam::timeScheme::setLog() const
+{
+    solverPerformance::debug = time_.timeIndex() % logInterval_ == 0;
+}
+
+
+void Foam::timeScheme::account(const scalar interval)
+{
+    runRecord& record = grains_.record();
+    const scalarList& heat = heat_.patchHeat();
+    forAll(heat, patchi)
+    {
+        record.heat[patchi] += interval*heat[patchi];
+        record.exchanged += interval*mag(heat[patchi]);
+    }
+    record.sourceHeat += interval*heat_.sourceHeat();
+    record.exchanged += interval*mag(heat_.sourceHeat());
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,41 @@
+# Balances of heat and mass, function objects, sources.
+
+audited() { # folder: small with all function objects
+    changed "$1"
+    controls 'functions { #include "'"$here"'/audits" }'
+    mesh_is '12 6 1'
+}
+worst() { awk -v k="$2" '!/^#/ { if ($k > w) w = $k; n++ } END { print (n ? w + 0 : "nan") }' "postProcessing/$1/0/$1.dat"; }
+
+for kind in paper secondOrder; do
+    audited "audit-$kind"
+    scheme "timeScheme $kind;"
+    cat > constant/fvOptions <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object fvOptions; }
+	heating
+	{
+	    type scalarSemiImplicitSource; active yes; selectionMode all; volumeMode specific;
+	    injectionRateSuSp { T (5000 -20); }
+	}
+	END
+    logged msddFoam
+    e=$(worst heatAudit 6)
+    check "$kind: heat balance with a source closes to $e <= 1e-10" below "$e" 1e-10
+    check "$kind: the source gives heat" test "$(awk 'END { print ($4 > 0) }' postProcessing/heatAudit/0/heatAudit.dat)" = 1
+    e=$(worst massAudit 4)
+    check "$kind: mass closes to $e <= 1e-12" below "$e" 1e-12
+done
+e=$(awk 'END { print $2 }' postProcessing/wallPressure/0/wallPressure.dat)
+mean=$(sed -n 's/.*"pressure": \([0-9.e+-]*\).*/\1/p' postProcessing/msddFoam/summary.json)
+check "wallPressure: domain $e = mean pressure $mean" below "$(awk "BEGIN { print ($e/$mean - 1)^2 }")" 1e-16
+check "subRegions: mean of windows = mean porosity" below "$(
+    awk '$1 == 1 { s += $5; n++ } END { print s/n }' postProcessing/subRegions/0/subRegions.dat |
+        awk -v mean="$(field 1/porosity | awk '{ s += $1 } END { print s/NR }')" '{ print ($1/mean - 1)^2 }')" 1e-10
+
+changed audit-tensor # the tensor laplacian counts its heat, too
+controls 'functions { #include "'"$here"'/audits" }'
+grains 'surrogate { type constant; constantCoeffs { conductivity (34 8 0 26 0 0); } }'
+mesh_is '12 6 1'
+logged msddFoam
+e=$(worst heatAudit 6)
+check "tensor laplacian: heat balance closes to $e <= 1e-10" below "$e" 1e-10

@@ -1,0 +1,70 @@
+# Closed form, formulas between written fields, restart, two processes.
+
+slab() { # against the closed form; a conductivity or heat capacity wrong by 0.5 % breaks the bound
+    fresh slab slab
+    logged msddFoam
+    local error
+    error=$(awk -v heat_capacity=2 -v length_x=0.1 -v time=0.6 -f "$here/slab.awk" \
+        <(field 0.6/T) <(field 0.6/conductivity) <(field 0.6/bulkDensity) || true)
+    check "slab: error of T against the closed form $error <= 1e-3 of the step" below "$error" 1e-3
+    check "slab: fabric 0.05 conducts and presses more along x than along y" test \
+        "$(paste -d ' ' <(field 0.6/conductivity) <(field 0.6/stress) | awk '{ print ($1 > $4 && $7 < $10) }')" = 1
+    check "slab: no expansion, so one query" grep -q '"queries": 1,' postProcessing/msddFoam/summary.json
+}
+
+formulas() { # what the written fields must satisfy among themselves, after 20 steps with expansion
+    fresh small serial
+    logged msddFoam
+    columns 1/{T,thermalStrain,thermalStrainIncrement,porosity,particleDensity,pressure,stress} 0.95/{T,porosity}
+    check "thermalStrain = alpha (T - T0)" below "$(expression '$2 - 1e-3*($1 - 50)' 1/T 1/thermalStrain)" 1e-14
+    check "strain increment = alpha (T1 - T0)/(1 + alpha (T0 - 50)), step 5" below \
+        "$(expression '$3 - 1e-3*($2 - $1)/(1 + 1e-3*($1 - 50))' 0.95/T 1/T 1/thermalStrainIncrement)" 1e-14
+    check "particleDensity = bulkDensity/(1 - porosity)" below \
+        "$(expression '$2*(1 - $1)/'"$(field 1/bulkDensity)"' - 1' 1/porosity 1/particleDensity)" 1e-13
+    check "pressure = -(stress_xx + stress_yy)/2" below "$(expression '$1/(-0.5*($2 + $5)) - 1' 1/pressure 1/stress)" 1e-13
+    check "stress is tension positive, and the grains are compressed: cells with xx or yy >= 0" below \
+        "$(awk '$1 >= 0 || $4 >= 0 { n++ } END { print n + 0 }' 1/stress.column)" 0
+    check "hot grains take porosity, cold ones give it: sign of the change against that of T - 50" below \
+        "$(paste -d ' ' 1/T.column 1/porosity.column | awk '($1 > 60 && $2 >= 0.125) || ($1 < 40 && $2 <= 0.125) { n++ } END { print n + 0 }')" 0
+    check "a query a step" grep -q '"queries": 20,' postProcessing/msddFoam/summary.json
+}
+
+restarted() { # ten steps and ten more, against twenty
+    fresh small restart
+    logged foamDictionary -entry endTime -set 0.5 system/controlDict
+    logged msddFoam
+    logged foamDictionary -entry endTime -set 1 system/controlDict
+    logged msddFoam
+    local e
+    e=$(difference ../serial/1 1)
+    check "restart: difference $e <= 1e-12" below "$e" 1e-12
+}
+
+parallel() {
+    fresh small parallel
+    logged decomposePar
+    logged mpirun --oversubscribe -np 2 msddFoam -parallel
+    logged reconstructPar -latestTime
+    local e
+    e=$(difference ../serial/1 1)
+    check "two processes: difference $e <= 1e-9" below "$e" 1e-9
+}
+
+bulk_density() { # the paper's option is 1 - porosity; grains that overlap weigh more
+    fresh small paper
+    echo 'bulkDensity paper;' >> constant/granularProperties
+    logged foamDictionary -entry endTime -set 0.05 system/controlDict
+    logged msddFoam
+    local paper consistent
+    paper=$(field 0.05/bulkDensity)
+    consistent=$(field ../serial/1/bulkDensity)
+    check "bulkDensity paper: $paper = 3000 (1 - 0.125)" below "$(awk "BEGIN { print ($paper - 2625)^2 }")" 1e-12
+    check "bulkDensity massConsistent: $consistent is 0 to 5 % above" below \
+        "$(awk "BEGIN { print ($consistent/$paper - 1.025)^2 }")" 0.000625
+}
+
+slab
+formulas
+restarted
+parallel
+bulk_density

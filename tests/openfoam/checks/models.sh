@@ -1,0 +1,59 @@
+# Models by run-time selection, economy of queries.
+
+number() { sed -n "s/.*\"$1\": \([0-9.e+-]*\).*/\1/p" postProcessing/msddFoam/summary.json | head -n 1; }
+
+changed constant # the mean of the model
+grains 'surrogate { type constant; }'
+mesh_is '12 6 1'
+logged msddFoam
+check "constant: conductivity as in the network's start" test \
+    "$(field 1/conductivity | awk 'NR == 1 { printf "%.6f %.6f", $1, $4 }')" = \
+    "$(field "$work/serial/0.05/conductivity" | awk 'NR == 1 { printf "%.6f %.6f", $1, $4 }')"
+
+changed paper-network
+grains 'surrogate { model builtin:paper; outOfRegion { porosity { below clamp; } } }'
+mesh_is '12 6 1'
+logged msddFoam
+check "network: the paper's has no state beside porosity and fabric" test ! -e 1/reducedPressure
+
+online() { # folder, further keys: two cells that heat, boxes of 60 grains
+    changed "$1"
+    shift
+    grains "surrogate { type onlineRve; onlineRveCoeffs { discs 60; $1 } $2 }"
+    controls 'endTime 0.2;'
+    mesh_is '2 1 1'
+}
+online online-cell '' 'smallestStrain 0;'
+logged msddFoam
+cp -r . "$work/online-half.new"
+check "onlineRve: hot cells take porosity" \
+    awk 'NR == 1 { first = $1 } END { exit !(first < last_start) }' last_start="$(field 0.05/porosity | head -n 1)" <(field 0.2/porosity)
+rm -rf "$work/online-half"
+mv "$work/online-half.new" "$work/online-half"
+cd "$work/online-half"
+rm -rf 0.15 0.2
+logged msddFoam
+check "onlineRve: restart bit for bit" cmp -s "$work/online-cell/0.2/onlineRve.json" 0.2/onlineRve.json
+online online-waits '' 'smallestStrain 0.01;'
+logged msddFoam
+check "onlineRve: asked less with smallestStrain" \
+    test "$(number cell_queries)" -lt "$(cd "$work/online-cell" && number cell_queries)"
+online online-group 'rvePer group;' ''
+logged msddFoam
+check "onlineRve: one box for a group" grep -q '"boxes": 1,' 0.2/onlineRve.json
+check "onlineRve: cells of a group are alike" test "$(field 0.2/porosity | sort -u | wc -l)" = 1
+
+changed waits # increments are summed, not lost
+grains 'surrogate { smallestStrain 1e-3; }'
+mesh_is '12 6 1'
+logged msddFoam
+check "economy: asked $(number cell_queries) of $(number cell_steps) cell-steps" \
+    test "$(number cell_queries)" -lt "$(number cell_steps)"
+e=$(paste -d ' ' <(field "$work/serial/1/T") <(field 1/T) | awk '{ e = $1 - $2; if (e < 0) e = -e; if (e > w) w = e } END { print w }')
+check "economy: T within 0.2 K of all asked: $e" below "$e" 0.2
+
+changed still # no expansion: asked once
+grains 'thermalExpansion 0;'
+mesh_is '12 6 1'
+logged msddFoam
+check "economy: without expansion 72 cells are asked once" test "$(number cell_queries)" = 72

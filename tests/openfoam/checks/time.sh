@@ -1,0 +1,75 @@
+# Second order and adaptive steps: restart bit for bit, two processes, written times, tolerance.
+
+adaptive() { # folder, tolerance: small with adaptive steps, on its mesh
+    changed "$1"
+    controls 'adjustTimeStep yes; deltaT 1e-3; writeControl runTime; writeInterval 0.5;'
+    scheme "timeScheme secondOrder; temperatureTolerance $2; stateTolerance 1;"
+    mesh_is '12 6 1'
+}
+same_bits() { # two times of two runs
+    local name
+    for name in T porosity fabricIndex reducedPressure conductivity stress thermalStrain; do
+        cmp -s <(field "$1/$name") <(field "$2/$name") || { echo "        $name differs" >&2; return 1; }
+    done
+}
+
+adaptive_restart() {
+    adaptive whole 0.1
+    logged msddFoam
+    check "adaptive: ends on the written times" test -e 0.5/T -a -e 1/T
+    check "adaptive: a smaller first step than a tolerance asks for is not kept" \
+        test "$(grep -c '^Time' log)" -lt 200
+    cp -r . "$work/halves"
+    cd "$work/halves"
+    rm -rf 1 0.5/../1
+    logged msddFoam
+    check "adaptive: restart bit for bit" same_bits "$work/whole/1" 1
+    cp -r "$work/whole" "$work/two"
+    cd "$work/two"
+    rm -rf 0.5 1
+    logged decomposePar
+    logged mpirun --oversubscribe -np 2 msddFoam -parallel
+    logged reconstructPar -latestTime
+    local e
+    e=$(difference "$work/whole/1" 1)
+    check "adaptive: two processes: difference $e <= 1e-9" below "$e" 1e-9
+}
+
+tolerance_counts() { # a tenth of the tolerance, less than a third of the error
+    local tolerance e
+    adaptive fine 0.001
+    logged msddFoam
+    for tolerance in 1 0.1; do
+        adaptive "tolerance-$tolerance" $tolerance
+        logged msddFoam
+        e=$(difference "$work/fine/1" 1)
+        [ $tolerance = 0.1 ] || { coarse=$e; continue; }
+        check "adaptive: error falls with the tolerance: $coarse, $e" \
+            awk "BEGIN { exit !($e < 0.33*$coarse && $e > 0) }"
+    done
+}
+
+fixed_restart() {
+    changed second
+    scheme 'timeScheme secondOrder;'
+    mesh_is '12 6 1'
+    logged msddFoam
+    cp -r . "$work/second-half"
+    cd "$work/second-half"
+    rm -rf 1 0.[6-9]* 0.5[1-9]*
+    logged msddFoam
+    check "second order: restart bit for bit" same_bits "$work/second/1" 1
+}
+
+changed rejected # a first step far too large
+controls 'adjustTimeStep yes; deltaT 1; writeControl runTime; writeInterval 1;'
+scheme 'timeScheme secondOrder; temperatureTolerance 0.1;'
+mesh_is '12 6 1'
+logged msddFoam
+check "adaptive: a step too large is repeated" \
+    test "$(sed -n 's/.*"rejected_steps": \([0-9]*\).*/\1/p' postProcessing/msddFoam/summary.json)" -gt 0
+
+rm -rf "$work"/{halves,two,second-half}
+adaptive_restart
+tolerance_counts
+fixed_restart
