@@ -163,20 +163,22 @@ pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
     let names = model.state_names().len();
     assert!(batch.state.len() == names && batch.next_state.len() == names, "{names} state columns");
     let cells = batch.strain.len();
-    let (mut count, mut answer, mut state) = (0, Answer::default(), [[0.0; LANES]; MAX_STATE]);
+    let (mut count, mut answer) = (0, Answer::default());
+    let (mut state, mut strain) = ([[0.0; LANES]; MAX_STATE], [0.0; LANES]);
     for first in (0..cells).step_by(LANES) {
         let here = first..cells.min(first + LANES);
-        let lanes = |column: &[f64]| match column[first..].first_chunk::<LANES>() {
-            Some(full) => *full,
+        let read = |column: &[f64], lanes: &mut Lanes| match column[first..].first_chunk::<LANES>() {
+            Some(full) => lanes.copy_from_slice(full),
             // The last block may be short: its last cell fills it.
-            None => std::array::from_fn(|lane| column[(first + lane).min(cells - 1)]),
+            None => *lanes = std::array::from_fn(|lane| column[(first + lane).min(cells - 1)]),
         };
-        for (lanes_of, column) in state.iter_mut().zip(batch.state) {
-            *lanes_of = lanes(column);
+        for (lanes, column) in state.iter_mut().zip(batch.state) {
+            read(column, lanes);
         }
-        model.block_into(&state, &lanes(batch.strain), &mut answer);
+        read(batch.strain, &mut strain);
+        model.block_into(&state, &strain, &mut answer);
         let write = |column: &mut [f64], lanes: &Lanes| match column[first..].first_chunk_mut::<LANES>() {
-            Some(full) => *full = *lanes,
+            Some(full) => full.copy_from_slice(lanes),
             None => column[here.clone()].copy_from_slice(&lanes[..here.len()]),
         };
         for (column, lanes) in batch.next_state.iter_mut().zip(&answer.state) {
