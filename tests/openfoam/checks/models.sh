@@ -16,6 +16,15 @@ mesh_is '12 6 1'
 logged msddFoam
 check "network: the paper's has no state beside porosity and fabric" test ! -e 1/reducedPressure
 
+changed plug-in # the worked example in C, by a path relative to the case
+cc -std=c99 -O2 -shared -fPIC -I"$checkout/rust/capi/include" "$checkout/rust/capi/examples/effective_medium.c" -lm -o medium.so
+grains 'surrogate { type plugin; pluginCoeffs { library medium.so; } }'
+mesh_is '12 6 1'
+logged msddFoam
+check "plugin: hotter cells are denser than 0.125, colder ones looser" awk '
+    { if (($1 > 50) != ($2 < 0.125)) bad = 1 } END { exit bad || NR != 72 }' <(paste <(field 1/T) <(field 1/porosity))
+check "plugin: the summary names it" grep -q 'medium.so' postProcessing/msddFoam/summary.json
+
 online() { # folder, further keys: two cells that heat, boxes of 60 grains
     changed "$1"
     shift
