@@ -1,6 +1,7 @@
 //! `msdd`: the offline work of multiscale data-driven simulation. The only place that parses arguments and prints.
 #![forbid(unsafe_code)]
 
+mod ablation;
 mod bench;
 mod database;
 mod error;
@@ -50,6 +51,8 @@ enum Command {
     Train(train::Arguments),
     /// Judge a trained model on packings that it never saw: table, JSON, plots.
     Score(score::Arguments),
+    /// What each input of the networks is worth: trains them without it.
+    Ablation(ablation::Arguments),
     /// Table, JSON and plot of solver results.
     Summary(summary::Arguments),
 }
@@ -64,6 +67,7 @@ fn main() -> ExitCode {
         Command::Bench(command) => bench::run(&command),
         Command::Train(arguments) => train::run(&arguments),
         Command::Score(arguments) => score::run(&arguments),
+        Command::Ablation(arguments) => ablation::run(&arguments),
         Command::Summary(arguments) => summary::run(&arguments),
     };
     match result {

@@ -1,4 +1,4 @@
-//! `--simd`: the instruction set of the engine's kernels.
+//! `--simd`: the instruction set of the kernels.
 
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
@@ -6,7 +6,7 @@ use msdd_dem::Simd;
 
 #[derive(Args)]
 pub struct SimdArgument {
-    /// Instruction set of the engine; default: the widest of this machine. All give the same bits, so neither states nor
+    /// Instruction set of the kernels; default: the widest of this machine. All give the same bits, so neither states nor
     /// databases say which it was.
     #[arg(long, value_enum, value_name = "SET")]
     simd: Option<SimdName>,
@@ -20,10 +20,12 @@ enum SimdName {
 }
 
 impl SimdArgument {
-    /// Makes the engine use the set from now on.
+    /// Makes the kernels use the set from now on.
     pub fn apply(&self) -> Result<(), CliError> {
         let Some(name) = self.simd else { return Ok(()) };
-        set(name, Simd::available)?.prefer();
+        let set = set(name, Simd::available)?;
+        set.prefer();
+        msdd_surrogate::kernel::limit(&format!("{set:?}").to_lowercase());
         Ok(())
     }
 }

@@ -19,6 +19,7 @@
 //! | [`model_file`] | its file |
 #![deny(unsafe_code)] // kernel.rs alone may: calls of functions compiled for a wider instruction set
 
+pub mod ablation;
 pub mod composition;
 pub mod constant;
 pub mod dataset;

@@ -67,6 +67,12 @@ impl Perceptron {
         Self { sizes: sizes.to_vec(), weights }
     }
 
+    /// Makes the outputs independent of an input.
+    pub(crate) fn forget(&mut self, input: usize) {
+        let width = self.sizes[0] + 1;
+        self.weights[..width * self.sizes[1]].chunks_exact_mut(width).for_each(|row| row[input] = 0.0);
+    }
+
     pub fn outputs(&self) -> usize {
         self.sizes[self.sizes.len() - 1]
     }

@@ -141,7 +141,8 @@ pub fn one_step_pairs(model: &dyn Surrogate, ramps: &[Ramp]) -> [Vec<[f64; 2]>; 
     pairs
 }
 
-fn one_step(model: &dyn Surrogate, ramps: &[Ramp]) -> OneStep {
+/// R² on some ramps.
+pub fn one_step(model: &dyn Surrogate, ramps: &[Ramp]) -> OneStep {
     let pairs = one_step_pairs(model, ramps);
     OneStep {
         packings: dataset::packings(ramps),

@@ -135,7 +135,7 @@ pub fn train(
 ) -> Result<(Model, Report), SurrogateError> {
     options.check()?;
     let split = dataset::split(dataset::ramps(rows)?, options.seed)?;
-    let samples = Parts::of(&split, |ramps| thinned(ramps.iter().flat_map(Ramp::samples).collect()));
+    let samples = Parts::of(&split, samples);
     let (range, scales) = scaling::measure(&samples.training)?;
     let solid_fraction = SolidFraction::fit(rows)?;
     let fitted = best_of_starts(&samples, &range, &scales, options, &mut progress);
@@ -163,10 +163,22 @@ pub fn train(
 /// Samples at most: eight times the paper's, for 438 weights. More only cost time.
 const MOST_SAMPLES: usize = 40_000;
 
-/// Every second, third … pair of a sample and its mirror image.
-fn thinned(samples: Vec<Sample>) -> Vec<Sample> {
+/// Samples of some ramps: every second, third … pair of a sample and its mirror image.
+pub(crate) fn samples(ramps: &[Ramp]) -> Vec<Sample> {
+    let samples: Vec<Sample> = ramps.iter().flat_map(Ramp::samples).collect();
     let every = samples.len().div_ceil(MOST_SAMPLES).max(1);
     samples.chunks(2).step_by(every).flatten().cloned().collect()
+}
+
+/// Scores on the test samples of a network fitted to the others.
+pub(crate) fn scores_of_fit(
+    samples: &Parts<Vec<Sample>>,
+    range: &TrainedRange,
+    scales: &OutputScales,
+    options: &TrainingOptions,
+) -> Scores {
+    let network = best_of_starts(samples, range, scales, options, &mut |_| ()).network;
+    scores(&Predictor { network, range: *range, scales: *scales }, &samples.test)
 }
 
 impl<T> Parts<T> {

@@ -2,6 +2,7 @@
 
 use crate::error::CliError;
 use crate::files::read_text;
+use crate::simd::SimdArgument;
 use clap::Args;
 use msdd_surrogate::kernel;
 use msdd_surrogate::models;
@@ -19,12 +20,15 @@ pub struct Arguments {
     /// Queries to time for each batch size.
     #[arg(long, default_value_t = 3_000_000)]
     queries: usize,
+    #[command(flatten)]
+    simd: SimdArgument,
 }
 
 /// Cells in a batch: one, a register's, a scene's, more than the caches hold.
 const BATCHES: [usize; 4] = [1, 64, 3_000, 1_000_000];
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    arguments.simd.apply()?;
     let mut results = Map::new();
     for file in &arguments.model {
         let failed = |source| CliError::Model { file: file.clone(), source };

@@ -19,6 +19,7 @@ use crate::state::rates::Rates;
 use crate::state::variables::Features;
 use crate::surrogate::{Answer, StateLanes};
 use std::mem::MaybeUninit;
+use std::sync::atomic::{AtomicU8, Ordering};
 use vector::{Portable, Vector};
 
 /// Cells in a block: two AVX-512 registers of f64, whose chains of dependent operations overlap.
@@ -34,18 +35,33 @@ pub struct Activations {
     pub outputs: [Lanes; OUTPUTS],
 }
 
+/// Instruction sets by rank: what [`limit`] allows at most.
+const SETS: [&str; 3] = ["scalar", "avx2", "avx512"];
+static ALLOWED: AtomicU8 = AtomicU8::new(SETS.len() as u8 - 1);
+
+/// Makes the kernels of this process use no wider set than this one ("scalar", "avx2", "avx512"): for measurements; the
+/// bits are the same. Unknown names change nothing.
+pub fn limit(set: &str) {
+    if let Some(rank) = SETS.iter().position(|known| *known == set) {
+        ALLOWED.store(rank as u8, Ordering::Relaxed);
+    }
+}
+
 #[cfg(target_arch = "x86_64")]
 #[inline]
 fn has_avx512() -> bool {
     is_x86_feature_detected!("avx512f")
         && is_x86_feature_detected!("avx512dq")
         && is_x86_feature_detected!("fma")
+        && ALLOWED.load(Ordering::Relaxed) >= 2
 }
 
 #[cfg(target_arch = "x86_64")]
 #[inline]
 fn has_avx2() -> bool {
-    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
+    is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("fma")
+        && ALLOWED.load(Ordering::Relaxed) >= 1
 }
 
 /// Instruction set that the kernels take on this machine: "avx512", "avx2" or "scalar".

@@ -2,7 +2,7 @@
 
 use super::composed_fit::RatesFit;
 use super::file::Provenance;
-use super::fit::{PerceptronFit, Residual, TERMS};
+use super::fit::{PerceptronFit, Residual, Sample, TERMS};
 use super::mean::MeanState;
 use super::model::{Core, StateModel};
 use super::pairs::{self, Pair};
@@ -93,7 +93,19 @@ pub fn train(
     mechanical: &Mechanical,
     options: &StateOptions,
 ) -> Result<StateModel, SurrogateError> {
+    train_blind(rows, mechanical, options, None)
+}
+
+/// As [`train`]; with `Some(blind)` a model fitted to single steps alone, for comparisons, whose networks do not see that
+/// even input.
+pub(crate) fn train_blind(
+    rows: &[StateRow],
+    mechanical: &Mechanical,
+    options: &StateOptions,
+    single: Option<Option<usize>>,
+) -> Result<StateModel, SurrogateError> {
     options.check()?;
+    let blind = single.flatten();
     let kinds = kinds(rows);
     let split = dataset::split(dataset::ramps(rows)?, options.common.seed)?;
     let parts = Parts::of(&split, |ramps| pairs::pairs(options.variables, kinds[0], ramps));
@@ -102,12 +114,13 @@ pub fn train(
     let ranges = FeatureRanges::of(&training_points, strains(&parts.training)?);
     ranges.check()?;
 
-    let scaled =
-        |rates: &Rates, pairs: &[Pair]| pairs::rate_samples(options.variables, &ranges, rates, pairs);
+    let scaled = |rates: &Rates, pairs: &[Pair]| {
+        without(blind, pairs::rate_samples(options.variables, &ranges, rates, pairs))
+    };
     let blank = pairs::blank_rates(options.variables, &options.hidden, &parts.training, &split.training);
     let fit = |ramps: &[Ramp], pairs: &[Pair], threads| RatesFit {
         single: PerceptronFit::new(blank.network.sizes.clone(), &scaled(&blank, pairs), threads),
-        tracks: pairs::tracks(options.variables, kinds[0], ramps),
+        tracks: if single.is_some() { Vec::new() } else { pairs::tracks(options.variables, kinds[0], ramps) },
         variables: options.variables,
         ranges: &ranges,
         rates: &blank,
@@ -115,8 +128,10 @@ pub fn train(
     let validation = fit(&split.validation, &parts.validation, 1);
     let threads = options.fit_threads();
     let training = fit(&split.training, &parts.training, threads);
-    let (network, rates_report) = best_of_starts(&training, &validation, &blank.network.sizes, options, 0);
+    let (mut network, rates_report) =
+        best_of_starts(&training, &validation, &blank.network.sizes, options, 0);
     drop((training, validation));
+    blind.inspect(|input| network.forget(*input));
     let rates = Rates { network, ..blank };
 
     let (mut readouts, mut readout_reports) = (Vec::new(), Vec::new());
@@ -124,12 +139,14 @@ pub fn train(
         let carried = index == 0 && options.variables.fabric_conductivity;
         let sizes = Readout::sizes(options.variables, carried, &options.readout_hidden);
         let samples = |ramps: &[Ramp]| {
-            pairs::readout_samples(options.variables, carried, &ranges, &points(ramps, *kind))
+            let samples = pairs::readout_samples(options.variables, carried, &ranges, &points(ramps, *kind));
+            without(blind, samples)
         };
         let fit = |ramps, threads| PerceptronFit::new(sizes.clone(), &samples(ramps), threads);
         let (training, validation) = (fit(&split.training, options.fit_threads()), fit(&split.validation, 1));
         let stream = 100 * (index as u64 + 1);
-        let (network, report) = best_of_starts(&training, &validation, &sizes, options, stream);
+        let (mut network, report) = best_of_starts(&training, &validation, &sizes, options, stream);
+        blind.filter(|input| *input < sizes[0]).inspect(|input| network.forget(*input));
         let (offset, scale) = pairs::READOUT_SCALES;
         readouts.push(Readout { kind: *kind, network, offset, scale, carried });
         readout_reports.push(report);
@@ -164,6 +181,14 @@ pub fn train(
     model.provenance.report = report;
     model.hash = model_file::hash(&super::file::text(&model));
     Ok(model)
+}
+
+/// The samples with one input 0, the middle of its range.
+fn without(blind: Option<usize>, mut samples: Vec<Sample>) -> Vec<Sample> {
+    for input in samples.iter_mut().filter_map(|sample| sample.inputs.get_mut(blind?)) {
+        *input = 0.0;
+    }
+    samples
 }
 
 impl StateOptions {

@@ -1,0 +1,73 @@
+//! `msdd ablation`: what each input of the networks is worth.
+
+use crate::error::CliError;
+use crate::files::write_atomically;
+use crate::rows::training_data;
+use clap::Args;
+use msdd_rve::database::read_all;
+use msdd_surrogate::ablation::{self, Line};
+use msdd_surrogate::state::training::StateOptions;
+use serde_json::json;
+use std::path::PathBuf;
+
+#[derive(Args)]
+#[command(
+    after_help = "The paper's Table 3. A split by sample flatters: samples of one packing resemble each other."
+)]
+pub struct Arguments {
+    /// Database, or the CSV that was exported from one; given several times, all of them together.
+    #[arg(long, value_name = "FILE", required = true)]
+    database: Vec<PathBuf>,
+    /// Fixes the splits and the starting weights.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Levenberg-Marquardt steps of each network at most.
+    #[arg(long, default_value_t = 20)]
+    epochs: u32,
+    /// JSON to write.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let dataset = read_all(&arguments.database)?;
+    let rows = training_data(&dataset.records).rows;
+    let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
+    let mut options = StateOptions::default();
+    (options.common.seed, options.common.max_epochs, options.common.restarts) =
+        (arguments.seed, arguments.epochs, 1);
+    options.common.database.plan_hash = dataset.provenance.get("plan_hash").cloned().unwrap_or_default();
+    println!("R2 (Eq. 12) of one step on what the fit did not see; {} epochs", arguments.epochs);
+    println!(
+        "{:<44} {:>7} {:>7} {:>7} {:>7} {:>7}",
+        "paper's network, all states", "d eta", "d f", "d f_K", "K", "sigma"
+    );
+    let paper = ablation::paper(&rows, &options.common).map_err(failed)?;
+    for line in &paper {
+        let s = &line.scores;
+        print(line, [s.delta_porosity, s.delta_fabric_index, f64::NAN, s.conductivity, s.stress]);
+    }
+    println!("state model fitted to single steps, jammed states");
+    let state = ablation::state(&rows, &options).map_err(failed)?;
+    for line in &state {
+        let s = &line.scores;
+        let fabric = s.delta_fabric_conductivity.unwrap_or(f64::NAN);
+        print(line, [s.delta_porosity, s.delta_fabric_index, fabric, s.conductivity, s.stress]);
+    }
+    if let Some(path) = &arguments.json {
+        let text = serde_json::to_string_pretty(&json!({ "paper": paper, "state": state }))
+            .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
+        write_atomically(path, (text + "\n").as_bytes())?;
+    }
+    Ok(())
+}
+
+fn print<T>(line: &Line<T>, values: [f64; 5]) {
+    let what = match line.without {
+        None => format!("  all inputs, split by {}", if line.random_split { "sample" } else { "packing" }),
+        Some(input) => format!("  without {input}"),
+    };
+    let text = |value: f64| if value.is_nan() { "-".to_string() } else { format!("{value:.4}") };
+    let columns: Vec<String> = values.map(|value| format!("{:>7}", text(value))).to_vec();
+    println!("{what:<44} {}", columns.join(" "));
+}

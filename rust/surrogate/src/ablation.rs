@@ -1,0 +1,126 @@
+//! What each input is worth (the paper's Table 3), and what a split by sample instead of by packing flatters.
+//!
+//! An input is taken away by making it a constant in training and test alike.
+
+use crate::SurrogateError;
+use crate::dataset::{self, Sample, StateRow};
+use crate::network::INPUTS;
+use crate::scaling;
+use crate::score::{OneStep, one_step, ramps};
+use crate::scores::Scores;
+use crate::state::training::{Mechanical, StateOptions, train_blind};
+use crate::training::{self, Parts, TrainingOptions};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::Serialize;
+
+/// Inputs of the paper's network.
+pub const PAPER_INPUTS: [&str; INPUTS] = ["porosity", "fabric_index", "thermal_strain"];
+/// Even inputs of the state model's networks; its odd ones are left out with their variables.
+pub const STATE_INPUTS: [&str; 4] = ["porosity", "pressure", "deviator or fabric squared", "thermal_strain"];
+
+/// R² of a network without one of its inputs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Line<T> {
+    /// The input taken away; none: all are there.
+    pub without: Option<&'static str>,
+    /// Whether samples, not packings, were split at random.
+    pub random_split: bool,
+    /// On what the fit did not see.
+    pub scores: T,
+}
+
+/// The paper's network: all inputs with either split, then without each.
+///
+/// # Errors
+/// [`SurrogateError::Data`] for unusable rows.
+pub fn paper(rows: &[StateRow], options: &TrainingOptions) -> Result<Vec<Line<Scores>>, SurrogateError> {
+    options.check()?;
+    let split = dataset::split(dataset::ramps(rows)?, options.seed)?;
+    let by_packing = Parts::of(&split, training::samples);
+    let mut lines = vec![
+        line(&shuffled(&by_packing, options.seed), None, true, options)?,
+        line(&by_packing, None, false, options)?,
+    ];
+    for input in 0..INPUTS {
+        lines.push(line(&by_packing, Some(input), false, options)?);
+    }
+    Ok(lines)
+}
+
+fn line(
+    samples: &Parts<Vec<Sample>>,
+    blind: Option<usize>,
+    random_split: bool,
+    options: &TrainingOptions,
+) -> Result<Line<Scores>, SurrogateError> {
+    let (range, scales) = scaling::measure(&samples.training)?;
+    let constant = |sample: &Sample| {
+        let mut sample = sample.clone();
+        if let Some(input) = blind {
+            let range = range.inputs()[input];
+            sample.inputs[input] = 0.5 * (range.min + range.max);
+        }
+        sample
+    };
+    let blinded = samples.map(|part| part.iter().map(constant).collect());
+    let scores = training::scores_of_fit(&blinded, &range, &scales, options);
+    Ok(Line { without: blind.map(|input| PAPER_INPUTS[input]), random_split, scores })
+}
+
+/// All samples dealt anew; a sample goes with its mirror image.
+fn shuffled(samples: &Parts<Vec<Sample>>, seed: u64) -> Parts<Vec<Sample>> {
+    let all = [&samples.training[..], &samples.validation, &samples.test].concat();
+    let mut pairs: Vec<&[Sample]> = all.chunks(2).collect();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    for last in (1..pairs.len()).rev() {
+        pairs.swap(last, (random.next_u64() % (last as u64 + 1)) as usize);
+    }
+    let held = samples.test.len() / 2;
+    let (test, rest) = pairs.split_at(held);
+    let (validation, training) = rest.split_at(held.min(rest.len() / 2));
+    Parts { training: training.concat(), validation: validation.concat(), test: test.concat() }
+}
+
+/// The state model, fitted to single steps: all inputs, then without each even one, on held-out packings.
+///
+/// # Errors
+/// [`SurrogateError::Data`] for unusable rows.
+pub fn state(rows: &[StateRow], options: &StateOptions) -> Result<Vec<Line<OneStep>>, SurrogateError> {
+    let plan = &options.common.database.plan_hash;
+    let mut lines = Vec::new();
+    for blind in std::iter::once(None).chain((0..STATE_INPUTS.len()).map(Some)) {
+        let model = train_blind(rows, &Mechanical::default(), options, Some(blind))?;
+        let scores = one_step(&model, &ramps(&model, rows, plan)?.unseen);
+        lines.push(Line { without: blind.map(|k| STATE_INPUTS[k]), random_split: false, scores });
+    }
+    Ok(lines)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic;
+
+    #[test]
+    fn what_matters_is_missed() {
+        let rows = synthetic::rows(20, 3);
+        let options = TrainingOptions { max_epochs: 15, restarts: 1, ..TrainingOptions::default() };
+        let lines = paper(&rows, &options).expect("good rows");
+        let find = |without: Option<&str>, random| {
+            lines.iter().find(|l| l.without == without && l.random_split == random).expect("there").scores
+        };
+        let all = find(None, false);
+        assert!(all.delta_porosity > 0.99 && find(None, true).delta_porosity > 0.99, "{lines:?}");
+        // Paper: the strain alone is essential for the porosity increment; conductivity needs the porosity.
+        assert!(find(Some("thermal_strain"), false).delta_porosity < 0.5, "{lines:?}");
+        assert!(find(Some("porosity"), false).conductivity < all.conductivity - 0.05, "{lines:?}");
+
+        let mut options = StateOptions::default();
+        (options.common.max_epochs, options.common.restarts) = (12, 1);
+        let lines = state(&rows, &options).expect("good rows");
+        assert_eq!(lines.len(), 1 + STATE_INPUTS.len());
+        let porosity = |line: usize| lines[line].scores.delta_porosity;
+        assert!(porosity(0) > 0.999 && porosity(4) < 0.99, "{lines:?}"); // the last: without the strain
+    }
+}
