@@ -56,7 +56,7 @@ fn line(
 ) -> Result<Line<Scores>, SurrogateError> {
     let (range, scales) = scaling::measure(&samples.training)?;
     let constant = |sample: &Sample| {
-        let mut sample = sample.clone();
+        let mut sample = *sample;
         if let Some(input) = blind {
             let range = range.inputs()[input];
             sample.inputs[input] = 0.5 * (range.min + range.max);

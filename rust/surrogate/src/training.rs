@@ -167,7 +167,7 @@ const MOST_SAMPLES: usize = 40_000;
 pub(crate) fn samples(ramps: &[Ramp]) -> Vec<Sample> {
     let samples: Vec<Sample> = ramps.iter().flat_map(Ramp::samples).collect();
     let every = samples.len().div_ceil(MOST_SAMPLES).max(1);
-    samples.chunks(2).step_by(every).flatten().cloned().collect()
+    samples.chunks(2).step_by(every).flatten().copied().collect()
 }
 
 /// Scores on the test samples of a network fitted to the others.
