@@ -56,7 +56,7 @@ Foam::autoPtr<Foam::granularModel> Foam::granularModel::New
 
     wordList allowed
     ({
-        "type", "model", "hash", "smallestStrain", "outOfRegion"
+        "type", "model", "hash", "conductivity", "smallestStrain", "outOfRegion"
     });
     for (const word& name : types)
     {

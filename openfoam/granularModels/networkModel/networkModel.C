@@ -50,7 +50,24 @@ Foam::granularModels::network::network
 {
     if (&coeffs_ != &properties.surrogateDict())
     {
-        granularProperties::checkKeys(coeffs_, {"model", "hash"});
+        granularProperties::checkKeys
+        (
+            coeffs_,
+            {"model", "hash", "conductivity"}
+        );
+    }
+
+    word kind;
+    if (coeffs_.readIfPresent("conductivity", kind))
+    {
+        try
+        {
+            model_ = model_.withConductivity(kind);
+        }
+        catch (const std::exception& error)
+        {
+            refuse("conductivity", kind, error.what());
+        }
     }
 }
 
