@@ -73,6 +73,7 @@ void Foam::granularState::refresh()
         // The one place where compression positive becomes tension positive
         sigma[celli].xx() = -stressXX_[celli];
         sigma[celli].yy() = -stressYY_[celli];
+        sigma[celli].xy() = stressXY_[celli];
         p[celli] = -0.5*(sigma[celli].xx() + sigma[celli].yy());
     }
     forAll(K_.xy, celli)
