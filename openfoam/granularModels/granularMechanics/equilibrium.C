@@ -69,7 +69,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     dict_(properties.subOrEmptyDict("equilibriumCoeffs")),
     tolerance_
     (
-        granularProperties::ranged(dict_, "residual", 0.5, 1e-9, 1e9)
+        granularProperties::ranged(dict_, "residual", 5, 1e-9, 1e9)
     ),
     maxIterations_
     (
@@ -269,10 +269,18 @@ void Foam::granularMechanicsModels::equilibrium::findTangent()
     C_ = grains_.tangent();
     forAll(shearModulus_, celli)
     {
-        const scalar mean = 0.5*(C_.c11[celli] + C_.c22[celli]);
+        scalar& c11 = C_.c11[celli];
+        scalar& c22 = C_.c22[celli];
+        scalar& c12 = C_.c12[celli];
+        const scalar mean = 0.5*(c11 + c22);
         shearModulus_[celli] =
-            shearFactor_
-           *max(0.5*(mean - C_.c12[celli]), lowestShear*mean);
+            shearFactor_*max(0.5*(mean - c12), lowestShear*mean);
+
+        // The deviator's part scaled, as imbalance() does; made symmetric
+        const scalar more = 0.5*(shearFactor_ - 1)*(mean - c12);
+        c11 += more;
+        c22 += more;
+        c12 -= more;
         C_.c12[celli] = min
         (
             C_.c12[celli],
@@ -523,8 +531,10 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
                 yy += s.c[a]*v.y();
                 xy += s.c[a]*v.x() + s.b[a]*v.y();
             }
-            exx[celli] = xx;
-            eyy[celli] = yy;
+            // A medium stiffer in shear by shearFactor, as stiff in volume
+            const scalar deviator = 0.5*(shearFactor_ - 1)*(xx - yy);
+            exx[celli] = xx + deviator;
+            eyy[celli] = yy - deviator;
             stress_.xy[celli] += shearModulus_[celli]*xy;
         }
         grains_.deform(exx, eyy, sinPhi_, stress_);
