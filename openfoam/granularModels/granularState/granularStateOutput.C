@@ -51,7 +51,10 @@ void Foam::granularState::findReaders()
         }
         const word type(dict.lookupOrDefault<word>("type", word::null));
         const wordList ours
-        ({"wallPressure", "subRegions", "heatAudit", "massAudit"});
+        ({
+            "wallPressure", "subRegions", "heatAudit", "massAudit",
+            "spaceProbes"
+        });
         refreshAlways_ = refreshAlways_ || (sees && !ours.found(type));
     }
 }
