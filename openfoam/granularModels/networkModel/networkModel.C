@@ -50,7 +50,7 @@ Foam::granularModels::network::network
 {
     if (&coeffs_ != &properties.surrogateDict())
     {
-        granularProperties::checkKeys(coeffs_, {"model", "hash"});
+        granularProperties::checkKeys(coeffs_, {"model", "hash", "conductivityKind"});
     }
 }
 

@@ -99,10 +99,15 @@ msdd::Surrogate Foam::granularModels::surrogateModel::load
 
     try
     {
-        return msdd::Surrogate
+        msdd::Surrogate model
         (
             builtin ? std::string(source_) : prefix + properties_.path(source_)
         );
+        word kind;
+        return
+            coeffs_.readIfPresent("conductivityKind", kind)
+          ? model.withConductivity(kind)
+          : std::move(model);
     }
     catch (const std::exception& error)
     {
