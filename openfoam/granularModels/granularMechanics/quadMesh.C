@@ -15,7 +15,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "quadMesh.H"
-#include "volFields.H"
 #include "syncTools.H"
 #include "emptyPolyPatch.H"
 
@@ -176,7 +175,7 @@ void Foam::quadMesh::shapes
         if (!(s.area > 0))
         {
             FatalErrorInFunction
-                << "Cell " << celli << " at " << mesh_.C()[celli]
+                << "Cell " << celli << " at " << mesh_.cellCentres()[celli]
                 << " is torn or turned inside out by the displacement: area "
                 << s.area << " m2" << exit(FatalError);
         }

@@ -137,7 +137,7 @@ void Foam::wallConditions::findAxis(const label patchi, const dictionary& dict)
     {
         const vector2D t(points[e.second] - points[e.first]);
         const vector2D m(0.5*(points[e.second] + points[e.first]));
-        const point& C = mesh_.mesh().C()[e.cell];
+        const point& C = mesh_.mesh().cellCentres()[e.cell];
         const label axis = mag(t.x()) > mag(t.y());
         const scalar out = (axis ? m.y() - C.y() : m.x() - C.x());
         sum[axis] += out > 0 ? 1 : -1;
@@ -175,6 +175,10 @@ void Foam::wallConditions::findFree()
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
+        if (w.type == kind::none)
+        {
+            continue;
+        }
         for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
         {
             for (const label node : {e.first, e.second})
