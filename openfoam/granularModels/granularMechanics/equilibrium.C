@@ -75,6 +75,13 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     (
         label(granularProperties::ranged(dict_, "maxIterations", 30, 1, 1000))
     ),
+    maxResidual_
+    (
+        granularProperties::ranged
+        (
+            dict_, "maxResidual", 20*tolerance_, tolerance_, 1e12
+        )
+    ),
     sinPhi_(granularProperties::ranged(dict_, "sinPhi", 0.35, 0.01, 1)),
     shearFactor_
     (
@@ -139,7 +146,10 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     granularProperties::checkKeys
     (
         dict_,
-        {"residual", "maxIterations", "sinPhi", "shearFactor", "walls"}
+        {
+            "residual", "maxIterations", "maxResidual", "sinPhi",
+            "shearFactor", "walls"
+        }
     );
     if (!grains.model().hasTangent())
     {
@@ -620,6 +630,40 @@ void Foam::granularMechanicsModels::equilibrium::keep
 }
 
 
+void Foam::granularMechanicsModels::equilibrium::refuse
+(
+    const scalar residual,
+    const nodeField& r
+)
+{
+    label worst = 0;
+    scalar most = -1;
+    forAll(r, i)
+    {
+        const scalar here = cmptMax(cmptMag(r[i]))/std::sqrt(nodeArea_[i]);
+        if (here > most)
+        {
+            most = here;
+            worst = i;
+        }
+    }
+    grains_.refresh();
+    const_cast<Time&>(mesh_.time()).writeNow();
+
+    // One process has the worst node; all end
+    if (most >= residual*(1 - 1e-9))
+    {
+        FatalErrorInFunction
+            << "Equilibrium at time " << mesh_.time().timeName() << ": after "
+            << maxIterations_ << " iterations " << residual
+            << " Pa are out of balance at " << mesh_.points()[quads_.front()[worst]]
+            << ", allowed: maxResidual " << maxResidual_
+            << " Pa of equilibriumCoeffs. The fields of this time are written"
+            << exit(FatalError);
+    }
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::granularMechanicsModels::equilibrium::solve()
@@ -665,6 +709,10 @@ void Foam::granularMechanicsModels::equilibrium::solve()
     unconverged_ += now > tolerance_;
     worst_ = max(worst_, now);
 
+    if (now > maxResidual_)
+    {
+        refuse(now, r);
+    }
     // As the line of the linear solver of T
     if (solverPerformance::debug)
     {

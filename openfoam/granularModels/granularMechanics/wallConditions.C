@@ -48,6 +48,7 @@ Foam::wallConditions::wallConditions
     balanced_(mesh.size(), vector2D(1, 1)),
     slip_(mesh.size(), vector2D(1, 1))
 {
+    checkNames(dict);
     forAll(walls_, patchi)
     {
         walls_.set(patchi, new wall);
@@ -58,6 +59,28 @@ Foam::wallConditions::wallConditions
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::wallConditions::checkNames(const dictionary& dict) const
+{
+    const wordList names(mesh_.mesh().boundaryMesh().names());
+    for (const entry& item : dict)
+    {
+        const keyType& key = item.keyword();
+        bool found = false;
+        for (const word& name : names)
+        {
+            found = found || key.match(name);
+        }
+        if (!found)
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry '" << key << "' of walls is no patch, allowed: "
+                << granularProperties::listed(names).c_str()
+                << exit(FatalIOError);
+        }
+    }
+}
+
 
 void Foam::wallConditions::read
 (
