@@ -17,7 +17,42 @@ License
 #include "bandSolver.H"
 #include "bandCompression.H"
 
+#include <algorithm>
 #include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Scalar product from first to before last, in four sums that do not wait for
+//- one another
+static inline scalar product
+(
+    const scalar* a,
+    const scalar* b,
+    const label first,
+    const label last
+)
+{
+    scalar s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+    label k = first;
+    for (; k + 4 <= last; k += 4)
+    {
+        s0 += a[k]*b[k];
+        s1 += a[k + 1]*b[k + 1];
+        s2 += a[k + 2]*b[k + 2];
+        s3 += a[k + 3]*b[k + 3];
+    }
+    for (; k < last; ++k)
+    {
+        s0 += a[k]*b[k];
+    }
+    return (s0 + s1) + (s2 + s3);
+}
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -25,7 +60,7 @@ Foam::bandSolver::bandSolver(const quadMesh& mesh)
 :
     number_(mesh.size()),
     rows_(2*mesh.size()),
-    width_(1)
+    width_(0)
 {
     List<DynamicList<label>> near(mesh.size());
     for (const quadMesh::quad& q : mesh.quads())
@@ -46,16 +81,51 @@ Foam::bandSolver::bandSolver(const quadMesh& mesh)
     {
         neighbours[i] = near[i];
     }
-    const labelList order(bandCompression(neighbours));
-    forAll(order, i)
+    // By levels, or along either axis, whichever band is the narrowest
+    const List<vector2D>& points = mesh.points();
+    const auto along = [&points](const label axis)
     {
-        number_[order[i]] = i;
-    }
-    forAll(neighbours, a)
+        labelList order(identity(points.size()));
+        std::stable_sort
+        (
+            order.begin(), order.end(),
+            [&points, axis](const label a, const label b)
+            {
+                // Rounded: points of a column differ by their last digits
+                const scalar xa = std::round(points[a][axis]*1e9);
+                const scalar xb = std::round(points[b][axis]*1e9);
+                return
+                    xa != xb
+                  ? xa < xb
+                  : points[a][1 - axis] < points[b][1 - axis];
+            }
+        );
+        return order;
+    };
+    width_ = labelMax;
+    for
+    (
+        const labelList& order :
+        {bandCompression(neighbours), along(0), along(1)}
+    )
     {
-        for (const label b : neighbours[a])
+        labelList number(order.size());
+        forAll(order, i)
         {
-            width_ = max(width_, 2*mag(number_[a] - number_[b]) + 1);
+            number[order[i]] = i;
+        }
+        label width = 1;
+        forAll(neighbours, i)
+        {
+            for (const label j : neighbours[i])
+            {
+                width = max(width, 2*mag(number[i] - number[j]) + 1);
+            }
+        }
+        if (width < width_)
+        {
+            width_ = width;
+            number_ = number;
         }
     }
     factor_.resize(rows_*(width_ + 1), Zero);
@@ -74,11 +144,8 @@ void Foam::bandSolver::factorise()
         for (label j = first; j <= i; ++j)
         {
             const scalar* Lj = &entry(j, j) - j;
-            scalar value = Li[j];
-            for (label k = max(first, j - width_); k < j; ++k)
-            {
-                value -= Li[k]*Lj[k];
-            }
+            const scalar value =
+                Li[j] - product(Li, Lj, max(first, j - width_), j);
             if (j < i)
             {
                 Li[j] = value/Lj[j];
@@ -104,21 +171,18 @@ void Foam::bandSolver::solve(List<vector2D>& values) const
     for (label i = 0; i < rows_; ++i)
     {
         const scalar* L = factor_.cdata() + i*stride + width_ - i;
-        scalar value = x_[i];
-        for (label k = max(label(0), i - width_); k < i; ++k)
-        {
-            value -= L[k]*x_[k];
-        }
-        x_[i] = value/L[i];
+        const label first = max(label(0), i - width_);
+        x_[i] = (x_[i] - product(L, x_.cdata(), first, i))/L[i];
     }
     for (label i = rows_ - 1; i >= 0; --i)
     {
         const scalar* L = factor_.cdata() + i*stride + width_ - i;
         x_[i] /= L[i];
         const scalar value = x_[i];
+        scalar* x = x_.data();
         for (label k = max(label(0), i - width_); k < i; ++k)
         {
-            x_[k] -= L[k]*value;
+            x[k] -= L[k]*value;
         }
     }
     forAll(values, i)

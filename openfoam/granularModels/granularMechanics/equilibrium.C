@@ -672,8 +672,15 @@ void Foam::granularMechanicsModels::equilibrium::solve()
     bool moved = returnReduce(quads_.dot(du, du) > 0, orOp<bool>());
 
     ++steps_;
-    findTangent();
+    if (moved)
+    {
+        findTangent();
+    }
     scalar now = imbalance(du, moved, r);
+    if (!moved && now > tolerance_)
+    {
+        findTangent();
+    }
     const scalar before = now;
     const label linearBefore = linear_;
     label iteration = 0;
