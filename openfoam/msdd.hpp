@@ -195,6 +195,14 @@ public:
         return msdd_surrogate_has_tangent(handle_.get()) != 0;
     }
 
+    /** Friction mobilised at a wall after the slip s [m]: limit s/(s + slip). False, and nothing set, when the model has
+     *  none. */
+    bool wallFriction(const msdd_material& material, double& limit, double& slip) const
+    {
+        const detail::MaskedTraps masked;
+        return msdd_surrogate_wall_friction(handle_.get(), &material, &limit, &slip) == MSDD_OK;
+    }
+
     /** Solid fractions, overlaps counted twice [-], of initial states of the given porosities. Throws Error. */
     void solidFraction(std::size_t cells, const double* porosity, double* solidFraction) const
     {

@@ -89,7 +89,14 @@ int main(int argc, char *argv[])
     );
 
     granularState grains(granular, T);
-    autoPtr<timeScheme> scheme(timeScheme::New(T, grains, granular));
+    autoPtr<granularMechanics> mechanics
+    (
+        granularMechanics::New(granular, grains)
+    );
+    autoPtr<timeScheme> scheme
+    (
+        timeScheme::New(T, grains, mechanics(), granular)
+    );
     const runSummary summary(grains, wallClock);
 
     Info<< "\nStarting time loop\n" << endl;
@@ -103,6 +110,7 @@ int main(int argc, char *argv[])
 
     grains.refresh();
     grains.writeReport();
+    mechanics->writeReport();
     summary.write(scheme->rejected());
 
     Info<< "End\n" << endl;

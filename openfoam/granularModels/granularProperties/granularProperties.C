@@ -69,7 +69,7 @@ Foam::granularProperties::granularProperties(const Time& runTime)
         {
             "FoamFile", "surrogate", "density", "youngModulus",
             "thermalConductivity", "heatCapacity", "thermalExpansion",
-            "meanRadius", "bulkDensity"
+            "meanRadius", "bulkDensity", "mechanics", "equilibriumCoeffs"
         }
     );
     if (!(thermalExpansion_.value() >= 0))

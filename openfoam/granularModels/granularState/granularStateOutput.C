@@ -51,7 +51,10 @@ void Foam::granularState::findReaders()
         }
         const word type(dict.lookupOrDefault<word>("type", word::null));
         const wordList ours
-        ({"wallPressure", "subRegions", "heatAudit", "massAudit"});
+        ({
+            "wallPressure", "subRegions", "heatAudit", "massAudit",
+            "spaceProbes"
+        });
         refreshAlways_ = refreshAlways_ || (sees && !ours.found(type));
     }
 }
@@ -73,6 +76,7 @@ void Foam::granularState::refresh()
         // The one place where compression positive becomes tension positive
         sigma[celli].xx() = -stressXX_[celli];
         sigma[celli].yy() = -stressYY_[celli];
+        sigma[celli].xy() = stressXY_[celli];
         p[celli] = -0.5*(sigma[celli].xx() + sigma[celli].yy());
     }
     forAll(K_.xy, celli)

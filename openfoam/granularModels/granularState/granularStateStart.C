@@ -141,6 +141,7 @@ Foam::granularState::granularState
         extrapolatedCalculatedFvPatchScalarField::typeName
     ),
     refreshAlways_(false),
+    deviator_(-1),
     queries_(0),
     asked_(0),
     cellSteps_(0),
@@ -317,7 +318,7 @@ void Foam::granularState::allocate()
         {
             &stressXX_, &stressYY_, &lastStrain_, &nextIncrement_,
             &nextStrain_, &strain_, &halfStrain_, &total_, &zero_,
-            &askedXX_, &askedYY_
+            &askedXX_, &askedYY_, &stressXY_
         }
     )
     {

@@ -166,6 +166,11 @@ Foam::label Foam::granularModels::surrogateModel::advance(const query& cells)
     batch.stress_xx = cells.stressXX;
     batch.stress_yy = cells.stressYY;
     batch.outside = cells.outside;
+    batch.strain_xx = cells.strainXX;
+    batch.strain_yy = cells.strainYY;
+    batch.c11 = cells.c11;
+    batch.c22 = cells.c22;
+    batch.c12 = cells.c12;
 
     try
     {
@@ -199,6 +204,16 @@ bool Foam::granularModels::surrogateModel::spread
         failed("the spread of the cells", error);
     }
     return result.empty() || !std::isnan(result[0]);
+}
+
+
+bool Foam::granularModels::surrogateModel::wallFriction
+(
+    scalar& limit,
+    scalar& slip
+) const
+{
+    return model_.wallFriction(material_, limit, slip);
 }
 
 

@@ -36,10 +36,11 @@ Foam::timeSchemes::paper::paper
     const dictionary& dict,
     volScalarField& T,
     granularState& grains,
+    granularMechanics& mechanics,
     const granularProperties& properties
 )
 :
-    timeScheme(dict, T, grains, properties)
+    timeScheme(dict, T, grains, mechanics, properties)
 {
     const dictionary& control = time_.controlDict();
     if (control.lookupOrDefault("adjustTimeStep", false))
@@ -69,11 +70,17 @@ void Foam::timeSchemes::paper::step()
     }
     grains_.commit();
 
-    // (Mechanics: wall strains of the cells belong here)
+    // Equilibrium of the stress that this leaves
+    mechanics_.solve();
 
     // Step 4: the heat equation
     const scalar deltaT = time_.deltaTValue();
-    heat_.solve(Told_, deltaT, grains_.conductivityOfCells());
+    heat_.solve
+    (
+        Told_,
+        deltaT,
+        mechanics_.pulledBack(grains_.conductivityOfCells())
+    );
     account(deltaT);
 
     // Step 5: thermal strain

@@ -52,10 +52,11 @@ Foam::timeSchemes::secondOrder::secondOrder
     const dictionary& dict,
     volScalarField& T,
     granularState& grains,
+    granularMechanics& mechanics,
     const granularProperties& properties
 )
 :
-    timeScheme(dict, T, grains, properties),
+    timeScheme(dict, T, grains, mechanics, properties),
     adaptive_(time_.controlDict().lookupOrDefault("adjustTimeStep", false)),
     temperatureTolerance_
     (
@@ -121,7 +122,12 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
 
     // Boundary values are those of the stage's time
     time_.value() = start + gamma2*deltaT;
-    heat_.solve(Told_, gamma2*deltaT, grains_.conductivityOfCells());
+    heat_.solve
+    (
+        Told_,
+        gamma2*deltaT,
+        mechanics_.pulledBack(grains_.conductivityOfCells())
+    );
     firstHeat_ = heat_.patchHeat();
     firstSource_ = heat_.sourceHeat();
 
@@ -131,7 +137,8 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
         stage_[celli] = Told_[celli] + rate_[celli]/(2*gamma2);
     }
     grains_.strain(Told_, stage_);
-    const granularState::conductivityColumns& K = grains_.trialConductivity();
+    const granularState::conductivityColumns& K =
+        mechanics_.pulledBack(grains_.trialConductivity());
 
     forAll(T, celli)
     {
@@ -241,6 +248,7 @@ void Foam::timeSchemes::secondOrder::step()
     grains_.commit();
 
     advanceTime();
+    mechanics_.solve();
     if (adaptive_)
     {
         const scalar factor = safety/std::sqrt(max(error, SMALL));

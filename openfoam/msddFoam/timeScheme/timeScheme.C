@@ -32,6 +32,7 @@ Foam::timeScheme::timeScheme
     const dictionary& dict,
     volScalarField& T,
     granularState& grains,
+    granularMechanics& mechanics,
     const granularProperties& properties
 )
 :
@@ -39,6 +40,7 @@ Foam::timeScheme::timeScheme
     time_(const_cast<Time&>(T.time())),
     T_(T),
     grains_(grains),
+    mechanics_(mechanics),
     heat_
     (
         T,
@@ -66,6 +68,7 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
 (
     volScalarField& T,
     granularState& grains,
+    granularMechanics& mechanics,
     const granularProperties& properties
 )
 {
@@ -101,7 +104,7 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
             << exit(FatalIOError);
     }
     Info<< "Selecting timeScheme " << type << endl;
-    return (*constructor)(dict, T, grains, properties);
+    return (*constructor)(dict, T, grains, mechanics, properties);
 }
 
 

@@ -1,0 +1,117 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "spaceProbes.H"
+#include "interpolationCellPoint.H"
+#include "addToRunTimeSelectionTable.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace functionObjects
+{
+    defineTypeNameAndDebug(spaceProbes, 0);
+    addToRunTimeSelectionTable(functionObject, spaceProbes, dictionary);
+}
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::functionObjects::spaceProbes::spaceProbes
+(
+    const word& name,
+    const Time& runTime,
+    const dictionary& dict
+)
+:
+    granularFunctionObject(name, typeName, runTime, dict),
+    field_(dict.get<word>("field")),
+    points_(dict.get<pointField>("probeLocations"))
+{
+    read(dict);
+}
+
+
+// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
+
+void Foam::functionObjects::spaceProbes::writeHeader(Ostream& os) const
+{
+    forAll(points_, i)
+    {
+        writeHeaderValue(os, "Probe " + Foam::name(i), points_[i]);
+    }
+    writeCommented(os, "Time");
+    forAll(points_, i)
+    {
+        writeTabbed(os, field_ + Foam::name(i));
+    }
+}
+
+
+template<class Type>
+Type Foam::functionObjects::spaceProbes::at
+(
+    const GeometricField<Type, fvPatchField, volMesh>& field,
+    const point& where
+) const
+{
+    const label celli = mesh_.findCell(where);
+    const label owner =
+        returnReduce(celli >= 0 ? Pstream::myProcNo() : -1, maxOp<label>());
+    Type value(Zero);
+    if (owner == Pstream::myProcNo())
+    {
+        value = interpolationCellPoint<Type>(field).interpolate(where, celli);
+    }
+    return owner < 0 ? pTraits<Type>::max : returnReduce(value, sumOp<Type>());
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::functionObjects::spaceProbes::write()
+{
+    const tmp<volScalarField> field(present<scalar>(field_));
+    const bool moves = mesh_.foundObject<volVectorField>("D");
+    scalarList values(points_.size());
+
+    forAll(points_, i)
+    {
+        point X(points_[i]);
+        // The displacement changes by some per cent of the way: a contraction
+        for (label iteration = 0; moves && iteration < 10; ++iteration)
+        {
+            X = points_[i]
+              - at(mesh_.lookupObject<volVectorField>("D"), X);
+        }
+        values[i] = at(field(), X);
+    }
+    if (Pstream::master())
+    {
+        Ostream& os = line();
+        for (const scalar value : values)
+        {
+            os  << tab << value;
+        }
+        os  << endl;
+    }
+    return true;
+}
+
+
+// ************************************************************************* //

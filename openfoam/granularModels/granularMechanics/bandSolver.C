@@ -1,0 +1,196 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "bandSolver.H"
+#include "bandCompression.H"
+
+#include <algorithm>
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Scalar product from first to before last, in four sums that do not wait for
+//- one another
+static inline scalar product
+(
+    const scalar* a,
+    const scalar* b,
+    const label first,
+    const label last
+)
+{
+    scalar s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+    label k = first;
+    for (; k + 4 <= last; k += 4)
+    {
+        s0 += a[k]*b[k];
+        s1 += a[k + 1]*b[k + 1];
+        s2 += a[k + 2]*b[k + 2];
+        s3 += a[k + 3]*b[k + 3];
+    }
+    for (; k < last; ++k)
+    {
+        s0 += a[k]*b[k];
+    }
+    return (s0 + s1) + (s2 + s3);
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::bandSolver::bandSolver(const quadMesh& mesh)
+:
+    number_(mesh.size()),
+    rows_(2*mesh.size()),
+    width_(0)
+{
+    List<DynamicList<label>> near(mesh.size());
+    for (const quadMesh::quad& q : mesh.quads())
+    {
+        for (const label a : q)
+        {
+            for (const label b : q)
+            {
+                if (a != b && !near[a].found(b))
+                {
+                    near[a].append(b);
+                }
+            }
+        }
+    }
+    labelListList neighbours(near.size());
+    forAll(near, i)
+    {
+        neighbours[i] = near[i];
+    }
+    // By levels, or along either axis, whichever band is the narrowest
+    const List<vector2D>& points = mesh.points();
+    const auto along = [&points](const label axis)
+    {
+        labelList order(identity(points.size()));
+        std::stable_sort
+        (
+            order.begin(), order.end(),
+            [&points, axis](const label a, const label b)
+            {
+                // Rounded: points of a column differ by their last digits
+                const scalar xa = std::round(points[a][axis]*1e9);
+                const scalar xb = std::round(points[b][axis]*1e9);
+                return
+                    xa != xb
+                  ? xa < xb
+                  : points[a][1 - axis] < points[b][1 - axis];
+            }
+        );
+        return order;
+    };
+    width_ = labelMax;
+    for
+    (
+        const labelList& order :
+        {bandCompression(neighbours), along(0), along(1)}
+    )
+    {
+        labelList number(order.size());
+        forAll(order, i)
+        {
+            number[order[i]] = i;
+        }
+        label width = 1;
+        forAll(neighbours, i)
+        {
+            for (const label j : neighbours[i])
+            {
+                width = max(width, 2*mag(number[i] - number[j]) + 1);
+            }
+        }
+        if (width < width_)
+        {
+            width_ = width;
+            number_ = number;
+        }
+    }
+    factor_.resize(rows_*(width_ + 1), Zero);
+    x_.resize(rows_);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::bandSolver::factorise()
+{
+    for (label i = 0; i < rows_; ++i)
+    {
+        const label first = max(label(0), i - width_);
+        scalar* Li = &entry(i, i) - i;      // Li[j] is entry (i, j)
+        for (label j = first; j <= i; ++j)
+        {
+            const scalar* Lj = &entry(j, j) - j;
+            const scalar value =
+                Li[j] - product(Li, Lj, max(first, j - width_), j);
+            if (j < i)
+            {
+                Li[j] = value/Lj[j];
+            }
+            else
+            {
+                // A free rigid motion leaves a zero
+                Li[i] = value > SMALL*mag(Li[i]) ? std::sqrt(value) : GREAT;
+            }
+        }
+    }
+}
+
+
+void Foam::bandSolver::solve(List<vector2D>& values) const
+{
+    forAll(values, i)
+    {
+        x_[2*number_[i]] = values[i].x();
+        x_[2*number_[i] + 1] = values[i].y();
+    }
+    const label stride = width_ + 1;
+    for (label i = 0; i < rows_; ++i)
+    {
+        const scalar* L = factor_.cdata() + i*stride + width_ - i;
+        const label first = max(label(0), i - width_);
+        x_[i] = (x_[i] - product(L, x_.cdata(), first, i))/L[i];
+    }
+    for (label i = rows_ - 1; i >= 0; --i)
+    {
+        const scalar* L = factor_.cdata() + i*stride + width_ - i;
+        x_[i] /= L[i];
+        const scalar value = x_[i];
+        scalar* x = x_.data();
+        for (label k = max(label(0), i - width_); k < i; ++k)
+        {
+            x[k] -= L[k]*value;
+        }
+    }
+    forAll(values, i)
+    {
+        values[i] =
+            vector2D(x_[2*number_[i]], x_[2*number_[i] + 1]);
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,452 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "wallConditions.H"
+#include "emptyPolyPatch.H"
+#include "symmetryPolyPatch.H"
+#include "symmetryPlanePolyPatch.H"
+#include "processorPolyPatch.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::wallConditions::kind>
+Foam::wallConditions::kindNames
+({
+    { kind::rigid, "rigid" },
+    { kind::frictionless, "frictionless" },
+    { kind::symmetry, "symmetry" },
+    { kind::displacement, "displacement" },
+    { kind::pressure, "pressure" }
+});
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::wallConditions::wallConditions
+(
+    const dictionary& dict,
+    const granularModel& model,
+    const quadMesh& mesh
+)
+:
+    mesh_(mesh),
+    walls_(mesh.mesh().boundary().size()),
+    free_(mesh.size(), vector2D(1, 1)),
+    balanced_(mesh.size(), vector2D(1, 1)),
+    slip_(mesh.size(), vector2D(1, 1))
+{
+    checkNames(dict);
+    forAll(walls_, patchi)
+    {
+        walls_.set(patchi, new wall);
+        read(dict, model, patchi);
+    }
+    findFree();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::wallConditions::checkNames(const dictionary& dict) const
+{
+    const wordList names(mesh_.mesh().boundaryMesh().names());
+    for (const entry& item : dict)
+    {
+        const keyType& key = item.keyword();
+        bool found = false;
+        for (const word& name : names)
+        {
+            found = found || key.match(name);
+        }
+        if (!found)
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry '" << key << "' of walls is no patch, allowed: "
+                << granularProperties::listed(names).c_str()
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
+void Foam::wallConditions::read
+(
+    const dictionary& walls,
+    const granularModel& model,
+    const label patchi
+)
+{
+    const polyPatch& patch = mesh_.mesh().boundaryMesh()[patchi];
+    wall& w = walls_[patchi];
+
+    if (isA<processorPolyPatch>(patch))
+    {
+        return;
+    }
+    const bool empty = isA<emptyPolyPatch>(patch);
+    const bool symmetric =
+        isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch);
+    if (patch.coupled())
+    {
+        FatalErrorInFunction
+            << "Patch " << patch.name() << " is of type " << patch.type()
+            << ", which mechanics equilibrium has not"
+            << exit(FatalError);
+    }
+    if (empty || symmetric)
+    {
+        // In one-dimensional meshes, empty in y
+        w.type = kind::symmetry;
+        findAxis(patchi, walls);
+        return;
+    }
+
+    const dictionary dict(walls.subOrEmptyDict(patch.name()));
+    granularProperties::checkKeys
+    (
+        dict,
+        {"type", "friction", "slip", "displacement", "pressure"}
+    );
+    w.type = kindNames.getOrDefault("type", dict, kind::rigid);
+    findAxis(patchi, dict);
+
+    if (w.type == kind::rigid)
+    {
+        scalar limit = 0, slip = 0;
+        const bool known = model.wallFriction(limit, slip);
+        if (!known && !(dict.found("friction") && dict.found("slip")))
+        {
+            FatalIOErrorInFunction(walls)
+                << "Patch " << patch.name() << " needs entries 'friction' and"
+                << " 'slip': the model has no friction at walls"
+                << exit(FatalIOError);
+        }
+        w.friction =
+            granularProperties::ranged(dict, "friction", limit, 0, 10);
+        w.slip = granularProperties::ranged(dict, "slip", slip, 1e-9, 10);
+    }
+    if (w.type == kind::pressure)
+    {
+        w.pressure = Function1<scalar>::New("pressure", dict);
+    }
+    else if (w.type == kind::displacement || dict.found("displacement"))
+    {
+        w.displacement = Function1<vector>::New("displacement", dict);
+    }
+}
+
+
+void Foam::wallConditions::findAxis(const label patchi, const dictionary& dict)
+{
+    const polyPatch& patch = mesh_.mesh().boundaryMesh()[patchi];
+    const List<vector2D>& points = mesh_.points();
+    wall& w = walls_[patchi];
+    vector sum(Zero);
+
+    for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+    {
+        const vector2D t(points[e.second] - points[e.first]);
+        const vector2D m(0.5*(points[e.second] + points[e.first]));
+        const point& C = mesh_.mesh().cellCentres()[e.cell];
+        const label axis = mag(t.x()) > mag(t.y());
+        const scalar out = (axis ? m.y() - C.y() : m.x() - C.x());
+        sum[axis] += out > 0 ? 1 : -1;
+        sum.z() += 1;
+        if (min(mag(t.x()), mag(t.y())) > 1e-6*mag(t))
+        {
+            sum.z() = GREAT;
+        }
+    }
+    reduce(sum, sumOp<vector>());
+    w.axis = mag(sum.y()) > mag(sum.x());
+    w.outwards = sum[w.axis] < 0 ? -1 : 1;
+
+    // Empty patches of one-dimensional meshes have two sides
+    if (!isA<emptyPolyPatch>(patch) && mag(sum[w.axis]) < sum.z() - 0.5)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Patch " << patch.name() << " is not plane and along x or y,"
+            << " as mechanics equilibrium needs" << exit(FatalIOError);
+    }
+    if (isA<emptyPolyPatch>(patch))
+    {
+        w.axis = 1;
+    }
+}
+
+
+void Foam::wallConditions::findFree()
+{
+    // Marks of other processes count: a process may have a wall's node without
+    // having an edge of the wall
+    List<vector2D> held(mesh_.size(), vector2D(Zero));
+    List<vector2D> pressed(held), slip(held), count(held);
+
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        if (w.type == kind::none)
+        {
+            continue;
+        }
+        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        {
+            for (const label node : {e.first, e.second})
+            {
+                if (w.type == kind::pressure)
+                {
+                    pressed[node] = vector2D(1, 1);
+                    continue;
+                }
+                held[node][w.axis] = 1;
+                if (w.type == kind::displacement)
+                {
+                    held[node] = vector2D(1, 1);
+                }
+                if (w.friction > 0)
+                {
+                    slip[node][1 - w.axis] += w.slip;
+                    count[node][1 - w.axis] += 1;
+                }
+            }
+        }
+    }
+    for (List<vector2D>* field : {&held, &pressed, &slip, &count})
+    {
+        mesh_.sum(*field);
+    }
+    forAll(free_, i)
+    {
+        for (label k = 0; k < 2; ++k)
+        {
+            free_[i][k] = held[i][k] > 0 ? 0 : 1;
+            balanced_[i][k] = pressed[i][k] > 0 ? 0 : 1;
+            slip_[i][k] = count[i][k] > 0 ? slip[i][k]/count[i][k] : 1;
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::List<Foam::vector2D>
+Foam::wallConditions::positions(const scalar time) const
+{
+    List<vector2D> sum(mesh_.size(), vector2D(Zero)), count(sum);
+
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        if (w.type == kind::none || w.type == kind::pressure)
+        {
+            continue;
+        }
+        const vector p
+        (
+            w.displacement.valid() ? w.displacement().value(time) : vector(Zero)
+        );
+        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        {
+            for (const label node : {e.first, e.second})
+            {
+                for (label k = 0; k < 2; ++k)
+                {
+                    // Where another wall holds a node, this one rubs in vain
+                    const bool holds =
+                        k == w.axis || w.type == kind::displacement;
+                    const scalar weight = holds ? 1 : 1e-9;
+                    sum[node][k] += weight*p[k];
+                    count[node][k] += weight;
+                }
+            }
+        }
+    }
+    mesh_.sum(sum);
+    mesh_.sum(count);
+    forAll(sum, i)
+    {
+        for (label k = 0; k < 2; ++k)
+        {
+            sum[i][k] /= max(count[i][k], VSMALL);
+        }
+    }
+    return sum;
+}
+
+
+Foam::List<Foam::vector2D> Foam::wallConditions::way
+(
+    const scalar time,
+    const List<vector2D>& u
+) const
+{
+    List<vector2D> result(positions(time));
+    forAll(result, i)
+    {
+        for (label k = 0; k < 2; ++k)
+        {
+            result[i][k] = (1 - free_[i][k])*(result[i][k] - u[i][k]);
+        }
+    }
+    return result;
+}
+
+
+void Foam::wallConditions::addPressure
+(
+    const scalar time,
+    const List<vector2D>& at,
+    List<vector2D>& force
+) const
+{
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        if (w.type != kind::pressure)
+        {
+            continue;
+        }
+        const scalar p = w.pressure().value(time);
+        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        {
+            const vector2D t(at[e.second] - at[e.first]);
+            // Into the grains, which lie on the side away from the normal
+            vector2D n(t.y(), -t.x());
+            n *= n[w.axis]*w.outwards < 0 ? -1 : 1;
+            force[e.first] -= 0.5*p*n;
+            force[e.second] -= 0.5*p*n;
+        }
+    }
+}
+
+
+void Foam::wallConditions::friction
+(
+    const granularState::stressColumns& stress,
+    const List<vector2D>& at,
+    const List<vector2D>& du,
+    const scalar time,
+    const scalar before,
+    const List<vector2D>& oldTraction,
+    List<vector2D>& force,
+    List<vector2D>& traction,
+    List<vector2D>& stiffness
+)
+{
+    limit_ = List<vector2D>(mesh_.size(), vector2D(Zero));
+    length_ = limit_;
+    force = limit_;
+    traction = limit_;
+    stiffness = limit_;
+
+    bool moving = false;
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        moving = moving || w.displacement.valid();
+        if (w.friction <= 0)
+        {
+            continue;
+        }
+        const label t = 1 - w.axis;
+        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        {
+            const scalar normal =
+                w.axis == 0 ? -stress.xx[e.cell] : -stress.yy[e.cell];
+            const scalar half = 0.5*mag(at[e.second][t] - at[e.first][t]);
+            for (const label node : {e.first, e.second})
+            {
+                limit_[node][t] += w.friction*max(scalar(0), normal)*half;
+                length_[node][t] += half;
+            }
+        }
+    }
+    mesh_.sum(limit_);
+    mesh_.sum(length_);
+
+    List<vector2D> wallWay(mesh_.size(), vector2D(Zero));
+    if (moving)
+    {
+        wallWay = positions(time);
+        const List<vector2D> start(positions(before));
+        forAll(wallWay, i)
+        {
+            wallWay[i] -= start[i];
+        }
+    }
+
+    forAll(force, i)
+    {
+        for (label t = 0; t < 2; ++t)
+        {
+            const scalar most = limit_[i][t];
+            if (free_[i][t] == 0 || most <= VSMALL)
+            {
+                continue;
+            }
+            // Share m of the limit, positive against slip along +
+            const scalar s0 = slip_[i][t];
+            const scalar s = du[i][t] - wallWay[i][t];
+            const scalar old = -oldTraction[i][t]*length_[i][t]/most;
+            scalar m = max(scalar(-0.999), min(scalar(0.999), old));
+            scalar rest = s;
+            if (m*s < 0)
+            {
+                const scalar back = min(mag(s), mag(m)*s0)*sign(s);
+                m += back/s0;
+                rest = s - back;
+            }
+            scalar slope = 1;
+            if (rest != 0 || s == 0)
+            {
+                const scalar virgin =
+                    s0*mag(m)/(1 - mag(m)) + mag(rest);
+                const scalar direction = rest != 0 ? sign(rest) : sign(m);
+                m = direction*virgin/(virgin + s0);
+                slope = sqr(1 - mag(m));
+            }
+            force[i][t] = -m*most;
+            traction[i][t] = -m*most/length_[i][t];
+            stiffness[i][t] = slope*most/s0;
+        }
+    }
+}
+
+
+Foam::List<Foam::vector2D>
+Foam::wallConditions::stiffness(const scalar pressure) const
+{
+    List<vector2D> result(mesh_.size(), vector2D(Zero));
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        const label t = 1 - w.axis;
+        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        {
+            const scalar half =
+                0.5*mag(mesh_.points()[e.second] - mesh_.points()[e.first]);
+            for (const label node : {e.first, e.second})
+            {
+                result[node][t] +=
+                    free_[node][t]*w.friction*pressure*half/w.slip;
+            }
+        }
+    }
+    return result;
+}
+
+
+// ************************************************************************* //
