@@ -291,7 +291,7 @@ void databaseIsMadeInSeveralGoes(const std::string& path)
     EXPECT(database.exportCsv(path + ".csv") == 9);
     EXPECT(fegetexcept() == traps);
     EXPECT(thrown([&] { database.generate("seed = 1"); }).first == MSDD_RVE);
-    EXPECT(thrown([] { msdd::Database("/no/such/folder/a.msdd").exportCsv("/tmp/none.csv"); }).first == MSDD_IO);
+    EXPECT(thrown([] { msdd::Database("/no/such/folder/a.msdd").exportCsv("/no/such/folder/a.csv"); }).first == MSDD_IO);
 }
 
 void loadingFailsWithTheReason()

@@ -11,7 +11,7 @@ const PATCHES: [&str; 4] = ["left", "right", "bottom", "top"];
 const GRAIN_KEYS: [&str; 6] =
     ["density", "youngModulus", "thermalConductivity", "heatCapacity", "thermalExpansion", "meanRadius"];
 /// Keys there that concern the solver alone.
-const SOLVER_KEYS: [&str; 3] = ["FoamFile", "surrogate", "bulkDensity"];
+const SOLVER_KEYS: [&str; 5] = ["FoamFile", "surrogate", "bulkDensity", "mechanics", "equilibriumCoeffs"];
 /// Patch types of meshes, not of heat: OpenFOAM lists them all, whether a patch has them or not.
 const CONSTRAINTS: [&str; 12] = [
     "empty",

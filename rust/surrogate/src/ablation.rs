@@ -10,8 +10,6 @@ use crate::score::{OneStep, one_step, ramps};
 use crate::scores::Scores;
 use crate::state::training::{Mechanical, StateOptions, train_blind};
 use crate::training::{self, Parts, TrainingOptions};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::Serialize;
 
 /// Inputs of the paper's network.
@@ -72,10 +70,7 @@ fn line(
 fn shuffled(samples: &Parts<Vec<Sample>>, seed: u64) -> Parts<Vec<Sample>> {
     let all = [&samples.training[..], &samples.validation, &samples.test].concat();
     let mut pairs: Vec<&[Sample]> = all.chunks(2).collect();
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    for last in (1..pairs.len()).rev() {
-        pairs.swap(last, (random.next_u64() % (last as u64 + 1)) as usize);
-    }
+    dataset::shuffle(&mut pairs, seed);
     let held = samples.test.len() / 2;
     let (test, rest) = pairs.split_at(held);
     let (validation, training) = rest.split_at(held.min(rest.len() / 2));

@@ -154,6 +154,15 @@ pub struct Split {
 /// Shares of validation and test packings (section 3.1.2).
 const HELD_SHARE: f64 = 0.15;
 
+/// Puts the items into a random order (Fisher and Yates).
+pub(crate) fn shuffle<T>(items: &mut [T], seed: u64) {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    for last in (1..items.len()).rev() {
+        // The bias of the remainder is below 1e-15.
+        items.swap(last, (random.next_u64() % (last as u64 + 1)) as usize);
+    }
+}
+
 /// Splits by packing, not by sample: samples of one packing resemble each other, and a random split flatters.
 ///
 /// # Errors
@@ -165,11 +174,7 @@ pub fn split(ramps: Vec<Ramp>, seed: u64) -> Result<Split, SurrogateError> {
         let text = format!("{} packings; the split by packing needs 3 or more", order.len());
         return Err(SurrogateError::Data(text));
     }
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    for last in (1..order.len()).rev() {
-        // The bias of the remainder is below 1e-15.
-        order.swap(last, (random.next_u64() % (last as u64 + 1)) as usize);
-    }
+    shuffle(&mut order, seed);
     let held = ((order.len() as f64 * HELD_SHARE).round() as usize).max(1);
     let (test, rest) = order.split_at(held);
     let (validation, _) = rest.split_at(held);

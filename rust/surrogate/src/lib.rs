@@ -8,16 +8,25 @@
 //! | [`dataset`] | states of the database, training samples, 90° rotation, split by packing |
 //! | [`scaling`] | trained range (clamping) and scales of inputs and outputs |
 //! | [`kernel`] | the network's arithmetic, vectorised |
+//! | [`surrogate`] | the trait that all models implement; batches of cells |
+//! | [`models`] | the kinds of models by name, and those compiled in |
+//! | [`state`] | the default model: all state variables advance with the strain |
+//! | [`paper`], [`constant`] | the paper's network and the trivial model behind the trait |
+//! | [`perceptron`] | small tanh networks of any shape, of which the state model is made |
 //! | [`network`] | the paper's 3-16-16-6 network and its gradient |
 //! | [`levenberg_marquardt`] | the minimiser |
 //! | [`fit`] | the network's fit to samples as a least-squares problem |
 //! | [`training`] | the whole training |
 //! | [`scores`] | R² (Eq. 12) |
-//! | [`drift`] | error of composed increments |
+//! | [`score`], [`composition`], [`noise`] | a model on packings that it never saw; composed increments; noise floor |
+//! | [`ablation`] | what each input is worth |
+//! | [`drift`] | error of composed increments of the paper's network |
+//! | [`region`] | where the training states lie, and how much packings of equal state differ |
+//! | [`mechanics`], [`wall_friction`] | mechanical tangent and wall friction |
 //! | [`solid_fraction`] | sum-of-areas solid fraction from porosity |
 //! | [`model`] | the trained surrogate |
 //! | [`model_file`] | its file |
-#![deny(unsafe_code)] // kernel.rs alone may: calls of functions compiled for a wider instruction set
+#![deny(unsafe_code)] // kernel/ alone may: vectors of the instruction sets and what calls them
 
 pub mod ablation;
 pub mod composition;

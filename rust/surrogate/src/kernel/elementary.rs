@@ -1,7 +1,5 @@
 //! tanh of blocks of cells.
 
-#[cfg(test)]
-use super::Lanes;
 use super::vector::Vector;
 
 /// ln 2 in two parts; the high one has 21 trailing zero bits, so n · LN2_HIGH is exact for |n| < 2^20.
@@ -92,8 +90,8 @@ fn invert<V: Vector, const N: usize>(d: &mut [V; N]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::LANES;
     use crate::kernel::vector::Portable;
+    use crate::kernel::{LANES, Lanes};
 
     fn of<const N: usize>(x: [f64; N]) -> [f64; N] {
         let mut neurons = x.map(Portable::all);

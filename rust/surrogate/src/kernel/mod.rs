@@ -5,7 +5,7 @@
 //! A processor without fused multiply-add (x86-64 before 2013) gets them from the mathematical library, slowly.
 //! No operation raises invalid, divide-by-zero or overflow for finite inputs and weights up to
 //! [`WEIGHT_LIMIT`](crate::network::WEIGHT_LIMIT).
-#![allow(unsafe_code)] // dispatch alone: see `dispatch`
+#![allow(unsafe_code)] // calls of functions compiled for an instruction set, and buffers without values
 
 mod elementary;
 pub mod vector;
@@ -16,7 +16,7 @@ use crate::network::{HIDDEN, INPUTS, OUTPUTS, WEIGHTS};
 use crate::perceptron::{MAX_LAYERS, Neurons, WIDTH};
 use crate::state::model::Core;
 use crate::state::rates::Rates;
-use crate::state::variables::Features;
+use crate::state::variables::{Features, Variables};
 use crate::surrogate::{Answer, StateLanes};
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -82,18 +82,15 @@ pub fn simd() -> &'static str {
 macro_rules! dispatch {
     ($(#[$doc:meta])* pub fn $name:ident($($argument:ident: $kind:ty),*) = $generic:expr) => {
         $(#[$doc])*
-        #[allow(clippy::too_many_arguments)] // they are the callee's
         pub fn $name($($argument: $kind),*) {
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "avx512f,avx512dq,fma")]
-                #[allow(clippy::too_many_arguments)]
                 unsafe fn avx512($($argument: $kind),*) {
                     type V = x86::Avx512;
                     $generic
                 }
                 #[target_feature(enable = "avx2,fma")]
-                #[allow(clippy::too_many_arguments)]
                 unsafe fn avx2($($argument: $kind),*) {
                     type V = x86::Avx2;
                     $generic
@@ -114,24 +111,24 @@ macro_rules! dispatch {
 }
 
 dispatch! {
-    /// Eight queries of a state model.
+    /// Queries of a state model by a block of cells.
     pub fn state_block(core: &Core, state: &StateLanes, strain: &Lanes, answer: &mut Answer) =
         core.block_into::<V>(state, strain, answer)
 }
 
 dispatch! {
-    /// Advances eight states by the rates: [`Rates::advanced`]; leaves all neurons' values.
+    /// Advances a block of states by the rates: [`Rates::advanced`]; leaves all neurons' values.
     pub fn advance(
         rates: &Rates,
-        core: RateInputs<'_>,
+        from: RateInputs<'_>,
         neurons: &mut Neurons,
         next: &mut StateLanes
-    ) = advance_generic::<V>(rates, core, neurons, next)
+    ) = advance_generic::<V>(rates, from, neurons, next)
 }
 
 /// What [`advance`] starts from.
 pub struct RateInputs<'a> {
-    pub variables: crate::state::variables::Variables,
+    pub variables: Variables,
     pub state: &'a StateLanes,
     pub strain: &'a Lanes,
     pub features: &'a Features,

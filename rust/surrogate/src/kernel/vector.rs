@@ -1,4 +1,4 @@
-//! Eight lanes of arithmetic, and their portable implementation.
+//! Arithmetic on a block of lanes, and its portable implementation.
 
 use super::{LANES, Lanes};
 use std::mem::MaybeUninit;

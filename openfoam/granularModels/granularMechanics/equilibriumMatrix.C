@@ -1,0 +1,273 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "equilibrium.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Of the uniform medium: c11, c12 and pressure over E r/l of packed grains
+static const scalar uniformC11 = 0.65;
+static const scalar uniformC12 = 0.3;
+static const scalar uniformPressure = 0.05;
+
+//- The matrix stays positive definite where the law is not: near unjamming
+static const scalar highestC12 = 0.8;
+static const scalar lowestShear = 0.1;
+
+//- Linear equations are solved to this share of the imbalance
+static const scalar linearTolerance = 0.01;
+static const label maxLinear = 500;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::granularMechanicsModels::equilibrium::findTangent()
+{
+    C_ = grains_.tangent();
+    forAll(shearModulus_, celli)
+    {
+        scalar& c11 = C_.c11[celli];
+        scalar& c22 = C_.c22[celli];
+        scalar& c12 = C_.c12[celli];
+        const scalar mean = 0.5*(c11 + c22);
+        shearModulus_[celli] =
+            shearFactor_*max(0.5*(mean - c12), lowestShear*mean);
+
+        // The deviator's part scaled, as imbalance() does; made symmetric
+        const scalar more = 0.5*(shearFactor_ - 1)*(mean - c12);
+        c11 += more;
+        c22 += more;
+        c12 -= more;
+        C_.c12[celli] = min
+        (
+            C_.c12[celli],
+            highestC12*min(C_.c11[celli], C_.c22[celli])
+        );
+    }
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::setUniform()
+{
+    const label cells = mesh_.nCells();
+    C_.c11 = scalarField(cells, scale_*uniformC11);
+    C_.c22 = C_.c11;
+    C_.c12 = scalarField(cells, scale_*uniformC12);
+    shearModulus_ = 0.5*scale_*(uniformC11 - uniformC12);
+    stick_ = walls_.stiffness(scale_*uniformPressure);
+    quads_.sum(stick_);
+    findDiagonal();
+    uniformDiagonal_ = diagonal_;
+
+    const nodeField& free = walls_.free();
+    nodeField local(diagonal_.size());
+    cellDiagonal(local);
+    forAll(shapes_, celli)
+    {
+        const quadMesh::shape& s = shapes_[celli];
+        const quadMesh::quad& q = quads_.quads()[celli];
+        const scalar c11 = s.area*C_.c11[celli], c12 = s.area*C_.c12[celli];
+        const scalar G = s.area*shearModulus_[celli];
+        for (label a = 0; a < 4; ++a)
+        {
+            for (label b = 0; b < 4; ++b)
+            {
+                const scalar hg =
+                    hourglass*scale_
+                   *reference_[celli].gamma[a]*reference_[celli].gamma[b];
+                const scalar xx = c11*s.b[a]*s.b[b] + G*s.c[a]*s.c[b] + hg;
+                const scalar yy = c11*s.c[a]*s.c[b] + G*s.b[a]*s.b[b] + hg;
+                const scalar xy = c12*s.b[a]*s.c[b] + G*s.c[a]*s.b[b];
+                const scalar yx = c12*s.c[a]*s.b[b] + G*s.b[a]*s.c[b];
+                const vector2D& fa = free[q[a]];
+                const vector2D& fb = free[q[b]];
+                uniform_.add(q[a], 0, q[b], 0, fa.x()*fb.x()*xx);
+                uniform_.add(q[a], 1, q[b], 1, fa.y()*fb.y()*yy);
+                uniform_.add(q[a], 0, q[b], 1, fa.x()*fb.y()*xy);
+                uniform_.add(q[a], 1, q[b], 0, fa.y()*fb.x()*yx);
+            }
+        }
+    }
+    // What other processes add to a node's diagonal; held components
+    forAll(local, i)
+    {
+        for (label k = 0; k < 2; ++k)
+        {
+            const scalar more = diagonal_[i][k] - local[i][k];
+            uniform_.add(i, k, i, k, free[i][k] > 0 ? more : 1);
+        }
+    }
+    uniform_.factorise();
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::cellDiagonal
+(
+    nodeField& diagonal
+) const
+{
+    forAll(diagonal, i)
+    {
+        diagonal[i] = vector2D(Zero);
+    }
+    forAll(shapes_, celli)
+    {
+        const quadMesh::shape& s = shapes_[celli];
+        const quadMesh::quad& q = quads_.quads()[celli];
+        const scalar G = shearModulus_[celli];
+        for (label a = 0; a < 4; ++a)
+        {
+            const scalar b2 = sqr(s.b[a]), c2 = sqr(s.c[a]);
+            const scalar hg =
+                hourglass*scale_*sqr(reference_[celli].gamma[a]);
+            diagonal[q[a]].x() += s.area*(C_.c11[celli]*b2 + G*c2) + hg;
+            diagonal[q[a]].y() += s.area*(C_.c22[celli]*c2 + G*b2) + hg;
+        }
+    }
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::findDiagonal()
+{
+    cellDiagonal(diagonal_);
+    quads_.sum(diagonal_);
+    forAll(diagonal_, i)
+    {
+        diagonal_[i] += stick_[i];
+    }
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::multiply
+(
+    const nodeField& d,
+    nodeField& result
+) const
+{
+    forAll(result, i)
+    {
+        result[i] = vector2D(Zero);
+    }
+    forAll(shapes_, celli)
+    {
+        const quadMesh::shape& s = shapes_[celli];
+        const quadMesh::quad& q = quads_.quads()[celli];
+        const scalar* gamma = reference_[celli].gamma;
+        scalar exx = 0, eyy = 0, exy = 0;
+        vector2D pattern(Zero);
+        for (label a = 0; a < 4; ++a)
+        {
+            const vector2D& v = d[q[a]];
+            exx += s.b[a]*v.x();
+            eyy += s.c[a]*v.y();
+            exy += s.c[a]*v.x() + s.b[a]*v.y();
+            pattern += gamma[a]*v;
+        }
+        const scalar xx = s.area*(C_.c11[celli]*exx + C_.c12[celli]*eyy);
+        const scalar yy = s.area*(C_.c12[celli]*exx + C_.c22[celli]*eyy);
+        const scalar xy = s.area*shearModulus_[celli]*exy;
+        pattern *= hourglass*scale_;
+        for (label a = 0; a < 4; ++a)
+        {
+            vector2D& f = result[q[a]];
+            f.x() += s.b[a]*xx + s.c[a]*xy + gamma[a]*pattern.x();
+            f.y() += s.c[a]*yy + s.b[a]*xy + gamma[a]*pattern.y();
+        }
+    }
+    quads_.sum(result);
+    forAll(result, i)
+    {
+        for (label k = 0; k < 2; ++k)
+        {
+            result[i][k] =
+                walls_.free()[i][k]*(result[i][k] + stick_[i][k]*d[i][k]);
+        }
+    }
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::precondition
+(
+    const nodeField& r,
+    nodeField& z
+) const
+{
+    const auto scaled = [this](nodeField& values)
+    {
+        forAll(values, i)
+        {
+            for (label k = 0; k < 2; ++k)
+            {
+                values[i][k] *=
+                    walls_.free()[i][k]
+                   *std::sqrt
+                    (
+                        quads_.weight()[i]
+                       *uniformDiagonal_[i][k]/diagonal_[i][k]
+                    );
+            }
+        }
+    };
+    z = r;
+    scaled(z);
+    uniform_.solve(z);
+    scaled(z);
+    quads_.sum(z);
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::conjugateGradients
+(
+    const nodeField& r0,
+    nodeField& d
+)
+{
+    nodeField r(r0), z(r0), Ap(r0);
+    d = nodeField(r0.size(), vector2D(Zero));
+    precondition(r, z);
+    nodeField p(z);
+    scalar rz = quads_.dot(r, z);
+    const scalar enough = rz*sqr(linearTolerance);
+
+    for (label i = 0; i < maxLinear && rz > enough && rz > VSMALL; ++i)
+    {
+        multiply(p, Ap);
+        const scalar alpha = rz/quads_.dot(p, Ap);
+        forAll(d, n)
+        {
+            d[n] += alpha*p[n];
+            r[n] -= alpha*Ap[n];
+        }
+        precondition(r, z);
+        const scalar next = quads_.dot(r, z);
+        forAll(p, n)
+        {
+            p[n] = z[n] + (next/rz)*p[n];
+        }
+        rz = next;
+        ++linear_;
+    }
+}
+
+
+// ************************************************************************* //
