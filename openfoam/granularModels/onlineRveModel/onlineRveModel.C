@@ -200,10 +200,10 @@ std::string Foam::granularModels::onlineRve::specification
            (
                coeffs_,
                "compression",
-               {"isotropic", "horizontal", "intermediate"}
+               {"isotropic", "horizontal", "intermediate", "sheared"}
            ).c_str()
         << "\", \"boundary\": \""
-        << choice(coeffs_, "boundary", {"walls", "periodic"}).c_str()
+        << choice(coeffs_, "boundary", {"periodic", "walls"}).c_str()
         << "\", \"relaxation\": \""
         << choice(coeffs_, "relaxation", {"fire", "damped"}).c_str()
         << "\", \"radius_min\": " << 0.6*radius

@@ -204,7 +204,7 @@ enum msdd_outcome {
 };
 
 /** Packs an RVE. `specification` is a JSON object; keys, with their defaults: "discs" 500, "seed" 1, "porosity" 0.12,
- *  "compression" "isotropic" (or "horizontal", "intermediate"), "boundary" "walls" (or "periodic"), "radius_min" 3e-3,
+ *  "compression" "isotropic" (or "horizontal", "intermediate", "sheared"), "boundary" "walls" (or "periodic"), "radius_min" 3e-3,
  *  "radius_max" 7e-3 [m], "relaxation" "damped" (or "fire"), "material" {"density" 3000 [kg/m3], "young_modulus" 1e7 [Pa],
  *  "stiffness_ratio" 0.8, "friction_angle" 0.5 [rad], "wall_stiffness_factor" 1, "damping" 0.1}. NULL means "{}".
  *  Same specification, same bytes. On success *out owns the RVE; free it with msdd_rve_free. */

@@ -80,7 +80,7 @@ impl Cells {
     fn new(handle: &Handle, cells: usize) -> Self {
         let column =
             |start: f64, slope: f64| (0..cells).map(|i| start + slope * i as f64).collect::<Vec<f64>>();
-        let (porosity, fabric_index) = (column(0.12, 1e-3), column(0.05, -2e-3));
+        let (porosity, fabric_index) = (column(0.12, 1e-3), column(0.045, -2e-3));
         let mut state = vec![vec![-7.0; cells]; handle.columns()];
         let pointers: Vec<*mut f64> = state.iter_mut().map(|c| c.as_mut_ptr()).collect();
         let initial = msdd_initial {

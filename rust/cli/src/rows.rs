@@ -2,7 +2,7 @@
 
 use msdd_rve::database::{Kind, RampName, Record};
 use msdd_surrogate::StateRow;
-use msdd_surrogate::mechanics::WallStrain;
+use msdd_surrogate::mechanics::{LINEAR_STRAIN, WallStrain};
 use msdd_surrogate::models::TrainingData;
 use msdd_surrogate::state::training::Mechanical;
 use msdd_surrogate::state::variables::stress_ratio;
@@ -69,7 +69,8 @@ fn thermal_rows(records: &[&Record]) -> Vec<StateRow> {
 }
 
 /// Neighbouring stops of the ramps along x and y, the packed state between closing and opening, boxes with walls and
-/// periodic ones alike. Shear (xy) is left out: the tangent takes its modulus as (c11 − c12)/2.
+/// periodic ones alike. Shear (xy) is left out: the tangent takes its modulus as (c11 − c12)/2, which it is
+/// within 3 % at small strain (isotropic packings).
 fn wall_strains(mechanics: &[&Record]) -> Vec<WallStrain> {
     let mut ramps: BTreeMap<(i64, RampName), Vec<&Record>> = BTreeMap::new();
     for record in mechanics.iter().filter(|r| matches!(r.ramp, RampName::Xx | RampName::Yy)) {
@@ -88,9 +89,10 @@ fn wall_strains(mechanics: &[&Record]) -> Vec<WallStrain> {
     samples
 }
 
-/// Differences between two stops next to each other; `None` when one was not reached.
+/// Differences between two stops next to each other; `None` when one was not reached, or lies beyond the linear range.
 fn wall_strain(a: &Record, b: &Record) -> Option<WallStrain> {
-    if a.stop + 1 != b.stop {
+    let linear = |r: &Record| r.strain_xx.abs().max(r.strain_yy.abs()) <= LINEAR_STRAIN;
+    if a.stop + 1 != b.stop || !linear(a) || !linear(b) {
         return None;
     }
     let state = |record: &Record| state_row(record, record.ramp, record.stop);

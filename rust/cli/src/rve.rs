@@ -144,6 +144,7 @@ enum CompressionName {
     Isotropic,
     Horizontal,
     Intermediate,
+    Sheared,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -220,6 +221,7 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
             CompressionName::Isotropic => Compression::Isotropic,
             CompressionName::Horizontal => Compression::Horizontal,
             CompressionName::Intermediate => Compression::Intermediate,
+            CompressionName::Sheared => Compression::Sheared,
         },
         radius_min: arguments.radius_min,
         radius_max: arguments.radius_max,

@@ -35,11 +35,12 @@ pub fn windows(simulation: &Simulation, nx: usize, ny: usize) -> Vec<Window> {
     list
 }
 
-/// The square window of side `size` [m] around a point, shifted inside at the walls; a smaller box is taken whole along
-/// that axis. Contacts are clipped.
-pub fn window_around(simulation: &Simulation, centre: [f64; 2], size: f64) -> Window {
+/// The square window of side `size` [m] around a point, shifted inside at the walls to keep `margin` [m] off them; of a
+/// smaller box it is all that the margins leave along that axis. Contacts are clipped.
+pub fn window_around(simulation: &Simulation, centre: [f64; 2], size: f64, margin: f64) -> Window {
     let [left, right, bottom, top] = simulation.walls.position;
     let span = |at: f64, low: f64, high: f64| {
+        let (low, high) = (low + margin, high - margin);
         let half = 0.5 * size.min(high - low);
         let middle = at.clamp(low + half, (high - half).max(low + half));
         (middle - half, middle + half)

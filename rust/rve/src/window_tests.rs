@@ -60,10 +60,12 @@ fn windows_tile_the_box() {
 fn windows_stay_inside() {
     let state = packed();
     let [left, _, _, top] = state.walls.position;
-    let corner = window_around(&state, [left, top], 0.05);
+    let corner = window_around(&state, [left, top], 0.05, 0.0);
     assert!((corner.low[0] - left).abs() < 1e-15 && (corner.high[1] - top).abs() < 1e-15, "{corner:?}");
     assert!((corner.high[0] - corner.low[0] - 0.05).abs() < 1e-15);
-    let whole = window_around(&state, [0.0, 0.0], 10.0);
+    let whole = window_around(&state, [0.0, 0.0], 10.0, 0.0);
     let area = (whole.high[0] - whole.low[0]) * (whole.high[1] - whole.low[1]);
     assert!((area / state.walls.area() - 1.0).abs() < 1e-12);
+    let off = window_around(&state, [left, top], 0.05, 0.01);
+    assert!((off.low[0] - left - 0.01).abs() < 1e-15 && (top - off.high[1] - 0.01).abs() < 1e-15, "{off:?}");
 }

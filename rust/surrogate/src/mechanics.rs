@@ -61,6 +61,9 @@ pub struct Tangent {
     pub fabric_conductivity: f64,
 }
 
+/// Largest strain from the packed state at which the laws are fitted: further on grains slide, and the tangent is no longer that of
+/// small strains (shear modulus at 3 %: half).
+pub const LINEAR_STRAIN: f64 = 0.01;
 /// Fewer samples do not fix the laws.
 const LEAST_SAMPLES: usize = 20;
 

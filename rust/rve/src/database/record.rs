@@ -29,7 +29,7 @@ record! {
     kind: Kind, "TEXT", "-", "thermal: radii change in fixed walls; mechanics: walls move; wall_shear: bottom and top slip along the grains";
     discs: u64, "INTEGER", "-", "discs in the packing";
     seed: u64, "INTEGER", "-", "seed of the packing";
-    compression: Compression, "TEXT", "-", "isotropic: walls close in x and y; horizontal: in x only; intermediate: twice as fast in x as in y";
+    compression: Compression, "TEXT", "-", "isotropic: walls close in x and y; horizontal: in x only; intermediate: twice as fast in x as in y; sheared: in x, while those of y open an eighth as fast";
     target_porosity: f64, "REAL", "-", "porosity of the whole box at which the walls stopped, overlaps counted once";
     packing_friction_angle: f64, "REAL", "rad", "friction angle of the grains while the walls closed; the material's own afterwards";
     ramp: RampName, "TEXT", "-", "packed: before any strain; up, down: radii grow, shrink; up_down, down_up: back from the last stop of up, down; xx, yy: walls move along x, y; xy: shear of a periodic box; wall_shear: bottom and top move along x";
