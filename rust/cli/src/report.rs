@@ -18,6 +18,9 @@ pub struct Arguments {
     /// Few configurations, one packing, coarse meshes: for the tests.
     #[arg(long)]
     quick: bool,
+    /// Run nothing: draw what the cache has.
+    #[arg(long)]
+    draw: bool,
     /// Folder for the page, index.html.
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
@@ -76,6 +79,7 @@ fn settings(arguments: &Arguments, checkout: &Path) -> Result<Settings, CliError
         place: Place { checkout: checkout.to_path_buf(), msdd, work: cache.join("work"), stamp },
         cache: Cache::new(&cache, checkout, &cpu),
         at_a_time: arguments.jobs as usize,
+        run: !arguments.draw,
     })
 }
 

@@ -18,6 +18,8 @@ pub enum Outcome {
     Failed,
     /// Stopped at its time limit.
     TimedOut,
+    /// Not asked to run.
+    NotRun,
 }
 
 impl Outcome {
@@ -27,6 +29,7 @@ impl Outcome {
             Self::Refused => "refused",
             Self::Failed => "failed",
             Self::TimedOut => "timed out",
+            Self::NotRun => "not run",
         }
     }
 }

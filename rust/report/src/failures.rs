@@ -285,6 +285,7 @@ fn row(method: &str, condition: &str, predicted: &str, record: &Record) -> Row {
         Outcome::Failed if record.message.starts_with("msdd: t = 0 s") => ("refused", record.message.clone()),
         Outcome::Failed => ("ended", record.message.clone()),
         Outcome::TimedOut => ("stopped at the limit", record.message.clone()),
+        Outcome::NotRun => ("not run", String::new()),
         Outcome::Done if run.rejected_steps > 0 && run.clamped_queries == 0 => {
             ("cut", format!("{} steps repeated with half the size; {}", run.rejected_steps, state(&run)))
         }

@@ -30,6 +30,21 @@ pub struct Asked {
     pub guess: f64,
 }
 
+/// What the cache has of the jobs.
+///
+/// # Errors
+/// [`ReportError::Read`] for a file of a job that is missing.
+pub fn found(cache: &Cache, jobs: &[Asked]) -> Result<Records, ReportError> {
+    let mut records = Records::new();
+    for asked in jobs {
+        let key = cache.key(&asked.job)?;
+        if let Some(record) = cache.get(&key) {
+            records.insert(key, record);
+        }
+    }
+    Ok(records)
+}
+
 /// Runs the jobs that the cache does not have, `at_a_time`; each once.
 ///
 /// # Errors

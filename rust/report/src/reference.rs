@@ -27,6 +27,7 @@ pub fn pressure_range(case: &str) -> f64 {
 }
 
 /// One case by discrete elements, by packing.
+#[derive(Clone)]
 pub struct Reference {
     pub case: String,
     pub results: Vec<Results>,
@@ -44,6 +45,11 @@ impl Reference {
                 .map_err(|error| ReportError::Read { file, problem: error.to_string() })
         };
         Ok(Self { case: case.to_string(), results: seeds.iter().map(read).collect::<Result<_, _>>()? })
+    }
+
+    /// The first packings alone.
+    pub fn first(&self, packings: usize) -> Self {
+        Self { case: self.case.clone(), results: self.results.iter().take(packings).cloned().collect() }
     }
 
     /// Times of the series [s], the same for all packings.

@@ -22,6 +22,8 @@ const QUOTED: [(&str, f64, Option<[f64; 3]>); 2] =
 /// Simulated time of a segment by discrete elements [s], and the steps that are tried [s].
 const SEGMENT: f64 = 0.1;
 const STEPS: [f64; 2] = [2e-4, 5e-5];
+/// The case that is run as a whole by discrete elements; costs of segments are scaled by its ratio of whole to segment.
+const WHOLE: &str = "H";
 
 /// One configuration in one case against the reference.
 #[derive(Clone, Debug, Serialize)]
@@ -90,6 +92,8 @@ pub struct Settings {
     pub place: Place,
     pub cache: Cache,
     pub at_a_time: usize,
+    /// Whether jobs are run that the cache does not have; else they are reported as not run.
+    pub run: bool,
 }
 
 impl Settings {
@@ -100,7 +104,8 @@ impl Settings {
     /// Records of one configuration in a case, a packing each.
     fn records<'a>(&self, records: &'a Records, configuration: &Configuration, case: &str) -> Vec<&'a Record> {
         let job = |seed: &u32| Job::Solver(configuration.job(case, *seed));
-        self.seeds().iter().filter_map(|seed| self.record(records, &job(seed))).collect()
+        let seeds = self.seeds().iter().take(configuration.packings);
+        seeds.filter_map(|seed| self.record(records, &job(seed))).collect()
     }
 
     pub fn record<'a>(&self, records: &'a Records, job: &Job) -> Option<&'a Record> {
@@ -150,7 +155,7 @@ pub fn make(settings: &Settings, watch: &mut (dyn FnMut(&str, &Progress) + Send)
 
 /// Packs the box of the discrete elements unless it is there.
 fn pack(settings: &Settings) -> Result<(), ReportError> {
-    if settings.quick || settings.place.checkout.join("results/reference/packed_seed1.json").exists() {
+    if settings.quick || !settings.run || settings.place.checkout.join("results/reference/packed_seed1.json").exists() {
         return Ok(());
     }
     let arguments = ["reference", "pack", "--case", "cases/H", "--seed", "1"].map(str::to_string);
@@ -168,7 +173,8 @@ fn run_all(
         for case in &configuration.cases {
             costs.push(configuration.asked(case, first));
             if configuration.known == Known::Run {
-                rest.extend(settings.seeds()[1..].iter().map(|seed| configuration.asked(case, *seed)));
+                let more = settings.seeds().iter().take(configuration.packings).skip(1);
+                rest.extend(more.map(|seed| configuration.asked(case, *seed)));
             }
         }
     }
@@ -183,6 +189,9 @@ fn run_all(
     rest.extend(economy::jobs(settings));
     rest.extend(failures::jobs(settings.quick));
     let (cache, place) = (&settings.cache, &settings.place);
+    if !settings.run {
+        return pool::found(cache, &[costs, rest].concat());
+    }
     // Alone, so that no other job of ours takes from its caches.
     let mut records = pool::run(cache, place, &costs, 1, &mut |p| watch("cost, one at a time", p))?;
     records.extend(pool::run(cache, place, &rest, settings.at_a_time, &mut |p| watch("accuracy", p))?);
@@ -196,14 +205,17 @@ fn start_up() -> Asked {
     Asked { job: Job::Solver(job), guess: 0.5 }
 }
 
-/// The whole case, and segments with shorter steps.
+/// Case H as a whole, and segments of all with shorter steps, too.
 fn elements(case: &str) -> Vec<Asked> {
     let segment = |step: Option<f64>| Asked {
         job: plan::elements(case, SEGMENT, step, 600),
         guess: step.map_or(4.0, |s| 3e-3 / s),
     };
-    let mut jobs = vec![Asked { job: plan::elements(case, 20.0, None, 1200), guess: 150.0 }, segment(None)];
+    let mut jobs = vec![segment(None)];
     jobs.extend(STEPS.map(|step| segment(Some(step))));
+    if case == WHOLE {
+        jobs.push(Asked { job: plan::elements(case, 20.0, None, 1200), guess: 150.0 });
+    }
     jobs
 }
 
@@ -212,7 +224,7 @@ fn complete<'a>(records: &[&'a Record]) -> Result<Vec<&'a Run>, (Outcome, String
     let runs: Vec<&Run> = records.iter().filter_map(|record| record.run.as_ref()).collect();
     match records.iter().find(|record| record.outcome != Outcome::Done) {
         Some(record) => Err((record.outcome, record.message.clone())),
-        None if runs.is_empty() => Err((Outcome::Failed, "not run".to_string())),
+        None if runs.is_empty() => Err((Outcome::NotRun, String::new())),
         None => Ok(runs),
     }
 }
@@ -283,7 +295,7 @@ fn point(
     let (mut outcome, mut message) = (Outcome::Done, String::new());
     match &configuration.known {
         Known::Run => match complete(&settings.records(records, configuration, &reference.case)) {
-            Ok(runs) => found = errors(reference, &runs, configuration.affine),
+            Ok(runs) => found = errors(&reference.first(runs.len()), &runs, configuration.affine),
             Err(why) => (outcome, message) = why,
         },
         Known::Segment(end, _) => {
@@ -327,29 +339,31 @@ fn scatter(reference: &Reference) -> f64 {
 /// Discrete elements: their error is the scatter between packings, since one run is one packing.
 fn element_points(settings: &Settings, records: &Records, reference: &Reference) -> Vec<Point> {
     let case = reference.case.as_str();
-    let cost = |end: f64, step: Option<f64>, limit: u64| {
+    let cost = |case: &str, end: f64, step: Option<f64>, limit: u64| {
         let record = settings.record(records, &plan::elements(case, end, step, limit))?;
         (record.outcome == Outcome::Done).then_some((record.cpu_seconds, record.cached))
     };
-    let whole = cost(20.0, None, 1200);
-    let scale = whole.zip(cost(SEGMENT, None, 600)).map(|(whole, segment)| whole.0 / segment.0);
+    let whole = cost(WHOLE, 20.0, None, 1200);
+    let scale = whole.zip(cost(WHOLE, SEGMENT, None, 600)).map(|(whole, segment)| whole.0 / segment.0);
+    let scaled = |step| scale.zip(cost(case, SEGMENT, step, 600)).map(|(scale, segment)| scale * segment.0);
+    let own = whole.filter(|_| case == WHOLE);
     let pressure: Vec<f64> =
         statistics(&reference.series("pressure")).iter().map(|(_, deviation)| *deviation).collect();
     let most = pressure.iter().copied().fold(0.0, f64::max);
     let base = Point {
         name: "one packing, steps from the bound".to_string(),
         family: FAMILIES[7].to_string(),
-        core_seconds: whole.map(|w| w.0),
+        core_seconds: own.map(|w| w.0).or_else(|| scaled(None)),
         temperature_error: Some(scatter(reference)),
         pressure_error: Some(100.0 * most / crate::reference::pressure_range(case)),
-        cost: if whole.is_some_and(|w| w.1) { "cached" } else { "measured" }.to_string(),
-        outcome: if whole.is_some() { "done" } else { "failed" }.to_string(),
+        cost: own.map_or("extrapolated", |w| if w.1 { "cached" } else { "measured" }).to_string(),
+        outcome: if whole.is_some() { "done" } else { "not run" }.to_string(),
         message: String::new(),
         front: [false; 2],
     };
     let finer = STEPS.map(|step| Point {
         name: format!("one packing, steps {} ms", 1e3 * step),
-        core_seconds: scale.zip(cost(SEGMENT, Some(step), 600)).map(|(scale, segment)| scale * segment.0),
+        core_seconds: scaled(Some(step)),
         cost: "extrapolated".to_string(),
         ..base.clone()
     });
