@@ -134,12 +134,7 @@ fn panel(svg: &mut String, title: &str, x: &Axis, y: &Axis, series: &[Series]) -
     };
     let ys = y.range(series.iter().flat_map(with_bars));
     let mut builder = ChartBuilder::on(&root);
-    builder
-        .caption(title, (FONT, 16))
-        .margin(6)
-        .margin_right(18)
-        .x_label_area_size(42)
-        .y_label_area_size(58);
+    builder.caption(title, (FONT, 16)).margin(6).margin_right(18).x_label_area_size(42).y_label_area_size(58);
     match (x.log, y.log) {
         (false, false) => fill(builder.build_cartesian_2d(xs, ys)?, x, y, series)?,
         (true, false) => fill(builder.build_cartesian_2d(xs.log_scale(), ys)?, x, y, series)?,
@@ -228,7 +223,11 @@ fn outlines(style: Style) -> Vec<(Vec<(i32, i32)>, bool)> {
         Marker::Cross => vec![(vec![(-d, -d), (d, d)], false), (vec![(-d, d), (d, -d)], false)],
         Marker::Plus => vec![(vec![(-s, 0), (s, 0)], false), (vec![(0, -s), (0, s)], false)],
         Marker::Star => {
-            vec![(vec![(-s, 0), (s, 0)], false), (vec![(-d, -d), (d, d)], false), (vec![(-d, d), (d, -d)], false)]
+            vec![
+                (vec![(-s, 0), (s, 0)], false),
+                (vec![(-d, -d), (d, d)], false),
+                (vec![(-d, d), (d, -d)], false),
+            ]
         }
     }
 }
@@ -246,7 +245,9 @@ pub fn key(style: Style) -> Result<String, ReportError> {
         match style.line {
             Line::None => {}
             Line::Solid => root.draw(&dash(1, 33))?,
-            Line::Dashed => [(1, 9), (13, 21), (25, 33)].iter().try_for_each(|&(a, b)| root.draw(&dash(a, b)))?,
+            Line::Dashed => {
+                [(1, 9), (13, 21), (25, 33)].iter().try_for_each(|&(a, b)| root.draw(&dash(a, b)))?
+            }
             Line::Dotted => (0..7).try_for_each(|k| root.draw(&dash(1 + 5 * k, 3 + 5 * k)))?,
         }
         marker_at(&root, style, (17, 7))?;
@@ -300,7 +301,8 @@ fn draw_maps(svg: &mut String, title: &str, digits: usize, named: &[(&str, Vec<f
             let colour = shade((value - low) / (high - low).max(1e-300));
             let opposite = (corner.0 + CELL.0, corner.1 + CELL.1);
             root.draw(&Rectangle::new([corner, opposite], colour.filled()))?;
-            let ink = if 0.3 * f64::from(colour.0) + 0.6 * f64::from(colour.1) > 110.0 { BLACK } else { WHITE };
+            let ink =
+                if 0.3 * f64::from(colour.0) + 0.6 * f64::from(colour.1) > 110.0 { BLACK } else { WHITE };
             let text = format!("{value:.digits$}");
             let place = (corner.0 + 4, corner.1 + 7);
             root.draw(&Text::new(text, place, (FONT, 13).into_font().color(&ink)))?;
@@ -312,8 +314,13 @@ fn draw_maps(svg: &mut String, title: &str, digits: usize, named: &[(&str, Vec<f
 
 /// From dark (0) to light (1), also in grey: five colours of viridis.
 fn shade(share: f64) -> RGBColor {
-    const STOPS: [[f64; 3]; 5] =
-        [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];
+    const STOPS: [[f64; 3]; 5] = [
+        [68.0, 1.0, 84.0],
+        [59.0, 82.0, 139.0],
+        [33.0, 145.0, 140.0],
+        [94.0, 201.0, 98.0],
+        [253.0, 231.0, 37.0],
+    ];
     let place = 4.0 * share.clamp(0.0, 1.0);
     let k = (place as usize).min(3);
     let part = place - k as f64;
@@ -328,7 +335,9 @@ fn responsive(svg: &str, title: &str) -> String {
     let Some((head, rest)) = body.split_once('>') else { return body };
     let view = head.split("viewBox=").nth(1).map_or("", |v| v.split('"').nth(1).unwrap_or(""));
     let title = crate::page::escape(title);
-    format!("<svg viewBox=\"{view}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{title}\">{rest}\n")
+    format!(
+        "<svg viewBox=\"{view}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{title}\">{rest}\n"
+    )
 }
 
 #[cfg(test)]

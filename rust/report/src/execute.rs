@@ -16,10 +16,17 @@ pub enum Outcome {
     Refused,
     /// Ended with an error later.
     Failed,
-    /// Stopped at its time limit.
+    /// Stopped at its limit of processor time; or, on a busy machine, at [`PATIENCE`] times as much wall time.
     TimedOut,
     /// Not asked to run.
     NotRun,
+}
+
+impl Record {
+    /// Whether another run would end alike: not when a busy machine kept the job from its processor time.
+    pub fn is_settled(&self) -> bool {
+        self.outcome != Outcome::TimedOut || self.cpu_seconds >= 0.9 * self.job.limit() as f64
+    }
 }
 
 impl Outcome {
@@ -113,7 +120,11 @@ struct Ended {
     wall: f64,
 }
 
+/// On a busy machine a job may take this many times its limit of processor time.
+const PATIENCE: u64 = 6;
+
 /// Runs `preparation`, then `program` with its processor time taken, in `folder`; output in `log`. Status 97: preparation failed.
+/// The limit is processor time, so that the outcome does not depend on what else the machine does.
 fn timed(
     place: &Place,
     folder: &Path,
@@ -124,9 +135,10 @@ fn timed(
     let script = format!(
         ". '{}/scripts/foam-env' && cd '{}' && {{ {preparation}; }} || exit 97\n\
          TIMEFORMAT='%U %S'\n\
-         {{ time timeout --kill-after=5 {limit} {program} > log 2>&1; }} 2> cpu",
+         {{ time (ulimit -t {limit}; exec timeout --kill-after=5 {wall} {program} > log 2>&1); }} 2> cpu",
         place.checkout.display(),
-        folder.display()
+        folder.display(),
+        wall = PATIENCE * limit,
     );
     let began = Instant::now();
     let status = Command::new("bash")
@@ -138,6 +150,11 @@ fn timed(
     let cpu = read_text(&folder.join("cpu")).unwrap_or_default();
     let cpu = cpu.split_whitespace().filter_map(|word| word.parse::<f64>().ok()).sum();
     Ok(Ended { code: status.code().unwrap_or(137), cpu, wall: began.elapsed().as_secs_f64() })
+}
+
+/// Ended by `timeout` (124), killed (128 + 9) or out of processor time (128 + 24).
+fn timed_out(code: i32) -> bool {
+    [124, 137, 152].contains(&code)
 }
 
 fn record(place: &Place, job: &Job, ended: &Ended, outcome: Outcome, message: String) -> Record {
@@ -164,7 +181,7 @@ fn run_solver(place: &Place, job: &Job, solver: &SolverJob, folder: &Path) -> Re
         let log = read_text(&folder.join("log.blockMesh")).unwrap_or_default();
         return Ok(record(place, job, &ended, Outcome::Refused, format!("blockMesh: {}", fatal(&log))));
     }
-    if ended.code == 124 || ended.code == 137 {
+    if timed_out(ended.code) {
         let message = format!("stopped after {} s at t = {} s", solver.limit, last_time(&log));
         return Ok(record(place, job, &ended, Outcome::TimedOut, message));
     }
@@ -192,7 +209,8 @@ fn run_tool(place: &Place, job: &Job, tool: &ToolJob, folder: &Path) -> Result<R
     let log = folder.join("log");
     let work = folder.display().to_string();
     let command = |arguments: &[String]| {
-        let quoted: Vec<String> = arguments.iter().map(|a| format!("'{}'", a.replace("WORK", &work))).collect();
+        let quoted: Vec<String> =
+            arguments.iter().map(|a| format!("'{}'", a.replace("WORK", &work))).collect();
         format!("'{}' {}", place.msdd.display(), quoted.join(" "))
     };
     let commands: Vec<String> = tool.arguments.split(|a| a == THEN).map(command).collect();
@@ -202,7 +220,7 @@ fn run_tool(place: &Place, job: &Job, tool: &ToolJob, folder: &Path) -> Result<R
     let printed = read_text(&log).unwrap_or_default();
     let outcome = match ended.code {
         0 => Outcome::Done,
-        124 | 137 => Outcome::TimedOut,
+        code if timed_out(code) => Outcome::TimedOut,
         _ => Outcome::Failed,
     };
     let message = if outcome == Outcome::Done { String::new() } else { tail(&printed) };
@@ -236,17 +254,49 @@ fn fatal(log: &str) -> String {
 /// The first warning of a run.
 fn warning(log: &str) -> String {
     let Some(at) = log.find("FOAM Warning") else { return String::new() };
-    let body = log[at..].lines().skip(1).filter(|l| !l.trim_start().starts_with("From ") && !l.trim_start().starts_with("in file"));
+    let body = log[at..]
+        .lines()
+        .skip(1)
+        .filter(|l| !l.trim_start().starts_with("From ") && !l.trim_start().starts_with("in file"));
     short(&body.take(2).collect::<Vec<_>>().join(" "))
 }
 
 fn last_time(log: &str) -> &str {
-    log.rsplit("\nTime = ").next().filter(|_| log.contains("\nTime = ")).map_or("0", |rest| rest.lines().next().unwrap_or("0"))
+    log.rsplit("\nTime = ")
+        .next()
+        .filter(|_| log.contains("\nTime = "))
+        .map_or("0", |rest| rest.lines().next().unwrap_or("0"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn place() -> Place {
+        let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap();
+        let work = std::env::temp_dir().join(format!("msdd-report-execute-{}", std::process::id()));
+        Place { checkout, msdd: PathBuf::from("/bin/sh"), work, stamp: Stamp::default() }
+    }
+
+    fn shell(text: &str, limit: u64) -> Job {
+        let arguments = ["-c", text].map(str::to_string).to_vec();
+        Job::Tool(ToolJob { arguments, inputs: Vec::new(), output: Some("kept".to_string()), limit })
+    }
+
+    #[test]
+    fn a_job_ends_in_an_outcome() {
+        let done = execute(&place(), &shell("echo said; echo text > WORK/kept", 60), "done").unwrap();
+        assert_eq!(
+            (done.outcome, done.printed.as_str(), done.file.as_deref()),
+            (Outcome::Done, "said\n", Some("text\n"))
+        );
+        let failed = execute(&place(), &shell("echo msdd: no such file; exit 3", 60), "failed").unwrap();
+        assert_eq!((failed.outcome, failed.message.as_str()), (Outcome::Failed, "msdd: no such file"));
+        let endless = execute(&place(), &shell("while true; do true; done", 1), "endless").unwrap();
+        assert_eq!(endless.outcome, Outcome::TimedOut);
+        assert!(endless.is_settled() && !setup::files(&place().work).unwrap().iter().any(|f| f.is_dir()));
+        std::fs::remove_dir_all(place().work).unwrap();
+    }
 
     #[test]
     fn the_fatal_message_is_taken_from_its_frame() {

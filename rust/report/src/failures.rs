@@ -94,15 +94,30 @@ fn rows(quick: bool) -> Vec<(&'static str, &'static str, &'static str, Job)> {
     let cold = || walls(small("C").control("deltaT 0.02;"), -50.0);
     let adaptive = "msddFoam { timeScheme secondOrder; temperatureTolerance 0.05; }";
     let mut rows: Vec<(&str, &str, &str, Job)> = vec![
-        ("explicit coupling", "walls at 200 K, fixed steps of 5 s", "strain of a step beyond the data (5 %): ends", hot("5").into()),
+        (
+            "explicit coupling",
+            "walls at 200 K, fixed steps of 5 s",
+            "strain of a step beyond the data (5 %): ends",
+            hot("5").into(),
+        ),
         (
             "explicit coupling",
             "the same, thermalStrain warn",
             "goes on with the region's end, says so",
             hot("5").grains("surrogate { outOfRegion { thermalStrain { below warn; above warn; } } }").into(),
         ),
-        ("explicit coupling", "the same, adaptive, first step 5 s", "cuts its step", hot("5").control("adjustTimeStep yes;").solution(adaptive).into()),
-        ("porosity below the data", "porosity 0.05, default policy (error)", "ends", uniform("H", 0.05).into()),
+        (
+            "explicit coupling",
+            "the same, adaptive, first step 5 s",
+            "cuts its step",
+            hot("5").control("adjustTimeStep yes;").solution(adaptive).into(),
+        ),
+        (
+            "porosity below the data",
+            "porosity 0.05, default policy (error)",
+            "ends",
+            uniform("H", 0.05).into(),
+        ),
         (
             "porosity below the data",
             "porosity 0.05, porosity clamp",
@@ -114,7 +129,16 @@ fn rows(quick: bool) -> Vec<(&'static str, &'static str, &'static str, Job)> {
         return rows;
     }
     let limits = ["reference", "run", "--case", "cases/H", "--seed", "1", "--discs", "500"];
-    let long = limits.iter().chain(&["--state", "WORK/packed.json", "--out", "WORK", "--end", "1", "--time-step", "2e-3"]);
+    let long = limits.iter().chain(&[
+        "--state",
+        "WORK/packed.json",
+        "--out",
+        "WORK",
+        "--end",
+        "1",
+        "--time-step",
+        "2e-3",
+    ]);
     let more: Vec<(&str, &str, &str, Job)> = vec![
         (
             "DEM mechanical step",
@@ -134,9 +158,24 @@ fn rows(quick: bool) -> Vec<(&'static str, &'static str, &'static str, Job)> {
             "cannot cut: ends",
             uniform("H", 0.05).grains(&policy("porosity", "below", "cutStep")).into(),
         ),
-        ("unjamming", "case C from porosity 0.16", "grains lose touch near 0.19: clamped, counted", uniform("C", 0.16).into()),
-        ("unjamming", "case C, walls at -50 K (strain -10 %)", "beyond the data: clamped, counted", cold().into()),
-        ("unjamming", "the same, grains move", "as before, or ends", cold().grains("mechanics equilibrium;").into()),
+        (
+            "unjamming",
+            "case C from porosity 0.16",
+            "grains lose touch near 0.19: clamped, counted",
+            uniform("C", 0.16).into(),
+        ),
+        (
+            "unjamming",
+            "case C, walls at -50 K (strain -10 %)",
+            "beyond the data: clamped, counted",
+            cold().into(),
+        ),
+        (
+            "unjamming",
+            "the same, grains move",
+            "as before, or ends",
+            cold().grains("mechanics equilibrium;").into(),
+        ),
         (
             "equilibrium",
             "case H, steps of 1 s",
@@ -147,7 +186,10 @@ fn rows(quick: bool) -> Vec<(&'static str, &'static str, &'static str, Job)> {
             "equilibrium",
             "residual of 1e-6 Pa",
             "cannot be reached: ends, fields written",
-            small("HC").control("deltaT 0.1;").grains("mechanics equilibrium; equilibriumCoeffs { residual 1e-6; maxResidual 1e-5; }").into(),
+            small("HC")
+                .control("deltaT 0.1;")
+                .grains("mechanics equilibrium; equilibriumCoeffs { residual 1e-6; maxResidual 1e-5; }")
+                .into(),
         ),
         (
             "equilibrium",
@@ -161,9 +203,20 @@ fn rows(quick: bool) -> Vec<(&'static str, &'static str, &'static str, Job)> {
             "outside of its data: clamped, counted",
             uniform("C", 0.16).grains("surrogate { model builtin:paper; }").into(),
         ),
-        ("conductivity", "constant, not positive definite", "refused", step("0.1").grains(
-            "surrogate { type constant; constantCoeffs { conductivity (10 20 0 10 0 10); } }").into()),
-        ("adaptive steps", "asked of the paper's scheme", "refused", step("0.1").control("adjustTimeStep yes;").into()),
+        (
+            "conductivity",
+            "constant, not positive definite",
+            "refused",
+            step("0.1")
+                .grains("surrogate { type constant; constantCoeffs { conductivity (10 20 0 10 0 10); } }")
+                .into(),
+        ),
+        (
+            "adaptive steps",
+            "asked of the paper's scheme",
+            "refused",
+            step("0.1").control("adjustTimeStep yes;").into(),
+        ),
     ];
     rows.extend(more);
     rows
@@ -187,14 +240,19 @@ fn converged() -> SolverJob {
 
 fn stability(quick: bool) -> Job {
     let porosities = if quick { "0.09,0.12" } else { "0.06,0.07,0.08,0.09,0.1,0.12,0.14,0.17" };
-    plan::tool(["bench", "stability", "--porosity", porosities].map(str::to_string).to_vec(), &["rust/cli/src/bench"], 300)
+    plan::tool(
+        ["bench", "stability", "--porosity", porosities].map(str::to_string).to_vec(),
+        &["rust/cli/src/bench"],
+        300,
+    )
 }
 
 fn score() -> Job {
     let models = ["rust/surrogate/models/state.json", "rust/surrogate/models/paper.json"];
     let database = "cases/database/full.csv.gz";
     let arguments = ["score", "--model", models[0], "--model", models[1], "--database", database];
-    let arguments = arguments.iter().chain(&["--json", "WORK/score.json"]).map(|text| (*text).to_string()).collect();
+    let arguments =
+        arguments.iter().chain(&["--json", "WORK/score.json"]).map(|text| (*text).to_string()).collect();
     let inputs = [&models[..], &[database, "rust/surrogate/src", "rust/rve/src"]].concat();
     Job::Tool(ToolJob {
         arguments,
@@ -222,8 +280,11 @@ fn cycled(keys: &str) -> SolverJob {
             table += &format!("({} {}) ", t + quarter, 50.0 + peak);
         }
     }
-    let wall = format!("\"left|right|bottom|top\" {{ type uniformFixedValue; uniformValue table ({table}); value uniform 50; }}");
-    let mut job = small("H").control("deltaT 0.1;").grains(keys).temperature(&format!("boundaryField {{ {wall} }}"));
+    let wall = format!(
+        "\"left|right|bottom|top\" {{ type uniformFixedValue; uniformValue table ({table}); value uniform 50; }}"
+    );
+    let mut job =
+        small("H").control("deltaT 0.1;").grains(keys).temperature(&format!("boundaryField {{ {wall} }}"));
     job.mesh = [10, 3];
     job.end = PERIOD * CYCLES as f64;
     job
@@ -231,10 +292,12 @@ fn cycled(keys: &str) -> SolverJob {
 
 /// The same strains in one box of 500 grains, packed as the cases are.
 fn cycled_box() -> [Vec<String>; 2] {
-    let pack = ["rve", "pack", "--porosity", "0.13", "--compression", "horizontal", "--out", "WORK/packed.json"];
+    let pack =
+        ["rve", "pack", "--porosity", "0.13", "--compression", "horizontal", "--out", "WORK/packed.json"];
     let stops: Vec<&str> = (0..CYCLES).flat_map(|_| ["0.02", "0", "-0.02", "0"]).collect();
     let stops = stops.join(",");
-    let expand = ["rve", "expand", "--state", "WORK/packed.json", "--stops", &stops, "--out", "WORK/out.json"];
+    let expand =
+        ["rve", "expand", "--state", "WORK/packed.json", "--stops", &stops, "--out", "WORK/out.json"];
     [pack.map(str::to_string).to_vec(), expand.map(str::to_string).to_vec()]
 }
 
@@ -290,7 +353,8 @@ fn row(method: &str, condition: &str, predicted: &str, record: &Record) -> Row {
             ("cut", format!("{} steps repeated with half the size; {}", run.rejected_steps, state(&run)))
         }
         Outcome::Done if run.clamped_queries > 0 || !record.message.is_empty() => {
-            let said = if record.message.is_empty() { String::new() } else { format!(" \"{}\"", record.message) };
+            let said =
+                if record.message.is_empty() { String::new() } else { format!(" \"{}\"", record.message) };
             ("reported", format!("{} answers clamped;{said} {}", run.clamped_queries, state(&run)))
         }
         Outcome::Done => ("done", state(&run)),
@@ -311,7 +375,8 @@ fn state(run: &Run) -> String {
 /// Lines "porosity 0.06  1.011e-3  1.051e-3  1.04  4.973e-4  4.934e-4  0.99".
 fn stable_steps(printed: &str) -> Vec<StableStep> {
     let line = |line: &str| -> Option<StableStep> {
-        let numbers: Vec<f64> = line.strip_prefix("porosity")?.split_whitespace().map_while(|w| w.parse().ok()).collect();
+        let numbers: Vec<f64> =
+            line.strip_prefix("porosity")?.split_whitespace().map_while(|w| w.parse().ok()).collect();
         let &[porosity, mp, mm, _, tp, tm, _] = numbers.as_slice() else { return None };
         Some(StableStep { porosity, mechanical: [mp, mm], thermal: [tp, tm] })
     };
@@ -349,7 +414,9 @@ fn error_in_time(run: &Run, exact: &Run) -> f64 {
 
 fn cycles(settings: &Settings, records: &Records) -> Vec<Cycles> {
     let mut list = Vec::new();
-    for (name, keys) in [("solver, cells keep their place", ""), ("solver, grains move", "mechanics equilibrium;")] {
+    for (name, keys) in
+        [("solver, cells keep their place", ""), ("solver, grains move", "mechanics equilibrium;")]
+    {
         let record = settings.record(records, &cycled(keys).into());
         let Some(run) = record.and_then(|record| record.run.as_ref()) else { continue };
         let quarter = PERIOD / 4.0;
@@ -371,7 +438,8 @@ fn box_stops(printed: &str) -> Vec<[f64; 3]> {
         let rest = &line[line.find(word)? + word.len()..];
         rest.split_whitespace().next()?.trim_end_matches([',', ':']).parse().ok()
     };
-    let line = |line: &str| Some([after(line, "strain ")?, after(line, "pressure ")?, after(line, "porosity ")?]);
+    let line =
+        |line: &str| Some([after(line, "strain ")?, after(line, "pressure ")?, after(line, "porosity ")?]);
     printed.lines().filter(|l| l.starts_with("strain ")).filter_map(line).collect()
 }
 
@@ -399,11 +467,17 @@ mod tests {
 
     #[test]
     fn what_the_programs_print_is_read() {
-        let steps = stable_steps("largest ...\nporosity 0.06          1.011e-3   1.051e-3   1.04      4.973e-4  4.934e-4   0.99\n");
-        assert_eq!(steps, [StableStep { porosity: 0.06, mechanical: [1.011e-3, 1.051e-3], thermal: [4.973e-4, 4.934e-4] }]);
+        let steps = stable_steps(
+            "largest ...\nporosity 0.06          1.011e-3   1.051e-3   1.04      4.973e-4  4.934e-4   0.99\n",
+        );
+        assert_eq!(
+            steps,
+            [StableStep { porosity: 0.06, mechanical: [1.011e-3, 1.051e-3], thermal: [4.973e-4, 4.934e-4] }]
+        );
         let line = "strain -0.02: settled after 5661 steps, porosity 0.1388, fabric index +0.0674, pressure 2039.6 Pa, rattlers 8";
         assert_eq!(box_stops(line), [[-0.02, 2039.6, 0.1388]]);
-        let score = r#"[{"name": "state", "composed": [{"strain": -0.02, "increments": 5, "stress": 0.02}]}]"#;
+        let score =
+            r#"[{"name": "state", "composed": [{"strain": -0.02, "increments": 5, "stress": 0.02}]}]"#;
         assert_eq!(drift(score)[1].stress, [[5.0, 2.0]]);
     }
 

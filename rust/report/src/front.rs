@@ -49,8 +49,9 @@ pub fn mark(points: &mut [Point]) {
 /// The cheapest configuration with an error of T of at most `error` [%].
 pub fn cheapest(points: &[Point], error: f64) -> Option<&Point> {
     let good = points.iter().filter(|p| p.takes_part());
-    good.filter(|p| p.place(0).is_some_and(|(_, e)| e <= error))
-        .min_by(|a, b| a.core_seconds.unwrap_or(f64::INFINITY).total_cmp(&b.core_seconds.unwrap_or(f64::INFINITY)))
+    good.filter(|p| p.place(0).is_some_and(|(_, e)| e <= error)).min_by(|a, b| {
+        a.core_seconds.unwrap_or(f64::INFINITY).total_cmp(&b.core_seconds.unwrap_or(f64::INFINITY))
+    })
 }
 
 #[cfg(test)]

@@ -127,7 +127,8 @@ mod tests {
 
     #[test]
     fn a_field_is_read_as_written() {
-        let field = Field { values: vec![vec![1.0, 2.0, 0.0, 3.0, 0.0, 0.0], vec![-4.0, 0.5, 0.0, 2.0, 0.0, 1.0]] };
+        let field =
+            Field { values: vec![vec![1.0, 2.0, 0.0, 3.0, 0.0, 0.0], vec![-4.0, 0.5, 0.0, 2.0, 0.0, 1.0]] };
         assert_eq!(list(&field.to_text("stress")).unwrap(), field.values);
         assert!(list("internalField uniform 1;").is_err());
     }

@@ -60,7 +60,7 @@ pub struct SolverJob {
     pub end: f64,
     /// Needs the worked plug-in in C, `medium.so` in the case folder.
     pub plugin: bool,
-    /// Wall time after which it is stopped [s].
+    /// Processor time after which it is stopped [s].
     pub limit: u64,
 }
 
@@ -124,7 +124,9 @@ impl Job {
     pub fn name(&self) -> String {
         match self {
             Self::Solver(job) => format!("{} seed {} on {}x{}", job.case, job.seed, job.mesh[0], job.mesh[1]),
-            Self::Tool(job) => format!("msdd {}", job.arguments.iter().take(2).cloned().collect::<Vec<_>>().join(" ")),
+            Self::Tool(job) => {
+                format!("msdd {}", job.arguments.iter().take(2).cloned().collect::<Vec<_>>().join(" "))
+            }
         }
     }
 

@@ -67,10 +67,8 @@ pub fn read_text(file: &Path) -> Result<String, ReportError> {
 /// # Errors
 /// [`ReportError::Write`].
 pub fn write_text(file: &Path, text: &str) -> Result<(), ReportError> {
-    let failed = |error: std::io::Error| ReportError::Write {
-        file: file.to_path_buf(),
-        problem: error.to_string(),
-    };
+    let failed =
+        |error: std::io::Error| ReportError::Write { file: file.to_path_buf(), problem: error.to_string() };
     let folder = file.parent().unwrap_or(Path::new("."));
     std::fs::create_dir_all(folder).map_err(failed)?;
     // Two processes may write the same file: each beside it under its own name.

@@ -8,8 +8,16 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Columns of the sub-regions, in the order that the solver writes them. K in W/(m K), stress in Pa, compression positive.
-pub const COLUMNS: [&str; 8] =
-    ["T", "porosity", "fabric_index", "conductivity_xx", "conductivity_yy", "stress_xx", "stress_yy", "pressure"];
+pub const COLUMNS: [&str; 8] = [
+    "T",
+    "porosity",
+    "fabric_index",
+    "conductivity_xx",
+    "conductivity_yy",
+    "stress_xx",
+    "stress_yy",
+    "pressure",
+];
 
 /// Results of a run of the solver.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -85,7 +93,9 @@ fn numbers(file: &Path) -> Result<Vec<Vec<f64>>, ReportError> {
     let line = |line: &str| -> Result<Vec<f64>, ReportError> {
         let parse = |word: &str| match word.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(ReportError::Read { file: file.to_path_buf(), problem: format!("'{word}' in '{line}'") }),
+            _ => {
+                Err(ReportError::Read { file: file.to_path_buf(), problem: format!("'{word}' in '{line}'") })
+            }
         };
         line.replace(['(', ')'], " ").split_whitespace().map(parse).collect()
     };
@@ -97,10 +107,14 @@ fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReportErro
     let file = newest(folder)?;
     let rows = numbers(&file)?;
     let first = rows.len().checked_sub(count);
-    let rows = first.map(|first| &rows[first..]).filter(|rows| rows.iter().all(|r| r.len() == 3 + COLUMNS.len()));
+    let rows =
+        first.map(|first| &rows[first..]).filter(|rows| rows.iter().all(|r| r.len() == 3 + COLUMNS.len()));
     match rows {
         Some(rows) => Ok(rows.iter().map(|row| row[3..].to_vec()).collect()),
-        None => Err(ReportError::Read { file, problem: format!("not {count} windows of {} columns", COLUMNS.len()) }),
+        None => Err(ReportError::Read {
+            file,
+            problem: format!("not {count} windows of {} columns", COLUMNS.len()),
+        }),
     }
 }
 
@@ -124,7 +138,10 @@ fn displacement(folder: &Path, job: &SolverJob) -> Result<Option<Vec<f64>>, Repo
 
 /// Whether windows of 10 x 3 hold cells each, so that their means mean something.
 pub fn has_sub_regions(job: &SolverJob) -> bool {
-    job.mesh[0] >= 10 && job.mesh[1] >= 3 && job.part == crate::job::Part::Whole && job.mesh[0] <= 10 * MESH[0]
+    job.mesh[0] >= 10
+        && job.mesh[1] >= 3
+        && job.part == crate::job::Part::Whole
+        && job.mesh[0] <= 10 * MESH[0]
 }
 
 #[cfg(test)]

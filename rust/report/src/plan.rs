@@ -126,7 +126,8 @@ pub fn validated(quick: bool) -> Vec<Configuration> {
     paper.affine = true;
     if quick {
         // Coarser, and fewer
-        (state, paper, moves) = (state.on([25, 8]).only(&CHARTED), paper.on([25, 8]).only(&["HC"]), moves.on([10, 3]));
+        (state, paper, moves) =
+            (state.on([25, 8]).only(&CHARTED), paper.on([25, 8]).only(&["HC"]), moves.on([10, 3]));
         moves = moves.change(|job| job.control("deltaT 0.1;"));
         moves.guess = 2.0;
     }
@@ -143,7 +144,8 @@ pub fn chart(quick: bool) -> Vec<Configuration> {
         return vec![
             coarse(fixed("1e-1", 0.5), [25, 8]),
             coarse(adaptive(0.5, 0.5), [25, 8]),
-            coarse(model("constant", FAMILIES[4], "surrogate { type constant; }", 0.5), [25, 8]).only(&["HC"]),
+            coarse(model("constant", FAMILIES[4], "surrogate { type constant; }", 0.5), [25, 8])
+                .only(&["HC"]),
             coarse(fixed("1e-1", 0.5).named("steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
         ];
     }
@@ -164,7 +166,7 @@ pub fn chart(quick: bool) -> Vec<Configuration> {
         fixed("1e-2", 2.0),
         fixed("1e-3", 15.0),
         segment,
-        second_order("1e-1", 0.8),
+        second_order("5e-2", 1.0),
         second_order("1e-2", 4.0),
         adaptive(1.0, 0.5),
         adaptive(0.05, 0.8),

@@ -76,8 +76,9 @@ pub fn run(
     let state = Mutex::new((records, 0.0, None, watch));
     let worker = || {
         while let Some((key, asked)) = waiting.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let result = execute(place, &asked.job, &key[..16])
-                .and_then(|record| cache.put(key, &record).map(|()| record));
+            let result = execute(place, &asked.job, &key[..16]).and_then(|record| {
+                if record.is_settled() { cache.put(key, &record).map(|()| record) } else { Ok(record) }
+            });
             let Ok(mut state) = state.lock() else { return };
             let (records, work, failed, watch) = &mut *state;
             match result {

@@ -40,7 +40,8 @@ pub fn files(folder: &Path) -> Result<Vec<std::path::PathBuf>, ReportError> {
     let failed =
         |error: std::io::Error| ReportError::Read { file: folder.to_path_buf(), problem: error.to_string() };
     let entries = std::fs::read_dir(folder).map_err(failed)?;
-    let mut files: Vec<_> = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>().map_err(failed)?;
+    let mut files: Vec<_> =
+        entries.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>().map_err(failed)?;
     files.sort();
     Ok(files)
 }
@@ -76,7 +77,8 @@ fn mesh(job: &SolverJob) -> String {
     let [nx, ny] = job.mesh;
     let right = if job.part == Part::Whole { ("right", "wall") } else { ("middleX", "symmetryPlane") };
     let top = if job.part == Part::Quarter { ("middleY", "symmetryPlane") } else { ("top", "wall") };
-    let patch = |(name, kind): (&str, &str), face: &str| format!("    {name} {{ type {kind}; faces (({face})); }}\n");
+    let patch =
+        |(name, kind): (&str, &str), face: &str| format!("    {name} {{ type {kind}; faces (({face})); }}\n");
     format!(
         "FoamFile {{ version 2.0; format ascii; class dictionary; object blockMeshDict; }}\nscale 1;\n\
          vertices ((0 0 0) ({width} 0 0) ({width} {height} 0) (0 {height} 0) (0 0 0.01) ({width} 0 0.01) \
@@ -150,7 +152,9 @@ mod tests {
     fn a_quarter_ends_in_planes_of_symmetry() {
         let job = SolverJob { part: Part::Quarter, mesh: [50, 15], ..SolverJob::new("H", 1) };
         let text = mesh(&job);
-        assert!(text.contains("middleX { type symmetryPlane") && text.contains("middleY { type symmetryPlane"));
+        assert!(
+            text.contains("middleX { type symmetryPlane") && text.contains("middleY { type symmetryPlane")
+        );
         assert!(text.contains("(1.075 0 0)") && text.contains("0.3225 0)"));
     }
 }

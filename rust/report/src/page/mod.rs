@@ -28,7 +28,11 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
         escape(&stamp.date),
         escape(&stamp.cpu),
         escape(&stamp.commit),
-        if report.quick { " <b>Quick version: few configurations, coarse meshes, one packing.</b>" } else { "" }
+        if report.quick {
+            " <b>Quick version: few configurations, coarse meshes, one packing.</b>"
+        } else {
+            ""
+        }
     );
     page += "<p class=\"source\">How values are known. <b>committed</b>: the reference by discrete elements, three packings, \
              <code>cases/reference/make</code>, commit as above. <b>measured</b>: in this run. <b>cached</b>: measured by an earlier run \

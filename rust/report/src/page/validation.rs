@@ -38,8 +38,19 @@ fn errors_table(made: &Made) -> String {
     }
     rows.sort_by_key(|row| ["H", "C", "HC", "H*", "C*", "HC*"].iter().position(|c| *c == row[0]));
     let heads = [
-        "'case", "'configuration", "T at P1 [%]", "P2 [%]", "P3 [%]", "pressure [%]", "porosity [%, abs.]", "K_xx [%]", "K_yy [%]",
-        "σ_xx [kPa]", "σ_yy [kPa]", "displacement [%]", "scatter of T between packings [%]",
+        "'case",
+        "'configuration",
+        "T at P1 [%]",
+        "P2 [%]",
+        "P3 [%]",
+        "pressure [%]",
+        "porosity [%, abs.]",
+        "K_xx [%]",
+        "K_yy [%]",
+        "σ_xx [kPa]",
+        "σ_yy [kPa]",
+        "displacement [%]",
+        "scatter of T between packings [%]",
     ];
     table(&heads, &rows)
 }
@@ -47,11 +58,13 @@ fn errors_table(made: &Made) -> String {
 fn row(made: &Made, v: &Validated) -> Vec<String> {
     let mut row = vec![case_name(&v.case).to_string(), v.configuration.clone()];
     let Some(errors) = &v.errors else {
-        row.push(format!("{}: {}", v.outcome, v.message.chars().take(80).collect::<String>()));
+        row.push(if v.outcome == "done" { "not all packings run".to_string() } else { why(v) });
         row.extend((0..10).map(|_| "–".to_string()));
         return row;
     };
-    let worst = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |w: f64, v| if v.abs() > w.abs() { v } else { w });
+    let worst = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold(0.0, |w: f64, v| if v.abs() > w.abs() { v } else { w })
+    };
     for probe in 0..3 {
         let each = worst(&mut errors.temperature_of_seeds.iter().map(|e| e[probe]));
         row.push(format!("{:.1} ({each:.1})", errors.temperature[probe]));
@@ -85,7 +98,13 @@ fn targets_table(made: &Made) -> String {
                 (false, Some(value)) => format!("missed, {:.1} times the target", value / t.target),
                 (false, None) => "not known".to_string(),
             };
-            vec![case_name(&t.case).to_string(), t.what.clone(), t.target.to_string(), fixed(t.reached, 2), verdict]
+            vec![
+                case_name(&t.case).to_string(),
+                t.what.clone(),
+                t.target.to_string(),
+                fixed(t.reached, 2),
+                verdict,
+            ]
         })
         .collect();
     let met = made.report.targets.iter().filter(|t| t.met).count();
@@ -94,6 +113,12 @@ fn targets_table(made: &Made) -> String {
         rows.len(),
         table(&["'case", "'what", "at most", "reached", "'verdict"], &rows)
     )
+}
+
+/// Outcome of a run that did not end well.
+fn why(v: &Validated) -> String {
+    let message: String = v.message.chars().take(80).collect();
+    if message.is_empty() { v.outcome.clone() } else { format!("{}: {message}", v.outcome) }
 }
 
 /// Lines of the configurations that were validated, in order.
@@ -115,7 +140,10 @@ fn keys(made: &Made) -> Vec<(Style, String)> {
         .zip(LINES)
         .map(|(name, (line, colour))| (Style::line(colour, line), name))
         .collect();
-    keys.push((Style::marker(0, Marker::Circle), "discrete elements, bars: scatter of the packings".to_string()));
+    keys.push((
+        Style::marker(0, Marker::Circle),
+        "discrete elements, bars: scatter of the packings".to_string(),
+    ));
     keys
 }
 
@@ -129,9 +157,10 @@ fn mean(runs: &[Run], of: impl Fn(&Run) -> Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 
 fn curves(made: &Made, case: &str, of: impl Fn(&Run) -> Vec<(f64, f64)>) -> Vec<Series> {
     let names = configurations(made);
-    let with_runs = names.iter().zip(LINES).filter_map(|(name, style)| {
-        Some((made.runs.get(&(case.to_string(), name.clone()))?, style))
-    });
+    let with_runs = names
+        .iter()
+        .zip(LINES)
+        .filter_map(|(name, style)| Some((made.runs.get(&(case.to_string(), name.clone()))?, style)));
     with_runs
         .map(|(runs, (line, colour))| Series {
             points: mean(runs, &of),
@@ -144,8 +173,10 @@ fn curves(made: &Made, case: &str, of: impl Fn(&Run) -> Vec<(f64, f64)>) -> Vec<
 /// Points of the reference at some of its times.
 fn elements(reference: &Reference, by_packing: &[Vec<f64>], scale: f64) -> Series {
     let times = reference.times();
-    let shown = |t: f64| [0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0].iter().any(|s| (s - t).abs() < 1e-6)
-        || (t > 5.5 && (t / 2.5 - (t / 2.5).round()).abs() < 1e-6);
+    let shown = |t: f64| {
+        [0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0].iter().any(|s| (s - t).abs() < 1e-6)
+            || (t > 5.5 && (t / 2.5 - (t / 2.5).round()).abs() < 1e-6)
+    };
     let kept: Vec<(f64, (f64, f64))> =
         times.into_iter().zip(statistics(by_packing)).filter(|(t, _)| shown(*t)).collect();
     Series {
@@ -172,7 +203,7 @@ fn temperatures(made: &Made) -> Result<String, ReportError> {
         }
     }
     let caption = format!(
-        "Fig. 3. T at the probes (paper, Figs. 9, 15, 18): means over the packings. Largest errors at P1, P2, P3: {}.",
+        "Fig. 3. T at the probes (paper, Figs. 11, 17, 18): means over the packings. Largest errors at P1, P2, P3: {}.",
         worst_temperatures(made)
     );
     let source = "discrete elements committed; solver measured and cached";
@@ -203,9 +234,14 @@ fn pressures(made: &Made) -> Result<String, ReportError> {
         .validation
         .iter()
         .filter(|v| !v.case.ends_with("star"))
-        .filter_map(|v| Some(format!("{} {}: {:.1} %", case_name(&v.case), v.configuration, v.errors.as_ref()?.pressure)))
+        .filter_map(|v| {
+            Some(format!("{} {}: {:.1} %", case_name(&v.case), v.configuration, v.errors.as_ref()?.pressure))
+        })
         .collect();
-    let caption = format!("Fig. 4. Mean pressure (paper, Figs. 11, 16, 20). Largest errors, % of the paper's range: {}.", all.join("; "));
+    let caption = format!(
+        "Fig. 4. Mean pressure (paper, Fig. 20). Largest errors, % of the paper's range: {}.",
+        all.join("; ")
+    );
     let source = "discrete elements committed; solver measured and cached";
     Figure { id: "pressures", panels, keys: keys(made), caption, source }.html(made)
 }
@@ -238,7 +274,7 @@ fn all_maps(made: &Made) -> Result<String, ReportError> {
             panels.push(maps(&format!("case {}: {label}", case_name(&reference.case)), digits, &named)?);
         }
     }
-    let caption = "Fig. 5. Means over 10 × 3 sub-regions at the end, and over the packings (paper, Figs. 8, 10, 14, 17, 19): light is \
+    let caption = "Fig. 5. Means over 10 × 3 sub-regions at the end, and over the packings (paper, Figs. 14, 16, 19): light is \
                    high, one scale for the maps of a panel. K of discrete elements by the network solved."
         .to_string();
     let source = "discrete elements committed; solver measured and cached";
@@ -250,7 +286,8 @@ fn profiles(made: &Made) -> Result<String, ReportError> {
     let x = |k: usize| (k as f64 + 0.5) * 0.215;
     let along = Axis { label: "x [m]", log: false, range: Some((0.0, 2.15)) };
     let column = COLUMNS.iter().position(|c| *c == "stress_xx").unwrap_or(0);
-    let stress = |run: &Run| run.columns.iter().enumerate().map(|(k, row)| (x(k), 1e-3 * row[column])).collect();
+    let stress =
+        |run: &Run| run.columns.iter().enumerate().map(|(k, row)| (x(k), 1e-3 * row[column])).collect();
     let moved = |run: &Run| -> Vec<(f64, f64)> {
         run.displacement.iter().flatten().enumerate().map(|(k, u)| (x(k), 1e3 * u)).collect()
     };
@@ -271,7 +308,7 @@ fn profiles(made: &Made) -> Result<String, ReportError> {
         plot("case HC, stress along x", &along, &axis("σ_xx [kPa]"), &stresses)?,
         plot("case HC, displacement along x", &along, &axis("u_x [mm]"), &displacements)?,
     ];
-    let caption = "Fig. 6. Case HC at the end, ten slices along x: without grains that move each slice keeps the stress of its own strain; \
+    let caption = "Fig. 6. Case HC at the end, ten slices along x (paper, Fig. 15): without grains that move each slice keeps the stress of its own strain; \
                    with them σ_xx evens out up to the friction of the long walls."
         .to_string();
     let source = "discrete elements committed; solver measured and cached";
