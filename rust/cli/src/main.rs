@@ -8,6 +8,7 @@ mod error;
 mod files;
 mod progress;
 mod reference;
+mod report;
 mod rows;
 mod rve;
 mod score;
@@ -53,6 +54,8 @@ enum Command {
     Score(score::Arguments),
     /// What each input of the networks is worth: trains them without it.
     Ablation(ablation::Arguments),
+    /// Speed against accuracy: runs what is missing, writes a page and its figures.
+    Report(report::Arguments),
     /// Table, JSON and plot of solver results.
     Summary(summary::Arguments),
 }
@@ -68,6 +71,7 @@ fn main() -> ExitCode {
         Command::Train(arguments) => train::run(&arguments),
         Command::Score(arguments) => score::run(&arguments),
         Command::Ablation(arguments) => ablation::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Summary(arguments) => summary::run(&arguments),
     };
     match result {

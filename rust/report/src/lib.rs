@@ -1,0 +1,79 @@
+//! Speed against accuracy: runs of the solver and of the discrete elements as cached jobs, compared with the committed
+//! reference, as `results/report.json` and as a page that needs nothing else.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`job`] | one configuration to run: a case of the solver, or a program |
+//! | [`setup`] | the case folder of a job |
+//! | [`grid`] | initial fields of the reference on other meshes |
+//! | [`execute`] | runs a job with a time limit; what came out |
+//! | [`output`] | reads what the solver wrote |
+//! | [`cache`] | results of jobs by the hash of what decides them |
+//! | [`pool`] | runs many jobs, some at a time |
+//! | [`plan`] | the configurations of the report |
+//! | [`reference`](mod@reference) | the committed runs by discrete elements |
+//! | [`compare`] | errors against the reference |
+//! | [`front`] | cheapest configurations, Pareto front |
+//! | [`economy`] | what each case needs |
+//! | [`failures`] | where methods break, and what the program does there |
+//! | [`report`] | all of it as data: the JSON |
+//! | [`draw`] | figures as SVG |
+//! | [`page`] | the page |
+#![forbid(unsafe_code)]
+
+pub mod cache;
+pub mod compare;
+pub mod draw;
+pub mod economy;
+pub mod execute;
+pub mod failures;
+pub mod front;
+pub mod grid;
+pub mod job;
+pub mod output;
+pub mod page;
+pub mod plan;
+pub mod pool;
+pub mod reference;
+pub mod report;
+pub mod setup;
+
+use std::path::{Path, PathBuf};
+
+/// What keeps a report from being made. A job that fails is an outcome of the job, not an error.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    #[error("cannot read {file}: {problem}", file = file.display())]
+    Read { file: PathBuf, problem: String },
+    #[error("cannot write {file}: {problem}", file = file.display())]
+    Write { file: PathBuf, problem: String },
+    #[error("cannot start {program}: {problem}")]
+    Start { program: String, problem: String },
+    #[error("cannot draw {figure}: {problem}")]
+    Draw { figure: String, problem: String },
+}
+
+/// Reads a text file.
+///
+/// # Errors
+/// [`ReportError::Read`].
+pub fn read_text(file: &Path) -> Result<String, ReportError> {
+    std::fs::read_to_string(file)
+        .map_err(|error| ReportError::Read { file: file.to_path_buf(), problem: error.to_string() })
+}
+
+/// Writes beside, then renames, so that a killed run leaves the old file or the new one. Makes the folder.
+///
+/// # Errors
+/// [`ReportError::Write`].
+pub fn write_text(file: &Path, text: &str) -> Result<(), ReportError> {
+    let failed =
+        |error: std::io::Error| ReportError::Write { file: file.to_path_buf(), problem: error.to_string() };
+    let folder = file.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    // Two processes may write the same file: each beside it under its own name.
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let part = folder.join(format!("{name}.{}.part", std::process::id()));
+    std::fs::write(&part, text).map_err(failed)?;
+    std::fs::rename(&part, file).map_err(failed)
+}

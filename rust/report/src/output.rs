@@ -1,0 +1,161 @@
+//! What the solver wrote: series, sub-regions, the summary.
+
+use crate::grid::list;
+use crate::job::{MESH, SolverJob};
+use crate::{ReportError, read_text};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::Path;
+
+/// Columns of the sub-regions, in the order that the solver writes them. K in W/(m K), stress in Pa, compression positive.
+pub const COLUMNS: [&str; 8] = [
+    "T",
+    "porosity",
+    "fabric_index",
+    "conductivity_xx",
+    "conductivity_yy",
+    "stress_xx",
+    "stress_yy",
+    "pressure",
+];
+
+/// Results of a run of the solver.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// t [s], and T [K] at P1, P2, P3.
+    pub temperature: Vec<[f64; 4]>,
+    /// t [s], mean pressure [Pa].
+    pub pressure: Vec<[f64; 2]>,
+    /// A line a sub-region of 10 x 3, from the lower left, x first: [`COLUMNS`].
+    pub sub_regions: Vec<Vec<f64>>,
+    /// The same of ten slices along x.
+    pub columns: Vec<Vec<f64>>,
+    /// Displacement along x in ten slices [m]; with grains that move only.
+    pub displacement: Option<Vec<f64>>,
+    pub cells: u64,
+    pub steps: u64,
+    pub rejected_steps: u64,
+    pub cell_queries: u64,
+    pub cell_steps: u64,
+    pub clamped_queries: u64,
+    /// Mean pressure [Pa] and porosity at the end.
+    pub end_pressure: f64,
+    pub end_porosity: f64,
+}
+
+/// Reads the results in a case folder.
+///
+/// # Errors
+/// [`ReportError::Read`] for a file that is missing or holds something else.
+pub fn read(folder: &Path, job: &SolverJob) -> Result<Run, ReportError> {
+    let post = folder.join("postProcessing");
+    let summary = read_summary(&post.join("msddFoam/summary.json"))?;
+    let count = |key: &str| summary[key].as_u64().unwrap_or_default();
+    let end = |key: &str| summary["final"][key].as_f64().unwrap_or(f64::NAN);
+    Ok(Run {
+        temperature: numbers(&newest(&post.join("spaceProbes"))?)?
+            .iter()
+            .filter_map(|row| row.get(..4)?.try_into().ok())
+            .collect(),
+        pressure: numbers(&newest(&post.join("wallPressure"))?)?
+            .iter()
+            .filter_map(|row| row.get(..2)?.try_into().ok())
+            .collect(),
+        sub_regions: last_windows(&post.join("subRegions"), 30)?,
+        columns: last_windows(&post.join("columns"), 10)?,
+        displacement: displacement(folder, job)?,
+        cells: count("cells"),
+        steps: count("steps"),
+        rejected_steps: count("rejected_steps"),
+        cell_queries: count("cell_queries"),
+        cell_steps: count("cell_steps"),
+        clamped_queries: count("clamped_queries"),
+        end_pressure: end("pressure"),
+        end_porosity: end("porosity"),
+    })
+}
+
+fn read_summary(file: &Path) -> Result<Value, ReportError> {
+    serde_json::from_str(&read_text(file)?)
+        .map_err(|error| ReportError::Read { file: file.to_path_buf(), problem: error.to_string() })
+}
+
+/// The one file of a function object: its only one of the first start time.
+fn newest(folder: &Path) -> Result<std::path::PathBuf, ReportError> {
+    let none = || ReportError::Read { file: folder.to_path_buf(), problem: "no file".to_string() };
+    let start = crate::setup::files(folder)?.into_iter().next().ok_or_else(none)?;
+    crate::setup::files(&start)?.into_iter().next().ok_or_else(none)
+}
+
+/// Lines of numbers; brackets and lines that begin with # are left out.
+fn numbers(file: &Path) -> Result<Vec<Vec<f64>>, ReportError> {
+    let text = read_text(file)?;
+    let line = |line: &str| -> Result<Vec<f64>, ReportError> {
+        let parse = |word: &str| match word.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => {
+                Err(ReportError::Read { file: file.to_path_buf(), problem: format!("'{word}' in '{line}'") })
+            }
+        };
+        line.replace(['(', ')'], " ").split_whitespace().map(parse).collect()
+    };
+    text.lines().filter(|l| !l.starts_with('#') && !l.trim().is_empty()).map(line).collect()
+}
+
+/// The last lines of a file of sub-regions, without time and place.
+fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReportError> {
+    let file = newest(folder)?;
+    let rows = numbers(&file)?;
+    let first = rows.len().checked_sub(count);
+    let rows =
+        first.map(|first| &rows[first..]).filter(|rows| rows.iter().all(|r| r.len() == 3 + COLUMNS.len()));
+    match rows {
+        Some(rows) => Ok(rows.iter().map(|row| row[3..].to_vec()).collect()),
+        None => Err(ReportError::Read {
+            file,
+            problem: format!("not {count} windows of {} columns", COLUMNS.len()),
+        }),
+    }
+}
+
+/// Means of the displacement along x over ten slices, where the solver wrote a displacement.
+fn displacement(folder: &Path, job: &SolverJob) -> Result<Option<Vec<f64>>, ReportError> {
+    let file = folder.join(format!("{}/D", job.end));
+    if !file.exists() {
+        return Ok(None);
+    }
+    let wrong = |problem| ReportError::Read { file: file.clone(), problem };
+    let values = list(&read_text(&file)?).map_err(wrong)?;
+    let (mut sum, mut count) = (vec![0.0; 10], [0.0; 10]);
+    for (k, value) in values.iter().enumerate() {
+        let slice = 10 * (k % job.mesh[0]) / job.mesh[0].max(1);
+        sum[slice] += value[0];
+        count[slice] += 1.0;
+    }
+    sum.iter_mut().zip(count).for_each(|(s, n)| *s /= f64::max(n, 1.0));
+    Ok(Some(sum))
+}
+
+/// Whether windows of 10 x 3 hold cells each, so that their means mean something.
+pub fn has_sub_regions(job: &SolverJob) -> bool {
+    job.mesh[0] >= 10
+        && job.mesh[1] >= 3
+        && job.part == crate::job::Part::Whole
+        && job.mesh[0] <= 10 * MESH[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_a_series_are_read_and_others_refused() {
+        let folder = std::env::temp_dir().join(format!("msdd-report-output-{}", std::process::id()));
+        let file = folder.join("spaceProbes/0/T");
+        crate::write_text(&file, "# Time P1\n0.1 (1 2 3)\n0.2\t4\t5\t6\n").unwrap();
+        assert_eq!(numbers(&newest(&folder.join("spaceProbes")).unwrap()).unwrap()[1], [0.2, 4.0, 5.0, 6.0]);
+        crate::write_text(&file, "0.1 nan\n").unwrap();
+        assert!(numbers(&file).unwrap_err().to_string().contains("'nan'"));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}

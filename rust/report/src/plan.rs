@@ -1,0 +1,256 @@
+//! The configurations of the report. Adding one is a line in [`chart`].
+
+use crate::job::{Job, SolverJob, ToolJob};
+use crate::pool::Asked;
+
+/// Kinds of configurations, told apart by marker and colour.
+pub const FAMILIES: [&str; 9] = [
+    "state network",
+    "state network, grains move",
+    "paper's network",
+    "effective medium (plug-in)",
+    "constant conductivity",
+    "online RVEs",
+    "one-dimensional",
+    "discrete elements",
+    "quoted from the paper",
+];
+
+/// How a configuration's cost and error are known.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Known {
+    /// Run to the end for all packings.
+    Run,
+    /// Run to this time [s] for the cost alone; the error is that of the configuration of this name.
+    Segment(f64, String),
+}
+
+/// One point of the chart in some cases.
+#[derive(Clone, Debug)]
+pub struct Configuration {
+    pub name: String,
+    pub family: &'static str,
+    /// Without case and packing.
+    template: SolverJob,
+    pub cases: Vec<&'static str>,
+    /// Its K is Eq. 9's, an upper bound, and is compared with that.
+    pub affine: bool,
+    pub known: Known,
+    /// Packings that it is run for, of those of the report.
+    pub packings: usize,
+    /// Guess of its processor time [s].
+    pub guess: f64,
+}
+
+impl Configuration {
+    pub fn job(&self, case: &str, seed: u32) -> SolverJob {
+        SolverJob { case: case.to_string(), seed, ..self.template.clone() }
+    }
+    pub fn asked(&self, case: &str, seed: u32) -> Asked {
+        Asked { job: Job::Solver(self.job(case, seed)), guess: self.guess }
+    }
+    fn named(mut self, name: &str, family: &'static str) -> Self {
+        self.name = name.to_string();
+        self.family = family;
+        self
+    }
+    fn only(mut self, cases: &[&'static str]) -> Self {
+        self.cases = cases.to_vec();
+        self
+    }
+    fn change(mut self, change: impl Fn(SolverJob) -> SolverJob) -> Self {
+        self.template = change(self.template);
+        self
+    }
+    fn on(mut self, mesh: [usize; 2]) -> Self {
+        self.template.mesh = mesh;
+        self
+    }
+}
+
+/// The cases of the chart.
+pub const CHARTED: [&str; 3] = ["H", "C", "HC"];
+
+/// The paper's scheme with steps of `step` [s], the state network, grains that keep their place.
+fn fixed(step: &str, guess: f64) -> Configuration {
+    let milliseconds = 1e3 * step.parse::<f64>().unwrap_or(0.0);
+    Configuration {
+        name: format!("fixed steps {milliseconds} ms"),
+        family: FAMILIES[0],
+        template: SolverJob::new("", 0).control(&format!("deltaT {step};")),
+        cases: CHARTED.to_vec(),
+        affine: false,
+        known: Known::Run,
+        packings: usize::MAX,
+        guess,
+    }
+}
+
+fn second_order(step: &str, guess: f64) -> Configuration {
+    let base = fixed(step, guess).change(|job| job.solution("msddFoam { timeScheme secondOrder; }"));
+    let name = base.name.replace("fixed", "second order, fixed");
+    base.named(&name, FAMILIES[0])
+}
+
+/// Adaptive steps, second order, with a tolerance of `tolerance` [K] a step.
+fn adaptive(tolerance: f64, guess: f64) -> Configuration {
+    let keys = format!(
+        "msddFoam {{ timeScheme secondOrder; temperatureTolerance {tolerance}; stateTolerance 0.5; }}\n\
+         solvers {{ T {{ tolerance 1e-8; }} }}"
+    );
+    fixed("1e-2", guess)
+        .named(&format!("adaptive, {tolerance} K"), FAMILIES[0])
+        .change(|job| job.solution(&keys).control("adjustTimeStep yes;"))
+}
+
+fn moving(step: &str, guess: f64) -> Configuration {
+    let base = fixed(step, guess).change(|job| job.grains("mechanics equilibrium;"));
+    let name = format!("equilibrium, {}", base.name.replace("fixed ", ""));
+    base.named(&name, FAMILIES[1])
+}
+
+fn model(name: &str, family: &'static str, keys: &str, guess: f64) -> Configuration {
+    let base = fixed("1e-2", guess).named(name, family);
+    base.change(|job| job.grains(keys))
+}
+
+const PAPER: &str = "surrogate { model builtin:paper; }";
+const MEDIUM: &str = "surrogate { type plugin; pluginCoeffs { library medium.so; } }";
+
+/// What validation is made of: the paper's algorithm with both networks, and with grains that move.
+pub fn validated(quick: bool) -> Vec<Configuration> {
+    let all: Vec<&'static str> = crate::reference::CASES.iter().map(|case| case.0).collect();
+    let mut state = fixed("1e-2", 2.0).named("state network", FAMILIES[0]).only(&all);
+    let mut paper = model("paper's network", FAMILIES[2], PAPER, 3.0).only(&all);
+    let mut moves = moving("2e-2", 25.0).named("state network, grains move", FAMILIES[1]);
+    paper.affine = true;
+    if quick {
+        // Coarser, and fewer
+        (state, paper, moves) =
+            (state.on([25, 8]).only(&CHARTED), paper.on([25, 8]).only(&["HC"]), moves.on([10, 3]));
+        moves = moves.change(|job| job.control("deltaT 0.1;"));
+        moves.guess = 2.0;
+    }
+    vec![state, moves, paper]
+}
+
+/// All points of the chart, but the discrete elements'.
+pub fn chart(quick: bool) -> Vec<Configuration> {
+    let coarse = |base: Configuration, mesh: [usize; 2]| {
+        let (name, family) = (format!("{}, {}x{}", base.name, mesh[0], mesh[1]), base.family);
+        base.on(mesh).named(&name, family)
+    };
+    if quick {
+        return vec![
+            coarse(fixed("1e-1", 0.5), [25, 8]),
+            coarse(adaptive(0.5, 0.5), [25, 8]),
+            coarse(model("constant", FAMILIES[4], "surrogate { type constant; }", 0.5), [25, 8])
+                .only(&["HC"]),
+            coarse(fixed("1e-1", 0.5).named("steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
+        ];
+    }
+    let mut affine = model("affine conductivity", FAMILIES[0], "surrogate { conductivity affine; }", 2.0);
+    affine.affine = true;
+    let mut paper = model("paper's network, steps 10 ms", FAMILIES[2], PAPER, 3.0);
+    let mut paper_coarse = model("paper's network, steps 100 ms", FAMILIES[2], PAPER, 0.6)
+        .change(|job| job.control("deltaT 0.1;"));
+    (paper.affine, paper_coarse.affine) = (true, true);
+    let mut segment = fixed("1e-4", 10.0).named("fixed steps 0.1 ms", FAMILIES[0]);
+    segment.known = Known::Segment(1.0, "fixed steps 1 ms".to_string());
+    segment = segment.change(|mut job| {
+        job.end = 1.0;
+        job
+    });
+    let mut list = vec![
+        fixed("1e-1", 0.5),
+        fixed("1e-2", 2.0),
+        fixed("1e-3", 15.0),
+        segment,
+        second_order("5e-2", 1.0),
+        second_order("1e-2", 4.0),
+        adaptive(1.0, 0.5),
+        adaptive(0.05, 0.8),
+        adaptive(0.005, 2.0),
+        coarse(adaptive(0.5, 0.3), [10, 3]),
+        coarse(adaptive(0.5, 0.3), [25, 8]),
+        coarse(adaptive(0.05, 0.4), [50, 15]),
+        coarse(adaptive(0.05, 3.0), [200, 60]),
+        paper_coarse,
+        paper,
+        affine,
+        model("constant", FAMILIES[4], "surrogate { type constant; }", 1.0),
+        coarse(model("constant", FAMILIES[4], "surrogate { type constant; }", 0.4), [25, 8]),
+        model("steps 10 ms", FAMILIES[3], MEDIUM, 3.0).change(|mut job| {
+            job.plugin = true;
+            job
+        }),
+        moving("1e-1", 6.0),
+        moving("2e-2", 25.0),
+        coarse(moving("1e-1", 1.0), [10, 3]),
+        coarse(moving("1e-1", 2.0), [25, 8]),
+        coarse(moving("1e-1", 3.0), [50, 15]),
+        coarse(fixed("1e-1", 0.4).named("steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
+        coarse(moving("1e-1", 2.0).named("equilibrium, steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
+    ];
+    list.push(online("all cells, 10x3, one packing", "", 1e-3, 60.0).on([10, 3]));
+    list.push(online("groups, 10x3, one packing", "rvePer group;", 1e-3, 20.0).on([10, 3]));
+    list
+}
+
+/// Boxes of grains simulated while the solver runs. Boxes are asked again after a strain of `strain`.
+fn online(name: &str, keys: &str, strain: f64, guess: f64) -> Configuration {
+    let text = format!(
+        "surrogate {{ type onlineRve; smallestStrain {strain}; onlineRveCoeffs {{ conductivity network; compression horizontal; {keys} }} }}"
+    );
+    let mut base = model(name, FAMILIES[5], &text, guess).change(|job| job.control("deltaT 0.1;"));
+    // They cost as much as the rest of the chart together.
+    base.packings = 1;
+    base
+}
+
+/// A run of a case by discrete elements on one thread, to `end` [s]; `step`: largest step [s], none: the engine's own.
+pub fn elements(case: &str, end: f64, step: Option<f64>, limit: u64) -> Job {
+    let mut arguments: Vec<String> = ["reference", "run", "--case", &format!("cases/{case}"), "--seed", "1"]
+        .iter()
+        .chain(&["--out", "WORK", "--threads", "1", "--end", &end.to_string()])
+        .map(|text| (*text).to_string())
+        .collect();
+    if let Some(step) = step {
+        arguments.extend(["--time-step".to_string(), step.to_string()]);
+    }
+    tool(arguments, &["cases/common"], limit)
+}
+
+/// What programs of the engine are made of.
+const ENGINE: [&str; 4] = ["rust/dem", "rust/rve", "rust/reference", "Cargo.lock"];
+
+pub fn tool(arguments: Vec<String>, inputs: &[&str], limit: u64) -> Job {
+    let inputs = ENGINE.iter().chain(inputs).map(|text| (*text).to_string()).collect();
+    Job::Tool(ToolJob { arguments, inputs, output: None, limit })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn names_are_unique_and_families_known() {
+        for quick in [true, false] {
+            let list = chart(quick);
+            let names: BTreeSet<String> = list.iter().map(|c| format!("{} {}", c.family, c.name)).collect();
+            assert_eq!(names.len(), list.len());
+            assert!(list.iter().chain(&validated(quick)).all(|c| FAMILIES.contains(&c.family)));
+        }
+    }
+
+    #[test]
+    fn a_segment_names_a_configuration_that_is_run() {
+        let list = chart(false);
+        for configuration in &list {
+            if let Known::Segment(_, name) = &configuration.known {
+                assert!(list.iter().any(|c| &c.name == name && c.known == Known::Run), "{name}");
+            }
+        }
+    }
+}
