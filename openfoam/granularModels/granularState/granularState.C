@@ -282,6 +282,49 @@ void Foam::granularState::commit()
 }
 
 
+Foam::granularState::memory Foam::granularState::remember() const
+{
+    memory now;
+    now.state.resize(state_.size());
+    forAll(state_, i)
+    {
+        now.state[i] = state_[i].primitiveField();
+    }
+    now.K = K_;
+    now.stressXX = stressXX_;
+    now.stressYY = stressYY_;
+    now.stressXY = stressXY_;
+    now.increment = thermalStrainIncrement_.primitiveField();
+    now.strain = thermalStrain_.primitiveField();
+    now.lastStrain = lastStrain_;
+    now.queries = queries_;
+    now.asked = asked_;
+    now.cellSteps = cellSteps_;
+    now.clamped = clamped_;
+    return now;
+}
+
+
+void Foam::granularState::restore(const memory& before)
+{
+    forAll(state_, i)
+    {
+        state_[i].primitiveFieldRef() = before.state[i];
+    }
+    K_ = before.K;
+    stressXX_ = before.stressXX;
+    stressYY_ = before.stressYY;
+    stressXY_ = before.stressXY;
+    thermalStrainIncrement_.primitiveFieldRef() = before.increment;
+    thermalStrain_.primitiveFieldRef() = before.strain;
+    lastStrain_ = before.lastStrain;
+    queries_ = before.queries;
+    asked_ = before.asked;
+    cellSteps_ = before.cellSteps;
+    clamped_ = before.clamped;
+}
+
+
 const Foam::granularState::conductivityColumns&
 Foam::granularState::trialConductivity()
 {
