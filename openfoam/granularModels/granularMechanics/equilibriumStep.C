@@ -58,7 +58,6 @@ Foam::granularMechanicsModels::equilibrium::at
 bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
 {
     // Strains of the middle are of second order
-    scalarField exx(mesh_.nCells()), eyy(exx);
     broken_ = quads_.shapes(at(du, 0.5), shapes_);
     if (broken_ >= 0)
     {
@@ -78,16 +77,23 @@ bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
         }
         // A medium stiffer in shear by shearFactor, as stiff in volume
         const scalar deviator = 0.5*(shearFactor_ - 1)*(xx - yy);
-        exx[celli] = xx + deviator;
-        eyy[celli] = yy - deviator;
-        stress_.xy[celli] += shearModulus_[celli]*xy;
-        if (!(mag(exx[celli]) + mag(eyy[celli]) + mag(xy) < largestStrain))
+        strainXX_[celli] = xx + deviator;
+        strainYY_[celli] = yy - deviator;
+        shear_[celli] = stress_.xy[celli] + shearModulus_[celli]*xy;
+        if
+        (
+            !(
+                mag(strainXX_[celli]) + mag(strainYY_[celli]) + mag(xy)
+              < largestStrain
+            )
+        )
         {
             broken_ = celli;
             return false;
         }
     }
-    grains_.deform(exx, eyy, sinPhi_, stress_);
+    stress_.xy = shear_;
+    grains_.tryStrain(strainXX_, strainYY_, sinPhi_, stress_);
     return true;
 }
 
@@ -202,19 +208,30 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     bool& moved
 )
 {
-    moved = returnReduce(quads_.dot(du, du) > 0, orOp<bool>());
+    nodeField d;
+    moved = quads_.dot(du, du) > 0;
+    before_ = left_ = imbalance(nodeField(du.size(), vector2D(Zero)), false);
+    if (moved || left_ > tolerance_)
+    {
+        findTangent();
+    }
     if (moved)
     {
-        findTangent();
+        // The walls move, and all grains with them as in a linear medium
+        nodeField resisted(du.size());
+        multiply(du, resisted);
+        forAll(r_, i)
+        {
+            r_[i] -= resisted[i];
+        }
+        findDiagonal();
+        conjugateGradients(r_, d);
+        forAll(du, i)
+        {
+            du[i] += d[i];
+        }
+        left_ = imbalance(du, true);
     }
-    left_ = imbalance(du, moved);
-    before_ = left_;
-    if (!moved && left_ > tolerance_)
-    {
-        findTangent();
-    }
-
-    nodeField d;
     for
     (
         label iteration = 0;
@@ -297,7 +314,7 @@ void Foam::granularMechanicsModels::equilibrium::keep
         {
             u_[i] += du[i];
         }
-        grains_.commitDeformed(stress_.xy);
+        grains_.deform(strainXX_, strainYY_, sinPhi_, shear_);
         findMetric();
     }
     placed_ = true;

@@ -348,21 +348,20 @@ Foam::granularState::presentStress() const
 }
 
 
-Foam::granularState::tangentColumns Foam::granularState::tangent()
+const Foam::granularState::tangentColumns& Foam::granularState::tangent()
 {
     const label cells = mesh_.nCells();
-    tangentColumns result;
-    result.c11.resize(cells);
-    result.c22.resize(cells);
-    result.c12.resize(cells);
+    tangent_.c11.resize(cells);
+    tangent_.c22.resize(cells);
+    tangent_.c12.resize(cells);
 
     granularModel::query query(deformation());
-    query.c11 = result.c11.data();
-    query.c22 = result.c22.data();
-    query.c12 = result.c12.data();
+    query.c11 = tangent_.c11.data();
+    query.c22 = tangent_.c22.data();
+    query.c12 = tangent_.c12.data();
     model_->advance(query);
 
-    return result;
+    return tangent_;
 }
 
 
@@ -400,12 +399,52 @@ Foam::granularModel::query Foam::granularState::deformation()
 }
 
 
-void Foam::granularState::deform
+Foam::scalar Foam::granularState::limit
+(
+    const scalar p,
+    const scalar q,
+    const scalar xy,
+    const scalar sinPhi
+)
+{
+    const scalar most = sinPhi*p, has = std::sqrt(sqr(q) + sqr(xy));
+    return has > most ? most/has : 1;
+}
+
+
+void Foam::granularState::tryStrain
 (
     const scalarField& strainXX,
     const scalarField& strainYY,
     const scalar sinPhi,
     stressColumns& stress
+) const
+{
+    forAll(strainXX, celli)
+    {
+        const scalar ex = strainXX[celli], ey = strainYY[celli];
+        const scalar c12 = tangent_.c12[celli];
+        const scalar xx =
+            stressXX_[celli] - tangent_.c11[celli]*ex - c12*ey;
+        const scalar yy =
+            stressYY_[celli] - c12*ex - tangent_.c22[celli]*ey;
+        const scalar p = max(0.5*(xx + yy), scalar(0));
+        const scalar q = max(-p, min(p, 0.5*(xx - yy)));
+        const scalar factor = limit(p, q, stress.xy[celli], sinPhi);
+
+        stress.xx[celli] = -(p + factor*q);
+        stress.yy[celli] = -(p - factor*q);
+        stress.xy[celli] *= factor;
+    }
+}
+
+
+void Foam::granularState::deform
+(
+    const scalarField& strainXX,
+    const scalarField& strainYY,
+    const scalar sinPhi,
+    const scalarField& stressXY
 )
 {
     granularModel::query query(deformation());
@@ -413,37 +452,26 @@ void Foam::granularState::deform
     query.strainYY = strainYY.cdata();
     model_->advance(query);
 
+    label limited = 0;
     forAll(deformedXX_, celli)
     {
-        scalar& xx = deformedXX_[celli];
-        scalar& yy = deformedYY_[celli];
-        scalar& xy = stress.xy[celli];
-        const scalar p = 0.5*(xx + yy), q = 0.5*(xx - yy);
-        const scalar most = sinPhi*p, has = std::sqrt(sqr(q) + sqr(xy));
-
-        if (has > most)
+        const scalar p = 0.5*(deformedXX_[celli] + deformedYY_[celli]);
+        const scalar q = 0.5*(deformedXX_[celli] - deformedYY_[celli]);
+        const scalar factor = limit(p, q, stressXY[celli], sinPhi);
+        stressXY_[celli] = stressXY[celli]*factor;
+        if (factor < 1 && deviator_ >= 0)
         {
-            const scalar factor = has > 0 ? most/has : 0;
-            xx = p + factor*q;
-            yy = p - factor*q;
-            xy *= factor;
-            if (deviator_ >= 0)
-            {
-                deformed_.values[deviator_][celli] *= factor;
-            }
+            deformed_.values[deviator_][celli] *= factor;
+            ++limited;
         }
-        stress.xx[celli] = -xx;
-        stress.yy[celli] = -yy;
     }
-}
-
-
-void Foam::granularState::commitDeformed(const scalarField& stressXY)
-{
-    // Once more without strain: the deviator may have been limited since
-    granularModel::query query(deformation());
-    query.state = deformed_.pointers.cdata();
-    model_->advance(query);
+    if (limited)
+    {
+        // Once more without strain, for conductivity and stress
+        granularModel::query after(deformation());
+        after.state = deformed_.pointers.cdata();
+        model_->advance(after);
+    }
 
     forAll(state_, i)
     {
@@ -453,7 +481,6 @@ void Foam::granularState::commitDeformed(const scalarField& stressXY)
     K_.yy = deformedK_.yy;
     stressXX_ = deformedXX_;
     stressYY_ = deformedYY_;
-    stressXY_ = stressXY;
 }
 
 
