@@ -18,9 +18,11 @@ parts() {
     local e
     e=$(field 0.05/D | awk '{ x = ((NR - 1) % 12 + 0.5)/12; e = $1/(-0.48*x) - 1; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR == 72 ? w + 0 : "nan") }')
     check "parts: displacement is linear to $e <= 1e-6" below "$e" 1e-6
+    e=$(field 0.05/areaRatio | awk '{ e = $1/(1 - 0.48/2.15) - 1; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR == 72 ? w + 0 : "nan") }')
+    check "parts: area of the cells follows to $e <= 1e-6" below "$e" 1e-6
     e=$(paste -d ' ' <(field 0.05/areaRatio) <(field 0.05/particleDensity) <(field 0.05/porosity) <(field 0.05/bulkDensity | awk '{ for (i = 0; i < 72; i++) print }') \
-        | awk '{ e = $1/(1 - 0.48/2.15) - 1; f = $2*$1*(1 - $3)/$4 - 1; if (e < 0) e = -e; if (f < 0) f = -f; if (e < f) e = f; if (!(e <= w)) w = e } END { print (NR == 72 ? w + 0 : "nan") }')
-    check "parts: area and particle density of the cells follow to $e <= 1e-8" below "$e" 1e-8
+        | awk '{ e = $2*$1*(1 - $3)/$4 - 1; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR == 72 ? w + 0 : "nan") }')
+    check "particleDensity = bulkDensity/areaRatio/(1 - porosity) to $e <= 1e-12" below "$e" 1e-12
 }
 
 halved() { # the same with adaptive steps: repeated until the step's share is small enough
