@@ -28,6 +28,9 @@ namespace Foam
 //- Sums that do not wait for one another, and fill the processor's registers
 static const label sums = 16;
 
+//- For processors with wide registers, too; the same bits on all
+#define FOR_ALL_WIDTHS __attribute__((target_clones("avx2", "default")))
+
 //- Scalar product of so many values
 static inline float product(const float* a, const float* b, const label count)
 {
@@ -52,6 +55,50 @@ static inline float product(const float* a, const float* b, const label count)
         }
     }
     return s[0];
+}
+
+
+//- x := inverse of the factor times x
+FOR_ALL_WIDTHS static void forward
+(
+    const float* factor,
+    const float* inverse,
+    float* x,
+    const label rows,
+    const label width
+)
+{
+    for (label i = 0; i < rows; ++i)
+    {
+        const label count = min(i, width);
+        const float* L = factor + (i + 1)*width - count;
+        x[i] = (x[i] - product(L, x + i - count, count))*inverse[i];
+    }
+}
+
+
+//- x := inverse of the factor's transpose times x
+FOR_ALL_WIDTHS static void backward
+(
+    const float* factor,
+    const float* inverse,
+    float* x,
+    const label rows,
+    const label width
+)
+{
+    for (label i = rows - 1; i >= 0; --i)
+    {
+        const label count = min(i, width);
+        const float* __restrict__ L = factor + (i + 1)*width - count;
+        float* __restrict__ before = x + i - count;
+        const float value = x[i]*inverse[i];
+        x[i] = value;
+        for (label k = 0; k < count; ++k)
+        {
+            before[k] -= L[k]*value;
+        }
+    }
 }
 
 
@@ -218,26 +265,11 @@ void Foam::bandSolver::solve(List<vector2D>& values) const
         x_[2*number_[i] + 1] = scale*values[i].y();
     }
 
-    float* __restrict__ x = x_.data();
-    for (label i = 0; i < rows_; ++i)
-    {
-        const label count = min(i, width_);
-        const float* L = factor_.cdata() + (i + 1)*width_ - count;
-        x[i] = (x[i] - product(L, x + i - count, count))*inverse_[i];
-    }
-    for (label i = rows_ - 1; i >= 0; --i)
-    {
-        const label count = min(i, width_);
-        const float* __restrict__ L =
-            factor_.cdata() + (i + 1)*width_ - count;
-        float* __restrict__ before = x + i - count;
-        const float value = x[i]*inverse_[i];
-        x[i] = value;
-        for (label k = 0; k < count; ++k)
-        {
-            before[k] -= L[k]*value;
-        }
-    }
+    const float* L = factor_.cdata();
+    const float* inverse = inverse_.cdata();
+    forward(L, inverse, x_.data(), rows_, width_);
+    backward(L, inverse, x_.data(), rows_, width_);
+
     forAll(values, i)
     {
         values[i] =

@@ -302,32 +302,6 @@ void Foam::granularMechanicsModels::equilibrium::findMetric()
 }
 
 
-void Foam::granularMechanicsModels::equilibrium::makeFields()
-{
-    vectorField& D = D_.primitiveFieldRef();
-    scalarField& J = areaRatio_.primitiveFieldRef();
-    forAll(D, celli)
-    {
-        vector2D sum(Zero);
-        for (const label node : quads_.quads()[celli])
-        {
-            sum += 0.25*u_[node];
-        }
-        D[celli] = vector(sum.x(), sum.y(), 0);
-        const FixedList<scalar, 4> F(gradient(celli));
-        J[celli] = F[0]*F[3] - F[1]*F[2];
-    }
-    D_.correctBoundaryConditions();
-    areaRatio_.correctBoundaryConditions();
-    grains_.setAreaRatio(J);
-
-    writeNodes(u_, nodeDisplacement_);
-    writeNodes(traction_, wallTraction_);
-    shearStress_.primitiveFieldRef() = grains_.presentStress().xy;
-    shearStress_.correctBoundaryConditions();
-}
-
-
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 const Foam::granularState::conductivityColumns&
@@ -346,27 +320,5 @@ Foam::granularMechanicsModels::equilibrium::pulledBack
     }
     return pulledBack_;
 }
-
-
-Foam::granularMechanics::counters
-Foam::granularMechanicsModels::equilibrium::count() const
-{
-    counters all(counters_);
-    all.displacement = gMax(mag(D_.primitiveField())());
-    return all;
-}
-
-
-void Foam::granularMechanicsModels::equilibrium::writeReport() const
-{
-    const counters all(count());
-    Info<< "Equilibrium: " << all.solves << " of " << steps_
-        << " steps solved, " << all.iterations << " iterations, " << all.linear
-        << " linear; " << all.cut << " steps in parts; largest displacement "
-        << all.displacement << " m; largest residual left " << all.residual
-        << " Pa, in " << all.unconverged << " steps above " << tolerance_
-        << " Pa" << nl;
-}
-
 
 // ************************************************************************* //

@@ -15,7 +15,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "equilibrium.H"
-#include "OStringStream.H"
 #include "solverPerformance.H"
 
 #include <cmath>
@@ -25,14 +24,8 @@ License
 namespace Foam
 {
 
-//- Parts that a step is brought in by at most
-static const label mostParts = 8;
-
 //- How often a solution of the linear equations is halved
 static const label mostCuts = 4;
-
-//- Strain of one solution at most: the law is linear, and the model takes 0.2
-static const scalar largestStrain = 0.19;
 
 } // End namespace Foam
 
@@ -76,17 +69,13 @@ bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
             xy += s.c[a]*v.x() + s.b[a]*v.y();
         }
         // A medium stiffer in shear by shearFactor, as stiff in volume
-        const scalar deviator = 0.5*(shearFactor_ - 1)*(xx - yy);
-        strainXX_[celli] = xx + deviator;
-        strainYY_[celli] = yy - deviator;
+        const scalar more = 0.5*(shearFactor_ - 1)*(xx - yy);
+        strainXX_[celli] = xx + more;
+        strainYY_[celli] = yy - more;
         shear_[celli] = stress_.xy[celli] + shearModulus_[celli]*xy;
-        if
-        (
-            !(
-                mag(strainXX_[celli]) + mag(strainYY_[celli]) + mag(xy)
-              < largestStrain
-            )
-        )
+        const scalar all =
+            mag(strainXX_[celli]) + mag(strainYY_[celli]) + mag(xy);
+        if (!(all < largestStrain))
         {
             broken_ = celli;
             return false;
@@ -202,13 +191,30 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::search
 }
 
 
+void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
+{
+    nodeField d, resisted(du.size());
+    multiply(du, resisted);
+    forAll(r_, i)
+    {
+        r_[i] -= resisted[i];
+    }
+    findDiagonal();
+    conjugateGradients(r_, d);
+    forAll(du, i)
+    {
+        du[i] += d[i];
+    }
+    left_ = imbalance(du, true);
+}
+
+
 bool Foam::granularMechanicsModels::equilibrium::balance
 (
     nodeField& du,
     bool& moved
 )
 {
-    nodeField d;
     moved = quads_.dot(du, du) > 0;
     before_ = left_ = imbalance(nodeField(du.size(), vector2D(Zero)), false);
     if (moved || left_ > tolerance_)
@@ -217,21 +223,10 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
     if (moved)
     {
-        // The walls move, and all grains with them as in a linear medium
-        nodeField resisted(du.size());
-        multiply(du, resisted);
-        forAll(r_, i)
-        {
-            r_[i] -= resisted[i];
-        }
-        findDiagonal();
-        conjugateGradients(r_, d);
-        forAll(du, i)
-        {
-            du[i] += d[i];
-        }
-        left_ = imbalance(du, true);
+        follow(du);
     }
+
+    nodeField d;
     for
     (
         label iteration = 0;
@@ -321,73 +316,6 @@ void Foam::granularMechanicsModels::equilibrium::keep
 }
 
 
-Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
-{
-    // The cell that cannot be, or one at the node that is out of balance most
-    label celli = broken_, worst = 0;
-    scalar most = 0;
-    forAll(r_, i)
-    {
-        const scalar here = cmptMax(cmptMag(r_[i]))/std::sqrt(nodeArea_[i]);
-        if (!(here <= most))
-        {
-            most = here;
-            worst = i;
-        }
-    }
-    const bool torn = returnReduce(broken_ >= 0, orOp<bool>());
-    const bool here =
-        torn ? celli >= 0 : most >= returnReduce(most, maxOp<scalar>());
-
-    stringList texts(Pstream::nProcs());
-    if (here)
-    {
-        forAll(quads_.quads(), c)
-        {
-            celli = celli < 0 && quads_.quads()[c].found(worst) ? c : celli;
-        }
-        OStringStream text;
-        if (torn)
-        {
-            text<< "cell " << celli << " at " << mesh_.cellCentres()[celli]
-                << " is torn, turned inside out or strained by more than "
-                << largestStrain;
-        }
-        else
-        {
-            text<< most << " Pa are out of balance at cell " << celli << " at "
-                << mesh_.cellCentres()[celli];
-        }
-        text<< ", whose state is: " << grains_.describe(celli).c_str();
-        texts[Pstream::myProcNo()] = text.str();
-    }
-    Pstream::gatherList(texts);
-    Pstream::scatterList(texts);
-    for (const string& text : texts)
-    {
-        if (!text.empty())
-        {
-            return text;
-        }
-    }
-    return "no cell found";
-}
-
-
-void Foam::granularMechanicsModels::equilibrium::refuse()
-{
-    const string what(failure());
-    grains_.refresh();
-    const_cast<Time&>(mesh_.time()).writeNow();
-    FatalErrorInFunction
-        << "Equilibrium at time " << mesh_.time().timeName() << " not found in "
-        << mostParts << " parts of " << maxIterations_ << " iterations: "
-        << what.c_str() << ". Allowed: maxResidual " << maxResidual_
-        << " Pa of equilibriumCoeffs. The fields before the equilibrium of this"
-        << " time are written" << exit(FatalError);
-}
-
-
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
@@ -412,7 +340,7 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
 
     ++steps_;
     const label iterations = counters_.iterations - at.iterations;
-    counters_.solves += iterations > 0;
+    counters_.solves += before_ > tolerance_;
     counters_.cut += parts > 1;
     counters_.unconverged += left_ > tolerance_;
     counters_.residual = max(counters_.residual, left_);
