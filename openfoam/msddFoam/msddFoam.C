@@ -97,7 +97,7 @@ int main(int argc, char *argv[])
     (
         timeScheme::New(T, grains, mechanics(), granular)
     );
-    const runSummary summary(grains, wallClock);
+    const runSummary summary(grains, mechanics(), wallClock);
 
     Info<< "\nStarting time loop\n" << endl;
 

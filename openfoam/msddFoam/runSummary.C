@@ -22,10 +22,12 @@ License
 Foam::runSummary::runSummary
 (
     const granularState& grains,
+    const granularMechanics& mechanics,
     const clockTime& wallClock
 )
 :
     grains_(grains),
+    mechanics_(mechanics),
     wallClock_(wallClock)
 {
     if (Pstream::master())
@@ -50,6 +52,7 @@ void Foam::runSummary::write(const label rejected) const
     const label steps = time.timeIndex() - time.startTimeIndex();
     const label cells = returnReduce(mesh.nCells(), sumOp<label>());
     const int64_t clamped = grains_.clampedQueries();
+    const granularMechanics::counters moved(mechanics_.count());
     const int64_t asked = grains_.asked(), all = grains_.cellSteps();
 
     const auto mean = [&mesh](const auto& field)
@@ -85,6 +88,14 @@ void Foam::runSummary::write(const label rejected) const
             << "  \"cell_queries\": " << asked << ",\n"
             << "  \"cell_steps\": " << all << ",\n"
             << "  \"rejected_steps\": " << rejected << ",\n"
+            << "  \"mechanics\": {\"kind\": " << string(mechanics_.type())
+            << ", \"solves\": " << moved.solves
+            << ", \"iterations\": " << moved.iterations
+            << ", \"linear_iterations\": " << moved.linear
+            << ", \"cut_steps\": " << moved.cut
+            << ", \"unconverged_steps\": " << moved.unconverged
+            << ", \"residual\": " << moved.residual
+            << ", \"displacement\": " << moved.displacement << "},\n"
             << "  \"model\": {\"source\": " << grains_.model().source()
             << ", \"hash\": " << string(grains_.model().hash())
             << ", \"library_version\": "

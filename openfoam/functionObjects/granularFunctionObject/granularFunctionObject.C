@@ -33,6 +33,30 @@ Foam::functionObjects::granularFunctionObject::granularFunctionObject
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
+Foam::scalarField
+Foam::functionObjects::granularFunctionObject::cellsOf
+(
+    const word& name,
+    const scalar otherwise
+) const
+{
+    IOobject header
+    (
+        name, time_.timeName(), mesh_,
+        IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false
+    );
+    if
+    (
+        mesh_.foundObject<volScalarField>(name)
+     || header.typeHeaderOk<volScalarField>(true)
+    )
+    {
+        return present<scalar>(name)().primitiveField();
+    }
+    return scalarField(mesh_.nCells(), otherwise);
+}
+
+
 const Foam::runRecord&
 Foam::functionObjects::granularFunctionObject::record()
 {

@@ -66,6 +66,8 @@ bool Foam::functionObjects::massAudit::write()
     const tmp<volScalarField> tporosity(present<scalar>("porosity"));
     const tmp<volScalarField> tstrain(present<scalar>("thermalStrain"));
     const granularProperties grains(time_);
+    // Area of the cells over that at the start, if they move
+    const scalarField ratio(cellsOf("areaRatio", 1));
     const scalarField& V = mesh_.V();
     const scalarField& bulk = tbulk();
     const scalarField& particle = tparticle();
@@ -74,15 +76,21 @@ bool Foam::functionObjects::massAudit::write()
     const scalar before = record().initialMass;
     const scalarField expanded(sqr(1 + tstrain().primitiveField()));
     const scalar mismatch =
-        gMax(mag(particle*(1 - tporosity().primitiveField())/bulk - 1)());
-    const scalar ratio =
-        gSum(V*particle*expanded)/gSum(V)/grains.density().value();
+        gMax
+        (
+            mag
+            (
+                ratio*particle*(1 - tporosity().primitiveField())/bulk - 1
+            )()
+        );
+    const scalar density =
+        gSum(V*ratio*particle*expanded)/gSum(V*ratio)/grains.density().value();
 
     if (Pstream::master())
     {
         line()
             << tab << mass << tab << (before > 0 ? mass/before - 1 : 0)
-            << tab << mismatch << tab << ratio << endl;
+            << tab << mismatch << tab << density << endl;
     }
     return true;
 }

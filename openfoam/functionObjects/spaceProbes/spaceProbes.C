@@ -15,7 +15,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "spaceProbes.H"
-#include "interpolationCellPoint.H"
 #include "addToRunTimeSelectionTable.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -66,7 +65,7 @@ void Foam::functionObjects::spaceProbes::writeHeader(Ostream& os) const
 template<class Type>
 Type Foam::functionObjects::spaceProbes::at
 (
-    const GeometricField<Type, fvPatchField, volMesh>& field,
+    const interpolationCellPoint<Type>& field,
     const point& where
 ) const
 {
@@ -76,7 +75,7 @@ Type Foam::functionObjects::spaceProbes::at
     Type value(Zero);
     if (owner == Pstream::myProcNo())
     {
-        value = interpolationCellPoint<Type>(field).interpolate(where, celli);
+        value = field.interpolate(where, celli);
     }
     return owner < 0 ? pTraits<Type>::max : returnReduce(value, sumOp<Type>());
 }
@@ -86,20 +85,31 @@ Type Foam::functionObjects::spaceProbes::at
 
 bool Foam::functionObjects::spaceProbes::write()
 {
-    const tmp<volScalarField> field(present<scalar>(field_));
-    const bool moves = mesh_.foundObject<volVectorField>("D");
+    refresh();
+    const tmp<volScalarField> tfield(present<scalar>(field_));
+    const interpolationCellPoint<scalar> field(tfield());
+    autoPtr<interpolationCellPoint<vector>> D;
     scalarList values(points_.size());
 
+    if (mesh_.foundObject<volVectorField>("D"))
+    {
+        D.reset
+        (
+            new interpolationCellPoint<vector>
+            (
+                mesh_.lookupObject<volVectorField>("D")
+            )
+        );
+    }
     forAll(points_, i)
     {
         point X(points_[i]);
         // The displacement changes by some per cent of the way: a contraction
-        for (label iteration = 0; moves && iteration < 10; ++iteration)
+        for (label iteration = 0; D.valid() && iteration < 10; ++iteration)
         {
-            X = points_[i]
-              - at(mesh_.lookupObject<volVectorField>("D"), X);
+            X = points_[i] - at(D(), X);
         }
-        values[i] = at(field(), X);
+        values[i] = at(field, X);
     }
     if (Pstream::master())
     {

@@ -25,6 +25,83 @@ License
 namespace Foam
 {
 
+//- Sums that do not wait for one another, and fill the processor's registers
+static const label sums = 16;
+
+//- For processors with wide registers, too; the same bits on all
+#define FOR_ALL_WIDTHS __attribute__((target_clones("avx2", "default")))
+
+//- Scalar product of so many values
+static inline float product(const float* a, const float* b, const label count)
+{
+    float s[sums] = {};
+    label k = 0;
+    for (; k + sums <= count; k += sums)
+    {
+        for (label j = 0; j < sums; ++j)
+        {
+            s[j] += a[k + j]*b[k + j];
+        }
+    }
+    for (label j = 0; k + j < count; ++j)
+    {
+        s[j] += a[k + j]*b[k + j];
+    }
+    for (label half = sums/2; half > 0; half /= 2)
+    {
+        for (label j = 0; j < half; ++j)
+        {
+            s[j] += s[j + half];
+        }
+    }
+    return s[0];
+}
+
+
+//- x := inverse of the factor times x
+FOR_ALL_WIDTHS static void forward
+(
+    const float* factor,
+    const float* inverse,
+    float* x,
+    const label rows,
+    const label width
+)
+{
+    for (label i = 0; i < rows; ++i)
+    {
+        const label count = min(i, width);
+        const float* L = factor + (i + 1)*width - count;
+        x[i] = (x[i] - product(L, x + i - count, count))*inverse[i];
+    }
+}
+
+
+//- x := inverse of the factor's transpose times x
+FOR_ALL_WIDTHS static void backward
+(
+    const float* factor,
+    const float* inverse,
+    float* x,
+    const label rows,
+    const label width
+)
+{
+    for (label i = rows - 1; i >= 0; --i)
+    {
+        const label count = min(i, width);
+        const float* __restrict__ L = factor + (i + 1)*width - count;
+        float* __restrict__ before = x + i - count;
+        const float value = x[i]*inverse[i];
+        x[i] = value;
+        for (label k = 0; k < count; ++k)
+        {
+            before[k] -= L[k]*value;
+        }
+    }
+}
+
+
 //- Scalar product from first to before last, in four sums that do not wait for
 //- one another
 static inline scalar product
@@ -128,7 +205,7 @@ Foam::bandSolver::bandSolver(const quadMesh& mesh)
             number_ = number;
         }
     }
-    factor_.resize(rows_*(width_ + 1), Zero);
+    matrix_.resize(rows_*(width_ + 1), Zero);
     x_.resize(rows_);
 }
 
@@ -157,38 +234,46 @@ void Foam::bandSolver::factorise()
             }
         }
     }
+
+    factor_.resize(rows_*width_);
+    inverse_.resize(rows_);
+    for (label i = 0; i < rows_; ++i)
+    {
+        const scalar* L = matrix_.cdata() + i*(width_ + 1);
+        for (label k = 0; k < width_; ++k)
+        {
+            factor_[i*width_ + k] = L[k];
+        }
+        inverse_[i] = 1/L[width_];
+    }
+    matrix_.clear();
 }
 
 
 void Foam::bandSolver::solve(List<vector2D>& values) const
 {
+    // Single precision has little room for small numbers
+    scalar most = 0;
     forAll(values, i)
     {
-        x_[2*number_[i]] = values[i].x();
-        x_[2*number_[i] + 1] = values[i].y();
+        most = max(most, cmptMax(cmptMag(values[i])));
     }
-    const label stride = width_ + 1;
-    for (label i = 0; i < rows_; ++i)
+    const scalar scale = most > VSMALL ? 1/most : 1;
+    forAll(values, i)
     {
-        const scalar* L = factor_.cdata() + i*stride + width_ - i;
-        const label first = max(label(0), i - width_);
-        x_[i] = (x_[i] - product(L, x_.cdata(), first, i))/L[i];
+        x_[2*number_[i]] = scale*values[i].x();
+        x_[2*number_[i] + 1] = scale*values[i].y();
     }
-    for (label i = rows_ - 1; i >= 0; --i)
-    {
-        const scalar* L = factor_.cdata() + i*stride + width_ - i;
-        x_[i] /= L[i];
-        const scalar value = x_[i];
-        scalar* x = x_.data();
-        for (label k = max(label(0), i - width_); k < i; ++k)
-        {
-            x[k] -= L[k]*value;
-        }
-    }
+
+    const float* L = factor_.cdata();
+    const float* inverse = inverse_.cdata();
+    forward(L, inverse, x_.data(), rows_, width_);
+    backward(L, inverse, x_.data(), rows_, width_);
+
     forAll(values, i)
     {
         values[i] =
-            vector2D(x_[2*number_[i]], x_[2*number_[i] + 1]);
+            vector2D(x_[2*number_[i]], x_[2*number_[i] + 1])/scale;
     }
 }
 

@@ -17,7 +17,6 @@ License
 #include "equilibrium.H"
 #include "addToRunTimeSelectionTable.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
-#include "solverPerformance.H"
 
 #include <cmath>
 
@@ -101,23 +100,36 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         dimensionedVector(dimLength, Zero),
         extrapolatedCalculatedFvPatchVectorField::typeName
     ),
+    areaRatio_
+    (
+        io("areaRatio", IOobject::NO_READ),
+        mesh_,
+        dimensionedScalar("one", dimless, 1),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
     u_(quads_.size(), vector2D(Zero)),
     traction_(u_),
     start_(u_),
     nodeArea_(u_.size(), Zero),
     lastTime_(mesh_.time().value()),
     shearModulus_(mesh_.nCells(), Zero),
+    strainXX_(shearModulus_),
+    strainYY_(shearModulus_),
+    shear_(shearModulus_),
     friction_(u_),
     newTraction_(u_),
     stick_(u_),
+    slide_(u_),
+    share_(1),
+    r_(u_),
+    before_(0),
+    left_(0),
+    broken_(-1),
+    placed_(false),
     diagonal_(u_),
     uniformDiagonal_(u_),
-    steps_(0),
-    solved_(0),
-    iterations_(0),
-    linear_(0),
-    unconverged_(0),
-    worst_(0)
+    metric_(mesh_.nCells()),
+    steps_(0)
 {
     granularProperties::checkKeys
     (
@@ -138,9 +150,33 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     readNodes(nodeDisplacement_, u_);
     readNodes(wallTraction_, traction_);
     grains_.setShearStress(shearStress_.primitiveField());
-
     quads_.shapes(quads_.points(), reference_);
     shapes_ = reference_;
+    setStart();
+    setUniform();
+    findMetric();
+    grains_.follow([this]() { makeFields(); });
+    grains_.refresh();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::IOobject Foam::granularMechanicsModels::equilibrium::io
+(
+    const word& name,
+    const IOobject::readOption read
+) const
+{
+    return IOobject
+    (
+        name, mesh_.time().timeName(), mesh_, read, IOobject::AUTO_WRITE
+    );
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::setStart()
+{
     List<vector2D> area(u_.size(), vector2D(Zero));
     forAll(reference_, celli)
     {
@@ -175,26 +211,10 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
             );
         }
     }
-    setUniform();
     Info<< "Equilibrium: residual " << tolerance_
         << " Pa; initial fields are out of balance by "
         << returnReduce(most, maxOp<scalar>()) << " Pa, which is kept" << nl
         << endl;
-}
-
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::IOobject Foam::granularMechanicsModels::equilibrium::io
-(
-    const word& name,
-    const IOobject::readOption read
-) const
-{
-    return IOobject
-    (
-        name, mesh_.time().timeName(), mesh_, read, IOobject::AUTO_WRITE
-    );
 }
 
 
@@ -250,236 +270,39 @@ void Foam::granularMechanicsModels::equilibrium::addStress
 }
 
 
-Foam::granularMechanicsModels::equilibrium::nodeField
-Foam::granularMechanicsModels::equilibrium::at
-(
-    const nodeField& du,
-    const scalar share
-) const
+Foam::FixedList<Foam::scalar, 4>
+Foam::granularMechanicsModels::equilibrium::gradient(const label celli) const
 {
-    nodeField result(quads_.points());
-    forAll(result, i)
+    const quadMesh::shape& s = reference_[celli];
+    const quadMesh::quad& q = quads_.quads()[celli];
+    FixedList<scalar, 4> F({1, 0, 0, 1});
+    for (label a = 0; a < 4; ++a)
     {
-        result[i] += u_[i] + share*du[i];
+        const vector2D& v = u_[q[a]];
+        F[0] += s.b[a]*v.x();
+        F[1] += s.c[a]*v.x();
+        F[2] += s.b[a]*v.y();
+        F[3] += s.c[a]*v.y();
     }
-    return result;
+    return F;
 }
 
 
-Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
-(
-    const nodeField& du,
-    const bool moved,
-    nodeField& r
-)
+void Foam::granularMechanicsModels::equilibrium::findMetric()
 {
-    stress_ = grains_.presentStress();
-    if (moved)
+    forAll(metric_, celli)
     {
-        // Strains of the middle are of second order
-        scalarField exx(mesh_.nCells()), eyy(exx);
-        quads_.shapes(at(du, 0.5), shapes_);
-        forAll(shapes_, celli)
-        {
-            const quadMesh::shape& s = shapes_[celli];
-            const quadMesh::quad& q = quads_.quads()[celli];
-            scalar xx = 0, yy = 0, xy = 0;
-            for (label a = 0; a < 4; ++a)
-            {
-                const vector2D& v = du[q[a]];
-                xx += s.b[a]*v.x();
-                yy += s.c[a]*v.y();
-                xy += s.c[a]*v.x() + s.b[a]*v.y();
-            }
-            // A medium stiffer in shear by shearFactor, as stiff in volume
-            const scalar deviator = 0.5*(shearFactor_ - 1)*(xx - yy);
-            exx[celli] = xx + deviator;
-            eyy[celli] = yy - deviator;
-            stress_.xy[celli] += shearModulus_[celli]*xy;
-        }
-        grains_.deform(exx, eyy, sinPhi_, stress_);
-    }
-
-    const nodeField now(at(du, 1));
-    quads_.shapes(now, shapes_);
-    nodeField inner(u_.size(), vector2D(Zero)), outer(inner);
-    addStress(stress_, inner);
-    forAll(reference_, celli)
-    {
-        const scalar* gamma = reference_[celli].gamma;
-        const quadMesh::quad& q = quads_.quads()[celli];
-        vector2D pattern(Zero);
-        for (label a = 0; a < 4; ++a)
-        {
-            pattern += gamma[a]*(u_[q[a]] + du[q[a]]);
-        }
-        for (label a = 0; a < 4; ++a)
-        {
-            inner[q[a]] += (hourglass*scale_*gamma[a])*pattern;
-        }
-    }
-    walls_.addPressure(mesh_.time().value(), now, outer);
-    forAll(inner, i)
-    {
-        inner[i] -= outer[i];
-    }
-    quads_.sum(inner);
-    walls_.friction
-    (
-        stress_, now, du, mesh_.time().value(), lastTime_,
-        traction_, friction_, newTraction_, stick_
-    );
-
-    r.resize(u_.size());
-    scalar most = 0;
-    forAll(r, i)
-    {
-        for (label k = 0; k < 2; ++k)
-        {
-            r[i][k] =
-                walls_.free()[i][k]
-               *(start_[i][k] - inner[i][k] + friction_[i][k]);
-            most = max(most, mag(r[i][k])/std::sqrt(nodeArea_[i]));
-        }
-    }
-    return returnReduce(most, maxOp<scalar>());
-}
-
-
-void Foam::granularMechanicsModels::equilibrium::keep
-(
-    const nodeField& du,
-    const bool moved
-)
-{
-    traction_ = newTraction_;
-    if (moved)
-    {
-        forAll(u_, i)
-        {
-            u_[i] += du[i];
-        }
-        grains_.commitDeformed(stress_.xy);
-        shearStress_.primitiveFieldRef() = stress_.xy;
-        shearStress_.correctBoundaryConditions();
-    }
-    vectorField& D = D_.primitiveFieldRef();
-    forAll(D, celli)
-    {
-        vector2D sum(Zero);
-        for (const label node : quads_.quads()[celli])
-        {
-            sum += 0.25*u_[node];
-        }
-        D[celli] = vector(sum.x(), sum.y(), 0);
-    }
-    D_.correctBoundaryConditions();
-    writeNodes(u_, nodeDisplacement_);
-    writeNodes(traction_, wallTraction_);
-    lastTime_ = mesh_.time().value();
-}
-
-
-void Foam::granularMechanicsModels::equilibrium::refuse
-(
-    const scalar residual,
-    const nodeField& r
-)
-{
-    label worst = 0;
-    scalar most = -1;
-    forAll(r, i)
-    {
-        const scalar here = cmptMax(cmptMag(r[i]))/std::sqrt(nodeArea_[i]);
-        if (here > most)
-        {
-            most = here;
-            worst = i;
-        }
-    }
-    grains_.refresh();
-    const_cast<Time&>(mesh_.time()).writeNow();
-
-    // One process has the worst node; all end
-    if (most >= residual*(1 - 1e-9))
-    {
-        FatalErrorInFunction
-            << "Equilibrium at time " << mesh_.time().timeName() << ": after "
-            << maxIterations_ << " iterations " << residual
-            << " Pa are out of balance at " << mesh_.points()[quads_.front()[worst]]
-            << ", allowed: maxResidual " << maxResidual_
-            << " Pa of equilibriumCoeffs. The fields of this time are written"
-            << exit(FatalError);
+        const FixedList<scalar, 4> F(gradient(celli));
+        const scalar J = F[0]*F[3] - F[1]*F[2];
+        metric_[celli][0] = sqr(F[3])/J;
+        metric_[celli][1] = sqr(F[1])/J;
+        metric_[celli][2] = sqr(F[2])/J;
+        metric_[celli][3] = sqr(F[0])/J;
     }
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::granularMechanicsModels::equilibrium::solve()
-{
-    nodeField r, d, du(walls_.way(mesh_.time().value(), u_));
-    bool moved = returnReduce(quads_.dot(du, du) > 0, orOp<bool>());
-
-    ++steps_;
-    if (moved)
-    {
-        findTangent();
-    }
-    scalar now = imbalance(du, moved, r);
-    if (!moved && now > tolerance_)
-    {
-        findTangent();
-    }
-    const scalar before = now;
-    const label linearBefore = linear_;
-    label iteration = 0;
-
-    while (now > tolerance_ && iteration < maxIterations_)
-    {
-        findDiagonal();
-        conjugateGradients(r, d);
-        const scalar last = now;
-        scalar share = 1;
-        nodeField tried(du);
-        for (label cut = 0; cut < 4; ++cut)
-        {
-            forAll(tried, i)
-            {
-                tried[i] = du[i] + share*d[i];
-            }
-            now = imbalance(tried, true, r);
-            if (now < last)
-            {
-                break;
-            }
-            share *= 0.5;
-        }
-        du = tried;
-        moved = true;
-        ++iteration;
-    }
-    keep(du, moved);
-
-    solved_ += iteration > 0;
-    iterations_ += iteration;
-    unconverged_ += now > tolerance_;
-    worst_ = max(worst_, now);
-
-    if (now > maxResidual_)
-    {
-        refuse(now, r);
-    }
-    // As the line of the linear solver of T
-    if (solverPerformance::debug)
-    {
-        Info<< "Equilibrium: out of balance " << before << " Pa, after "
-            << iteration << " iterations (" << linear_ - linearBefore
-            << " linear) " << now << " Pa"
-            << (now > tolerance_ ? ", not converged" : "") << nl;
-    }
-}
-
 
 const Foam::granularState::conductivityColumns&
 Foam::granularMechanicsModels::equilibrium::pulledBack
@@ -488,36 +311,14 @@ Foam::granularMechanicsModels::equilibrium::pulledBack
 )
 {
     pulledBack_ = K;
-    forAll(reference_, celli)
+    forAll(metric_, celli)
     {
-        const quadMesh::shape& s = reference_[celli];
-        const quadMesh::quad& q = quads_.quads()[celli];
-        scalar Fxx = 1, Fyy = 1, Fxy = 0, Fyx = 0;
-        for (label a = 0; a < 4; ++a)
-        {
-            const vector2D& v = u_[q[a]];
-            Fxx += s.b[a]*v.x();
-            Fxy += s.c[a]*v.x();
-            Fyx += s.b[a]*v.y();
-            Fyy += s.c[a]*v.y();
-        }
-        const scalar J = Fxx*Fyy - Fxy*Fyx;
+        const FixedList<scalar, 4>& m = metric_[celli];
         const scalar xx = K.xx[celli], yy = K.yy[celli];
-        pulledBack_.xx[celli] = (sqr(Fyy)*xx + sqr(Fxy)*yy)/J;
-        pulledBack_.yy[celli] = (sqr(Fyx)*xx + sqr(Fxx)*yy)/J;
+        pulledBack_.xx[celli] = m[0]*xx + m[1]*yy;
+        pulledBack_.yy[celli] = m[2]*xx + m[3]*yy;
     }
     return pulledBack_;
 }
-
-
-void Foam::granularMechanicsModels::equilibrium::writeReport() const
-{
-    Info<< "Equilibrium: " << solved_ << " of " << steps_ << " steps solved, "
-        << iterations_ << " iterations, " << linear_ << " linear; largest"
-        << " displacement " << gMax(mag(D_.primitiveField())()) << " m;"
-        << " largest residual left " << worst_ << " Pa, in " << unconverged_
-        << " steps above " << tolerance_ << " Pa" << nl;
-}
-
 
 // ************************************************************************* //

@@ -28,10 +28,6 @@ static const scalar uniformC11 = 0.65;
 static const scalar uniformC12 = 0.3;
 static const scalar uniformPressure = 0.05;
 
-//- The matrix stays positive definite where the law is not: near unjamming
-static const scalar highestC12 = 0.8;
-static const scalar lowestShear = 0.1;
-
 //- Linear equations are solved to this share of the imbalance
 static const scalar linearTolerance = 0.01;
 static const label maxLinear = 500;
@@ -50,19 +46,13 @@ void Foam::granularMechanicsModels::equilibrium::findTangent()
         scalar& c22 = C_.c22[celli];
         scalar& c12 = C_.c12[celli];
         const scalar mean = 0.5*(c11 + c22);
-        shearModulus_[celli] =
-            shearFactor_*max(0.5*(mean - c12), lowestShear*mean);
+        shearModulus_[celli] = 0.5*shearFactor_*(mean - c12);
 
-        // The deviator's part scaled, as imbalance() does; made symmetric
+        // The deviator's part scaled, as strain() does; made symmetric
         const scalar more = 0.5*(shearFactor_ - 1)*(mean - c12);
         c11 += more;
         c22 += more;
         c12 -= more;
-        C_.c12[celli] = min
-        (
-            C_.c12[celli],
-            highestC12*min(C_.c11[celli], C_.c22[celli])
-        );
     }
 }
 
@@ -252,7 +242,12 @@ void Foam::granularMechanicsModels::equilibrium::conjugateGradients
     for (label i = 0; i < maxLinear && rz > enough && rz > VSMALL; ++i)
     {
         multiply(p, Ap);
-        const scalar alpha = rz/quads_.dot(p, Ap);
+        const scalar pAp = quads_.dot(p, Ap);
+        if (!(pAp > 0))
+        {
+            break;      // rounding is all that is left
+        }
+        const scalar alpha = rz/pAp;
         forAll(d, n)
         {
             d[n] += alpha*p[n];
@@ -265,7 +260,7 @@ void Foam::granularMechanicsModels::equilibrium::conjugateGradients
             p[n] = z[n] + (next/rz)*p[n];
         }
         rz = next;
-        ++linear_;
+        ++counters_.linear;
     }
 }
 

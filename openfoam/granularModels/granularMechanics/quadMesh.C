@@ -152,7 +152,7 @@ void Foam::quadMesh::findWalls(const labelList& nodeOfPoint)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::quadMesh::shapes
+Foam::label Foam::quadMesh::shapes
 (
     const List<vector2D>& at,
     List<shape>& result
@@ -174,10 +174,7 @@ void Foam::quadMesh::shapes
             0.5*((x[2] - x[0])*(y[3] - y[1]) + (x[1] - x[3])*(y[2] - y[0]));
         if (!(s.area > 0))
         {
-            FatalErrorInFunction
-                << "Cell " << celli << " at " << mesh_.cellCentres()[celli]
-                << " is torn or turned inside out by the displacement: area "
-                << s.area << " m2" << exit(FatalError);
+            return celli;
         }
         const scalar r = 0.5/s.area;
         scalar hx = 0, hy = 0;
@@ -194,6 +191,7 @@ void Foam::quadMesh::shapes
             s.gamma[a] = 0.25*(h[a] - hx*s.b[a] - hy*s.c[a]);
         }
     }
+    return -1;
 }
 
 

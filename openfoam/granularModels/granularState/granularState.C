@@ -282,6 +282,49 @@ void Foam::granularState::commit()
 }
 
 
+Foam::granularState::memory Foam::granularState::remember() const
+{
+    memory now;
+    now.state.resize(state_.size());
+    forAll(state_, i)
+    {
+        now.state[i] = state_[i].primitiveField();
+    }
+    now.K = K_;
+    now.stressXX = stressXX_;
+    now.stressYY = stressYY_;
+    now.stressXY = stressXY_;
+    now.increment = thermalStrainIncrement_.primitiveField();
+    now.strain = thermalStrain_.primitiveField();
+    now.lastStrain = lastStrain_;
+    now.queries = queries_;
+    now.asked = asked_;
+    now.cellSteps = cellSteps_;
+    now.clamped = clamped_;
+    return now;
+}
+
+
+void Foam::granularState::restore(const memory& before)
+{
+    forAll(state_, i)
+    {
+        state_[i].primitiveFieldRef() = before.state[i];
+    }
+    K_ = before.K;
+    stressXX_ = before.stressXX;
+    stressYY_ = before.stressYY;
+    stressXY_ = before.stressXY;
+    thermalStrainIncrement_.primitiveFieldRef() = before.increment;
+    thermalStrain_.primitiveFieldRef() = before.strain;
+    lastStrain_ = before.lastStrain;
+    queries_ = before.queries;
+    asked_ = before.asked;
+    cellSteps_ = before.cellSteps;
+    clamped_ = before.clamped;
+}
+
+
 const Foam::granularState::conductivityColumns&
 Foam::granularState::trialConductivity()
 {
@@ -295,122 +338,6 @@ Foam::granularState::trialConductivity()
     scatterConductivity(trialK_);
 
     return trialK_;
-}
-
-
-Foam::granularState::stressColumns
-Foam::granularState::presentStress() const
-{
-    return stressColumns{-stressXX_, -stressYY_, stressXY_};
-}
-
-
-Foam::granularState::tangentColumns Foam::granularState::tangent()
-{
-    const label cells = mesh_.nCells();
-    tangentColumns result;
-    result.c11.resize(cells);
-    result.c22.resize(cells);
-    result.c12.resize(cells);
-
-    granularModel::query query(deformation());
-    query.c11 = result.c11.data();
-    query.c22 = result.c22.data();
-    query.c12 = result.c12.data();
-    model_->advance(query);
-
-    return result;
-}
-
-
-Foam::granularModel::query Foam::granularState::deformation()
-{
-    const label cells = mesh_.nCells();
-
-    if (deformedXX_.size() != cells || deformed_.values.empty())
-    {
-        deformed_.setSize(state_.size(), cells);
-        for (scalarField* column :
-            {&deformedK_.xx, &deformedK_.yy, &deformedXX_, &deformedYY_})
-        {
-            column->resize(cells, Zero);
-        }
-        deviator_ = model_->stateNames().find("reducedDeviator");
-    }
-    presentState_.resize(state_.size());
-    forAll(state_, i)
-    {
-        presentState_[i] = state_[i].primitiveField().cdata();
-    }
-    zero_ = 0;
-    granularModel::query query;
-    query.size = cells;
-    query.state = presentState_.cdata();
-    query.nextState = deformed_.pointers.cdata();
-    query.strain = zero_.cdata();
-    query.totalStrain = thermalStrain_.primitiveField().cdata();
-    query.conductivityXX = deformedK_.xx.data();
-    query.conductivityYY = deformedK_.yy.data();
-    query.stressXX = deformedXX_.data();
-    query.stressYY = deformedYY_.data();
-    return query;
-}
-
-
-void Foam::granularState::deform
-(
-    const scalarField& strainXX,
-    const scalarField& strainYY,
-    const scalar sinPhi,
-    stressColumns& stress
-)
-{
-    granularModel::query query(deformation());
-    query.strainXX = strainXX.cdata();
-    query.strainYY = strainYY.cdata();
-    model_->advance(query);
-
-    forAll(deformedXX_, celli)
-    {
-        scalar& xx = deformedXX_[celli];
-        scalar& yy = deformedYY_[celli];
-        scalar& xy = stress.xy[celli];
-        const scalar p = 0.5*(xx + yy), q = 0.5*(xx - yy);
-        const scalar most = sinPhi*p, has = std::sqrt(sqr(q) + sqr(xy));
-
-        if (has > most)
-        {
-            const scalar factor = has > 0 ? most/has : 0;
-            xx = p + factor*q;
-            yy = p - factor*q;
-            xy *= factor;
-            if (deviator_ >= 0)
-            {
-                deformed_.values[deviator_][celli] *= factor;
-            }
-        }
-        stress.xx[celli] = -xx;
-        stress.yy[celli] = -yy;
-    }
-}
-
-
-void Foam::granularState::commitDeformed(const scalarField& stressXY)
-{
-    // Once more without strain: the deviator may have been limited since
-    granularModel::query query(deformation());
-    query.state = deformed_.pointers.cdata();
-    model_->advance(query);
-
-    forAll(state_, i)
-    {
-        state_[i].primitiveFieldRef() = deformed_.values[i];
-    }
-    K_.xx = deformedK_.xx;
-    K_.yy = deformedK_.yy;
-    stressXX_ = deformedXX_;
-    stressYY_ = deformedYY_;
-    stressXY_ = stressXY;
 }
 
 

@@ -17,6 +17,7 @@ License
 #include "granularState.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "stringListOps.H"
+#include "OStringStream.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -27,7 +28,8 @@ void Foam::granularState::findReaders()
     const wordHashSet following
     ({
         "conductivity", "stress", "pressure", "particleDensity", "inRegion",
-        "spread", "thermalStrain"
+        "spread", "thermalStrain", "D", "nodeDisplacement", "wallTraction",
+        "shearStress", "areaRatio"
     });
     const dictionary functions =
         mesh_.time().controlDict().subOrEmptyDict("functions");
@@ -64,6 +66,10 @@ void Foam::granularState::findReaders()
 
 void Foam::granularState::refresh()
 {
+    if (followers_)
+    {
+        followers_();
+    }
     symmTensorField& K = conductivity_.primitiveFieldRef();
     symmTensorField& sigma = stress_.primitiveFieldRef();
     scalarField& p = pressure_.primitiveFieldRef();
@@ -83,8 +89,13 @@ void Foam::granularState::refresh()
     {
         K[celli].xy() = K_.xy[celli];
     }
+    // A cell keeps its mass: where it grows, its bulk density falls
     particleDensity_.primitiveFieldRef() =
         bulkDensity_.primitiveField()/(1 - porosity().primitiveField());
+    if (areaRatio_.size())
+    {
+        particleDensity_.primitiveFieldRef() /= areaRatio_;
+    }
 
     forAll(state_, i)
     {
@@ -112,6 +123,19 @@ void Foam::granularState::finishStep()
     {
         findSpread();
     }
+}
+
+
+Foam::string Foam::granularState::describe(const label celli) const
+{
+    OStringStream text;
+    forAll(state_, i)
+    {
+        text<< state_[i].name() << ' ' << state_[i][celli] << ", ";
+    }
+    text<< "stress (xx yy xy, tension positive) " << -stressXX_[celli] << ' '
+        << -stressYY_[celli] << ' ' << stressXY_[celli] << " Pa";
+    return text.str();
 }
 
 

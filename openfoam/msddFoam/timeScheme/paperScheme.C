@@ -71,7 +71,7 @@ void Foam::timeSchemes::paper::step()
     grains_.commit();
 
     // Equilibrium of the stress that this leaves
-    mechanics_.solve();
+    mechanics_.solve(true);
 
     // Step 4: the heat equation
     const scalar deltaT = time_.deltaTValue();

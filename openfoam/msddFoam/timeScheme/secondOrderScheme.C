@@ -42,6 +42,9 @@ static const scalar safety = 0.9;
 static const scalar largestGrowth = 3;
 static const scalar largestCut = 0.1;
 
+//- How often a step is halved for the sake of the mechanics
+static const label mostHalvings = 10;
+
 } // End namespace Foam
 
 
@@ -183,6 +186,40 @@ Foam::scalar Foam::timeSchemes::secondOrder::attempt
 }
 
 
+bool Foam::timeSchemes::secondOrder::settle
+(
+    const scalar deltaT,
+    const bool lastAttempt
+)
+{
+    if (lastAttempt || !mechanics_.canFail())
+    {
+        grains_.commitStrain();
+        grains_.commit();
+        advanceTime();
+        return mechanics_.solve(true);
+    }
+    const granularState::memory before(grains_.remember());
+    grains_.commitStrain();
+    grains_.commit();
+
+    // Walls move, and are pressed, at the step's end
+    const scalar start = time_.value();
+    time_.value() = start + deltaT;
+    const bool found = mechanics_.solve(false);
+    time_.value() = start;
+    if (found)
+    {
+        advanceTime();
+    }
+    else
+    {
+        grains_.restore(before);
+    }
+    return found;
+}
+
+
 void Foam::timeSchemes::secondOrder::accountStages(const scalar deltaT)
 {
     runRecord& record = grains_.record();
@@ -212,6 +249,7 @@ void Foam::timeSchemes::secondOrder::step()
     scalar deltaT = time_.deltaTValue();
     scalar error = 0;
     bool cut = false;
+    label halvings = 0;
 
     if (adaptive_)
     {
@@ -233,7 +271,12 @@ void Foam::timeSchemes::secondOrder::step()
         }
         if (!cut && (smallest || error <= 1))
         {
-            break;
+            if (settle(deltaT, smallest || halvings == mostHalvings))
+            {
+                break;
+            }
+            cut = true;
+            ++halvings;
         }
         ++rejected_;
         T_.primitiveFieldRef() = Told_;
@@ -244,11 +287,6 @@ void Foam::timeSchemes::secondOrder::step()
     forced_ += adaptive_ && error > 1;
 
     accountStages(deltaT);
-    grains_.commitStrain();
-    grains_.commit();
-
-    advanceTime();
-    mechanics_.solve();
     if (adaptive_)
     {
         const scalar factor = safety/std::sqrt(max(error, SMALL));

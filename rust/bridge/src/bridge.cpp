@@ -2,6 +2,7 @@
 #include "msdd-bridge/src/lib.rs.h"
 
 #include <cfenv>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,6 +69,22 @@ rust::Vec<double> Model::initial_state
 }
 
 void Model::advance(Cells& cells) const { advance(cells, sizeof(msdd_batch)); }
+
+rust::Vec<double> Model::wall_friction(double meanRadius) const
+{
+    double limit = -7, slip = -7;
+    rust::Vec<double> result;
+    if (surrogate_.wallFriction(msdd::material(1, 1, meanRadius), limit, slip))
+    {
+        result.push_back(limit);
+        result.push_back(slip);
+    }
+    else if (limit != -7 || slip != -7)
+    {
+        throw std::logic_error("set although the model has none");
+    }
+    return result;
+}
 
 void Model::advance_with_wrong_size(Cells& cells) const { advance(cells, sizeof(msdd_batch) - 8); }
 

@@ -21,6 +21,7 @@ public:
     rust::Vec<double> initial_state(rust::Slice<const double> porosity, rust::Slice<const double> fabricIndex) const;
     void advance(Cells& cells) const;
     void advance_with_wrong_size(Cells& cells) const;
+    rust::Vec<double> wall_friction(double meanRadius) const;
 
     msdd::Surrogate& surrogate() { return surrogate_; }
 

@@ -34,6 +34,9 @@ pub mod ffi {
         fn advance(self: &Model, cells: &mut Cells) -> Result<()>;
         /// The same through the C function itself, with a wrong struct_size.
         fn advance_with_wrong_size(self: &Model, cells: &mut Cells) -> Result<()>;
+        /// Limit [-] and slip [m] of half of it, of walls that grains of this mean radius [m] rub; empty when the model
+        /// has none.
+        fn wall_friction(self: &Model, mean_radius: f64) -> Result<Vec<f64>>;
         /// Moves the wrapper out of `model` into another.
         fn moved(model: Pin<&mut Model>) -> UniquePtr<Model>;
         /// Moves the wrapper into itself.

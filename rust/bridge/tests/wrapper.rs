@@ -68,6 +68,17 @@ fn the_wrapper_gives_the_bits_of_the_rust_call() {
     }
 }
 
+/// The slip is in mean radii in the model file, in metres here; the paper's network has no walls.
+#[test]
+fn wall_friction_is_the_models_in_metres() {
+    let model = models::builtin("builtin").expect("good");
+    let friction = model.wall_friction().expect("shipped with it");
+    let found = ffi::load("builtin").expect("good").wall_friction(5e-3).expect("asked");
+    assert_eq!(found, [friction.limit, 5e-3 * friction.slip]);
+    assert!(found[0] > 0.1 && found[0] < 1.0 && found[1] > 0.0, "{found:?}");
+    assert!(ffi::load("builtin:paper").expect("good").wall_friction(5e-3).expect("asked").is_empty());
+}
+
 #[test]
 fn exceptions_arrive_with_the_librarys_text() {
     let failed = |source: &str| ffi::load(source).err().expect("no model").what().to_string();

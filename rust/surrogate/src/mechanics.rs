@@ -66,6 +66,14 @@ pub struct Tangent {
 pub const LINEAR_STRAIN: f64 = 0.01;
 /// Fewer samples do not fix the laws.
 const LEAST_SAMPLES: usize = 20;
+/// Least c11 − c12 and c22 − c12, twice a shear modulus, over E r̄/ℓ: a sixth of what packed grains have.
+const LEAST_SHEAR: f64 = 0.05;
+/// Reduced pressure below which packings lose contacts; packed grains have 0.05.
+const SLIGHT_PRESSURE: f64 = 1e-3;
+/// Porosities between which packings unjam.
+const UNJAMMING: [f64; 2] = [0.18, 0.20];
+/// Share of the stiffness that is left without contacts, so that a loose region has a solution.
+const LOOSE: f64 = 0.01;
 
 impl Mechanics {
     /// `None` with too few samples.
@@ -113,8 +121,27 @@ impl Mechanics {
         Some(mechanics)
     }
 
-    /// Tangent at a reduced pressure, stress ratio q̃/p̃ and porosity.
+    /// Tangent at a reduced pressure, stress ratio q̃/p̃ and porosity. Where the laws are extrapolated, it stays one that a
+    /// medium can have: c11, c22 ≥ c12 + [`LEAST_SHEAR`], and all three vanish smoothly, to [`LOOSE`] of the laws, where
+    /// there is no pressure left and the porosity says that grains do not touch.
     pub fn tangent(&self, pressure: f64, stress_ratio: f64, porosity: f64) -> Tangent {
+        let law = self.laws(pressure, stress_ratio, porosity);
+        let unpressed = (-pressure.max(0.0) / SLIGHT_PRESSURE).exp();
+        let [jammed, loose] = UNJAMMING;
+        let share = ((porosity - jammed) / (loose - jammed)).clamp(0.0, 1.0);
+        let apart = share * share * (3.0 - 2.0 * share);
+        let contact = LOOSE + (1.0 - LOOSE) * (1.0 - unpressed * apart);
+        let least = law.c12.max(0.0) + LEAST_SHEAR;
+        Tangent {
+            c11: contact * law.c11.max(least),
+            c22: contact * law.c22.max(least),
+            c12: contact * law.c12,
+            ..law
+        }
+    }
+
+    /// The laws themselves.
+    fn laws(&self, pressure: f64, stress_ratio: f64, porosity: f64) -> Tangent {
         let root = pressure.max(0.0).sqrt();
         let line = |c: [f64; 2]| c[0] + c[1] * root;
         let [a, b, c] = self.c11;
@@ -134,7 +161,7 @@ impl Mechanics {
             let (mut error, mut value) = (0.0, 0.0);
             for s in samples {
                 let weight = 1.0 / (s.strain[0].powi(2) + s.strain[1].powi(2));
-                for [data, law] in pair(s, self.tangent(s.pressure, s.stress_ratio, s.porosity)) {
+                for [data, law] in pair(s, self.laws(s.pressure, s.stress_ratio, s.porosity)) {
                     error += weight * (law - data).powi(2);
                     value += weight * data.powi(2);
                 }
@@ -164,6 +191,34 @@ impl Mechanics {
 mod tests {
     use super::*;
 
+    /// With the shipped model's laws: as they are where grains are packed; elsewhere positive definite, continuous, and
+    /// nearly nothing where grains do not touch.
+    #[test]
+    fn tangent_is_a_mediums_everywhere_and_vanishes_at_unjamming() {
+        let model = crate::models::builtin("builtin").expect("shipped");
+        let law = model.mechanics().expect("has laws");
+        let packed = law.tangent(0.05, 0.2, 0.13);
+        assert_eq!(packed, law.laws(0.05, 0.2, 0.13));
+        let mut last = [0.0; 3];
+        for step in 0..=4000 {
+            let along = f64::from(step) / 4000.0;
+            // Down to no pressure, then apart.
+            let (pressure, porosity) = (0.05 * (1.0 - 2.0 * along).max(0.0), 0.13 + 0.1 * along);
+            for ratio in [-1.0, -0.35, 0.0, 0.35, 1.0] {
+                let t = law.tangent(pressure, ratio, porosity);
+                assert!(t.c12 > 0.0 && t.c11.min(t.c22) >= t.c12 + 0.99 * LOOSE * LEAST_SHEAR, "{t:?}");
+            }
+            let t = law.tangent(pressure, 0.2, porosity);
+            let now = [t.c11, t.c22, t.c12];
+            let jump = now.iter().zip(last).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(step == 0 || jump < 0.01, "{pressure} {porosity}: {jump}");
+            last = now;
+        }
+        let apart = law.tangent(0.0, 0.0, 0.21);
+        assert!(apart.c11 < 0.02 * packed.c11 && apart.porosity == law.laws(0.0, 0.0, 0.21).porosity);
+        assert!(law.tangent(0.0, 0.0, 0.15).c11 > 0.3 * packed.c11, "grains that touch resist");
+    }
+
     #[test]
     fn recovers_the_laws_that_made_the_samples() {
         let law = Mechanics {
@@ -181,7 +236,7 @@ mod tests {
             let strain = [0.01 * (phase * 0.9).sin(), 0.007 * (phase * 1.7).cos()];
             let (pressure, stress_ratio) = (0.05 + 0.04 * (phase * 0.37).sin(), 0.2 * (phase * 0.6).cos());
             let porosity = 0.13 + 0.03 * (phase * 0.23).sin();
-            let t = law.tangent(pressure, stress_ratio, porosity);
+            let t = law.laws(pressure, stress_ratio, porosity);
             let difference = strain[0] - strain[1];
             WallStrain {
                 packing: (i % 4) as i64,

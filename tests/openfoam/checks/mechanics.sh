@@ -168,3 +168,6 @@ step_of_temperature
 friction_column
 restart_and_processes
 turned
+. "$here/checks/mechanics/walls.sh"
+. "$here/checks/mechanics/failure.sh"
+. "$here/checks/mechanics/convergence.sh"

@@ -19,9 +19,30 @@ pub struct CaseResult {
     pub steps: u64,
     pub queries: u64,
     pub clamped_queries: u64,
+    /// Absent in what an older solver wrote.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mechanics: Option<Mechanics>,
     pub probes: Probes,
     #[serde(rename = "final")]
     pub end: End,
+}
+
+/// What equilibrium of the stress needed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mechanics {
+    /// "none" or "equilibrium".
+    pub kind: String,
+    /// Steps for which a solution was sought.
+    pub solves: u64,
+    /// Iterations of Newton's method, and of linear equations.
+    pub iterations: u64,
+    pub linear_iterations: u64,
+    /// Steps that were brought in by parts, and steps left above the residual that was asked for.
+    pub cut_steps: u64,
+    pub unconverged_steps: u64,
+    /// Largest residual left [Pa], largest displacement at the end [m].
+    pub residual: f64,
+    pub displacement: f64,
 }
 
 /// Means over the volume at the end of a run. K in W/(m K), stresses in Pa, compression positive.
@@ -53,6 +74,7 @@ struct SolverSummary {
     steps: u64,
     queries: u64,
     clamped_queries: u64,
+    mechanics: Option<Mechanics>,
     model: Model,
     #[serde(rename = "final")]
     end: End,
@@ -74,6 +96,7 @@ pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
         steps: solver.steps,
         queries: solver.queries,
         clamped_queries: solver.clamped_queries,
+        mechanics: solver.mechanics,
         probes: probes(&read_text(&path)?).map_err(problem)?,
         end: solver.end,
     };

@@ -53,6 +53,18 @@ pub fn text(cases: &[Named]) -> String {
             ),
         );
     }
+    let moved = cases.iter().filter_map(|case| Some((case, case.result.mechanics.as_ref()?)));
+    let moved: Vec<_> = moved.filter(|(_, mechanics)| mechanics.kind != "none").collect();
+    if !moved.is_empty() {
+        let head = "case  mechanics     solves iterations  linear  in parts  residual [Pa]  displacement [mm]";
+        line(&mut out, format!("\n{head}"));
+    }
+    for (case, m) in moved {
+        let counts = format!("{:>7} {:>10} {:>7} {:>9}", m.solves, m.iterations, m.linear_iterations, m.cut_steps);
+        let row =
+            format!("{:<6}{:<12} {counts} {:>14.3} {:>18.2}", case.name, m.kind, m.residual, 1e3 * m.displacement);
+        line(&mut out, row);
+    }
     out
 }
 
@@ -75,5 +87,27 @@ mod tests {
         let temperatures = "HC* 50.00 51.00 52.00 79.00 80.00 81.00 - - - 119.00 120.00 121.00";
         assert_eq!(rows[0].join(" "), temperatures);
         assert_eq!(rows[1].join(" "), "HC* 0.0800 0.0200 52.0 46.0 5.000 30.5 20000 20000 7");
+    }
+
+    #[test]
+    fn mechanics_has_rows_where_there_was_any() {
+        let folder = fixture::Cases::new("mechanics");
+        let with = |kind: &str| {
+            let mechanics = format!(
+                r#""mechanics": {{"kind": "{kind}", "solves": 40, "iterations": 90, "linear_iterations": 300,
+                "cut_steps": 2, "unconverged_steps": 1, "residual": 4.5, "displacement": 0.019}}, "model""#
+            );
+            fixture::SOLVER.replace("\"model\"", &mechanics)
+        };
+        folder.write_summary("H", &with("none"));
+        folder.write_summary("HC", &with("equilibrium"));
+        let (cases, _) = read_all(folder.path()).unwrap();
+        let table = text(&cases);
+        let rows: Vec<&str> = table.lines().skip_while(|line| !line.contains("in parts")).skip(1).collect();
+        let row: Vec<&str> = rows[0].split_whitespace().collect();
+        assert_eq!((rows.len(), row.join(" ").as_str()), (1, "HC equilibrium 40 90 300 2 4.500 19.00"));
+        let json = serde_json::to_value(&cases[0].result).unwrap();
+        assert_eq!(json["mechanics"]["solves"], 40);
+        assert!(serde_json::to_value(&cases[1].result).unwrap().get("mechanics").is_none());
     }
 }

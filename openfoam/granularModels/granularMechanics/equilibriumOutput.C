@@ -1,0 +1,140 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "equilibrium.H"
+#include "OStringStream.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::granularMechanicsModels::equilibrium::makeFields()
+{
+    vectorField& D = D_.primitiveFieldRef();
+    scalarField& J = areaRatio_.primitiveFieldRef();
+    forAll(D, celli)
+    {
+        vector2D sum(Zero);
+        for (const label node : quads_.quads()[celli])
+        {
+            sum += 0.25*u_[node];
+        }
+        D[celli] = vector(sum.x(), sum.y(), 0);
+        const FixedList<scalar, 4> F(gradient(celli));
+        J[celli] = F[0]*F[3] - F[1]*F[2];
+    }
+    D_.correctBoundaryConditions();
+    areaRatio_.correctBoundaryConditions();
+    grains_.setAreaRatio(J);
+
+    writeNodes(u_, nodeDisplacement_);
+    writeNodes(traction_, wallTraction_);
+    shearStress_.primitiveFieldRef() = grains_.presentStress().xy;
+    shearStress_.correctBoundaryConditions();
+}
+
+
+Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
+{
+    // The cell that cannot be, or one at the node that is out of balance most
+    label celli = broken_, worst = 0;
+    scalar most = 0;
+    forAll(r_, i)
+    {
+        const scalar here = cmptMax(cmptMag(r_[i]))/std::sqrt(nodeArea_[i]);
+        if (!(here <= most))
+        {
+            most = here;
+            worst = i;
+        }
+    }
+    const bool torn = returnReduce(broken_ >= 0, orOp<bool>());
+    const bool here =
+        torn ? celli >= 0 : most >= returnReduce(most, maxOp<scalar>());
+
+    stringList texts(Pstream::nProcs());
+    if (here)
+    {
+        forAll(quads_.quads(), c)
+        {
+            celli = celli < 0 && quads_.quads()[c].found(worst) ? c : celli;
+        }
+        OStringStream text;
+        if (torn)
+        {
+            text<< "cell " << celli << " at " << mesh_.cellCentres()[celli]
+                << " is torn, turned inside out or strained by more than "
+                << largestStrain;
+        }
+        else
+        {
+            text<< most << " Pa are out of balance at cell " << celli << " at "
+                << mesh_.cellCentres()[celli];
+        }
+        text<< ", whose state is: " << grains_.describe(celli).c_str();
+        texts[Pstream::myProcNo()] = text.str();
+    }
+    Pstream::gatherList(texts);
+    Pstream::scatterList(texts);
+    for (const string& text : texts)
+    {
+        if (!text.empty())
+        {
+            return text;
+        }
+    }
+    return "no cell found";
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::refuse()
+{
+    const string what(failure());
+    grains_.refresh();
+    const_cast<Time&>(mesh_.time()).writeNow();
+    FatalErrorInFunction
+        << "Equilibrium at time " << mesh_.time().timeName() << " not found in "
+        << mostParts << " parts of " << maxIterations_ << " iterations: "
+        << what.c_str() << ". Allowed: maxResidual " << maxResidual_
+        << " Pa of equilibriumCoeffs. The fields before the equilibrium of this"
+        << " time are written" << exit(FatalError);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::granularMechanics::counters
+Foam::granularMechanicsModels::equilibrium::count() const
+{
+    counters all(counters_);
+    all.displacement = gMax(mag(D_.primitiveField())());
+    return all;
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::writeReport() const
+{
+    const counters all(count());
+    Info<< "Equilibrium: " << all.solves << " of " << steps_
+        << " steps solved, " << all.iterations << " iterations, " << all.linear
+        << " linear; " << all.cut << " steps in parts; largest displacement "
+        << all.displacement << " m; largest residual left " << all.residual
+        << " Pa, in " << all.unconverged << " steps above " << tolerance_
+        << " Pa" << nl;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,360 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "equilibrium.H"
+#include "solverPerformance.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- How often a solution of the linear equations is halved
+static const label mostCuts = 4;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::granularMechanicsModels::equilibrium::nodeField
+Foam::granularMechanicsModels::equilibrium::at
+(
+    const nodeField& du,
+    const scalar share
+) const
+{
+    nodeField result(quads_.points());
+    forAll(result, i)
+    {
+        result[i] += u_[i] + share*du[i];
+    }
+    return result;
+}
+
+
+bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
+{
+    // Strains of the middle are of second order
+    broken_ = quads_.shapes(at(du, 0.5), shapes_);
+    if (broken_ >= 0)
+    {
+        return false;
+    }
+    forAll(shapes_, celli)
+    {
+        const quadMesh::shape& s = shapes_[celli];
+        const quadMesh::quad& q = quads_.quads()[celli];
+        scalar xx = 0, yy = 0, xy = 0;
+        for (label a = 0; a < 4; ++a)
+        {
+            const vector2D& v = du[q[a]];
+            xx += s.b[a]*v.x();
+            yy += s.c[a]*v.y();
+            xy += s.c[a]*v.x() + s.b[a]*v.y();
+        }
+        // A medium stiffer in shear by shearFactor, as stiff in volume
+        const scalar more = 0.5*(shearFactor_ - 1)*(xx - yy);
+        strainXX_[celli] = xx + more;
+        strainYY_[celli] = yy - more;
+        shear_[celli] = stress_.xy[celli] + shearModulus_[celli]*xy;
+        const scalar all =
+            mag(strainXX_[celli]) + mag(strainYY_[celli]) + mag(xy);
+        if (!(all < largestStrain))
+        {
+            broken_ = celli;
+            return false;
+        }
+    }
+    stress_.xy = shear_;
+    grains_.tryStrain(strainXX_, strainYY_, sinPhi_, stress_);
+    return true;
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::addHourglass
+(
+    const nodeField& du,
+    nodeField& force
+) const
+{
+    forAll(reference_, celli)
+    {
+        const scalar* gamma = reference_[celli].gamma;
+        const quadMesh::quad& q = quads_.quads()[celli];
+        vector2D pattern(Zero);
+        for (label a = 0; a < 4; ++a)
+        {
+            pattern += gamma[a]*(u_[q[a]] + du[q[a]]);
+        }
+        for (label a = 0; a < 4; ++a)
+        {
+            force[q[a]] += (hourglass*scale_*gamma[a])*pattern;
+        }
+    }
+}
+
+
+Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
+(
+    const nodeField& du,
+    const bool moved
+)
+{
+    const nodeField now(at(du, 1));
+    stress_ = grains_.presentStress();
+    broken_ = -1;
+    if ((!moved || strain(du)) && (moved || !placed_))
+    {
+        broken_ = quads_.shapes(now, shapes_);
+    }
+    placed_ = !moved;
+    if (returnReduce(broken_ >= 0, orOp<bool>()))
+    {
+        return GREAT;
+    }
+
+    nodeField inner(u_.size(), vector2D(Zero)), outer(inner), slip(du);
+    addStress(stress_, inner);
+    addHourglass(du, inner);
+    walls_.addPressure(mesh_.time().value(), now, outer);
+    forAll(inner, i)
+    {
+        inner[i] -= outer[i];
+        slip[i] -= slide_[i];
+    }
+    quads_.sum(inner);
+    walls_.friction
+    (
+        stress_, now, slip, traction_, friction_, newTraction_, stick_
+    );
+
+    scalar most = 0;
+    forAll(r_, i)
+    {
+        for (label k = 0; k < 2; ++k)
+        {
+            scalar& r = r_[i][k];
+            r = start_[i][k] - inner[i][k] + friction_[i][k];
+            if (share_ < 1)
+            {
+                r -= (1 - share_)*outset_[i][k];
+            }
+            r *= walls_.free()[i][k];
+            const scalar here = mag(r)/std::sqrt(nodeArea_[i]);
+            most = here < GREAT ? max(most, here) : GREAT;
+        }
+    }
+    return returnReduce(most, maxOp<scalar>());
+}
+
+
+Foam::scalar Foam::granularMechanicsModels::equilibrium::search
+(
+    nodeField& du,
+    const nodeField& d,
+    const scalar last
+)
+{
+    scalar share = 1, now = GREAT;
+    nodeField tried(du);
+    for (label cut = 0; cut < mostCuts; ++cut)
+    {
+        forAll(tried, i)
+        {
+            tried[i] = du[i] + share*d[i];
+        }
+        now = imbalance(tried, true);
+        if (now < last)
+        {
+            break;
+        }
+        share *= 0.5;
+    }
+    du = tried;
+    return now;
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
+{
+    nodeField d, resisted(du.size());
+    multiply(du, resisted);
+    forAll(r_, i)
+    {
+        r_[i] -= resisted[i];
+    }
+    findDiagonal();
+    conjugateGradients(r_, d);
+    forAll(du, i)
+    {
+        du[i] += d[i];
+    }
+    left_ = imbalance(du, true);
+}
+
+
+bool Foam::granularMechanicsModels::equilibrium::balance
+(
+    nodeField& du,
+    bool& moved
+)
+{
+    moved = quads_.dot(du, du) > 0;
+    before_ = left_ = imbalance(nodeField(du.size(), vector2D(Zero)), false);
+    if (moved || left_ > tolerance_)
+    {
+        findTangent();
+    }
+    if (moved)
+    {
+        follow(du);
+    }
+
+    nodeField d;
+    for
+    (
+        label iteration = 0;
+        left_ > tolerance_ && left_ < GREAT && iteration < maxIterations_;
+        ++iteration
+    )
+    {
+        findDiagonal();
+        conjugateGradients(r_, d);
+        left_ = search(du, d, left_);
+        moved = true;
+        ++counters_.iterations;
+    }
+    return left_ <= maxResidual_;
+}
+
+
+bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
+{
+    const scalar time = mesh_.time().value();
+    const nodeField u(u_), traction(traction_);
+    const nodeField way(walls_.way(time, u_));
+    granularState::memory before;
+    slide_ = walls_.slide(lastTime_, time);
+    share_ = 1;
+
+    if (parts > 1)
+    {
+        before = grains_.remember();
+        const nodeField slide(slide_);
+        slide_ = vector2D(Zero);
+        imbalance(slide_, false);
+        outset_ = r_;
+        forAll(slide_, i)
+        {
+            slide_[i] = slide[i]/parts;
+        }
+    }
+    for (label part = 1; part <= parts; ++part)
+    {
+        share_ = scalar(part)/parts;
+        nodeField du(way);
+        forAll(du, i)
+        {
+            for (label k = 0; k < 2; ++k)
+            {
+                const scalar held = 1 - walls_.free()[i][k];
+                du[i][k] = share_*way[i][k] - held*(u_[i][k] - u[i][k]);
+            }
+        }
+        bool moved;
+        if (!balance(du, moved))
+        {
+            placed_ = false;
+            if (parts > 1)
+            {
+                grains_.restore(before);
+                u_ = u;
+                traction_ = traction;
+            }
+            return false;
+        }
+        keep(du, moved);
+    }
+    lastTime_ = time;
+    return true;
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::keep
+(
+    const nodeField& du,
+    const bool moved
+)
+{
+    traction_ = newTraction_;
+    if (moved)
+    {
+        forAll(u_, i)
+        {
+            u_[i] += du[i];
+        }
+        grains_.deform(strainXX_, strainYY_, sinPhi_, shear_);
+        findMetric();
+    }
+    placed_ = true;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
+{
+    const counters at(counters_);
+    label parts = 1;
+
+    while (!advance(parts))
+    {
+        if (!lastAttempt)
+        {
+            return false;
+        }
+        if (parts == mostParts)
+        {
+            refuse();
+        }
+        parts *= 2;
+        Info<< "Equilibrium at time " << mesh_.time().timeName() << ": "
+            << failure().c_str() << "; again in " << parts << " parts" << nl;
+    }
+
+    ++steps_;
+    const label iterations = counters_.iterations - at.iterations;
+    counters_.solves += before_ > tolerance_;
+    counters_.cut += parts > 1;
+    counters_.unconverged += left_ > tolerance_;
+    counters_.residual = max(counters_.residual, left_);
+
+    // As the line of the linear solver of T
+    if (solverPerformance::debug)
+    {
+        Info<< "Equilibrium: out of balance " << before_ << " Pa, after "
+            << iterations << " iterations (" << counters_.linear - at.linear
+            << " linear) " << left_ << " Pa"
+            << (left_ > tolerance_ ? ", not converged" : "") << nl;
+    }
+    return true;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,137 @@
+# Kinds of walls against closed forms, symmetry, one dimension, energy. Sourced by mechanics.sh: needs law, equilibrium.
+
+state_before() { # of the uniform grains at rest: sxx syy [Pa, compression] c11 c12 [Pa]
+    paste -d ' ' <(field ../before/0.05/stress | head -1) <(field ../before/0.05/reducedPressure | head -1) <(field ../before/0.05/reducedDeviator | head -1) \
+        | awk -v law="$law" '{ split(law, c, ","); r = sqrt($7); E = 1e7*5e-3
+            printf "%.12g %.12g %.12g %.12g\n", -$1, -$4, E*(c[1] + c[2]*r + c[3]*$8/$7), E*(c[4] + c[5]*r) }'
+}
+uniaxial() { # folder, wall at the right: the box of small, smooth walls, one step
+    changed "$1"
+    uniform_temperature
+    mesh_is '12 6 1'
+    equilibrium "residual 1e-6; walls { \".*\" { type frictionless; } right { $2 } }"
+    logged foamDictionary -entry endTime -set 0.05 system/controlDict
+    logged msddFoam
+}
+
+# A wall that moves by d, or presses by dp more, strains by log(1 + d/L) or -dp/c11; syy follows with c12
+prescribed_walls() {
+    local e sxx syy c11 c12
+    changed uniaxial-start
+    read -r sxx syy c11 c12 < <(state_before)
+    uniaxial pressed "type pressure; pressure constant $(awk "BEGIN { printf \"%.12g\", $sxx + 100 }");"
+    e=$(paste -d ' ' <(field 0.05/stress) <(field 0.05/D) | awk -v xx=$sxx -v yy=$syy -v c11=$c11 -v c12=$c12 '
+        { x = ((NR - 1) % 12 + 0.5)*2.15/12; u = x*(exp(-100/c11) - 1)
+          e = (-$1 - xx)/100 - 1; f = (-$4 - yy)/(100*c12/c11) - 1; g = $7/u - 1
+          for (k = 0; k < 3; k++) { h = k == 0 ? e : k == 1 ? f : g; if (h < 0) h = -h; if (!(h <= w)) w = h } } END { print (NR == 72 ? w + 0 : "nan") }')
+    check "pressure on a wall: stress and displacement against the closed form $e <= 0.001" below "$e" 0.001
+    uniaxial pushed 'type displacement; displacement constant (-0.005 0 0);'
+    e=$(field 0.05/stress | awk -v xx=$sxx -v yy=$syy -v c11=$c11 -v c12=$c12 '{ strain = log(1 - 0.005/2.15)
+          e = (-$1 - xx)/(-c11*strain) - 1; f = (-$4 - yy)/(-c12*strain) - 1
+          for (k = 0; k < 2; k++) { h = k == 0 ? e : f; if (h < 0) h = -h; if (!(h <= w)) w = h } } END { print (NR == 72 ? w + 0 : "nan") }')
+    check "prescribed displacement: stress against the closed form $e <= 0.001" below "$e" 0.001
+}
+
+symmetric_quarter() { # all walls at 100 K: a quarter with symmetry planes against the whole
+    both_ways moved-whole
+    sed -i 's/uniform 70/uniform 100/; s/uniform 0;/uniform 100;/; s/zeroGradient;/fixedValue; value uniform 100;/' 0/T
+    mesh_is '12 6 1'
+    logged msddFoam
+    both_ways moved-quarter
+    sed -i 's/uniform 70/uniform 100/; s/uniform 0;/uniform 100;/; s/zeroGradient;/fixedValue; value uniform 100;/' 0/T
+    cat >> system/blockMeshDict <<-'END'
+	vertices ((0 0 0) (1075 0 0) (1075 322.5 0) (0 322.5 0) (0 0 10) (1075 0 10) (1075 322.5 10) (0 322.5 10));
+	boundary
+	(
+	    left { type wall; faces ((0 4 7 3)); }
+	    bottom { type wall; faces ((0 1 5 4)); }
+	    middleX { type symmetryPlane; faces ((1 2 6 5)); }
+	    middleY { type symmetryPlane; faces ((3 7 6 2)); }
+	    frontAndBack { type empty; faces ((0 3 2 1) (4 5 6 7)); }
+	);
+	END
+    sed -i 's/^    right$/    middleX/; s/^    top$/    middleY/' 0/T
+    awk '/middle[XY]/ { skip = 1; print; print "{ type symmetryPlane; }"; next } skip { if (/}/) skip = 0; next } { print }' 0/T > T.new
+    mv T.new 0/T
+    mesh_is '6 3 1'
+    logged msddFoam
+    local name e
+    for name in T porosity D; do
+        e=$(awk 'NR == FNR { a[NR - 1] = $1; next } { c = FNR - 1; e = $1 - a[c % 6 + 12*int(c/6)]; if (e < 0) e = -e; if (!(e <= w)) w = e }
+            END { print (FNR == 18 ? w + 0 : "nan") }' <(field ../moved-whole/1/$name) <(field 1/$name))
+        check "equilibrium: quarter with symmetry planes: $name differs by $e <= 1e-6" below "$e" 1e-6
+    done
+    e=$(field 1/D | awk '{ e = $1 < 0 ? -$1 : $1; if (e > w) w = e } END { print (w > 1e-5) }')
+    check "equilibrium: the quarter's grains moved" test "$e" = 1
+}
+
+one_dimension() { # empty along y, against three cells along y between smooth insulated walls
+    local cells name e
+    for cells in 1 3; do
+        changed "line-$cells"
+        equilibrium 'residual 1e-4; walls { "bottom|top" { type frictionless; } }'
+        sed -i 's/^        type    fixedValue;\r*$/&/; /bottom/,/}/{ s/fixedValue/zeroGradient/; /value /d }' 0/T
+        if [ $cells = 1 ]; then
+            sed -i '/bottom/,/}/ s/zeroGradient/empty/; /top/,/}/ s/zeroGradient/empty/' 0/T
+            cat >> system/blockMeshDict <<-'END'
+	boundary
+	(
+	    left { type wall; faces ((0 4 7 3)); }
+	    right { type wall; faces ((1 2 6 5)); }
+	    bottom { type empty; faces ((0 1 5 4)); }
+	    top { type empty; faces ((3 7 6 2)); }
+	    frontAndBack { type empty; faces ((0 3 2 1) (4 5 6 7)); }
+	);
+	END
+            sed -i 's/"bottom|top" { type frictionless; }//' constant/granularProperties
+        fi
+        mesh_is "40 $cells 1"
+        logged msddFoam
+    done
+    for name in T porosity D; do
+        e=$(awk 'NR == FNR { a[NR - 1] = $1; next } FNR <= 40 { e = $1 - a[FNR - 1]; if (e < 0) e = -e; if (!(e <= w)) w = e }
+            END { print (FNR == 120 ? w + 0 : "nan") }' <(field ../line-1/1/$name) <(field 1/$name))
+        check "equilibrium: one dimension against two with smooth walls: $name differs by $e <= 1e-6" below "$e" 1e-6
+    done
+    e=$(field 1/D | awk '{ e = $1 < 0 ? -$1 : $1; if (e > w) w = e } END { print (w > 1e-4) }')
+    check "equilibrium: the line's grains moved" test "$e" = 1
+}
+
+# A small push by a pressed wall, rubbing walls that hardly slip: all linear, so that the mean of the forces before and
+# after times the way is the work. That of the wall is what the cells store and what the friction of the walls takes.
+energy() {
+    local e sxx syy c11 c12
+    changed energy-start
+    read -r sxx syy c11 c12 < <(state_before)
+    changed energy
+    uniform_temperature
+    mesh_is '20 6 1'
+    equilibrium "residual 1e-7; walls { right { type pressure; pressure constant $(awk "BEGIN { printf \"%.12g\", $sxx + 1 }"); }
+        left { type frictionless; } \"bottom|top\" { type rigid; friction 0.4; slip 0.05; } }"
+    logged foamDictionary -entry endTime -set 0.05 system/controlDict
+    logged msddFoam
+    e=$(awk -v xx=$sxx -v yy=$syy '
+        FILENAME == ARGV[1] { split($0, p, " "); i = FNR - 1; sx[i] = p[1]; sxy[i] = p[2]; sy[i] = p[4]; next }
+        FILENAME == ARGV[2] { split($0, p, " "); i = FNR - 1; ux[i] = p[1]; uy[i] = p[2]; next }
+        { split($0, p, " "); t[FNR - 1] = p[1] }
+        END { n = 21; for (k = 0; k < 147; k++) { x[k] = k % n*2.15/20 + ux[k]/2; y[k] = int(k/n)*0.645/6 + uy[k]/2 } # halfway
+            for (j = 0; j < 6; j++) for (i = 0; i < 20; i++) { a = i + n*j; b = a + 1; c = a + n + 1; d = a + n; s = i + 20*j
+                ax = x[c] - x[a]; ay = y[c] - y[a]; bx = x[d] - x[b]; by = y[d] - y[b] # diagonals, and how they change
+                aux = ux[c] - ux[a]; auy = uy[c] - uy[a]; bux = ux[d] - ux[b]; buy = uy[d] - uy[b]
+                stored += 0.25*((sx[s] - xx)*(aux*by - bux*ay) + (sy[s] - yy)*(buy*ax - auy*bx) + sxy[s]*(bux*ax - aux*bx + auy*by - buy*ay)) }
+            for (j = 0; j <= 6; j += 6) for (i = 0; i < 20; i++) { a = i + n*j
+                rub -= 0.25*(x[a + 1] - x[a])*(t[a]*ux[a] + t[a + 1]*ux[a + 1]) }
+            for (j = 0; j < 6; j++) { a = 20 + n*j; b = a + n
+                work -= 0.5*(xx + 0.5)*((y[b] - y[a])*(ux[a] + ux[b]) - (x[b] - x[a])*(uy[a] + uy[b])) }
+            added = work*0.5/(xx + 0.5)
+            print (stored + rub - work)/added, rub/added }' \
+        <(field 0.05/stress) <(field 0.05/nodeDisplacement) <(field 0.05/wallTraction))
+    set -- $e
+    check "energy: stored and friction give the work of the wall to $1 <= 1e-3 of what the push adds" below "${1#-}" 1e-3
+    check "energy: the walls take a share of what the push adds, $2, above 0.01" below 0.01 "$2"
+}
+
+prescribed_walls
+symmetric_quarter
+one_dimension
+energy
