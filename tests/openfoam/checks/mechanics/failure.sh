@@ -78,7 +78,7 @@ unjammed() {
           for (i = 1; i <= NF; i++) if (!($i > -1e9 && $i < 1e9)) bad++; if ($2 < 0) bad++ }
         END { print loose + 0, packed + 0, bad + 0 }')
     set -- $e
-    check "unjamming: $1 of 72 cells that hardly touch, 20 to 60, $2 under pressure" test "$1" -ge 20 -a "$1" -le 60 -a "$2" -ge 10
+    check "unjamming: $1 of 72 cells that hardly touch, 12 to 60, $2 under pressure" test "$1" -ge 12 -a "$1" -le 60 -a "$2" -ge 10
     check "unjamming: no value that is no number, no tension" test "$3" = 0
     check "unjamming: every step found its equilibrium" grep -q ' in 0 steps above' log
     cp -r . "$work/unjam-half"
