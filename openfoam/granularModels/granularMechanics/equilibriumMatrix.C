@@ -29,7 +29,7 @@ static const scalar uniformC12 = 0.3;
 static const scalar uniformPressure = 0.05;
 
 //- Linear equations are solved to this share of the imbalance
-static const scalar linearTolerance = 0.01;
+static const scalar linearTolerance = 0.1;
 static const label maxLinear = 500;
 
 } // End namespace Foam

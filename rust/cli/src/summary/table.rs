@@ -56,13 +56,20 @@ pub fn text(cases: &[Named]) -> String {
     let moved = cases.iter().filter_map(|case| Some((case, case.result.mechanics.as_ref()?)));
     let moved: Vec<_> = moved.filter(|(_, mechanics)| mechanics.kind != "none").collect();
     if !moved.is_empty() {
-        let head = "case  mechanics     solves iterations  linear  in parts  residual [Pa]  displacement [mm]";
+        let head =
+            "case  mechanics     solves iterations  linear  in parts  residual [Pa]  displacement [mm]";
         line(&mut out, format!("\n{head}"));
     }
     for (case, m) in moved {
-        let counts = format!("{:>7} {:>10} {:>7} {:>9}", m.solves, m.iterations, m.linear_iterations, m.cut_steps);
-        let row =
-            format!("{:<6}{:<12} {counts} {:>14.3} {:>18.2}", case.name, m.kind, m.residual, 1e3 * m.displacement);
+        let counts =
+            format!("{:>7} {:>10} {:>7} {:>9}", m.solves, m.iterations, m.linear_iterations, m.cut_steps);
+        let row = format!(
+            "{:<6}{:<12} {counts} {:>14.3} {:>18.2}",
+            case.name,
+            m.kind,
+            m.residual,
+            1e3 * m.displacement
+        );
         line(&mut out, row);
     }
     out
