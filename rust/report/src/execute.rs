@@ -259,7 +259,9 @@ fn fatal(log: &str) -> String {
 fn warning(log: &str) -> String {
     let Some((_, rest)) = log.split_once("FOAM Warning :") else { return String::new() };
     let frame = |line: &&str| ["From ", "in file"].iter().any(|begin| line.trim_start().starts_with(begin));
-    let lines = rest.lines().enumerate().take_while(|(k, line)| *k < 1 || !line.trim().is_empty());
+    let over =
+        |line: &str| line.trim().is_empty() || line.starts_with("DICPCG") || line.starts_with("Time = ");
+    let lines = rest.lines().enumerate().take_while(|(k, line)| *k < 1 || !over(line));
     short(&lines.map(|(_, line)| line).filter(|line| !frame(line)).collect::<Vec<_>>().join(" "))
 }
 
