@@ -134,8 +134,10 @@ fn timed(
 ) -> Result<Ended, ReportError> {
     let script = format!(
         ". '{}/scripts/foam-env' && cd '{}' && {{ {preparation}; }} || exit 97\n\
+         ulimit -t {limit}\n\
          TIMEFORMAT='%U %S'\n\
-         {{ time (ulimit -t {limit}; exec timeout --kill-after=5 {wall} {program} > log 2>&1); }} 2> cpu",
+         {{ time timeout --kill-after=5 {wall} {program} > log 2>&1; }} 2> cpu\n\
+         exit $?", // as the last command of all bash would replace itself by it, and take no time
         place.checkout.display(),
         folder.display(),
         wall = PATIENCE * limit,
@@ -246,19 +248,21 @@ fn fatal(log: &str) -> String {
     let body: Vec<&str> = log[at..]
         .lines()
         .skip(1)
-        .take_while(|line| !line.trim_start().starts_with("From ") && !line.starts_with("FOAM exiting"))
+        .take_while(|line| {
+            !["From ", "file: ", "FOAM exiting"].iter().any(|end| line.trim_start().starts_with(end))
+        })
         .collect();
     short(&body.join(" "))
 }
 
-/// The first warning of a run.
+/// The first warning of a run, without its frame.
 fn warning(log: &str) -> String {
-    let Some(at) = log.find("FOAM Warning") else { return String::new() };
-    let body = log[at..]
-        .lines()
-        .skip(1)
-        .filter(|l| !l.trim_start().starts_with("From ") && !l.trim_start().starts_with("in file"));
-    short(&body.take(2).collect::<Vec<_>>().join(" "))
+    let Some((_, rest)) = log.split_once("FOAM Warning :") else { return String::new() };
+    let frame = |line: &&str| ["From ", "in file"].iter().any(|begin| line.trim_start().starts_with(begin));
+    let over =
+        |line: &str| line.trim().is_empty() || line.starts_with("DICPCG") || line.starts_with("Time = ");
+    let lines = rest.lines().enumerate().take_while(|(k, line)| *k < 1 || !over(line));
+    short(&lines.map(|(_, line)| line).filter(|line| !frame(line)).collect::<Vec<_>>().join(" "))
 }
 
 fn last_time(log: &str) -> &str {
@@ -302,6 +306,10 @@ mod tests {
     fn the_fatal_message_is_taken_from_its_frame() {
         let log = "Time = 3\n\n--> FOAM FATAL ERROR: \nporosity is 0.05,\nallowed: 0.06\n\n    From void f()\nFOAM exiting\n";
         assert_eq!(fatal(log), "porosity is 0.05, allowed: 0.06");
+        let warned =
+            "x\n--> FOAM Warning : \n    From void f()\n    in file f.C at line 3\n    too hot\n\nTime = 4\n";
+        assert_eq!(warning(warned), "too hot");
+        assert_eq!(warning("--> FOAM Warning : too cold\n\nTime = 4\n"), "too cold");
         assert_eq!(fatal("a\nb\n\nc\nd\n"), "b c d");
         assert_eq!(last_time("\nTime = 0.1\n\nTime = 0.2\nx"), "0.2");
         assert_eq!(last_time("nothing"), "0");

@@ -108,9 +108,9 @@ fn rows(quick: bool) -> Vec<(&'static str, &'static str, &'static str, Job)> {
         ),
         (
             "explicit coupling",
-            "the same, adaptive, first step 5 s",
+            "case H, adaptive, first step 5 s",
             "cuts its step",
-            hot("5").control("adjustTimeStep yes;").solution(adaptive).into(),
+            step("5").control("adjustTimeStep yes;").solution(adaptive).into(),
         ),
         (
             "porosity below the data",

@@ -103,6 +103,11 @@ impl Settings {
         if self.quick { &SEEDS[..1] } else { &SEEDS }
     }
 
+    /// Number of packings that a configuration is run for.
+    fn packings(&self, configuration: &Configuration) -> usize {
+        self.seeds().len().min(configuration.packings)
+    }
+
     /// Records of one configuration in a case, a packing each.
     fn records<'a>(
         &self,
@@ -232,12 +237,14 @@ fn elements(case: &str) -> Vec<Asked> {
     jobs
 }
 
-/// Runs of a configuration that all ended well; else why not.
-fn complete<'a>(records: &[&'a Record]) -> Result<Vec<&'a Run>, (Outcome, String)> {
+/// Runs of a configuration, if those of all `packings` ended well; else why not.
+fn complete<'a>(records: &[&'a Record], packings: usize) -> Result<Vec<&'a Run>, (Outcome, String)> {
     let runs: Vec<&Run> = records.iter().filter_map(|record| record.run.as_ref()).collect();
     match records.iter().find(|record| record.outcome != Outcome::Done) {
         Some(record) => Err((record.outcome, record.message.clone())),
-        None if runs.is_empty() => Err((Outcome::NotRun, String::new())),
+        None if runs.len() < packings => {
+            Err((Outcome::NotRun, format!("{} of {packings} packings so far", runs.len())))
+        }
         None => Ok(runs),
     }
 }
@@ -254,7 +261,10 @@ fn validation(
             if !configuration.cases.contains(&reference.case.as_str()) {
                 continue;
             }
-            let found = complete(&settings.records(records, &configuration, &reference.case));
+            let found = complete(
+                &settings.records(records, &configuration, &reference.case),
+                settings.packings(&configuration),
+            );
             let (outcome, message) = match &found {
                 Ok(_) => (Outcome::Done, String::new()),
                 Err((outcome, message)) => (*outcome, message.clone()),
@@ -307,7 +317,10 @@ fn point(
     let mut found = None;
     let (mut outcome, mut message) = (Outcome::Done, String::new());
     match &configuration.known {
-        Known::Run => match complete(&settings.records(records, configuration, &reference.case)) {
+        Known::Run => match complete(
+            &settings.records(records, configuration, &reference.case),
+            settings.packings(configuration),
+        ) {
             Ok(runs) => found = errors(&reference.first(runs.len()), &runs, configuration.affine),
             Err(why) => (outcome, message) = why,
         },
