@@ -28,6 +28,8 @@ Description
     media with thermal expansion), in its order.
 
 Usage
+    msddFoam -cheapest prints the cheapest configuration for an accuracy.
+
     Reads   T, porosity, fabricIndex; at the start also stress (tension
             positive) and fabricConductivity, if there are such files;
             constant/granularProperties (keys: cases/common);
@@ -50,6 +52,11 @@ Usage
 #include "timeScheme.H"
 #include "runSummary.H"
 
+// Written by msdd report --solver-table
+static const char* const cheapestConfigurations =
+    #include "cheapestConfigurations.H"
+    ;
+
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
 int main(int argc, char *argv[])
@@ -60,7 +67,23 @@ int main(int argc, char *argv[])
         " conductivity and stress from a granularModel"
     );
 
+    argList::addBoolOption
+    (
+        "cheapest",
+        "Print the cheapest configuration for a wanted accuracy, as measured by"
+        " scripts/report, and exit; needs no case"
+    );
+
     const clockTime wallClock;
+
+    for (int i = 1; i < argc; i++)
+    {
+        if (string(argv[i]) == "-cheapest")
+        {
+            Info<< cheapestConfigurations;
+            return 0;
+        }
+    }
 
     #include "addCheckCaseOptions.H"
     #include "setRootCaseLists.H"

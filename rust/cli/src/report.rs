@@ -27,6 +27,9 @@ pub struct Arguments {
     /// JSON to write.
     #[arg(long, value_name = "FILE", default_value = "results/report.json")]
     json: PathBuf,
+    /// Also write the table of the cheapest configurations that `msddFoam -cheapest` prints: its source, to build into it.
+    #[arg(long, value_name = "FILE")]
+    solver_table: Option<PathBuf>,
     /// Folder for results of jobs.
     #[arg(long, value_name = "DIR", default_value = ".cache/report")]
     cache: PathBuf,
@@ -64,6 +67,9 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let page = arguments.out.join("index.html");
     msdd_report::write_text(&page, &msdd_report::page::text(&made)?)?;
     let report = &made.report;
+    if let Some(file) = &arguments.solver_table {
+        msdd_report::write_text(file, &msdd_report::solver_table::text(report))?;
+    }
     println!("{} jobs, {} from the cache", report.jobs, report.cached_jobs);
     println!("page: {}   figures: {}", page.display(), arguments.json.display());
     Ok(())

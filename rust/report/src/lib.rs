@@ -14,6 +14,7 @@
 //! | [`reference`](mod@reference) | the committed runs by discrete elements |
 //! | [`compare`] | errors against the reference |
 //! | [`front`] | cheapest configurations, Pareto front |
+//! | [`solver_table`] | the former as `msddFoam -cheapest` prints them |
 //! | [`economy`] | what each case needs |
 //! | [`failures`] | where methods break, and what the program does there |
 //! | [`report`] | all of it as data: the JSON |
@@ -37,6 +38,7 @@ pub mod pool;
 pub mod reference;
 pub mod report;
 pub mod setup;
+pub mod solver_table;
 
 use std::path::{Path, PathBuf};
 

@@ -109,6 +109,12 @@ fn moving(step: &str, guess: f64) -> Configuration {
     base.named(&name, FAMILIES[1])
 }
 
+fn moving_adaptive(tolerance: f64, guess: f64) -> Configuration {
+    let base = adaptive(tolerance, guess).change(|job| job.grains("mechanics equilibrium;"));
+    let name = format!("equilibrium, {}", base.name);
+    base.named(&name, FAMILIES[1])
+}
+
 fn model(name: &str, family: &'static str, keys: &str, guess: f64) -> Configuration {
     let base = fixed("1e-2", guess).named(name, family);
     base.change(|job| job.grains(keys))
@@ -189,6 +195,9 @@ pub fn chart(quick: bool) -> Vec<Configuration> {
         coarse(moving("1e-1", 1.0), [10, 3]),
         coarse(moving("1e-1", 2.0), [25, 8]),
         coarse(moving("1e-1", 3.0), [50, 15]),
+        moving_adaptive(0.05, 2.0),
+        coarse(moving_adaptive(0.05, 0.7), [50, 15]),
+        coarse(moving_adaptive(0.5, 0.3), [25, 8]),
         coarse(fixed("1e-1", 0.4).named("steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
         coarse(moving("1e-1", 2.0).named("equilibrium, steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
     ];

@@ -467,7 +467,6 @@ fn targets(validation: &[Validated]) -> Vec<Target> {
 fn left_out(quick: bool) -> Vec<String> {
     let mut list: Vec<&str> = vec![
         "Online RVEs on 30 x 9 and 100 x 30 cells, and similarity as a dial beyond groups of like cells on 10 x 3.",
-        "Another material against discrete elements.",
         "Discrete elements beside the solver in thermal cycles of the whole box: one box of 500 grains is cycled instead.",
         "Contrast of conductivity between cells and meshes that are not orthogonal.",
         "Fig. 12 (queries on the valid region) and Fig. 13 (grains around P2) of the paper.",

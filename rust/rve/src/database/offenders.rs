@@ -1,7 +1,7 @@
 //! From doubt to data: cells that a solver asked about outside a model's trained range become a plan of new RVEs.
 
 use super::{DatabaseError, Plan, plan::Block};
-use crate::Compression;
+use crate::{Boundary, Compression};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -111,7 +111,7 @@ impl Offenders {
         found.ok_or_else(|| format!("state_names: no {name:?}"))
     }
 
-    /// A plan of thermal ramps whose packings surround the offending states, with the grains of `like`. A state that no
+    /// A plan of thermal ramps whose packings surround the offending states, with the grains and the boundary of `like`. A state that no
     /// packing has, above the porosity of unjamming say, is approached by the nearest that one can.
     ///
     /// # Errors
@@ -128,6 +128,7 @@ impl Offenders {
             wanted.entry(kind).or_default().push(class);
         }
         let kinds = [Compression::Isotropic, Compression::Intermediate, Compression::Horizontal];
+        let boundary = like.thermal.first().map_or_else(Boundary::default, |block| block.boundary);
         let thermal = wanted.into_iter().map(|(kind, mut classes)| {
             classes.sort_unstable();
             classes.dedup();
@@ -141,7 +142,7 @@ impl Offenders {
                 ramps: Vec::new(),
                 stops: STOPS.to_vec(),
                 return_stops: Vec::new(),
-                boundary: crate::Boundary::Walls,
+                boundary,
                 slide: None,
             }
         });
@@ -168,7 +169,7 @@ impl Offenders {
 mod tests {
     use super::*;
 
-    const LIKE: &str = "radius_min = 2e-3\nradius_max = 6e-3\nseed = 7\n[[thermal]]\ndiscs = 500\n\
+    const LIKE: &str = "radius_min = 2e-3\nradius_max = 6e-3\nseed = 7\n[[thermal]]\ndiscs = 500\nboundary = \"periodic\"\n\
         porosities = [0.1]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.01]\n";
 
     fn file(rows: &str) -> String {
@@ -200,6 +201,7 @@ mod tests {
         assert_eq!(made.len(), 9);
         assert!(expected.iter().all(|kind| made.iter().filter(|m| *m == kind).count() == 3), "{made:?}");
         assert_eq!((plan.radius_min, plan.radius_max), (2e-3, 6e-3));
+        assert!(plan.thermal.iter().all(|block| block.boundary == Boundary::Periodic));
         assert_ne!(plan.seed, like.seed);
         assert_eq!(Plan::parse(&plan.text, "again").expect("own text"), plan);
     }
