@@ -62,7 +62,7 @@ pub struct Tangent {
 }
 
 /// Largest strain from the packed state at which the laws are fitted: further on grains slide, and the tangent is no longer that of
-/// small strains (shear modulus at 3 %: half).
+/// small strains (shear modulus at 3 %, p̃ 0.05: two thirds).
 pub const LINEAR_STRAIN: f64 = 0.01;
 /// Fewer samples do not fix the laws.
 const LEAST_SAMPLES: usize = 20;
