@@ -211,6 +211,13 @@ impl Simulation {
         self.pipes = Some(Box::new(pipes));
     }
 
+    /// What the walls do to heat from now on; nothing when heat is off.
+    pub fn set_wall_heat(&mut self, walls: [WallHeat; 4]) {
+        if let Some(pipes) = &mut self.pipes {
+            pipes.walls = walls;
+        }
+    }
+
     /// The heat pipes, when heat is on.
     pub fn heat(&self) -> Option<&HeatPipes> {
         self.pipes.as_deref()

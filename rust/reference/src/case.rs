@@ -2,32 +2,15 @@
 
 use crate::ReferenceError;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
-use msdd_dem::{Material, Side, Thermal, WallHeat};
+use crate::walls::{WallOverTime, heat_of_walls};
+use msdd_dem::{Material, Thermal};
 use std::path::{Path, PathBuf};
 
-/// Names of the four walls in the mesh, in the order of [`Side`].
-const PATCHES: [&str; 4] = ["left", "right", "bottom", "top"];
 /// Keys of `constant/granularProperties` that say something about the grains.
 const GRAIN_KEYS: [&str; 6] =
     ["density", "youngModulus", "thermalConductivity", "heatCapacity", "thermalExpansion", "meanRadius"];
 /// Keys there that concern the solver alone.
 const SOLVER_KEYS: [&str; 5] = ["FoamFile", "surrogate", "bulkDensity", "mechanics", "equilibriumCoeffs"];
-/// Patch types of meshes, not of heat: OpenFOAM lists them all, whether a patch has them or not.
-const CONSTRAINTS: [&str; 12] = [
-    "empty",
-    "cyclic",
-    "cyclicAMI",
-    "cyclicACMI",
-    "cyclicSlip",
-    "nonuniformTransformCyclic",
-    "processor",
-    "processorCyclic",
-    "symmetry",
-    "symmetryPlane",
-    "wedge",
-    "overset",
-];
-
 /// What a case folder says.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -42,7 +25,7 @@ pub struct Case {
     /// T of all grains at the start [K].
     pub initial_temperature: f64,
     /// In the order of [`Side`].
-    pub walls: [WallHeat; 4],
+    pub walls: [WallOverTime; 4],
     /// Lower left corner of the box in the case's coordinates [m].
     pub origin: [f64; 2],
     /// Width and height of the box [m].
@@ -73,7 +56,7 @@ impl Case {
             thermal,
             mean_radius,
             initial_temperature: initial_temperature(&temperature)?,
-            walls: read_walls(&temperature)?,
+            walls: heat_of_walls(&temperature)?,
             origin: low,
             size: [high[0] - low[0], high[1] - low[1]],
             end_time: end_time(&control)?,
@@ -105,61 +88,6 @@ fn initial_temperature(file: &Dictionary) -> Result<f64, ReferenceError> {
         return Err(file.refuse("dimensions", &dimensions, "[ 0 0 0 1 0 0 0 ]"));
     }
     file.uniform("internalField")
-}
-
-fn read_walls(file: &Dictionary) -> Result<[WallHeat; 4], ReferenceError> {
-    let patches = file.dictionary_at("boundaryField")?;
-    let stray = |key: &&Token| {
-        let wall = PATCHES.iter().any(|name| if key.quoted { key.matches(name) } else { key.text == *name });
-        let constraint = match patches.get(&key.text) {
-            Some(Entry::Dictionary(patch)) => {
-                patch.text("type").is_ok_and(|kind| CONSTRAINTS.contains(&kind.as_str()))
-            }
-            _ => false,
-        };
-        !wall && !constraint
-    };
-    if let Some(key) = patches.keys().find(stray) {
-        return Err(patches.refuse(&key.text, "{...}", "left, right, bottom, top, or a constraint type"));
-    }
-    let mut walls = [WallHeat::Insulated; 4];
-    for side in Side::ALL {
-        let name = PATCHES[side as usize];
-        walls[side as usize] = match patches.matching(name) {
-            Some(Entry::Dictionary(patch)) => wall_heat(patch)?,
-            _ => {
-                return Err(patches.refuse(
-                    name,
-                    "missing",
-                    "a dictionary for each of left, right, bottom, top",
-                ));
-            }
-        };
-    }
-    Ok(walls)
-}
-
-fn wall_heat(patch: &Dictionary) -> Result<WallHeat, ReferenceError> {
-    let kind = patch.text("type")?;
-    match kind.as_str() {
-        "fixedValue" => {
-            patch.check_keys(&[&["type", "value"]])?;
-            Ok(WallHeat::Temperature(patch.uniform("value")?))
-        }
-        "zeroGradient" => {
-            patch.check_keys(&[&["type", "value"]])?;
-            Ok(WallHeat::Insulated)
-        }
-        "fixedGradient" => {
-            patch.check_keys(&[&["type", "gradient", "value"]])?;
-            match patch.uniform("gradient")? {
-                0.0 => Ok(WallHeat::Insulated),
-                // Its heat flux is K times it, and grains have no K of their own.
-                other => Err(patch.refuse("gradient", &format!("uniform {other}"), "uniform 0")),
-            }
-        }
-        _ => Err(patch.refuse("type", &kind, "fixedValue, zeroGradient, fixedGradient")),
-    }
 }
 
 fn end_time(file: &Dictionary) -> Result<f64, ReferenceError> {

@@ -2,42 +2,6 @@
 
 use super::*;
 
-fn walls_of(patches: &str) -> Result<[WallHeat; 4], String> {
-    let text = format!("boundaryField {{ {patches} }}");
-    let file = Dictionary::parse(Path::new("0/T"), &text).unwrap();
-    read_walls(&file).map_err(|error| error.to_string())
-}
-
-#[test]
-fn patches_by_name_and_by_pattern() {
-    let walls = walls_of(
-        "empty { type empty; } \".*\" { type zeroGradient; } \"left|right\" { type fixedValue; value uniform 7; }
-         right { type fixedGradient; gradient uniform 0; }",
-    );
-    let expected =
-        [WallHeat::Temperature(7.0), WallHeat::Insulated, WallHeat::Insulated, WallHeat::Insulated];
-    assert_eq!(walls.unwrap(), expected);
-}
-
-#[test]
-fn refuses_what_it_does_not_know() {
-    let rest = "\"right|bottom|top\" { type zeroGradient; }";
-    for (left, message) in [
-        ("left { type codedFixedValue; }", "boundaryField/left/type = codedFixedValue, allowed: fixedValue"),
-        ("left { type fixedValue; value nonuniform 3; }", "boundaryField/left/value = nonuniform 3"),
-        (
-            "left { type fixedValue; value uniform 3; ramp 2; }",
-            "boundaryField/left/ramp = 2, allowed: the keys",
-        ),
-        ("left { type fixedGradient; gradient uniform 5; }", "left/gradient = uniform 5, allowed: uniform 0"),
-        ("leeft { type zeroGradient; }", "boundaryField/leeft = {...}, allowed: left, right"),
-        ("", "boundaryField/left = missing"),
-    ] {
-        let error = walls_of(&format!("{left} {rest}")).unwrap_err();
-        assert!(error.starts_with("0/T: ") && error.contains(message), "{error}");
-    }
-}
-
 #[test]
 fn grains_need_every_key_and_no_other() {
     let full =

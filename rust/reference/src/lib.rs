@@ -11,6 +11,7 @@
 //! | [`checkpoint`] | what a killed run continues from |
 //! | [`fields`] | initial fields for the solver |
 //! | [`results`] | result files |
+//! | [`walls`] | what walls do to heat, over time |
 #![forbid(unsafe_code)]
 
 pub mod case;
@@ -22,6 +23,7 @@ pub mod model;
 pub mod observe;
 pub mod results;
 pub mod run;
+pub mod walls;
 
 pub use case::Case;
 pub use model::{Model, ModelSpec, Statistics};

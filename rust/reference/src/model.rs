@@ -16,7 +16,7 @@ use msdd_rve::{Cut, Relaxation, homogenise_in, windows};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Discs in the box of the cases, as in the paper; fewer discs get a smaller box of the same shape.
+/// Discs in the box of the paper's cases.
 pub const DISCS: usize = 15_000;
 /// Smallest and largest radius over the mean: 3 and 7 mm of 5.
 const RADIUS_RANGE: [f64; 2] = [0.6, 1.4];
@@ -40,8 +40,18 @@ pub const SUB_REGIONS: [usize; 2] = [10, 3];
 /// What to pack. The size of the box and the grains are those of the case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ModelSpec {
+    /// Other than what fills the case ([`discs_of`]): a smaller or larger box of the same shape.
     pub discs: usize,
     pub seed: u64,
+}
+
+/// Number of discs that fill the case's box: [`DISCS`] when these do, within 1 %, as in the paper.
+pub fn discs_of(case: &Case) -> usize {
+    let [low, high] = RADIUS_RANGE.map(|ratio| ratio * case.mean_radius);
+    // Mean of r² for radii that are uniform between the two.
+    let disc = PI * (low * low + low * high + high * high) / 3.0;
+    let filling = (1.0 - SUM_POROSITY) * case.size[0] * case.size[1] / disc;
+    if (filling / DISCS as f64 - 1.0).abs() < 0.01 { DISCS } else { filling.round() as usize }
 }
 
 /// A packed box at rest.
@@ -78,8 +88,8 @@ pub struct Statistics {
 
 impl ModelSpec {
     /// The box over that of the case [-].
-    pub fn scale(&self) -> f64 {
-        (self.discs as f64 / DISCS as f64).sqrt()
+    pub fn scale(&self, case: &Case) -> f64 {
+        (self.discs as f64 / discs_of(case) as f64).sqrt()
     }
 
     fn check(&self) -> Result<(), ReferenceError> {
@@ -104,7 +114,7 @@ pub fn pack(
 ) -> Result<Model, ReferenceError> {
     spec.check()?;
     case.material.check().map_err(msdd_rve::RveError::from)?;
-    let [width, height] = case.size.map(|length| length * spec.scale());
+    let [width, height] = case.size.map(|length| length * spec.scale(case));
     let mut random = Random::new(spec.seed);
     let radii = fitting_radii(&mut random, spec, case, width * height)?;
     let start_width = (1.0 - SUM_POROSITY) * width / START_DENSITY;
@@ -142,8 +152,9 @@ fn fitting_radii(
             key: "meanRadius",
             value: format!("{} m", case.mean_radius),
             allowed: format!(
-                "about {:.4e} m, for {DISCS} discs to fill the box of {:?} m",
+                "about {:.4e} m, for {} discs to fill their share of the box of {:?} m",
                 factor * case.mean_radius,
+                spec.discs,
                 case.size
             ),
         });

@@ -10,7 +10,7 @@ use crate::observe::{
 };
 use crate::results::{Results, SCHEMA, Table};
 use msdd_dem::time_step::{self, SAFETY};
-use msdd_dem::{Excess, Failure, Simulation, StepChoice};
+use msdd_dem::{Excess, Failure, Simulation, StepChoice, WallHeat};
 use msdd_rve::state;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -170,7 +170,7 @@ fn asked(case: &Case, start: &Simulation, spec: &RunSpec) -> String {
 fn begin(case: &Case, start: &Simulation, probes: usize) -> (Simulation, Records) {
     let mut simulation = start.clone();
     simulation.discs.iter_mut().for_each(|disc| disc.temperature = case.initial_temperature);
-    simulation.enable_heat(case.thermal, case.walls);
+    simulation.enable_heat(case.thermal, walls_at(case, 0.0));
     let records = Records {
         series: Table::new(series_columns(probes)),
         sub_regions_start: sub_regions(&simulation),
@@ -182,11 +182,16 @@ fn begin(case: &Case, start: &Simulation, probes: usize) -> (Simulation, Records
 
 fn resume(case: &Case, checkpoint: Checkpoint) -> Result<(Simulation, Records), ReferenceError> {
     let mut simulation = state::from_json(checkpoint.state.get())?;
-    simulation.resume_heat(case.thermal, case.walls, checkpoint.heat);
+    simulation.resume_heat(case.thermal, walls_at(case, simulation.time), checkpoint.heat);
     Ok((simulation, checkpoint.records))
 }
 
-/// Goes on to `time` [s], exactly.
+/// What the walls do to heat at `time` [s].
+fn walls_at(case: &Case, time: f64) -> [WallHeat; 4] {
+    std::array::from_fn(|side| case.walls[side].at(time))
+}
+
+/// Goes on to `time` [s], exactly. Walls that change have the temperature of the middle of each run of steps.
 fn advance(
     simulation: &mut Simulation,
     case: &Case,
@@ -198,7 +203,10 @@ fn advance(
         // Nothing moves: the engine's thermal sub-steps are all that is needed.
         let way = time - simulation.time;
         let steps = spec.time_step.map_or(1.0, |step| (way / step - 1e-9).ceil()).max(1.0);
-        (0..steps as u64).for_each(|_| simulation.conduct(way / steps));
+        for step in 0..steps as u64 {
+            simulation.set_wall_heat(walls_at(case, simulation.time + (step as f64 + 0.5) * way / steps));
+            simulation.conduct(way / steps);
+        }
         simulation.time = time;
         (watch.progress)(time);
         return Ok(());
@@ -217,7 +225,10 @@ fn advance(
         // Equal steps that end at the time.
         let steps = (left / limit - 1e-9).ceil().max(1.0);
         simulation.choose_time_step(StepChoice::Fixed { step: left / steps, on_excess: Excess::Refuse })?;
-        simulation.run((steps as u64).min(RUN))?;
+        let now = (steps as u64).min(RUN);
+        let middle = simulation.time + 0.5 * now as f64 * left / steps;
+        simulation.set_wall_heat(walls_at(case, middle));
+        simulation.run(now)?;
         (watch.progress)(simulation.time);
     }
 }

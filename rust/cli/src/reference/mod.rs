@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::rve::{read_state, write_state};
 use clap::{Args, Subcommand};
 use msdd_dem::Simulation;
-use msdd_reference::model::{DISCS, ModelSpec, check_state, pack, statistics};
+use msdd_reference::model::{DISCS, ModelSpec, check_state, discs_of, pack, statistics};
 use msdd_reference::run::Watch;
 use msdd_reference::{
     Case, ReferenceError, RunSpec, Statistics, fields, mesh, results::Results, run as run_case,
@@ -37,9 +37,10 @@ pub struct ModelArguments {
     case: PathBuf,
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Fewer discs get a smaller box of the same shape and porosity.
-    #[arg(long, default_value_t = DISCS)]
-    discs: usize,
+    /// Fewer or more discs get a smaller or larger box of the same shape and porosity; default: those that fill the case's box,
+    /// 15000 for H, C and HC.
+    #[arg(long)]
+    discs: Option<usize>,
     /// Packed model (state file); packed and written when missing. Default: results/reference/packed_seed<N>.json.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
@@ -111,8 +112,12 @@ pub fn run(command: &Command) -> Result<(), CliError> {
 }
 
 impl ModelArguments {
-    fn path(&self) -> PathBuf {
-        let name = match self.discs {
+    fn discs(&self, case: &Case) -> usize {
+        self.discs.unwrap_or_else(|| discs_of(case))
+    }
+
+    fn path(&self, case: &Case) -> PathBuf {
+        let name = match self.discs(case) {
             DISCS => format!("packed_seed{}.json", self.seed),
             discs => format!("packed_{discs}_seed{}.json", self.seed),
         };
@@ -121,7 +126,7 @@ impl ModelArguments {
 
     /// The packed model: from its file, or packed now and written there.
     fn load(&self, case: &Case) -> Result<Simulation, CliError> {
-        let path = self.path();
+        let path = self.path(case);
         if !path.exists() {
             self.pack(case)?;
         }
@@ -129,8 +134,8 @@ impl ModelArguments {
         let simulation = read_state(&path)?;
         let refused = |error: ReferenceError| CliError::Message(format!("{}: {error}", path.display()));
         check_state(&simulation, case).map_err(refused)?;
-        if self.state.is_none() && simulation.discs.len() != self.discs {
-            let (found, wanted) = (simulation.discs.len(), self.discs);
+        if self.state.is_none() && simulation.discs.len() != self.discs(case) {
+            let (found, wanted) = (simulation.discs.len(), self.discs(case));
             let message = format!("{}: {found} particles, allowed: {wanted}, or --state", path.display());
             return Err(CliError::Message(message));
         }
@@ -140,11 +145,11 @@ impl ModelArguments {
     fn pack(&self, case: &Case) -> Result<(), CliError> {
         let begin = Instant::now();
         let mut progress = Progress::new("packing, %", 100);
-        let spec = ModelSpec { discs: self.discs, seed: self.seed };
+        let spec = ModelSpec { discs: self.discs(case), seed: self.seed };
         let watch = |done: f64| progress.set((100.0 * done) as u64, 100, "");
         let model = pack(spec, case, self.threads as usize, watch)?;
         progress.finish();
-        let path = self.path();
+        let path = self.path(case);
         write_state(&path, &model.simulation)?;
         println!(
             "packed seed {} in {:.1} s: {} after {} steps, {}",
