@@ -4,7 +4,7 @@ use crate::homogenise::{Averages, homogenise};
 use crate::last_good;
 use crate::pack::Packed;
 use crate::region::RegionKind;
-use crate::settle::{Relaxation, Settled, settle};
+use crate::settle::{Relaxation, Settled, UNBALANCED_LIMIT, settle_to};
 use crate::stopwatch::{self, Stage};
 use crate::{RveError, Simulation};
 
@@ -15,12 +15,19 @@ pub struct Protocol {
     pub expansion_rate: f64,
     pub contraction_rate: f64,
     pub relaxation: Relaxation,
+    /// At the stops: mean |resultant| over mean contact force [-].
+    pub unbalanced_limit: f64,
 }
 
 impl Default for Protocol {
     /// Expansion hardly feels the rate; near unjamming, contraction does (−2 % at 2 /s: σ 12 % low).
     fn default() -> Self {
-        Self { expansion_rate: 0.1, contraction_rate: 0.02, relaxation: Relaxation::default() }
+        Self {
+            expansion_rate: 0.1,
+            contraction_rate: 0.02,
+            relaxation: Relaxation::default(),
+            unbalanced_limit: UNBALANCED_LIMIT,
+        }
     }
 }
 
@@ -117,6 +124,10 @@ fn check(path: &[Strains], protocol: Protocol) -> Result<(), RveError> {
             return Err(RveError::Parameter { key, value: rate.to_string(), allowed: "1e-6 to 100 1/s" });
         }
     }
+    if !(1e-12..=1.0).contains(&protocol.unbalanced_limit) {
+        let value = protocol.unbalanced_limit.to_string();
+        return Err(RveError::Parameter { key: "unbalanced limit", value, allowed: "1e-12 to 1" });
+    }
     let values =
         path.iter().flat_map(|s| [("thermal strain", s.thermal), ("xx", s.xx), ("yy", s.yy), ("xy", s.xy)]);
     for (key, value) in values {
@@ -196,19 +207,21 @@ fn advance_to(
 ) -> Result<Stop, RveError> {
     let since = simulation.steps;
     stopwatch::time(Stage::Strain, || strain_to(simulation, target, start, protocol))?;
-    rest(simulation, target, protocol.relaxation, since)
+    rest(simulation, target, protocol, since)
 }
 
 /// Relaxes in resting walls and averages.
 pub(crate) fn rest(
     simulation: &mut Simulation,
     strains: Strains,
-    relaxation: Relaxation,
+    protocol: Protocol,
     since: u64,
 ) -> Result<Stop, RveError> {
     simulation.set_strain_rate(0.0);
     stop_box(simulation);
-    let settled = stopwatch::time(Stage::StrainSettle, || settle(simulation, relaxation, since))?;
+    let settled = stopwatch::time(Stage::StrainSettle, || {
+        settle_to(simulation, protocol.relaxation, protocol.unbalanced_limit, since)
+    })?;
     let averages = stopwatch::time(Stage::Averaging, || homogenise(simulation, RegionKind::default()));
     Ok(Stop { strains, settled, averages })
 }

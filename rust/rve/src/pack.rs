@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 
 /// Area fraction of the discs at the start: well below the 0.55 at which random addition stops finding places.
 const START_DENSITY: f64 = 0.42;
-/// Speed of each wall [m/s]. At most 0.05 is quasi-static for 500 discs; slower changes no statistics.
-const WALL_SPEED: f64 = 0.03;
+/// Usual speed of each wall [m/s]. At most 0.05 is quasi-static for 500 discs; slower changes no statistics.
+pub const WALL_SPEED: f64 = 0.03;
 /// Drag on contact-free discs while an RVE is made [1/s]: the paper's damping leaves them flying for ever.
 pub const FREE_DRAG: f64 = 20.0;
 /// Compression is given up after this many times the steps that the way of the walls needs.
@@ -108,12 +108,14 @@ pub struct Preparation {
     pub friction_angle: Option<f64>,
     /// Width over height of the box at the target porosity [-].
     pub aspect: f64,
+    /// Speed of the faster walls while they close [m/s].
+    pub wall_speed: f64,
 }
 
 impl Default for Preparation {
     /// Friction of the material, a square box.
     fn default() -> Self {
-        Self { friction_angle: None, aspect: 1.0 }
+        Self { friction_angle: None, aspect: 1.0, wall_speed: WALL_SPEED }
     }
 }
 
@@ -122,6 +124,10 @@ impl Preparation {
         if !(0.1..=10.0).contains(&self.aspect) {
             let value = self.aspect.to_string();
             return Err(RveError::Parameter { key: "aspect", value, allowed: "0.1 to 10" });
+        }
+        if !(1e-4..=10.0).contains(&self.wall_speed) {
+            let value = self.wall_speed.to_string();
+            return Err(RveError::Parameter { key: "wall speed", value, allowed: "1e-4 to 10 m/s" });
         }
         Ok(())
     }
@@ -224,7 +230,7 @@ fn close_and_settle(
     preparation: &Preparation,
     material: &Material,
 ) -> Result<Settled, RveError> {
-    stopwatch::time(Stage::Packing, || compress(simulation, spec, preparation.aspect))?;
+    stopwatch::time(Stage::Packing, || compress(simulation, spec, preparation))?;
     simulation.walls.stop();
     simulation.material.friction_angle = material.friction_angle;
     let settled = stopwatch::time(Stage::PackingSettle, || settle(simulation, spec.relaxation, 0))?;
@@ -275,8 +281,13 @@ fn start_box(spec: &PackingSpec, aspect: f64, area: f64) -> (f64, f64) {
 }
 
 /// Closes the walls until the box has the target porosity.
-fn compress(simulation: &mut Simulation, spec: &PackingSpec, aspect: f64) -> Result<(), RveError> {
-    let [x, y] = spec.compression.speeds(aspect).map(|speed| speed * WALL_SPEED);
+fn compress(
+    simulation: &mut Simulation,
+    spec: &PackingSpec,
+    preparation: &Preparation,
+) -> Result<(), RveError> {
+    let speeds = spec.compression.speeds(preparation.aspect);
+    let [x, y] = speeds.map(|speed| speed * preparation.wall_speed);
     simulation.walls.normal_velocity = [x, -x, y, -y];
     let cap = STEP_CAP_FACTOR * 0.5 * simulation.walls.width() / x / simulation.time_step;
     loop {

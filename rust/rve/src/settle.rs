@@ -61,7 +61,17 @@ pub struct Settled {
 
 /// Steps until the forces balance. `since` is the step count at which the present load stage began.
 pub fn settle(simulation: &mut Simulation, relaxation: Relaxation, since: u64) -> Result<Settled, RveError> {
-    let balanced = |simulation: &Simulation| unbalanced_force(simulation) < UNBALANCED_LIMIT;
+    settle_to(simulation, relaxation, UNBALANCED_LIMIT, since)
+}
+
+/// As [`settle`], to a balance of `limit` [-] instead of [`UNBALANCED_LIMIT`].
+pub fn settle_to(
+    simulation: &mut Simulation,
+    relaxation: Relaxation,
+    limit: f64,
+    since: u64,
+) -> Result<Settled, RveError> {
+    let balanced = |simulation: &Simulation| unbalanced_force(simulation) < limit;
     match relaxation {
         Relaxation::Fire => {
             simulation.relax(STEP_CAP, balanced)?;
@@ -79,7 +89,7 @@ pub fn settle(simulation: &mut Simulation, relaxation: Relaxation, since: u64) -
     let unbalanced = unbalanced_force(simulation);
     let outcome = if mean_pressure(simulation) < UNJAMMED_PRESSURE {
         Outcome::Unjammed
-    } else if unbalanced < UNBALANCED_LIMIT {
+    } else if unbalanced < limit {
         Outcome::Settled
     } else {
         Outcome::Capped

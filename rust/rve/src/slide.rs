@@ -1,6 +1,6 @@
 //! Long walls that slip along the grains: how much of the wall friction a given slip mobilises.
 
-use crate::expand::{Ramp, Stop, Strains, rest};
+use crate::expand::{Protocol, Ramp, Stop, Strains, rest};
 use crate::settle::Relaxation;
 use crate::stopwatch::{self, Stage};
 use crate::{RveError, Simulation};
@@ -89,7 +89,7 @@ fn slip_by(
         }
         Ok(())
     })?;
-    rest(simulation, Strains::default(), relaxation, since)
+    rest(simulation, Strains::default(), Protocol { relaxation, ..Protocol::default() }, since)
 }
 
 /// Mean over bottom and top of tangential over normal force, positive against the motion; 0 without normal force.

@@ -1,6 +1,7 @@
 //! `msdd bench`: speed, as JSON.
 
 mod inference;
+mod limits;
 mod stability;
 
 use crate::error::CliError;
@@ -19,6 +20,8 @@ pub enum Command {
     Dem(DemArguments),
     /// Largest stable mechanical and thermal steps: predicted by the bounds, and measured.
     Stability(stability::Arguments),
+    /// How slowly RVEs have to be packed, strained and balanced; what is left of them as grains lose touch.
+    Limits(limits::Arguments),
     /// Cost of a surrogate's query, by size of the batch.
     Inference(inference::Arguments),
 }
@@ -56,6 +59,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Dem(arguments) => dem(arguments),
         Command::Stability(arguments) => stability::run(arguments),
+        Command::Limits(arguments) => limits::run(arguments),
         Command::Inference(arguments) => inference::run(arguments),
     }
 }

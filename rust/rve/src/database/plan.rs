@@ -262,7 +262,11 @@ impl Plan {
             packing: packing as i64,
             kind,
             spec,
-            preparation: Preparation { friction_angle: Some(friction_angle), aspect },
+            preparation: Preparation {
+                friction_angle: Some(friction_angle),
+                aspect,
+                ..Preparation::default()
+            },
             ramps: block.ramps(kind).to_vec(),
             stops: block.stops.clone(),
             return_stops: if block.return_stops.is_empty() { back() } else { block.return_stops.clone() },
