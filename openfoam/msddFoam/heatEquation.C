@@ -18,6 +18,7 @@ License
 #include "fvcGrad.H"
 #include "fvmLaplacian.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
+#include "unitConversion.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -27,6 +28,9 @@ namespace Foam
 //- Sine of the angle below which a face counts as aligned: points are read with
 //- ten digits
 static const scalar alignedSine = 1e-7;
+
+//- Non-orthogonality above which the user is warned, as by checkMesh [degrees]
+static const scalar largestAngle = 70;
 
 } // End namespace Foam
 
@@ -87,6 +91,10 @@ Foam::heatEquation::heatEquation
     Info<< "Conduction: "
         << (aligned_ ? "n.K.n on the faces (exact here)" : "tensor laplacian")
         << nl << endl;
+    if (!aligned_)
+    {
+        reportAngle();
+    }
 }
 
 
@@ -174,6 +182,32 @@ void Foam::heatEquation::findFeet()
         slanted_ = slanted_ || max(mag(feet_[patchi])/mag(d)) > alignedSine;
     }
     reduce(slanted_, orOp<bool>());
+}
+
+
+void Foam::heatEquation::reportAngle() const
+{
+    scalar smallest = 1;
+    const surfaceVectorField& Sf = mesh_.Sf();
+    const surfaceVectorField delta(mesh_.delta());
+    forAll(mesh_.owner(), facei)
+    {
+        const vector& S = Sf[facei];
+        const vector& d = delta[facei];
+        smallest = min(smallest, (S & d)/(mag(S)*mag(d)));
+    }
+    reduce(smallest, minOp<scalar>());
+    const scalar angle =
+        radToDeg(std::acos(max(scalar(-1), min(scalar(1), smallest))));
+
+    Info<< "Non-orthogonality: at most " << angle << " degrees" << nl << endl;
+    if (angle > largestAngle)
+    {
+        WarningInFunction
+            << "Non-orthogonality of " << angle << " degrees, at most "
+            << largestAngle << " advised: expect per cent of error in T, less"
+            << " with more cells and nNonOrthogonalCorrectors" << endl;
+    }
 }
 
 

@@ -43,8 +43,8 @@ impl Cache {
                 parts.push(self.hash(&format!("cases/{whole}/constant"))?);
                 parts.push(self.hash("cases/common")?);
                 parts.push(self.hash(&format!("cases/reference/fields/seed{}", solver.seed))?);
-                if solver.plugin {
-                    parts.push(self.hash(setup::PLUGIN)?);
+                if let Some(source) = &solver.plugin {
+                    parts.push(self.hash(source)?);
                 }
                 for program in PROGRAMS {
                     parts.push(self.hash(&format!("openfoam/platforms/{program}"))?);

@@ -18,13 +18,15 @@ pub enum Part {
     Half,
     /// x and y up to the middle.
     Quarter,
+    /// The box of a case that brings its own: mesh, fields and probes as shipped.
+    Shipped,
 }
 
 impl Part {
-    /// Width and height of what is computed [m].
+    /// Width and height of what is computed of the box of the cases [m].
     pub fn size(self) -> [f64; 2] {
         match self {
-            Self::Whole => BOX,
+            Self::Whole | Self::Shipped => BOX,
             Self::Half => [0.5 * BOX[0], BOX[1]],
             Self::Quarter => [0.5 * BOX[0], 0.5 * BOX[1]],
         }
@@ -37,7 +39,7 @@ impl Part {
             [x.min((1.0 - 1e-5) * size[0]), y.min((1.0 - 1e-5) * size[1])]
         };
         match self {
-            Self::Whole => PROBES,
+            Self::Whole | Self::Shipped => PROBES,
             _ => [inside(PROBES[0]), inside(PROBES[1]), inside(PROBES[0])],
         }
     }
@@ -58,8 +60,10 @@ pub struct SolverJob {
     pub append: BTreeMap<String, String>,
     /// End [s].
     pub end: f64,
-    /// Needs the worked plug-in in C, `medium.so` in the case folder.
-    pub plugin: bool,
+    /// C source of a plug-in, relative to the checkout, which the case finds as `plugin.so`.
+    pub plugin: Option<String>,
+    /// The ends of the box lean over by this angle to the right [degrees]; its height stays.
+    pub slant: f64,
     /// Processor time after which it is stopped [s].
     pub limit: u64,
 }
@@ -75,13 +79,15 @@ impl SolverJob {
             uniform: None,
             append: BTreeMap::new(),
             end: 20.0,
-            plugin: false,
+            plugin: None,
+            slant: 0.0,
             limit: 600,
         };
         job.control("deltaT 1e-2;")
     }
 
-    fn with(mut self, file: &str, text: &str) -> Self {
+    /// `text` at the end of `file`.
+    pub fn with(mut self, file: &str, text: &str) -> Self {
         let entry = self.append.entry(file.to_string()).or_default();
         entry.push_str(text);
         entry.push('\n');

@@ -121,7 +121,7 @@ fn model(name: &str, family: &'static str, keys: &str, guess: f64) -> Configurat
 }
 
 const PAPER: &str = "surrogate { model builtin:paper; }";
-const MEDIUM: &str = "surrogate { type plugin; pluginCoeffs { library medium.so; } }";
+const MEDIUM: &str = "surrogate { type plugin; pluginCoeffs { library plugin.so; } }";
 
 /// What validation is made of: the paper's algorithm with both networks, and with grains that move.
 pub fn validated(quick: bool) -> Vec<Configuration> {
@@ -187,7 +187,7 @@ pub fn chart(quick: bool) -> Vec<Configuration> {
         model("constant", FAMILIES[4], "surrogate { type constant; }", 1.0),
         coarse(model("constant", FAMILIES[4], "surrogate { type constant; }", 0.4), [25, 8]),
         model("steps 10 ms", FAMILIES[3], MEDIUM, 3.0).change(|mut job| {
-            job.plugin = true;
+            job.plugin = Some("rust/capi/examples/effective_medium.c".to_string());
             job
         }),
         moving("1e-1", 6.0),

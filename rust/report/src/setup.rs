@@ -16,10 +16,12 @@ const INTERVAL: f64 = 0.1;
 /// Files of the case that cannot be read, or written.
 pub fn write_case(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(), ReportError> {
     let case = checkout.join("cases").join(&job.case);
+    let shipped = job.part == Part::Shipped;
     for part in ["0", "constant", "system"] {
         for file in files(&case.join(part))? {
             // Not the mesh that a run by hand left, which is a folder, and not the fields, which follow.
-            if file.is_dir() || FIELDS.iter().any(|name| file.ends_with(format!("0/{name}"))) {
+            let field = FIELDS.iter().any(|name| file.ends_with(format!("0/{name}")));
+            if file.is_dir() || (field && !shipped) {
                 continue;
             }
             let text = read_text(&file)?.replace("\"../../", &format!("\"{}/cases/", checkout.display()));
@@ -27,6 +29,9 @@ pub fn write_case(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(),
             let keys = job.append.get(&name).map_or("", String::as_str);
             write_text(&folder.join(&name), &format!("{text}\n{}{keys}", defaults(&name, job)))?;
         }
+    }
+    if shipped {
+        return Ok(());
     }
     write_text(&folder.join("system/blockMeshDict"), &mesh(job))?;
     write_fields(checkout, job, folder)
@@ -55,19 +60,22 @@ fn defaults(name: &str, job: &SolverJob) -> String {
 }
 
 fn control(job: &SolverJob) -> String {
-    let points: Vec<String> = job.part.probes().iter().map(|[x, y]| format!("({x} {y} 0.005)")).collect();
+    let lean = job.slant.to_radians().tan();
+    let point = |[x, y]: &[f64; 2]| format!("({} {y} 0.005)", x + lean * y);
+    let points: Vec<String> = job.part.probes().iter().map(point).collect();
     let library = "libs (\"libgranularFunctionObjects.so\");";
     let series = format!("{library} writeControl runTime; writeInterval {INTERVAL};");
+    let places = format!("field T; probeLocations ({});", points.join(" "));
+    let probes = if job.part == Part::Shipped { "" } else { &places };
     let at_end = format!("{library} writeControl writeTime;");
     format!(
         "endTime {end};\nwriteInterval {end};\nfunctions\n{{\n\
          \x20   probes {{ enabled no; }}\n\
-         \x20   spaceProbes {{ type spaceProbes; field T; probeLocations ({points}); {series} }}\n\
+         \x20   spaceProbes {{ type spaceProbes; {probes} {series} }}\n\
          \x20   wallPressure {{ type wallPressure; {series} }}\n\
          \x20   subRegions {{ type subRegions; windows (10 3); {at_end} }}\n\
          \x20   columns {{ type subRegions; windows (10 1); {at_end} }}\n}}\n",
         end = job.end,
-        points = points.join(" "),
     )
 }
 
@@ -75,14 +83,16 @@ fn control(job: &SolverJob) -> String {
 fn mesh(job: &SolverJob) -> String {
     let [width, height] = job.part.size();
     let [nx, ny] = job.mesh;
+    let lean = height * job.slant.to_radians().tan();
+    let leant = width + lean;
     let right = if job.part == Part::Whole { ("right", "wall") } else { ("middleX", "symmetryPlane") };
     let top = if job.part == Part::Quarter { ("middleY", "symmetryPlane") } else { ("top", "wall") };
     let patch =
         |(name, kind): (&str, &str), face: &str| format!("    {name} {{ type {kind}; faces (({face})); }}\n");
     format!(
         "FoamFile {{ version 2.0; format ascii; class dictionary; object blockMeshDict; }}\nscale 1;\n\
-         vertices ((0 0 0) ({width} 0 0) ({width} {height} 0) (0 {height} 0) (0 0 0.01) ({width} 0 0.01) \
-         ({width} {height} 0.01) (0 {height} 0.01));\n\
+         vertices ((0 0 0) ({width} 0 0) ({leant} {height} 0) ({lean} {height} 0) (0 0 0.01) ({width} 0 0.01) \
+         ({leant} {height} 0.01) ({lean} {height} 0.01));\n\
          blocks (hex (0 1 2 3 4 5 6 7) ({nx} {ny} 1) simpleGrading (1 1 1));\nboundary\n(\n{}{}{}{}\
          \x20   frontAndBack {{ type empty; faces ((0 3 2 1) (4 5 6 7)); }}\n);\n",
         patch(("left", "wall"), "0 4 7 3"),
@@ -94,32 +104,30 @@ fn mesh(job: &SolverJob) -> String {
 
 fn write_fields(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(), ReportError> {
     let cells = job.mesh[0] * job.mesh[1];
+    let keys = |name: &str| job.append.get(&format!("0/{name}")).map_or("", String::as_str);
     if let Some(values) = job.uniform {
         // Without the other two the model's mean for these stands in.
         for (name, value) in FIELDS.iter().zip(values) {
             let field = Field { values: vec![vec![value]; cells] };
-            write_text(&folder.join("0").join(name), &field.to_text(name))?;
+            write_text(&folder.join("0").join(name), &(field.to_text(name) + keys(name)))?;
         }
         return Ok(());
     }
     let windows = checkout.join(format!("cases/reference/fields/seed{}", job.seed));
     for name in FIELDS {
         let field = Field::read(&windows.join(name))?.on(job.mesh, job.part);
-        write_text(&folder.join("0").join(name), &field.to_text(name))?;
+        write_text(&folder.join("0").join(name), &(field.to_text(name) + keys(name)))?;
     }
     Ok(())
 }
 
-/// The plug-in's source, beside its header.
-pub const PLUGIN: &str = "rust/capi/examples/effective_medium.c";
-
 /// Commands that make the mesh, and the plug-in where it is needed; in the case folder.
 pub fn preparation(checkout: &Path, job: &SolverJob) -> String {
     let mut commands = "blockMesh > log.blockMesh 2>&1".to_string();
-    if job.plugin {
+    if let Some(source) = &job.plugin {
         let checkout = checkout.display();
         commands += &format!(
-            " && cc -std=c99 -O2 -shared -fPIC -I'{checkout}/rust/capi/include' '{checkout}/{PLUGIN}' -lm -o medium.so"
+            " && cc -std=c99 -O2 -shared -fPIC -I'{checkout}/rust/capi/include' '{checkout}/{source}' -lm -o plugin.so"
         );
     }
     commands

@@ -1,7 +1,7 @@
 //! `msdd bench limits`: how slowly RVEs have to be made, and what is left of them as they lose touch.
 
 use crate::error::CliError;
-use crate::files::read_text;
+use crate::files::{read_text, write_atomically};
 use crate::progress::Progress;
 use clap::Args;
 use msdd_rve::settle::{Outcome, UNBALANCED_LIMIT};
@@ -28,6 +28,9 @@ pub struct Arguments {
     /// Models beside the discrete elements as grains lose touch; may be given several times.
     #[arg(long, value_name = "FILE")]
     model: Vec<PathBuf>,
+    /// File for the results (JSON); default: printed.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
 }
 
 const POROSITY: f64 = 0.13;
@@ -66,7 +69,11 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         "wall_speed": speed_rows(&speeds),
         "unjamming": unjamming_rows(&unjamming, &names),
     });
-    println!("{}", serde_json::to_string_pretty(&result).map_err(|e| CliError::Message(e.to_string()))?);
+    let text = serde_json::to_string_pretty(&result).map_err(|e| CliError::Message(e.to_string()))?;
+    match &arguments.out {
+        Some(file) => write_atomically(file, text.as_bytes())?,
+        None => println!("{text}"),
+    }
     Ok(())
 }
 

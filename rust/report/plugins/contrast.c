@@ -1,0 +1,48 @@
+/* A surrogate of no material, as a plug-in: the conductivity falls by a decade for every 0.01 of porosity above 0.10, so that two
+ * halves of a box have any contrast wanted. Isotropic, without stress; the state stays as it is. */
+#include "msdd.h"
+
+#include <math.h>
+
+static int32_t advance(const msdd_plugin_step *step)
+{
+    size_t i;
+    for (i = 0; i < step->cells; i++) {
+        const double conductivity = pow(10.0, -100.0 * (step->state[0][i] - 0.10));
+        step->next_state[0][i] = step->state[0][i];
+        step->next_state[1][i] = step->state[1][i];
+        step->conductivity_xx[i] = conductivity;
+        step->conductivity_yy[i] = conductivity;
+        step->stress_xx[i] = 0;
+        step->stress_yy[i] = 0;
+        step->outside[0][i] = 0;
+        step->outside[1][i] = 0;
+        step->outside[2][i] = 0;
+    }
+    return 0;
+}
+
+static int32_t initial_state(const msdd_plugin_start *start)
+{
+    size_t i;
+    for (i = 0; i < start->cells; i++) {
+        start->state[0][i] = start->porosity[i];
+        start->state[1][i] = start->fabric_index[i];
+    }
+    return 0;
+}
+
+const msdd_plugin_v1 *msdd_plugin_v1_table(void)
+{
+    static const char *const names[] = {"porosity", "fabric_index"};
+    static const msdd_plugin_v1 table = {
+        .struct_size = sizeof(msdd_plugin_v1),
+        .version = MSDD_PLUGIN_VERSION,
+        .name = "conductivity contrast",
+        .state_size = 2,
+        .state_names = names,
+        .initial_state = initial_state,
+        .advance = advance,
+    };
+    return &table;
+}

@@ -1,0 +1,69 @@
+//! Ten cycles of 50 K ± 20 K (case `cycle`): solver beside discrete elements.
+
+use super::{Cycles, Failures};
+use crate::compare::at;
+use crate::job::{Job, Part, SolverJob};
+use crate::pool::Records;
+use crate::reference::{Reference, statistics};
+use crate::report::Settings;
+use std::path::Path;
+
+/// A cycle [s]; 50 K at its start, 70 K after a quarter, 30 K after three.
+pub const PERIOD: f64 = 8.0;
+pub const COUNT: usize = 10;
+const SEEDS: [u32; 3] = [21, 22, 23];
+
+fn job(mechanics: &str) -> SolverJob {
+    let mut job = SolverJob::new("cycle", 1).grains(&format!("mechanics {mechanics};"));
+    job.part = Part::Shipped;
+    job.end = PERIOD * COUNT as f64;
+    job
+}
+
+pub fn jobs() -> Vec<Job> {
+    ["none", "equilibrium"].map(|mechanics| job(mechanics).into()).to_vec()
+}
+
+/// Pressure at the ends of the quarters over that at the start, the mean of the packings for the discrete elements.
+pub fn read(settings: &Settings, records: &Records) -> Vec<Cycles> {
+    let mut list = Vec::new();
+    for (name, mechanics) in
+        [("solver, cells keep their place", "none"), ("solver, grains move", "equilibrium")]
+    {
+        let record = settings.record(records, &job(mechanics).into());
+        if let Some(run) = record.and_then(|record| record.run.as_ref()) {
+            list.push(Cycles::new(name, &run.pressure));
+        }
+    }
+    list.extend(elements(&settings.place.checkout));
+    list
+}
+
+fn elements(checkout: &Path) -> Option<Cycles> {
+    let reference = Reference::read(checkout, "cycle", &SEEDS).ok()?;
+    // Grains at the walls lie looser, and the box is small.
+    let pressure = statistics(&reference.series("pressure_inner"));
+    let rows: Vec<[f64; 2]> =
+        reference.times().iter().zip(pressure).map(|(&t, (mean, _))| [t, mean]).collect();
+    Some(Cycles::new("1 502 discs, mean of three packings", &rows))
+}
+
+impl Cycles {
+    /// From a series of time [s] and pressure [Pa].
+    fn new(name: &str, series: &[[f64; 2]]) -> Self {
+        let quarter = 0.25 * PERIOD;
+        let start = at(series, 0.0);
+        let stops = (0..=4 * COUNT).map(|k| at(series, quarter * k as f64) / start).collect();
+        Self { name: name.to_string(), stops }
+    }
+}
+
+impl Failures {
+    /// Largest difference of the pressure, over that at the start, between a run of the solver and the discrete elements [%].
+    pub fn worst_cycle(&self, name: &str) -> Option<f64> {
+        let of = |part: &str| self.cycles.iter().find(|c| c.name.contains(part));
+        let (run, discs) = (of(name)?, of("discs")?);
+        let differences = run.stops.iter().zip(&discs.stops).map(|(a, b)| 100.0 * (a - b).abs());
+        Some(differences.fold(0.0, f64::max))
+    }
+}

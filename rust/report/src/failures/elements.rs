@@ -1,0 +1,133 @@
+//! Limits of the discrete elements.
+
+use crate::job::{Job, ToolJob};
+use crate::plan;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Largest stable steps of 500 discs [s].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StableStep {
+    pub porosity: f64,
+    /// Predicted, measured.
+    pub mechanical: [f64; 2],
+    pub thermal: [f64; 2],
+}
+
+/// What `msdd bench limits` prints.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Limits {
+    pub packings: u64,
+    pub ramp_rate: Vec<RampRate>,
+    pub balance: Vec<Balance>,
+    pub wall_speed: Vec<WallSpeed>,
+    pub unjamming: Vec<Unjamming>,
+}
+
+/// Pressure after a strain at a rate, against that at the lowest rate [%].
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RampRate {
+    pub strain: f64,
+    /// [1/s]
+    pub rate: f64,
+    pub pressure_mean: f64,
+    pub pressure_rms: f64,
+    pub not_settled: u64,
+}
+
+/// Pressure after a strain with the forces balanced to `unbalanced`, against the best balance [%].
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Balance {
+    pub strain: f64,
+    /// Mean resultant over mean contact force [-].
+    pub unbalanced: f64,
+    pub pressure_mean: f64,
+    pub pressure_rms: f64,
+    pub not_settled: u64,
+}
+
+/// Packings closed at a speed: mean and standard deviation.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct WallSpeed {
+    /// [m/s]
+    pub speed: f64,
+    pub failed: u64,
+    /// [Pa]
+    pub pressure: [f64; 2],
+    pub porosity: [f64; 2],
+    pub fabric_index: [f64; 2],
+}
+
+/// Means over the packings at a strain, by who was asked.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Unjamming {
+    pub strain: f64,
+    pub by: BTreeMap<String, Answer>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Answer {
+    /// K/k, mean of xx and yy [-].
+    pub conductivity: f64,
+    /// [Pa]
+    pub pressure: f64,
+}
+
+pub fn stability(quick: bool) -> Job {
+    let porosities = if quick { "0.09,0.12" } else { "0.06,0.07,0.08,0.09,0.1,0.12,0.14,0.17" };
+    plan::tool(
+        ["bench", "stability", "--porosity", porosities].map(str::to_string).to_vec(),
+        &["rust/cli/src/bench"],
+        300,
+    )
+}
+
+pub fn limits(quick: bool) -> Job {
+    let models = ["rust/surrogate/models/state.json", "rust/surrogate/models/paper.json"];
+    let packings = if quick { "1" } else { "8" };
+    let file = "WORK/limits.json";
+    let arguments = [
+        "bench",
+        "limits",
+        "--packings",
+        packings,
+        "--model",
+        models[0],
+        "--model",
+        models[1],
+        "--out",
+        file,
+    ];
+    let inputs = ["rust/cli/src/bench", "rust/surrogate/src", models[0], models[1]];
+    match plan::tool(arguments.map(str::to_string).to_vec(), &inputs, 600) {
+        Job::Tool(tool) => Job::Tool(ToolJob { output: Some("limits.json".to_string()), ..tool }),
+        Job::Solver(solver) => Job::Solver(solver),
+    }
+}
+
+/// Lines "porosity 0.06  1.011e-3  1.051e-3  1.04  4.973e-4  4.934e-4  0.99".
+pub fn stable_steps(printed: &str) -> Vec<StableStep> {
+    let line = |line: &str| -> Option<StableStep> {
+        let numbers: Vec<f64> =
+            line.strip_prefix("porosity")?.split_whitespace().map_while(|w| w.parse().ok()).collect();
+        let &[porosity, mp, mm, _, tp, tm, _] = numbers.as_slice() else { return None };
+        Some(StableStep { porosity, mechanical: [mp, mm], thermal: [tp, tm] })
+    };
+    printed.lines().filter_map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stable_steps_are_read() {
+        let steps = stable_steps(
+            "largest ...\nporosity 0.06          1.011e-3   1.051e-3   1.04      4.973e-4  4.934e-4   0.99\n",
+        );
+        assert_eq!(
+            steps,
+            [StableStep { porosity: 0.06, mechanical: [1.011e-3, 1.051e-3], thermal: [4.973e-4, 4.934e-4] }]
+        );
+    }
+}

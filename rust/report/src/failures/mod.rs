@@ -1,0 +1,78 @@
+//! Where methods break: predicted and measured, and what the program does there.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`rows`] | configurations at the edge: refused, ended, cut, reported? |
+//! | [`elements`] | discrete elements: steps, rates, balance, unjamming |
+//! | [`solver`] | long steps, contrasts, slanted cells |
+//! | [`cycles`] | thermal cycling |
+//! | [`drift`] | networks in many increments |
+
+pub mod cycles;
+pub mod drift;
+pub mod elements;
+pub mod rows;
+pub mod solver;
+
+use crate::execute::Outcome;
+use crate::job::{Job, SolverJob};
+use crate::pool::{Asked, Records};
+use crate::report::Settings;
+use serde::Serialize;
+
+/// Pressure over that at the start [-] at the ends of the quarters of the cycles, the start first.
+#[derive(Clone, Debug, Serialize)]
+pub struct Cycles {
+    pub name: String,
+    pub stops: Vec<f64>,
+}
+
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Failures {
+    pub rows: Vec<rows::Row>,
+    pub stable_steps: Vec<elements::StableStep>,
+    pub limits: Option<elements::Limits>,
+    pub coupling: Vec<solver::Coupling>,
+    pub contrast: Vec<solver::Contrast>,
+    pub slant: Vec<solver::Slant>,
+    pub cycles: Vec<Cycles>,
+    pub drift: Vec<drift::Drift>,
+    pub depth: Vec<drift::Depth>,
+}
+
+/// A case on few cells, which is enough to see a method break.
+fn small(case: &str) -> SolverJob {
+    SolverJob { mesh: [25, 8], limit: 120, ..SolverJob::new(case, 1) }
+}
+
+pub fn jobs(quick: bool) -> Vec<Asked> {
+    let mut jobs: Vec<Job> = rows::edges(quick).into_iter().map(|edge| edge.job).collect();
+    jobs.push(elements::stability(quick));
+    jobs.push(elements::limits(quick));
+    jobs.extend(solver::jobs(quick));
+    if !quick {
+        jobs.extend(drift::jobs());
+        jobs.extend(cycles::jobs());
+    }
+    jobs.into_iter().map(|job| Asked { guess: 2.0, job }).collect()
+}
+
+/// The failure map from the records.
+pub fn read(settings: &Settings, records: &Records) -> Failures {
+    let done =
+        |job: &Job| settings.record(records, job).filter(|record| record.outcome == Outcome::Done).cloned();
+    Failures {
+        rows: rows::read(settings, records),
+        stable_steps: done(&elements::stability(settings.quick))
+            .map(|r| elements::stable_steps(&r.printed))
+            .unwrap_or_default(),
+        limits: done(&elements::limits(settings.quick))
+            .and_then(|r| serde_json::from_str(r.file.as_deref()?).ok()),
+        coupling: solver::coupling(settings, records),
+        contrast: solver::contrast(settings, records),
+        slant: solver::slant(settings, records),
+        cycles: if settings.quick { Vec::new() } else { cycles::read(settings, records) },
+        drift: done(&drift::score()).and_then(|r| r.file.as_deref().map(drift::drift)).unwrap_or_default(),
+        depth: drift::depth(settings, records),
+    }
+}

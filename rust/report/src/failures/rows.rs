@@ -1,0 +1,299 @@
+//! Configurations at the edge of a method. Each was run, and each has to be refused, ended, cut or reported, as its line says.
+//! Adding one is a line in [`edges`].
+
+use super::small;
+use crate::execute::{Outcome, Record};
+use crate::job::{Job, SolverJob};
+use crate::output::Run;
+use crate::plan;
+use crate::pool::Records;
+use crate::report::Settings;
+use serde::Serialize;
+
+/// A configuration at or beyond the edge of a method, and what came of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    pub method: String,
+    pub condition: String,
+    /// What was to be expected, before it was run.
+    pub predicted: String,
+    /// "refused", "ended", "cut", "reported", "done", "stopped at the limit".
+    pub behaviour: String,
+    /// Whether it is one of those allowed.
+    pub as_allowed: bool,
+    /// What the program said, or what came out.
+    pub message: String,
+}
+
+/// A configuration at or beyond the edge of a method.
+pub struct Edge {
+    method: &'static str,
+    condition: &'static str,
+    predicted: &'static str,
+    allowed: &'static [&'static str],
+    pub job: Job,
+}
+
+/// Nothing was computed.
+const REFUSED: &[&str] = &["refused"];
+/// Stopped with a message.
+const ENDED: &[&str] = &["ended"];
+const CUT: &[&str] = &["cut"];
+const REPORTED: &[&str] = &["reported"];
+/// Inside of the edge.
+const DONE: &[&str] = &["done"];
+
+fn edge(
+    method: &'static str,
+    condition: &'static str,
+    predicted: &'static str,
+    allowed: &'static [&'static str],
+    job: impl Into<Job>,
+) -> Edge {
+    Edge { method, condition, predicted, allowed, job: job.into() }
+}
+
+fn uniform(case: &str, porosity: f64) -> SolverJob {
+    SolverJob { uniform: Some([porosity, 0.04]), ..small(case).control("deltaT 0.02;") }
+}
+
+fn policy(column: &str, side: &str, action: &str) -> String {
+    format!("surrogate {{ outOfRegion {{ {column} {{ {side} {action}; }} }} }}")
+}
+
+fn stepped(step: &str) -> SolverJob {
+    small("H").control(&format!("deltaT {step};"))
+}
+
+fn walls(job: SolverJob, kelvin: &str) -> SolverJob {
+    let wall = format!("\"left|right|bottom|top\" {{ type fixedValue; value uniform {kelvin}; }}");
+    job.temperature(&format!("boundaryField {{ {wall} }}"))
+}
+
+/// In the order of the table.
+pub fn edges(quick: bool) -> Vec<Edge> {
+    [coupling(), region(), unjamming(), equilibrium(), numbers(), elements(quick)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn coupling() -> Vec<Edge> {
+    let hot = || walls(stepped("5"), "200");
+    let warn = "surrogate { outOfRegion { thermalStrain { below warn; above warn; } } }";
+    let adaptive = "msddFoam { timeScheme secondOrder; temperatureTolerance 0.05; }";
+    vec![
+        edge(
+            "explicit coupling",
+            "walls at 200 K, fixed steps of 5 s",
+            "strain of a step beyond the data (5 %): ends",
+            ENDED,
+            hot(),
+        ),
+        edge(
+            "explicit coupling",
+            "the same, thermalStrain warn",
+            "goes on with the region's end, says so",
+            REPORTED,
+            hot().grains(warn),
+        ),
+        edge(
+            "explicit coupling",
+            "case H, adaptive, first step 5 s",
+            "cuts its step",
+            CUT,
+            stepped("5").control("adjustTimeStep yes;").solution(adaptive),
+        ),
+        edge(
+            "adaptive steps",
+            "asked of the paper's scheme",
+            "refused",
+            REFUSED,
+            stepped("0.1").control("adjustTimeStep yes;"),
+        ),
+    ]
+}
+
+fn region() -> Vec<Edge> {
+    let below = |action: &str| uniform("H", 0.05).grains(&policy("porosity", "below", action));
+    let method = "porosity below the data";
+    vec![
+        edge(method, "porosity 0.05, default policy (error)", "ends", ENDED, uniform("H", 0.05)),
+        edge(method, "porosity 0.05, porosity clamp", "counts clamped answers", REPORTED, below("clamp")),
+        edge(method, "porosity 0.05, porosity warn", "goes on, says so", REPORTED, below("warn")),
+        edge(
+            method,
+            "porosity 0.05, cutStep with fixed steps",
+            "cannot cut: ends",
+            &["ended", "refused"],
+            below("cutStep"),
+        ),
+    ]
+}
+
+fn unjamming() -> Vec<Edge> {
+    let cold = || walls(small("C").control("deltaT 0.02;"), "-50");
+    let paper = "surrogate { model builtin:paper; }";
+    vec![
+        edge(
+            "unjamming",
+            "case C from porosity 0.16",
+            "grains lose touch near 0.19: clamped, counted",
+            REPORTED,
+            uniform("C", 0.16),
+        ),
+        edge(
+            "unjamming",
+            "case C, walls at -50 K (strain -10 %)",
+            "beyond the data: clamped, counted",
+            REPORTED,
+            cold(),
+        ),
+        edge(
+            "unjamming",
+            "the same, grains move",
+            "as before, or ends",
+            &["reported", "ended"],
+            cold().grains("mechanics equilibrium;"),
+        ),
+        edge(
+            "paper's network",
+            "case C from porosity 0.16",
+            "outside of its data: clamped, counted",
+            REPORTED,
+            uniform("C", 0.16).grains(paper),
+        ),
+    ]
+}
+
+fn equilibrium() -> Vec<Edge> {
+    let exact = "mechanics equilibrium; equilibriumCoeffs { residual 1e-6; maxResidual 1e-5; }";
+    vec![
+        edge(
+            "equilibrium",
+            "case H, steps of 1 s",
+            "increments too large: brought in by parts, cut or ended",
+            &["done", "cut", "ended", "reported"],
+            stepped("1").grains("mechanics equilibrium;"),
+        ),
+        edge(
+            "equilibrium",
+            "residual of 1e-6 Pa",
+            "cannot be reached: ends, fields written",
+            ENDED,
+            small("HC").control("deltaT 0.1;").grains(exact),
+        ),
+        edge(
+            "equilibrium",
+            "with the paper's network, which has no tangent",
+            "refused",
+            REFUSED,
+            stepped("0.1").grains("mechanics equilibrium; surrogate { model builtin:paper; }"),
+        ),
+    ]
+}
+
+/// Numbers that no material has. OpenFOAM's floating-point traps are on in all runs of this report.
+fn numbers() -> Vec<Edge> {
+    let indefinite = "surrogate { type constant; constantCoeffs { conductivity (10 20 0 10 0 10); } }";
+    let lean = |angle: f64| super::solver::slanted(angle, [50, 15], 0);
+    vec![
+        edge(
+            "conductivity",
+            "constant, not positive definite",
+            "refused",
+            REFUSED,
+            stepped("0.1").grains(indefinite),
+        ),
+        edge(
+            "floating-point traps",
+            "walls at 1e30 K",
+            "strain beyond the data: ends, no trap",
+            ENDED,
+            walls(stepped("0.1"), "1e30"),
+        ),
+        edge(
+            "floating-point traps",
+            "heat capacity 1e-300 J/(kg K)",
+            "ends or goes on, no trap",
+            &["refused", "ended", "done"],
+            stepped("0.1").grains("heatCapacity 1e-300;"),
+        ),
+        edge("slanted cells", "60 degrees", "goes on", DONE, lean(60.0)),
+        edge("slanted cells", "80 degrees, beyond 70", "goes on, says so", REPORTED, lean(80.0)),
+    ]
+}
+
+fn elements(quick: bool) -> Vec<Edge> {
+    let run = |keys: &[&str]| {
+        let begin =
+            ["reference", "run", "--case", "cases/H", "--seed", "1", "--discs", "500", "--out", "WORK"];
+        let state = ["--state", "WORK/packed.json", "--end", "1"];
+        let all = begin.iter().chain(&state).chain(keys).map(|text| (*text).to_string());
+        plan::tool(all.collect(), &["cases/common"], 300)
+    };
+    let pack = |keys: &[&str]| {
+        let begin = ["rve", "pack", "--out", "WORK/packed.json"];
+        plan::tool(begin.iter().chain(keys).map(|text| (*text).to_string()).collect(), &[], 300)
+    };
+    let mut edges = vec![edge(
+        "DEM packing",
+        "porosity 0.005",
+        "not possible: refused",
+        REFUSED,
+        pack(&["--porosity", "0.005", "--discs", "100"]),
+    )];
+    if !quick {
+        edges.push(edge(
+            "DEM mechanical step",
+            "500 discs, case H, steps of 2 ms asked for",
+            "beyond the bound of 1 ms: refused",
+            REFUSED,
+            run(&["--time-step", "2e-3"]),
+        ));
+    }
+    edges
+}
+
+pub fn read(settings: &Settings, records: &Records) -> Vec<Row> {
+    let one = |edge: Edge| settings.record(records, &edge.job).map(|record| row(&edge, record));
+    edges(settings.quick).into_iter().filter_map(one).collect()
+}
+
+fn row(edge: &Edge, record: &Record) -> Row {
+    let run = record.run.clone().unwrap_or_default();
+    let (behaviour, message) = match record.outcome {
+        Outcome::Refused => ("refused", record.message.clone()),
+        // A tool that refuses has done nothing yet either.
+        Outcome::Failed if is_refusal(&record.message) => ("refused", record.message.clone()),
+        Outcome::Failed => ("ended", record.message.clone()),
+        Outcome::TimedOut => ("stopped at the limit", record.message.clone()),
+        Outcome::NotRun => ("not run", String::new()),
+        Outcome::Done if run.rejected_steps > 0 && run.clamped_queries == 0 => {
+            ("cut", format!("{} steps repeated with half the size; {}", run.rejected_steps, state(&run)))
+        }
+        Outcome::Done if run.clamped_queries > 0 || !record.message.is_empty() => {
+            let said =
+                if record.message.is_empty() { String::new() } else { format!(" \"{}\"", record.message) };
+            ("reported", format!("{} answers clamped;{said} {}", run.clamped_queries, state(&run)))
+        }
+        Outcome::Done => ("done", state(&run)),
+    };
+    Row {
+        method: edge.method.to_string(),
+        condition: edge.condition.to_string(),
+        predicted: edge.predicted.to_string(),
+        behaviour: behaviour.to_string(),
+        as_allowed: edge.allowed.contains(&behaviour),
+        message,
+    }
+}
+
+/// A program's word on a value that it does not allow, before or at its first step.
+fn is_refusal(message: &str) -> bool {
+    message.starts_with("msdd: t = 0 s") || (message.starts_with("msdd: ") && message.contains(", allowed: "))
+}
+
+fn state(run: &Run) -> String {
+    format!("at the end porosity {:.4}, pressure {:.3} kPa", run.end_porosity, 1e-3 * run.end_pressure)
+}

@@ -1,0 +1,46 @@
+//! The failure map.
+
+mod elements;
+mod networks;
+mod solver;
+
+use super::{Figure, table};
+use crate::ReportError;
+use crate::draw::{Axis, Line, Marker, Series, Style, plot};
+use crate::report::Made;
+
+pub fn section(made: &Made) -> Result<String, ReportError> {
+    let mut html = "<h2>Where methods break</h2>\n<p>Each row was run. <b>refused</b>: nothing was computed; <b>ended</b>: stopped with the \
+                    message; <b>cut</b>: steps were repeated with half the size; <b>reported</b>: went on, counted and said so; \
+                    <b>done</b>: nothing to report.</p>\n"
+        .to_string();
+    let rows = &made.report.failures.rows;
+    let cells = rows.iter().map(|r| {
+        let behaviour =
+            if r.as_allowed { r.behaviour.clone() } else { format!("{}, NOT as it should be", r.behaviour) };
+        [r.method.clone(), r.condition.clone(), r.predicted.clone(), behaviour, r.message.clone()].to_vec()
+    });
+    let wrong = rows.iter().filter(|r| !r.as_allowed).count();
+    html += &format!("<p>{} of {} rows behave as they should.</p>\n", rows.len() - wrong, rows.len());
+    html += &table(
+        &["'method", "'condition", "'predicted", "'behaviour", "\"what came out"],
+        &cells.collect::<Vec<_>>(),
+    );
+    html += &elements::steps(made)?;
+    html += &elements::slowness(made)?;
+    html += &elements::unjamming(made)?;
+    html += &solver::coupling(made)?;
+    html += &solver::discretisation(made)?;
+    html += &solver::cycles(made)?;
+    html += &networks::drift(made)?;
+    html += &networks::depth(made)?;
+    Ok(html)
+}
+
+fn series(points: Vec<(f64, f64)>, style: Style) -> Series {
+    Series { points, bars: Vec::new(), style }
+}
+
+fn from_data(label: &str, log: bool) -> Axis<'_> {
+    Axis { label, log, range: None }
+}
