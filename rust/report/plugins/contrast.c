@@ -32,6 +32,15 @@ static int32_t initial_state(const msdd_plugin_start *start)
     return 0;
 }
 
+static int32_t solid_fraction(size_t cells, const double *porosity, double *result)
+{
+    size_t i;
+    for (i = 0; i < cells; i++) {
+        result[i] = 1 - porosity[i];
+    }
+    return 0;
+}
+
 const msdd_plugin_v1 *msdd_plugin_v1_table(void)
 {
     static const char *const names[] = {"porosity", "fabric_index"};
@@ -43,6 +52,7 @@ const msdd_plugin_v1 *msdd_plugin_v1_table(void)
         .state_names = names,
         .initial_state = initial_state,
         .advance = advance,
+        .solid_fraction = solid_fraction,
     };
     return &table;
 }

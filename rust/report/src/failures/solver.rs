@@ -126,7 +126,7 @@ fn halves(decades: i32, cells: usize) -> SolverJob {
     let walls = "left { type fixedValue; value uniform 100; } right { type fixedValue; value uniform 0; } \
                  \"bottom|top\" { type zeroGradient; }";
     let mut job = SolverJob::new("HCstar", 1)
-        .control("deltaT 1e12;")
+        .control("deltaT 1e12; functions { spaceProbes { writeInterval 1e12; } wallPressure { writeInterval 1e12; } }")
         .temperature(&format!("boundaryField {{ {walls} }}"))
         .grains("surrogate { type plugin; pluginCoeffs { library plugin.so; } }")
         .with("0/porosity", &format!("internalField nonuniform List<scalar> {cells}({});", list.join(" ")))
