@@ -125,6 +125,7 @@ fn between((a, strain_a): &(StateRow, [f64; 2]), (b, strain_b): &(StateRow, [f64
 }
 
 fn wall_slip(record: &Record) -> Option<WallSlip> {
-    let slip = record.wall_slip.abs() / record.mean_radius?;
-    Some(WallSlip { slip, friction: record.wall_friction?.abs() })
+    // Of the grains at the wall: the solver's cells give way by themselves.
+    let slip = record.wall_slip_of_grains? / record.mean_radius?;
+    Some(WallSlip { slip, friction: record.wall_friction? })
 }

@@ -33,9 +33,18 @@ impl Slide {
     }
 }
 
-/// Moves bottom and top along x through the given slips [m] from here, growing. The assembly relaxes at each stop;
-/// `visit` sees it there with the mobilised friction: tangential over normal force of the wall, positive against the
-/// motion, mean of bottom and top [-].
+/// What a wall meets, mean of bottom and top.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sliding {
+    /// Mobilised friction: tangential over normal force of the wall, positive against the motion [-].
+    pub friction: f64,
+    /// Way of the wall less that of the grains that touch it, which give way as the assembly behind them does; weighted by their
+    /// normal forces [m].
+    pub slip: f64,
+}
+
+/// Moves bottom and top along x by the given ways [m] from here, growing. The assembly relaxes at each stop; `visit` sees it
+/// there with what the walls meet.
 ///
 /// # Errors
 /// [`RveError::Parameter`] for unusable slips. What goes wrong on the way is in [`Ramp::failure`].
@@ -43,7 +52,7 @@ pub fn slide(
     simulation: &mut Simulation,
     slips: &[f64],
     (slide, relaxation): (Slide, Relaxation),
-    mut visit: impl FnMut(&Stop, f64),
+    mut visit: impl FnMut(&Stop, Sliding),
 ) -> Result<Ramp, RveError> {
     let growing =
         slips.windows(2).all(|pair| pair[0] < pair[1]) && slips.iter().all(|&s| s > 0.0 && s <= 1.0);
@@ -51,12 +60,13 @@ pub fn slide(
         let allowed = "growing, above 0, at most 1 m";
         return Err(RveError::Parameter { key: "slips", value: format!("{slips:?}"), allowed });
     }
+    let start: Vec<f64> = simulation.discs.iter().map(|disc| disc.x).collect();
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
     let mut done = 0.0;
     for &slip in slips {
         match slip_by(simulation, slip - done, slide, relaxation) {
             Ok(stop) => {
-                visit(&stop, mobilised_friction(simulation, slide));
+                visit(&stop, sliding(simulation, slide, slip, &start));
                 ramp.stops.push(stop);
                 done = slip;
             }
@@ -92,20 +102,31 @@ fn slip_by(
     rest(simulation, Strains::default(), Protocol { relaxation, ..Protocol::default() }, since)
 }
 
-/// Mean over bottom and top of tangential over normal force, positive against the motion; 0 without normal force.
-pub fn mobilised_friction(simulation: &Simulation, slide: Slide) -> f64 {
-    let sides = [Side::Bottom, Side::Top].into_iter().zip(slide.directions());
-    let friction = |(side, direction): (Side, f64)| {
-        let mut force = [0.0; 2];
+/// After a way [m] of the walls; `start` has x of the discs [m] before it. All 0 where a wall has no normal force.
+fn sliding(simulation: &Simulation, slide: Slide, way: f64, start: &[f64]) -> Sliding {
+    let mut mean = Sliding::default();
+    for (side, direction) in [Side::Bottom, Side::Top].into_iter().zip(slide.directions()) {
+        let (mut normal, mut tangential, mut moved) = (0.0, 0.0, 0.0);
         simulation.for_each_contact(|contact| {
             if contact.i == Err(side) {
                 let [x, y] = contact.force();
                 // On the disc: normal inwards, tangential along the motion of the wall that drags it.
-                force[0] += side.normal()[1] * y;
-                force[1] += direction * x;
+                let inwards = side.normal()[1] * y;
+                normal += inwards;
+                tangential += direction * x;
+                moved += inwards * direction * (simulation.discs[contact.j].x - start[contact.j]);
             }
         });
-        if force[0] > 0.0 { force[1] / force[0] } else { 0.0 }
-    };
-    0.5 * sides.map(friction).sum::<f64>()
+        if normal > 0.0 {
+            mean.friction += 0.5 * tangential / normal;
+            mean.slip += 0.5 * (way - moved / normal);
+        }
+    }
+    mean
+}
+
+/// What walls that have not moved meet: the friction that packing left.
+pub fn at_rest(simulation: &Simulation, slide: Slide) -> Sliding {
+    let start: Vec<f64> = simulation.discs.iter().map(|disc| disc.x).collect();
+    sliding(simulation, slide, 0.0, &start)
 }

@@ -35,7 +35,7 @@ pub use store::Store;
 use std::path::PathBuf;
 
 /// Raised by one whenever the same plan and seed give other numbers. Databases of different versions do not mix.
-pub const ENGINE_VERSION: i64 = 3;
+pub const ENGINE_VERSION: i64 = 4;
 
 /// What can go wrong with plans and databases.
 #[derive(Debug, thiserror::Error)]

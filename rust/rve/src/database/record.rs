@@ -1,6 +1,7 @@
 //! One row of the database: one state of one packing.
 
 use super::plan::{Job, Kind, RampName};
+use crate::slide::Sliding;
 use crate::{Averages, Boundary, Compression, Material, Outcome, RegionKind, Settled, Strains};
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +40,7 @@ record! {
     strain_yy: f64, "REAL", "-", "extension of the box along y relative to the packed state, extension positive";
     strain_xy: f64, "REAL", "-", "shear of the box, displacement along x over height, relative to the packed state";
     wall_slip: f64, "REAL", "m", "way of bottom and top along x since the packed state";
+    wall_slip_of_grains: Option<f64>, "REAL", "m", "wall_slip less the way of the grains that touch bottom or top, which the assembly behind them lets give way; weighted by normal force";
     wall_friction: Option<f64>, "REAL", "-", "mobilised friction: tangential over normal force on the grains, along the motion, mean of bottom and top";
     region: String, "TEXT", "-", "averaging region; hull: of the centres of force-bearing discs that touch no wall; inset: box less 0.8 mean radii; cell: whole periodic cell";
     outcome: String, "TEXT", "-", "settled; capped: step cap before balance; unjammed: bears no load; failed: see failure";
@@ -108,7 +110,7 @@ pub(crate) struct Place {
 pub(crate) struct State {
     pub settled: Settled,
     pub averages: Averages,
-    pub wall_friction: Option<f64>,
+    pub sliding: Option<Sliding>,
 }
 
 impl Record {
@@ -126,7 +128,8 @@ impl Record {
             record.outcome = state.settled.outcome.as_str().to_string();
             record.steps = state.settled.steps;
             record.unbalanced = Some(state.settled.unbalanced);
-            record.wall_friction = state.wall_friction;
+            record.wall_friction = state.sliding.map(|sliding| sliding.friction);
+            record.wall_slip_of_grains = state.sliding.map(|sliding| sliding.slip);
         }
         if let Err(reason) = state {
             record.outcome = FAILED.to_string();

@@ -2,7 +2,7 @@
 
 use super::plan::{Job, Kind, Plan, RampName};
 use super::record::{Place, Record, State};
-use crate::slide::mobilised_friction;
+use crate::slide::{Sliding, at_rest};
 use crate::{
     Averages, Packed, Protocol, Ramp, RegionKind, RveError, Simulation, Stop, Strains, follow, homogenise,
     pack_as, slide, stopwatch,
@@ -19,8 +19,8 @@ pub(super) fn rows(plan: &Plan, job: &Job) -> Vec<Record> {
     let averages = stopwatch::time(stopwatch::Stage::Averaging, || {
         homogenise(&packed.simulation, RegionKind::default())
     });
-    let shear = (job.kind == Kind::WallShear).then(|| mobilised_friction(&packed.simulation, job.slide));
-    let state = State { settled: packed.settled, averages, wall_friction: shear };
+    let shear = (job.kind == Kind::WallShear).then(|| at_rest(&packed.simulation, job.slide));
+    let state = State { settled: packed.settled, averages, sliding: shear };
     let place = place(RampName::Packed, (0, 0.0));
     let mut walk = Walk { plan, job, packed: &packed, initial: &averages, ends: BTreeMap::new() };
     let mut records = vec![Record::new(job, material, place, Ok(&state), Some(&averages))];
@@ -115,23 +115,23 @@ impl Walk<'_> {
 
     fn slide(&self, stops: &[Place]) -> Vec<Record> {
         let slips: Vec<f64> = stops.iter().map(|place| place.slip).collect();
-        let mut frictions = Vec::new();
+        let mut met = Vec::new();
         let mut simulation = self.packed.simulation.clone();
-        let ramp = slide(&mut simulation, &slips, (self.job.slide, self.plan.relaxation), |_, friction| {
-            frictions.push(friction)
+        let ramp = slide(&mut simulation, &slips, (self.job.slide, self.plan.relaxation), |_, sliding| {
+            met.push(sliding)
         });
-        self.records(stops, &ramp, &frictions)
+        self.records(stops, &ramp, &met)
     }
 
     /// A row a stop: the states reached, then the failure that ended the ramp, for each stop after them.
-    fn records(&self, stops: &[Place], ramp: &Result<Ramp, RveError>, frictions: &[f64]) -> Vec<Record> {
+    fn records(&self, stops: &[Place], ramp: &Result<Ramp, RveError>, met: &[Sliding]) -> Vec<Record> {
         let (reached, failure): (&[Stop], Option<&RveError>) = match ramp {
             Ok(ramp) => (&ramp.stops, ramp.failure.as_ref()),
             Err(error) => (&[], Some(error)),
         };
         let row = |(k, (place, stop)): (usize, (&Place, &Stop))| {
-            let wall_friction = frictions.get(k).copied();
-            let state = State { settled: stop.settled, averages: stop.averages, wall_friction };
+            let state =
+                State { settled: stop.settled, averages: stop.averages, sliding: met.get(k).copied() };
             Record::new(self.job, &self.plan.material, *place, Ok(&state), Some(self.initial))
         };
         let mut records: Vec<Record> = stops.iter().zip(reached).enumerate().map(row).collect();
