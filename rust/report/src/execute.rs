@@ -150,6 +150,8 @@ fn timed(
         .status()
         .map_err(|error| ReportError::Start { program: "bash".to_string(), problem: error.to_string() })?;
     let cpu = read_text(&folder.join("cpu")).unwrap_or_default();
+    // The last line: above it bash may tell which signal ended the program.
+    let cpu = cpu.lines().last().unwrap_or_default();
     let cpu = cpu.split_whitespace().filter_map(|word| word.parse::<f64>().ok()).sum();
     Ok(Ended { code: status.code().unwrap_or(137), cpu, wall: began.elapsed().as_secs_f64() })
 }

@@ -289,9 +289,10 @@ fn row(edge: &Edge, record: &Record) -> Row {
     }
 }
 
-/// A program's word on a value that it does not allow, before or at its first step.
+/// A program's word on a value that it does not allow, before or at its first step; it may have packed a box before.
 fn is_refusal(message: &str) -> bool {
-    message.starts_with("msdd: t = 0 s") || (message.starts_with("msdd: ") && message.contains(", allowed: "))
+    let Some(at) = message.find("msdd: ") else { return false };
+    message[at..].starts_with("msdd: t = 0 s") || message[at..].contains(", allowed: ")
 }
 
 fn state(run: &Run) -> String {
