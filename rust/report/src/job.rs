@@ -18,13 +18,15 @@ pub enum Part {
     Half,
     /// x and y up to the middle.
     Quarter,
+    /// The box of a case that brings its own: mesh, fields and probes as shipped.
+    Shipped,
 }
 
 impl Part {
-    /// Width and height of what is computed [m].
+    /// Width and height of what is computed of the box of the cases [m].
     pub fn size(self) -> [f64; 2] {
         match self {
-            Self::Whole => BOX,
+            Self::Whole | Self::Shipped => BOX,
             Self::Half => [0.5 * BOX[0], BOX[1]],
             Self::Quarter => [0.5 * BOX[0], 0.5 * BOX[1]],
         }
@@ -37,7 +39,7 @@ impl Part {
             [x.min((1.0 - 1e-5) * size[0]), y.min((1.0 - 1e-5) * size[1])]
         };
         match self {
-            Self::Whole => PROBES,
+            Self::Whole | Self::Shipped => PROBES,
             _ => [inside(PROBES[0]), inside(PROBES[1]), inside(PROBES[0])],
         }
     }

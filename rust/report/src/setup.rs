@@ -16,10 +16,12 @@ const INTERVAL: f64 = 0.1;
 /// Files of the case that cannot be read, or written.
 pub fn write_case(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(), ReportError> {
     let case = checkout.join("cases").join(&job.case);
+    let shipped = job.part == Part::Shipped;
     for part in ["0", "constant", "system"] {
         for file in files(&case.join(part))? {
             // Not the mesh that a run by hand left, which is a folder, and not the fields, which follow.
-            if file.is_dir() || FIELDS.iter().any(|name| file.ends_with(format!("0/{name}"))) {
+            let field = FIELDS.iter().any(|name| file.ends_with(format!("0/{name}")));
+            if file.is_dir() || (field && !shipped) {
                 continue;
             }
             let text = read_text(&file)?.replace("\"../../", &format!("\"{}/cases/", checkout.display()));
@@ -27,6 +29,9 @@ pub fn write_case(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(),
             let keys = job.append.get(&name).map_or("", String::as_str);
             write_text(&folder.join(&name), &format!("{text}\n{}{keys}", defaults(&name, job)))?;
         }
+    }
+    if shipped {
+        return Ok(());
     }
     write_text(&folder.join("system/blockMeshDict"), &mesh(job))?;
     write_fields(checkout, job, folder)
@@ -58,16 +63,17 @@ fn control(job: &SolverJob) -> String {
     let points: Vec<String> = job.part.probes().iter().map(|[x, y]| format!("({x} {y} 0.005)")).collect();
     let library = "libs (\"libgranularFunctionObjects.so\");";
     let series = format!("{library} writeControl runTime; writeInterval {INTERVAL};");
+    let places = format!("field T; probeLocations ({});", points.join(" "));
+    let probes = if job.part == Part::Shipped { "" } else { &places };
     let at_end = format!("{library} writeControl writeTime;");
     format!(
         "endTime {end};\nwriteInterval {end};\nfunctions\n{{\n\
          \x20   probes {{ enabled no; }}\n\
-         \x20   spaceProbes {{ type spaceProbes; field T; probeLocations ({points}); {series} }}\n\
+         \x20   spaceProbes {{ type spaceProbes; {probes} {series} }}\n\
          \x20   wallPressure {{ type wallPressure; {series} }}\n\
          \x20   subRegions {{ type subRegions; windows (10 3); {at_end} }}\n\
          \x20   columns {{ type subRegions; windows (10 1); {at_end} }}\n}}\n",
         end = job.end,
-        points = points.join(" "),
     )
 }
 
