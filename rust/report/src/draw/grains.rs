@@ -57,7 +57,8 @@ fn draw(
     }
     // What reaches over the edge is covered.
     let (right, bottom) = (left + size, top + size);
-    let (width, end) = (SIZE.0 as i32, height);
+    // Beyond the figure, as grains reach, too
+    let (width, end) = (SIZE.0 as i32 + size, height + size);
     for cover in [
         [(0, 0), (left, end)],
         [(right, 0), (width, end)],

@@ -36,7 +36,9 @@ fn draw_maps(svg: &mut String, title: &str, digits: usize, named: &[(&str, Vec<f
             root.draw(&Rectangle::new([corner, opposite], colour.filled()))?;
             let ink =
                 if 0.3 * f64::from(colour.0) + 0.6 * f64::from(colour.1) > 110.0 { BLACK } else { WHITE };
-            let text = format!("{value:.digits$}");
+            // Not -0.00
+            let size = 10f64.powi(digits as i32);
+            let text = format!("{:.digits$}", (size * value).round() / size + 0.0);
             let place = (corner.0 + 4, corner.1 + 7);
             root.draw(&Text::new(text, place, (FONT, 13).into_font().color(&ink)))?;
         }
@@ -70,6 +72,7 @@ mod tests {
         let values: Vec<f64> = (0..30).map(|k| 0.1 + 0.001 * f64::from(k)).collect();
         let svg = maps("porosity [-]", 3, &[("solver", values)]).unwrap();
         assert!(svg.contains("0.100") && svg.contains("0.129"));
+        assert!(!maps("", 2, &[("", vec![-1e-4; 30])]).unwrap().contains("-0.00"));
     }
 
     #[test]

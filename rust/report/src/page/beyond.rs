@@ -78,8 +78,8 @@ fn sensitivity(made: &Made) -> String {
     let heads =
         ["'changed", "T in H [%]", "C [%]", "HC [%]", "pressure in H [%]", "C [%]", "displacement in HC [%]"];
     format!(
-        "<h3>Sensitivity</h3>\n<p>Nothing is fitted to these runs: wall friction (limit 0.39), shear modulus and stiffness come from the database of small boxes; sinPhi 0.35 is a default. \
-         Each changed by more than the database leaves open, packing 1: largest error of T at P1 to P3, of the pressure off the walls (% of the ranges), and of the \
+        "<h3>Sensitivity</h3>\n<p>Nothing is fitted to these runs: wall friction, shear modulus and stiffness come from the database of small boxes, sinPhi is the default of 0.35. \
+         Each changed, packing 1: largest error of T at P1 to P3, of the pressure off the walls (% of the ranges), and of the \
          displacement (% of the largest).</p>\n{}",
         table(&heads, &rows)
     )

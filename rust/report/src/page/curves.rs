@@ -218,7 +218,11 @@ fn walls(made: &Made) -> Result<String, ReportError> {
         said.push(format!("{}: {}", case_name(&reference.case), differences.join(", ")));
     }
     let mut keys = Vec::new();
-    for (name, _, colour, marker, line) in [&ENDS_AND_SIDES[..], &HOT_COLD_SIDES[..2]].concat() {
+    for ((_, _, colour, marker, line), name) in HOT_COLD_SIDES.into_iter().zip([
+        "left and right; in HC left (hot)",
+        "in HC right (cold)",
+        "bottom and top",
+    ]) {
         keys.push((Style { line, ..Style::marker(colour, marker) }, name.to_string()));
     }
     let caption = format!(

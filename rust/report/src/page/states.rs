@@ -112,7 +112,7 @@ fn queries(made: &Made) -> Result<String, ReportError> {
     let caption = format!(
         "Fig. 6c. What the solver asks (paper, Fig. 12): state of 10 × 3 sub-regions over 20 s, packing 1, grains that move; in each step the model is asked for the \
          rates at these states and multiplies them by the strain of the step. Inside the line: hull of the {} thermal states of the database that bear load, those turned by \
-         90° included. Share of the states inside the three hulls, and of the queries of single cells outside the model's own region, five-dimensional: {}.",
+         90° included. Share of the states inside the three hulls, and of the queries of single cells beyond the model's own region of all its variables, where its edge is taken: {}.",
         made.known.states,
         said.join("; ")
     );
