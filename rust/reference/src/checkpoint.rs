@@ -9,7 +9,7 @@ use serde_json::value::RawValue;
 use std::path::Path;
 
 /// Name of the schema.
-const SCHEMA: &str = "msdd-reference-checkpoint-1";
+const SCHEMA: &str = "msdd-reference-checkpoint-2";
 
 /// What was recorded so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -12,7 +12,7 @@ use std::fmt::Write;
 pub const WINDOW: f64 = 0.215;
 /// Distance of windows from the walls, in mean radii: the grains next to a wall lie looser, with up to 2 % less conductivity in
 /// a window, but conduct to it as well as the material does.
-const MARGIN: f64 = 2.0;
+pub const MARGIN: f64 = 2.0;
 /// Height of a band of the box [m].
 const BAND: f64 = 0.05;
 

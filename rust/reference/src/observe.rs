@@ -3,15 +3,18 @@
 //! Compression positive. T of a place is given twice: of the closest disc, as in the paper, which may be a rattler, and of
 //! the heat in a window of 40 mm.
 
+use crate::fields::MARGIN;
 use crate::model::SUB_REGIONS;
-use crate::results::Table;
+use crate::results::{Grains, Table};
 use msdd_dem::{Side, Simulation};
 use msdd_rve::network::Network;
-use msdd_rve::region::whole_box;
+use msdd_rve::region::{Polygon, whole_box};
 use msdd_rve::{Averages, Cut, homogenise_affine_in, windows};
 
 /// Side of the window around a probe [m].
 const PROBE_WINDOW: f64 = 0.04;
+/// Side of the window whose discs are listed [m].
+const GRAINS_WINDOW: f64 = 0.12;
 /// Bins of a profile.
 const BINS: usize = 20;
 /// K/k: affine estimate (Eq. 9) and network of contacts solved.
@@ -31,6 +34,7 @@ pub fn series_columns(probes: usize) -> Vec<String> {
     for quantity in ["normal_force", "tangential_force", "mobilised_friction", "heat"] {
         names.extend(WALL_NAMES.map(|wall| format!("{quantity}_{wall}")));
     }
+    names.extend(["porosity", "pressure", "stress_xx", "stress_yy"].map(|name| format!("{name}_inner")));
     names
 }
 
@@ -53,7 +57,17 @@ pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]]) -> Vec<f64> {
     row.extend(walls.map(|load| load.tangential));
     row.extend(walls.map(|load| load.mobilised));
     row.extend(simulation.heat().map_or([0.0; 4], |heat| heat.wall_heat));
+    let inner = homogenise_affine_in(simulation, &inner_box(simulation), Cut::Clip);
+    row.extend([inner.porosity, inner.pressure, inner.stress_xx, inner.stress_yy]);
     row
+}
+
+/// The box without a margin of [`MARGIN`] mean radii along its walls, where grains lie looser: what the windows of the
+/// solver's initial fields cover together, too.
+fn inner_box(simulation: &Simulation) -> Polygon {
+    let [left, right, bottom, top] = simulation.walls.position;
+    let margin = MARGIN * simulation.mean_radius();
+    Polygon::rectangle([left + margin, bottom + margin], [right - margin, top - margin])
 }
 
 /// σ_xy, the mean of the two that Love's formula has.
@@ -149,6 +163,47 @@ pub fn sub_regions(simulation: &Simulation) -> Table {
     table
 }
 
+/// Sub-regions, x fastest: centre and mean displacement [m] of the discs that were in it at the start (`start` are their
+/// centres).
+pub fn displacements(simulation: &Simulation, start: &[[f64; 2]]) -> Table {
+    let [left, right, bottom, top] = simulation.walls.position;
+    let [nx, ny] = SUB_REGIONS;
+    let (width, height) = ((right - left) / nx as f64, (top - bottom) / ny as f64);
+    let place = |at: f64, low: f64, size: f64, count: usize| (((at - low) / size) as usize).min(count - 1);
+    let (mut moved, mut count) = (vec![[0.0; 2]; nx * ny], vec![0.0f64; nx * ny]);
+    for (disc, [x, y]) in simulation.discs.iter().zip(start) {
+        let k = place(*x, left, width, nx) + nx * place(*y, bottom, height, ny);
+        moved[k][0] += disc.x - x;
+        moved[k][1] += disc.y - y;
+        count[k] += 1.0;
+    }
+    let mut table = Table::new(["x", "y", "displacement_x", "displacement_y"].map(str::to_string).to_vec());
+    for (k, ([ux, uy], n)) in moved.into_iter().zip(count).enumerate() {
+        let centre = [left + ((k % nx) as f64 + 0.5) * width, bottom + ((k / nx) as f64 + 0.5) * height];
+        table.push(vec![centre[0], centre[1], ux / n.max(1.0), uy / n.max(1.0)]);
+    }
+    table
+}
+
+/// The discs that reach into a window around a place, at the start and now; at the start all have the temperature
+/// `initial` [K].
+pub fn grains(start: &Simulation, initial: f64, now: &Simulation, [x, y]: [f64; 2]) -> Grains {
+    let half = 0.5 * GRAINS_WINDOW;
+    let listed = |simulation: &Simulation, temperature: Option<f64>| {
+        let mut table = Table::new(["disc", "x", "y", "r", "T"].map(str::to_string).to_vec());
+        for (k, disc) in simulation.discs.iter().enumerate() {
+            let reach = half + disc.radius;
+            if (disc.x - x).abs() < reach && (disc.y - y).abs() < reach {
+                let temperature = temperature.unwrap_or(disc.temperature);
+                table.push(vec![k as f64, disc.x, disc.y, disc.radius, temperature]);
+            }
+        }
+        table
+    };
+    let window = [[x - half, y - half], [x + half, y + half]];
+    Grains { window, start: listed(start, Some(initial)), end: listed(now, None) }
+}
+
 /// An empty table of profiles.
 pub fn profile_table() -> Table {
     let columns = [
@@ -196,3 +251,7 @@ pub fn add_profile(table: &mut Table, simulation: &Simulation, start: &[[f64; 2]
         table.push(row);
     }
 }
+
+#[cfg(test)]
+#[path = "observe_tests.rs"]
+mod tests;

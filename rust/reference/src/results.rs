@@ -81,6 +81,22 @@ pub struct Results {
     pub profiles: Table,
     /// K/k of the box by the solved network of contacts, at the times of the profiles.
     pub network: Table,
+    /// Mean u_x, u_y [m] at the end of the discs that started in each sub-region; absent in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<Table>,
+    /// Discs around the second probe at the start and at the end; absent in older files and without that probe.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grains: Option<Grains>,
+}
+
+/// Discs in a small window: number, x, y, r [m], T [K].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grains {
+    /// Lower left and upper right corner of the window [m]; discs that reach into it are listed.
+    pub window: [[f64; 2]; 2],
+    pub start: Table,
+    pub end: Table,
 }
 
 #[cfg(test)]

@@ -6,7 +6,8 @@ use crate::case::Case;
 use crate::checkpoint::{Checkpoint, Records};
 use crate::model::statistics;
 use crate::observe::{
-    add_network, add_profile, network_table, profile_table, series_columns, series_row, sub_regions,
+    add_network, add_profile, displacements, grains, network_table, profile_table, series_columns,
+    series_row, sub_regions,
 };
 use crate::results::{Results, SCHEMA, Table};
 use msdd_dem::time_step::{self, SAFETY};
@@ -134,6 +135,8 @@ pub fn run(
         seed: spec.seed,
         discs: start.discs.len(),
         size: [start.walls.width(), start.walls.height()],
+        grains: probes.get(1).map(|&at| grains(start, case.initial_temperature, &simulation, at)),
+        displacement: Some(displacements(&simulation, &centres)),
         probes,
         model: statistics(start),
         steps: simulation.steps,

@@ -1,7 +1,7 @@
 //! Results of jobs on disk, by a hash of all that decides them: the job, the files that it reads, the programs, the processor.
 
 use crate::execute::Record;
-use crate::job::Job;
+use crate::job::{Job, Part};
 use crate::{ReportError, read_text, setup, write_text};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
@@ -42,7 +42,9 @@ impl Cache {
                 parts.push(self.hash(&format!("cases/{whole}/0"))?);
                 parts.push(self.hash(&format!("cases/{whole}/constant"))?);
                 parts.push(self.hash("cases/common")?);
-                parts.push(self.hash(&format!("cases/reference/fields/seed{}", solver.seed))?);
+                if solver.part != Part::Shipped {
+                    parts.push(self.hash(&format!("cases/reference/fields/seed{}", solver.seed))?);
+                }
                 if let Some(source) = &solver.plugin {
                     parts.push(self.hash(source)?);
                 }

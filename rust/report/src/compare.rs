@@ -11,6 +11,8 @@ pub struct FieldError {
     pub quantity: String,
     pub unit: String,
     pub rms: f64,
+    /// Of the 8 x 1 sub-regions that touch no wall.
+    pub rms_inner: f64,
     /// Largest of any sub-region, with its sign.
     pub worst: f64,
     /// Of the means over the box, and of the standard deviations over the sub-regions: solver and discrete elements.
@@ -28,6 +30,10 @@ pub struct Errors {
     /// Of the mean pressure [% of the paper's range].
     pub pressure: f64,
     pub pressure_of_seeds: Vec<f64>,
+    /// The same against the discs' mean off the walls, where they lie looser: what the solver's cells hold. None when the reference
+    /// does not have it.
+    pub pressure_inner: Option<f64>,
+    pub pressure_inner_of_seeds: Vec<f64>,
     pub fields: Vec<FieldError>,
     /// Of the displacement along x at the end, largest difference over largest displacement [%].
     pub displacement: Option<f64>,
@@ -64,12 +70,8 @@ pub fn errors(reference: &Reference, runs: &[&Run], affine: bool) -> Option<Erro
         runs.iter().zip(&reference.temperature()[probe]).map(differences).collect()
     };
     let temperatures = [0, 1, 2].map(of_probe);
-    let scale = 100.0 / pressure_range(&reference.case);
-    let pressures: Vec<Vec<f64>> = runs
-        .iter()
-        .zip(reference.series("pressure"))
-        .map(|(run, dem)| difference(&times, &with_start(&run.pressure, dem[0]), &dem, scale))
-        .collect();
+    let pressures = pressure_differences(reference, runs, "pressure");
+    let inner = pressure_differences(reference, runs, "pressure_inner");
     Some(Errors {
         temperature: [0, 1, 2].map(|p| largest(&means(&temperatures[p]))),
         temperature_of_seeds: (0..runs.len())
@@ -77,9 +79,23 @@ pub fn errors(reference: &Reference, runs: &[&Run], affine: bool) -> Option<Erro
             .collect(),
         pressure: largest(&means(&pressures)),
         pressure_of_seeds: pressures.iter().map(|p| largest(p)).collect(),
+        pressure_inner: (!inner.is_empty()).then(|| largest(&means(&inner))),
+        pressure_inner_of_seeds: inner.iter().map(|p| largest(p)).collect(),
         fields: fields(reference, runs, affine),
         displacement: displacement(reference, runs),
     })
+}
+
+/// Mean pressure of the solver minus a column of the discs [% of the paper's range], by packing; none without the column.
+fn pressure_differences(reference: &Reference, runs: &[&Run], column: &str) -> Vec<Vec<f64>> {
+    let (times, scale) = (reference.times(), 100.0 / pressure_range(&reference.case));
+    let series = reference.series(column);
+    if series.iter().any(Vec::is_empty) {
+        return Vec::new();
+    }
+    let of =
+        |(run, dem): (&&Run, Vec<f64>)| difference(&times, &with_start(&run.pressure, dem[0]), &dem, scale);
+    runs.iter().zip(series).map(of).collect()
 }
 
 fn means(by_packing: &[Vec<f64>]) -> Vec<f64> {
@@ -147,10 +163,19 @@ pub fn sub_regions(run: &Run, quantity: &str) -> Vec<f64> {
 
 /// A quantity in the sub-regions of the reference, in the solver's units, by packing.
 pub fn reference_sub_regions(reference: &Reference, quantity: &str, affine: bool) -> Vec<Vec<f64>> {
+    scaled(quantity, affine, |column| reference.sub_regions(column))
+}
+
+/// The same at the start.
+pub fn reference_start(reference: &Reference, quantity: &str, affine: bool) -> Vec<Vec<f64>> {
+    scaled(quantity, affine, |column| reference.sub_regions_start(column))
+}
+
+fn scaled(quantity: &str, affine: bool, read: impl Fn(&str) -> Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let table = quantities(affine);
     let Some((_, column, factor, _)) = table.iter().find(|q| q.0 == quantity) else { return Vec::new() };
-    let scaled = |values: Vec<f64>| values.into_iter().map(|v| factor * v).collect();
-    reference.sub_regions(column).into_iter().map(scaled).collect()
+    let in_units = |values: Vec<f64>| values.into_iter().map(|v| factor * v).collect();
+    read(column).into_iter().map(in_units).collect()
 }
 
 fn fields(reference: &Reference, runs: &[&Run], affine: bool) -> Vec<FieldError> {
@@ -161,12 +186,15 @@ fn fields(reference: &Reference, runs: &[&Run], affine: bool) -> Vec<FieldError>
             let solver: Vec<Vec<f64>> = runs.iter().map(|run| sub_regions(run, quantity)).collect();
             let pairs = solver.iter().flatten().zip(dem.iter().flatten());
             let differences: Vec<f64> = pairs.map(|(s, d)| s - d).collect();
-            let squares: f64 = differences.iter().map(|d| d * d).sum();
+            let inner = |k: usize| (1..9).contains(&(k % 10)) && k % 30 / 10 == 1;
+            let inside: Vec<f64> =
+                (0..differences.len()).filter(|&k| inner(k)).map(|k| differences[k]).collect();
             let both = [&solver, &dem].map(|values| spread(values));
             FieldError {
                 quantity: quantity.to_string(),
                 unit: unit.to_string(),
-                rms: (squares / differences.len().max(1) as f64).sqrt(),
+                rms: root_mean_square(&differences),
+                rms_inner: root_mean_square(&inside),
                 worst: largest(&differences),
                 means: both.map(|b| b.0),
                 deviations: both.map(|b| b.1),
@@ -175,8 +203,12 @@ fn fields(reference: &Reference, runs: &[&Run], affine: bool) -> Vec<FieldError>
         .collect()
 }
 
+pub fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+}
+
 /// Mean over all, and the deviation over the sub-regions, averaged over the packings.
-fn spread(by_packing: &[Vec<f64>]) -> (f64, f64) {
+pub fn spread(by_packing: &[Vec<f64>]) -> (f64, f64) {
     let each: Vec<(f64, f64)> =
         by_packing.iter().map(|values| crate::reference::mean_and_deviation(values)).collect();
     let n = each.len() as f64;

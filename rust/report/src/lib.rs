@@ -15,6 +15,11 @@
 //! | [`compare`] | errors against the reference |
 //! | [`front`] | cheapest configurations, Pareto front |
 //! | [`solver_table`] | the former as `msddFoam -cheapest` prints them |
+//! | [`detail`] | runs that write what some figures need |
+//! | [`convergence`] | order of the coupling in time |
+//! | [`sensitivity`] | what the mechanics' parameters do |
+//! | [`other_cases`] | another scene, another material |
+//! | [`known`] | states of the database |
 //! | [`economy`] | what each case needs |
 //! | [`failures`] | where methods break, and what the program does there |
 //! | [`report`] | all of it as data: the JSON |
@@ -24,6 +29,8 @@
 
 pub mod cache;
 pub mod compare;
+pub mod convergence;
+pub mod detail;
 pub mod draw;
 pub mod economy;
 pub mod execute;
@@ -31,12 +38,15 @@ pub mod failures;
 pub mod front;
 pub mod grid;
 pub mod job;
+pub mod known;
+pub mod other_cases;
 pub mod output;
 pub mod page;
 pub mod plan;
 pub mod pool;
 pub mod reference;
 pub mod report;
+pub mod sensitivity;
 pub mod setup;
 pub mod solver_table;
 

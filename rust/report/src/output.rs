@@ -5,7 +5,11 @@ use crate::job::{MESH, SolverJob};
 use crate::{ReportError, read_text};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::Path;
+
+/// Names of a job's own function objects begin so.
+pub const WATCH: &str = "watch";
 
 /// Columns of the sub-regions, in the order that the solver writes them. K in W/(m K), stress in Pa, compression positive.
 pub const COLUMNS: [&str; 8] = [
@@ -32,6 +36,12 @@ pub struct Run {
     pub columns: Vec<Vec<f64>>,
     /// Displacement along x in ten slices [m]; with grains that move only.
     pub displacement: Option<Vec<f64>>,
+    /// Displacement along x and y of the grains that started in each sub-region [m]; with grains that move only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Vec<[f64; 2]>>,
+    /// Lines of numbers of each function object that the job adds, by its name, which begins with [`WATCH`].
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub watched: BTreeMap<String, Vec<Vec<f64>>>,
     pub cells: u64,
     pub steps: u64,
     pub rejected_steps: u64,
@@ -52,6 +62,8 @@ pub fn read(folder: &Path, job: &SolverJob) -> Result<Run, ReportError> {
     let summary = read_summary(&post.join("msddFoam/summary.json"))?;
     let count = |key: &str| summary[key].as_u64().unwrap_or_default();
     let end = |key: &str| summary["final"][key].as_f64().unwrap_or(f64::NAN);
+    let moved = displacement(folder, job)?;
+    let slices = |values: &Vec<Vec<f64>>| means_in(values, job.mesh, [10, 1]).iter().map(|u| u[0]).collect();
     Ok(Run {
         temperature: numbers(&newest(&post.join("spaceProbes"))?)?
             .iter()
@@ -63,7 +75,9 @@ pub fn read(folder: &Path, job: &SolverJob) -> Result<Run, ReportError> {
             .collect(),
         sub_regions: last_windows(&post.join("subRegions"), 30)?,
         columns: last_windows(&post.join("columns"), 10)?,
-        displacement: displacement(folder, job)?,
+        displacement: moved.as_ref().map(slices),
+        moved: moved.as_ref().map(|values| means_in(values, job.mesh, [10, 3])),
+        watched: watched(&post)?,
         cells: count("cells"),
         steps: count("steps"),
         rejected_steps: count("rejected_steps"),
@@ -118,22 +132,37 @@ fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReportErro
     }
 }
 
-/// Means of the displacement along x over ten slices, where the solver wrote a displacement.
-fn displacement(folder: &Path, job: &SolverJob) -> Result<Option<Vec<f64>>, ReportError> {
+/// The displacement of the cells, x first [m], where the solver wrote it.
+fn displacement(folder: &Path, job: &SolverJob) -> Result<Option<Vec<Vec<f64>>>, ReportError> {
     let file = folder.join(format!("{}/D", job.end));
     if !file.exists() {
         return Ok(None);
     }
     let wrong = |problem| ReportError::Read { file: file.clone(), problem };
-    let values = list(&read_text(&file)?).map_err(wrong)?;
-    let (mut sum, mut count) = (vec![0.0; 10], [0.0; 10]);
+    list(&read_text(&file)?).map_err(wrong).map(Some)
+}
+
+/// Means of the first two components over `parts` of the mesh, which the grains carry along; 0 where no cell is.
+fn means_in(values: &[Vec<f64>], mesh: [usize; 2], parts: [usize; 2]) -> Vec<[f64; 2]> {
+    let [nx, ny] = mesh.map(|n| n.max(1));
+    let (mut sum, mut count) = (vec![[0.0; 2]; parts[0] * parts[1]], vec![0.0; parts[0] * parts[1]]);
     for (k, value) in values.iter().enumerate() {
-        let slice = 10 * (k % job.mesh[0]) / job.mesh[0].max(1);
-        sum[slice] += value[0];
-        count[slice] += 1.0;
+        let part = parts[0] * (k % nx) / nx + parts[0] * (parts[1] * (k / nx) / ny);
+        (0..2).for_each(|c| sum[part][c] += value[c]);
+        count[part] += 1.0;
     }
-    sum.iter_mut().zip(count).for_each(|(s, n)| *s /= f64::max(n, 1.0));
-    Ok(Some(sum))
+    sum.iter().zip(count).map(|(s, n)| s.map(|u| u / f64::max(n, 1.0))).collect()
+}
+
+fn watched(post: &Path) -> Result<BTreeMap<String, Vec<Vec<f64>>>, ReportError> {
+    let mut found = BTreeMap::new();
+    for folder in crate::setup::files(post)? {
+        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if name.starts_with(WATCH) {
+            found.insert(name, numbers(&newest(&folder)?)?);
+        }
+    }
+    Ok(found)
 }
 
 /// Whether windows of 10 x 3 hold cells each, so that their means mean something.
@@ -157,5 +186,15 @@ mod tests {
         crate::write_text(&file, "0.1 nan\n").unwrap();
         assert!(numbers(&file).unwrap_err().to_string().contains("'nan'"));
         std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn displacement_by_parts_of_the_mesh() {
+        // 20 x 6 cells: u_x the column, u_y the row
+        let values: Vec<Vec<f64>> =
+            (0..120).map(|k| vec![f64::from(k % 20), f64::from(k / 20), 0.0]).collect();
+        let parts = means_in(&values, [20, 6], [10, 3]);
+        assert_eq!((parts.len(), parts[0], parts[12]), (30, [0.5, 0.5], [4.5, 2.5]));
+        assert_eq!(means_in(&values[..20], [20, 1], [10, 1])[9], [18.5, 0.0]);
     }
 }

@@ -72,6 +72,17 @@ impl Reference {
         self.results.iter().map(|r| r.sub_regions_end.column(column).unwrap_or_default()).collect()
     }
 
+    /// The same at the start.
+    pub fn sub_regions_start(&self, column: &str) -> Vec<Vec<f64>> {
+        self.results.iter().map(|r| r.sub_regions_start.column(column).unwrap_or_default()).collect()
+    }
+
+    /// Mean displacement along x of the discs that started in each sub-region [m], by packing; of those that have it.
+    pub fn displacement(&self) -> Vec<Vec<f64>> {
+        let tables = self.results.iter().filter_map(|r| r.displacement.as_ref());
+        tables.map(|table| table.column("displacement_x").unwrap_or_default()).collect()
+    }
+
     /// A column of the profile along x at the end in ten slices, by packing.
     pub fn slices(&self, column: &str) -> Vec<Vec<f64>> {
         self.results.iter().map(|r| last_profile(&r.profiles, column)).collect()

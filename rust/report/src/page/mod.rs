@@ -1,7 +1,11 @@
 //! The page: one HTML file with its figures inside, without scripts.
 
+mod beyond;
 mod chart;
+mod curves;
 mod edge;
+mod fields;
+mod states;
 mod validation;
 
 use crate::ReportError;

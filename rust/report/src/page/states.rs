@@ -1,0 +1,219 @@
+//! States that the solver asks for, on what the database knows; grains around P2.
+
+use super::{Figure, case_name};
+use crate::ReportError;
+use crate::detail::REGIONS;
+use crate::draw::{Axis, Grain, Line, Series, Style, grains, plot};
+use crate::known::{DATABASE, KnownStates};
+use crate::output::{COLUMNS, Run};
+use crate::plan::{CHARTED, FAMILIES};
+use crate::report::Made;
+use msdd_reference::results::Table;
+
+pub fn section(made: &Made) -> Result<String, ReportError> {
+    Ok(queries(made)? + &around_the_middle(made)?)
+}
+
+/// State of a sub-region: porosity, fabric index, p ℓ/(E r̄), strain since the start [-].
+type State = [f64; 4];
+/// Sub-regions drawn in colour, those of P1, P2 and P3, and their style.
+const PROBED: [(usize, &str, Style); 3] = [
+    (11, "sub-region of P1", Style { line: Line::Solid, ..STYLE }),
+    (14, "of P2", Style { colour: 2, line: Line::Dashed, ..STYLE }),
+    (18, "of P3", Style { colour: 3, line: Line::Dotted, ..STYLE }),
+];
+const STYLE: Style =
+    Style { colour: 1, marker: crate::draw::Marker::None, line: Line::Solid, hollow: false, size: 4 };
+const OTHERS: Style = Style { colour: 4, ..STYLE };
+const HULL: Style = Style { colour: 0, ..STYLE };
+
+fn column(name: &str) -> usize {
+    COLUMNS.iter().position(|c| *c == name).unwrap_or(0)
+}
+
+/// States over time of the 30 sub-regions of a run, from the start on.
+fn histories(made: &Made, run: &Run, start: &Run) -> Vec<Vec<State>> {
+    let [modulus, radius, expansion] = made.details.grains;
+    let state = |row: &[f64], first: f64| {
+        let strain = expansion * (row[column("T")] - first);
+        let reduced = row[column("pressure")] / (modulus * radius * (1.0 + strain));
+        [row[column("porosity")], row[column("fabric_index")], reduced, strain]
+    };
+    let mean =
+        made.references.first().and_then(|r| r.results.first()?.series.column("T_mean")?.first().copied());
+    let first = mean.unwrap_or(f64::NAN);
+    let mut histories: Vec<Vec<State>> = start
+        .sub_regions
+        .iter()
+        // Whatever heat one step brought: nothing has expanded.
+        .map(|row| {
+            let mut row = row.clone();
+            row[column("T")] = first;
+            vec![state(&row, first)]
+        })
+        .collect();
+    for row in run.watched.get(REGIONS).into_iter().flatten().filter(|row| row.len() == 3 + COLUMNS.len()) {
+        let k = row[1] as usize + 10 * row[2] as usize;
+        if let Some(history) = histories.get_mut(k) {
+            history.push(state(&row[3..], first));
+        }
+    }
+    histories
+}
+
+fn hull_line(hull: &[[f64; 2]]) -> Series {
+    let points = hull.iter().chain(hull.first()).map(|p| (p[0], p[1])).collect();
+    Series { points, bars: Vec::new(), style: HULL }
+}
+
+fn queries(made: &Made) -> Result<String, ReportError> {
+    let planes = [
+        ("fabric index [-]", 1, &made.known.porosity_fabric),
+        ("pressure over E r̄/ℓ [-]", 2, &made.known.porosity_pressure),
+        ("thermal strain [-]", 3, &made.known.porosity_strain),
+    ];
+    let named = |family: &str| {
+        made.report.validation.iter().find(|v| v.family == family).map(|v| v.configuration.clone())
+    };
+    let (Some(moving), Some(staying)) = (named(FAMILIES[1]), named(FAMILIES[0])) else {
+        return Ok(String::new());
+    };
+    let start = made.details.start.get(&staying).and_then(|runs| runs.first());
+    let x = Axis { label: "porosity [-]", log: false, range: None };
+    let (mut panels, mut said) = (Vec::new(), Vec::new());
+    for case in CHARTED {
+        let run = made.details.watched.get(&(case.to_string(), moving.clone())).and_then(|runs| runs.first());
+        let (Some(run), Some(start)) = (run, start) else { continue };
+        let histories = histories(made, run, start);
+        let mut shares = Vec::new();
+        for (label, k, hull) in planes {
+            let line = |history: &[State], style| Series {
+                points: history.iter().map(|s| (s[0], s[k])).collect(),
+                bars: Vec::new(),
+                style,
+            };
+            let mut series: Vec<Series> = vec![hull_line(hull)];
+            series.extend(histories.iter().map(|history| line(history, OTHERS)));
+            series.extend(PROBED.iter().filter_map(|(k, _, style)| Some(line(histories.get(*k)?, *style))));
+            let y = Axis { label, log: false, range: None };
+            panels.push(plot(
+                &format!("case {}: {}", case_name(case), label.split(" [").next().unwrap_or(label)),
+                &x,
+                &y,
+                &series,
+            )?);
+            let all: Vec<[f64; 2]> = histories.iter().flatten().map(|s| [s[0], s[k]]).collect();
+            let inside = all.iter().filter(|point| KnownStates::holds(hull, **point)).count();
+            shares.push(format!("{:.0}", 100.0 * inside as f64 / all.len().max(1) as f64));
+        }
+        let clamped = 100.0 * run.clamped_queries as f64 / run.cell_queries.max(1) as f64;
+        said.push(format!("{}: {} %, {clamped:.1} %", case_name(case), shares.join(", ")));
+    }
+    let caption = format!(
+        "Fig. 6c. What the solver asks (paper, Fig. 12): state of 10 × 3 sub-regions over 20 s, packing 1, grains that move; in each step the model is asked for the \
+         rates at these states and multiplies them by the strain of the step. Inside the line: hull of the {} thermal states of the database that bear load, those turned by \
+         90° included. Share of the states inside the three hulls, and of the queries of single cells beyond the model's own region of all its variables, where its edge is taken: {}.",
+        made.known.states,
+        said.join("; ")
+    );
+    let mut keys: Vec<(Style, String)> =
+        PROBED.iter().map(|(_, name, style)| (*style, (*name).to_string())).collect();
+    keys.push((OTHERS, "other sub-regions".to_string()));
+    keys.push((HULL, "hull of the database".to_string()));
+    let source = format!("database committed, {DATABASE}; solver measured and cached");
+    Figure { id: "queries", panels, keys, caption, source: &source }.html(made)
+}
+
+/// Grains of a table, with the largest overlap of each over its radius [%].
+fn with_overlaps(table: &Table) -> Vec<Grain> {
+    let all = |name: &str| table.column(name).unwrap_or_default();
+    let (x, y, r) = (all("x"), all("y"), all("r"));
+    let overlap = |i: usize| {
+        let with = |j: usize| if i == j { 0.0 } else { r[i] + r[j] - (x[i] - x[j]).hypot(y[i] - y[j]) };
+        (0..x.len()).map(with).fold(0.0, f64::max)
+    };
+    let grain = |i: usize| Grain { at: [x[i], y[i]], radius: r[i], value: 100.0 * overlap(i) / r[i] };
+    (0..x.len()).map(grain).collect()
+}
+
+/// Share of the window that no grain covers, by lines across it.
+fn porosity([low, high]: [[f64; 2]; 2], list: &[Grain]) -> f64 {
+    const LINES: usize = 2000;
+    let mut covered = 0.0;
+    for line in 0..LINES {
+        let y = low[1] + (high[1] - low[1]) * (line as f64 + 0.5) / LINES as f64;
+        let mut spans: Vec<[f64; 2]> = list
+            .iter()
+            .filter(|g| (g.at[1] - y).abs() < g.radius)
+            .map(|g| {
+                let half = (g.radius * g.radius - (g.at[1] - y).powi(2)).sqrt();
+                [(g.at[0] - half).max(low[0]), (g.at[0] + half).min(high[0])]
+            })
+            .collect();
+        spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut end = low[0];
+        for [from, to] in spans {
+            covered += (to - from.max(end)).max(0.0);
+            end = end.max(to);
+        }
+    }
+    1.0 - covered / LINES as f64 / (high[0] - low[0])
+}
+
+fn around_the_middle(made: &Made) -> Result<String, ReportError> {
+    let mut shown = Vec::new();
+    for case in CHARTED {
+        let result = made.references.iter().find(|r| r.case == case).and_then(|r| r.results.first());
+        let Some(found) = result.and_then(|r| r.grains.as_ref()) else { continue };
+        if shown.is_empty() {
+            shown.push(("start".to_string(), found.window, with_overlaps(&found.start)));
+        }
+        shown.push((format!("case {}, end", case_name(case)), found.window, with_overlaps(&found.end)));
+    }
+    let most = shown.iter().flat_map(|s| &s.2).map(|g| g.value).fold(0.0, f64::max).ceil();
+    let (mut panels, mut said) = (Vec::new(), Vec::new());
+    for (name, window, list) in &shown {
+        let inside = 100.0 * porosity(*window, list);
+        panels.push(grains(
+            &format!("{name}: porosity {inside:.1} %"),
+            *window,
+            list,
+            (most, "largest overlap over radius [%]"),
+        )?);
+        said.push(format!("{name} {inside:.1} %"));
+    }
+    if panels.is_empty() {
+        return Ok(String::new());
+    }
+    let caption = format!(
+        "Fig. 6d. Grains of packing 1 in a window of 120 mm around P2, before and after (paper, Fig. 13): light where they overlap. Porosity of the window: {}.",
+        said.join("; ")
+    );
+    Figure { id: "grains", panels, keys: Vec::new(), caption, source: "discrete elements committed" }
+        .html(made)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn overlaps_count_once() {
+        let grain = |x: f64| Grain { at: [x, 0.5], radius: 0.1, value: 0.0 };
+        let window = [[0.0; 2], [1.0; 2]];
+        let one = std::f64::consts::PI * 0.01;
+        assert!((porosity(window, &[grain(0.5)]) - (1.0 - one)).abs() < 1e-5);
+        assert!((porosity(window, &[grain(0.5), grain(0.5)]) - (1.0 - one)).abs() < 1e-5);
+        assert!((porosity(window, &[grain(0.0), grain(0.8)]) - (1.0 - 1.5 * one)).abs() < 1e-5);
+    }
+
+    #[test]
+    fn the_largest_overlap_of_each() {
+        let mut table = Table::new(["x", "y", "r"].map(str::to_string).to_vec());
+        for x in [0.0, 0.9, 1.7] {
+            table.push(vec![x, 0.0, 0.5]);
+        }
+        let found: Vec<f64> = with_overlaps(&table).iter().map(|g| g.value.round()).collect();
+        assert_eq!(found, [20.0, 40.0, 40.0]);
+    }
+}
