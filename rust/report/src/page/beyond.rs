@@ -49,7 +49,7 @@ fn convergence(made: &Made) -> Result<String, ReportError> {
     let y = Axis { label: "RMSE of the mean T [K]", log: true, range: None };
     let panels = vec![plot("case H, grains stay", &x, &y, &drawn)?];
     let caption = format!(
-        "Fig. 6e. Order in time (paper, Fig. 21): root mean square over 20 s of the error of the mean T with fixed steps, against second-order steps of {} ms. Fits [K, s]: {}; \
+        "Fig. #. Order in time (paper, Fig. 21): root mean square over 20 s of the error of the mean T with fixed steps, against second-order steps of {} ms. Fits [K, s]: {}; \
          the paper {factor} Δt^{order}.",
         if made.report.quick { 10 } else { 2 },
         said.join(", ")
@@ -129,7 +129,7 @@ fn other_cases(made: &Made) -> Result<String, ReportError> {
         rows.filter_map(|row| Some(format!("{} {} %", row.case, text(row.temperature.as_ref()?)))).collect()
     };
     let caption = format!(
-        "Fig. 6f. Cases that nothing was chosen on, as shipped, the same model: half of the walls of a square box hot (corner), grains of another size, density, E, k, c and α \
+        "Fig. #. Cases that nothing was chosen on, as shipped, the same model: half of the walls of a square box hot (corner), grains of another size, density, E, k, c and α \
          (material). Largest errors at P1, P2, P3, % of the range (50, 100 K): grains move {}; grains stay {}.",
         worst(WAYS[0].0).join("; "),
         worst(WAYS[1].0).join("; ")

@@ -82,7 +82,7 @@ fn figure(made: &Made, which: usize) -> Result<String, ReportError> {
     keys.push((Style::line(4, Line::Solid), "front: nothing is both cheaper and better".to_string()));
     let best: Vec<String> = charts(made).filter_map(|(case, points)| best(case, points, which)).collect();
     let caption = format!(
-        "Fig. {}. {} against cost, one point a configuration, both axes logarithmic, in % of the range ({}); hollow: extrapolated or quoted. Most accurate of \
+        "Fig. #. {} against cost, one point a configuration, both axes logarithmic, in % of the range ({}); hollow: extrapolated or quoted. Most accurate of \
          those run: {}.{}",
         which + 1,
         ["Error of T", "Error of the mean pressure"][which],

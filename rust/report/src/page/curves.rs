@@ -103,7 +103,7 @@ fn temperatures(made: &Made) -> Result<String, ReportError> {
         }
     }
     let caption = format!(
-        "Fig. 3. T at the probes (paper, Figs. 11, 17, 18): means over the packings. Largest errors at P1, P2, P3: {}.",
+        "Fig. #. T at the probes (paper, Figs. 11, 17, 18): means over the packings. Largest errors at P1, P2, P3: {}.",
         worst_temperatures(made)
     );
     Figure { id: "temperatures", panels, keys: keys(made), caption, source: SOURCE }.html(made)
@@ -139,7 +139,7 @@ fn pressures(made: &Made) -> Result<String, ReportError> {
     };
     let shown = made.report.validation.iter().filter(|v| !v.case.ends_with("star"));
     let caption = format!(
-        "Fig. 4a. Mean pressure (paper, Fig. 20). Grains at a wall lie looser, so the whole box of discs has less than its inner region, \
+        "Fig. #. Mean pressure (paper, Fig. 20). Grains at a wall lie looser, so the whole box of discs has less than its inner region, \
          two mean radii off the walls. Largest errors against the inner region and against the whole box, % of the paper's range: {}.",
         shown.filter_map(error).collect::<Vec<_>>().join("; ")
     );
@@ -226,7 +226,7 @@ fn walls(made: &Made) -> Result<String, ReportError> {
         keys.push((Style { line, ..Style::marker(colour, marker) }, name.to_string()));
     }
     let caption = format!(
-        "Fig. 4b. Normal stress on the walls over time, markers: discrete elements (force of the grains over the length of the wall), lines: solver, grains \
+        "Fig. #. Normal stress on the walls over time, markers: discrete elements (force of the grains over the length of the wall), lines: solver, grains \
          that move, in the cells at the wall. Largest difference, solver minus discrete elements [kPa]: {}.",
         said.join("; ")
     );

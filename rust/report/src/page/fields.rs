@@ -57,7 +57,7 @@ fn start_maps(made: &Made) -> Result<String, ReportError> {
         said.push(format!("{name}: {}", shown.join("; ")));
     }
     let caption = format!(
-        "Fig. 5a. The start, means over 10 × 3 sub-regions and over the packings (paper, Figs. 8 to 10). Porosity, fabric index and stress of the solver's cells \
+        "Fig. #. The start, means over 10 × 3 sub-regions and over the packings (paper, Figs. 8 to 10). Porosity, fabric index and stress of the solver's cells \
          are those of 215 mm windows of the discs, which smooth them and keep off the walls; conductivity is the model's for that state, and with the paper's \
          network the stress, too. Mean ± deviation over the sub-regions (discrete elements), rms of the difference over the mean: {}. The paper's network has the \
          affine conductivity, and is compared with that.",
@@ -98,7 +98,7 @@ fn end_maps(made: &Made) -> Result<String, ReportError> {
             panels.push(maps(&format!("case {}: {label}", case_name(&reference.case)), digits, &named)?);
         }
     }
-    let caption = "Fig. 5b. Means over 10 × 3 sub-regions at the end, and over the packings (paper, Figs. 14, 16, 19): light is \
+    let caption = "Fig. #. Means over 10 × 3 sub-regions at the end, and over the packings (paper, Figs. 14, 16, 19): light is \
                    high, one scale for the maps of a panel. K of discrete elements by the network solved."
         .to_string();
     Figure { id: "maps", panels, keys: Vec::new(), caption, source: SOURCE }.html(made)
@@ -131,7 +131,7 @@ fn profiles(made: &Made) -> Result<String, ReportError> {
         plot("case HC, stress along x", &along, &axis("σ_xx [kPa]"), &stresses)?,
         plot("case HC, displacement along x", &along, &axis("u_x [mm]"), &displacements)?,
     ];
-    let caption = "Fig. 6a. Case HC at the end, ten slices along x (paper, Fig. 15): without grains that move each slice keeps the stress of its own strain; \
+    let caption = "Fig. #. Case HC at the end, ten slices along x (paper, Fig. 15): without grains that move each slice keeps the stress of its own strain; \
                    with them σ_xx evens out up to the friction of the long walls."
         .to_string();
     Figure { id: "profiles", panels, keys: keys(made), caption, source: SOURCE }.html(made)
@@ -155,7 +155,7 @@ fn displacement_map(made: &Made) -> Result<String, ReportError> {
     let differences: Vec<f64> = cells.iter().zip(&discs).map(|(s, d)| s - d).collect();
     let scatter: Vec<f64> = statistics(&dem).iter().map(|(_, deviation)| 1e3 * deviation).collect();
     let caption = format!(
-        "Fig. 6b. Case HC at the end: displacement along x of the grains that started in each of 10 × 3 sub-regions, means over the packings (paper, Fig. 15). Largest \
+        "Fig. #. Case HC at the end: displacement along x of the grains that started in each of 10 × 3 sub-regions, means over the packings (paper, Fig. 15). Largest \
          {:.1} mm (discrete elements {:.1}); difference {:.1} mm rms, {:+.1} mm where it is largest; scatter of the packings {:.1} mm rms.",
         largest(&cells),
         largest(&discs),

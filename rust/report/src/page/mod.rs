@@ -50,7 +50,14 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
     for text in &report.left_out {
         let _ = writeln!(page, "<li>{}</li>", escape(text));
     }
-    Ok(page + "</ul>\n</body>\n</html>\n")
+    Ok(numbered(&(page + "</ul>\n</body>\n</html>\n")))
+}
+
+/// Captions begin with "Fig. #.": numbered as they follow each other.
+fn numbered(page: &str) -> String {
+    let mut parts = page.split("Fig. #.");
+    let first = parts.next().unwrap_or_default().to_string();
+    parts.enumerate().fold(first, |text, (k, part)| format!("{text}Fig. {}.{part}", k + 1))
 }
 
 /// Text as HTML.
@@ -129,6 +136,7 @@ mod tests {
     fn text_of_runs_cannot_break_the_page() {
         let html = table(&["'a", "b"], &[vec!["<script>".to_string(), "1 & 2".to_string()]]);
         assert!(html.contains("&lt;script&gt;") && html.contains("1 &amp; 2") && !html.contains("<script>"));
+        assert_eq!(numbered("a Fig. #. b Fig. #. c"), "a Fig. 1. b Fig. 2. c");
         assert_eq!(fixed(None, 2), "–");
         assert_eq!(fixed(Some(1.005), 1), "1.0");
     }

@@ -110,7 +110,7 @@ fn queries(made: &Made) -> Result<String, ReportError> {
         said.push(format!("{}: {} %, {clamped:.1} %", case_name(case), shares.join(", ")));
     }
     let caption = format!(
-        "Fig. 6c. What the solver asks (paper, Fig. 12): state of 10 × 3 sub-regions over 20 s, packing 1, grains that move; in each step the model is asked for the \
+        "Fig. #. What the solver asks (paper, Fig. 12): state of 10 × 3 sub-regions over 20 s, packing 1, grains that move; in each step the model is asked for the \
          rates at these states and multiplies them by the strain of the step. Inside the line: hull of the {} thermal states of the database that bear load, those turned by \
          90° included. Share of the states inside the three hulls, and of the queries of single cells beyond the model's own region of all its variables, where its edge is taken: {}.",
         made.known.states,
@@ -186,7 +186,7 @@ fn around_the_middle(made: &Made) -> Result<String, ReportError> {
         return Ok(String::new());
     }
     let caption = format!(
-        "Fig. 6d. Grains of packing 1 in a window of 120 mm around P2, before and after (paper, Fig. 13): light where they overlap. Porosity of the window: {}.",
+        "Fig. #. Grains of packing 1 in a window of 120 mm around P2, before and after (paper, Fig. 13): light where they overlap. Porosity of the window: {}.",
         said.join("; ")
     );
     Figure { id: "grains", panels, keys: Vec::new(), caption, source: "discrete elements committed" }
