@@ -117,8 +117,11 @@ void Foam::granularModels::rveHistory::strain
     const scalar strain
 )
 {
-    nodes_[box].box = nodes_[box].box.strained(strain);
-    ++made_;
+    if (strain != 0)
+    {
+        nodes_[box].box = nodes_[box].box.strained(strain);
+        ++made_;
+    }
 }
 
 
