@@ -364,10 +364,14 @@ fn all_answers(
     let whole = chart.iter().find(|configuration| configuration.name == name)?;
     let job = Job::Solver(whole.job(&reference.case, settings.seeds()[0]));
     let whole = settings.record(records, &job)?.run.as_ref()?;
-    let segment_run = segment.run.as_ref()?;
+    answers_ratio(whole, segment.run.as_ref()?).map(|ratio| segment.cpu_seconds * ratio)
+}
+
+/// Answers a cell of a whole run over those of a segment, each without the first; none if the segment has no other.
+fn answers_ratio(whole: &Run, segment: &Run) -> Option<f64> {
     let answers = |run: &Run| run.cell_queries.saturating_sub(run.cells) as f64 / run.cells as f64;
-    let ratio = answers(whole) / answers(segment_run);
-    ratio.is_finite().then_some(segment.cpu_seconds * ratio)
+    let ratio = answers(whole) / answers(segment);
+    ratio.is_finite().then_some(ratio)
 }
 
 /// Segments take the error of the configuration that they name.
@@ -501,4 +505,17 @@ fn left_out(quick: bool) -> Vec<String> {
         list.push("Quick: one packing, few configurations, coarse meshes, no discrete elements.");
     }
     list.into_iter().map(str::to_string).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn answers_are_counted_a_cell_without_the_first() {
+        let run = |cells, cell_queries| Run { cells, cell_queries, ..Run::default() };
+        // 20 answers a cell against 0.5.
+        assert_eq!(answers_ratio(&run(270, 21 * 270), &run(3000, 4500)), Some(40.0));
+        assert_eq!(answers_ratio(&run(270, 540), &run(3000, 3000)), None);
+    }
 }
