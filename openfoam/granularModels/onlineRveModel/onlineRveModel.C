@@ -46,7 +46,7 @@ Foam::granularModels::onlineRve::onlineRve
     (
         granularProperties::ranged
         (
-            coeffs_, "strainTolerance", 1e-3, 1e-6, 0.1
+            coeffs_, "strainTolerance", 5e-3, 1e-6, 0.1
         )
     ),
     packed_(0)
