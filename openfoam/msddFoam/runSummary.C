@@ -64,6 +64,7 @@ void Foam::runSummary::write(const label rejected) const
     const symmTensor meanK = mean(grains_.conductivity());
     const symmTensor meanStress = mean(grains_.stress());
     const scalar meanPressure = mean(grains_.pressure());
+    const granularModel::counters counts(grains_.modelCounts());
     const scalar wallSeconds = wallClock_.elapsedTime();
 
     Info<< "Steps: " << steps << ", repeated " << rejected << nl
@@ -99,7 +100,12 @@ void Foam::runSummary::write(const label rejected) const
             << "  \"model\": {\"source\": " << grains_.model().source()
             << ", \"hash\": " << string(grains_.model().hash())
             << ", \"library_version\": "
-            << string(granularModel::libraryVersion()) << "},\n"
+            << string(granularModel::libraryVersion());
+        for (const auto& item : counts)
+        {
+            os  << ", \"" << item.first.c_str() << "\": " << item.second;
+        }
+        os  << "},\n"
             << "  \"final\": {\n"
             << "    \"time\": " << time.value() << ",\n"
             << "    \"porosity\": " << meanPorosity << ",\n"

@@ -43,10 +43,6 @@ void Foam::granularState::select(const scalarField& strain)
             rows_.append(celli);
         }
     }
-    if (rows_.size() && model_->together())
-    {
-        rows_ = identity(strain.size());
-    }
 }
 
 
@@ -366,6 +362,17 @@ int64_t Foam::granularState::asked() const
 int64_t Foam::granularState::cellSteps() const
 {
     return returnReduce(cellSteps_, sumOp<int64_t>());
+}
+
+
+Foam::granularModel::counters Foam::granularState::modelCounts() const
+{
+    granularModel::counters all(model_->count());
+    for (auto& item : all)
+    {
+        item.second = returnReduce(item.second, sumOp<int64_t>());
+    }
+    return all;
 }
 
 

@@ -184,6 +184,10 @@ void Foam::granularState::writeReport() const
         << "Queries: " << queries_ << nl
         << "Cell-steps asked: " << asked() << " of " << cellSteps() << nl
         << "Clamped cell-queries: " << clampedQueries() << nl;
+    for (const auto& item : modelCounts())
+    {
+        Info<< item.first.c_str() << ": " << item.second << nl;
+    }
     if (bound_ > 0)
     {
         Info<< "Strain not asked for yet, the last step included: at most "

@@ -23,6 +23,19 @@ pub enum Known {
     Run,
     /// Run to this time [s] for the cost alone; the error is that of the configuration of this name.
     Segment(f64, String),
+    /// Run to this time [s] for the cost of an answer alone; the number of answers a cell, and the error, are those of the
+    /// configuration of this name, which is on another mesh.
+    Answers(f64, String),
+}
+
+impl Known {
+    /// The configuration whose error is taken.
+    pub fn borrowed(&self) -> Option<&str> {
+        match self {
+            Self::Run => None,
+            Self::Segment(_, name) | Self::Answers(_, name) => Some(name),
+        }
+    }
 }
 
 /// One point of the chart in some cases.
@@ -123,7 +136,8 @@ fn model(name: &str, family: &'static str, keys: &str, guess: f64) -> Configurat
 const PAPER: &str = "surrogate { model builtin:paper; }";
 const MEDIUM: &str = "surrogate { type plugin; pluginCoeffs { library plugin.so; } }";
 
-/// What validation is made of: the paper's algorithm with both networks, and with grains that move.
+/// What validation is made of: the paper's algorithm with both networks and with boxes of grains in all cells, and with grains
+/// that move.
 pub fn validated(quick: bool) -> Vec<Configuration> {
     let all: Vec<&'static str> = crate::reference::CASES.iter().map(|case| case.0).collect();
     let mut state = fixed("1e-2", 2.0).named("state network", FAMILIES[0]).only(&all);
@@ -137,7 +151,11 @@ pub fn validated(quick: bool) -> Vec<Configuration> {
         moves = moves.change(|job| job.control("deltaT 0.1;"));
         moves.guess = 2.0;
     }
-    vec![state, moves, paper]
+    let mut list = vec![state, moves, paper];
+    if !quick {
+        list.push(all_boxes().only(&all));
+    }
+    list
 }
 
 /// All points of the chart, but the discrete elements'.
@@ -201,17 +219,52 @@ pub fn chart(quick: bool) -> Vec<Configuration> {
         coarse(fixed("1e-1", 0.4).named("steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
         coarse(moving("1e-1", 2.0).named("equilibrium, steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
     ];
-    list.push(online("all cells, 10x3, one packing", "", 1e-3, 60.0).on([10, 3]));
-    list.push(online("groups, 10x3, one packing", "rvePer group;", 1e-3, 20.0).on([10, 3]));
+    list.extend(online());
     list
 }
 
-/// Boxes of grains simulated while the solver runs. Boxes are asked again after a strain of `strain`.
-fn online(name: &str, keys: &str, strain: f64, guess: f64) -> Configuration {
+/// Of all cells on coarse meshes; of cells that share boxes, with tolerances; and what all cells of the fine mesh would cost.
+fn online() -> Vec<Configuration> {
+    let mut fine = all_cells("2e-3", 150.0).named("all cells, 100x30, one packing", FAMILIES[5]);
+    fine.known = Known::Answers(0.4, all_boxes().name);
+    fine = fine.change(|mut job| {
+        job.end = 0.4;
+        job
+    });
+    let mut list = vec![
+        all_cells("1e-3", 40.0).on([10, 3]).named("all cells, 10x3, one packing", FAMILIES[5]),
+        all_boxes(),
+    ];
+    list.push(fine);
+    list.extend([("2e-2", 15.0), ("5e-3", 20.0), ("1e-3", 50.0)].map(|(tolerance, guess)| {
+        let keys = format!("rvePer history; strainTolerance {tolerance};");
+        boxes(&format!("shared, tolerance {tolerance}, 100x30, one packing"), "", &keys, guess)
+    }));
+    let few = "rvePer history; strainTolerance 5e-3; porosityTolerance 5e-3; fabricTolerance 0.1;";
+    list.push(boxes("shared, tolerance 5e-3, few packings, 100x30, one packing", "", few, 10.0));
+    list
+}
+
+/// All cells on a mesh that costs minutes; of the validation, too.
+fn all_boxes() -> Configuration {
+    all_cells("2e-3", 200.0).on([30, 9]).named("all cells, 30x9, one packing", FAMILIES[5])
+}
+
+/// A box for every cell, asked again after a strain of `strain`.
+fn all_cells(strain: &str, guess: f64) -> Configuration {
+    boxes("", &format!("smallestStrain {strain};"), "", guess)
+}
+
+/// Boxes of grains simulated while the solver runs.
+fn boxes(name: &str, keys: &str, coefficients: &str, guess: f64) -> Configuration {
     let text = format!(
-        "surrogate {{ type onlineRve; smallestStrain {strain}; onlineRveCoeffs {{ conductivity network; compression horizontal; {keys} }} }}"
+        "surrogate {{ type onlineRve; {keys} onlineRveCoeffs {{ conductivity network; compression horizontal; {coefficients} }} }}"
     );
     let mut base = model(name, FAMILIES[5], &text, guess).change(|job| job.control("deltaT 0.1;"));
+    base = base.change(|mut job| {
+        job.limit = 1800;
+        job
+    });
     // They cost as much as the rest of the chart together.
     base.packings = 1;
     base
@@ -257,8 +310,8 @@ mod tests {
     fn a_segment_names_a_configuration_that_is_run() {
         let list = chart(false);
         for configuration in &list {
-            if let Known::Segment(_, name) = &configuration.known {
-                assert!(list.iter().any(|c| &c.name == name && c.known == Known::Run), "{name}");
+            if let Some(name) = configuration.known.borrowed() {
+                assert!(list.iter().any(|c| c.name == name && c.known == Known::Run), "{name}");
             }
         }
     }

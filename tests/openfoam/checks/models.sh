@@ -54,10 +54,6 @@ online online-waits '' 'smallestStrain 0.01;'
 logged msddFoam
 check "onlineRve: asked less with smallestStrain" \
     test "$(number cell_queries)" -lt "$(cd "$work/online-cell" && number cell_queries)"
-online online-group 'rvePer group;' ''
-logged msddFoam
-check "onlineRve: one box for a group" grep -q '"boxes": 1,' 0.2/onlineRve.json
-check "onlineRve: cells of a group are alike" test "$(field 0.2/porosity | sort -u | wc -l)" = 1
 
 changed waits # increments are summed, not lost
 grains 'surrogate { smallestStrain 1e-3; }'
