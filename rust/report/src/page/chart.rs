@@ -84,7 +84,6 @@ fn figure(made: &Made, which: usize) -> Result<String, ReportError> {
     let caption = format!(
         "Fig. #. {} against cost, one point a configuration, both axes logarithmic, in % of the range ({}); hollow: extrapolated or quoted. Most accurate of \
          those run: {}.{}",
-        which + 1,
         ["Error of T", "Error of the mean pressure"][which],
         ["50 K; HC 100 K", "the paper's: H 3.2, C 2.2, HC 3.8 kPa"][which],
         best.join("; "),
