@@ -273,7 +273,33 @@ void Foam::granularState::commit()
         stressXX_[celli] = askedXX_[row];
         stressYY_[celli] = askedYY_[row];
         lastStrain_[celli] = strain_[row];
+        strainPath_[celli] += mag(strain_[row]);
         waiting[celli] = 0;
+    }
+    reportPath();
+}
+
+
+void Foam::granularState::reportPath()
+{
+    const scalar longest = model_->longestStrainPath();
+    if (pathReported_ || longest == GREAT)
+    {
+        return;
+    }
+    bool beyond = false;
+    for (const label celli : rows_)
+    {
+        beyond = beyond || strainPath_[celli] > longest;
+    }
+    if (returnReduce(beyond, orOp<bool>()))
+    {
+        pathReported_ = true;
+        WarningInFunction
+            << "At time " << mesh_.time().timeName()
+            << " cells have gone through thermal strains of " << longest
+            << " to and fro, as far as the ramps that the model was trained on:"
+            << " the anisotropy of conductivity and stress may drift" << endl;
     }
 }
 
@@ -293,6 +319,7 @@ Foam::granularState::memory Foam::granularState::remember() const
     now.increment = thermalStrainIncrement_.primitiveField();
     now.strain = thermalStrain_.primitiveField();
     now.lastStrain = lastStrain_;
+    now.strainPath = strainPath_;
     now.queries = queries_;
     now.asked = asked_;
     now.cellSteps = cellSteps_;
@@ -314,6 +341,7 @@ void Foam::granularState::restore(const memory& before)
     thermalStrainIncrement_.primitiveFieldRef() = before.increment;
     thermalStrain_.primitiveFieldRef() = before.strain;
     lastStrain_ = before.lastStrain;
+    strainPath_ = before.strainPath;
     queries_ = before.queries;
     asked_ = before.asked;
     cellSteps_ = before.cellSteps;

@@ -142,6 +142,7 @@ Foam::granularState::granularState
     ),
     refreshAlways_(false),
     deviator_(-1),
+    pathReported_(false),
     queries_(0),
     asked_(0),
     cellSteps_(0),
@@ -316,8 +317,8 @@ void Foam::granularState::allocate()
     (
         scalarField* column :
         {
-            &stressXX_, &stressYY_, &lastStrain_, &nextIncrement_,
-            &nextStrain_, &strain_, &halfStrain_, &total_, &zero_,
+            &stressXX_, &stressYY_, &lastStrain_, &strainPath_,
+            &nextIncrement_, &nextStrain_, &strain_, &halfStrain_, &total_, &zero_,
             &askedXX_, &askedYY_, &stressXY_
         }
     )
@@ -377,6 +378,7 @@ void Foam::granularState::askStart()
 
     // What the cells were last asked for is not known after a restart
     lastStrain_ = restarted ? 1 : 0;
+    strainPath_ = 0;
 }
 
 

@@ -81,3 +81,14 @@ for case in "corner corner_seed11 50" "material material_seed12 100"; do
     e=$(against_discs "$2" "$3")
     check "$1: T against 15 000 discs $e <= 1 % of the range" below "$e" 1
 done
+
+# Ten cycles: p comes back within 2 % of what it was after the first; what drifts is reported
+rm -rf "${work:?}/cycle"
+cp -r "$checkout/cases/cycle" "$work/cycle"
+cd "$work/cycle"
+sed -i "s#\.\./\.\./common#$checkout/cases/common#" 0/* constant/granularProperties system/*
+logged blockMesh
+logged msddFoam
+e=$(awk '!/^#/ && ($1 == 8 || $1 == 48) { p[$1] = $2 } END { print p[48]/p[8] - 1 }' postProcessing/wallPressure/0/wallPressure.dat)
+check "cycle: after six cycles p is that after one, to $e, within 0.01" below "$(awk "BEGIN { print ($e)^2 }")" 1e-4
+check "cycle: strains to and fro are reported" grep -q "gone through thermal strains of 0.1 to and fro" log.msddFoam

@@ -13,7 +13,7 @@ pub const PERIOD: f64 = 8.0;
 pub const COUNT: usize = 10;
 const SEEDS: [u32; 3] = [21, 22, 23];
 
-fn job(mechanics: &str) -> SolverJob {
+pub fn job(mechanics: &str) -> SolverJob {
     let mut job = SolverJob::new("cycle", 1).grains(&format!("mechanics {mechanics};"));
     job.part = Part::Shipped;
     job.end = PERIOD * COUNT as f64;

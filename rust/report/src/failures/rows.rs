@@ -219,6 +219,13 @@ fn numbers() -> Vec<Edge> {
             REFUSED,
             stepped("0.1").grains("heatCapacity 1e-300;"),
         ),
+        edge(
+            "cycles",
+            "case cycle: ten of 20 K to and fro",
+            "anisotropy drifts: says so",
+            REPORTED,
+            super::cycles::job("equilibrium"),
+        ),
         edge("slanted cells", "60 degrees", "goes on", DONE, lean(60.0)),
         edge("slanted cells", "80 degrees, beyond 70", "goes on, says so", REPORTED, lean(80.0)),
     ]

@@ -23,7 +23,8 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
 }
 
 /// Lines of the configurations that were validated, in order.
-pub const LINES: [(Line, usize); 4] = [(Line::Solid, 1), (Line::Dashed, 2), (Line::Dotted, 3), (Line::Dashed, 5)];
+pub const LINES: [(Line, usize); 4] =
+    [(Line::Solid, 1), (Line::Dashed, 2), (Line::Dotted, 3), (Line::Dashed, 5)];
 
 pub fn configurations(made: &Made) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();

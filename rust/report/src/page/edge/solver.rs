@@ -4,6 +4,9 @@ use super::{Axis, Figure, Line, Marker, Style, from_data, plot, series};
 use crate::ReportError;
 use crate::report::Made;
 
+/// A panel, its keys, and what the caption says of it.
+type Part = (String, Vec<(Style, String)>, String);
+
 pub fn coupling(made: &Made) -> Result<String, ReportError> {
     let all = &made.report.failures.coupling;
     if all.is_empty() {
@@ -79,7 +82,7 @@ pub fn discretisation(made: &Made) -> Result<String, ReportError> {
     Figure { id: "discretisation", panels, keys, caption, source: "measured and cached" }.html(made)
 }
 
-fn slant(made: &Made) -> Result<(String, Vec<(Style, String)>, String), ReportError> {
+fn slant(made: &Made) -> Result<Part, ReportError> {
     let rows = &made.report.failures.slant;
     let looks = [
         ([50, 15], 0, Style { line: Line::Solid, ..Style::marker(5, Marker::Diamond) }),
