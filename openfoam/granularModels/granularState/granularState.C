@@ -287,10 +287,12 @@ void Foam::granularState::reportPath()
     {
         return;
     }
+    // A path without return is no more than the strain in all
+    const scalarField& total = thermalStrain_.primitiveField();
     bool beyond = false;
     for (const label celli : rows_)
     {
-        beyond = beyond || strainPath_[celli] > longest;
+        beyond = beyond || strainPath_[celli] - mag(total[celli]) > longest;
     }
     if (returnReduce(beyond, orOp<bool>()))
     {
