@@ -12,7 +12,7 @@ use msdd_rve::{
 use msdd_surrogate::models;
 use msdd_surrogate::surrogate::{Known, Surrogate};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 #[command(
@@ -48,7 +48,7 @@ const STOP: f64 = -0.005;
 const INCREMENTS: usize = 200;
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let models = arguments.model.iter().map(read_model).collect::<Result<Vec<_>, CliError>>()?;
+    let models = arguments.model.iter().map(|file| read_model(file)).collect::<Result<Vec<_>, CliError>>()?;
     let count = arguments.packings;
     let mut progress = Progress::new("packings", count);
     let (mut rates, mut balances, mut speeds, mut unjamming) = (vec![], vec![], vec![], vec![]);
@@ -77,8 +77,8 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     Ok(())
 }
 
-fn read_model(file: &PathBuf) -> Result<Box<dyn Surrogate>, CliError> {
-    models::read(&read_text(file)?).map_err(|source| CliError::Model { file: file.clone(), source })
+fn read_model(file: &Path) -> Result<Box<dyn Surrogate>, CliError> {
+    models::read(&read_text(file)?).map_err(|source| CliError::Model { file: file.to_path_buf(), source })
 }
 
 fn packed(seed: u64, wall_speed: f64) -> Result<Packed, CliError> {
