@@ -4,6 +4,7 @@ use super::{Cycles, Failures};
 use crate::compare::at;
 use crate::job::{Job, Part, SolverJob};
 use crate::pool::Records;
+use crate::read_text;
 use crate::reference::{Reference, statistics};
 use crate::report::Settings;
 use std::path::Path;
@@ -32,11 +33,22 @@ pub fn read(settings: &Settings, records: &Records) -> Vec<Cycles> {
     {
         let record = settings.record(records, &job(mechanics).into());
         if let Some(run) = record.and_then(|record| record.run.as_ref()) {
-            list.push(Cycles::new(name, &run.pressure));
+            let start = start(&settings.place.checkout).map(|pressure| [0.0, pressure]);
+            // The solver writes no value at the start.
+            let series: Vec<[f64; 2]> = start.into_iter().chain(run.pressure.iter().copied()).collect();
+            list.push(Cycles::new(name, &series));
         }
     }
     list.extend(elements(&settings.place.checkout));
     list
+}
+
+/// Mean of σ_xx and σ_yy in the case's initial stress [Pa]: "uniform (-3496 0 0 -1922 0 0)", tension positive.
+fn start(checkout: &Path) -> Option<f64> {
+    let text = read_text(&checkout.join("cases/cycle/0/stress")).ok()?;
+    let (_, rest) = text.split_once("uniform (")?;
+    let components: Vec<f64> = rest.split_whitespace().map_while(|word| word.parse().ok()).collect();
+    Some(-0.5 * (components.first()? + components.get(3)?))
 }
 
 fn elements(checkout: &Path) -> Option<Cycles> {
@@ -65,5 +77,17 @@ impl Failures {
         let (run, discs) = (of(name)?, of("discs")?);
         let differences = run.stops.iter().zip(&discs.stops).map(|(a, b)| 100.0 * (a - b).abs());
         Some(differences.fold(0.0, f64::max))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_case_says_at_which_pressure_it_starts() {
+        let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        assert_eq!(start(&checkout), Some(2709.0));
+        assert_eq!(elements(&checkout).map(|cycles| cycles.stops.len()), Some(4 * COUNT + 1));
     }
 }
