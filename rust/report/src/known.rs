@@ -1,12 +1,12 @@
-//! Where models know the material: the thermal states of the shipped database.
+//! Where the shipped state model knows the material: the thermal states of its database.
 
 use crate::ReportError;
 use msdd_rve::database::{Kind, read};
 use msdd_rve::region::Polygon;
 use std::path::Path;
 
-/// The shipped database.
-pub const DATABASE: &str = "cases/database/full.csv.gz";
+/// That of the shipped state model.
+pub const DATABASE: &str = "cases/database/periodic.csv.gz";
 
 /// Convex hulls of the states that bear load, with those turned by 90° (f with the other sign), by which models are trained.
 #[derive(Clone, Debug, Default)]

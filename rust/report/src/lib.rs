@@ -22,6 +22,7 @@
 //! | [`known`] | states of the database |
 //! | [`economy`] | what each case needs |
 //! | [`failures`] | where methods break, and what the program does there |
+//! | [`targets`] | what the validation is to reach |
 //! | [`report`] | all of it as data: the JSON |
 //! | [`draw`] | figures as SVG |
 //! | [`page`] | the page |
@@ -49,6 +50,7 @@ pub mod report;
 pub mod sensitivity;
 pub mod setup;
 pub mod solver_table;
+pub mod targets;
 
 use std::path::{Path, PathBuf};
 

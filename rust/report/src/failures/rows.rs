@@ -72,7 +72,7 @@ fn walls(job: SolverJob, kelvin: &str) -> SolverJob {
 
 /// In the order of the table.
 pub fn edges(quick: bool) -> Vec<Edge> {
-    [coupling(), region(), unjamming(), equilibrium(), numbers(), elements(quick)]
+    [coupling(), region(), unjamming(), equilibrium(), numbers(), scenes(), elements(quick)]
         .into_iter()
         .flatten()
         .collect()
@@ -196,7 +196,6 @@ fn equilibrium() -> Vec<Edge> {
 /// Numbers that no material has. OpenFOAM's floating-point traps are on in all runs of this report.
 fn numbers() -> Vec<Edge> {
     let indefinite = "surrogate { type constant; constantCoeffs { conductivity (10 20 0 10 0 10); } }";
-    let lean = |angle: f64| super::solver::slanted(angle, [50, 15], 0);
     vec![
         edge(
             "conductivity",
@@ -219,6 +218,13 @@ fn numbers() -> Vec<Edge> {
             REFUSED,
             stepped("0.1").grains("heatCapacity 1e-300;"),
         ),
+    ]
+}
+
+/// Scenes that a mesh or a model was not made for.
+fn scenes() -> Vec<Edge> {
+    let lean = |angle: f64| super::solver::slanted(angle, [50, 15], 0);
+    vec![
         edge(
             "cycles",
             "case cycle: ten of 20 K to and fro",
