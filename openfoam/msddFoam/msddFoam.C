@@ -39,8 +39,10 @@ Usage
     Writes  T, porosity, fabricIndex, conductivity, stress (tension positive),
             pressure (compression positive), bulkDensity, particleDensity,
             thermalStrain, inRegion, spread if the model knows; for restarts
-            initialTemperature, thermalStrainIncrement, the rest of the model's
-            state and uniform/msddFoam;
+            initialTemperature, thermalStrainIncrement, leastThermalStrain and
+            mostThermalStrain (the range that a cell's grains have been strained
+            to and back, for networks), the rest of the model's state and
+            uniform/msddFoam;
             postProcessing/msddFoam/summary.json, and offenders.json if cells
             were outside the model's region
 

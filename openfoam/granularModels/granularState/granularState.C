@@ -66,6 +66,20 @@ void Foam::granularState::gather
         strain_[row] = strain[rows_[row]];
         total_[row] = total[rows_[row]];
     }
+    if (mostStrain_.valid())
+    {
+        const scalarField& least = leastStrain_().primitiveField();
+        const scalarField& most = mostStrain_().primitiveField();
+        forAll(rows_, row)
+        {
+            const scalar after = total_[row];
+            const scalar beyond =
+                max(max(after - most[rows_[row]], least[rows_[row]] - after), 0);
+            const scalar change =
+                mag(after - ((1 + after)/(1 + strain_[row]) - 1));
+            virginShare_[row] = beyond < change ? beyond/change : 1;
+        }
+    }
 }
 
 
@@ -85,6 +99,7 @@ Foam::label Foam::granularState::ask
     query.nextState = to.pointers.cdata();
     query.strain = strain.cdata();
     query.totalStrain = total_.cdata();
+    query.virginShare = mostStrain_.valid() ? virginShare_.cdata() : nullptr;
     query.conductivityXX = askedK_.xx.data();
     query.conductivityYY = askedK_.yy.data();
     query.conductivityXY = askedK_.xy.empty() ? nullptr : askedK_.xy.data();
@@ -273,35 +288,18 @@ void Foam::granularState::commit()
         stressXX_[celli] = askedXX_[row];
         stressYY_[celli] = askedYY_[row];
         lastStrain_[celli] = strain_[row];
-        strainPath_[celli] += mag(strain_[row]);
         waiting[celli] = 0;
     }
-    reportPath();
-}
-
-
-void Foam::granularState::reportPath()
-{
-    const scalar longest = model_->longestStrainPath();
-    if (pathReported_ || longest == GREAT)
+    if (mostStrain_.valid())
     {
-        return;
-    }
-    // A path without return is no more than the strain in all
-    const scalarField& total = thermalStrain_.primitiveField();
-    bool beyond = false;
-    for (const label celli : rows_)
-    {
-        beyond = beyond || strainPath_[celli] - mag(total[celli]) > longest;
-    }
-    if (returnReduce(beyond, orOp<bool>()))
-    {
-        pathReported_ = true;
-        WarningInFunction
-            << "At time " << mesh_.time().timeName()
-            << " cells have gone through thermal strains of " << longest
-            << " to and fro, as far as the ramps that the model was trained on:"
-            << " the anisotropy of conductivity and stress may drift" << endl;
+        scalarField& least = leastStrain_().primitiveFieldRef();
+        scalarField& most = mostStrain_().primitiveFieldRef();
+        forAll(rows_, row)
+        {
+            const label celli = rows_[row];
+            least[celli] = min(least[celli], total_[row]);
+            most[celli] = max(most[celli], total_[row]);
+        }
     }
 }
 
@@ -321,7 +319,11 @@ Foam::granularState::memory Foam::granularState::remember() const
     now.increment = thermalStrainIncrement_.primitiveField();
     now.strain = thermalStrain_.primitiveField();
     now.lastStrain = lastStrain_;
-    now.strainPath = strainPath_;
+    if (mostStrain_.valid())
+    {
+        now.least = leastStrain_().primitiveField();
+        now.most = mostStrain_().primitiveField();
+    }
     now.queries = queries_;
     now.asked = asked_;
     now.cellSteps = cellSteps_;
@@ -343,7 +345,11 @@ void Foam::granularState::restore(const memory& before)
     thermalStrainIncrement_.primitiveFieldRef() = before.increment;
     thermalStrain_.primitiveFieldRef() = before.strain;
     lastStrain_ = before.lastStrain;
-    strainPath_ = before.strainPath;
+    if (mostStrain_.valid())
+    {
+        leastStrain_().primitiveFieldRef() = before.least;
+        mostStrain_().primitiveFieldRef() = before.most;
+    }
     queries_ = before.queries;
     asked_ = before.asked;
     cellSteps_ = before.cellSteps;

@@ -103,6 +103,11 @@ void Foam::granularState::refresh()
     }
     thermalStrain_.correctBoundaryConditions();
     thermalStrainIncrement_.correctBoundaryConditions();
+    if (mostStrain_.valid())
+    {
+        leastStrain_().correctBoundaryConditions();
+        mostStrain_().correctBoundaryConditions();
+    }
     conductivity_.correctBoundaryConditions();
     stress_.correctBoundaryConditions();
     pressure_.correctBoundaryConditions();

@@ -142,7 +142,6 @@ Foam::granularState::granularState
     ),
     refreshAlways_(false),
     deviator_(-1),
-    pathReported_(false),
     queries_(0),
     asked_(0),
     cellSteps_(0),
@@ -159,6 +158,7 @@ Foam::granularState::granularState
 
     readState();
     allocate();
+    findExtremes();
     if (!bulkDensity_.typeHeaderOk<volScalarField>(true))
     {
         setInitialBulkDensity();
@@ -317,9 +317,9 @@ void Foam::granularState::allocate()
     (
         scalarField* column :
         {
-            &stressXX_, &stressYY_, &lastStrain_, &strainPath_,
-            &nextIncrement_, &nextStrain_, &strain_, &halfStrain_, &total_, &zero_,
-            &askedXX_, &askedYY_, &stressXY_
+            &stressXX_, &stressYY_, &lastStrain_,
+            &nextIncrement_, &nextStrain_, &strain_, &halfStrain_, &total_,
+            &virginShare_, &zero_, &askedXX_, &askedYY_, &stressXY_
         }
     )
     {
@@ -331,6 +331,29 @@ void Foam::granularState::allocate()
     half_.setSize(count, cells);
     after_.setSize(count, cells);
     outside_.setSize(count + 1, cells);
+}
+
+
+void Foam::granularState::findExtremes()
+{
+    if (!model_->wantsVirginShare())
+    {
+        return;
+    }
+    const auto found = [&](const word& name)
+    {
+        return new volScalarField
+        (
+            io(name, IOobject::READ_IF_PRESENT),
+            mesh_,
+            dimensionedScalar(dimless, Zero),
+            extrapolatedCalculatedFvPatchScalarField::typeName
+        );
+    };
+    leastStrain_.reset(found("leastThermalStrain"));
+    mostStrain_.reset(found("mostThermalStrain"));
+    checkField(leastStrain_(), dimless, -1, GREAT);
+    checkField(mostStrain_(), dimless, -1, GREAT);
 }
 
 
@@ -371,14 +394,19 @@ void Foam::granularState::askStart()
         policy_.refuseCut();
     }
 
-    // What the cells wait for after a restart is not part of this question
-    const scalarField waiting(thermalStrainIncrement_.primitiveField());
+    // What the cells wait for after a restart is not part of this question,
+    // and the temperature has it already
+    const memory before(remember());
     commit();
-    thermalStrainIncrement_.primitiveFieldRef() = waiting;
+    thermalStrainIncrement_.primitiveFieldRef() = before.increment;
+    if (mostStrain_.valid())
+    {
+        leastStrain_().primitiveFieldRef() = before.least;
+        mostStrain_().primitiveFieldRef() = before.most;
+    }
 
     // What the cells were last asked for is not known after a restart
     lastStrain_ = restarted ? 1 : 0;
-    strainPath_ = 0;
 }
 
 

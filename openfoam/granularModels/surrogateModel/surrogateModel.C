@@ -161,6 +161,7 @@ Foam::label Foam::granularModels::surrogateModel::advance(const query& cells)
     batch.next_state = cells.nextState;
     batch.thermal_strain = cells.strain;
     batch.total_thermal_strain = cells.totalStrain;
+    batch.virgin_share = cells.virginShare;
     batch.conductivity_xx = cells.conductivityXX;
     batch.conductivity_yy = cells.conductivityYY;
     batch.stress_xx = cells.stressXX;

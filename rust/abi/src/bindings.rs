@@ -52,6 +52,7 @@ pub struct msdd_batch {
     pub total_thermal_strain: *const f64,
     pub strain_xx: *const f64,
     pub strain_yy: *const f64,
+    pub virgin_share: *const f64,
     pub next_state: *const *mut f64,
     pub conductivity_xx: *mut f64,
     pub conductivity_yy: *mut f64,
@@ -69,7 +70,7 @@ pub struct msdd_batch {
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_batch"][::core::mem::size_of::<msdd_batch>() - 168usize];
+    ["Size of msdd_batch"][::core::mem::size_of::<msdd_batch>() - 176usize];
     ["Alignment of msdd_batch"][::core::mem::align_of::<msdd_batch>() - 8usize];
     [
         "Offset of field: msdd_batch::struct_size",
@@ -93,47 +94,50 @@ const _: () = {
         "Offset of field: msdd_batch::strain_yy",
     ][::core::mem::offset_of!(msdd_batch, strain_yy) - 48usize];
     [
+        "Offset of field: msdd_batch::virgin_share",
+    ][::core::mem::offset_of!(msdd_batch, virgin_share) - 56usize];
+    [
         "Offset of field: msdd_batch::next_state",
-    ][::core::mem::offset_of!(msdd_batch, next_state) - 56usize];
+    ][::core::mem::offset_of!(msdd_batch, next_state) - 64usize];
     [
         "Offset of field: msdd_batch::conductivity_xx",
-    ][::core::mem::offset_of!(msdd_batch, conductivity_xx) - 64usize];
+    ][::core::mem::offset_of!(msdd_batch, conductivity_xx) - 72usize];
     [
         "Offset of field: msdd_batch::conductivity_yy",
-    ][::core::mem::offset_of!(msdd_batch, conductivity_yy) - 72usize];
+    ][::core::mem::offset_of!(msdd_batch, conductivity_yy) - 80usize];
     [
         "Offset of field: msdd_batch::stress_xx",
-    ][::core::mem::offset_of!(msdd_batch, stress_xx) - 80usize];
+    ][::core::mem::offset_of!(msdd_batch, stress_xx) - 88usize];
     [
         "Offset of field: msdd_batch::stress_yy",
-    ][::core::mem::offset_of!(msdd_batch, stress_yy) - 88usize];
+    ][::core::mem::offset_of!(msdd_batch, stress_yy) - 96usize];
     [
         "Offset of field: msdd_batch::c11",
-    ][::core::mem::offset_of!(msdd_batch, c11) - 96usize];
+    ][::core::mem::offset_of!(msdd_batch, c11) - 104usize];
     [
         "Offset of field: msdd_batch::c22",
-    ][::core::mem::offset_of!(msdd_batch, c22) - 104usize];
+    ][::core::mem::offset_of!(msdd_batch, c22) - 112usize];
     [
         "Offset of field: msdd_batch::c12",
-    ][::core::mem::offset_of!(msdd_batch, c12) - 112usize];
+    ][::core::mem::offset_of!(msdd_batch, c12) - 120usize];
     [
         "Offset of field: msdd_batch::porosity_rate",
-    ][::core::mem::offset_of!(msdd_batch, porosity_rate) - 120usize];
+    ][::core::mem::offset_of!(msdd_batch, porosity_rate) - 128usize];
     [
         "Offset of field: msdd_batch::fabric_index_rate",
-    ][::core::mem::offset_of!(msdd_batch, fabric_index_rate) - 128usize];
+    ][::core::mem::offset_of!(msdd_batch, fabric_index_rate) - 136usize];
     [
         "Offset of field: msdd_batch::clamped",
-    ][::core::mem::offset_of!(msdd_batch, clamped) - 136usize];
+    ][::core::mem::offset_of!(msdd_batch, clamped) - 144usize];
     [
         "Offset of field: msdd_batch::outside",
-    ][::core::mem::offset_of!(msdd_batch, outside) - 144usize];
+    ][::core::mem::offset_of!(msdd_batch, outside) - 152usize];
     [
         "Offset of field: msdd_batch::spread",
-    ][::core::mem::offset_of!(msdd_batch, spread) - 152usize];
+    ][::core::mem::offset_of!(msdd_batch, spread) - 160usize];
     [
         "Offset of field: msdd_batch::clamped_cells",
-    ][::core::mem::offset_of!(msdd_batch, clamped_cells) - 160usize];
+    ][::core::mem::offset_of!(msdd_batch, clamped_cells) - 168usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -334,10 +338,11 @@ pub struct msdd_plugin_step {
     pub stress_xx: *mut f64,
     pub stress_yy: *mut f64,
     pub outside: *const *mut f64,
+    pub virgin_share: *const f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_plugin_step"][::core::mem::size_of::<msdd_plugin_step>() - 80usize];
+    ["Size of msdd_plugin_step"][::core::mem::size_of::<msdd_plugin_step>() - 88usize];
     [
         "Alignment of msdd_plugin_step",
     ][::core::mem::align_of::<msdd_plugin_step>() - 8usize];
@@ -371,6 +376,9 @@ const _: () = {
     [
         "Offset of field: msdd_plugin_step::outside",
     ][::core::mem::offset_of!(msdd_plugin_step, outside) - 72usize];
+    [
+        "Offset of field: msdd_plugin_step::virgin_share",
+    ][::core::mem::offset_of!(msdd_plugin_step, virgin_share) - 80usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]

@@ -31,7 +31,7 @@ Batch = struct(
     "Batch",
     ("cells", c.c_size_t),
     ("state", c.POINTER(Doubles)),
-    *columns("thermal_strain", "total_thermal_strain", "strain_xx", "strain_yy"),
+    *columns("thermal_strain", "total_thermal_strain", "strain_xx", "strain_yy", "virgin_share"),
     ("next_state", c.POINTER(Doubles)),
     *columns("conductivity_xx", "conductivity_yy", "stress_xx", "stress_yy"),
     *columns("c11", "c22", "c12", "porosity_rate", "fabric_index_rate"),

@@ -87,6 +87,9 @@ typedef struct msdd_batch {
     const double *total_thermal_strain; /**< alpha (T - T0), this step included; NULL = 0 everywhere */
     const double *strain_xx;            /**< mechanical strain of the cell along x, after the thermal one; NULL = 0 */
     const double *strain_yy;            /**< the same along y; either needs a model that has a tangent */
+    const double *virgin_share;         /**< share of thermal_strain, 0 to 1, by which the total leads beyond all totals that
+                                             the cell has had before: grains slide in virgin strains, and hardly when
+                                             strained back and again as far; NULL = 1 everywhere */
     /* out; any of them may be NULL when not wanted, and so may single columns */
     double *const *next_state;          /**< state columns after the step */
     double *conductivity_xx;            /**< K_xx after the step [W/(m K)] */
@@ -286,6 +289,7 @@ typedef struct msdd_plugin_step {
     double *stress_yy;
     double *const *outside;       /**< out: state_size + 1 columns, as in msdd_batch; all 0 before the call, so that one
                                        without limits leaves them */
+    const double *virgin_share;   /**< in: as in msdd_batch; NULL = 1 everywhere */
 } msdd_plugin_step;
 
 /** Mechanical tangent, as in msdd_batch, reduced as the stress is. */

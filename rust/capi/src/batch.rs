@@ -8,7 +8,7 @@ use crate::si::Si;
 use crate::status::Failure;
 use msdd_surrogate::Surrogate;
 use msdd_surrogate::kernel::{LANES, Lanes};
-use msdd_surrogate::surrogate::{Answer, MAX_STATE, StateLanes};
+use msdd_surrogate::surrogate::{Answer, MAX_STATE, StateLanes, VIRGIN};
 
 /// Columns of a batch.
 pub(crate) struct Columns<'a> {
@@ -18,6 +18,7 @@ pub(crate) struct Columns<'a> {
     total_thermal_strain: Option<Input<'a>>,
     /// Mechanical strains along x and y.
     strain: [Option<Input<'a>>; 2],
+    virgin_share: Option<Input<'a>>,
     next_state: Vec<Output<f64>>,
     conductivity: [Output<f64>; 2],
     stress: [Output<f64>; 2],
@@ -90,6 +91,7 @@ impl<'a> Columns<'a> {
                 thermal_strain: Input::new("thermal_strain", batch.thermal_strain, cells)?,
                 total_thermal_strain: optional("total_thermal_strain", batch.total_thermal_strain)?,
                 strain: [optional("strain_xx", batch.strain_xx)?, optional("strain_yy", batch.strain_yy)?],
+                virgin_share: optional("virgin_share", batch.virgin_share)?,
                 next_state: several("next_state", batch.next_state, names.len())?,
                 conductivity: [output(batch.conductivity_xx), output(batch.conductivity_yy)],
                 stress: [output(batch.stress_xx), output(batch.stress_yy)],
@@ -111,7 +113,10 @@ impl<'a> Columns<'a> {
 
     fn check(&self, name: &str, has_tangent: bool) -> Result<(), Failure> {
         let inputs = self.state.iter().chain([&self.thermal_strain]).chain(&self.total_thermal_strain);
-        inputs.chain(self.strain.iter().flatten()).try_for_each(Input::check_finite)?;
+        inputs
+            .chain(self.strain.iter().flatten())
+            .chain(&self.virgin_share)
+            .try_for_each(Input::check_finite)?;
         let range = |column: &Input, low: f64, high: f64, allowed: &str| {
             let Some(cell) = column.position(|value| value <= low || value > high) else { return Ok(()) };
             Err(Failure::argument(format!("{}[{cell}]", column.name), column.at(cell), allowed))
@@ -121,6 +126,10 @@ impl<'a> Columns<'a> {
         }
         for column in self.strain.iter().flatten() {
             range(column, -LARGEST_STEP, LARGEST_STEP, "above -0.2, to 0.2")?;
+        }
+        if let Some(column) = &self.virgin_share {
+            // The lower end belongs to it.
+            range(column, -f64::MIN_POSITIVE, 1.0, "0 to 1")?;
         }
         if !has_tangent && (self.deforms() || self.tangent.iter().any(Output::is_wanted)) {
             let wanted = "strain_xx, strain_yy, c11, c22, c12, porosity_rate, fabric_index_rate";
@@ -146,10 +155,11 @@ impl<'a> Columns<'a> {
         }
         let total = lanes_or_zero(&self.total_thermal_strain);
         let strain = [0, 1].map(|k| lanes_or_zero(&self.strain[k]));
-        model.block_into(&state, &self.thermal_strain.lanes(first), answer);
+        let virgin = self.virgin_share.map_or(VIRGIN, |column| column.lanes(first));
+        model.block_into(&state, &self.thermal_strain.lanes(first), &virgin, answer);
         if self.deforms() {
             let (deformed, outside) = (model.deformed(&answer.state, &strain), answer.outside);
-            model.block_into(&deformed, &[0.0; LANES], answer);
+            model.block_into(&deformed, &[0.0; LANES], &VIRGIN, answer);
             answer.outside = outside;
         }
         let outside = answer.lanes_outside();

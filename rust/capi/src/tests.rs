@@ -124,6 +124,7 @@ impl Cells {
             total_thermal_strain: self.total.as_ptr(),
             strain_xx: null(),
             strain_yy: null(),
+            virgin_share: null(),
             next_state: next.as_ptr(),
             conductivity_xx,
             conductivity_yy,
@@ -212,6 +213,31 @@ fn a_state_may_advance_in_place() {
     assert_eq!(status, MSDD_OK);
     assert_eq!(shared.state, apart.next);
     assert_eq!(shared.outputs, apart.outputs);
+}
+
+#[test]
+fn virgin_strains_slide_and_others_hardly() {
+    let handle = Handle::builtin();
+    let with = |share: Option<f64>| {
+        let mut cells = Cells::new(&handle, 19);
+        let column = share.map(|share| vec![share; 19]);
+        let status = cells.with_batch(|batch| {
+            batch.virgin_share = column.as_ref().map_or(null(), |column| column.as_ptr());
+            // SAFETY: live handle, full structs, columns of `cells` values.
+            unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
+        });
+        assert_eq!(status, MSDD_OK, "{}", last_error());
+        cells.next
+    };
+    let [all, half, none] = [1.0, 0.5, 0.0].map(|share| with(Some(share)));
+    assert_eq!(with(None), all);
+    // Porosity and pressure do not know the difference; fabric index, f_K and deviator do.
+    assert!(none[0] == all[0] && none[2] == all[2]);
+    for column in [1, 3, 4] {
+        let cell = 3;
+        let [all, half, none] = [&all, &half, &none].map(|next| next[column][cell]);
+        assert!((none - all).abs() > 1e-8 && (half - 0.5 * (all + none)).abs() < 1e-12, "{column}");
+    }
 }
 
 #[test]

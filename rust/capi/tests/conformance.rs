@@ -154,6 +154,12 @@ fn bad_numbers_are_refused_with_column_and_index_and_nothing_is_written() {
         refused(name, model, &strain, non_finite, "thermal_strain[8] = NaN is not finite");
         let total = |c: &mut Cells| c.total[0] = -1.5;
         refused(name, model, &total, INVALID, "total_thermal_strain[0] = -1.5, allowed: above -1, to 10");
+        let virgin = |c: &mut Cells| c.virgin_share[4] = 1.25;
+        refused(name, model, &virgin, INVALID, "virgin_share[4] = 1.25, allowed: 0 to 1");
+        let virgin = |c: &mut Cells| c.virgin_share[4] = -0.25;
+        refused(name, model, &virgin, INVALID, "virgin_share[4] = -0.25, allowed: 0 to 1");
+        let virgin = |c: &mut Cells| c.virgin_share[2] = f64::NAN;
+        refused(name, model, &virgin, non_finite, "virgin_share[2] = NaN is not finite");
         if model.has_tangent() {
             let strain = |c: &mut Cells| c.strain[1][6] = f64::NAN;
             refused(name, model, &strain, non_finite, "strain_yy[6] = NaN is not finite");

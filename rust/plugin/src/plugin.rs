@@ -58,6 +58,8 @@ pub struct Step<'a> {
     pub state: Columns<'a>,
     /// Above −1.
     pub thermal_strain: &'a [f64],
+    /// Share of it, 0 to 1, that leads beyond all that the cell has been strained to before; `None`: all of it.
+    pub virgin_share: Option<&'a [f64]>,
     /// Mechanical strains along x and y, after the thermal one; for plug-ins that have a tangent.
     pub strain: Option<[&'a [f64]; 2]>,
 }
@@ -198,14 +200,19 @@ impl Plugin {
     /// # Errors
     /// [`PluginError::Failed`] or [`PluginError::Answer`].
     pub fn advance(&self, step: &Step) -> Result<Answer, PluginError> {
-        let thermal = self.advance_once(step.state, step.thermal_strain)?;
+        let thermal = self.advance_once(step.state, step.thermal_strain, step.virgin_share)?;
         let Some(strain) = step.strain else { return Ok(thermal) };
         let deformed = self.deformed(&slices(&thermal.state), strain)?;
-        let after = self.advance_once(&slices(&deformed), &vec![0.0; step.thermal_strain.len()])?;
+        let after = self.advance_once(&slices(&deformed), &vec![0.0; step.thermal_strain.len()], None)?;
         Ok(Answer { outside: thermal.outside, ..after })
     }
 
-    fn advance_once(&self, state: Columns, thermal_strain: &[f64]) -> Result<Answer, PluginError> {
+    fn advance_once(
+        &self,
+        state: Columns,
+        thermal_strain: &[f64],
+        virgin_share: Option<&[f64]>,
+    ) -> Result<Answer, PluginError> {
         let cells = thermal_strain.len();
         let given = self.checked_state(state, cells);
         let mut answer = Answer {
@@ -227,6 +234,7 @@ impl Plugin {
             stress_xx: sxx.as_mut_ptr(),
             stress_yy: syy.as_mut_ptr(),
             outside: outside.as_ptr(),
+            virgin_share: virgin_share.map_or(std::ptr::null(), <[f64]>::as_ptr),
         };
         // SAFETY: columns of `cells` values, and arrays of as many columns as the table says.
         self.status("advance", cells, || unsafe { (self.advance)(&step) })?;

@@ -27,6 +27,7 @@ fn refused(path: &Path) -> String {
 const STEP: Step = Step {
     state: &[&[0.12, 0.13, 0.14], &[0.0, 0.01, 0.02]],
     thermal_strain: &[0.0, 0.01, -0.01],
+    virgin_share: None,
     strain: None,
 };
 
@@ -44,7 +45,7 @@ fn a_plain_plugin_answers() {
     assert_eq!(plugin.tangent(STEP.state).expect("none"), None);
     let start = Start { porosity: &[0.1], fabric_index: &[0.2], fabric_conductivity: None, stress: None };
     assert_eq!(plugin.initial_state(&start).expect("good"), [[0.1], [0.2]]);
-    let nothing = Step { state: &[&[], &[]], thermal_strain: &[], strain: None };
+    let nothing = Step { state: &[&[], &[]], thermal_strain: &[], virgin_share: None, strain: None };
     assert_eq!(plugin.advance(&nothing).expect("nothing to do").state, vec![vec![0.0; 0]; 2]);
 }
 

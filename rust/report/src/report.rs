@@ -478,7 +478,6 @@ fn left_out(quick: bool) -> Vec<String> {
     let mut list: Vec<&str> = vec![
         "K_xy of boxes of grains and of cells that are sheared.",
         "The discs' pressure off their walls in the charts, and in the cases whose grains do not expand: the whole box stands there.",
-        "A cure for thermal cycles, in which the network's anisotropy drifts.",
     ];
     if quick {
         list.push("Quick: one packing, few configurations, coarse meshes, no discrete elements.");

@@ -75,6 +75,8 @@ pub const GROUP: usize = 30;
 pub struct Path<'a> {
     pub from: &'a StateRow,
     pub to: &'a StateRow,
+    /// Share of its strain that is new to the grains.
+    pub virgin: f64,
 }
 
 /// Paths of this strain from the packed states (stop 0).
@@ -88,7 +90,17 @@ pub fn paths(ramps: &[Ramp], strain: f64) -> Vec<Path<'_>> {
         Some((from, to))
     };
     let found = ramps.iter().filter_map(|ramp| Some((ramp, path(ramp)?)));
-    found.map(|(ramp, (from, to))| Path { from: &ramp.states[from], to: &ramp.states[to] }).collect()
+    found
+        .map(|(ramp, (from, to))| Path { from: &ramp.states[from], to: &ramp.states[to], virgin: 1.0 })
+        .collect()
+}
+
+/// Paths along the whole of the ramps of this name.
+pub fn whole_paths<'a>(ramps: &'a [Ramp], name: &str) -> Vec<Path<'a>> {
+    let ends = |ramp: &'a Ramp| Some((ramp.states.first()?, ramp.states.last()?, ramp.virgin_share()));
+    let found = ramps.iter().filter(|ramp| ramp.name == name).filter_map(ends);
+    let loaded = found.filter(|(from, to, _)| from.load_bearing && to.load_bearing);
+    loaded.map(|(from, to, virgin)| Path { from, to, virgin }).collect()
 }
 
 /// K_xx, K_yy, σ_xx, σ_yy, p, η, f at the end of a path, composed or of the data.
@@ -109,7 +121,13 @@ pub fn ends(model: &dyn Surrogate, paths: &[Path], increments: u32) -> Vec<[Quan
             chunk.get(lane).map_or(0.0, |path| strain_between(path.from, path.to))
         });
         let start = states_of(model, &from);
-        let answer = composed(|state, strain| model.block(state, strain), &start, &total, increments);
+        let virgin = std::array::from_fn(|lane| chunk.get(lane).map_or(1.0, |path| path.virgin));
+        let block = |state: &_, strain: &_| {
+            let mut answer = Answer::default();
+            model.block_into(state, strain, &virgin, &mut answer);
+            answer
+        };
+        let answer = composed(block, &start, &total, increments);
         for (lane, path) in chunk.iter().enumerate() {
             let ([kxx, kyy], row) = (conductivity(model, path.to), path.to);
             let (sxx, syy) = (row.stress_xx, row.stress_yy);

@@ -67,6 +67,13 @@ pub struct Ramp {
     pub states: Vec<StateRow>,
 }
 
+impl Ramp {
+    /// Share of its strains that is new to the grains: none on the way back of "up_down" and "down_up".
+    pub fn virgin_share(&self) -> f64 {
+        if matches!(self.name.as_str(), "up_down" | "down_up") { 0.0 } else { 1.0 }
+    }
+}
+
 /// Sorts rows into ramps, in order of packing and ramp name.
 ///
 /// # Errors

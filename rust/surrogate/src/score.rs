@@ -6,7 +6,7 @@ use crate::dataset::{self, Ramp, StateRow, strain_between};
 use crate::kernel::LANES;
 use crate::noise;
 use crate::scores::r_squared;
-use crate::surrogate::Surrogate;
+use crate::surrogate::{Answer, Surrogate};
 use serde::Serialize;
 
 /// R² (Eq. 12) of one query over pairs of jammed stops, mirror images included.
@@ -30,6 +30,16 @@ pub struct ThereAndBack {
     pub pressure: f64,
     pub conductivity: f64,
     pub porosity: f64,
+}
+
+/// The database's way back from a ramp's end to the packed state's radii, in 500 increments.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WayBack {
+    /// "up_down" from +5 %, "down_up" from -5 %.
+    pub ramp: String,
+    pub errors: Composed,
+    /// Of a model that takes the way back for virgin strain.
+    pub taken_for_virgin: Composed,
 }
 
 /// What no function of the model's state at the start can know of the end: relative to the data's root mean square, as
@@ -56,6 +66,8 @@ pub struct Score {
     pub unseen: OneStep,
     pub composed: Vec<Composed>,
     pub there_and_back: Vec<ThereAndBack>,
+    /// None when the database has no such ramps.
+    pub way_back: Vec<WayBack>,
     pub noise_floor: Vec<Floor>,
 }
 
@@ -102,8 +114,21 @@ pub fn score(model: &dyn Surrogate, ramps: &Ramps) -> Score {
         unseen: one_step(model, &ramps.unseen),
         composed,
         there_and_back: [0.005, 0.02, -0.02].map(|e| there_and_back(model, &ramps.unseen, e, 500)).to_vec(),
+        way_back: ["up_down", "down_up"]
+            .iter()
+            .filter_map(|name| way_back(model, &ramps.unseen, name))
+            .collect(),
         noise_floor: STRAINS.map(|strain| floor(model, &all, strain)).to_vec(),
     }
+}
+
+fn way_back(model: &dyn Surrogate, ramps: &[Ramp], name: &str) -> Option<WayBack> {
+    let mut paths = composition::whole_paths(ramps, name);
+    let strain = paths.first().map(|path| strain_between(path.from, path.to))?;
+    let errors = composition::errors(model, &paths, strain, 500);
+    paths.iter_mut().for_each(|path| path.virgin = 1.0);
+    let taken_for_virgin = composition::errors(model, &paths, strain, 500);
+    Some(WayBack { ramp: name.to_string(), errors, taken_for_virgin })
 }
 
 /// Data and prediction of one query for every pair of jammed stops, mirror images included: Δη, Δf, Δf_K, K, σ.
@@ -113,7 +138,8 @@ pub fn one_step_pairs(model: &dyn Surrogate, ramps: &[Ramp]) -> [Vec<[f64; 2]>; 
     let mut all: Vec<Path> = Vec::new();
     for ramp in ramps {
         for (i, from) in ramp.states.iter().enumerate().filter(|(_, row)| row.load_bearing) {
-            all.extend(ramp.states[i + 1..].iter().filter(|to| to.load_bearing).map(|to| Path { from, to }));
+            let later = ramp.states[i + 1..].iter().filter(|to| to.load_bearing);
+            all.extend(later.map(|to| Path { from, to, virgin: ramp.virgin_share() }));
         }
     }
     for chunk in all.chunks(LANES) {
@@ -122,7 +148,9 @@ pub fn one_step_pairs(model: &dyn Surrogate, ramps: &[Ramp]) -> [Vec<[f64; 2]>; 
             chunk.get(lane).map_or(0.0, |path| strain_between(path.from, path.to))
         });
         let start = states_of(model, &from);
-        let answer = model.block(&start, &strain);
+        let virgin = std::array::from_fn(|lane| chunk.get(lane).map_or(1.0, |path| path.virgin));
+        let mut answer = Answer::default();
+        model.block_into(&start, &strain, &virgin, &mut answer);
         for (lane, path) in chunk.iter().enumerate() {
             let moved = |column: usize| answer.state[column][lane] - start[column][lane];
             pairs[0].push([path.to.porosity - path.from.porosity, moved(0)]);
@@ -170,8 +198,8 @@ fn there_and_back(model: &dyn Surrogate, ramps: &[Ramp], strain: f64, increments
         let there = composed(block, &start, &[strain; LANES], increments);
         let back = composed(block, &there.state, &[-strain / (1.0 + strain); LANES], increments);
         for (lane, porosity) in start[0].iter().enumerate().take(chunk.len()) {
-            let pressure = |a: &crate::surrogate::Answer| a.stress[0][lane] + a.stress[1][lane];
-            let mean = |a: &crate::surrogate::Answer| a.conductivity[0][lane] + a.conductivity[1][lane];
+            let pressure = |a: &Answer| a.stress[0][lane] + a.stress[1][lane];
+            let mean = |a: &Answer| a.conductivity[0][lane] + a.conductivity[1][lane];
             let values = [
                 [pressure(&back) - pressure(&still), pressure(&still)],
                 [mean(&back) - mean(&still), mean(&still)],

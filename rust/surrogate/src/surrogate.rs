@@ -12,6 +12,9 @@ pub const MAX_STATE: usize = 6;
 /// State columns of a block of cells; those beyond the model's [`Surrogate::state_names`] are zero.
 pub type StateLanes = [Lanes; MAX_STATE];
 
+/// Shares of strains that are new to the grains, all of them: see [`Surrogate::block_into`].
+pub const VIRGIN: Lanes = [1.0; LANES];
+
 /// What is known of a cell at the start. The stress is reduced: σ ℓ/(E r̄), ℓ = 1 m, compression positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Known {
@@ -111,11 +114,12 @@ pub trait Surrogate: Send + Sync {
     /// The state of a cell of which no more may be known than η and f: what is missing is the mean of the training's
     /// packed states.
     fn initial_state(&self, known: &Known) -> [f64; MAX_STATE];
-    /// Evaluates a block of cells: `strain` is the radial thermal strain relative to the current radii (above −1). Finite
-    /// inputs give finite answers; a lane's answer depends on that lane alone.
+    /// Evaluates a block of cells: `strain` is the radial thermal strain relative to the current radii (above −1), all of
+    /// it virgin. Finite inputs give finite answers; a lane's answer depends on that lane alone.
     fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer;
-    /// As [`Surrogate::block`], into an answer that is there: a batch needs only one.
-    fn block_into(&self, state: &StateLanes, strain: &Lanes, answer: &mut Answer) {
+    /// As [`Surrogate::block`], into an answer that is there: a batch needs only one. `virgin`: share of the strain [0 to 1]
+    /// that leads beyond all that the grains have been strained to before; a model may not need it.
+    fn block_into(&self, state: &StateLanes, strain: &Lanes, _virgin: &Lanes, answer: &mut Answer) {
         *answer = self.block(state, strain);
     }
     /// Doubt about one cell's answer; `None` when the model carries no such data. Slower than an evaluation.
@@ -176,7 +180,7 @@ pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
             read(column, lanes);
         }
         read(batch.strain, &mut strain);
-        model.block_into(&state, &strain, &mut answer);
+        model.block_into(&state, &strain, &VIRGIN, &mut answer);
         let write = |column: &mut [f64], lanes: &Lanes| match column[first..].first_chunk_mut::<LANES>() {
             Some(full) => full.copy_from_slice(lanes),
             None => column[here.clone()].copy_from_slice(&lanes[..here.len()]),

@@ -5,8 +5,9 @@
 use msdd_abi::{
     MSDD_PLUGIN_VERSION, msdd_plugin_start, msdd_plugin_step, msdd_plugin_tangent, msdd_plugin_v1,
 };
+use msdd_surrogate::kernel::LANES;
 use msdd_surrogate::state::variables::ConductivityKind;
-use msdd_surrogate::surrogate::{Known, MAX_STATE};
+use msdd_surrogate::surrogate::{Answer, Known, MAX_STATE};
 use msdd_surrogate::{Surrogate, models};
 use std::ffi::{CString, c_char};
 use std::sync::LazyLock;
@@ -106,7 +107,10 @@ unsafe extern "C" fn advance(step: *const msdd_plugin_step) -> i32 {
         let step = &*step;
         for cell in 0..step.cells {
             let state = cell_state(step.state, cell);
-            let answer = EXPORTED.model.evaluate(&state, step.thermal_strain.add(cell).read());
+            let strain = step.thermal_strain.add(cell).read();
+            let share = if step.virgin_share.is_null() { 1.0 } else { step.virgin_share.add(cell).read() };
+            let (lanes, mut answer) = (|value: f64| [value; LANES], Answer::default());
+            EXPORTED.model.block_into(&state.map(lanes), &lanes(strain), &lanes(share), &mut answer);
             write_state(step.next_state, cell, &answer.state.map(|lanes| lanes[0]));
             step.conductivity_xx.add(cell).write(answer.conductivity[0][0]);
             step.conductivity_yy.add(cell).write(answer.conductivity[1][0]);

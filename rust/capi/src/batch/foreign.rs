@@ -39,6 +39,7 @@ impl Columns<'_> {
         let step = Step {
             state: &state,
             thermal_strain: slice(&self.thermal_strain),
+            virgin_share: self.virgin_share.as_ref().map(slice),
             strain: self.deforms().then_some(strain),
         };
         Ok(plugin.advance(&step)?)

@@ -158,6 +158,17 @@ fn print(score: &Score) {
             t.porosity
         );
     }
+    if !score.way_back.is_empty() {
+        println!();
+        println!(
+            "The database's way back to the packed radii; below it, by a model that takes it for virgin strain"
+        );
+        println!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
+        for way in &score.way_back {
+            row(&way.errors);
+            row(&way.taken_for_virgin);
+        }
+    }
 }
 
 fn row(c: &Composed) {

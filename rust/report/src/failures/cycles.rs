@@ -1,7 +1,7 @@
 //! Ten cycles of 50 K ± 20 K (case `cycle`): solver beside discrete elements.
 
 use super::{Cycles, Failures};
-use crate::compare::at;
+use crate::compare::{at, reference_sub_regions, sub_regions};
 use crate::job::{Job, Part, SolverJob};
 use crate::pool::Records;
 use crate::read_text;
@@ -13,6 +13,7 @@ use std::path::Path;
 pub const PERIOD: f64 = 8.0;
 pub const COUNT: usize = 10;
 const SEEDS: [u32; 3] = [21, 22, 23];
+const CONDUCTIVITY: [&str; 2] = ["conductivity_xx", "conductivity_yy"];
 
 pub fn job(mechanics: &str) -> SolverJob {
     let mut job = SolverJob::new("cycle", 1).grains(&format!("mechanics {mechanics};"));
@@ -36,7 +37,8 @@ pub fn read(settings: &Settings, records: &Records) -> Vec<Cycles> {
             let start = start(&settings.place.checkout).map(|pressure| [0.0, pressure]);
             // The solver writes no value at the start.
             let series: Vec<[f64; 2]> = start.into_iter().chain(run.pressure.iter().copied()).collect();
-            list.push(Cycles::new(name, &series));
+            let [xx, yy] = CONDUCTIVITY.map(|quantity| sub_regions(run, quantity).iter().sum::<f64>());
+            list.push(Cycles::new(name, &series, xx / yy));
         }
     }
     list.extend(elements(&settings.place.checkout));
@@ -57,16 +59,18 @@ fn elements(checkout: &Path) -> Option<Cycles> {
     let pressure = statistics(&reference.series("pressure_inner"));
     let rows: Vec<[f64; 2]> =
         reference.times().iter().zip(pressure).map(|(&t, (mean, _))| [t, mean]).collect();
-    Some(Cycles::new("1 502 discs, mean of three packings", &rows))
+    let sum = |quantity| reference_sub_regions(&reference, quantity, false).iter().flatten().sum::<f64>();
+    let [xx, yy] = CONDUCTIVITY.map(sum);
+    Some(Cycles::new("1 502 discs, mean of three packings", &rows, xx / yy))
 }
 
 impl Cycles {
-    /// From a series of time [s] and pressure [Pa].
-    fn new(name: &str, series: &[[f64; 2]]) -> Self {
+    /// From a series of time [s] and pressure [Pa], and K_xx/K_yy at its end.
+    fn new(name: &str, series: &[[f64; 2]], anisotropy: f64) -> Self {
         let quarter = 0.25 * PERIOD;
         let start = at(series, 0.0);
         let stops = (0..=4 * COUNT).map(|k| at(series, quarter * k as f64) / start).collect();
-        Self { name: name.to_string(), stops }
+        Self { name: name.to_string(), stops, anisotropy }
     }
 }
 
@@ -88,6 +92,9 @@ mod tests {
     fn the_case_says_at_which_pressure_it_starts() {
         let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         assert_eq!(start(&checkout), Some(2709.0));
-        assert_eq!(elements(&checkout).map(|cycles| cycles.stops.len()), Some(4 * COUNT + 1));
+        let discs = elements(&checkout).expect("committed");
+        assert_eq!(discs.stops.len(), 4 * COUNT + 1);
+        // 1.348, 1.368 and 1.313 in the three packings
+        assert!((discs.anisotropy - 1.343).abs() < 0.01, "{}", discs.anisotropy);
     }
 }

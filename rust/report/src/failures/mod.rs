@@ -25,6 +25,8 @@ use serde::Serialize;
 pub struct Cycles {
     pub name: String,
     pub stops: Vec<f64>,
+    /// K_xx/K_yy at the end [-].
+    pub anisotropy: f64,
 }
 
 #[derive(Clone, Debug, Default, Serialize)]

@@ -15,8 +15,7 @@ mod x86;
 use crate::network::{HIDDEN, INPUTS, OUTPUTS, WEIGHTS};
 use crate::perceptron::{MAX_LAYERS, Neurons, WIDTH};
 use crate::state::model::Core;
-use crate::state::rates::Rates;
-use crate::state::variables::{Features, Variables};
+use crate::state::rates::{RateInputs, Rates};
 use crate::surrogate::{Answer, StateLanes};
 use std::mem::MaybeUninit;
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -112,8 +111,8 @@ macro_rules! dispatch {
 
 dispatch! {
     /// Queries of a state model by a block of cells.
-    pub fn state_block(core: &Core, state: &StateLanes, strain: &Lanes, answer: &mut Answer) =
-        core.block_into::<V>(state, strain, answer)
+    pub fn state_block(core: &Core, state: &StateLanes, strain: &Lanes, virgin: &Lanes, answer: &mut Answer) =
+        core.block_into::<V>(state, strain, virgin, answer)
 }
 
 dispatch! {
@@ -126,14 +125,6 @@ dispatch! {
     ) = advance_generic::<V>(rates, from, neurons, next)
 }
 
-/// What [`advance`] starts from.
-pub struct RateInputs<'a> {
-    pub variables: Variables,
-    pub state: &'a StateLanes,
-    pub strain: &'a Lanes,
-    pub features: &'a Features,
-}
-
 #[inline(always)]
 fn advance_generic<V: Vector>(
     rates: &Rates,
@@ -144,7 +135,7 @@ fn advance_generic<V: Vector>(
     neurons.layers[0][..from.features.even.len()].copy_from_slice(&from.features.even);
     forward_generic::<V>(&rates.network.sizes, &rates.network.weights, neurons);
     let outputs = &neurons.layers[rates.network.sizes.len() - 1];
-    rates.advanced::<V>(from.variables, from.state, from.strain, from.features, outputs, next);
+    rates.advanced::<V>(&from, outputs, next);
 }
 
 dispatch! {

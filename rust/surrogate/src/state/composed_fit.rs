@@ -5,12 +5,12 @@
 
 use super::fit::PerceptronFit;
 use super::pairs::{self, Track};
-use super::rates::{EVEN_OUTPUTS, Rates, direction};
+use super::rates::{EVEN_OUTPUTS, RateInputs, Rates, direction};
 use super::variables::{FeatureRanges, POROSITY, PRESSURE, Variables};
-use crate::kernel::{self, LANES, RateInputs, add_outer_products};
+use crate::kernel::{self, LANES, add_outer_products};
 use crate::levenberg_marquardt::{LeastSquares, NormalEquations};
 use crate::perceptron::{Neurons, Perceptron, WIDTH};
-use crate::surrogate::{MAX_STATE, StateLanes};
+use crate::surrogate::{MAX_STATE, StateLanes, VIRGIN};
 use nalgebra::DVector;
 
 /// Single steps and tracks together.
@@ -71,8 +71,8 @@ impl RatesFit<'_> {
         });
         // Features of zero strain: the rate in the limit of many increments. The single steps teach the large ones.
         let features = &self.ranges.features(self.variables, &lanes, &[0.0; LANES]);
-        let from =
-            RateInputs { variables: self.variables, state: &lanes, strain: &[strain; LANES], features };
+        let (variables, strain_lanes) = (self.variables, [strain; LANES]);
+        let from = RateInputs { variables, state: &lanes, strain: &strain_lanes, virgin: &VIRGIN, features };
         let mut next = lanes;
         kernel::advance(rates, from, neurons, &mut next);
         let Some(sensitivity) = sensitivity else { return next.map(|column| column[0]) };

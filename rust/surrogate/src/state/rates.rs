@@ -35,19 +35,23 @@ pub fn sizes(variables: Variables, hidden: &[usize]) -> Vec<usize> {
     [&[RATE_INPUTS], hidden, &[EVEN_OUTPUTS + odd * (odd + 1)]].concat()
 }
 
+/// What a step starts from.
+pub struct RateInputs<'a> {
+    pub variables: Variables,
+    pub state: &'a StateLanes,
+    /// Thermal strain [-].
+    pub strain: &'a Lanes,
+    /// Share of it that is new to the grains [0 to 1], see [`direction`].
+    pub virgin: &'a Lanes,
+    pub features: &'a Features,
+}
+
 impl Rates {
     /// The state after a strain, in the model's columns of `next`; `outputs` are those of the network at the features.
     #[inline(always)]
-    pub fn advanced<V: Vector>(
-        &self,
-        variables: Variables,
-        state: &StateLanes,
-        strain: &Lanes,
-        features: &Features,
-        outputs: &[Lanes],
-        next: &mut StateLanes,
-    ) {
-        let strain = V::read(strain);
+    pub fn advanced<V: Vector>(&self, from: &RateInputs, outputs: &[Lanes], next: &mut StateLanes) {
+        let RateInputs { variables, state, features, .. } = *from;
+        let strain = V::read(from.strain);
         for (output, column) in [POROSITY, PRESSURE].into_iter().enumerate() {
             let (offset, scale) = (V::all(self.offset[column]), V::all(self.scale[column]));
             let rate = V::read(&outputs[output]).fused(scale, offset);
@@ -58,7 +62,7 @@ impl Rates {
             V::zero(),
             V::all(1.0),
             V::zero().where_greater(strain, V::all(-1.0), V::zero()),
-        );
+        ) * V::read(from.virgin);
         for (k, column) in variables.odd().enumerate() {
             let own = &outputs[EVEN_OUTPUTS + k * (count + 1)..][..count + 1];
             let sum = odd_sum::<V>(&own[..count], &features.odd);
@@ -93,7 +97,10 @@ impl Rates {
 
 /// Sign of the strain, 0 for none. Sliding contacts do not slide back: measured, the deviator fades on contraction much
 /// faster than it grows on expansion, whatever the size of the increments, so a rate that is smooth in ε cannot compose to
-/// both. η and p̃ do not see the sign: they are reversible, small to and fro does not let them creep.
+/// both. η and p̃ do not see the sign: they are reversible, small to and fro does not let them creep. That holds for virgin
+/// strains. Strained back, and again as far as they have been, grains that slid have come to rest: without the sign the
+/// error of K on the database's ramps back from +5 % falls by a third (`msdd score`), and cycles do not drift. The fit takes all
+/// ramps for virgin: with the ways back as what they are, its errors are the same within a tenth.
 #[inline(always)]
 pub fn direction(strain: f64) -> f64 {
     if strain > 0.0 {

@@ -135,7 +135,14 @@ pub fn cycles(made: &Made) -> Result<String, ReportError> {
     }
     let ends = |cycles: &crate::failures::Cycles| {
         let at = |k: usize| cycles.stops.get(4 * k).copied().unwrap_or(f64::NAN);
-        format!("{}: {:.4}, {:.4} and {:.4}", cycles.name, at(1), at(2), at(10))
+        format!(
+            "{}: {:.4}, {:.4} and {:.4} (K_xx/K_yy in the end {:.2})",
+            cycles.name,
+            at(1),
+            at(2),
+            at(10),
+            cycles.anisotropy
+        )
     };
     let caption = format!(
         "Fig. #. Ten cycles of 50 K ± 20 K at the walls (case cycle): pressure over that at the start, after 1, 2 and 10 cycles {}. Grains rearrange in \
