@@ -31,7 +31,8 @@ Usage
     msddFoam -cheapest prints the cheapest configuration for an accuracy.
 
     Reads   T, porosity, fabricIndex; at the start also stress (tension
-            positive) and fabricConductivity, if there are such files;
+            positive), fabricConductivity, leastThermalStrain and
+            mostThermalStrain, if there are such files;
             constant/granularProperties (keys: cases/common);
             constant/fvOptions, if there is one: heat sources [W/m^3];
             system/fvSolution, msddFoam, if there is one (keys: timeScheme.H)
