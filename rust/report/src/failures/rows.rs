@@ -228,8 +228,8 @@ fn scenes() -> Vec<Edge> {
         edge(
             "cycles",
             "case cycle: ten of 20 K to and fro",
-            "goes on: grains slide in virgin strains alone",
-            DONE,
+            "does not drift, cuts its step where walls turn",
+            CUT,
             super::cycles::job("equilibrium"),
         ),
         edge("slanted cells", "60 degrees", "goes on", DONE, lean(60.0)),
