@@ -354,6 +354,12 @@ void Foam::granularState::findExtremes()
     mostStrain_.reset(found("mostThermalStrain"));
     checkField(leastStrain_(), dimless, -1, GREAT);
     checkField(mostStrain_(), dimless, -1, GREAT);
+
+    // The start is in the range
+    scalarField& least = leastStrain_().primitiveFieldRef();
+    scalarField& most = mostStrain_().primitiveFieldRef();
+    least = min(least, scalar(0));
+    most = max(most, scalar(0));
 }
 
 
