@@ -66,7 +66,7 @@ pub struct Score {
     pub unseen: OneStep,
     pub composed: Vec<Composed>,
     pub there_and_back: Vec<ThereAndBack>,
-    /// None when the database has no such ramps.
+    /// Empty when the database has no such ramps.
     pub way_back: Vec<WayBack>,
     pub noise_floor: Vec<Floor>,
 }

@@ -100,7 +100,7 @@ impl Rates {
 /// both. η and p̃ do not see the sign: they are reversible, small to and fro does not let them creep. That holds for virgin
 /// strains. Strained back, and again as far as they have been, grains that slid have come to rest: without the sign the
 /// error of K on the database's ramps back from +5 % falls by a third (`msdd score`), and cycles do not drift. The fit takes all
-/// ramps for virgin: with the ways back as what they are, its errors are the same within a tenth.
+/// ramps for virgin: with the ways back as what they are it is no better (README).
 #[inline(always)]
 pub fn direction(strain: f64) -> f64 {
     if strain > 0.0 {
