@@ -227,6 +227,25 @@ void Foam::heatEquation::setStorage(const scalarField& Tstar, const scalar tau)
 }
 
 
+void Foam::heatEquation::exchange(const granularState::conductivityColumns& K)
+{
+    // Once for all patches: every process must exchange equally often,
+    // however many neighbours it has
+    bool any = false;
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        any = any || patch.coupled();
+    }
+    if (any)
+    {
+        Kxx_.primitiveFieldRef() = K.xx;
+        Kyy_.primitiveFieldRef() = K.yy;
+        Kxx_.correctBoundaryConditions();
+        Kyy_.correctBoundaryConditions();
+    }
+}
+
+
 void Foam::heatEquation::addAligned
 (
     const granularState::conductivityColumns& K
@@ -253,6 +272,8 @@ void Foam::heatEquation::addAligned
         diag[N] += flux;
     }
 
+    exchange(K);
+
     forAll(mesh_.boundary(), patchi)
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
@@ -265,10 +286,6 @@ void Foam::heatEquation::addAligned
 
         if (pT.coupled())
         {
-            Kxx_.primitiveFieldRef() = K.xx;
-            Kyy_.primitiveFieldRef() = K.yy;
-            Kxx_.correctBoundaryConditions();
-            Kyy_.correctBoundaryConditions();
             const scalarField otherX
             (
                 Kxx_.boundaryField()[patchi].patchNeighbourField()
@@ -324,6 +341,10 @@ void Foam::heatEquation::addTensor(const granularState::conductivityColumns& K)
         cells[celli].xy() = K.xy[celli];
     }
     K_().correctBoundaryConditions();
+
+    // The explicit gradients below look at T beside the cells: at walls and in
+    // the cells of other processes it is the T of the cells before
+    T_.correctBoundaryConditions();
 
     fvScalarMatrix conduction(fvm::laplacian(K_(), T_, "laplacian(K,T)"));
 

@@ -117,19 +117,18 @@ impl<'a> Columns<'a> {
             .chain(self.strain.iter().flatten())
             .chain(&self.virgin_share)
             .try_for_each(Input::check_finite)?;
-        let range = |column: &Input, low: f64, high: f64, allowed: &str| {
-            let Some(cell) = column.position(|value| value <= low || value > high) else { return Ok(()) };
+        let range = |column: &Input, allowed: &str, inside: fn(f64) -> bool| {
+            let Some(cell) = column.position(|value| !inside(value)) else { return Ok(()) };
             Err(Failure::argument(format!("{}[{cell}]", column.name), column.at(cell), allowed))
         };
         if let Some(column) = &self.total_thermal_strain {
-            range(column, -1.0, LARGEST_STRAIN, "above -1, to 10")?;
+            range(column, "above -1, to 10", |total| total > -1.0 && total <= LARGEST_STRAIN)?;
         }
         for column in self.strain.iter().flatten() {
-            range(column, -LARGEST_STEP, LARGEST_STEP, "above -0.2, to 0.2")?;
+            range(column, "above -0.2, to 0.2", |step| step > -LARGEST_STEP && step <= LARGEST_STEP)?;
         }
         if let Some(column) = &self.virgin_share {
-            // The lower end belongs to it.
-            range(column, -f64::MIN_POSITIVE, 1.0, "0 to 1")?;
+            range(column, "0 to 1", |share| (0.0..=1.0).contains(&share))?;
         }
         if !has_tangent && (self.deforms() || self.tangent.iter().any(Output::is_wanted)) {
             let wanted = "strain_xx, strain_yy, c11, c22, c12, porosity_rate, fabric_index_rate";

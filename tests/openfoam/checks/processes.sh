@@ -1,0 +1,98 @@
+# Any number of processes gives the answer of one: 2, 3 and 4 in a row, 2 x 2 and 2 x 3, with every feature. With three in a
+# row the middle process has two neighbours and the others one, which an exchange inside a loop over patches does not survive.
+
+in_parts() { # "nx ny": decompose this case
+    local nx=${1% *} ny=${1#* }
+    cat > system/decomposeParDict <<-END
+	FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }
+	numberOfSubdomains $((nx*ny));
+	method simple;
+	simpleCoeffs { n ($nx $ny 1); delta 1e-3; }
+	END
+    logged decomposePar -force
+}
+side_by_side() { # processes: a hang ends after two minutes instead of never
+    logged timeout 120 mpirun --oversubscribe -np "$1" msddFoam -parallel
+}
+same_answer() { # what, bound: every decomposition of the case here against this case in one piece
+    local what=$1 bound=$2 name=${PWD##*/} parts e
+    logged msddFoam
+    for parts in "${decompositions[@]}"; do
+        rm -rf "$work/parts"
+        cp -r . "$work/parts"
+        cd "$work/parts"
+        rm -rf 1 0.5 postProcessing
+        in_parts "$parts"
+        side_by_side $((${parts% *}*${parts#* }))
+        logged reconstructPar -latestTime
+        e=$(difference "$work/$name/1" 1)
+        check "$what on ${parts/ / x } processes: difference $e <= $bound" below "$e" "$bound"
+        cd "$work/$name"
+    done
+}
+several() { # folder: small with 0.5 written, too
+    changed "$1"
+    controls 'writeInterval 10;'
+}
+sheared_vertices() {
+    sed -i 's,^blocks.*,vertices ((0 0 0) (2150 0 0) (2350 645 0) (200 645 0) (0 0 10) (2150 0 10) (2350 645 10) (200 645 10));\n&,' system/blockMeshDict
+}
+every_function_object() { controls "functions { #include \"$here/audits\" }"; }
+function_objects_agree() { # their last lines on six processes and one
+    local file e
+    for file in postProcessing/*/0/*.dat; do
+        e=$(paste -d ' ' <(tail -n 1 "$file") <(tail -n 1 "$work/parts/$file") | tr -d '()' | awk '
+            { for (i = 1; i <= NF/2; i++) { a = $i; b = $(i + NF/2); e = a - b; if (e < 0) e = -e
+              s = a < 0 ? -a : a; if (s > 1) e /= s; if (!(e <= w)) w = e } } END { print (NF > 1 ? w + 0 : "nan") }')
+        check "$file on six processes: difference $e <= 1e-9" below "$e" 1e-9
+    done
+}
+
+if [ $full = yes ]; then
+    decompositions=('2 1' '3 1' '4 1' '2 2' '1 3' '2 3')
+else
+    decompositions=('3 1' '2 2' '2 3')
+fi
+
+several rows-paper
+every_function_object
+mesh_is '12 6 1'
+same_answer "paper's scheme" 1e-10
+function_objects_agree
+
+several rows-adaptive
+controls 'adjustTimeStep yes; deltaT 1e-3; writeControl runTime; writeInterval 0.5;'
+scheme 'timeScheme secondOrder; temperatureTolerance 0.5;'
+mesh_is '12 6 1'
+same_answer "second order, adaptive" 1e-10
+
+several rows-equilibrium
+grains 'mechanics equilibrium; equilibriumCoeffs { residual 1e-3; }'
+mesh_is '12 6 1'
+same_answer "equilibrium" 1e-6
+
+several rows-equilibrium-adaptive
+controls 'adjustTimeStep yes; deltaT 1e-3; writeControl runTime; writeInterval 0.5;'
+scheme 'timeScheme secondOrder; temperatureTolerance 0.5;'
+grains 'mechanics equilibrium; equilibriumCoeffs { residual 1e-4; walls { right { type pressure; pressure constant 2500; } } }'
+mesh_is '12 6 1'
+same_answer "equilibrium, adaptive, a wall that is pressed" 1e-6
+
+several rows-slanted
+sheared_vertices
+mesh_is '12 6 1'
+same_answer "slanted cells" 1e-10
+
+several rows-slanted-adaptive
+sheared_vertices
+controls 'adjustTimeStep yes; deltaT 1e-3; writeControl runTime; writeInterval 0.5;'
+scheme 'timeScheme secondOrder; temperatureTolerance 0.5; nNonOrthogonalCorrectors 1;'
+mesh_is '12 6 1'
+same_answer "slanted cells, second order, adaptive" 1e-10
+
+for per in cell history; do
+    several rows-online-$per
+    grains "surrogate { type onlineRve; onlineRveCoeffs { discs 60; rvePer $per; } smallestStrain 0; }"
+    mesh_is '6 4 1'
+    same_answer "online RVEs per $per" 1e-10
+done
