@@ -74,7 +74,7 @@ same_answer "equilibrium" 1e-6
 several rows-equilibrium-adaptive
 controls 'adjustTimeStep yes; deltaT 1e-3; writeControl runTime; writeInterval 0.5;'
 scheme 'timeScheme secondOrder; temperatureTolerance 0.5;'
-grains 'mechanics equilibrium; equilibriumCoeffs { residual 1e-4; walls { right { type pressure; pressure constant 2500; } } }'
+grains 'mechanics equilibrium; equilibriumCoeffs { residual 1e-4; maxIterations 300; walls { right { type pressure; pressure constant 2500; } } }'
 mesh_is '12 6 1'
 same_answer "equilibrium, adaptive, a wall that is pressed" 1e-6
 
