@@ -29,6 +29,9 @@ Description
 
 Usage
     msddFoam -cheapest prints the cheapest configuration for an accuracy.
+    msddFoam -accept '(name ...)' goes on from a time that was computed with
+    other settings: a restart with another model, material or mechanics is
+    refused with both values, and the names to accept.
 
     Reads   T, porosity, fabricIndex; at the start also stress (tension
             positive), fabricConductivity, leastThermalStrain and
@@ -43,7 +46,8 @@ Usage
             initialTemperature, thermalStrainIncrement, leastThermalStrain and
             mostThermalStrain (the range that a cell's grains have been strained
             to and back, for networks), the rest of the model's state and
-            uniform/msddFoam;
+            uniform/msddFoam, the last file of a time: what the run was
+            computed with, and the checksums of the other files;
             postProcessing/msddFoam/summary.json, and offenders.json if cells
             were outside the model's region
 
@@ -53,6 +57,8 @@ Usage
 
 #include "fvCFD.H"
 #include "timeScheme.H"
+#include "restartTime.H"
+#include "stepWatch.H"
 #include "runSummary.H"
 
 // Written by msdd report --solver-table
@@ -77,6 +83,15 @@ int main(int argc, char *argv[])
         " scripts/report, and exit; needs no case"
     );
 
+    argList::addOption
+    (
+        "accept",
+        "names",
+        "Go on from a time that was computed with other settings, for example"
+        " '(model thermalExpansion)'; files: from one whose files are missing"
+        " or changed"
+    );
+
     const clockTime wallClock;
 
     for (int i = 1; i < argc; i++)
@@ -90,7 +105,14 @@ int main(int argc, char *argv[])
 
     #include "addCheckCaseOptions.H"
     #include "setRootCaseLists.H"
+
+    runRecord::accepted = wordHashSet(args.getList<word>("accept", false));
+    const restartTime restart(args);
+
     #include "createTime.H"
+
+    restart.setValue(runTime);
+
     #include "createMesh.H"
 
     if (mesh.solutionD()[vector::Z] != -1)
@@ -124,6 +146,9 @@ int main(int argc, char *argv[])
         timeScheme::New(T, grains, mechanics(), granular)
     );
     const runSummary summary(grains, mechanics(), wallClock);
+    grains.record().findFiles();
+
+    stepWatch watch(scheme->waitLimit());
 
     Info<< "\nStarting time loop\n" << endl;
 
@@ -131,7 +156,18 @@ int main(int argc, char *argv[])
     {
         scheme->step();
         grains.finishStep();
-        runTime.write();
+        if (runTime.writeTime())
+        {
+            stepWatch::doing("the output");
+            if (!runTime.write())
+            {
+                FatalErrorInFunction
+                    << "Cannot write " << runTime.timePath()
+                    << ". Is the disk full?" << exit(FatalError);
+            }
+            grains.record().writeLast();
+        }
+        watch.finished();
     }
 
     grains.refresh();

@@ -85,6 +85,7 @@ public:
         {
             std::ofstream os(beside);
             model_.write(os);
+            os.close();
             if (!os.good())
             {
                 FatalErrorInFunction

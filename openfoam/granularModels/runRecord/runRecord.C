@@ -15,8 +15,9 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "runRecord.H"
-#include "dictionary.H"
-#include "Time.H"
+#include "timeFolder.H"
+#include "granularModel.H"
+#include "OStringStream.H"
 #include "ListOps.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -25,6 +26,22 @@ namespace Foam
 {
     defineTypeNameAndDebug(runRecord, 0);
 }
+
+Foam::wordHashSet Foam::runRecord::accepted;
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Sum over the processes
+static scalar all(const scalar value)
+{
+    return returnReduce(value, sumOp<scalar>());
+}
+
+} // End namespace Foam
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -39,50 +56,148 @@ Foam::runRecord::runRecord(const fvMesh& mesh, const bool registered)
             mesh.time().timeName(),
             "uniform",
             mesh,
-            IOobject::READ_IF_PRESENT,
-            IOobject::AUTO_WRITE,
+            IOobject::NO_READ,
+            IOobject::NO_WRITE,
             registered
         )
     ),
-    heat(mesh.boundary().size(), Zero)
+    mesh_(mesh),
+    heat(mesh.boundary().size(), Zero),
+    startTime(mesh.time().startTime().value())
 {
-    if (headerOk())
+    const timeFolder folder(mesh.time().timePath());
+    if (returnReduce(folder.hasRecord(), andOp<bool>()))
     {
-        const dictionary dict(readStream(typeName));
-        close();
-        dict.readEntry("nextDeltaT", nextDeltaT);
-        dict.readEntry("sourceHeat", sourceHeat);
-        dict.readEntry("exchanged", exchanged);
-        dict.readEntry("initialMass", initialMass);
-        const dictionary& patches = dict.subDict("heat");
-        forAll(heat, patchi)
-        {
-            // Patches between processes are not there in a serial run
-            patches.readIfPresent(mesh.boundary()[patchi].name(), heat[patchi]);
-        }
+        read(folder);
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::runRecord::read(const timeFolder& folder)
+{
+    const dictionary& dict = folder.record();
+    dict.readEntry("nextDeltaT", nextDeltaT);
+    dict.readEntry("initialMass", initialMass);
+    dict.readIfPresent("startTime", startTime);
+    dict.readIfPresent("leastT", leastT);
+    dict.readIfPresent("mostT", mostT);
+    scheme = dict.lookupOrDefault<word>("timeScheme", word::null);
+    settings_ = dict.subOrEmptyDict("settings");
+
+    // Sums of the process that wrote them; to other processes, those over all
+    // go to the master
+    bool others = folder.redistributed() && dict.found("allHeat");
+    reduce(others, orOp<bool>());
+    if (others && !Pstream::master())
+    {
+        return;
+    }
+    dict.readEntry(others ? "allSourceHeat" : "sourceHeat", sourceHeat);
+    dict.readEntry(others ? "allExchanged" : "exchanged", exchanged);
+    const dictionary& patches = dict.subDict(others ? "allHeat" : "heat");
+    forAll(heat, patchi)
+    {
+        // Patches between processes are not there in a serial run
+        patches.readIfPresent(mesh_.boundary()[patchi].name(), heat[patchi]);
     }
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::runRecord::writeData(Ostream& os) const
+void Foam::runRecord::compare(const dictionary& settings)
 {
-    const int precision = os.precision(17);
-    const fvMesh& mesh = refCast<const fvMesh>(db());
+    const dictionary before(settings_);
+    settings_ = settings;
 
+    for (const entry& item : before)
+    {
+        const string was(before.get<string>(item.keyword()));
+        const string is
+        (
+            settings.lookupOrDefault<string>(item.keyword(), string("absent"))
+        );
+        if (is == was)
+        {
+            continue;
+        }
+        if (!accepted.found(item.keyword()))
+        {
+            FatalErrorInFunction
+                << "Setting '" << item.keyword() << "' is " << is.c_str()
+                << ", but time " << mesh_.time().timeName() << " in "
+                << mesh_.time().path() << " was computed with " << was.c_str()
+                << ". Allowed: the same; the case's Allclean, to begin anew; or"
+                << " msddFoam -accept " << item.keyword()
+                << ", to go on from this time with the new value"
+                << exit(FatalError);
+        }
+        Info<< "Accepted: " << item.keyword() << " changes from " << was.c_str()
+            << " to " << is.c_str() << nl;
+    }
+}
+
+
+void Foam::runRecord::findFiles()
+{
+    files_ = fileNameList(1, fileName("uniform/time"));
+    for (const word& name : mesh_.thisDb().sortedNames())
+    {
+        const regIOobject& object =
+            mesh_.thisDb().lookupObject<regIOobject>(name);
+        if
+        (
+            object.writeOpt() == IOobject::AUTO_WRITE
+         && object.instance() == mesh_.time().timeName()
+        )
+        {
+            files_.append(object.local()/name);
+        }
+    }
+}
+
+
+void Foam::runRecord::writeLast()
+{
+    instance() = mesh_.time().timeName();
+    OStringStream os;
+    os.precision(17);
+    writeHeader(os, "dictionary");
+    os.writeEntry("program", string(granularModel::libraryVersion()));
+    os.writeEntry("time", mesh_.time().value());
+    os.writeEntry("startTime", startTime);
+    os.writeEntry("processes", Pstream::parRun() ? Pstream::nProcs() : 1);
+    os.writeEntry("process", Pstream::myProcNo());
+    os.writeEntry("timeScheme", scheme);
+    settings_.writeEntry("settings", os);
     os.writeEntry("nextDeltaT", nextDeltaT);
+    os.writeEntry("leastT", leastT);
+    os.writeEntry("mostT", mostT);
+    os.writeEntry("initialMass", initialMass);
     os.writeEntry("sourceHeat", sourceHeat);
     os.writeEntry("exchanged", exchanged);
-    os.writeEntry("initialMass", initialMass);
+    os.writeEntry("allSourceHeat", all(sourceHeat));
+    os.writeEntry("allExchanged", all(exchanged));
     os.beginBlock("heat");
     forAll(heat, patchi)
     {
-        os.writeEntry(mesh.boundary()[patchi].name(), heat[patchi]);
+        os.writeEntry(mesh_.boundary()[patchi].name(), heat[patchi]);
     }
     os.endBlock();
-    os.precision(precision);
-    return os.good();
+    os.beginBlock("allHeat");
+    forAll(heat, patchi)
+    {
+        // Every process has these, in this order, before those between them
+        if (!mesh_.boundary()[patchi].coupled())
+        {
+            os.writeEntry(mesh_.boundary()[patchi].name(), all(heat[patchi]));
+        }
+    }
+    os.endBlock();
+
+    timeFolder::write(mesh_.time().timePath(), files_, os.str());
 }
 
 

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "paperScheme.H"
+#include "stepWatch.H"
 #include "addToRunTimeSelectionTable.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -62,6 +63,7 @@ void Foam::timeSchemes::paper::step()
     Told_ = T_.primitiveField();
     grains_.extrapolateTemperature(T_.primitiveFieldRef());
 
+    stepWatch::doing("the model");
     // Steps 1 to 3: grains from n to n + 1, strained by what T did last
     scalar error;
     if (grains_.propose(false, false, error))
@@ -70,9 +72,11 @@ void Foam::timeSchemes::paper::step()
     }
     grains_.commit();
 
+    stepWatch::doing("the mechanics");
     // Equilibrium of the stress that this leaves
     mechanics_.solve(true);
 
+    stepWatch::doing("the heat equation");
     // Step 4: the heat equation
     const scalar deltaT = time_.deltaTValue();
     heat_.solve

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "secondOrderScheme.H"
+#include "stepWatch.H"
 #include "addToRunTimeSelectionTable.H"
 
 #include <cmath>
@@ -42,6 +43,11 @@ static const scalar safety = 0.9;
 static const scalar largestGrowth = 3;
 static const scalar largestCut = 0.1;
 
+//- Tolerance of T over the range of T seen so far, and smallest step over the
+//- end time, unless they are given
+static const scalar toleranceShare = 1e-3;
+static const scalar smallestShare = 5e-11;
+
 //- How often a step is halved for the sake of the mechanics
 static const label mostHalvings = 10;
 
@@ -63,10 +69,12 @@ Foam::timeSchemes::secondOrder::secondOrder
     adaptive_(time_.controlDict().lookupOrDefault("adjustTimeStep", false)),
     temperatureTolerance_
     (
-        granularProperties::ranged
+        dict.found("temperatureTolerance")
+      ? granularProperties::ranged
         (
-            dict, "temperatureTolerance", 0.05, 1e-12, 1e6
+            dict, "temperatureTolerance", 0, 1e-12, 1e6
         )
+      : 0
     ),
     stateTolerance_
     (
@@ -76,7 +84,11 @@ Foam::timeSchemes::secondOrder::secondOrder
     (
         granularProperties::ranged
         (
-            time_.controlDict(), "minDeltaT", 1e-9, 0, GREAT
+            time_.controlDict(),
+            "minDeltaT",
+            smallestShare*time_.endTime().value(),
+            0,
+            GREAT
         )
     ),
     maxDeltaT_
@@ -92,10 +104,45 @@ Foam::timeSchemes::secondOrder::secondOrder
     firstSource_(0),
     rejected_(0),
     forced_(0)
-{}
+{
+    see(T_.primitiveField());
+    for (const fvPatchScalarField& patch : T_.boundaryField())
+    {
+        see(patch);
+    }
+    runRecord& record = grains.record();
+    reduce(record.leastT, minOp<scalar>());
+    reduce(record.mostT, maxOp<scalar>());
+}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::timeSchemes::secondOrder::see(const scalarField& T)
+{
+    runRecord& record = grains_.record();
+    for (const scalar value : T)
+    {
+        record.leastT = min(record.leastT, value);
+        record.mostT = max(record.mostT, value);
+    }
+}
+
+
+Foam::scalar Foam::timeSchemes::secondOrder::tolerance() const
+{
+    if (temperatureTolerance_ > 0)
+    {
+        return temperatureTolerance_;
+    }
+    // With what the step would do: a scene that starts at one temperature has
+    // no range before
+    const runRecord& record = grains_.record();
+    const scalar least = min(record.leastT, gMin(T_.primitiveField()));
+    const scalar most = max(record.mostT, gMax(T_.primitiveField()));
+    return max(toleranceShare*(most - least), VSMALL);
+}
+
 
 Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
 {
@@ -110,9 +157,16 @@ Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
     {
         const scalar interval =
             time_.controlDict().get<scalar>("writeInterval");
-        const scalar since = now - time_.startTime().value();
-        const scalar next = (std::floor(since/interval + 1e-9) + 1)*interval;
-        left = min(left, next - since);
+        // Counted from where the first run began, if this one writes at the
+        // same times: a restart then lands on the same bits
+        scalar begin = grains_.record().startTime;
+        const scalar since = (time_.startTime().value() - begin)/interval;
+        if (mag(since - std::round(since)) > 1e-6)
+        {
+            begin = time_.startTime().value();
+        }
+        const scalar next = std::floor((now - begin)/interval + 1e-9) + 1;
+        left = min(left, begin + next*interval - now);
     }
     return left > 0 ? left/std::ceil(left/deltaT - 1e-9) : deltaT;
 }
@@ -171,13 +225,16 @@ Foam::scalar Foam::timeSchemes::secondOrder::attempt
     bool& cut
 )
 {
-    const scalar error = stages(deltaT)/temperatureTolerance_;
+    stepWatch::doing("the heat equation");
+    const scalar difference = stages(deltaT);
+    const scalar error = adaptive_ ? difference/tolerance() : 0;
     cut = false;
 
     if (adaptive_ && error > 1 && deltaT > minDeltaT_)
     {
         return error;
     }
+    stepWatch::doing("the model");
     scalar stateError;
     grains_.strain(Told_, T_.primitiveField());
     cut = grains_.propose(true, true, stateError);
@@ -192,6 +249,7 @@ bool Foam::timeSchemes::secondOrder::settle
     const bool lastAttempt
 )
 {
+    stepWatch::doing("the mechanics");
     if (lastAttempt || !mechanics_.canFail())
     {
         grains_.commitStrain();
@@ -285,6 +343,7 @@ void Foam::timeSchemes::secondOrder::step()
         deltaT = max(minDeltaT_, deltaT*factor);
     }
     forced_ += adaptive_ && error > 1;
+    see(T_.primitiveField());
 
     accountStages(deltaT);
     if (adaptive_)

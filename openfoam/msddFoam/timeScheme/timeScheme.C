@@ -58,7 +58,8 @@ Foam::timeScheme::timeScheme
     logInterval_
     (
         label(granularProperties::ranged(dict, "logInterval", 1, 1, 1e9))
-    )
+    ),
+    waitLimit_(granularProperties::ranged(dict, "waitLimit", 300, 0, 1e9))
 {}
 
 
@@ -88,7 +89,8 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
             dict,
             {
                 "timeScheme", "nNonOrthogonalCorrectors",
-                "temperatureTolerance", "stateTolerance", "logInterval"
+                "temperatureTolerance", "stateTolerance", "logInterval",
+                "waitLimit"
             }
         );
     }
@@ -104,6 +106,13 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
             << exit(FatalIOError);
     }
     Info<< "Selecting timeScheme " << type << endl;
+    runRecord& record = grains.record();
+    if (!record.scheme.empty() && record.scheme != type)
+    {
+        Info<< "The time that this run goes on from was computed with"
+            << " timeScheme " << record.scheme << nl;
+    }
+    record.scheme = type;
     return (*constructor)(dict, T, grains, mechanics, properties);
 }
 

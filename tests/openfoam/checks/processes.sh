@@ -1,19 +1,6 @@
 # Any number of processes gives the answer of one: 2, 3 and 4 in a row, 2 x 2 and 2 x 3, with every feature. With three in a
 # row the middle process has two neighbours and the others one, which an exchange inside a loop over patches does not survive.
 
-in_parts() { # "nx ny": decompose this case
-    local nx=${1% *} ny=${1#* }
-    cat > system/decomposeParDict <<-END
-	FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }
-	numberOfSubdomains $((nx*ny));
-	method simple;
-	simpleCoeffs { n ($nx $ny 1); delta 1e-3; }
-	END
-    logged decomposePar -force
-}
-side_by_side() { # processes: a hang ends after two minutes instead of never
-    logged timeout 120 mpirun --oversubscribe -np "$1" msddFoam -parallel
-}
 same_answer() { # what, bound: every decomposition of the case here against this case in one piece
     local what=$1 bound=$2 name=${PWD##*/} parts e
     logged msddFoam
@@ -41,9 +28,7 @@ every_function_object() { controls "functions { #include \"$here/audits\" }"; }
 function_objects_agree() { # their last lines on six processes and one
     local file e
     for file in postProcessing/*/0/*.dat; do
-        e=$(paste -d ' ' <(tail -n 1 "$file") <(tail -n 1 "$work/parts/$file") | tr -d '()' | awk '
-            { for (i = 1; i <= NF/2; i++) { a = $i; b = $(i + NF/2); e = a - b; if (e < 0) e = -e
-              s = a < 0 ? -a : a; if (s > 1) e /= s; if (!(e <= w)) w = e } } END { print (NF > 1 ? w + 0 : "nan") }')
+        e=$(lines_differ "$file" "$work/parts/$file")
         check "$file on six processes: difference $e <= 1e-9" below "$e" 1e-9
     done
 }
@@ -96,3 +81,25 @@ for per in cell history; do
     mesh_is '6 4 1'
     same_answer "online RVEs per $per" 1e-10
 done
+
+stopped_process() { # one of three is stopped for a while: the others say that they wait, and then go on
+    local waiting
+    several rows-stopped
+    controls 'deltaT 0.001;'
+    scheme 'waitLimit 0.5;'
+    mesh_is '12 6 1'
+    in_parts '3 1'
+    timeout 120 mpirun --oversubscribe -np 3 msddFoam -case "$PWD" -parallel > log.stopped 2>&1 &
+    waiting=$!
+    while ! grep -q '^Time = ' log.stopped && kill -0 $waiting 2> /dev/null; do sleep 0.05; done
+    set -- $(pgrep -f -- "^msddFoam -case $PWD -parallel")
+    kill -STOP "$3"
+    for _ in $(seq 200); do
+        [ "$(grep -c 'has not finished a step for' log.stopped)" -lt 2 ] || break
+        sleep 0.05
+    done
+    kill -CONT "$3"
+    check "a process is stopped: the other two say that they wait" test "$(grep -c 'of 3 has not finished a step for' log.stopped)" -ge 2
+    check "a process is stopped for a while: the run goes on to its end" wait $waiting
+}
+stopped_process

@@ -1,0 +1,180 @@
+# What a restart goes on from: the newest time that is whole, computed with the same settings; whatever is lost, changed or
+# of another number of processes is said, never replaced in silence.
+
+halfway() { # folder: small with 0.5 written, run to 0.5
+    changed "$1"
+    controls 'writeInterval 5; endTime 0.5;'
+}
+skipped() { # reason: the run goes back to 0.25 and says why
+    msddFoam > log.bad 2>&1 && grep -qF "Time 0.5 is skipped: $1. It is renamed to 0.5.incomplete" log.bad \
+        && grep -q '^Create mesh for time = 0.25' log.bad && [ -e 0.5.incomplete ] && [ -e 0.5/uniform/msddFoam ]
+}
+again() { rm -rf 0.5 0.5.incomplete; cp -r "$whole" 0.5; }
+flip() { # file: one bit in the middle
+    local at=$(($(stat -c %s "$1")/2)) byte
+    byte=$(od -An -tu1 -j $at -N 1 "$1")
+    printf "\\x$(printf %x $((byte ^ 1)))" | dd of="$1" bs=1 seek=$at conv=notrunc status=none
+}
+
+every_file() { # what: of the time 0.5 of this case, each lost in turn, then each with one flipped bit
+    local what=$1 whole=$PWD/0.5.whole file files lost=0 changed=0 unharmed
+    logged msddFoam
+    mv 0.5 "$whole"
+    # No restart reads spread; what function objects know of themselves OpenFOAM writes after the time
+    files=($(cd "$whole" && find . -type f ! -name spread ! -name msddFoam ! -path '*/functionObjects/*' | sed 's,^\./,,'))
+    for file in "${files[@]}"; do
+        again
+        rm "0.5/$file"
+        skipped "missing: $file" && lost=$((lost + 1)) || echo "        lost unnoticed: $file" >&2
+        again
+        flip "0.5/$file"
+        skipped "not as written: $file" && changed=$((changed + 1)) || echo "        changed unnoticed: $file" >&2
+    done
+    check "$what: the loss of each of ${#files[@]} files is said, the time before is taken: $lost" test $lost = ${#files[@]}
+    check "$what: one flipped bit in each of ${#files[@]} files: $changed" test $changed = ${#files[@]}
+    again
+    rm 0.5/uniform/msddFoam
+    check "$what: no record, so the time is not whole" skipped 'uniform/msddFoam, which is written last, is missing'
+    again
+    flip 0.5/uniform/msddFoam
+    check "$what: a flipped bit in the record" skipped 'uniform/msddFoam is damaged'
+    again
+    sed -i 5q 0.5/uniform/msddFoam
+    check "$what: half a record" skipped 'uniform/msddFoam is incomplete'
+    again
+    unharmed=$(cd 0.5 && find . -type f -exec sha1sum {} + | sha1sum)
+    rm -rf 0.5
+    logged msddFoam
+    check "$what: the time computed again has the same bytes" \
+        test "$(cd 0.5 && find . -type f -exec sha1sum {} + | sha1sum)" = "$unharmed"
+}
+
+other_settings() { # refused with both values; accepted by name
+    local before=$PWD/constant/granularProperties.before key
+    cp constant/granularProperties "$before"
+    setting() { # name of the setting, both values, entry
+        cp "$before" constant/granularProperties
+        grains "$4"
+        check "restart with another $1: refused with both values" \
+            refused "Setting '$1' is $3, but time 0.5 in \"$PWD\" was computed with $2."
+        logged foamDictionary -entry endTime -set 0.55 system/controlDict
+        check "restart with another $1: accepted by name" \
+            bash -c "msddFoam -accept '($1 ${5:-})' > log.bad 2>&1 && grep -q 'Accepted: $1 changes from' log.bad"
+        rm -rf 0.55
+    }
+    setting thermalExpansion 0.001 0.002 'thermalExpansion 2e-3;'
+    setting youngModulus 10000000 20000000 'youngModulus 2e7;'
+    setting meanRadius 0.005 0.001 'meanRadius 1e-3;'
+    setting mechanics none equilibrium 'mechanics equilibrium;' mechanicsCoeffs
+    cp "$before" constant/granularProperties
+    grains 'surrogate { model builtin:paper; }'
+    check "restart with another model: refused" refused "Setting 'model' is network "
+    cp "$before" constant/granularProperties
+    logged foamDictionary -entry endTime -set 0.5 system/controlDict
+}
+
+named_start() { # startTime instead of latestTime
+    controls 'startFrom startTime; startTime 0.5;'
+    rm 0.5/porosity
+    check "startTime of a time that is not whole: refused" \
+        refused "Time 0.5 in \"$PWD\", the startTime of controlDict, is not whole: missing: porosity"
+    controls 'startFrom latestTime;'
+}
+
+older_version() { # a record without a list
+    again
+    sed -i '/^files/,$d; /^program/d' 0.5/uniform/msddFoam
+    check "record of a version that kept no list: refused" refused 'it was written by a version that kept no list of files'
+    logged foamDictionary -entry endTime -set 0.55 system/controlDict
+    check "record of a version that kept no list: accepted by name" bash -c 'msddFoam -accept files > log.bad 2>&1 && [ -e 0.55/T ] || [ -e 0.5/T ]'
+    logged foamDictionary -entry endTime -set 0.5 system/controlDict
+}
+
+nothing_whole() {
+    rm -rf 0 0.25 0.5
+    mkdir 0.5
+    check "no time that is whole: refused" refused 'No time in'
+}
+
+full_disk() { # files end after 2 KiB, as on a full disk; then there is room again
+    local e
+    changed full
+    controls 'writeInterval 5; endTime 0.5;'
+    mesh_is '12 6 1'
+    (trap '' XFSZ; ulimit -f 2; ! msddFoam 2>&1) | cat > log.full
+    check "full disk: the run ends with an error" grep -q 'Is the disk full' log.full
+    logged msddFoam
+    e=$(difference "$work/restart-none/0.5.whole" 0.5)
+    check "full disk: once there is room the run starts anew and ends as it should: difference $e" test "$e" = 0
+}
+
+other_processes() { # 1, then 3, then 1 again, then 2 x 2, against 1 throughout; the heat that came in is that of all
+    local e way end=0.5
+    changed moved-on-whole
+    controls "writeInterval 2; functions { #include \"$here/audits\" }"
+    mesh_is '12 6 1'
+    rm -rf "$work/moved-on"
+    cp -r . "$work/moved-on"
+    logged msddFoam
+    cd "$work/moved-on"
+    for way in '1 1' '3 1' '1 1' '2 2'; do
+        controls "endTime $end;"
+        if [ "$way" = '1 1' ]; then
+            logged msddFoam
+        else
+            in_parts "$way"
+            side_by_side $((${way% *}*${way#* }))
+            logged reconstructPar -latestTime
+        fi
+        end=$(awk "BEGIN { print $end + ($end < 0.65 ? 0.1 : 0.3) }")
+    done
+    check "restarts on other numbers of processes say so" \
+        test "$(grep -c 'was written by another number of processes' log)" = 3
+    e=$(difference "$work/moved-on-whole/1" 1)
+    check "restarts on 1, 3, 1 and 4 processes: difference $e <= 1e-10" below "$e" 1e-10
+    for way in heatAudit massAudit; do
+        e=$(lines_differ "$work/moved-on-whole/postProcessing/$way/0/$way.dat" postProcessing/$way/0.7/$way.dat)
+        check "restarts on 1, 3, 1 and 4 processes: last line of $way differs by $e <= 1e-9" below "$e" 1e-9
+    done
+}
+
+binary_and_compressed() { # these formats go on to the same bytes, too
+    local format
+    for format in 'writeFormat binary;' 'writeCompression on;'; do
+        changed formats
+        controls "$format writeInterval 10;"
+        mesh_is '12 6 1'
+        logged msddFoam
+        mv 1 whole
+        logged msddFoam
+        check "restart with $format has the same bytes" diff -rq whole 1
+        rm -rf 1
+        flip "$(ls 0.5/T 0.5/T.gz 2> /dev/null)"
+        check "flipped bit with $format: skipped" bash -c 'msddFoam > log.bad 2>&1; grep -q "Time 0.5 is skipped: not as written: T" log.bad'
+    done
+}
+
+halfway restart-none
+mesh_is '12 6 1'
+every_file "grains that stay"
+whole=$PWD/0.5.whole
+again
+other_settings
+again
+named_start
+older_version
+nothing_whole
+
+halfway restart-equilibrium
+grains 'mechanics equilibrium; equilibriumCoeffs { residual 1e-2; }'
+mesh_is '12 6 1'
+every_file "equilibrium"
+
+halfway restart-online
+grains "surrogate { type onlineRve; onlineRveCoeffs { discs 60; rvePer history; } smallestStrain 0; }"
+mesh_is '4 2 1'
+every_file "online RVEs"
+
+full_disk
+other_processes
+binary_and_compressed
