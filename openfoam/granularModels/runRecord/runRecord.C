@@ -30,20 +30,6 @@ namespace Foam
 Foam::wordHashSet Foam::runRecord::accepted;
 
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-//- Sum over the processes
-static scalar all(const scalar value)
-{
-    return returnReduce(value, sumOp<scalar>());
-}
-
-} // End namespace Foam
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::runRecord::runRecord(const fvMesh& mesh, const bool registered)
@@ -99,7 +85,7 @@ void Foam::runRecord::read(const timeFolder& folder)
     const dictionary& patches = dict.subDict(others ? "allHeat" : "heat");
     forAll(heat, patchi)
     {
-        // Patches between processes are not there in a serial run
+        // Nothing comes in between processes
         patches.readIfPresent(mesh_.boundary()[patchi].name(), heat[patchi]);
     }
 }
@@ -178,24 +164,31 @@ void Foam::runRecord::writeLast()
     os.writeEntry("initialMass", initialMass);
     os.writeEntry("sourceHeat", sourceHeat);
     os.writeEntry("exchanged", exchanged);
-    os.writeEntry("allSourceHeat", all(sourceHeat));
-    os.writeEntry("allExchanged", all(exchanged));
-    os.beginBlock("heat");
-    forAll(heat, patchi)
+
+    // The same over all processes, which have the patches that are not between
+    // processes in common, in one order
+    const label patches = mesh_.boundaryMesh().nNonProcessor();
+    scalarList all(patches + 2);
+    for (label patchi = 0; patchi < patches; ++patchi)
     {
-        os.writeEntry(mesh_.boundary()[patchi].name(), heat[patchi]);
+        all[patchi] = heat[patchi];
     }
-    os.endBlock();
-    os.beginBlock("allHeat");
-    forAll(heat, patchi)
+    all[patches] = sourceHeat;
+    all[patches + 1] = exchanged;
+    Pstream::listCombineGather(all, plusEqOp<scalar>());
+    Pstream::listCombineScatter(all);
+    os.writeEntry("allSourceHeat", all[patches]);
+    os.writeEntry("allExchanged", all[patches + 1]);
+
+    for (const scalarList* values : {&heat, &all})
     {
-        // Every process has these, in this order, before those between them
-        if (!mesh_.boundary()[patchi].coupled())
+        os.beginBlock(values == &all ? "allHeat" : "heat");
+        for (label patchi = 0; patchi < patches; ++patchi)
         {
-            os.writeEntry(mesh_.boundary()[patchi].name(), all(heat[patchi]));
+            os.writeEntry(mesh_.boundary()[patchi].name(), (*values)[patchi]);
         }
+        os.endBlock();
     }
-    os.endBlock();
 
     timeFolder::write(mesh_.time().timePath(), files_, os.str());
 }
