@@ -39,10 +39,12 @@ Foam::wallConditions::wallConditions
 (
     const dictionary& dict,
     const granularModel& model,
-    const quadMesh& mesh
+    const quadMesh& mesh,
+    const scalar radius
 )
 :
     mesh_(mesh),
+    radius_(radius),
     walls_(mesh.mesh().boundary().size()),
     free_(mesh.size(), vector2D(1, 1)),
     balanced_(mesh.size(), vector2D(1, 1)),
@@ -118,7 +120,10 @@ void Foam::wallConditions::read
     granularProperties::checkKeys
     (
         dict,
-        {"type", "friction", "slip", "displacement", "pressure"}
+        {
+            "type", "friction", "slip", "displacement", "pressure",
+            "displacementCoeffs", "pressureCoeffs"
+        }
     );
     w.type = kindNames.getOrDefault("type", dict, kind::rigid);
     findAxis(patchi, dict);
@@ -136,7 +141,10 @@ void Foam::wallConditions::read
         }
         w.friction =
             granularProperties::ranged(dict, "friction", limit, 0, 10);
-        w.slip = granularProperties::ranged(dict, "slip", slip, 1e-9, 10);
+        w.slip = granularProperties::ranged
+        (
+            dict, "slip", slip, 2e-7*radius_, 2000*radius_
+        );
     }
     if (w.type == kind::pressure)
     {

@@ -29,7 +29,7 @@ void Foam::granularState::findReaders()
     ({
         "conductivity", "stress", "pressure", "particleDensity", "inRegion",
         "spread", "thermalStrain", "D", "nodeDisplacement", "wallTraction",
-        "shearStress", "areaRatio"
+        "shearStress", "areaRatio", "strainLoops"
     });
     const dictionary functions =
         mesh_.time().controlDict().subOrEmptyDict("functions");
