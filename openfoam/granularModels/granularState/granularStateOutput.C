@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "granularState.H"
+#include "caseChecks.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "stringListOps.H"
 #include "OStringStream.H"
@@ -127,6 +128,7 @@ void Foam::granularState::finishStep()
     if (writes)
     {
         findSpread();
+        checkTemperature(mesh_.lookupObject<volScalarField>("T"));
     }
 }
 
