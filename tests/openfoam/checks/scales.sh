@@ -44,6 +44,49 @@ check "scale-equilibrium: $(solves) steps solved" test "$(solves)" -gt 0
 any_size scale-adaptive 1e-9 'timeScheme secondOrder; temperatureTolerance 0.5;' ''
 any_size scale-adaptive-equilibrium 1e-6 'timeScheme secondOrder; temperatureTolerance 0.5;' 'mechanics equilibrium;'
 
+# What function objects write: columns after the time, of one line or of all windows
+looked_at() { # folder, size
+    scaled "$1" $2 '' 'mechanics equilibrium;'
+    controls "functions {
+        spaceProbes { type spaceProbes; libs (\"libgranularFunctionObjects.so\"); field T; writeControl writeTime;
+            probeLocations ($(awk "BEGIN { printf \"(%.17g %.17g %.17g)\", 0.5*$2, 0.2*$2, 0.005*$2 }")); }
+        subRegions { type subRegions; libs (\"libgranularFunctionObjects.so\"); windows (3 2); writeControl writeTime; }
+        wallPressure { type wallPressure; libs (\"libgranularFunctionObjects.so\"); writeControl writeTime; }
+    }"
+    logged msddFoam
+}
+function_objects() {
+    local object e
+    looked_at scale-objects-1 1
+    looked_at scale-objects 0.002
+    for object in spaceProbes subRegions wallPressure; do
+        # Pressures, the last columns of windows and all of walls, are in proportion to the size
+        e=$(paste -d ' ' <(grep -v '^#' postProcessing/$object/0/$object.dat) <(grep -v '^#' ../scale-objects-1/postProcessing/$object/0/$object.dat) \
+            | awk -v object=$object '{ n = NF/2; for (i = 2; i <= n; i++) { a = $i; b = $(i + n)
+                  if (object == "wallPressure" || (object == "subRegions" && i > 8)) b *= 0.002
+                  e = a - b; if (e < 0) e = -e; m = b < 0 ? -b : b; if (m > 0) e /= m; if (!(e <= w)) w = e } lines++ }
+              END { print (lines ? w + 0 : "nan") }')
+        check "$object at 10 um against 5 mm: $e <= 1e-6" below "$e" 1e-6
+    done
+}
+function_objects
+
+# Boxes of grains in the cells: four times the size to some power multiplies all by powers of two
+boxes_in_cells() {
+    local size
+    for size in 1 0.00390625; do
+        changed "scale-boxes-$size"
+        echo "scale $(awk "BEGIN { printf \"%.17g\", 0.001*$size }");" >> system/blockMeshDict
+        grains "meanRadius $(awk "BEGIN { printf \"%.17g\", 5e-3*$size }"); surrogate { type onlineRve; onlineRveCoeffs { discs 60; } }"
+        controls "$(awk "BEGIN { t = $size*$size; printf \"endTime %.17g; deltaT %.17g; writeInterval 4;\", 0.2*t, 0.05*t }")"
+        mesh_is '3 1 1'
+        logged msddFoam
+    done
+    size=$(against "$(latest)" "../scale-boxes-1/0.2" 0.00390625)
+    check "onlineRve at 20 um against 5 mm: $size <= 1e-9" below "$size" 1e-9
+}
+boxes_in_cells
+
 # What the default residual leaves, against one a hundredth of it
 exact_enough() {
     local size e residual
