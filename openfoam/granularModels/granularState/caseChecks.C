@@ -23,6 +23,19 @@ License
 namespace Foam
 {
 
+//- Share of the largest temperature by which T of a run may undershoot 0 K
+static const scalar undershoot = 0.01;
+
+//- The same at a start, where only rounding may
+static const scalar roundOff = 1e-9;
+
+//- The lowest temperature that is taken
+static scalar lowest(const volScalarField& T, const scalar share)
+{
+    return -share*max(gMax(T.primitiveField()), scalar(0));
+}
+
+
 //- In words where T is below a bound on this process; empty if nowhere
 static string whereBelowHere(const volScalarField& T, const scalar bound)
 {
@@ -117,8 +130,8 @@ void Foam::checkVolumes(const fvMesh& mesh)
             << "The mesh in "
             << (mesh.time().constant()/mesh.meshDir()).c_str() << " has "
             << cells << " cells of "
-            << returnReduce(mesh.nCells(), sumOp<label>()) << " with a volume of"
-            << " zero or below, the least " << least
+            << returnReduce(mesh.nCells(), sumOp<label>())
+            << " with a volume of zero or below, the least " << least
             << " m^3, allowed: > 0. A mesh that has been mirrored is turned"
             << " inside out; checkMesh tells more" << exit(FatalError);
     }
@@ -127,7 +140,11 @@ void Foam::checkVolumes(const fvMesh& mesh)
 
 void Foam::checkInitialTemperature(const volScalarField& T)
 {
-    const string where(whereBelow(T, 0));
+    const bool restarted = T.time().timeIndex() > 0;
+    const string where
+    (
+        whereBelow(T, lowest(T, restarted ? undershoot : roundOff))
+    );
     if (!where.empty())
     {
         FatalErrorInFunction
@@ -140,8 +157,7 @@ void Foam::checkInitialTemperature(const volScalarField& T)
 
 void Foam::checkTemperature(const volScalarField& T)
 {
-    const scalar undershoot = -0.01*max(gMax(T.primitiveField()), scalar(0));
-    const string where(whereBelow(T, undershoot));
+    const string where(whereBelow(T, lowest(T, undershoot)));
     if (!where.empty())
     {
         Time& runTime = const_cast<Time&>(T.time());

@@ -87,8 +87,22 @@ too_cold() {
     check "refused: a wall that is cooled below 0 K" refused 'K at patch left, face 0, allowed: 0 K and above'
 }
 
+# What a discretisation may undershoot by is no bad input of the restart
+undershoot() {
+    changed undershoot
+    mesh_is '12 6 1'
+    controls 'endTime 0.1;'
+    logged msddFoam
+    awk '/^\($/ && !done { print; getline; print -0.5; done = 1; next } { print }' 0.1/T > T.new
+    mv T.new 0.1/T
+    controls 'endTime 0.2;'
+    logged msddFoam
+    check "an undershoot of half a Kelvin: the restart goes on" test -d 0.2
+}
+
 bad_dictionaries
 bad_fields
+undershoot
 three_dimensional
 inside_out
 too_cold
