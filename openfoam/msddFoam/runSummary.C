@@ -96,7 +96,14 @@ void Foam::runSummary::write(const label rejected) const
             << ", \"cut_steps\": " << moved.cut
             << ", \"unconverged_steps\": " << moved.unconverged
             << ", \"residual\": " << moved.residual
-            << ", \"displacement\": " << moved.displacement << "},\n"
+            << ", \"displacement\": " << moved.displacement
+            << ", \"looped_cells\": " << moved.looped
+            << ", \"warnings\": [";
+        forAll(moved.warnings, i)
+        {
+            os  << (i ? ", " : "") << moved.warnings[i];
+        }
+        os  << "]},\n"
             << "  \"model\": {\"source\": " << grains_.model().source()
             << ", \"hash\": " << string(grains_.model().hash())
             << ", \"library_version\": "

@@ -70,7 +70,10 @@ bool Foam::functionObjects::wallPressure::write()
     const tmp<volScalarField> tpressure(present<scalar>("pressure"));
     const tmp<volSymmTensorField> tstress(present<symmTensor>("stress"));
 
-    scalarList values(1, tpressure().weightedAverage(mesh_.V()).value());
+    const scalar mean = tpressure().weightedAverage(mesh_.V()).value();
+
+    // Of each wall: area, pressure and normal stress times area
+    List<vector> sums;
     for (const fvPatch& patch : mesh_.boundary())
     {
         if (!isA<wallFvPatch>(patch))
@@ -79,25 +82,26 @@ bool Foam::functionObjects::wallPressure::write()
         }
         const vectorField n(patch.nf());
         const labelUList& cells = patch.faceCells();
-        scalar area = 0, pressure = 0, normal = 0;
+        vector sum(Zero);
         forAll(cells, facei)
         {
             const scalar A = patch.magSf()[facei];
-            area += A;
-            pressure += A*tpressure()[cells[facei]];
-            normal -= A*(n[facei] & tstress()[cells[facei]] & n[facei]);
+            sum.x() += A;
+            sum.y() += A*tpressure()[cells[facei]];
+            sum.z() -= A*(n[facei] & tstress()[cells[facei]] & n[facei]);
         }
-        reduce(area, sumOp<scalar>());
-        values.append(returnReduce(pressure, sumOp<scalar>())/area);
-        values.append(returnReduce(normal, sumOp<scalar>())/area);
+        sums.append(sum);
     }
+    Pstream::listCombineGather(sums, plusEqOp<vector>());
 
     if (Pstream::master())
     {
         Ostream& os = line();
-        for (const scalar value : values)
+        os  << tab << mean;
+        for (const vector& sum : sums)
         {
-            os  << tab << value;
+            const scalar area = max(sum.x(), VSMALL);
+            os  << tab << sum.y()/area << tab << sum.z()/area;
         }
         os  << endl;
     }

@@ -160,17 +160,18 @@ Foam::bandSolver::bandSolver(const quadMesh& mesh)
     }
     // By levels, or along either axis, whichever band is the narrowest
     const List<vector2D>& points = mesh.points();
-    const auto along = [&points](const label axis)
+    const scalar span = boundBox(mesh.mesh().points(), false).mag();
+    const auto along = [&points, span](const label axis)
     {
         labelList order(identity(points.size()));
         std::stable_sort
         (
             order.begin(), order.end(),
-            [&points, axis](const label a, const label b)
+            [&points, axis, span](const label a, const label b)
             {
                 // Rounded: points of a column differ by their last digits
-                const scalar xa = std::round(points[a][axis]*1e9);
-                const scalar xb = std::round(points[b][axis]*1e9);
+                const scalar xa = std::round(points[a][axis]/span*1e9);
+                const scalar xb = std::round(points[b][axis]/span*1e9);
                 return
                     xa != xb
                   ? xa < xb

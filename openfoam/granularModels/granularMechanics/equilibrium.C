@@ -42,9 +42,16 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
 :
     granularMechanics(grains),
     dict_(properties.subOrEmptyDict("equilibriumCoeffs")),
+    scale_
+    (
+        properties.youngModulus().value()*properties.meanRadius().value()
+    ),
     tolerance_
     (
-        granularProperties::ranged(dict_, "residual", 5, 1e-9, 1e9)
+        granularProperties::ranged
+        (
+            dict_, "residual", 1e-4*scale_, 2e-14*scale_, 2e4*scale_
+        )
     ),
     maxIterations_
     (
@@ -54,7 +61,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     (
         granularProperties::ranged
         (
-            dict_, "maxResidual", 20*tolerance_, tolerance_, 1e12
+            dict_, "maxResidual", 20*tolerance_, tolerance_, 2e7*scale_
         )
     ),
     sinPhi_(granularProperties::ranged(dict_, "sinPhi", 0.35, 0.01, 1)),
@@ -62,12 +69,14 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     (
         granularProperties::ranged(dict_, "shearFactor", 1, 0.01, 10)
     ),
-    scale_
-    (
-        properties.youngModulus().value()*properties.meanRadius().value()
-    ),
     quads_(mesh_),
-    walls_(dict_.subOrEmptyDict("walls"), grains.model(), quads_),
+    walls_
+    (
+        dict_.subOrEmptyDict("walls"),
+        grains.model(),
+        quads_,
+        properties.meanRadius().value()
+    ),
     uniform_(quads_),
     nodeDisplacement_
     (
@@ -92,6 +101,13 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     (
         io("initialStress", IOobject::READ_IF_PRESENT),
         grains.stress()
+    ),
+    strainLoops_
+    (
+        io("strainLoops", IOobject::READ_IF_PRESENT),
+        mesh_,
+        dimensionedVector(dimless, Zero),
+        extrapolatedCalculatedFvPatchVectorField::typeName
     ),
     D_
     (
@@ -129,7 +145,10 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     diagonal_(u_),
     uniformDiagonal_(u_),
     metric_(mesh_.nCells()),
-    steps_(0)
+    steps_(0),
+    largest_(0),
+    everMoved_(false),
+    loopsSaid_(false)
 {
     granularProperties::checkKeys
     (

@@ -37,6 +37,7 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
         J[celli] = F[0]*F[3] - F[1]*F[2];
     }
     D_.correctBoundaryConditions();
+    strainLoops_.correctBoundaryConditions();
     areaRatio_.correctBoundaryConditions();
     grains_.setAreaRatio(J);
 
@@ -121,6 +122,8 @@ Foam::granularMechanicsModels::equilibrium::count() const
 {
     counters all(counters_);
     all.displacement = gMax(mag(D_.primitiveField())());
+    all.looped = loopedCells();
+    all.warnings = warnings();
     return all;
 }
 
@@ -134,6 +137,10 @@ void Foam::granularMechanicsModels::equilibrium::writeReport() const
         << all.displacement << " m; largest residual left " << all.residual
         << " Pa, in " << all.unconverged << " steps above " << tolerance_
         << " Pa" << nl;
+    for (const string& warning : all.warnings)
+    {
+        Info<< "Equilibrium: " << warning.c_str() << nl;
+    }
 }
 
 

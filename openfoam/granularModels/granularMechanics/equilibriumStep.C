@@ -248,6 +248,10 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
 {
     const scalar time = mesh_.time().value();
     const nodeField u(u_), traction(traction_);
+    const vectorField loops
+    (
+        parts > 1 ? strainLoops_.primitiveField() : vectorField()
+    );
     const nodeField way(walls_.way(time, u_));
     granularState::memory before;
     slide_ = walls_.slide(lastTime_, time);
@@ -284,6 +288,7 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
             if (parts > 1)
             {
                 grains_.restore(before);
+                strainLoops_.primitiveFieldRef() = loops;
                 u_ = u;
                 traction_ = traction;
             }
@@ -305,10 +310,7 @@ void Foam::granularMechanicsModels::equilibrium::keep
     traction_ = newTraction_;
     if (moved)
     {
-        forAll(u_, i)
-        {
-            u_[i] += du[i];
-        }
+        move(du);
         grains_.deform(strainXX_, strainYY_, sinPhi_, shear_);
         findMetric();
     }
@@ -344,6 +346,8 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
     counters_.cut += parts > 1;
     counters_.unconverged += left_ > tolerance_;
     counters_.residual = max(counters_.residual, left_);
+    largest_ = max(largest_, before_);
+    warnOfLoops();
 
     // As the line of the linear solver of T
     if (solverPerformance::debug)

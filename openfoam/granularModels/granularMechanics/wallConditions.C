@@ -39,16 +39,19 @@ Foam::wallConditions::wallConditions
 (
     const dictionary& dict,
     const granularModel& model,
-    const quadMesh& mesh
+    const quadMesh& mesh,
+    const scalar radius
 )
 :
     mesh_(mesh),
+    radius_(radius),
     walls_(mesh.mesh().boundary().size()),
     free_(mesh.size(), vector2D(1, 1)),
     balanced_(mesh.size(), vector2D(1, 1)),
     slip_(mesh.size(), vector2D(1, 1))
 {
     checkNames(dict);
+    findSides();
     forAll(walls_, patchi)
     {
         walls_.set(patchi, new wall);
@@ -118,7 +121,10 @@ void Foam::wallConditions::read
     granularProperties::checkKeys
     (
         dict,
-        {"type", "friction", "slip", "displacement", "pressure"}
+        {
+            "type", "friction", "slip", "displacement", "pressure",
+            "displacementCoeffs", "pressureCoeffs"
+        }
     );
     w.type = kindNames.getOrDefault("type", dict, kind::rigid);
     findAxis(patchi, dict);
@@ -136,7 +142,10 @@ void Foam::wallConditions::read
         }
         w.friction =
             granularProperties::ranged(dict, "friction", limit, 0, 10);
-        w.slip = granularProperties::ranged(dict, "slip", slip, 1e-9, 10);
+        w.slip = granularProperties::ranged
+        (
+            dict, "slip", slip, 2e-7*radius_, 2000*radius_
+        );
     }
     if (w.type == kind::pressure)
     {
@@ -149,28 +158,41 @@ void Foam::wallConditions::read
 }
 
 
+void Foam::wallConditions::findSides()
+{
+    // The patches that are not between processes come first, on all of them
+    sides_ = List<vector>(mesh_.mesh().boundaryMesh().nNonProcessor(), Zero);
+    const List<vector2D>& points = mesh_.points();
+
+    forAll(sides_, patchi)
+    {
+        vector& sum = sides_[patchi];
+        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        {
+            const vector2D t(points[e.second] - points[e.first]);
+            const vector2D m(0.5*(points[e.second] + points[e.first]));
+            const point& C = mesh_.mesh().cellCentres()[e.cell];
+            const label axis = mag(t.x()) > mag(t.y());
+            const scalar out = (axis ? m.y() - C.y() : m.x() - C.x());
+            sum[axis] += out > 0 ? 1 : -1;
+            sum.z() += 1;
+            if (min(mag(t.x()), mag(t.y())) > 1e-6*mag(t))
+            {
+                sum.z() = GREAT;
+            }
+        }
+    }
+    Pstream::listCombineGather(sides_, plusEqOp<vector>());
+    Pstream::listCombineScatter(sides_);
+}
+
+
 void Foam::wallConditions::findAxis(const label patchi, const dictionary& dict)
 {
     const polyPatch& patch = mesh_.mesh().boundaryMesh()[patchi];
-    const List<vector2D>& points = mesh_.points();
+    const vector& sum = sides_[patchi];
     wall& w = walls_[patchi];
-    vector sum(Zero);
 
-    for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
-    {
-        const vector2D t(points[e.second] - points[e.first]);
-        const vector2D m(0.5*(points[e.second] + points[e.first]));
-        const point& C = mesh_.mesh().cellCentres()[e.cell];
-        const label axis = mag(t.x()) > mag(t.y());
-        const scalar out = (axis ? m.y() - C.y() : m.x() - C.x());
-        sum[axis] += out > 0 ? 1 : -1;
-        sum.z() += 1;
-        if (min(mag(t.x()), mag(t.y())) > 1e-6*mag(t))
-        {
-            sum.z() = GREAT;
-        }
-    }
-    reduce(sum, sumOp<vector>());
     w.axis = mag(sum.y()) > mag(sum.x());
     w.outwards = sum[w.axis] < 0 ? -1 : 1;
 

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "granularState.H"
+#include "caseChecks.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "stringListOps.H"
 #include "OStringStream.H"
@@ -29,7 +30,7 @@ void Foam::granularState::findReaders()
     ({
         "conductivity", "stress", "pressure", "particleDensity", "inRegion",
         "spread", "thermalStrain", "D", "nodeDisplacement", "wallTraction",
-        "shearStress", "areaRatio"
+        "shearStress", "areaRatio", "strainLoops"
     });
     const dictionary functions =
         mesh_.time().controlDict().subOrEmptyDict("functions");
@@ -127,6 +128,7 @@ void Foam::granularState::finishStep()
     if (writes)
     {
         findSpread();
+        checkTemperature(mesh_.lookupObject<volScalarField>("T"));
     }
 }
 

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "granularState.H"
+#include "caseChecks.H"
 #include "OStringStream.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 
@@ -189,6 +190,10 @@ Foam::granularState::granularState
     record_.compare(settings());
     checkField(T, dimTemperature, -GREAT, GREAT);
     checkField(initialTemperature_, dimTemperature, -GREAT, GREAT);
+    checkInitialTemperature(T);
+    checkInitialTemperature(initialTemperature_);
+    checkVolumes(mesh_);
+    checkTimeStep(mesh_.time());
     thermalStrain_.primitiveFieldRef() =
         properties_.thermalExpansion().value()
        *(T.primitiveField() - initialTemperature_.primitiveField());
@@ -380,6 +385,20 @@ void Foam::granularState::readState()
         }
         known.porosity = pointers[0];
         known.fabricIndex = pointers[1];
+        scalar loosest, unjammed;
+        if
+        (
+            mesh_.time().timeIndex() == 0 && !stress.valid()
+         && model_->looseness(loosest, unjammed)
+        )
+        {
+            policy_.judgeStart
+            (
+                state_[0].primitiveField(),
+                loosest,
+                unjammed
+            );
+        }
         model_->initialState(known, pointers.cdata());
     }
 

@@ -20,6 +20,7 @@ License
 #include "Time.H"
 
 #include <cctype>
+#include <sstream>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -75,6 +76,7 @@ Foam::regionPolicy::regionPolicy
     hash_(modelHash),
     names_(stateNames),
     maxFraction_(granularProperties::ranged(dict_, "maxFraction", 1, 0, 1)),
+    looseGiven_(dict_.subOrEmptyDict("porosity").found("above")),
     cells_(mesh.nCells())
 {
     names_.append("thermalStrain");
@@ -164,6 +166,12 @@ void Foam::regionPolicy::act
             << ". The cells are in " << path(mesh_.time())
             << exit(FatalIOError);
     }
+    if (actions_[column][side] == action::clamp && atStart())
+    {
+        Info<< when.c_str() << ' ' << cells << " cells have " << name << ' '
+            << sides[side] << " the region of the model, by up to " << farthest
+            << ": the region's end is used" << nl << endl;
+    }
     if (actions_[column][side] == action::warn && !warned_[column][side])
     {
         warned_[column][side] = true;
@@ -175,7 +183,57 @@ void Foam::regionPolicy::act
 }
 
 
+bool Foam::regionPolicy::atStart() const
+{
+    return mesh_.time().timeIndex() == 0;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::regionPolicy::judgeStart
+(
+    const scalarField& porosity,
+    const scalar loosest,
+    const scalar unjammed
+) const
+{
+    label loose = 0, apart = 0;
+    for (const scalar value : porosity)
+    {
+        loose += value > loosest;
+        apart += value > unjammed;
+    }
+    reduce(loose, sumOp<label>());
+    reduce(apart, sumOp<label>());
+    if (!loose)
+    {
+        return;
+    }
+    // The case's writePrecision would print more digits than were given
+    std::ostringstream text;
+    text<< gMax(porosity);
+    const std::string most(text.str());
+    const action what = actions_[names_.find("porosity")][1];
+
+    if (apart && (!looseGiven_ || what == action::error))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Field porosity in " << mesh_.time().timePath()/"porosity"
+            << " is above " << unjammed << " in " << apart << " of "
+            << cells_.size() << " cells, up to " << most.c_str()
+            << ", allowed: at most " << unjammed << ", beyond which no grains"
+            << " touch: the model would answer as for packings of about "
+            << loosest << ", which conduct and bear a load. To have that, give"
+            << " porosity { above clamp; } in outOfRegion of"
+            << " constant/granularProperties" << exit(FatalIOError);
+    }
+    Info<< "At the start " << loose << " of " << cells_.size()
+        << " cells have a porosity above " << loosest << ", up to "
+        << most.c_str() << ", looser than all packings that the model was"
+        << " trained with: it answers as for packings of about " << loosest << nl << endl;
+}
+
 
 bool Foam::regionPolicy::judge
 (

@@ -249,7 +249,7 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
         simulation.material.check().map_err(|error| CliError::Message(error.to_string()))?;
     }
     let path = path(arguments)?;
-    let mut protocol = Protocol { relaxation: arguments.relaxation.into(), ..Protocol::default() };
+    let mut protocol = Protocol { relaxation: arguments.relaxation.into(), ..Protocol::usual(&simulation) };
     if let Some(rate) = arguments.rate {
         (protocol.expansion_rate, protocol.contraction_rate) = (rate, rate);
     }

@@ -3,6 +3,7 @@
 use crate::area::porosity_of_box;
 use crate::last_good;
 use crate::place::{Random, radii, scatter, scatter_periodic};
+use crate::scale::{rate_factor, speed_factor};
 use crate::settle::{Relaxation, Settled, settle};
 use crate::stopwatch::{self, Stage};
 use crate::{Material, RveError, Simulation};
@@ -12,9 +13,11 @@ use std::f64::consts::PI;
 
 /// Area fraction of the discs at the start: well below the 0.55 at which random addition stops finding places.
 const START_DENSITY: f64 = 0.42;
-/// Usual speed of each wall [m/s]. At most 0.05 is quasi-static for 500 discs; slower changes no statistics.
+/// Usual speed of each wall [m/s] around the paper's grains; others are packed as fast by their own measure. At most 0.05 is
+/// quasi-static for 500 discs; slower changes no statistics.
 pub const WALL_SPEED: f64 = 0.03;
-/// Drag on contact-free discs while an RVE is made [1/s]: the paper's damping leaves them flying for ever.
+/// Drag on contact-free discs while an RVE is made [1/s], for the paper's grains: the paper's damping leaves them flying
+/// for ever.
 pub const FREE_DRAG: f64 = 20.0;
 /// Compression is given up after this many times the steps that the way of the walls needs.
 const STEP_CAP_FACTOR: f64 = 1.5;
@@ -108,28 +111,31 @@ pub struct Preparation {
     pub friction_angle: Option<f64>,
     /// Width over height of the box at the target porosity [-].
     pub aspect: f64,
-    /// Speed of the faster walls while they close [m/s].
-    pub wall_speed: f64,
+    /// Speed of the faster walls while they close [m/s]; none: [`WALL_SPEED`], by the measure of the grains.
+    pub wall_speed: Option<f64>,
 }
 
 impl Default for Preparation {
     /// Friction of the material, a square box.
     fn default() -> Self {
-        Self { friction_angle: None, aspect: 1.0, wall_speed: WALL_SPEED }
+        Self { friction_angle: None, aspect: 1.0, wall_speed: None }
     }
 }
 
 impl Preparation {
-    fn check(&self) -> Result<(), RveError> {
+    /// `factor`: of speeds that suit the grains, over those that suit the paper's.
+    fn check(&self, factor: f64) -> Result<(), RveError> {
         if !(0.1..=10.0).contains(&self.aspect) {
             let value = self.aspect.to_string();
             return Err(RveError::Parameter { key: "aspect", value, allowed: "0.1 to 10" });
         }
-        if !(1e-4..=10.0).contains(&self.wall_speed) {
-            let value = self.wall_speed.to_string();
-            return Err(RveError::Parameter { key: "wall speed", value, allowed: "1e-4 to 10 m/s" });
+        let allowed = "1e-4 to 10 m/s for the paper's grains, others as a push runs faster or slower in them";
+        match self.wall_speed {
+            Some(speed) if !(1e-4 * factor..=10.0 * factor).contains(&speed) => {
+                Err(RveError::Parameter { key: "wall speed", value: speed.to_string(), allowed })
+            }
+            _ => Ok(()),
         }
-        Ok(())
     }
 }
 
@@ -216,8 +222,8 @@ fn checked_start(
     material: &Material,
 ) -> Result<Simulation, RveError> {
     spec.check()?;
-    preparation.check()?;
     material.check()?;
+    preparation.check(speed_factor(material, 0.5 * (spec.radius_min + spec.radius_max)))?;
     let friction_angle = preparation.friction_angle.unwrap_or(material.friction_angle);
     let packing_material = Material { friction_angle, ..material.clone() };
     packing_material.check()?;
@@ -254,8 +260,13 @@ fn loose_start(spec: &PackingSpec, aspect: f64, material: &Material) -> Result<S
             Simulation::new_periodic(material.clone(), discs, walls, Periodic::default())?
         }
     };
-    simulation.free_drag = FREE_DRAG;
+    simulation.free_drag = free_drag(&simulation);
     Ok(simulation)
+}
+
+/// [`FREE_DRAG`] by the measure of the grains [1/s].
+pub(crate) fn free_drag(simulation: &Simulation) -> f64 {
+    FREE_DRAG * rate_factor(&simulation.material, simulation.mean_radius())
 }
 
 /// Width and height [m] of the loose box around discs of total area `area` [m²], such that it has the wanted aspect when
@@ -287,7 +298,9 @@ fn compress(
     preparation: &Preparation,
 ) -> Result<(), RveError> {
     let speeds = spec.compression.speeds(preparation.aspect);
-    let [x, y] = speeds.map(|speed| speed * preparation.wall_speed);
+    let usual = || WALL_SPEED * speed_factor(&simulation.material, simulation.mean_radius());
+    let wall_speed = preparation.wall_speed.unwrap_or_else(usual);
+    let [x, y] = speeds.map(|speed| speed * wall_speed);
     simulation.walls.normal_velocity = [x, -x, y, -y];
     let cap = STEP_CAP_FACTOR * 0.5 * simulation.walls.width() / x / simulation.time_step;
     loop {

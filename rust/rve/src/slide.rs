@@ -1,14 +1,19 @@
 //! Long walls that slip along the grains: how much of the wall friction a given slip mobilises.
 
 use crate::expand::{Protocol, Ramp, Stop, Strains, rest};
+use crate::scale::speed_factor;
 use crate::settle::Relaxation;
 use crate::stopwatch::{self, Stage};
 use crate::{RveError, Simulation};
 use msdd_dem::Side;
 use serde::{Deserialize, Serialize};
 
-/// Speed of the walls [m/s]: that of packing, and the grains come to rest at each stop.
+/// Speed of the walls [m/s] along the paper's grains: that of packing, and the grains come to rest at each stop.
 const SLIP_SPEED: f64 = 0.03;
+/// Slip over the mean radius that is none [-].
+const NO_SLIP: f64 = 2e-10;
+/// Largest slip over the mean radius [-].
+const LARGEST_SLIP: f64 = 200.0;
 /// Largest step count between two looks at the stable time step.
 const RUN: u64 = 50;
 
@@ -54,10 +59,11 @@ pub fn slide(
     (slide, relaxation): (Slide, Relaxation),
     mut visit: impl FnMut(&Stop, Sliding),
 ) -> Result<Ramp, RveError> {
+    let largest = LARGEST_SLIP * simulation.mean_radius();
     let growing =
-        slips.windows(2).all(|pair| pair[0] < pair[1]) && slips.iter().all(|&s| s > 0.0 && s <= 1.0);
+        slips.windows(2).all(|pair| pair[0] < pair[1]) && slips.iter().all(|&s| s > 0.0 && s <= largest);
     if !growing {
-        let allowed = "growing, above 0, at most 1 m";
+        let allowed = "growing, above 0, at most 200 mean radii [m]";
         return Err(RveError::Parameter { key: "slips", value: format!("{slips:?}"), allowed });
     }
     let start: Vec<f64> = simulation.discs.iter().map(|disc| disc.x).collect();
@@ -88,8 +94,10 @@ fn slip_by(
     let since = simulation.steps;
     stopwatch::time(Stage::Strain, || -> Result<(), RveError> {
         let mut left = way;
-        while left > 1e-12 {
-            let steps = (left / (SLIP_SPEED * simulation.time_step)).ceil();
+        let radius = simulation.mean_radius();
+        let wall_speed = SLIP_SPEED * speed_factor(&simulation.material, radius);
+        while left > NO_SLIP * radius {
+            let steps = (left / (wall_speed * simulation.time_step)).ceil();
             let speed = left / (steps * simulation.time_step);
             let [bottom, top] = slide.directions();
             simulation.walls.tangential_velocity = [0.0, 0.0, speed * bottom, speed * top];

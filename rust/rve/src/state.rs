@@ -199,7 +199,7 @@ pub fn from_json(text: &str) -> Result<Simulation, StateError> {
         }
     };
     check_overlaps(&simulation)?;
-    simulation.free_drag = crate::pack::FREE_DRAG;
+    simulation.free_drag = crate::pack::free_drag(&simulation);
     set_contacts(&mut simulation, &file.contacts)?;
     if let Some(run) = file.run {
         set_run(&mut simulation, run)?;

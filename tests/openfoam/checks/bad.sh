@@ -34,6 +34,10 @@ bad_fields() {
         's/^#include.*common.porosity.*/&\ndimensions [0 1 0 0 0 0 0];/'
     bad_field "T in metres" T 'has dimensions [0 1 0 0 0 0 0], allowed: [0 0 0 1 0 0 0]' 's/^dimensions.*/dimensions [0 1 0 0 0 0 0];/'
     bad_field "T is no number" T 'FOAM FATAL' 's/^internalField.*/internalField uniform nan;/'
+    bad_field "T below 0 K" T 'is -5 K in cell 0 at (0.0895833 0.05375), allowed: 0 K and above' 's/^internalField.*/internalField uniform -5;/'
+    bad_field "wall below 0 K" T 'is -300 K at patch right, face 0, allowed: 0 K and above' 's/uniform 0;/uniform -300;/'
+    bad_field "grains that do not touch" porosity 'above 0.22 in 72 of 72 cells, up to 0.25, allowed: at most 0.22' \
+        's/^#include.*common.porosity.*/&\ninternalField uniform 0.25;/'
     for name in T porosity fabricIndex; do
         rm "0/$name"
         answered() { refused "FATAL" && grep -q "0/$name" log.bad; }
@@ -59,6 +63,46 @@ three_dimensional() {
     check "refused: three-dimensional mesh" refused 'is three-dimensional, allowed: two-dimensional in x and y'
 }
 
+inside_out() {
+    changed bad-mirrored
+    mesh_is '12 6 1'
+    logged transformPoints -scale '(-1 1 1)'
+    check "refused: mesh turned inside out" refused 'constant/polyMesh has 72 cells of 72 with a volume of zero or below'
+}
+
+# A sink that cools below 0 K, and a wall that does
+too_cold() {
+    changed bad-sink
+    sed -i 's/fixedValue;/zeroGradient;/; /value /d' 0/T
+    cat > constant/fvOptions <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object fvOptions; }
+	sink { type scalarSemiImplicitSource; selectionMode all; volumeMode specific; injectionRateSuSp { T (-1e6 0); } }
+	END
+    mesh_is '12 6 1'
+    check "refused: a sink that cools below 0 K" refused 'allowed: 0 K and above. A wall, a source of constant/fvOptions'
+    check "below 0 K: the fields are written" test -n "$(find . -path './0.*/T' | head -1)"
+    changed bad-wall
+    sed -i '/left/,/}/{ s/fixedValue/uniformFixedValue/; s/value .*/uniformValue table ((0 100) (0.2 -300)); value uniform 100;/ }' 0/T
+    mesh_is '12 6 1'
+    check "refused: a wall that is cooled below 0 K" refused 'K at patch left, face 0, allowed: 0 K and above'
+}
+
+# What a discretisation may undershoot by is no bad input of the restart
+undershoot() {
+    changed undershoot
+    mesh_is '12 6 1'
+    controls 'endTime 0.1;'
+    logged msddFoam
+    awk '/^\($/ && !done { print; getline; print -0.5; done = 1; next } { print }' 0.1/T > T.new
+    mv T.new 0.1/T
+    controls 'endTime 0.2;'
+    logged msddFoam
+    check "an undershoot of half a Kelvin: the restart goes on" test -d 0.2
+}
+
 bad_dictionaries
 bad_fields
+undershoot
 three_dimensional
+inside_out
+too_cold

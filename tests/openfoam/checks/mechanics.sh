@@ -116,7 +116,7 @@ both_ways() { # folder: small with equilibrium
 }
 same_mechanics() {
     local name
-    for name in T porosity fabricIndex reducedPressure stress shearStress nodeDisplacement wallTraction; do
+    for name in T porosity fabricIndex reducedPressure stress shearStress nodeDisplacement wallTraction strainLoops; do
         cmp -s <(field "$1/$name") <(field "$2/$name") || { echo "        $name differs" >&2; return 1; }
     done
 }
@@ -158,7 +158,7 @@ turned() { # by 90 degrees: x' = H - y, y' = x
     check "equilibrium: turned by 90 degrees: D differs by $e <= 1e-7 m" below "$e" 1e-7
 }
 
-rm -rf "$work"/{moved-half,moved-parallel}
+rm -rf "$work"/{moved-half,moved-parallel,four-circles-half}
 changed before
 uniform_temperature
 skewed_mesh
@@ -172,3 +172,4 @@ turned
 . "$here/checks/mechanics/walls.sh"
 . "$here/checks/mechanics/failure.sh"
 . "$here/checks/mechanics/convergence.sh"
+. "$here/checks/mechanics/loops.sh"

@@ -43,3 +43,31 @@ changed region-start
 sed -i 's/^#include.*porosity.*/&\ninternalField uniform 0.02;/' 0/porosity
 mesh_is '12 6 1'
 check "the start is judged before the first step" refused 'At the start 72 cells have porosity below'
+
+loose_start() { # folder, porosity, policy
+    changed "$1"
+    sed -i "s/^#include.*porosity.*/&\ninternalField uniform $2;/" 0/porosity
+    grains "surrogate { outOfRegion { porosity { $3 } } }"
+    mesh_is '2 1 1'
+    controls 'endTime 0.05;'
+}
+loose_start region-packed 0.185 ''
+logged msddFoam
+check "a start among the packings: nothing is said" test "$(grep -c 'At the start' log)" = 0
+loose_start region-loose 0.2 ''
+logged msddFoam
+check "a loose start is said, with cells and porosity" \
+    grep -q 'At the start 2 of 2 cells have a porosity above 0.19, up to 0.2, looser than all packings' log
+loose_start region-loose-error 0.21 'above error;'
+logged msddFoam
+for porosity in 0.25 0.4 0.999; do
+    loose_start region-apart $porosity ''
+    check "porosity $porosity: refused, grains do not touch" refused "above 0.22 in 2 of 2 cells, up to $porosity, allowed: at most 0.22"
+done
+loose_start region-apart-error 0.25 'above error;'
+check "porosity 0.25, above error: refused" refused "above 0.22 in 2 of 2 cells"
+loose_start region-apart-clamp 0.4 'above clamp;'
+logged msddFoam
+check "porosity 0.4, above clamp: allowed and said" grep -q 'At the start 2 of 2 cells have a porosity above 0.19' log
+check "porosity 0.4, above clamp: how far outside is said" \
+    grep -q 'At the start 2 cells have porosity above the region of the model, by up to 0.132' log

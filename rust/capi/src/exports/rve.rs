@@ -163,7 +163,8 @@ pub unsafe extern "C" fn msdd_rve_strain(
         let rve = unsafe { rve.cast::<RveHandle>().as_mut() }.ok_or_else(|| Failure::null("rve"))?;
         let mut simulation = rve.simulation.clone();
         let path = [Strains { thermal, xx, yy, xy }];
-        let ramp = follow(&mut simulation, &path, Protocol::default(), |_, _| ())?;
+        let protocol = Protocol::usual(&simulation);
+        let ramp = follow(&mut simulation, &path, protocol, |_, _| ())?;
         if let Some(failure) = ramp.failure {
             return Err(failure.into());
         }

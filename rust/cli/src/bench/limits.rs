@@ -53,8 +53,8 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let mut progress = Progress::new("packings", count);
     let (mut rates, mut balances, mut speeds, mut unjamming) = (vec![], vec![], vec![], vec![]);
     for seed in 1..=count {
-        speeds.push(SPEEDS.map(|speed| packed(seed, speed)));
-        let packing = packed(seed, Preparation::default().wall_speed)?;
+        speeds.push(SPEEDS.map(|speed| packed(seed, Some(speed))));
+        let packing = packed(seed, None)?;
         rates.push(by_rate(&packing)?);
         balances.push(by_balance(&packing)?);
         unjamming.push(unjammed(&packing, &models)?);
@@ -81,7 +81,7 @@ fn read_model(file: &Path) -> Result<Box<dyn Surrogate>, CliError> {
     models::read(&read_text(file)?).map_err(|source| CliError::Model { file: file.to_path_buf(), source })
 }
 
-fn packed(seed: u64, wall_speed: f64) -> Result<Packed, CliError> {
+fn packed(seed: u64, wall_speed: Option<f64>) -> Result<Packed, CliError> {
     let spec = PackingSpec {
         seed,
         porosity: POROSITY,

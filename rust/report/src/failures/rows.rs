@@ -132,7 +132,7 @@ fn region() -> Vec<Edge> {
 }
 
 fn unjamming() -> Vec<Edge> {
-    let cold = || walls(small("C").control("deltaT 0.02;"), "-50");
+    let cold = || walls(small("C").control("deltaT 0.02;"), "0").temperature("internalField uniform 100;");
     let paper = "surrogate { model builtin:paper; }";
     vec![
         edge(
@@ -144,7 +144,7 @@ fn unjamming() -> Vec<Edge> {
         ),
         edge(
             "unjamming",
-            "case C, walls at -50 K (strain -10 %)",
+            "case C from 100 K (strain -10 %)",
             "beyond the data: clamped, counted",
             REPORTED,
             cold(),

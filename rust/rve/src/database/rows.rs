@@ -62,7 +62,7 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     fn protocol(&self) -> Protocol {
-        Protocol { relaxation: self.plan.relaxation, ..Protocol::default() }
+        Protocol { relaxation: self.plan.relaxation, ..Protocol::usual(&self.packed.simulation) }
     }
 
     fn ramp(&mut self, ramp: RampName) -> Vec<Record> {

@@ -135,3 +135,37 @@ prescribed_walls
 symmetric_quarter
 one_dimension
 energy
+
+# OpenFOAM's own ways to write a function of time: the entry and its coefficients beside, or one dictionary
+functions_of_time() {
+    local name of
+    local -A forms=(
+        [constant]='displacement constant (-0.005 0 0);'
+        [plain]='displacement (-0.005 0 0);'
+        [uniform]='displacement uniform (-0.005 0 0);'
+        [table]='displacement table ((0 (0 0 0)) (0.05 (-0.005 0 0)));'
+        [polynomial]='displacement polynomial (((-0.1 0 0) (1 1 1)));'
+        [scale]='displacement scale; displacementCoeffs { scale constant 0.1; value constant (-0.05 0 0); }'
+        [sine]='displacement sine; displacementCoeffs { frequency 5; amplitude 1; scale (-0.005 0 0); level (0 0 0); }'
+        [sineDictionary]='displacement { type sine; frequency 5; amplitude 1; scale (-0.005 0 0); level (0 0 0); }'
+        [square]='displacement square; displacementCoeffs { frequency 5; amplitude 1; scale (-0.005 0 0); level (0 0 0); }'
+        [tableFile]='displacement tableFile; displacementCoeffs { file "constant/way"; }'
+        [csvFile]='displacement csvFile; displacementCoeffs { nHeaderLine 0; refColumn 0; componentColumns (1 2 3);
+            separator ","; mergeSeparators no; file "constant/way.csv"; }'
+    )
+    for name in "${!forms[@]}"; do
+        changed "function-$name"
+        uniform_temperature
+        mesh_is '3 2 1'
+        echo '((0 (0 0 0)) (0.05 (-0.005 0 0)))' > constant/way
+        printf '0,0,0,0\n0.05,-0.005,0,0\n' > constant/way.csv
+        equilibrium "walls { \".*\" { type frictionless; } right { type frictionless; ${forms[$name]} } }"
+        logged foamDictionary -entry endTime -set 0.05 system/controlDict
+        logged msddFoam
+        check "displacement as $name: the wall gets there" \
+            test "$(field 0.05/nodeDisplacement | awk 'NR == 4 { e = $1/-0.005 - 1; print (e < 1e-8 && e > -1e-8) }')" = 1
+    done
+    uniaxial pressed-sine 'type pressure; pressure sine; pressureCoeffs { frequency 5; amplitude 1; scale 0; level 2500; }'
+    check "pressure as sine with coefficients beside" test -d 0.05
+}
+functions_of_time

@@ -1,0 +1,175 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "caseChecks.H"
+
+#include <sstream>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Share of the largest temperature by which T of a run may undershoot 0 K
+static const scalar undershoot = 0.01;
+
+//- The same at a start, where only rounding may
+static const scalar roundOff = 1e-9;
+
+//- The lowest temperature that is taken
+static scalar lowest(const volScalarField& T, const scalar share)
+{
+    return -share*max(gMax(T.primitiveField()), scalar(0));
+}
+
+
+//- In words where T is below a bound on this process; empty if nowhere
+static string whereBelowHere(const volScalarField& T, const scalar bound)
+{
+    std::ostringstream text;
+    forAll(T, celli)
+    {
+        if (T[celli] < bound)
+        {
+            const point& C = T.mesh().cellCentres()[celli];
+            text<< T[celli] << " K in cell " << celli << " at (" << C.x() << ' '
+                << C.y() << ')';
+            return text.str();
+        }
+    }
+    for (const fvPatchScalarField& patch : T.boundaryField())
+    {
+        // Walls that give a gradient follow from the cells
+        forAll(patch, facei)
+        {
+            if (patch.fixesValue() && patch[facei] < bound)
+            {
+                text<< patch[facei] << " K at patch " << patch.patch().name()
+                    << ", face " << facei;
+                return text.str();
+            }
+        }
+    }
+    return string();
+}
+
+
+//- The same on all processes, for all of them
+static string whereBelow(const volScalarField& T, const scalar bound)
+{
+    stringList texts(Pstream::nProcs());
+    texts[Pstream::myProcNo()] = whereBelowHere(T, bound);
+    Pstream::gatherList(texts);
+    Pstream::scatterList(texts);
+    for (const string& text : texts)
+    {
+        if (!text.empty())
+        {
+            return text;
+        }
+    }
+    return string();
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+void Foam::checkTimeStep(const Time& runTime)
+{
+    const dictionary& control = runTime.controlDict();
+    const scalar deltaT = runTime.deltaTValue();
+    const scalar left = runTime.endTime().value() - runTime.value();
+
+    if (!(deltaT > 0))
+    {
+        FatalIOErrorInFunction(control)
+            << "Entry 'deltaT' is " << deltaT << ", allowed: > 0 [s]"
+            << exit(FatalIOError);
+    }
+    // A restart may find that nothing is left to do
+    if (runTime.timeIndex() == 0 && !(left > 0.5*deltaT))
+    {
+        FatalIOErrorInFunction(control)
+            << "Entry 'deltaT' is " << deltaT << ", allowed: at most " << left
+            << " s, the time from the start at " << runTime.timeName()
+            << " to endTime " << runTime.endTime().value()
+            << ". No step would be taken" << exit(FatalIOError);
+    }
+}
+
+
+void Foam::checkVolumes(const fvMesh& mesh)
+{
+    label cells = 0;
+    scalar least = GREAT;
+    for (const scalar V : mesh.cellVolumes())
+    {
+        cells += !(V > VSMALL);
+        least = min(least, V);
+    }
+    reduce(cells, sumOp<label>());
+    reduce(least, minOp<scalar>());
+    if (cells)
+    {
+        FatalErrorInFunction
+            << "The mesh in "
+            << (mesh.time().constant()/mesh.meshDir()).c_str() << " has "
+            << cells << " cells of "
+            << returnReduce(mesh.nCells(), sumOp<label>())
+            << " with a volume of zero or below, the least " << least
+            << " m^3, allowed: > 0. A mesh that has been mirrored is turned"
+            << " inside out; checkMesh tells more" << exit(FatalError);
+    }
+}
+
+
+void Foam::checkInitialTemperature(const volScalarField& T)
+{
+    const bool restarted = T.time().timeIndex() > 0;
+    const string where
+    (
+        whereBelow(T, lowest(T, restarted ? undershoot : roundOff))
+    );
+    if (!where.empty())
+    {
+        FatalErrorInFunction
+            << "Field " << T.name() << " in " << T.objectPath() << " is "
+            << where.c_str() << ", allowed: 0 K and above. Temperatures are in"
+            << " Kelvin" << exit(FatalError);
+    }
+}
+
+
+void Foam::checkTemperature(const volScalarField& T)
+{
+    const string where(whereBelow(T, lowest(T, undershoot)));
+    if (!where.empty())
+    {
+        Time& runTime = const_cast<Time&>(T.time());
+        runTime.writeNow();
+        FatalErrorInFunction
+            << "Field " << T.name() << " at time " << runTime.timeName()
+            << " is " << where.c_str() << ", allowed: 0 K and above. A wall, a"
+            << " source of constant/fvOptions or a time step that is too large"
+            << " has cooled it. The fields of this time are written"
+            << exit(FatalError);
+    }
+}
+
+
+// ************************************************************************* //
