@@ -119,7 +119,7 @@ impl<'a> Columns<'a> {
             .try_for_each(Input::check_finite)?;
         let range = |column: &Input, low: f64, high: f64, allowed: &str| {
             let Some(cell) = column.position(|value| value <= low || value > high) else { return Ok(()) };
-            Err(Failure::argument(format!("{}[{cell}]", column.name), column.at(cell), allowed))
+            Err(Failure::number(format!("{}[{cell}]", column.name), column.at(cell), allowed))
         };
         if let Some(column) = &self.total_thermal_strain {
             range(column, -1.0, LARGEST_STRAIN, "above -1, to 10")?;
@@ -128,8 +128,7 @@ impl<'a> Columns<'a> {
             range(column, -LARGEST_STEP, LARGEST_STEP, "above -0.2, to 0.2")?;
         }
         if let Some(column) = &self.virgin_share {
-            // The lower end belongs to it.
-            range(column, -f64::MIN_POSITIVE, 1.0, "0 to 1")?;
+            column.check_range(0.0, 1.0, "0 to 1")?;
         }
         if !has_tangent && (self.deforms() || self.tangent.iter().any(Output::is_wanted)) {
             let wanted = "strain_xx, strain_yy, c11, c22, c12, porosity_rate, fabric_index_rate";
