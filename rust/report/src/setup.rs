@@ -121,13 +121,15 @@ fn write_fields(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(), R
     Ok(())
 }
 
-/// Commands that make the mesh, and the plug-in where it is needed; in the case folder.
+/// Commands that make the mesh, and the plug-in where it is needed, which msddFoam may then load as root, too; in the case
+/// folder.
 pub fn preparation(checkout: &Path, job: &SolverJob) -> String {
     let mut commands = "blockMesh > log.blockMesh 2>&1".to_string();
     if let Some(source) = &job.plugin {
         let checkout = checkout.display();
         commands += &format!(
-            " && cc -std=c99 -O2 -shared -fPIC -I'{checkout}/rust/capi/include' '{checkout}/{source}' -lm -o plugin.so"
+            " && cc -std=c99 -O2 -shared -fPIC -I'{checkout}/rust/capi/include' '{checkout}/{source}' -lm -o plugin.so \
+             && export MSDD_ALLOW_PLUGINS=\"$PWD/plugin.so\""
         );
     }
     commands
