@@ -187,7 +187,8 @@ impl<'a> Columns<'a> {
         for (column, lanes) in
             self.outside.iter().zip(answer.outside[..self.state.len()].iter().chain(strain))
         {
-            column.write(first, lanes);
+            // A deviator near the largest number lies infinitely far outside; the largest number says as much.
+            column.write(first, &lanes.map(|beyond| beyond.clamp(f64::MIN, f64::MAX)));
         }
         let lane_state = |lane: usize| answer.state.map(|column| column[lane]);
         if self.tangent.iter().any(Output::is_wanted) {
