@@ -91,10 +91,10 @@ typedef struct msdd_batch {
     const double *virgin_share;         /**< share of thermal_strain, 0 to 1, by which the total leads beyond all totals that
                                              the cell has had before: grains slide in virgin strains, and hardly when
                                              strained back and again as far. NULL = 1 everywhere, right as long as no cell
-                                             is strained back: over cycles the anisotropy then grows without end and without
-                                             a flag (K_xx/K_yy is 19 after 1 000 cycles of 0.1 %). With the shares given, ten
-                                             cycles of the size that the training reaches keep K to some percent; 1 000 of
-                                             0.5 % take 14 % of K_xx, 100 of 2 % take 9 % of K, and none is flagged */
+                                             is strained back: over cycles the anisotropy then grows without end (K_xx/K_yy is
+                                             19 after 1 000 cycles of +-0.1 %, flagged by then). With the shares given, ten
+                                             cycles keep K to some percent; 1 000 of +-0.5 % at porosity 0.16 take 14 % of
+                                             K_xx, 100 of +-2 % at 0.12 take 9 % of K, and neither is flagged */
     /* out; any of them may be NULL when not wanted, and so may single columns */
     double *const *next_state;          /**< state columns after the step */
     double *conductivity_xx;            /**< K_xx after the step [W/(m K)] */
