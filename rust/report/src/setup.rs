@@ -158,6 +158,17 @@ mod tests {
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
+    /// Where jobs run as root, msddFoam loads the plug-in by its name alone.
+    #[test]
+    fn a_plugin_is_compiled_and_named() {
+        let mut job = SolverJob::new("H", 1);
+        assert_eq!(preparation(Path::new("/msdd"), &job), "blockMesh > log.blockMesh 2>&1");
+        job.plugin = Some("a.c".to_string());
+        let commands = preparation(Path::new("/msdd"), &job);
+        let expected = "'/msdd/a.c' -lm -o plugin.so && export MSDD_ALLOW_PLUGINS=\"$PWD/plugin.so\"";
+        assert!(commands.ends_with(expected), "{commands}");
+    }
+
     #[test]
     fn a_quarter_ends_in_planes_of_symmetry() {
         let job = SolverJob { part: Part::Quarter, mesh: [50, 15], ..SolverJob::new("H", 1) };
