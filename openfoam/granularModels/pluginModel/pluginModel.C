@@ -16,6 +16,11 @@ License
 
 #include "pluginModel.H"
 #include "addToRunTimeSelectionTable.H"
+#include "dynamicCode.H"
+#include "OSspecific.H"
+
+#include <cstdlib>
+#include <sstream>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -26,6 +31,83 @@ namespace granularModels
     defineTypeNameAndDebug(plugin, 0);
     addToRunTimeSelectionTable(granularModel, plugin, dictionary);
 }
+}
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- The environment variable in which a user names plug-ins
+static const char* const allowPlugins = "MSDD_ALLOW_PLUGINS";
+
+
+//- The file behind links and relative parts; empty when there is none
+static fileName realPath(const std::string& path)
+{
+    char* found = ::realpath(path.c_str(), nullptr);
+    const fileName result(found ? found : "");
+    ::free(found);
+    return result;
+}
+
+
+//- Whether a list of paths, with colons between them, names the file
+static bool names(const std::string& list, const fileName& file)
+{
+    std::istringstream paths(list);
+    for (std::string path; std::getline(paths, path, ':');)
+    {
+        if (!path.empty() && realPath(path) == file)
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * Private Static Functions  * * * * * * * * * * * * //
+
+Foam::fileName Foam::granularModels::plugin::admitted
+(
+    const granularProperties& properties
+)
+{
+    const dictionary& dict =
+        properties.surrogateDict().optionalSubDict("pluginCoeffs");
+    const fileName library(dict.get<fileName>("library"));
+    const fileName file(realPath(properties.path(library)));
+
+    if (file.empty())
+    {
+        // Loading it says so
+        return library;
+    }
+    if (!dynamicCode::allowSystemOperations)
+    {
+        FatalIOErrorInFunction(dict)
+            << "The case loads the plug-in " << file << ", and this machine "
+            << "does not allow code of cases." << nl
+            << "If you trust it, set 'allowSystemOperations 1;' in the "
+            << "InfoSwitches of ~/.OpenFOAM/controlDict." << exit(FatalIOError);
+    }
+    if (isAdministrator() && !names(getEnv(allowPlugins), file))
+    {
+        FatalIOErrorInFunction(dict)
+            << "The case loads the plug-in " << file << ", and its code would "
+            << "run with administrator rights." << nl
+            << "If you trust it, name it before the run:" << nl << nl
+            << "    export " << allowPlugins << '=' << file << nl << nl
+            << "Several are separated by colons. Nothing in a case can "
+            << "give this permission." << exit(FatalIOError);
+    }
+    Info<< "Loading plug-in " << file << ": its code runs in this process"
+        << endl;
+    return library;
 }
 
 
@@ -41,8 +123,7 @@ Foam::granularModels::plugin::plugin
     (
         typeName,
         "library",
-        properties.surrogateDict().optionalSubDict("pluginCoeffs")
-           .get<fileName>("library"),
+        admitted(properties),
         "a shared library made against msdd.h",
         properties,
         mesh

@@ -41,6 +41,22 @@ static word fieldName(const std::string& column)
 }
 
 
+//- Fields and folders that the solver has itself, beside the model's columns
+static const wordList& ownNames()
+{
+    static const wordList names
+    ({
+        "D", "Kxx", "Kyy", "T", "areaRatio", "bulkDensity", "conductivity",
+        "granularProperties", "inRegion", "initialStress",
+        "initialTemperature", "leastThermalStrain", "mostThermalStrain",
+        "msddFoam", "nodeDisplacement", "onlineRve", "particleDensity",
+        "polyMesh", "pressure", "shearStress", "spread", "stress",
+        "thermalStrain", "thermalStrainIncrement", "uniform", "wallTraction"
+    });
+    return names;
+}
+
+
 //- The inputs are not finite: nothing to go on with
 static void failed(const char* what, const std::exception& error)
 {
@@ -83,6 +99,7 @@ Foam::granularModels::surrogateModel::surrogateModel
         stateNames_[i] = fieldName(model_.stateName(i));
     }
     checkHash();
+    checkNames();
 }
 
 
@@ -124,6 +141,26 @@ void Foam::granularModels::surrogateModel::checkHash() const
         FatalIOErrorInFunction(coeffs_)
             << "Entry 'hash' is " << wanted << " but model " << source_
             << " has the hash " << model_.hash() << exit(FatalIOError);
+    }
+}
+
+
+void Foam::granularModels::surrogateModel::checkNames() const
+{
+    for (label i = 2; i < stateNames_.size(); ++i)
+    {
+        const word& name = stateNames_[i];
+
+        if (ownNames().found(name) || mesh_.thisDb().found(name))
+        {
+            FatalIOErrorInFunction(coeffs_)
+                << "Model " << source_ << " has the state column "
+                << model_.stateName(i) << ", whose field " << name
+                << " the solver or its mesh has itself." << nl
+                << "Allowed: any name but those of the mesh and "
+                << granularProperties::listed(ownNames()).c_str()
+                << exit(FatalIOError);
+        }
     }
 }
 

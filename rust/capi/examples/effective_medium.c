@@ -81,7 +81,7 @@ static int32_t advance(const msdd_plugin_step *step)
         const double e = step->state[0][i], f = step->state[1][i], strain = step->thermal_strain[i];
         const double used = clamp(strain, -STRAIN, STRAIN);
         const double next = used == 0 ? e : strained(e, used);
-        const double next_f = used == 0 ? f : clamp(f, -1, 1) * exp(-C_F * used);
+        const double next_f = used == 0 ? f : clamp(f * exp(-C_F * used), -1, 1);
         const contacts c = contacts_at(next);
         const double mean = c.solid_fraction * c.coordination * cos(c.t) / PI;
         const double conductivity = FLOOR + mean * sin(c.t), pressure = mean * c.x;

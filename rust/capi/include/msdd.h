@@ -68,16 +68,17 @@ typedef struct msdd_surrogate msdd_surrogate;
 /** Scales that turn the model's dimensionless answers into SI. */
 typedef struct msdd_material {
     size_t struct_size;          /**< sizeof(msdd_material) */
-    double thermal_conductivity; /**< k of the grains [W/(m K)], > 0 */
-    double young_modulus;        /**< E of the grains [Pa], > 0 */
-    double mean_radius;          /**< mean grain radius in the initial state, r [m], > 0 */
+    double thermal_conductivity; /**< k of the grains [W/(m K)], 1e-12 to 1e12 */
+    double young_modulus;        /**< E of the grains [Pa], 1e-9 to 1e15 */
+    double mean_radius;          /**< mean grain radius in the initial state, r [m], 1e-12 to 1e6 */
 } msdd_material;
 
 /** One batch of cells: columns of length `cells`, each contiguous. Algorithm 1, steps 1 and 2, of the paper.
  *
  *  The state of a cell is what the model carries from step to step: msdd_surrogate_state_size columns without unit, named
  *  by msdd_surrogate_state_name; the first two are porosity (overlaps counted once) and fabric_index (F_xx - F_yy).
- *  A column may be input and output at once. */
+ *  A column may be input and output at once. Any finite state is answered: one that no packing has, as a porosity of 2,
+ *  by the nearest end of the trained range, and it is flagged in `clamped` and `outside`. */
 typedef struct msdd_batch {
     size_t struct_size;                 /**< sizeof(msdd_batch) */
     size_t cells;                       /**< length of every column */
@@ -89,7 +90,11 @@ typedef struct msdd_batch {
     const double *strain_yy;            /**< the same along y; either needs a model that has a tangent */
     const double *virgin_share;         /**< share of thermal_strain, 0 to 1, by which the total leads beyond all totals that
                                              the cell has had before: grains slide in virgin strains, and hardly when
-                                             strained back and again as far; NULL = 1 everywhere */
+                                             strained back and again as far. NULL = 1 everywhere, right as long as no cell
+                                             is strained back: over cycles the anisotropy then grows without end (K_xx/K_yy is
+                                             19 after 1 000 cycles of +-0.1 %, flagged by then). With the shares given, ten
+                                             cycles keep K to some percent; 1 000 of +-0.5 % at porosity 0.16 take 14 % of
+                                             K_xx, 100 of +-2 % at 0.12 take 9 % of K, and neither is flagged */
     /* out; any of them may be NULL when not wanted, and so may single columns */
     double *const *next_state;          /**< state columns after the step */
     double *conductivity_xx;            /**< K_xx after the step [W/(m K)] */
@@ -109,22 +114,25 @@ typedef struct msdd_batch {
     size_t clamped_cells;               /**< number of cells with an input outside */
 } msdd_batch;
 
-/** What is known of the cells at the start; what is missing is the mean of the training's packed states. */
+/** What is known of the cells at the start; what is missing is the mean of the training's packed states. A value outside
+ *  its range is refused with column and index: a start that no packing has is a mistake, unlike a state that a step has
+ *  led out of the trained range. */
 typedef struct msdd_initial {
     size_t struct_size;                /**< sizeof(msdd_initial) */
     size_t cells;                      /**< length of every column */
-    const double *porosity;            /**< overlaps counted once */
-    const double *fabric_index;        /**< F_xx - F_yy */
-    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), of the kind that the model's state carries
-                                            (describe: "fabric_conductivity"); NULL = not known */
-    const double *stress_xx;           /**< [Pa]; NULL = not known; both or none */
+    const double *porosity;            /**< overlaps counted once, 0 to 1 */
+    const double *fabric_index;        /**< F_xx - F_yy, -1 to 1 */
+    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), -1 to 1, of the kind that the model's state
+                                            carries (describe: "fabric_conductivity"); NULL = not known */
+    const double *stress_xx;           /**< [Pa], -1e30 to 1e30; NULL = not known; both or none */
     const double *stress_yy;           /**< [Pa] */
 } msdd_initial;
 
 /** Loads a model. `source`: NULL or "builtin" for the default model compiled into the library ("builtin:state";
  *  "builtin:paper" is the network of the paper); "plugin:" and the path of a shared library that defines
- *  msdd_plugin_v1_table, see the end of this header; else a path of a model file. On success *out owns the model; free it
- *  with msdd_surrogate_free. */
+ *  msdd_plugin_v1_table, see the end of this header; else a path of a model file, which is data alone. On success *out
+ *  owns the model; free it with msdd_surrogate_free.
+ *  Loading a plug-in runs its code, with all rights of this process: pass no `source` that a stranger chose. */
 int32_t msdd_surrogate_load(const char *source, msdd_surrogate **out);
 
 /** The same model that answers with conductivities of a kind: "affine" (Eq. 9 of the paper, an upper bound) or "network"
@@ -163,7 +171,8 @@ int32_t msdd_surrogate_initial_state(const msdd_surrogate *surrogate, const msdd
 int32_t msdd_surrogate_advance(const msdd_surrogate *surrogate, const msdd_material *material, msdd_batch *batch);
 
 /** Solid fraction with overlaps counted twice (sum of grain areas over area [-]) of an initial state with the given
- *  porosity (overlaps once): a fit to the database. The bulk density that conserves mass is rho * solid_fraction. */
+ *  porosity (overlaps once; 0 to 1, else refused): a fit to the database. The bulk density that conserves mass is
+ *  rho * solid_fraction. */
 int32_t msdd_surrogate_solid_fraction(const msdd_surrogate *surrogate, size_t cells, const double *porosity,
                                       double *solid_fraction);
 
@@ -206,7 +215,8 @@ enum msdd_outcome {
     MSDD_UNJAMMED = 2  /**< bears no load */
 };
 
-/** Packs an RVE. `specification` is a JSON object; keys, with their defaults: "discs" 500, "seed" 1, "porosity" 0.12,
+/** Packs an RVE. `specification` is a JSON object; keys, any of which may be left out, with their defaults, also those
+ *  of "material" one by one: "discs" 500, "seed" 1, "porosity" 0.12,
  *  "compression" "isotropic" (or "horizontal", "intermediate", "sheared"), "boundary" "walls" (or "periodic"), "radius_min" 3e-3,
  *  "radius_max" 7e-3 [m], "relaxation" "damped" (or "fire"), "material" {"density" 3000 [kg/m3], "young_modulus" 1e7 [Pa],
  *  "stiffness_ratio" 0.8, "friction_angle" 0.5 [rad], "wall_stiffness_factor" 1, "damping" 0.1}. NULL means "{}".
@@ -253,13 +263,27 @@ int32_t msdd_database_export_csv(const char *database, const char *csv, uint64_t
 /* A plug-in is a shared library with a surrogate of somebody else's: it includes this header, needs nothing of libmsdd,
  * and defines one function, msdd_plugin_v1_table. Worked example: rust/capi/examples/effective_medium.c.
  *
+ *  - Loading a plug-in runs its code, in this process and with all its rights: load none that you would not run.
  *  - No SI: a plug-in answers K/k and reduced stresses sigma l/(E r), l = 1 m, r the current mean radius, compression
  *    positive. The library alone knows the material and converts. Strain: extension positive.
  *  - Its functions return 0, or any other number for a failure, and may be called from several threads at once.
- *    Inputs are finite; columns are never NULL, but where it says so. Outputs do not overlap inputs.
- *  - Cells are independent of each other. Zero strain leaves the state as it is, bit for bit.
- *  - Every output has to be finite, and K above zero: the library checks that and refuses the step otherwise.
- *  - It is never unloaded. It must not throw, print, or leave by longjmp. */
+ *    Inputs are finite, and copies that end with the call; columns are never NULL, but where it says so. Outputs do not
+ *    overlap inputs.
+ *  - Cells are independent of each other. Zero strain leaves the state as it is, bit for bit. The same question has the
+ *    same answer, whatever was asked before.
+ *  - It is never unloaded. It must not throw, print, or leave by longjmp.
+ *
+ * Checked in every call, and refused with plug-in, column and cell (MSDD_PLUGIN; nothing is written):
+ *  - every output is finite; K/k is from 1e-30 to 1e30, stresses from 0 (no tension) to 1e30, spreads not negative, solid
+ *    fractions above 0, to 2;
+ *  - porosity after a step is from 0 to 1 and fabric_index from -1 to 1, unless that of the cell was given outside;
+ *    porosity and fabric_index of the start are those given;
+ *  - c11 and c22 are from 1e-30 to 1e30, and c12^2 is below c11 c22: also where grains do not touch some stiffness is
+ *    left (the built-in model keeps a hundredth);
+ *  - a strain of 0 keeps the state, unless the plug-in says in `outside` that the cell is outside of its range.
+ * Checked once, in the first calls of initial_state and advance, which are made twice: the answers are the same bits.
+ * Not checked: whether answers depend on other cells or, later on, on the number of calls; whether strains compose; whether
+ * deform, tangent and stress agree; what else its code does. */
 
 #define MSDD_PLUGIN_VERSION 1u
 
@@ -270,7 +294,7 @@ typedef struct msdd_plugin_start {
     const double *porosity;            /**< overlaps counted once */
     const double *fabric_index;        /**< F_xx - F_yy */
     const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy); NULL = not known */
-    const double *stress_xx;           /**< reduced; NULL = not known; both or none */
+    const double *stress_xx;           /**< reduced, tension negative; NULL = not known; both or none */
     const double *stress_yy;
     double *const *state;              /**< out: state_size columns; the first two are the given porosity and
                                             fabric_index, which a plug-in may not change */
@@ -311,12 +335,15 @@ typedef struct msdd_plugin_v1 {
     uint32_t network_conductivity;  /**< 1: K with the resistor network solved; 0: affine, Eq. 9 of the paper */
     const char *name;               /**< UTF-8 */
     size_t state_size;              /**< 2 to 64 */
-    const char *const *state_names; /**< state_size texts; the first two are "porosity" and "fabric_index" */
+    const char *const *state_names; /**< state_size texts; the first two are "porosity" and "fabric_index". A letter, then
+                                         letters, digits and underscores, 64 in all at most; no two may differ in
+                                         underscores or capitals alone. msddFoam writes reduced_pressure as the field
+                                         reducedPressure, and refuses the names of its own fields */
     /** State at the start. */
     int32_t (*initial_state)(const msdd_plugin_start *start);
     /** One step of all cells. */
     int32_t (*advance)(const msdd_plugin_step *step);
-    /** Solid fraction, overlaps counted twice, of an initial state of a porosity; above 0. NULL = has none. */
+    /** Solid fraction, overlaps counted twice, of an initial state of a porosity; above 0, to 2. NULL = has none. */
     int32_t (*solid_fraction)(size_t cells, const double *porosity, double *solid_fraction);
     /** Mechanical tangent; NULL = has none. With it comes `deform`, or neither. */
     int32_t (*tangent)(const msdd_plugin_tangent *tangent);

@@ -119,7 +119,7 @@ impl<'a> Columns<'a> {
             .try_for_each(Input::check_finite)?;
         let range = |column: &Input, allowed: &str, inside: fn(f64) -> bool| {
             let Some(cell) = column.position(|value| !inside(value)) else { return Ok(()) };
-            Err(Failure::argument(format!("{}[{cell}]", column.name), column.at(cell), allowed))
+            Err(Failure::number(format!("{}[{cell}]", column.name), column.at(cell), allowed))
         };
         if let Some(column) = &self.total_thermal_strain {
             range(column, "above -1, to 10", |total| total > -1.0 && total <= LARGEST_STRAIN)?;
@@ -128,7 +128,7 @@ impl<'a> Columns<'a> {
             range(column, "above -0.2, to 0.2", |step| step > -LARGEST_STEP && step <= LARGEST_STEP)?;
         }
         if let Some(column) = &self.virgin_share {
-            range(column, "0 to 1", |share| (0.0..=1.0).contains(&share))?;
+            column.check_range(0.0, 1.0, "0 to 1")?;
         }
         if !has_tangent && (self.deforms() || self.tangent.iter().any(Output::is_wanted)) {
             let wanted = "strain_xx, strain_yy, c11, c22, c12, porosity_rate, fabric_index_rate";
@@ -187,7 +187,8 @@ impl<'a> Columns<'a> {
         for (column, lanes) in
             self.outside.iter().zip(answer.outside[..self.state.len()].iter().chain(strain))
         {
-            column.write(first, lanes);
+            // A deviator near the largest number lies infinitely far outside; the largest number says as much.
+            column.write(first, &lanes.map(|beyond| beyond.clamp(f64::MIN, f64::MAX)));
         }
         let lane_state = |lane: usize| answer.state.map(|column| column[lane]);
         if self.tangent.iter().any(Output::is_wanted) {

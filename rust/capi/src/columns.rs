@@ -70,6 +70,14 @@ impl<'a> Input<'a> {
         (first..self.length).find(|&cell| is(self.at(cell)))
     }
 
+    /// Refuses values outside of a range, whose ends belong to it.
+    pub fn check_range(&self, low: f64, high: f64, allowed: &str) -> Result<(), Failure> {
+        match self.position(|value| !(low <= value && value <= high)) {
+            None => Ok(()),
+            Some(cell) => Err(Failure::number(format!("{}[{cell}]", self.name), self.at(cell), allowed)),
+        }
+    }
+
     /// Refuses NaN and infinity.
     pub fn check_finite(&self) -> Result<(), Failure> {
         match self.position(|value| !value.is_finite()) {

@@ -12,13 +12,17 @@ pub(crate) struct Si {
 
 /// ℓ, the depth over which contact stiffnesses [N/m] become stresses [m].
 const DEPTH: f64 = 1.0;
+/// Stress given by a caller at most [Pa]: above any, and far from overflow.
+pub(crate) const LARGEST_STRESS: f64 = 1e30;
 
 impl Si {
+    /// Of scales that a material can have. Within them K of any state, E r and stresses are numbers, above zero.
     pub fn new(material: &msdd_material) -> Result<Self, Failure> {
         let &msdd_material { thermal_conductivity, young_modulus, mean_radius, .. } = material;
-        check_scale("material.thermal_conductivity", thermal_conductivity, "above 0, to 1e12 W/(m K)", 1e12)?;
-        check_scale("material.young_modulus", young_modulus, "above 0, to 1e15 Pa", 1e15)?;
-        check_scale("material.mean_radius", mean_radius, "above 0, to 1e6 m", 1e6)?;
+        let conductivity = (1e-12, 1e12, "1e-12 to 1e12 W/(m K)");
+        check_scale("material.thermal_conductivity", thermal_conductivity, conductivity)?;
+        check_scale("material.young_modulus", young_modulus, (1e-9, 1e15, "1e-9 to 1e15 Pa"))?;
+        check_scale("material.mean_radius", mean_radius, (1e-12, 1e6, "1e-12 to 1e6 m"))?;
         Ok(Self { conductivity: thermal_conductivity, stress: young_modulus * mean_radius / DEPTH })
     }
 
@@ -27,17 +31,21 @@ impl Si {
         dimensionless.map(|value| self.conductivity * value)
     }
 
-    /// σ̃ = σ ℓ/(E r), initial radius [-].
+    /// σ̃ = σ ℓ/(E r), initial radius [-]; a number for |σ| up to [`LARGEST_STRESS`].
     pub fn reduced(&self, stress: f64) -> f64 {
         stress / self.stress
     }
 
-    /// σ = σ̃ E r̄ / ℓ [Pa] with the current mean radius r̄ = r (1 + α (T − T⁰)).
+    /// σ = σ̃ E r̄ / ℓ [Pa] with the current mean radius r̄ = r (1 + α (T − T⁰)). A state near the largest number, far outside
+    /// of every trained range, gives the largest number, not infinity.
     pub fn stress(&self, dimensionless: Lanes, total_thermal_strain: &Lanes) -> Lanes {
-        std::array::from_fn(|lane| dimensionless[lane] * (self.stress * (1.0 + total_thermal_strain[lane])))
+        let stress = |lane: usize| dimensionless[lane] * (self.stress * (1.0 + total_thermal_strain[lane]));
+        std::array::from_fn(|lane| stress(lane).min(f64::MAX))
     }
 }
 
-fn check_scale(name: &str, value: f64, allowed: &str, largest: f64) -> Result<(), Failure> {
-    if value > 0.0 && value <= largest { Ok(()) } else { Err(Failure::argument(name, value, allowed)) }
+/// `allowed`: ends of the range, and its text.
+fn check_scale(name: &str, value: f64, allowed: (f64, f64, &str)) -> Result<(), Failure> {
+    let (low, high, text) = allowed;
+    if (low..=high).contains(&value) { Ok(()) } else { Err(Failure::number(name, value, text)) }
 }

@@ -1,7 +1,7 @@
 //! Errors to status codes and text.
 
 use crate::{abi, panics};
-use msdd_plugin::PluginError;
+use msdd_plugin::{PluginError, shown};
 use msdd_rve::database::DatabaseError;
 use msdd_rve::{RveError, state::StateError};
 use msdd_surrogate::SurrogateError;
@@ -40,6 +40,11 @@ impl Failure {
 
     pub fn argument(name: impl ToString, value: impl ToString, allowed: impl ToString) -> Self {
         Self::Argument { name: name.to_string(), value: value.to_string(), allowed: allowed.to_string() }
+    }
+
+    /// As [`Failure::argument`], for a number.
+    pub fn number(name: impl ToString, value: f64, allowed: impl ToString) -> Self {
+        Self::argument(name, shown(value), allowed)
     }
 
     fn status(&self) -> i32 {

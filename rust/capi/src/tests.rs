@@ -358,6 +358,114 @@ fn bad_arguments_are_refused() {
     }
 }
 
+/// At the ends of the allowed scales K and stresses are numbers above zero; beyond, the scale is refused with its range.
+#[test]
+fn scales_keep_answers_numbers_or_are_refused() {
+    let handle = Handle::builtin();
+    let ends = [[1e-12, 1e12], [1e-9, 1e15], [1e-12, 1e6]];
+    for choice in 0..8 {
+        let [thermal_conductivity, young_modulus, mean_radius] = [0, 1, 2].map(|k| ends[k][choice >> k & 1]);
+        let material = msdd_material { thermal_conductivity, young_modulus, mean_radius, ..MATERIAL };
+        let mut cells = Cells::new(&handle, 9);
+        cells.state[2][4] = f64::MAX;
+        let status = cells.with_batch(|batch| {
+            // SAFETY: live handle, full structs, columns of `cells` values.
+            unsafe { msdd_surrogate_advance(handle.0, &material, batch) }
+        });
+        assert_eq!(status, MSDD_OK, "{}", last_error());
+        assert!(cells.outputs.iter().flatten().all(|value| value.is_normal() && *value > 0.0), "{cells:?}");
+        let (mut porosity, mut fabric_index) = ([0.12; 2], [0.0; 2]);
+        let (stress, mut rest) = ([-1e30, 1e30], [[0.0; 2]; 3]);
+        let state = [&mut porosity, &mut fabric_index].map(|column| column.as_mut_ptr());
+        let state: Vec<*mut f64> = state.into_iter().chain(rest.each_mut().map(|c| c.as_mut_ptr())).collect();
+        let initial = msdd_initial {
+            struct_size: size_of::<msdd_initial>(),
+            cells: 2,
+            porosity: state[0],
+            fabric_index: state[1],
+            fabric_conductivity: null(),
+            stress_xx: stress.as_ptr(),
+            stress_yy: stress.as_ptr(),
+        };
+        // SAFETY: live handle, full structs, columns of two values.
+        let status = unsafe { msdd_surrogate_initial_state(handle.0, &material, &initial, state.as_ptr()) };
+        assert_eq!(status, MSDD_OK, "{}", last_error());
+        assert!(rest.iter().flatten().all(|value| value.is_finite()), "{rest:?}");
+    }
+    for (k, name, range) in [
+        (0, "thermal_conductivity", "1e-12 to 1e12 W/(m K)"),
+        (1, "young_modulus", "1e-9 to 1e15 Pa"),
+        (2, "mean_radius", "1e-12 to 1e6 m"),
+    ] {
+        for (bad, shown) in [
+            (0.99 * ends[k][0], None),
+            (1.01 * ends[k][1], None),
+            (1e-200, Some("1e-200")),
+            (-1.0, Some("-1")),
+        ] {
+            let mut scales = [100.0, 1e7, 5e-3];
+            scales[k] = bad;
+            let [thermal_conductivity, young_modulus, mean_radius] = scales;
+            let material = msdd_material { thermal_conductivity, young_modulus, mean_radius, ..MATERIAL };
+            let status = Cells::new(&handle, 2).with_batch(|batch| {
+                // SAFETY: live handle, full structs, columns of `cells` values.
+                unsafe { msdd_surrogate_advance(handle.0, &material, batch) }
+            });
+            let expected = format!("material.{name} = {}", shown.unwrap_or_default());
+            let message = last_error();
+            assert_eq!(status, MSDD_INVALID_ARGUMENT, "{message}");
+            assert!(
+                message.starts_with(&expected) && message.ends_with(&format!("allowed: {range}")),
+                "{message}"
+            );
+        }
+    }
+}
+
+/// What no packing has is no start: the first such cell is named, and nothing is written.
+#[test]
+fn a_start_that_no_packing_has_is_refused() {
+    for source in [c"builtin", c"builtin:paper"] {
+        let handle = Handle::load(source);
+        let refused = |column: usize, value: f64, expected: &str| {
+            let mut columns = [vec![0.12; 11], vec![0.0; 11], vec![0.1; 11], vec![1e3; 11], vec![1e3; 11]];
+            columns[column][7] = value;
+            let mut state = vec![vec![-7.0; 11]; handle.columns()];
+            let pointers: Vec<*mut f64> = state.iter_mut().map(|c| c.as_mut_ptr()).collect();
+            let initial = msdd_initial {
+                struct_size: size_of::<msdd_initial>(),
+                cells: 11,
+                porosity: columns[0].as_ptr(),
+                fabric_index: columns[1].as_ptr(),
+                fabric_conductivity: columns[2].as_ptr(),
+                stress_xx: columns[3].as_ptr(),
+                stress_yy: columns[4].as_ptr(),
+            };
+            // SAFETY: live handle, full structs, columns of eleven values.
+            let status =
+                unsafe { msdd_surrogate_initial_state(handle.0, &MATERIAL, &initial, pointers.as_ptr()) };
+            assert_eq!((status, last_error().as_str()), (MSDD_INVALID_ARGUMENT, expected));
+            assert!(state.iter().flatten().all(|value| *value == -7.0));
+            if column == 0 {
+                let mut solid = [-7.0; 11];
+                // SAFETY: live handle, columns of eleven values.
+                let status = unsafe {
+                    msdd_surrogate_solid_fraction(handle.0, 11, columns[0].as_ptr(), solid.as_mut_ptr())
+                };
+                assert_eq!((status, last_error().as_str()), (MSDD_INVALID_ARGUMENT, expected));
+                assert_eq!(solid, [-7.0; 11]);
+            }
+        };
+        refused(0, -1.0, "porosity[7] = -1, allowed: 0 to 1");
+        refused(0, 2.0, "porosity[7] = 2, allowed: 0 to 1");
+        refused(0, 1e300, "porosity[7] = 1e300, allowed: 0 to 1");
+        refused(1, -1.5, "fabric_index[7] = -1.5, allowed: -1 to 1");
+        refused(2, 1.5, "fabric_conductivity[7] = 1.5, allowed: -1 to 1");
+        refused(3, -2e30, "stress_xx[7] = -2e30, allowed: -1e30 to 1e30 Pa");
+        refused(4, 1e300, "stress_yy[7] = 1e300, allowed: -1e30 to 1e30 Pa");
+    }
+}
+
 #[test]
 fn loading_says_what_is_wrong() {
     let load = |source: &CStr| {
@@ -453,9 +561,43 @@ fn an_rve_from_packing_to_text_and_back() {
     }
 }
 
+/// Every key of a specification has its default, those of the material among them.
+#[test]
+fn what_a_specification_leaves_out_is_as_usual() {
+    let made = |specification: &CStr| {
+        let (rve, mut json) = (pack(specification).expect("packs"), null_mut());
+        // SAFETY: a live handle and a writable pointer; both are freed once.
+        unsafe {
+            assert_eq!(msdd_rve_to_json(rve, &mut json), MSDD_OK);
+            let text = text(json);
+            msdd_text_free(json);
+            msdd_rve_free(rve);
+            text
+        }
+    };
+    let whole = made(
+        c"{\"discs\": 30, \"porosity\": 0.15, \"material\": {\"density\": 3000, \"young_modulus\": 1e7, \
+          \"stiffness_ratio\": 0.8, \"friction_angle\": 0.4, \"wall_stiffness_factor\": 1, \"damping\": 0.1}}",
+    );
+    let part = made(c"{\"discs\": 30, \"porosity\": 0.15, \"material\": {\"friction_angle\": 0.4}}");
+    let usual = made(c"{\"discs\": 30, \"porosity\": 0.15, \"material\": {}}");
+    assert!(whole == part && part != usual && usual == made(c"{\"discs\": 30, \"porosity\": 0.15}"));
+}
+
 #[test]
 fn bad_specifications_and_states_are_refused() {
+    let long = CString::new(format!("{{\"discs\": 60, \"x{}\": 1}}", "x".repeat(1 << 20))).expect("no NUL");
+    let (status, message) = pack(&long).expect_err("refused");
+    assert!(
+        status == MSDD_INVALID_ARGUMENT && message.len() < 1000 && message.contains(" and more, allowed: "),
+        "{message}"
+    );
     for (specification, part) in [
+        (c"[]", "specification = [], allowed: a JSON object"),
+        (c"[40, 1, 0.12]", "allowed: a JSON object"),
+        (c"7", "allowed: a JSON object"),
+        (c"{\"material\": []}", "with \"material\" a JSON object"),
+        (c"{\"material\": {\"friction\": 0.4}}", "unknown field `friction`"),
         (c"{\"disks\": 60}", "disks"),
         (c"{\"porosity\": 0.9}", "porosity"),
         (c"{\"compression\": \"vertical\"}", "vertical"),

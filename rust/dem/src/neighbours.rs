@@ -2,6 +2,7 @@
 
 use crate::contacts::{PairList, WallContacts};
 use crate::disc::Disc;
+use crate::kernel::larger;
 use crate::periodic::{self, Cell, Image};
 use crate::walls::{Side, Walls};
 
@@ -40,7 +41,8 @@ impl Neighbours {
         }
         self.closed = self.closed_by_boundaries + self.closed_by_motion(discs, cell);
         // The measure costs about as much as a step, so it should be good for a few.
-        self.closed > 0.8 * self.skin
+        // A motion that is not a number keeps no pair apart.
+        self.closed.is_nan() || self.closed > 0.8 * self.skin
     }
 
     /// Counts motion: `speed` [m/s] bounds that of every disc, `wall_speed` that of every wall, and `growth` [m/s]
@@ -65,8 +67,8 @@ impl Neighbours {
             let [x, y] = cell.map_or(built_at, |cell| cell.point(built_at));
             let (dx, dy) = (disc.x - x, disc.y - y);
             let square = dx * dx + dy * dy;
-            second = second.max(square.min(largest));
-            largest = largest.max(square);
+            second = larger(second, square.min(largest));
+            largest = larger(largest, square);
         }
         largest.sqrt() + second.sqrt()
     }

@@ -6,6 +6,7 @@
 
 use crate::disc::Disc;
 use crate::forces::Load;
+use crate::kernel::larger;
 use crate::run::Failure;
 use crate::simulation::Simulation;
 use crate::time_step::{StepChoice, contact_stiffness};
@@ -120,7 +121,7 @@ impl Simulation {
             disc.vy = keep * disc.vy + per_mass * load.fy;
             let per_inertia = 2.0 * per_mass / (disc.radius * disc.radius);
             disc.angular_velocity = keep * disc.angular_velocity + per_inertia * load.torque;
-            fastest2 = fastest2.max(disc.vx * disc.vx + disc.vy * disc.vy);
+            fastest2 = larger(fastest2, disc.vx * disc.vx + disc.vy * disc.vy);
         }
         self.largest_speed = fastest2.sqrt();
         descent.downhill += 1;

@@ -3,7 +3,7 @@
 use crate::disc::Disc;
 use crate::forces::Load;
 use crate::heat::{HeatPipes, HeatState, Thermal, WallHeat};
-use crate::kernel::{Motion, Simd};
+use crate::kernel::{Motion, Simd, larger};
 use crate::law::PairLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
@@ -124,7 +124,7 @@ impl Simulation {
             neighbours: Neighbours::default(),
         };
         simulation.rebuild_neighbours();
-        simulation.largest_speed = simulation.discs.iter().map(Disc::speed).fold(0.0, f64::max);
+        simulation.largest_speed = simulation.discs.iter().map(Disc::speed).fold(0.0, larger);
         simulation.time_step = time_step::SAFETY * time_step::stable_step(&simulation);
         simulation
     }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::heat::{Thermal, WallHeat};
+use crate::kernel;
 use crate::walls::Side;
 use std::f64::consts::PI;
 
@@ -180,6 +181,31 @@ fn instruction_sets_agree_bit_for_bit() {
         let vector = run(simd);
         assert_eq!(vector.discs, scalar.discs, "{simd:?}");
         assert_eq!(vector.neighbours.pairs, scalar.neighbours.pairs);
+    }
+}
+
+/// A speed that is no number is found by every instruction set wherever it stands, and no bound on the motion holds then.
+#[test]
+fn a_speed_that_is_no_number_is_no_small_speed() {
+    for simd in Simd::ALL.into_iter().filter(|simd| simd.available()) {
+        for broken in 0..19 {
+            let mut discs = vec![Disc { vx: 0.5, ..Disc::at_rest(0.0, 0.0, R, 3000.0) }; 19];
+            let motion = Motion { damping: 0.1, keep_free: 1.0, dt: 1e-5 };
+            let loads = vec![Load::default(); 19];
+            assert_eq!(kernel::advance(simd, motion, &mut discs, &loads), 0.25, "{simd:?}");
+            discs[broken].vy = f64::NAN;
+            assert!(kernel::advance(simd, motion, &mut discs, &loads).is_nan(), "{simd:?} {broken}");
+        }
+    }
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut simulation = heap();
+        simulation.discs[3].vx = bad;
+        simulation.step();
+        assert!(!simulation.largest_speed.is_finite());
+        // After the next step the list of candidates counts as used up, whatever the other discs have done.
+        simulation.advance_boundaries();
+        assert!(simulation.neighbours.stale(&simulation.discs, None), "{bad}");
+        assert!(matches!(simulation.run(50), Err(Failure::NonFinite { disc: 3, .. })), "{bad}");
     }
 }
 

@@ -37,14 +37,14 @@ pub(crate) struct Sweep<'a> {
 /// What came of a sweep.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Swept {
-    /// Square of the largest speed [m²/s²].
+    /// Square of the largest speed [m²/s²]; NaN when one is.
     pub fastest2: f64,
     pub wall_force: [[f64; 2]; 4],
 }
 
 impl Swept {
     fn add(&mut self, other: &Self) {
-        self.fastest2 = self.fastest2.max(other.fastest2);
+        self.fastest2 = kernel::larger(self.fastest2, other.fastest2);
         for (sum, part) in self.wall_force.iter_mut().flatten().zip(other.wall_force.iter().flatten()) {
             *sum += part;
         }
@@ -99,7 +99,7 @@ impl SlabLoads {
             let rows = slab.rows.start..slab.shared;
             let loads = self.complete(number, rows.clone(), &slabs);
             let fastest2 = kernel::advance(sweep.simd, sweep.motion, &mut discs[rows], loads);
-            result.fastest2 = result.fastest2.max(fastest2);
+            result.fastest2 = kernel::larger(result.fastest2, fastest2);
         }
         result
     }
@@ -182,7 +182,8 @@ impl Task<'_> {
             if !movable.is_empty() {
                 let loads = &self.loads[movable.start - first..movable.end - first];
                 let discs = self.discs.rows_mut(movable);
-                swept.fastest2 = swept.fastest2.max(kernel::advance(sweep.simd, sweep.motion, discs, loads));
+                let fastest2 = kernel::advance(sweep.simd, sweep.motion, discs, loads);
+                swept.fastest2 = kernel::larger(swept.fastest2, fastest2);
             }
             mark(Stage::Motion);
         }

@@ -106,6 +106,17 @@ fn all_instruction_sets_give_the_same_bits() {
     }
 }
 
+/// The search for neighbours goes on beside a disc that is nowhere, and the run ends with an error.
+#[test]
+fn a_disc_without_a_velocity_ends_the_run() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+        let mut simulation = sheared_box(crowd(0.01, 0.2), Material::default(), 0.4);
+        simulation.discs[5].vy = bad;
+        assert!(simulation.run(200).is_err(), "{bad}");
+        assert!(simulation.rebuilds() > 1, "{bad}");
+    }
+}
+
 /// A pair stuck across the border, beside a disc that flies about or not.
 fn stuck(fast: f64) -> Simulation {
     let disc = |x: f64, y: f64| Disc::at_rest(x, y, 5e-3, 3000.0);

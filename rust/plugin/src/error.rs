@@ -12,7 +12,7 @@ pub enum PluginError {
     #[error("plug-in {plugin}: {function} failed with status {status}: {text}")]
     Failed { plugin: String, function: &'static str, status: i32, text: String },
     /// One of its functions answered what no packing of grains has.
-    #[error("plug-in {plugin}: {function} answered {column}[{cell}] = {value}, allowed: {allowed}")]
+    #[error("plug-in {plugin}: {function} answered {column}[{cell}] = {}, allowed: {allowed}", shown(*value))]
     Answer {
         plugin: String,
         function: &'static str,
@@ -21,4 +21,12 @@ pub enum PluginError {
         value: f64,
         allowed: &'static str,
     },
+}
+
+/// A number as messages show it: 1e300, not 300 digits.
+pub fn shown(value: f64) -> String {
+    match value == 0.0 || !value.is_finite() || (1e-5..1e15).contains(&value.abs()) {
+        true => value.to_string(),
+        false => format!("{value:e}"),
+    }
 }

@@ -1,14 +1,15 @@
 //! A loaded plug-in: calls of its functions, and checks of what they answer.
 
 use crate::PluginError;
+use crate::checks::{self, Question};
+use crate::columns::{Inputs, pointers, slices, unwritten};
 use crate::library::{load, text};
+use crate::names::state_names;
 use msdd_abi::{msdd_plugin_start, msdd_plugin_step, msdd_plugin_tangent, msdd_plugin_v1};
 use std::ffi::c_char;
 use std::path::Path;
 use std::ptr::null;
-
-/// State columns at most: nobody means more, and a wrong table is likely to say more.
-const MOST_COLUMNS: usize = 64;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 type Columns<'a> = &'a [&'a [f64]];
 type Deform = unsafe extern "C" fn(usize, *const *const f64, *const f64, *const f64, *const *mut f64) -> i32;
@@ -30,6 +31,9 @@ pub struct Plugin {
     spread: Option<unsafe extern "C" fn(usize, *const *const f64, *mut f64) -> i32>,
     last_error: Option<unsafe extern "C" fn() -> *const c_char>,
     wall_friction: Option<WallFriction>,
+    /// Whether `initial_state` and `advance` have been asked before: their first question is asked twice.
+    started: AtomicBool,
+    advanced: AtomicBool,
 }
 
 /// Mobilised wall friction limit s/(s + slip) after the slip s.
@@ -118,6 +122,8 @@ impl Plugin {
             spread: table.spread,
             last_error: table.last_error,
             wall_friction: wall_friction(table)?,
+            started: AtomicBool::new(false),
+            advanced: AtomicBool::new(false),
         })
     }
 
@@ -163,35 +169,41 @@ impl Plugin {
     /// # Panics
     /// When columns differ in length; so do the other functions, and when columns are missing.
     pub fn initial_state(&self, start: &Start) -> Result<Vec<Vec<f64>>, PluginError> {
+        let question = self.question("initial_state");
+        let state = self.ask_start(start)?;
+        question.columns(&question.state(&state))?;
+        question.start(&state, [start.porosity, start.fabric_index])?;
+        if first_time(&self.started, start.porosity.len()) {
+            question.again(&question.state(&state), &question.state(&self.ask_start(start)?))?;
+        }
+        Ok(state)
+    }
+
+    fn ask_start(&self, start: &Start) -> Result<Vec<Vec<f64>>, PluginError> {
         let cells = start.porosity.len();
-        check_lengths(&[start.fabric_index], cells);
-        let optional = |column: Option<&[f64]>| {
-            column.map_or(null(), |column| {
-                check_lengths(&[column], cells);
-                column.as_ptr()
-            })
-        };
+        let stress = start.stress.into_iter().flatten();
+        let columns: Vec<&[f64]> = [start.porosity, start.fabric_index]
+            .into_iter()
+            .chain(start.fabric_conductivity)
+            .chain(stress)
+            .collect();
+        let inputs = Inputs::new(&columns, cells);
+        let stress = 2 + usize::from(start.fabric_conductivity.is_some());
+        let given = |known: bool, column: usize| if known { inputs.pointer(column) } else { null() };
         let mut state = vec![unwritten(cells); self.state_names.len()];
         let to = pointers(&mut state);
         let given = msdd_plugin_start {
             struct_size: size_of::<msdd_plugin_start>(),
             cells,
-            porosity: start.porosity.as_ptr(),
-            fabric_index: start.fabric_index.as_ptr(),
-            fabric_conductivity: optional(start.fabric_conductivity),
-            stress_xx: optional(start.stress.map(|s| s[0])),
-            stress_yy: optional(start.stress.map(|s| s[1])),
+            porosity: inputs.pointer(0),
+            fabric_index: inputs.pointer(1),
+            fabric_conductivity: given(start.fabric_conductivity.is_some(), 2),
+            stress_xx: given(start.stress.is_some(), stress),
+            stress_yy: given(start.stress.is_some(), stress + 1),
             state: to.as_ptr(),
         };
         // SAFETY: columns of `cells` values, and `state` of as many columns as the table says.
         self.status("initial_state", cells, || unsafe { (self.initial_state)(&given) })?;
-        self.check_state("initial_state", &state)?;
-        for (k, known) in [start.porosity, start.fabric_index].into_iter().enumerate() {
-            if let Some(cell) = (0..cells).find(|&cell| state[k][cell] != known[cell]) {
-                let value = state[k][cell];
-                return Err(self.answer("initial_state", &self.state_names[k], cell, value, "that given"));
-            }
-        }
         Ok(state)
     }
 
@@ -200,76 +212,86 @@ impl Plugin {
     /// # Errors
     /// [`PluginError::Failed`] or [`PluginError::Answer`].
     pub fn advance(&self, step: &Step) -> Result<Answer, PluginError> {
-        let thermal = self.advance_once(step.state, step.thermal_strain, step.virgin_share)?;
-        let Some(strain) = step.strain else { return Ok(thermal) };
-        let deformed = self.deformed(&slices(&thermal.state), strain)?;
-        let after = self.advance_once(&slices(&deformed), &vec![0.0; step.thermal_strain.len()], None)?;
-        Ok(Answer { outside: thermal.outside, ..after })
+        let mut answer = self.advance_once(step.state, step.thermal_strain, step.virgin_share)?;
+        if let Some(strain) = step.strain {
+            let deformed = self.deformed(&answer, strain)?;
+            let rest = vec![0.0; step.thermal_strain.len()];
+            let after = self.advance_once(&slices(&deformed), &rest, None)?;
+            answer = Answer { outside: answer.outside, ..after };
+        }
+        self.question("advance").packing(step.state, &answer.state)?;
+        Ok(answer)
     }
 
+    /// A checked step of thermal strain alone.
     fn advance_once(
         &self,
         state: Columns,
         thermal_strain: &[f64],
         virgin_share: Option<&[f64]>,
     ) -> Result<Answer, PluginError> {
-        let cells = thermal_strain.len();
-        let given = self.checked_state(state, cells);
+        let question = self.question("advance");
+        let answer = self.ask_step(state, thermal_strain, virgin_share)?;
+        question.columns(&question.answer(&answer))?;
+        question.rest(state, &[thermal_strain], &answer.state, &answer.outside)?;
+        if first_time(&self.advanced, thermal_strain.len()) {
+            let second = self.ask_step(state, thermal_strain, virgin_share)?;
+            question.again(&question.answer(&answer), &question.answer(&second))?;
+        }
+        Ok(answer)
+    }
+
+    fn ask_step(
+        &self,
+        state: Columns,
+        thermal_strain: &[f64],
+        virgin_share: Option<&[f64]>,
+    ) -> Result<Answer, PluginError> {
+        let (cells, count) = (thermal_strain.len(), self.count(state));
+        let columns: Vec<&[f64]> =
+            state.iter().copied().chain([thermal_strain]).chain(virgin_share).collect();
+        let inputs = Inputs::new(&columns, cells);
         let mut answer = Answer {
-            state: vec![unwritten(cells); state.len()],
+            state: vec![unwritten(cells); count],
             conductivity: [unwritten(cells), unwritten(cells)],
             stress: [unwritten(cells), unwritten(cells)],
-            outside: vec![vec![0.0; cells]; state.len() + 1],
+            outside: vec![vec![0.0; cells]; count + 1],
         };
         let (next, outside) = (pointers(&mut answer.state), pointers(&mut answer.outside));
         let ([kxx, kyy], [sxx, syy]) = (&mut answer.conductivity, &mut answer.stress);
         let step = msdd_plugin_step {
             struct_size: size_of::<msdd_plugin_step>(),
             cells,
-            state: given.as_ptr(),
-            thermal_strain: thermal_strain.as_ptr(),
+            state: inputs.pointers(),
+            thermal_strain: inputs.pointer(count),
             next_state: next.as_ptr(),
             conductivity_xx: kxx.as_mut_ptr(),
             conductivity_yy: kyy.as_mut_ptr(),
             stress_xx: sxx.as_mut_ptr(),
             stress_yy: syy.as_mut_ptr(),
             outside: outside.as_ptr(),
-            virgin_share: virgin_share.map_or(std::ptr::null(), <[f64]>::as_ptr),
+            virgin_share: virgin_share.map_or(null(), |_| inputs.pointer(count + 1)),
         };
         // SAFETY: columns of `cells` values, and arrays of as many columns as the table says.
         self.status("advance", cells, || unsafe { (self.advance)(&step) })?;
-        self.check_answer(&answer)?;
         Ok(answer)
     }
 
-    fn check_answer(&self, answer: &Answer) -> Result<(), PluginError> {
-        self.check_state("advance", &answer.state)?;
-        for (name, column) in ["conductivity_xx", "conductivity_yy"].iter().zip(&answer.conductivity) {
-            self.check("advance", name, column, "finite, above 0", |k| k.is_finite() && k > 0.0)?;
-        }
-        for (name, column) in ["stress_xx", "stress_yy"].iter().zip(&answer.stress) {
-            self.check("advance", name, column, "finite", f64::is_finite)?;
-        }
-        for (k, column) in answer.outside.iter().enumerate() {
-            let name = self.state_names.get(k).map_or("thermal_strain", String::as_str);
-            self.check("advance", &format!("outside {name}"), column, "finite", f64::is_finite)?;
-        }
-        Ok(())
-    }
-
-    /// State after mechanical strains. Without a tangent, the state as it is.
-    fn deformed(&self, state: Columns, strain: [&[f64]; 2]) -> Result<Vec<Vec<f64>>, PluginError> {
-        let Some((_, deform)) = self.mechanics else { return Ok(state.iter().map(|c| c.to_vec()).collect()) };
-        let cells = strain[0].len();
-        check_lengths(&strain, cells);
-        let given = self.checked_state(state, cells);
-        let mut next = vec![unwritten(cells); state.len()];
+    /// State after mechanical strains of the cells of an answer. Without a tangent, their state as it is.
+    fn deformed(&self, before: &Answer, strain: [&[f64]; 2]) -> Result<Vec<Vec<f64>>, PluginError> {
+        let state = slices(&before.state);
+        let Some((_, deform)) = self.mechanics else { return Ok(before.state.clone()) };
+        let (cells, count) = (strain[0].len(), self.count(&state));
+        let columns: Vec<&[f64]> = state.iter().copied().chain(strain).collect();
+        let inputs = Inputs::new(&columns, cells);
+        let mut next = vec![unwritten(cells); count];
         let to = pointers(&mut next);
-        self.status("deform", cells, || {
-            // SAFETY: columns of `cells` values, and arrays of as many columns as the table says.
-            unsafe { deform(cells, given.as_ptr(), strain[0].as_ptr(), strain[1].as_ptr(), to.as_ptr()) }
-        })?;
-        self.check_state("deform", &next)?;
+        let (xx, yy) = (inputs.pointer(count), inputs.pointer(count + 1));
+        // SAFETY: columns of `cells` values, and arrays of as many columns as the table says.
+        self.status("deform", cells, || unsafe { deform(cells, inputs.pointers(), xx, yy, to.as_ptr()) })?;
+        let question = self.question("deform");
+        question.columns(&question.state(&next))?;
+        question.rest(&state, &strain, &next, &before.outside)?;
         Ok(next)
     }
 
@@ -279,14 +301,14 @@ impl Plugin {
     /// [`PluginError::Failed`] or [`PluginError::Answer`].
     pub fn tangent(&self, state: Columns) -> Result<Option<[Vec<f64>; 5]>, PluginError> {
         let Some((tangent, _)) = self.mechanics else { return Ok(None) };
-        let cells = state[0].len();
-        let given = self.checked_state(state, cells);
+        let cells = state[..self.count(state)][0].len();
+        let inputs = Inputs::new(state, cells);
         let mut columns: [Vec<f64>; 5] = std::array::from_fn(|_| unwritten(cells));
         let [c11, c22, c12, porosity_rate, fabric_index_rate] = columns.each_mut().map(|c| c.as_mut_ptr());
         let wanted = msdd_plugin_tangent {
             struct_size: size_of::<msdd_plugin_tangent>(),
             cells,
-            state: given.as_ptr(),
+            state: inputs.pointers(),
             c11,
             c22,
             c12,
@@ -295,10 +317,11 @@ impl Plugin {
         };
         // SAFETY: columns of `cells` values, and `state` of as many columns as the table says.
         self.status("tangent", cells, || unsafe { tangent(&wanted) })?;
-        let names = ["c11", "c22", "c12", "porosity_rate", "fabric_index_rate"];
-        for (name, column) in names.iter().zip(&columns) {
-            self.check("tangent", name, column, "finite", f64::is_finite)?;
-        }
+        let question = self.question("tangent");
+        let [c11, c22, c12, porosity, fabric_index] = columns.each_ref().map(Vec::as_slice);
+        question.stiffness([c11, c22, c12])?;
+        question.column("porosity_rate", porosity, checks::FINITE)?;
+        question.column("fabric_index_rate", fabric_index, checks::FINITE)?;
         Ok(Some(columns))
     }
 
@@ -308,11 +331,11 @@ impl Plugin {
     /// [`PluginError::Failed`] or [`PluginError::Answer`].
     pub fn spread(&self, state: Columns) -> Result<Option<Vec<f64>>, PluginError> {
         let Some(spread) = self.spread else { return Ok(None) };
-        let cells = state[0].len();
-        let (given, mut column) = (self.checked_state(state, cells), unwritten(cells));
+        let cells = state[..self.count(state)][0].len();
+        let (inputs, mut column) = (Inputs::new(state, cells), unwritten(cells));
         // SAFETY: columns of `cells` values, and `state` of as many columns as the table says.
-        self.status("spread", cells, || unsafe { spread(cells, given.as_ptr(), column.as_mut_ptr()) })?;
-        self.check("spread", "spread", &column, "finite, not negative", |s| s.is_finite() && s >= 0.0)?;
+        self.status("spread", cells, || unsafe { spread(cells, inputs.pointers(), column.as_mut_ptr()) })?;
+        self.question("spread").column("spread", &column, checks::SPREAD)?;
         Ok(Some(column))
     }
 
@@ -322,13 +345,23 @@ impl Plugin {
     /// [`PluginError::Failed`] or [`PluginError::Answer`].
     pub fn solid_fraction(&self, porosity: &[f64]) -> Result<Option<Vec<f64>>, PluginError> {
         let Some(solid_fraction) = self.solid_fraction else { return Ok(None) };
-        let (cells, mut column) = (porosity.len(), unwritten(porosity.len()));
+        let cells = porosity.len();
+        let (inputs, mut column) = (Inputs::new(&[porosity], cells), unwritten(cells));
         // SAFETY: columns of `cells` values.
-        let call = || unsafe { solid_fraction(cells, porosity.as_ptr(), column.as_mut_ptr()) };
+        let call = || unsafe { solid_fraction(cells, inputs.pointer(0), column.as_mut_ptr()) };
         self.status("solid_fraction", cells, call)?;
-        let allowed = "finite, above 0";
-        self.check("solid_fraction", "solid_fraction", &column, allowed, |s| s.is_finite() && s > 0.0)?;
+        self.question("solid_fraction").column("solid_fraction", &column, checks::SOLID_FRACTION)?;
         Ok(Some(column))
+    }
+
+    fn question(&self, function: &'static str) -> Question<'_> {
+        Question { plugin: &self.label, function, state_names: &self.state_names }
+    }
+
+    /// Number of state columns; as many have to be given.
+    fn count(&self, state: Columns) -> usize {
+        assert_eq!(state.len(), self.state_names.len(), "state columns");
+        state.len()
     }
 
     /// Calls a function unless there is nothing to do, and turns its status into an error with its text.
@@ -352,69 +385,6 @@ impl Plugin {
         let text = text.unwrap_or_else(|reason| reason);
         Err(PluginError::Failed { plugin: self.label.clone(), function, status, text })
     }
-
-    fn check_state(&self, function: &'static str, state: &[Vec<f64>]) -> Result<(), PluginError> {
-        let named = self.state_names.iter().zip(state);
-        named.into_iter().try_for_each(|(name, column)| {
-            self.check(function, &format!("state {name}"), column, "finite", f64::is_finite)
-        })
-    }
-
-    fn check(
-        &self,
-        function: &'static str,
-        column: &str,
-        values: &[f64],
-        allowed: &'static str,
-        good: impl Fn(f64) -> bool,
-    ) -> Result<(), PluginError> {
-        match values.iter().position(|value| !good(*value)) {
-            None => Ok(()),
-            Some(cell) => Err(self.answer(function, column, cell, values[cell], allowed)),
-        }
-    }
-
-    fn answer(
-        &self,
-        function: &'static str,
-        column: &str,
-        cell: usize,
-        value: f64,
-        allowed: &'static str,
-    ) -> PluginError {
-        let (plugin, column) = (self.label.clone(), column.to_string());
-        PluginError::Answer { plugin, function, column, cell, value, allowed }
-    }
-
-    /// Starts of the state's columns.
-    fn checked_state(&self, state: Columns, cells: usize) -> Vec<*const f64> {
-        assert_eq!(state.len(), self.state_names.len(), "state columns");
-        check_lengths(state, cells);
-        state.iter().map(|column| column.as_ptr()).collect()
-    }
-}
-
-/// # Safety
-/// The table's texts are null or C strings, as many as its `state_size`.
-unsafe fn state_names(table: &msdd_plugin_v1) -> Result<Vec<String>, String> {
-    if !(2..=MOST_COLUMNS).contains(&table.state_size) {
-        return Err(format!("state_size = {}, allowed: 2 to {MOST_COLUMNS}", table.state_size));
-    }
-    if table.state_names.is_null() {
-        return Err("state_names is NULL".to_string());
-    }
-    // SAFETY: as many texts as `state_size` says, by this function's contract.
-    let name = |k: usize| unsafe { text(&format!("state_names[{k}]"), table.state_names.add(k).read()) };
-    let names: Vec<String> = (0..table.state_size).map(name).collect::<Result<_, _>>()?;
-    for (k, expected) in ["porosity", "fabric_index"].iter().enumerate() {
-        if names[k] != *expected {
-            return Err(format!("state_names[{k}] = \"{}\", allowed: \"{expected}\"", names[k]));
-        }
-    }
-    match (1..names.len()).find(|&k| names[..k].contains(&names[k])) {
-        Some(k) => Err(format!("state_names[{k}] = \"{}\" is there twice", names[k])),
-        None => Ok(names),
-    }
 }
 
 fn wall_friction(table: &msdd_plugin_v1) -> Result<Option<WallFriction>, String> {
@@ -428,19 +398,7 @@ fn wall_friction(table: &msdd_plugin_v1) -> Result<Option<WallFriction>, String>
     }
 }
 
-/// NaN everywhere: a column that a plug-in leaves out is found.
-fn unwritten(cells: usize) -> Vec<f64> {
-    vec![f64::NAN; cells]
-}
-
-fn pointers(columns: &mut [Vec<f64>]) -> Vec<*mut f64> {
-    columns.iter_mut().map(|column| column.as_mut_ptr()).collect()
-}
-
-fn slices(columns: &[Vec<f64>]) -> Vec<&[f64]> {
-    columns.iter().map(Vec::as_slice).collect()
-}
-
-fn check_lengths(columns: Columns, cells: usize) {
-    assert!(columns.iter().all(|column| column.len() == cells), "columns of {cells} values");
+/// Whether a function is asked for the first time, about any cells.
+fn first_time(asked: &AtomicBool, cells: usize) -> bool {
+    cells > 0 && !asked.swap(true, Ordering::Relaxed)
 }

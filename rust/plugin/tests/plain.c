@@ -3,12 +3,19 @@
 
 #include <string.h>
 
+/* Of advance and initial_state. */
+static double calls;
+
 static int32_t initial_state(const msdd_plugin_start *start)
 {
+    calls++;
     memcpy(start->state[0], start->porosity, start->cells * sizeof(double));
     memcpy(start->state[1], start->fabric_index, start->cells * sizeof(double));
 #ifdef CHANGES_THE_START
     start->state[1][start->cells - 1] = 0.5;
+#endif
+#ifdef STARTS
+    STARTS;
 #endif
     return 0;
 }
@@ -18,6 +25,7 @@ static const char *text(void) { return "the table of isotherms is empty"; }
 static int32_t advance(const msdd_plugin_step *step)
 {
     size_t i;
+    calls++;
     for (i = 0; i < step->cells; i++) {
         step->next_state[0][i] = step->state[0][i] - step->thermal_strain[i];
         step->next_state[1][i] = step->state[1][i];
@@ -39,7 +47,60 @@ static int32_t advance(const msdd_plugin_step *step)
 #ifndef TANGENT
 #define TANGENT NULL
 #endif
-static int32_t tangent(const msdd_plugin_tangent *wanted) { return wanted->cells > 0 ? 7 : 0; }
+#ifndef DEFORM
+#define DEFORM NULL
+#endif
+#ifndef C12
+#define C12 0.5
+#endif
+static int32_t tangent(const msdd_plugin_tangent *wanted)
+{
+    size_t i;
+    for (i = 0; i < wanted->cells; i++) {
+        wanted->c11[i] = wanted->c22[i] = 1;
+        wanted->c12[i] = C12;
+        wanted->porosity_rate[i] = wanted->fabric_index_rate[i] = 0.5;
+    }
+#ifdef STIFFENS
+    STIFFENS;
+#endif
+    return 0;
+}
+
+static int32_t deform(size_t cells, const double *const *state, const double *xx, const double *yy, double *const *next)
+{
+    size_t i;
+    for (i = 0; i < cells; i++) {
+        next[0][i] = state[0][i] + 0.5 * (xx[i] + yy[i]);
+        next[1][i] = state[1][i] + 0.5 * (xx[i] - yy[i]);
+    }
+#ifdef DEFORMS
+    DEFORMS;
+#endif
+    return 0;
+}
+
+#ifndef SOLID
+#define SOLID 0.9
+#endif
+#ifndef SPREAD
+#define SPREAD 0.1
+#endif
+static int32_t solid_fraction(size_t cells, const double *porosity, double *result)
+{
+    while (cells-- > 0) {
+        result[cells] = porosity[cells] > 0.13 ? SOLID : 0.9;
+    }
+    return 0;
+}
+
+static int32_t spread(size_t cells, const double *const *state, double *result)
+{
+    while (cells-- > 0) {
+        result[cells] = state[0][cells] > 0.13 ? SPREAD : 0.1;
+    }
+    return 0;
+}
 
 const msdd_plugin_v1 *msdd_plugin_v1_table(void)
 {
@@ -59,8 +120,13 @@ const msdd_plugin_v1 *msdd_plugin_v1_table(void)
     table.initial_state = initial_state;
     table.advance = advance;
     table.tangent = TANGENT;
+    table.deform = DEFORM;
     table.last_error = text;
-    (void)tangent;
+#ifdef HAS_ALL
+    table.solid_fraction = solid_fraction;
+    table.spread = spread;
+#endif
+    (void)tangent, (void)deform, (void)solid_fraction, (void)spread;
 #ifdef CHANGE
     CHANGE;
 #endif

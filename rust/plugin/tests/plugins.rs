@@ -85,6 +85,37 @@ fn each_bad_table_has_its_own_text() {
             "\"porosity\" is there twice".to_string(),
         ),
         (
+            "underscore",
+            &["NAMES=\"porosity\",\"fabric_index\",\"porosity_\""],
+            "state_names[2] = \"porosity_\" differs from \"porosity\" in underscores or capitals alone"
+                .to_string(),
+        ),
+        (
+            "capital",
+            &["NAMES=\"porosity\",\"fabric_index\",\"fabricIndex\""],
+            "\"fabricIndex\" differs from \"fabric_index\" in underscores or capitals alone".to_string(),
+        ),
+        (
+            "path",
+            &["NAMES=\"porosity\",\"fabric_index\",\"../../escaped\""],
+            "state_names[2] = \"../../escaped\", allowed: a letter, and then letters".to_string(),
+        ),
+        ("digit", &["NAMES=\"porosity\",\"fabric_index\",\"2nd\""], "state_names[2] = \"2nd\"".to_string()),
+        ("blank", &["NAMES=\"porosity\",\"fabric_index\",\"a b\""], "state_names[2] = \"a b\"".to_string()),
+        (
+            "control",
+            &["NAMES=\"porosity\",\"fabric_index\",\"a\\nb\""],
+            "state_names[2] = \"a\\nb\"".to_string(),
+        ),
+        (
+            "long",
+            &[concat!(
+                "NAMES=\"porosity\",\"fabric_index\",\"",
+                "a123456789b123456789c123456789d123456789e123456789f123456789g1234\""
+            )],
+            "f123456789g123\" and more, allowed: a letter".to_string(),
+        ),
+        (
             "kind",
             &["CHANGE=table.network_conductivity=2"],
             "network_conductivity = 2, allowed: 0, 1".to_string(),
@@ -153,6 +184,30 @@ fn answers_that_no_grains_have_are_named_by_column_and_cell() {
         ("zero", "ANSWERS=step->conductivity_xx[0]=0", "conductivity_xx[0] = 0,"),
         ("left", "LEAVES_STRESS", "stress_yy[0] = NaN"),
         ("outside", "ANSWERS=step->outside[2][0]=0.0/0.0", "outside thermal_strain[0] = "),
+        (
+            "huge",
+            "ANSWERS=step->conductivity_xx[0]=1e300",
+            "conductivity_xx[0] = 1e300, allowed: finite, above 0",
+        ),
+        ("tiny", "ANSWERS=step->conductivity_xx[0]=1e-300", "conductivity_xx[0] = 1e-300,"),
+        (
+            "tension",
+            "ANSWERS=step->stress_yy[2]=-5e7",
+            "stress_yy[2] = -50000000, allowed: 0 to 1e30: compression",
+        ),
+        ("dense", "ANSWERS=step->next_state[0][1]=-3", "state porosity[1] = -3, allowed: 0 to 1"),
+        ("loose", "ANSWERS=step->next_state[0][1]=5", "state porosity[1] = 5, allowed: 0 to 1"),
+        ("fabric", "ANSWERS=step->next_state[1][2]=7", "state fabric_index[2] = 7, allowed: -1 to 1"),
+        (
+            "rest",
+            "ANSWERS=step->next_state[1][0]=0.1",
+            "state fabric_index[0] = 0.1, allowed: that before the step",
+        ),
+        (
+            "calls",
+            "ANSWERS=step->stress_xx[2]=calls",
+            "stress_xx[2] = 2, allowed: what it answered to the same",
+        ),
     ] {
         let plugin = Plugin::load(&compiled(&format!("answer-{name}"), &[macros])).expect("fit");
         let message = plugin.advance(&STEP).expect_err(name).to_string();
@@ -166,4 +221,111 @@ fn answers_that_no_grains_have_are_named_by_column_and_cell() {
         message.contains("initial_state answered fabric_index[1] = 0.5, allowed: that given"),
         "{message}"
     );
+}
+
+const DEFORMED: Step = Step { strain: Some([&[0.0, 0.01, 0.0], &[0.0, 0.0, -0.01]]), ..STEP };
+
+/// `plain.c` with a tangent and all else that a plug-in may have.
+fn whole(name: &str, more: &str) -> Plugin {
+    let macros = ["TANGENT=tangent", "DEFORM=deform", "HAS_ALL", more];
+    Plugin::load(&compiled(&format!("whole-{name}"), &macros)).expect("fit")
+}
+
+#[test]
+fn a_tangent_and_a_deformation_are_those_of_a_medium() {
+    let plugin = whole("good", "GOOD");
+    let answer = plugin.advance(&DEFORMED).expect("good");
+    assert_eq!(answer.state[0], [0.12, 0.13 - 0.01 + 0.005, 0.14 + 0.01 - 0.005]);
+    assert!(plugin.tangent(STEP.state).expect("good").is_some());
+    for (name, macros, expected) in [
+        (
+            "soft",
+            "STIFFENS=wanted->c11[1]=-2",
+            "tangent answered c11[1] = -2, allowed: 1e-30 to 1e30: above 0",
+        ),
+        ("none", "STIFFENS=wanted->c22[2]=0", "tangent answered c22[2] = 0, allowed: 1e-30 to 1e30"),
+        ("shear", "C12=1", "tangent answered c12[0] = 1, allowed: c12^2 below c11 c22"),
+        ("pulls", "C12=-1.5", "tangent answered c12[0] = -1.5, allowed: c12^2 below c11 c22"),
+        ("infinite", "C12=1e300", "tangent answered c12[0] = 1e300, allowed: c12^2"),
+        ("rate", "STIFFENS=wanted->porosity_rate[0]=0.0/0.0", "tangent answered porosity_rate[0] = "),
+    ] {
+        let message = whole(name, macros).tangent(STEP.state).expect_err(name).to_string();
+        assert!(message.contains(expected), "{name}: {message}");
+    }
+    for (name, macros, expected) in [
+        (
+            "creeps",
+            "DEFORMS=next[1][0]=0.1",
+            "deform answered state fabric_index[0] = 0.1, allowed: that before",
+        ),
+        ("tears", "DEFORMS=next[0][1]=2", "advance answered state porosity[1] = 2, allowed: 0 to 1"),
+    ] {
+        let message = whole(name, macros).advance(&DEFORMED).expect_err(name).to_string();
+        assert!(message.contains(expected), "{name}: {message}");
+    }
+}
+
+#[test]
+fn spreads_and_solid_fractions_are_those_of_grains() {
+    for (name, macros, expected) in [
+        ("spread", "SPREAD=-0.1", "spread answered spread[2] = -0.1, allowed: finite, not negative"),
+        ("solid", "SOLID=2.5", "solid_fraction answered solid_fraction[2] = 2.5, allowed: above 0, to 2"),
+        ("void", "SOLID=0", "solid_fraction answered solid_fraction[2] = 0, allowed: above 0, to 2"),
+    ] {
+        let plugin = whole(name, macros);
+        let spread = plugin.spread(STEP.state).map(|_| ());
+        let message =
+            spread.and(plugin.solid_fraction(STEP.state[0]).map(|_| ())).expect_err(name).to_string();
+        assert!(message.contains(expected), "{name}: {message}");
+    }
+}
+
+/// The first question is asked twice: what depends on the number of calls is found at the start.
+#[test]
+fn a_start_that_depends_on_the_number_of_calls_is_refused() {
+    let names = "NAMES=\"porosity\",\"fabric_index\",\"age\"";
+    let plugin = Plugin::load(&compiled("ages", &[names, "STARTS=start->state[2][0]=calls"])).expect("fit");
+    let start = Start { porosity: &[0.1], fabric_index: &[0.2], fabric_conductivity: None, stress: None };
+    let message = plugin.initial_state(&start).expect_err("ages").to_string();
+    assert!(
+        message.contains("initial_state answered state age[0] = 2, allowed: what it answered"),
+        "{message}"
+    );
+}
+
+/// A state that no packing has comes back as the plug-in will, if it says that it is outside; there is nothing to keep.
+#[test]
+fn states_outside_are_the_callers() {
+    let plugin = Plugin::load(&compiled("outside", &["ANSWERS=step->outside[0][0]=5"])).expect("fit");
+    let step = Step { state: &[&[7.0, 8.0, 0.1], &[3.0, 0.0, 0.0]], thermal_strain: &[0.0; 3], ..STEP };
+    assert_eq!(plugin.advance(&step).expect("the caller's").state[0], [7.0, 8.0, 0.1]);
+}
+
+/// A plug-in that writes to its inputs changes copies.
+#[test]
+fn inputs_are_copies() {
+    let write = |what: &str| format!("((double *){what})[1]=0.5");
+    let advances = format!("ANSWERS={},{}", write("step->state[0]"), write("step->thermal_strain"));
+    let deforms = format!("DEFORMS={},{}", write("state[1]"), write("xx"));
+    let stiffens = format!("STIFFENS={}", write("wanted->state[0]"));
+    let starts = format!("STARTS={},{}", write("start->porosity"), write("start->stress_xx"));
+    let macros = ["TANGENT=tangent", "DEFORM=deform", &advances, &deforms, &stiffens, &starts];
+    let plugin = Plugin::load(&compiled("writes", &macros)).expect("fit");
+    let [porosity, fabric, strain, xx, yy, share] =
+        [[0.12, 0.13], [0.0, 0.01], [0.0, 0.01], [0.0, 0.02], [0.0, 0.0], [1.0, 1.0]]
+            .map(|c: [f64; 2]| c.to_vec());
+    let given = [&porosity, &fabric, &strain, &xx, &yy, &share].map(|column| column.clone());
+    let state: [&[f64]; 2] = [&porosity, &fabric];
+    let (virgin_share, strains) = (Some(share.as_slice()), Some([xx.as_slice(), yy.as_slice()]));
+    let step = Step { state: &state, thermal_strain: &strain, virgin_share, strain: strains };
+    let answer = plugin.advance(&step).expect("good");
+    assert_eq!(answer.state[0], [0.12, 0.13 - 0.01 + 0.01]);
+    let before = answer.clone();
+    let after: Vec<&[f64]> = answer.state.iter().map(Vec::as_slice).collect();
+    plugin.tangent(&after).expect("good");
+    assert_eq!(answer, before);
+    let stress = Some([xx.as_slice(), yy.as_slice()]);
+    let start = Start { porosity: &porosity, fabric_index: &fabric, fabric_conductivity: None, stress };
+    assert_eq!(plugin.initial_state(&start).expect("good"), [[0.12, 0.13], [0.0, 0.01]]);
+    assert_eq!([porosity, fabric, strain, xx, yy, share], given);
 }

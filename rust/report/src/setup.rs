@@ -121,13 +121,15 @@ fn write_fields(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(), R
     Ok(())
 }
 
-/// Commands that make the mesh, and the plug-in where it is needed; in the case folder.
+/// Commands that make the mesh, and the plug-in where it is needed, which msddFoam may then load as root, too; in the case
+/// folder.
 pub fn preparation(checkout: &Path, job: &SolverJob) -> String {
     let mut commands = "blockMesh > log.blockMesh 2>&1".to_string();
     if let Some(source) = &job.plugin {
         let checkout = checkout.display();
         commands += &format!(
-            " && cc -std=c99 -O2 -shared -fPIC -I'{checkout}/rust/capi/include' '{checkout}/{source}' -lm -o plugin.so"
+            " && cc -std=c99 -O2 -shared -fPIC -I'{checkout}/rust/capi/include' '{checkout}/{source}' -lm -o plugin.so \
+             && export MSDD_ALLOW_PLUGINS=\"$PWD/plugin.so\""
         );
     }
     commands
@@ -154,6 +156,17 @@ mod tests {
         assert_eq!(crate::grid::list(&text("0/porosity")).unwrap().len(), 30);
         assert!(text("system/controlDict").contains("deltaT 1e-2;"));
         std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    /// Where jobs run as root, msddFoam loads the plug-in by its name alone.
+    #[test]
+    fn a_plugin_is_compiled_and_named() {
+        let mut job = SolverJob::new("H", 1);
+        assert_eq!(preparation(Path::new("/msdd"), &job), "blockMesh > log.blockMesh 2>&1");
+        job.plugin = Some("a.c".to_string());
+        let commands = preparation(Path::new("/msdd"), &job);
+        let expected = "'/msdd/a.c' -lm -o plugin.so && export MSDD_ALLOW_PLUGINS=\"$PWD/plugin.so\"";
+        assert!(commands.ends_with(expected), "{commands}");
     }
 
     #[test]

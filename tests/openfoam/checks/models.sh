@@ -24,13 +24,54 @@ check "network: affine conductivity is above the network's" awk '{ if (!($1 > $2
     <(paste <(field 0.05/conductivity | awk '{ print $1 }') <(field "$work/serial/0.05/conductivity" | awk '{ print $1 }'))
 
 changed plug-in # the worked example in C, by a path relative to the case
-cc -std=c99 -O2 -shared -fPIC -I"$checkout/rust/capi/include" "$checkout/rust/capi/examples/effective_medium.c" -lm -o medium.so
+compiled() { # library, source in the checkout, macros
+    cc -std=c99 -O2 -shared -fPIC -I"$checkout/rust/capi/include" "${@:3}" "$checkout/$2" -lm -o "$1"
+}
+compiled medium.so rust/capi/examples/effective_medium.c
 grains 'surrogate { type plugin; pluginCoeffs { library medium.so; } }'
 mesh_is '12 6 1'
+library=$(pwd -P)/medium.so
+if [ "$(id -u)" = 0 ]; then # its code runs as root by name only
+    check "plugin: refused as root" refused "export MSDD_ALLOW_PLUGINS=\"$library\""
+    compiled other.so rust/capi/examples/effective_medium.c
+    MSDD_ALLOW_PLUGINS=$PWD/other.so:medium check "plugin: refused as root when another is named" refused "export MSDD_ALLOW_PLUGINS=\"$library\""
+    check "plugin: refused before its code runs" bash -c '! grep -q "its code runs" log.bad'
+fi
+export MSDD_ALLOW_PLUGINS=other.so:./medium.so
+mkdir -p home/.OpenFOAM
+echo 'InfoSwitches { allowSystemOperations 0; }' > home/.OpenFOAM/controlDict
+HOME=$PWD/home check "plugin: refused where the machine allows no code of cases" refused 'does not allow code of cases'
 logged msddFoam
+check "plugin: says that its code runs" grep -qF "Loading plug-in \"$library\": its code runs in this process" log
 check "plugin: hotter cells are denser than 0.125, colder ones looser" awk '
     { if (($1 > 50) != ($2 < 0.125)) bad = 1 } END { exit bad || NR != 72 }' <(paste <(field 1/T) <(field 1/porosity))
 check "plugin: the summary names it" grep -q 'medium.so' postProcessing/msddFoam/summary.json
+
+foul() { # what, message, macros: a plug-in that has to be refused
+    compiled medium.so rust/plugin/tests/plain.c -DHAS_ALL "${@:3}"
+    check "plugin: refused: $1" refused "$2"
+}
+rm -rf 0.* 1 # from the start
+foul "porosity that leaves its range" ', allowed: 0 to 1' -DANSWERS='step->next_state[0][0]-=1e5*step->thermal_strain[0]'
+foul "tension" 'stress_yy[3] = -7, allowed: 0 to 1e30: compression' -DANSWERS='step->stress_yy[3]=-7'
+foul "a path for a name" 'state_names[2] = "../../escaped", allowed' -DNAMES='"porosity","fabric_index","../../escaped"'
+for column in initial_temperature initialTemperature stress_ T bulk_density uniform points; do
+    foul "column $column" "has the state column \"$column\", whose field" -DNAMES="\"porosity\",\"fabric_index\",\"$column\""
+done
+cp log.bad ..
+unset MSDD_ALLOW_PLUGINS
+
+changed own-fields # all that the solver writes is among the names that a plug-in's columns may not have
+grains 'mechanics equilibrium; surrogate { type network; }'
+mesh_is '12 6 1'
+logged msddFoam
+own_fields() {
+    local name columns='porosity fabricIndex reducedPressure fabricConductivity reducedDeviator'
+    for name in $(ls 1); do
+        grep -qw -- "$name" <<< "$columns $(grep 'Allowed: any name but' ../log.bad)" || { echo "$name is not refused" >&2; return 1; }
+    done
+}
+check "plugin: its columns may have no name of $(ls 1 | wc -l) that the solver writes" own_fields
 
 online() { # folder, further keys: two cells that heat, boxes of 60 grains
     changed "$1"

@@ -9,7 +9,11 @@ use ::msdd_rve::{
     homogenise, pack, state,
 };
 use serde::Deserialize;
+use serde_json::Value;
 use std::ffi::c_char;
+
+/// Characters of a specification that a message shows.
+const MOST_SHOWN: usize = 200;
 
 /// Specification of a packing, as JSON.
 #[derive(Deserialize)]
@@ -23,7 +27,47 @@ struct Specification {
     radius_min: f64,
     radius_max: f64,
     relaxation: Relaxation,
-    material: Material,
+    material: Grains,
+}
+
+/// The material of a specification: unlike that of a state file, it may leave out what is as usual.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Grains {
+    density: f64,
+    young_modulus: f64,
+    stiffness_ratio: f64,
+    friction_angle: f64,
+    wall_stiffness_factor: f64,
+    damping: f64,
+}
+
+impl Default for Grains {
+    fn default() -> Self {
+        let Material {
+            density,
+            young_modulus,
+            stiffness_ratio,
+            friction_angle,
+            wall_stiffness_factor,
+            damping,
+        } = Material::default();
+        Self { density, young_modulus, stiffness_ratio, friction_angle, wall_stiffness_factor, damping }
+    }
+}
+
+impl From<Grains> for Material {
+    fn from(grains: Grains) -> Self {
+        let Grains {
+            density,
+            young_modulus,
+            stiffness_ratio,
+            friction_angle,
+            wall_stiffness_factor,
+            damping,
+        } = grains;
+        Self { density, young_modulus, stiffness_ratio, friction_angle, wall_stiffness_factor, damping }
+    }
 }
 
 impl Default for Specification {
@@ -38,12 +82,34 @@ impl Default for Specification {
             radius_min: usual.radius_min,
             radius_max: usual.radius_max,
             relaxation: usual.relaxation,
-            material: Material::default(),
+            material: Grains::default(),
         }
     }
 }
 
 impl Specification {
+    /// Reads a JSON object. An array, which serde takes for an object without keys, is refused.
+    fn read(text: &str) -> Result<Self, Failure> {
+        let refused = |name: &str, allowed: String| {
+            let start: String = text.chars().take(MOST_SHOWN).collect();
+            let more = if start.len() < text.len() { " and more" } else { "" };
+            Failure::argument(name, format!("{start}{more}"), allowed)
+        };
+        // serde's text may quote all of a key.
+        let reason =
+            |error: serde_json::Error| error.to_string().chars().take(2 * MOST_SHOWN).collect::<String>();
+        let json = |error| refused("specification", format!("a JSON object: {}", reason(error)));
+        let value: Value = serde_json::from_str(text).map_err(json)?;
+        if !value.is_object() {
+            return Err(refused("specification", "a JSON object, as {\"discs\": 500}".to_string()));
+        }
+        if value.get("material").is_some_and(|material| !material.is_object()) {
+            let allowed = "with \"material\" a JSON object, as {\"friction_angle\": 0.5}";
+            return Err(refused("specification", allowed.to_string()));
+        }
+        serde_json::from_str(text).map_err(json)
+    }
+
     fn packed(self) -> Result<RveHandle, Failure> {
         let spec = PackingSpec {
             discs: self.discs,
@@ -55,7 +121,10 @@ impl Specification {
             radius_max: self.radius_max,
             relaxation: self.relaxation,
         };
-        Ok(RveHandle { simulation: pack(&spec, &self.material)?.simulation })
+        let simulation = pack(&spec, &self.material.into())?.simulation;
+        // Grains that soft walls let through: such a state could be written, and not be read again.
+        state::from_json(&state::to_json(&simulation)?)?;
+        Ok(RveHandle { simulation })
     }
 }
 
@@ -87,9 +156,7 @@ pub unsafe extern "C" fn msdd_rve_pack(specification: *const c_char, out: *mut *
             Specification::default()
         } else {
             // SAFETY: a C string by this function's contract.
-            let text = unsafe { string("specification", specification)? };
-            serde_json::from_str(&text)
-                .map_err(|error| Failure::argument("specification", text, error.to_string()))?
+            Specification::read(&unsafe { string("specification", specification)? })?
         };
         let rve = specification.packed()?;
         // SAFETY: not null, writable by this function's contract.

@@ -6,7 +6,7 @@ use crate::batch::{self, Columns};
 use crate::columns::{Input, Output};
 use crate::handles::SurrogateHandle;
 use crate::model::{BatchModel, Own, Start};
-use crate::si::Si;
+use crate::si::{LARGEST_STRESS, Si};
 use crate::status::{Failure, status, value};
 use ::msdd_surrogate::models;
 use msdd_plugin::Plugin;
@@ -239,6 +239,14 @@ unsafe fn start<'a>(initial: &msdd_initial) -> Result<Start<'a>, Failure> {
     };
     let given = [start.porosity, start.fabric_index].into_iter().chain(start.fabric_conductivity);
     given.chain(start.stress.into_iter().flatten()).try_for_each(|column| column.check_finite())?;
+    start.porosity.check_range(0.0, 1.0, "0 to 1")?;
+    start.fabric_index.check_range(-1.0, 1.0, "-1 to 1")?;
+    if let Some(column) = &start.fabric_conductivity {
+        column.check_range(-1.0, 1.0, "-1 to 1")?;
+    }
+    for column in start.stress.iter().flatten() {
+        column.check_range(-LARGEST_STRESS, LARGEST_STRESS, "-1e30 to 1e30 Pa")?;
+    }
     Ok(start)
 }
 
@@ -290,6 +298,7 @@ pub unsafe extern "C" fn msdd_surrogate_solid_fraction(
             return Err(Failure::null("solid_fraction"));
         }
         input.check_finite()?;
+        input.check_range(0.0, 1.0, "0 to 1")?;
         handle.model.solid_fraction(&input, &output)
     })
 }

@@ -109,6 +109,14 @@ impl Cells {
         let status = unsafe { msdd_surrogate_initial_state(model.0, &MATERIAL, &initial, pointers.as_ptr()) };
         assert_eq!(status, OK, "{}", last_error());
         assert_eq!(state[..2], [porosity, fabric_index]);
+        Self::new_with(model, cells, state)
+    }
+
+    /// Cells in a given state.
+    pub fn new_with(model: &Model, cells: usize, state: Vec<Vec<f64>>) -> Self {
+        let column = |start: f64, step: f64, count: usize| -> Vec<f64> {
+            (0..cells).map(|i| start + step * (i % count) as f64).collect()
+        };
         Self {
             state,
             thermal_strain: column(1e-3, -1e-4, 23),

@@ -16,7 +16,7 @@ mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub(crate) use motion::{Motion, advance};
+pub(crate) use motion::{Motion, advance, larger};
 pub(crate) use pairs::add_pairs;
 pub(crate) use shared::SharedDiscs;
 pub(crate) use vector::{Columns, Vector};

@@ -19,7 +19,13 @@ pub(crate) struct Motion {
     pub dt: f64,
 }
 
-/// Velocities, then positions, over one step. Returns the square of the largest speed [m²/s²].
+/// The larger of two numbers; NaN when either is: [`f64::max`] drops it, and a bound on a motion that is not known would
+/// hold.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
+
+/// Velocities, then positions, over one step. Returns the square of the largest speed [m²/s²]; NaN when one is.
 pub(crate) fn advance(simd: Simd, motion: Motion, discs: &mut [Disc], loads: &[Load]) -> f64 {
     assert!(loads.len() == discs.len() && simd.available());
     let count = discs.len();
@@ -55,15 +61,19 @@ impl Motion {
     unsafe fn advance<V: Lanes>(self, discs: *mut Disc, loads: *const Load, count: usize) -> f64 {
         unsafe {
             let groups = count / V::LANES * V::LANES;
-            let mut largest = V::splat(0.0);
+            // The maximum of the lanes drops NaN, their sum keeps it.
+            let (mut largest, mut sum) = (V::splat(0.0), V::splat(0.0));
             for k in (0..groups).step_by(V::LANES) {
-                largest = self.advance_group::<V>(discs.add(k), loads.add(k)).max(largest);
+                let speed2 = self.advance_group::<V>(discs.add(k), loads.add(k));
+                (largest, sum) = (speed2.max(largest), sum + speed2);
             }
-            let mut lanes = [0.0; 8];
+            let (mut lanes, mut sums) = ([0.0; 8], [0.0; 8]);
             largest.write(lanes.as_mut_ptr());
-            let mut result = lanes.into_iter().fold(0.0, f64::max);
+            sum.write(sums.as_mut_ptr());
+            let unknown = sums.iter().any(|sum: &f64| sum.is_nan());
+            let mut result = if unknown { f64::NAN } else { lanes.into_iter().fold(0.0, larger) };
             for k in groups..count {
-                result = f64::max(result, self.advance_group::<f64>(discs.add(k), loads.add(k)));
+                result = larger(result, self.advance_group::<f64>(discs.add(k), loads.add(k)));
             }
             result
         }

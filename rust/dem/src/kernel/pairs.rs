@@ -21,7 +21,8 @@ pub(crate) fn add_pairs(simd: Simd, law: PairLaw, discs: &[Disc], pairs: Pairs, 
     assert!(pairs.conductance.len() == if law.conductivity.is_some() { count } else { 0 });
     let all = Loop {
         law,
-        // Addressed by disc number; never dereferenced below pairs.first.
+        // Addressed by disc number; never dereferenced below pairs.first. Such a pointer lies outside of the array, so
+        // discs are reached from it by wrapping_add alone: add asks for a pointer inside.
         discs: discs.as_ptr().wrapping_sub(pairs.first),
         loads: loads.as_mut_ptr().wrapping_sub(pairs.first),
         pairs,

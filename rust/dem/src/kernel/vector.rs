@@ -15,7 +15,7 @@ pub(crate) trait Vector:
     /// The same value in all lanes.
     fn like(self, value: f64) -> Self;
     fn sqrt(self) -> Self;
-    /// The larger one; `other` when they are equal or one is NaN (as x86's maxpd).
+    /// The larger one; `other` when they are equal or one is NaN (as x86's maxpd): see [`super::larger`] for what keeps NaN.
     fn max(self, other: Self) -> Self;
     fn min(self, other: Self) -> Self;
     fn greater(self, other: Self) -> Self::Mask;
@@ -35,7 +35,7 @@ pub(crate) trait Lanes: Vector {
     unsafe fn splat(value: f64) -> Self;
     unsafe fn read(from: *const f64) -> Self;
     unsafe fn write(self, to: *mut f64);
-    /// Fields of the discs `index[0..LANES]`.
+    /// Fields of the discs `index[0..LANES]`. `discs` may lie outside of the array, `discs` + index may not.
     unsafe fn gather(discs: *const Disc, index: *const u32) -> Columns<Self>;
     /// Fields of LANES discs in a row, and back.
     unsafe fn read_discs(discs: *const Disc) -> Columns<Self>;
@@ -96,7 +96,7 @@ impl Lanes for f64 {
     }
     #[inline(always)]
     unsafe fn gather(discs: *const Disc, index: *const u32) -> Columns<Self> {
-        unsafe { Self::read_discs(discs.add(*index as usize)) }
+        unsafe { Self::read_discs(discs.wrapping_add(*index as usize)) }
     }
     #[inline(always)]
     unsafe fn read_discs(discs: *const Disc) -> Columns<Self> {

@@ -158,7 +158,7 @@ impl Lanes for Avx2 {
     }
     #[inline(always)]
     unsafe fn gather(discs: *const Disc, index: *const u32) -> Columns<Self> {
-        unsafe { columns4([0, 1, 2, 3].map(|lane| discs.add(*index.add(lane) as usize))) }
+        unsafe { columns4([0, 1, 2, 3].map(|lane| discs.wrapping_add(*index.add(lane) as usize))) }
     }
     #[inline(always)]
     unsafe fn read_discs(discs: *const Disc) -> Columns<Self> {
@@ -265,7 +265,7 @@ impl Lanes for Avx512 {
         unsafe {
             let mut lines = [_mm512_setzero_pd(); 8];
             for (lane, line) in lines.iter_mut().enumerate() {
-                *line = _mm512_load_pd(discs.add(*index.add(lane) as usize).cast());
+                *line = _mm512_load_pd(discs.wrapping_add(*index.add(lane) as usize).cast());
             }
             columns8(lines)
         }

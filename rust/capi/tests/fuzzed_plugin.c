@@ -1,0 +1,129 @@
+/* A plug-in whose table, and every answer, is good but for what a counter of calls breaks: see fuzz.rs. */
+#include "msdd.h"
+
+#include <math.h>
+#include <string.h>
+
+static uint64_t counter;
+
+/* SplitMix64 of the number of calls. */
+static uint64_t number(void)
+{
+    uint64_t z = counter += 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+static size_t below(size_t end) { return (size_t)(number() % end); }
+
+static double value(void)
+{
+    static const double values[] = {0, -0.0, 1, -1, 2, 0.5, 0.12, 1e-300, 1e300, -1e300, 1e-31, 1e31, 7, -23};
+    const size_t k = below(sizeof values / sizeof values[0] + 2);
+    return k < sizeof values / sizeof values[0] ? values[k] : k % 2 ? NAN : INFINITY;
+}
+
+/* Breaks one value of a column, one time in `rarely`. */
+static void broken(double *column, size_t cells, size_t rarely)
+{
+    if (below(rarely) == 0) {
+        column[below(cells)] = value();
+    }
+}
+
+static size_t state_size;
+
+static int32_t initial_state(const msdd_plugin_start *start)
+{
+    return start->cells > 0;
+}
+
+static int32_t advance(const msdd_plugin_step *step)
+{
+    size_t i, k;
+    for (k = 0; k < state_size; k++) {
+        memcpy(step->next_state[k], step->state[k], step->cells * sizeof(double));
+        broken(step->next_state[k], step->cells, 60);
+        broken((double *)step->state[k], step->cells, 8);
+        broken(step->outside[k], step->cells, 60);
+    }
+    for (i = 0; i < step->cells; i++) {
+        step->conductivity_xx[i] = step->conductivity_yy[i] = 0.3;
+        step->stress_xx[i] = step->stress_yy[i] = 0.05;
+    }
+    broken(step->conductivity_xx, step->cells, 30);
+    broken(step->stress_yy, step->cells, 30);
+    return below(40) == 0;
+}
+
+static int32_t tangent(const msdd_plugin_tangent *wanted)
+{
+    size_t i;
+    for (i = 0; i < wanted->cells; i++) {
+        wanted->c11[i] = wanted->c22[i] = 1;
+        wanted->c12[i] = wanted->porosity_rate[i] = wanted->fabric_index_rate[i] = 0.5;
+    }
+    broken(wanted->c11, wanted->cells, 10);
+    broken(wanted->c12, wanted->cells, 10);
+    return 0;
+}
+
+static int32_t deform(size_t cells, const double *const *state, const double *xx, const double *yy, double *const *next)
+{
+    size_t i, k;
+    for (k = 0; k < state_size; k++) {
+        for (i = 0; i < cells; i++) {
+            next[k][i] = state[k][i] + (k == 0 ? xx[i] + yy[i] : 0);
+        }
+        broken(next[k], cells, 60);
+    }
+    return 0;
+}
+
+static int32_t spread(size_t cells, const double *const *state, double *result)
+{
+    memcpy(result, state[0], cells * sizeof(double));
+    broken(result, cells, 10);
+    return 0;
+}
+
+static const char *last_error(void)
+{
+    return below(2) ? "\xff is no UTF-8" : NULL;
+}
+
+const msdd_plugin_v1 *msdd_plugin_v1_table(void)
+{
+    static const char *const words[] = {"porosity", "fabric_index", "a", "b2", "c_", "porosity_", "../x", "", "\xff",
+                                        "FabricIndex", "d d", "e", "f", "g", "h", "i", "j", NULL};
+    static const char *names[80];
+    static msdd_plugin_v1 table;
+    const size_t count = sizeof words / sizeof words[0];
+    size_t k;
+    memset(&table, 0, sizeof table);
+    state_size = below(3) ? 2 : below(5) ? 3 + below(3) : below(80);
+    names[0] = words[0];
+    names[1] = words[1];
+    for (k = 2; k < sizeof names / sizeof names[0]; k++) {
+        names[k] = words[below(4) ? 11 + (k - 2) % 6 : below(count)];
+    }
+    if (below(20) == 0) {
+        names[below(2)] = words[below(count)];
+    }
+    table.struct_size = below(30) ? sizeof table : below(200);
+    table.version = below(30) ? MSDD_PLUGIN_VERSION : (uint32_t)number();
+    table.network_conductivity = below(30) ? (uint32_t)below(2) : (uint32_t)number();
+    table.name = below(30) ? "fuzzed" : words[below(count)];
+    table.state_size = state_size;
+    table.state_names = below(30) ? names : NULL;
+    table.initial_state = below(30) ? initial_state : NULL;
+    table.advance = below(30) ? advance : NULL;
+    table.tangent = below(3) ? tangent : NULL;
+    table.deform = table.tangent && below(30) ? deform : NULL;
+    table.spread = below(2) ? spread : NULL;
+    table.last_error = below(2) ? last_error : NULL;
+    table.wall_friction_limit = below(5) ? 0 : value();
+    table.wall_friction_slip = value();
+    return below(30) ? &table : NULL;
+}

@@ -1,0 +1,164 @@
+//! What the answers of a plug-in are held to: what no packing of grains has is refused, with column and cell.
+
+use crate::PluginError;
+use crate::plugin::Answer;
+
+/// Values that a column may hold.
+#[derive(Clone, Copy)]
+pub(crate) struct Allowed {
+    low: f64,
+    high: f64,
+    text: &'static str,
+}
+
+pub(crate) const FINITE: Allowed = Allowed { low: f64::MIN, high: f64::MAX, text: "finite" };
+/// Of K/k; times any k that the library takes it stays a number. K is diagonal, so both above zero is positive definite.
+pub(crate) const CONDUCTIVITY: Allowed =
+    Allowed { low: 1e-30, high: 1e30, text: "finite, above 0: 1e-30 to 1e30" };
+pub(crate) const STRESS: Allowed = Allowed {
+    low: 0.0,
+    high: 1e30,
+    text: "0 to 1e30: compression is positive, and loose grains do not pull",
+};
+/// Of c11 and c22. Our own model keeps a hundredth of the stiffness where grains do not touch, and is never at zero.
+pub(crate) const STIFFNESS: Allowed =
+    Allowed { low: 1e-30, high: 1e30, text: "1e-30 to 1e30: above 0 also where grains do not touch" };
+pub(crate) const SPREAD: Allowed = Allowed { low: 0.0, high: f64::MAX, text: "finite, not negative" };
+pub(crate) const SOLID_FRACTION: Allowed =
+    Allowed { low: f64::MIN_POSITIVE, high: 2.0, text: "above 0, to 2" };
+const POROSITY: Allowed = Allowed { low: 0.0, high: 1.0, text: "0 to 1" };
+const FABRIC_INDEX: Allowed = Allowed { low: -1.0, high: 1.0, text: "-1 to 1" };
+
+impl Allowed {
+    fn has(&self, value: f64) -> bool {
+        // False for NaN.
+        self.low <= value && value <= self.high
+    }
+}
+
+/// A question to one function of a plug-in, for messages.
+#[derive(Clone, Copy)]
+pub(crate) struct Question<'a> {
+    /// Name and path of the plug-in.
+    pub plugin: &'a str,
+    pub function: &'static str,
+    pub state_names: &'a [String],
+}
+
+/// A column with its name, and what it may hold.
+pub(crate) type Column<'a> = (String, &'a [f64], Allowed);
+type Checked = Result<(), PluginError>;
+
+impl Question<'_> {
+    fn refused(&self, column: &str, cell: usize, value: f64, allowed: &'static str) -> Checked {
+        let (plugin, column) = (self.plugin.to_string(), column.to_string());
+        Err(PluginError::Answer { plugin, function: self.function, column, cell, value, allowed })
+    }
+
+    pub fn column(&self, name: &str, values: &[f64], allowed: Allowed) -> Checked {
+        match values.iter().position(|value| !allowed.has(*value)) {
+            None => Ok(()),
+            Some(cell) => self.refused(name, cell, values[cell], allowed.text),
+        }
+    }
+
+    /// All of these columns hold what they may.
+    pub fn columns(&self, columns: &[Column]) -> Checked {
+        columns.iter().try_for_each(|(name, values, allowed)| self.column(name, values, *allowed))
+    }
+
+    /// The first two columns of a state at the start are those given.
+    pub fn start(&self, state: &[Vec<f64>], given: [&[f64]; 2]) -> Checked {
+        for (k, given) in given.into_iter().enumerate() {
+            if let Some(cell) = (0..given.len()).find(|&cell| state[k][cell] != given[cell]) {
+                return self.refused(&self.state_names[k], cell, state[k][cell], "that given");
+            }
+        }
+        Ok(())
+    }
+
+    /// A packing stays one: porosity from 0 to 1 and fabric index from -1 to 1, unless that of the cell was given outside.
+    pub fn packing(&self, given: &[&[f64]], state: &[Vec<f64>]) -> Checked {
+        for (k, allowed) in [POROSITY, FABRIC_INDEX].into_iter().enumerate() {
+            let bad = |cell: &usize| !allowed.has(state[k][*cell]) && allowed.has(given[k][*cell]);
+            if let Some(cell) = (0..given[k].len()).find(bad) {
+                return self.refused(
+                    &format!("state {}", self.state_names[k]),
+                    cell,
+                    state[k][cell],
+                    allowed.text,
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// Where all `strains` are zero and nothing is outside of the plug-in's own range, the state stays as it is.
+    pub fn rest(
+        &self,
+        given: &[&[f64]],
+        strains: &[&[f64]],
+        state: &[Vec<f64>],
+        outside: &[Vec<f64>],
+    ) -> Checked {
+        let at_rest = |cell: usize| {
+            strains.iter().all(|strain| strain[cell] == 0.0) && outside.iter().all(|o| o[cell] == 0.0)
+        };
+        for (given, (name, state, _)) in given.iter().zip(self.state(state)) {
+            if let Some(cell) = (0..given.len()).find(|&cell| state[cell] != given[cell] && at_rest(cell)) {
+                let allowed = "that before the step, for the strain is zero and the cell inside the range";
+                return self.refused(&name, cell, state[cell], allowed);
+            }
+        }
+        Ok(())
+    }
+
+    /// The same question has the same answer, to the bit.
+    pub fn again(&self, first: &[Column], second: &[Column]) -> Checked {
+        for ((name, first, _), (_, second, _)) in first.iter().zip(second) {
+            let differs = |cell: &usize| first[*cell].to_bits() != second[*cell].to_bits();
+            if let Some(cell) = (0..first.len()).find(differs) {
+                let allowed = "what it answered to the same question a moment before";
+                return self.refused(name, cell, second[cell], allowed);
+            }
+        }
+        Ok(())
+    }
+
+    /// c11, c22 and c12 of a medium that resists every strain.
+    pub fn stiffness(&self, [c11, c22, c12]: [&[f64]; 3]) -> Checked {
+        self.column("c11", c11, STIFFNESS)?;
+        self.column("c22", c22, STIFFNESS)?;
+        self.column("c12", c12, FINITE)?;
+        let stable = |cell: usize| c11[cell] * c22[cell] > c12[cell] * c12[cell];
+        match (0..c12.len()).find(|&cell| !stable(cell)) {
+            None => Ok(()),
+            Some(cell) => {
+                self.refused("c12", cell, c12[cell], "c12^2 below c11 c22: every strain meets resistance")
+            }
+        }
+    }
+}
+
+impl Question<'_> {
+    /// Columns of a state, with their names.
+    pub fn state<'s>(&self, state: &'s [Vec<f64>]) -> Vec<Column<'s>> {
+        let names = self.state_names.iter().map(|name| format!("state {name}"));
+        names.zip(state).map(|(name, column)| (name, column.as_slice(), FINITE)).collect()
+    }
+
+    /// Columns of an answer, with their names.
+    pub fn answer<'s>(&self, answer: &'s Answer) -> Vec<Column<'s>> {
+        let mut columns = self.state(&answer.state);
+        let ([kxx, kyy], [sxx, syy]) = (&answer.conductivity, &answer.stress);
+        columns.push(("conductivity_xx".to_string(), kxx, CONDUCTIVITY));
+        columns.push(("conductivity_yy".to_string(), kyy, CONDUCTIVITY));
+        columns.push(("stress_xx".to_string(), sxx, STRESS));
+        columns.push(("stress_yy".to_string(), syy, STRESS));
+        let inputs = self.state_names.iter().map(String::as_str).chain(["thermal_strain"]);
+        columns.extend(
+            inputs.zip(&answer.outside).map(|(name, o)| (format!("outside {name}"), o.as_slice(), FINITE)),
+        );
+        columns
+    }
+}
