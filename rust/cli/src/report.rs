@@ -70,8 +70,8 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     if let Some(file) = &arguments.solver_table {
         msdd_report::write_text(file, &msdd_report::solver_table::text(report))?;
     }
-    println!("{} jobs, {} from the cache", report.jobs, report.cached_jobs);
-    println!("page: {}   figures: {}", page.display(), arguments.json.display());
+    outln!("{} jobs, {} from the cache", report.jobs, report.cached_jobs);
+    outln!("page: {}   figures: {}", page.display(), arguments.json.display());
     Ok(())
 }
 

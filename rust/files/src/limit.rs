@@ -28,8 +28,6 @@ pub fn read(file: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
 /// # Errors
 /// Those of [`read`]; [`FileError::Text`] for bytes that are no UTF-8.
 pub fn read_text(file: &Path) -> Result<String, FileError> {
-    String::from_utf8(read(file, MOST_BYTES)?).map_err(|error| FileError::Text {
-        file: file.to_path_buf(),
-        byte: error.utf8_error().valid_up_to(),
-    })
+    String::from_utf8(read(file, MOST_BYTES)?)
+        .map_err(|error| FileError::Text { file: file.to_path_buf(), byte: error.utf8_error().valid_up_to() })
 }
