@@ -300,6 +300,34 @@ fn a_csv_needs_every_column_and_its_order_of_rows_plays_no_part() {
     refused("a,b\n1,2\n", "column 'a' is unknown");
 }
 
+/// Rows of an older engine may lack a column, once somebody has said so.
+#[test]
+fn an_older_csv_without_a_column_can_be_sealed() {
+    let (file, _) = copy("older");
+    let csv = file.with_file_name("a.csv");
+    export_csv(&file, &csv, None).unwrap();
+    let text = std::fs::read_to_string(&csv).unwrap();
+    let place = text.lines().next().unwrap().split(',').position(|name| name == "wall_friction").unwrap();
+    let cut = |line: &str| {
+        let mut fields: Vec<&str> = line.split(',').collect();
+        fields.remove(place);
+        fields.join(",")
+    };
+    std::fs::write(&csv, text.lines().map(cut).collect::<Vec<_>>().join("\n")).unwrap();
+    let provenance = file.with_file_name("a.provenance.json");
+    let text = std::fs::read_to_string(&provenance).unwrap();
+    assert!(seal(&csv).unwrap_err().to_string().contains("column wall_friction is missing"));
+    let mut older: std::collections::BTreeMap<String, String> = serde_json::from_str(&text).unwrap();
+    older.retain(|key, _| !key.ends_with("_sha256"));
+    std::fs::write(&provenance, serde_json::json!(older).to_string()).unwrap();
+    assert!(seal(&csv).unwrap_err().to_string().contains("column wall_friction is missing"));
+    older.insert("engine_version".to_string(), "3".to_string());
+    std::fs::write(&provenance, serde_json::json!(older).to_string()).unwrap();
+    assert!(message(&csv).contains("column wall_friction is missing"));
+    assert_eq!(seal(&csv).unwrap(), 6);
+    assert!(read(&csv).unwrap().records.iter().all(|record| record.wall_friction.is_none()));
+}
+
 #[test]
 fn names_are_names_of_files() {
     let folder = folder("names");

@@ -12,6 +12,9 @@ use std::path::{Path, PathBuf};
 /// Longest line [bytes]. A row has about 700.
 const LONGEST_LINE: u64 = 1 << 20;
 
+/// Provenance key of a file from before some columns were there: their names.
+pub(super) const ABSENT: &str = "absent_columns";
+
 /// Files that belong to a CSV, compressed or not: the column dictionary and the provenance.
 pub(super) fn beside(csv: &Path, what: &str) -> PathBuf {
     let plain = if is_gzip_name(csv) { csv.with_extension("") } else { csv.to_path_buf() };
@@ -24,10 +27,19 @@ pub(super) fn is_gzip_name(path: &Path) -> bool {
 
 /// Rows and provenance, and what of them is not what was written.
 pub(super) fn inspected(path: &Path) -> Result<(Dataset, Vec<String>), DatabaseError> {
+    with_provenance(path, provenance(path)?)
+}
+
+/// The same with a given provenance.
+pub(super) fn with_provenance(
+    path: &Path,
+    provenance: BTreeMap<String, String>,
+) -> Result<(Dataset, Vec<String>), DatabaseError> {
     let file =
         std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
-    let records = records(path, file)?;
-    let dataset = Dataset { records, provenance: provenance(path)? };
+    let absent: Vec<&str> = provenance.get(ABSENT).map_or("", String::as_str).split_whitespace().collect();
+    let records = records(path, file, &absent)?;
+    let dataset = Dataset { records, provenance };
     let damage = checksum::damage(&dataset);
     Ok((dataset, damage))
 }
@@ -41,26 +53,28 @@ pub(super) fn provenance(csv: &Path) -> Result<BTreeMap<String, String>, Databas
     })
 }
 
-/// Reads rows from a plain or compressed text; `path` names it in errors.
+/// Columns that are not in the file.
+pub(super) fn missing(path: &Path) -> Result<Vec<&'static str>, DatabaseError> {
+    let file =
+        std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
+    let mut reader = reader(path, file)?;
+    let head = reader.byte_headers().map_err(csv_error(path))?;
+    let absent = |name: &&str| !head.iter().any(|known| known == name.as_bytes());
+    Ok(COLUMNS.iter().map(|column| column.0).filter(absent).collect())
+}
+
+/// Reads rows from a plain or compressed text; `path` names it in errors, `absent` the columns that need not be there.
 ///
 /// # Errors
 /// [`DatabaseError::Format`] for columns that are missing or unknown, [`DatabaseError::Value`] for a value that is none of
 /// its column or a row that stands twice, [`DatabaseError::Csv`] for the rest.
-pub fn records(path: &Path, mut text: impl Read) -> Result<Vec<Record>, DatabaseError> {
-    let failed = |source: io::Error| DatabaseError::Csv { path: path.to_path_buf(), source: source.into() };
-    let mut start = Vec::new();
-    text.by_ref().take(2).read_to_end(&mut start).map_err(failed)?;
-    let packed = start == [0x1f, 0x8b];
-    let whole = io::Cursor::new(start).chain(text);
-    let plain: Box<dyn Read + '_> =
-        if packed { Box::new(flate2::read::GzDecoder::new(whole)) } else { Box::new(whole) };
-    let bounded = Bounded { text: plain, left: MOST_BYTES, line: 0 };
-    let failed = |source: csv::Error| DatabaseError::Csv { path: path.to_path_buf(), source };
-    let mut reader = csv::Reader::from_reader(bounded);
-    let columns = columns(path, reader.byte_headers().map_err(failed)?)?;
+pub fn records(path: &Path, text: impl Read, absent: &[&str]) -> Result<Vec<Record>, DatabaseError> {
+    let failed = csv_error(path);
+    let mut reader = reader(path, text)?;
+    let columns = columns(path, reader.byte_headers().map_err(&failed)?, absent)?;
     let (mut rows, mut places) = (Vec::new(), BTreeSet::new());
     let mut fields = csv::ByteRecord::new();
-    while reader.read_byte_record(&mut fields).map_err(failed)? {
+    while reader.read_byte_record(&mut fields).map_err(&failed)? {
         let value = |(column, problem)| DatabaseError::Value {
             path: path.to_path_buf(),
             table: "the CSV",
@@ -69,7 +83,7 @@ pub fn records(path: &Path, mut text: impl Read) -> Result<Vec<Record>, Database
             problem,
         };
         let row =
-            Record::from_cells(|k| cell(k, fields.get(columns[k]).unwrap_or_default())).map_err(value)?;
+            Record::from_cells(|k| cell(k, columns[k].and_then(|k| fields.get(k)).unwrap_or_default())).map_err(value)?;
         // A small file can unpack to the same row a million times.
         if !places.insert((row.packing, row.ramp, row.stop)) {
             return Err(value(("stop", format!("{} stands twice", row.name()))));
@@ -79,8 +93,32 @@ pub fn records(path: &Path, mut text: impl Read) -> Result<Vec<Record>, Database
     Ok(rows)
 }
 
+fn csv_error(path: &Path) -> impl Fn(csv::Error) -> DatabaseError + use<> {
+    let path = path.to_path_buf();
+    move |source| DatabaseError::Csv { path: path.clone(), source }
+}
+
+/// The lines of a plain or compressed text.
+fn reader<'a>(
+    path: &Path,
+    mut text: impl Read + 'a,
+) -> Result<csv::Reader<Bounded<Box<dyn Read + 'a>>>, DatabaseError> {
+    let mut start = Vec::new();
+    let failed = csv_error(path);
+    text.by_ref().take(2).read_to_end(&mut start).map_err(|error| failed(error.into()))?;
+    let packed = start == [0x1f, 0x8b];
+    let whole = io::Cursor::new(start).chain(text);
+    let plain: Box<dyn Read + 'a> =
+        if packed { Box::new(flate2::read::GzDecoder::new(whole)) } else { Box::new(whole) };
+    Ok(csv::Reader::from_reader(Bounded { text: plain, left: MOST_BYTES, line: 0 }))
+}
+
 /// Where each column stands.
-fn columns(path: &Path, head: &csv::ByteRecord) -> Result<Vec<usize>, DatabaseError> {
+fn columns(
+    path: &Path,
+    head: &csv::ByteRecord,
+    absent: &[&str],
+) -> Result<Vec<Option<usize>>, DatabaseError> {
     let problem = |problem| DatabaseError::Format { path: path.to_path_buf(), problem };
     let known = |name: &[u8]| COLUMNS.iter().any(|column| column.0.as_bytes() == name);
     let mut seen = BTreeSet::new();
@@ -90,7 +128,13 @@ fn columns(path: &Path, head: &csv::ByteRecord) -> Result<Vec<usize>, DatabaseEr
     }
     let place = |column: &super::record::Column| {
         let found = head.iter().position(|name| name == column.0.as_bytes());
-        found.ok_or_else(|| problem(format!("column {} is missing; every column is needed", column.0)))
+        match found.is_some() || absent.contains(&column.0) {
+            true => Ok(found),
+            false => Err(problem(format!(
+                "column {} is missing; every column is needed, unless the rows are of an older program and sealed without",
+                column.0
+            ))),
+        }
     };
     COLUMNS.iter().map(place).collect()
 }

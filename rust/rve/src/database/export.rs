@@ -4,7 +4,7 @@ use super::csv_file::{beside, is_gzip_name};
 use super::dataset::{is_sqlite, read};
 use super::record::{COLUMNS, Record};
 use super::store::{COMPLETE, Store};
-use super::{DatabaseError, Dataset, check, checksum};
+use super::{DatabaseError, Dataset, ENGINE_VERSION, check, checksum, csv_file};
 use msdd_files::{check_target, write};
 use std::io::Write;
 use std::path::Path;
@@ -60,7 +60,7 @@ fn write_provenance(csv: &Path, dataset: &Dataset) -> Result<(), DatabaseError> 
 /// # Errors
 /// Those of [`read`]; [`DatabaseError::Unsound`]; [`DatabaseError::Format`] for a database that is not finished.
 pub fn seal(path: &Path) -> Result<usize, DatabaseError> {
-    let mut dataset = read(path)?;
+    let mut dataset = unsealed(path)?;
     let digits = digits_of(&dataset.records);
     if digits < ALL_DIGITS {
         dataset.provenance.insert(DIGITS.to_string(), digits.to_string());
@@ -76,6 +76,21 @@ pub fn seal(path: &Path) -> Result<usize, DatabaseError> {
         return Err(DatabaseError::Format { path: path.to_path_buf(), problem });
     }
     Ok(dataset.records.len())
+}
+
+/// As [`read`], but columns may be missing that rows of an older engine have not.
+fn unsealed(path: &Path) -> Result<Dataset, DatabaseError> {
+    if is_sqlite(path)? {
+        return read(path);
+    }
+    let mut provenance = csv_file::provenance(path)?;
+    let missing = csv_file::missing(path)?;
+    let is_older = provenance.get("engine_version").is_some_and(|version| *version != ENGINE_VERSION.to_string());
+    if missing.is_empty() || !is_older || checksum::is_sealed(&provenance) {
+        return read(path);
+    }
+    provenance.insert(csv_file::ABSENT.to_string(), missing.join(" "));
+    csv_file::with_provenance(path, provenance).map(|(dataset, _)| dataset)
 }
 
 /// Significant digits of the float that has most.
