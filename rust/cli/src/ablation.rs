@@ -4,7 +4,7 @@ use crate::database::warn_without_checksum;
 use crate::error::CliError;
 use crate::rows::training_data;
 use clap::Args;
-use msdd_files::write;
+use msdd_files::{check_target, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::ablation::{self, Line};
 use msdd_surrogate::state::training::StateOptions;
@@ -31,6 +31,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    arguments.json.iter().try_for_each(|json| check_target(json))?;
     warn_without_checksum(&arguments.database)?;
     let dataset = read_all(&arguments.database)?;
     let rows = training_data(&dataset.records).rows;

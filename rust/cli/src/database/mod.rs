@@ -8,7 +8,7 @@ use crate::error::CliError;
 use crate::progress::Progress;
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand};
-use msdd_files::{read_text, write};
+use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::{
     Effort, Offenders, Plan, Run, Shard, export_csv, generate, has_checksum, merge, read, seal,
 };
@@ -169,6 +169,7 @@ fn plan(arguments: &PlanArguments) -> Result<(), CliError> {
 
 fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
     arguments.simd.apply()?;
+    arguments.timing.iter().try_for_each(|timing| check_target(timing))?;
     let plan = Plan::parse(&read_text(&arguments.plan)?, &arguments.plan.display().to_string())?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let built = option_env!("MSDD_COMMIT").unwrap_or("unknown");

@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use crate::rve::{read_state, write_state};
 use clap::{Args, Subcommand};
 use msdd_dem::Simulation;
-use msdd_files::write;
+use msdd_files::{check_target, write};
 use msdd_reference::model::{DISCS, ModelSpec, check_state, discs_of, pack, statistics};
 use msdd_reference::run::Watch;
 use msdd_reference::{
@@ -143,6 +143,7 @@ impl ModelArguments {
     }
 
     fn pack(&self, case: &Case) -> Result<(), CliError> {
+        check_target(&self.path(case))?;
         let begin = Instant::now();
         let mut progress = Progress::new("packing, %", 100);
         let spec = ModelSpec { discs: self.discs(case), seed: self.seed };
@@ -205,6 +206,8 @@ fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
     let name = format!("{}_seed{}", case.name, arguments.model.seed);
     let file = |suffix: &str| arguments.out.join(format!("{name}.{suffix}"));
     let checkpoint = file("checkpoint.json");
+    // Refused now rather than at the end of a long run.
+    [&checkpoint, &file("json"), &file("csv")].into_iter().try_for_each(|file| check_target(file))?;
     let begin = Instant::now();
     let results = watched(&case, &start, &spec, &checkpoint, arguments.vtk.as_deref())?;
     let json = serde_json::to_string(&results).map_err(ReferenceError::from)?;

@@ -6,7 +6,7 @@ use crate::database::warn_without_checksum;
 use crate::error::CliError;
 use crate::rows::training_data;
 use clap::Args;
-use msdd_files::{read_text, write};
+use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
 use msdd_surrogate::composition::Composed;
@@ -33,6 +33,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    arguments.json.iter().try_for_each(|json| check_target(json))?;
     warn_without_checksum(&arguments.database)?;
     let dataset = read_all(&arguments.database)?;
     let data = training_data(&dataset.records);

@@ -46,7 +46,14 @@ pub(super) fn with_provenance(
 
 pub(super) fn provenance(csv: &Path) -> Result<BTreeMap<String, String>, DatabaseError> {
     let origin = beside(csv, "provenance.json");
-    let text = msdd_files::read_text(&origin)?;
+    let text = match msdd_files::read_text(&origin) {
+        Err(FileError::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
+            let problem =
+                format!("there is no {} beside it, which says where the rows come from", origin.display());
+            return Err(DatabaseError::Format { path: csv.to_path_buf(), problem });
+        }
+        text => text?,
+    };
     serde_json::from_str(&text).map_err(|error| {
         let problem = format!("it is no provenance of a CSV: {}", shortened(&error.to_string()));
         DatabaseError::Format { path: origin, problem }
@@ -82,8 +89,8 @@ pub fn records(path: &Path, text: impl Read, absent: &[&str]) -> Result<Vec<Reco
             column,
             problem,
         };
-        let row =
-            Record::from_cells(|k| cell(k, columns[k].and_then(|k| fields.get(k)).unwrap_or_default())).map_err(value)?;
+        let row = Record::from_cells(|k| cell(k, columns[k].and_then(|k| fields.get(k)).unwrap_or_default()))
+            .map_err(value)?;
         // A small file can unpack to the same row a million times.
         if !places.insert((row.packing, row.ramp, row.stop)) {
             return Err(value(("stop", format!("{} stands twice", row.name()))));

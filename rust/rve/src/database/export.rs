@@ -25,6 +25,9 @@ pub fn export_csv(database: &Path, csv: &Path, digits: Option<usize>) -> Result<
     let mut dataset = read(database)?;
     if let Some(digits) = digits {
         dataset.records.iter_mut().for_each(|record| *record = rounded(record, digits));
+        // What had fewer before has no more now.
+        let before = dataset.provenance.get(DIGITS).and_then(|digits| digits.parse().ok());
+        let digits = before.map_or(digits, |before: usize| before.min(digits));
         dataset.provenance.insert(DIGITS.to_string(), digits.to_string());
     }
     checksum::seal(&mut dataset.provenance, &dataset.records);
@@ -85,7 +88,8 @@ fn unsealed(path: &Path) -> Result<Dataset, DatabaseError> {
     }
     let mut provenance = csv_file::provenance(path)?;
     let missing = csv_file::missing(path)?;
-    let is_older = provenance.get("engine_version").is_some_and(|version| *version != ENGINE_VERSION.to_string());
+    let is_older =
+        provenance.get("engine_version").is_some_and(|version| *version != ENGINE_VERSION.to_string());
     if missing.is_empty() || !is_older || checksum::is_sealed(&provenance) {
         return read(path);
     }
