@@ -1,9 +1,10 @@
 //! `msdd ablation`: what each input of the networks is worth.
 
+use crate::database::warn_without_checksum;
 use crate::error::CliError;
-use crate::files::write_atomically;
 use crate::rows::training_data;
 use clap::Args;
+use msdd_files::{check_target, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::ablation::{self, Line};
 use msdd_surrogate::state::training::StateOptions;
@@ -30,6 +31,8 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    arguments.json.iter().try_for_each(|json| check_target(json))?;
+    warn_without_checksum(&arguments.database)?;
     let dataset = read_all(&arguments.database)?;
     let rows = training_data(&dataset.records).rows;
     let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
@@ -37,17 +40,22 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     (options.common.seed, options.common.max_epochs, options.common.restarts) =
         (arguments.seed, arguments.epochs, 1);
     options.common.database.plan_hash = dataset.provenance.get("plan_hash").cloned().unwrap_or_default();
-    println!("R2 (Eq. 12) of one step on what the fit did not see; {} epochs", arguments.epochs);
-    println!(
+    outln!("R2 (Eq. 12) of one step on what the fit did not see; {} epochs", arguments.epochs);
+    outln!(
         "{:<44} {:>7} {:>7} {:>7} {:>7} {:>7}",
-        "paper's network, all states", "d eta", "d f", "d f_K", "K", "sigma"
+        "paper's network, all states",
+        "d eta",
+        "d f",
+        "d f_K",
+        "K",
+        "sigma"
     );
     let paper = ablation::paper(&rows, &options.common).map_err(failed)?;
     for line in &paper {
         let s = &line.scores;
         print(line, [s.delta_porosity, s.delta_fabric_index, f64::NAN, s.conductivity, s.stress]);
     }
-    println!("state model fitted to single steps, jammed states");
+    outln!("state model fitted to single steps, jammed states");
     let state = ablation::state(&rows, &options).map_err(failed)?;
     for line in &state {
         let s = &line.scores;
@@ -57,7 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     if let Some(path) = &arguments.json {
         let text = serde_json::to_string_pretty(&json!({ "paper": paper, "state": state }))
             .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
-        write_atomically(path, (text + "\n").as_bytes())?;
+        write(path, (text + "\n").as_bytes())?;
     }
     Ok(())
 }
@@ -69,5 +77,5 @@ fn print<T>(line: &Line<T>, values: [f64; 5]) {
     };
     let text = |value: f64| if value.is_nan() { "-".to_string() } else { format!("{value:.4}") };
     let columns: Vec<String> = values.map(|value| format!("{:>7}", text(value))).to_vec();
-    println!("{what:<44} {}", columns.join(" "));
+    outln!("{what:<44} {}", columns.join(" "));
 }

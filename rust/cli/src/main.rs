@@ -1,11 +1,13 @@
 //! `msdd`: the offline work of multiscale data-driven simulation. The only place that parses arguments and prints.
 #![forbid(unsafe_code)]
 
+#[macro_use]
+mod output;
+
 mod ablation;
 mod bench;
 mod database;
 mod error;
-mod files;
 mod progress;
 mod reference;
 mod report;
@@ -14,6 +16,7 @@ mod rve;
 mod score;
 mod simd;
 mod summary;
+mod threads;
 mod train;
 
 use clap::{Parser, Subcommand};
@@ -74,11 +77,10 @@ fn main() -> ExitCode {
         Command::Report(arguments) => report::run(&arguments),
         Command::Summary(arguments) => summary::run(&arguments),
     };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("msdd: {error}");
-            ExitCode::FAILURE
-        }
+    let mut code = ExitCode::SUCCESS;
+    for error in [result, output::finish()].into_iter().filter_map(Result::err) {
+        note!("msdd: {error}");
+        code = ExitCode::FAILURE;
     }
+    code
 }

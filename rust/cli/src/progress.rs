@@ -47,7 +47,7 @@ impl Progress {
                 (0, _) | (_, 0) => String::new(),
                 (rest, new) => format!(", {:.0} s left", elapsed / new as f64 * rest as f64),
             };
-            eprintln!("{} {done}/{total} after {elapsed:.0} s{left} {note}", self.what);
+            note!("{} {done}/{total} after {elapsed:.0} s{left} {note}", self.what);
         }
     }
 

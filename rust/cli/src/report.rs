@@ -46,6 +46,10 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
             return Err(CliError::Message(text));
         }
     }
+    let page = arguments.out.join("index.html");
+    for file in [&page, &arguments.json].into_iter().chain(&arguments.solver_table) {
+        msdd_files::check_target(file)?;
+    }
     let settings = settings(arguments, &checkout)?;
     let mut progress: Option<(String, Progress)> = None;
     let made = make(&settings, &mut |what, now| {
@@ -64,14 +68,13 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     }
     let json = serde_json::to_string_pretty(&made.report).map_err(|e| CliError::Message(e.to_string()))?;
     msdd_report::write_text(&arguments.json, &json)?;
-    let page = arguments.out.join("index.html");
     msdd_report::write_text(&page, &msdd_report::page::text(&made)?)?;
     let report = &made.report;
     if let Some(file) = &arguments.solver_table {
         msdd_report::write_text(file, &msdd_report::solver_table::text(report))?;
     }
-    println!("{} jobs, {} from the cache", report.jobs, report.cached_jobs);
-    println!("page: {}   figures: {}", page.display(), arguments.json.display());
+    outln!("{} jobs, {} from the cache", report.jobs, report.cached_jobs);
+    outln!("page: {}   figures: {}", page.display(), arguments.json.display());
     Ok(())
 }
 

@@ -1,9 +1,9 @@
 //! `msdd rve`: single RVEs.
 
 use crate::error::CliError;
-use crate::files::{read_text, write_atomically};
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand, ValueEnum};
+use msdd_files::{check_target, read_text, write};
 use msdd_rve::{
     Averages, Axis, Boundary, Compression, Cut, Material, PackingSpec, Preparation, Protocol, RegionKind,
     Relaxation, RveError, Settled, Simulation, Strains, follow, heat_check, homogenise_in, last_good,
@@ -199,7 +199,7 @@ pub fn read_state(path: &Path) -> Result<Simulation, CliError> {
 /// Writes a state file.
 pub fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
     let failed = |source| CliError::State { file: path.to_path_buf(), source };
-    write_atomically(path, state::to_json(simulation).map_err(failed)?.as_bytes())
+    Ok(write(path, state::to_file(simulation).map_err(failed)?.as_bytes())?)
 }
 
 /// Writes the last good state of a failed run beside `out`, and names it in the error.
@@ -212,6 +212,7 @@ fn failed(out: &Path, source: RveError, last_good: Option<&Simulation>) -> CliEr
 }
 
 fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
+    check_target(&arguments.out)?;
     arguments.simd.apply()?;
     let spec = PackingSpec {
         discs: arguments.discs,
@@ -241,6 +242,7 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
 }
 
 fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
+    check_target(&arguments.out)?;
     arguments.simd.apply()?;
     let mut simulation = read_state(&arguments.state)?;
     simulation.affine = arguments.affine;
@@ -299,7 +301,7 @@ fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
 
 /// One line about a state.
 fn report(what: &str, settled: &Settled, averages: &Averages) {
-    println!(
+    outln!(
         "{what}: {} after {} steps, porosity {:.4}, fabric index {:+.4}, K/k {:.4} {:.4}, pressure {:.1} Pa, \
          coordination {:.2}, rattlers {}",
         settled.outcome.as_str(),
@@ -327,7 +329,7 @@ fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
     };
     let averages = homogenise_in(&simulation, &region::region(&simulation, kind), cut);
     let json = as_json(&averages, unbalanced_force(&simulation));
-    println!("{}", serde_json::to_string_pretty(&json).map_err(|e| CliError::Message(e.to_string()))?);
+    outln!("{}", serde_json::to_string_pretty(&json).map_err(|e| CliError::Message(e.to_string()))?);
     Ok(())
 }
 
@@ -337,7 +339,7 @@ fn check_heat(arguments: &HeatCheckArguments) -> Result<(), CliError> {
         AxisName::Y => Axis::Y,
     };
     let check = heat_check(&read_state(&arguments.state)?, axis);
-    println!("{}", serde_json::to_string_pretty(&check).map_err(|e| CliError::Message(e.to_string()))?);
+    outln!("{}", serde_json::to_string_pretty(&check).map_err(|e| CliError::Message(e.to_string()))?);
     Ok(())
 }
 
@@ -383,9 +385,9 @@ impl<'a> Series<'a> {
             ("contacts", vtk::contacts(simulation), &mut self.contacts),
         ] {
             let file = format!("{name}_{number:04}.vtp");
-            write_atomically(&folder.join(&file), text.as_bytes())?;
+            write(&folder.join(&file), text.as_bytes())?;
             list.push((time, file));
-            write_atomically(&folder.join(format!("{name}.pvd")), vtk::series(list).as_bytes())?;
+            write(&folder.join(format!("{name}.pvd")), vtk::series(list).as_bytes())?;
         }
         Ok(())
     }

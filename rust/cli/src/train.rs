@@ -1,10 +1,11 @@
 //! `msdd train`.
 
+use crate::database::warn_without_checksum;
 use crate::error::CliError;
-use crate::files::write_atomically;
 use crate::rows::training_data;
 use crate::score;
 use clap::Args;
+use msdd_files::{check_target, write};
 use msdd_rve::database::{Dataset, read_all};
 use msdd_surrogate::state::training::StateOptions;
 use msdd_surrogate::state::variables::Variables;
@@ -50,6 +51,8 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    check_target(&arguments.out)?;
+    warn_without_checksum(&arguments.database)?;
     let dataset = read_all(&arguments.database)?;
     let data = training_data(&dataset.records);
     let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
@@ -58,9 +61,9 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let begin = Instant::now();
     let model = (kind.train)(&data, &options).map_err(failed)?;
     let seconds = begin.elapsed().as_secs_f64();
-    write_atomically(&arguments.out, model.to_json().as_bytes())?;
+    write(&arguments.out, model.to_json().as_bytes())?;
     score::print_training(model.as_ref(), &data, &options.common.database.plan_hash).map_err(failed)?;
-    println!("model {} in {}, trained in {seconds:.1} s", model.hash(), arguments.out.display());
+    outln!("model {} in {}, trained in {seconds:.1} s", model.hash(), arguments.out.display());
     Ok(())
 }
 

@@ -37,6 +37,7 @@ pub mod heat;
 mod kernel;
 pub mod law;
 pub mod material;
+pub mod message;
 mod neighbours;
 mod network;
 mod pace;

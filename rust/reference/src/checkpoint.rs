@@ -3,13 +3,17 @@
 use crate::ReferenceError;
 use crate::results::Table;
 use msdd_dem::heat::HeatState;
+use msdd_files::FileError;
+use msdd_rve::message::shortened;
 use msdd_rve::state;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
+use sha2::{Digest, Sha256};
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Name of the schema.
-const SCHEMA: &str = "msdd-reference-checkpoint-2";
+const SCHEMA: &str = "msdd-reference-checkpoint-3";
 
 /// What was recorded so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,9 +36,18 @@ pub struct Checkpoint {
     pub heat: HeatState,
     /// The state file.
     pub state: Box<RawValue>,
+    /// SHA-256 of all that stands before it; hexadecimal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    checksum: Option<String>,
 }
 
 impl Checkpoint {
+    /// Of all but the checksum itself.
+    fn digest(&self) -> Result<String, serde_json::Error> {
+        let text = serde_json::to_string(self)?;
+        Ok(Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect())
+    }
+
     /// As text, of a simulation with heat.
     ///
     /// # Errors
@@ -45,36 +58,48 @@ impl Checkpoint {
         records: &Records,
     ) -> Result<Option<String>, ReferenceError> {
         let Some(heat) = simulation.heat() else { return Ok(None) };
-        let checkpoint = Self {
+        let mut checkpoint = Self {
             schema: SCHEMA.to_string(),
             asked: asked.to_string(),
             records: records.clone(),
             heat: heat.state(),
             state: RawValue::from_string(state::to_json(simulation)?)?,
+            checksum: None,
         };
+        checkpoint.checksum = Some(checkpoint.digest()?);
         Ok(Some(serde_json::to_string(&checkpoint)?))
     }
 
     /// Reads a checkpoint of the run that was asked for; none when there is no file.
     ///
     /// # Errors
-    /// [`ReferenceError::Checkpoint`] when it is unreadable or of another run.
+    /// [`ReferenceError::Checkpoint`] when it is damaged, unreadable or of another run.
     pub fn read(file: &Path, asked: &str) -> Result<Option<Self>, ReferenceError> {
         let failed = |problem: String| ReferenceError::Checkpoint { file: file.to_path_buf(), problem };
-        let text = match std::fs::read_to_string(file) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(failed(error.to_string())),
-        };
-        let checkpoint: Self = serde_json::from_str(&text).map_err(|error| failed(error.to_string()))?;
+        match msdd_files::read_text(file) {
+            Ok(text) => Self::parse(&text, asked).map(Some).map_err(failed),
+            Err(FileError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(failed(error.to_string())),
+        }
+    }
+
+    /// Reads the text of a checkpoint of the run that was asked for.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn parse(text: &str, asked: &str) -> Result<Self, String> {
+        let mut checkpoint: Self = serde_json::from_str(text)
+            .map_err(|error| format!("is damaged: {}", shortened(&error.to_string())))?;
         if checkpoint.schema != SCHEMA {
-            return Err(failed(format!("schema '{}', allowed: '{SCHEMA}'", checkpoint.schema)));
+            return Err(format!("schema '{}', allowed: '{SCHEMA}'", shortened(&checkpoint.schema)));
+        }
+        let found = checkpoint.checksum.take();
+        if found != Some(checkpoint.digest().map_err(|error| error.to_string())?) {
+            return Err("is damaged: its checksum does not agree".to_string());
         }
         if checkpoint.asked != asked {
-            let problem =
-                format!("is of the run {}, not of {asked}; remove it to start afresh", checkpoint.asked);
-            return Err(failed(problem));
+            return Err(format!("is of the run {}, not of {asked}", checkpoint.asked));
         }
-        Ok(Some(checkpoint))
+        Ok(checkpoint)
     }
 }

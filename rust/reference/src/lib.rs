@@ -29,20 +29,23 @@ pub use case::Case;
 pub use model::{Model, ModelSpec, Statistics};
 pub use run::{RunSpec, run};
 
+use msdd_rve::message::{shortened, value as value_text};
 use std::path::PathBuf;
 
 /// What can be wrong with a case, or go wrong in a run.
 #[derive(Debug, thiserror::Error)]
 pub enum ReferenceError {
-    #[error("{file}: {key} = {value}, allowed: {allowed}", file = file.display())]
+    #[error("{file}: {key} = {value}, allowed: {allowed}", file = file.display(), value = value_text(value))]
     Key { file: PathBuf, key: String, value: String, allowed: String },
-    #[error("{file}: line {line}: {problem}", file = file.display())]
+    #[error("{file}: line {line}: {problem}", file = file.display(), problem = shortened(problem))]
     Syntax { file: PathBuf, line: usize, problem: String },
     #[error("cannot read {file}: {problem}", file = file.display())]
     Read { file: PathBuf, problem: String },
-    #[error("{key} = {value}, allowed: {allowed}")]
+    #[error("{key} = {value}, allowed: {allowed}", value = value_text(value))]
     Parameter { key: &'static str, value: String, allowed: String },
-    #[error("checkpoint {file}: {problem}", file = file.display())]
+    #[error(
+        "checkpoint {file}: {problem}; when the file is deleted, the run starts from its beginning", file = file.display()
+    )]
     Checkpoint { file: PathBuf, problem: String },
     #[error(transparent)]
     Rve(#[from] msdd_rve::RveError),
@@ -52,6 +55,10 @@ pub enum ReferenceError {
     Failure(#[from] msdd_dem::Failure),
     #[error(transparent)]
     Json(#[from] serde_json::Error),
-    #[error("cannot write: {0}")]
-    Write(#[from] std::io::Error),
+    #[error(transparent)]
+    File(#[from] msdd_files::FileError),
+    #[error("cannot start threads: {0}")]
+    Threads(#[from] std::io::Error),
+    #[error("{0}")]
+    Watch(String),
 }

@@ -76,6 +76,11 @@ impl Cache {
         Ok(hash)
     }
 
+    /// Where the results are.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     fn file(&self, key: &str) -> PathBuf {
         self.folder.join(format!("{key}.json"))
     }
@@ -150,8 +155,12 @@ mod tests {
             cached: false,
         };
         assert!(cache().get(&key).is_none());
+        let asked = [crate::pool::Asked { job: job(1), guess: 1.0 }];
+        let error = crate::pool::found(&cache(), &asked).unwrap_err().to_string();
+        assert!(error.contains("nothing to draw") && error.contains("cache"), "{error}");
         cache().put(&key, &record).unwrap();
         assert_eq!(cache().get(&key), Some(Record { cached: true, ..record }));
+        assert_eq!(crate::pool::found(&cache(), &asked).unwrap().len(), 1);
         assert_ne!(cache().key(&job(2)).unwrap(), key);
         assert_ne!(Cache::new(&folder, &folder, "other").key(&job(1)).unwrap(), key);
         write_text(&folder.join("input/a"), "2").unwrap();

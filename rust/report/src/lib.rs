@@ -61,6 +61,10 @@ pub enum ReportError {
     Read { file: PathBuf, problem: String },
     #[error("cannot write {file}: {problem}", file = file.display())]
     Write { file: PathBuf, problem: String },
+    #[error(transparent)]
+    File(#[from] msdd_files::FileError),
+    #[error("{cache} has no result of these jobs: nothing to draw; without --draw they are run", cache = cache.display())]
+    Empty { cache: PathBuf },
     #[error("cannot start {program}: {problem}")]
     Start { program: String, problem: String },
     #[error("cannot draw {figure}: {problem}")]
@@ -76,18 +80,10 @@ pub fn read_text(file: &Path) -> Result<String, ReportError> {
         .map_err(|error| ReportError::Read { file: file.to_path_buf(), problem: error.to_string() })
 }
 
-/// Writes beside, then renames, so that a killed run leaves the old file or the new one. Makes the folder.
+/// Writes a whole text file, so that a killed run leaves the old file or the new one. Makes the folder.
 ///
 /// # Errors
-/// [`ReportError::Write`].
+/// [`ReportError::File`].
 pub fn write_text(file: &Path, text: &str) -> Result<(), ReportError> {
-    let failed =
-        |error: std::io::Error| ReportError::Write { file: file.to_path_buf(), problem: error.to_string() };
-    let folder = file.parent().unwrap_or(Path::new("."));
-    std::fs::create_dir_all(folder).map_err(failed)?;
-    // Two processes may write the same file: each beside it under its own name.
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    let part = folder.join(format!("{name}.{}.part", std::process::id()));
-    std::fs::write(&part, text).map_err(failed)?;
-    std::fs::rename(&part, file).map_err(failed)
+    Ok(msdd_files::write(file, text.as_bytes())?)
 }

@@ -33,7 +33,7 @@ pub struct Asked {
 /// What the cache has of the jobs.
 ///
 /// # Errors
-/// [`ReportError::Read`] for a file of a job that is missing.
+/// [`ReportError::Read`] for a file of a job that is missing; [`ReportError::Empty`] when the cache has nothing.
 pub fn found(cache: &Cache, jobs: &[Asked]) -> Result<Records, ReportError> {
     let mut records = Records::new();
     for asked in jobs {
@@ -42,7 +42,10 @@ pub fn found(cache: &Cache, jobs: &[Asked]) -> Result<Records, ReportError> {
             records.insert(key, record);
         }
     }
-    Ok(records)
+    match records.is_empty() {
+        true => Err(ReportError::Empty { cache: cache.folder().to_path_buf() }),
+        false => Ok(records),
+    }
 }
 
 /// Runs the jobs that the cache does not have, `at_a_time`; each once.

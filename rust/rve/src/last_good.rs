@@ -1,9 +1,7 @@
 //! What is left of a run that failed: its last good state, beside the file that it was to write.
 
 use crate::Simulation;
-use crate::state::to_json;
-use std::ffi::OsString;
-use std::io;
+use crate::state::{StateError, to_file};
 use std::path::{Path, PathBuf};
 
 /// Steps between two copies of the state at least: they cost a thousandth of a run.
@@ -13,20 +11,20 @@ pub const EVERY: u64 = 1000;
 /// looked at, and run on.
 ///
 /// # Errors
-/// What the system says when the file cannot be written.
-pub fn write(out: &Path, state: &Simulation) -> io::Result<PathBuf> {
-    let file = beside(out, ".last-good.json");
-    let part = beside(&file, ".part");
-    if let Some(folder) = out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder)?;
-    }
-    std::fs::write(&part, to_json(state).map_err(io::Error::other)?)?;
-    std::fs::rename(&part, &file)?;
+/// [`LastGoodError`] when the state has no text or the file cannot be written.
+pub fn write(out: &Path, state: &Simulation) -> Result<PathBuf, LastGoodError> {
+    let mut name = out.as_os_str().to_os_string();
+    name.push(".last-good.json");
+    let file = PathBuf::from(name);
+    msdd_files::write(&file, to_file(state)?.as_bytes())?;
     Ok(file)
 }
 
-fn beside(path: &Path, ending: &str) -> PathBuf {
-    let mut name: OsString = path.file_name().unwrap_or_default().to_os_string();
-    name.push(ending);
-    path.with_file_name(name)
+/// Why there is no last good state.
+#[derive(Debug, thiserror::Error)]
+pub enum LastGoodError {
+    #[error(transparent)]
+    State(#[from] StateError),
+    #[error(transparent)]
+    File(#[from] msdd_files::FileError),
 }

@@ -15,6 +15,7 @@
 //! | [`state`] | state files: one assembly as JSON |
 //! | [`window`](mod@window) | averages over rectangles of a large assembly |
 //! | [`last_good`] | what is left of a run that failed |
+//! | [`message`] | values in messages: short, whatever they are |
 //! | [`vtk`] | ParaView files |
 //! | [`stopwatch`] | where the time goes |
 //! | [`database`] | plan, generation, storage, export |
@@ -26,6 +27,7 @@ pub mod expand;
 pub mod heat_check;
 pub mod homogenise;
 pub mod last_good;
+pub mod message;
 pub mod network;
 pub mod pack;
 pub mod place;
@@ -56,7 +58,7 @@ pub use window::{Window, window, window_around, windows};
 pub enum RveError {
     #[error(transparent)]
     Material(#[from] msdd_dem::MaterialError),
-    #[error("{key} = {value}, allowed: {allowed}")]
+    #[error("{key} = {value}, allowed: {allowed}", value = message::value(value))]
     Parameter { key: &'static str, value: String, allowed: &'static str },
     #[error("{placed} of {wanted} discs found a free place; a looser start or fewer discs would fit")]
     NoRoom { placed: usize, wanted: usize },

@@ -6,10 +6,14 @@
 //!
 //! A periodic box says so, with its shear offset s; it has no wall contacts, particles may lie outside of it, and a
 //! contact is that of i with the image of j moved by shift_x (W, 0) + shift_y (s, H); no shifts: all zero.
+//!
+//! A file of ours has a checksum over its values, in any layout; one without is accepted, one with a wrong checksum is not.
 
+use crate::message::{number, shortened};
 use msdd_dem::run::LARGEST_OVERLAP;
 use msdd_dem::{Disc, Material, MaterialError, Periodic, RunState, Side, Simulation, Walls};
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
 /// How far a disc of a periodic box may be from it, in box lengths: beyond, its place has lost digits.
 const FARTHEST_CELL: f64 = 1000.0;
@@ -22,9 +26,9 @@ pub const SCHEMA: &str = "msdd-state-1";
 /// What is wrong with a state.
 #[derive(Debug, thiserror::Error)]
 pub enum StateError {
-    #[error("not a state: {0}")]
+    #[error("not a state: {text}", text = shortened(&.0.to_string()))]
     Json(#[from] serde_json::Error),
-    #[error("schema: '{0}', allowed: '{SCHEMA}'")]
+    #[error("schema: '{found}', allowed: '{SCHEMA}'", found = shortened(.0))]
     Schema(String),
     #[error(transparent)]
     Material(#[from] MaterialError),
@@ -32,12 +36,17 @@ pub enum StateError {
     Box(String),
     #[error("{column} has {found} values, x has {expected}")]
     Length { column: &'static str, found: usize, expected: usize },
-    #[error("particle {particle}: {column} = {value}, allowed: {allowed}")]
+    #[error("particle {particle}: {column} = {value}, allowed: {allowed}", value = number(*value))]
     Particle { particle: usize, column: &'static str, value: f64, allowed: &'static str },
     #[error("contact {contact}: {problem}")]
     Contact { contact: usize, problem: String },
     #[error("run: {0}")]
     Run(String),
+    #[error(
+        "checksum = '{found}', but the values have '{expected}': the file is damaged, or was edited; in the latter case take \
+         its entry checksum out", found = shortened(found)
+    )]
+    Checksum { found: String, expected: String },
 }
 
 #[derive(Serialize, Deserialize)]
@@ -53,6 +62,18 @@ struct File {
     /// Absent in states from elsewhere: at rest, at zero strain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     run: Option<Run>,
+    /// Absent in states from elsewhere and from older programs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    checksum: Option<String>,
+}
+
+impl File {
+    /// SHA-256 of the values, whatever their layout in the file; hexadecimal.
+    fn digest(&self) -> Result<String, StateError> {
+        debug_assert!(self.checksum.is_none(), "the checksum is of all else");
+        let text = serde_json::to_string(self)?;
+        Ok(Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect())
+    }
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -116,11 +137,28 @@ struct Run {
 }
 
 /// The state as JSON text. Numbers are in the shortest form that reads back exactly.
+///
+/// # Errors
+/// [`StateError::Json`].
 pub fn to_json(simulation: &Simulation) -> Result<String, StateError> {
+    Ok(serde_json::to_string(&file(simulation))?)
+}
+
+/// The same for a file, with a checksum over its values.
+///
+/// # Errors
+/// [`StateError::Json`].
+pub fn to_file(simulation: &Simulation) -> Result<String, StateError> {
+    let mut file = file(simulation);
+    file.checksum = Some(file.digest()?);
+    Ok(serde_json::to_string(&file)?)
+}
+
+fn file(simulation: &Simulation) -> File {
     let column = |field: fn(&Disc) -> f64| simulation.discs.iter().map(field).collect::<Vec<f64>>();
     let [x_min, x_max, y_min, y_max] = simulation.walls.position;
     let run = simulation.run_state();
-    let file = File {
+    File {
         schema: SCHEMA.to_string(),
         material: simulation.material.clone(),
         bounds: Bounds {
@@ -154,8 +192,8 @@ pub fn to_json(simulation: &Simulation) -> Result<String, StateError> {
             wall_tangential_velocity: simulation.walls.tangential_velocity,
             shear_rate: simulation.periodic.map(|periodic| periodic.shear_rate),
         }),
-    };
-    Ok(serde_json::to_string(&file)?)
+        checksum: None,
+    }
 }
 
 fn contacts(simulation: &Simulation) -> Contacts {
@@ -180,9 +218,15 @@ fn contacts(simulation: &Simulation) -> Contacts {
 /// # Errors
 /// [`StateError`] names what is wrong, the particle or contact, and the value.
 pub fn from_json(text: &str) -> Result<Simulation, StateError> {
-    let file: File = serde_json::from_str(text)?;
+    let mut file: File = serde_json::from_str(text)?;
     if file.schema != SCHEMA {
         return Err(StateError::Schema(file.schema));
+    }
+    if let Some(found) = file.checksum.take() {
+        let expected = file.digest()?;
+        if found != expected {
+            return Err(StateError::Checksum { found, expected });
+        }
     }
     file.material.check()?;
     let walls = walls(file.bounds)?;

@@ -28,6 +28,10 @@ fn make(plan: &Plan, path: &Path, threads: usize) {
     generate(plan, path, &Run { threads, ..Run::default() }, |_| ControlFlow::Continue(())).unwrap();
 }
 
+fn execute(path: &Path, statement: &str) {
+    rusqlite::Connection::open(path).unwrap().execute_batch(statement).unwrap();
+}
+
 fn bytes(path: &Path) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
@@ -105,14 +109,12 @@ fn a_stopped_run_resumes_to_the_same_bytes_and_another_plan_is_refused() {
     let folder = folder("resume");
     let (whole, halved) = (folder.join("whole.msdd"), folder.join("halved.msdd"));
     make(&plan(), &whole, 2);
-    // What a killed run leaves: some packings in the order in which they were made, and no sign of completion.
-    make(&plan(), &halved, 2);
-    let connection = rusqlite::Connection::open(&halved).unwrap();
-    connection.execute("DELETE FROM states WHERE packing IN (0, 3, 4)", []).unwrap();
-    connection.execute("DELETE FROM provenance WHERE key = 'complete'", []).unwrap();
-    drop(connection);
-    let mut seen = Vec::new();
     let run = Run { threads: 2, ..Run::default() };
+    // What a killed run leaves: some packings in the order in which they were made, and no sign of completion.
+    let third = |done: usize| if done < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
+    generate(&plan(), &halved, &run, |progress| third(progress.done)).unwrap();
+    assert!(read(&halved).unwrap().has_checksum());
+    let mut seen = Vec::new();
     generate(&plan(), &halved, &run, |progress| {
         seen.push(progress.done);
         ControlFlow::Continue(())
@@ -153,9 +155,11 @@ fn shards_merge_to_the_bytes_of_one_process_and_gaps_and_duplicates_are_found() 
     assert!(gap.contains("2 of 6 packings are missing: 2, 5"), "{gap}");
     let twice = error(&[shards[0].clone(), shards[1].clone(), whole.clone()]);
     assert!(twice.contains("whole.msdd: packing 0 stands in") && twice.contains("1-3.msdd too"), "{twice}");
-    let connection = rusqlite::Connection::open(&shards[2]).unwrap();
-    connection.execute("DELETE FROM states WHERE packing = 5 AND ramp = 'wall_shear'", []).unwrap();
-    drop(connection);
+    execute(&shards[2], "DELETE FROM states WHERE packing = 5 AND ramp = 'wall_shear'");
+    let damaged = error(&shards);
+    assert!(damaged.contains("3-3.msdd: is damaged: its rows are not what was written"), "{damaged}");
+    // As an older program's file, without checksums.
+    execute(&shards[2], "DELETE FROM provenance WHERE key LIKE '%_sha256'");
     let hole = error(&shards);
     assert!(hole.contains("3-3.msdd: packing 5 has not the rows of the plan"), "{hole}");
     assert!(!folder.join("bad.msdd").exists());

@@ -1,7 +1,7 @@
 //! A run that fails leaves its last good state.
 
 use msdd_dem::{Excess, StepChoice};
-use msdd_rve::state::{from_json, to_json};
+use msdd_rve::state::{from_json, to_file, to_json};
 use msdd_rve::{
     Compression, Material, PackingSpec, Preparation, Protocol, RveError, Simulation, Strains, follow,
     last_good, pack, pack_watched,
@@ -76,7 +76,7 @@ fn it_is_written_beside_the_file_that_was_to_be_written() {
     let state = packed(0.13);
     let file = last_good::write(&folder.join("new").join("out.json"), &state).unwrap();
     assert_eq!(file, folder.join("new").join("out.json.last-good.json"));
-    assert_eq!(std::fs::read_to_string(&file).unwrap(), to_json(&state).unwrap());
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), to_file(&state).unwrap());
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

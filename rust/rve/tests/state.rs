@@ -1,6 +1,6 @@
 //! State files: exact continuation, foreign states, refused nonsense.
 
-use msdd_rve::state::{from_json, to_json};
+use msdd_rve::state::{from_json, to_file, to_json};
 use msdd_rve::{Compression, Material, PackingSpec, RegionKind, Simulation, homogenise, pack};
 
 fn packed() -> Simulation {
@@ -74,4 +74,39 @@ fn nonsense_is_refused_with_particle_and_value() {
     assert!(message(&|j| j["contacts"]["j"][0] = 80.into()).starts_with("contact 0: i = "));
     assert!(message(&|j| j["box"]["x_min"] = 1.0.into()).starts_with("box: "));
     assert!(message(&|j| j["material"]["density"] = 0.0.into()).contains("density = 0"));
+}
+
+/// A flipped digit is found, a file without checksum is as good as before, and layout plays no part.
+#[test]
+fn a_wrong_checksum_is_refused_and_none_is_allowed() {
+    let packed = packed();
+    let text = to_file(&packed).unwrap();
+    assert_eq!(to_json(&from_json(&text).unwrap()).unwrap(), to_json(&packed).unwrap());
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    from_json(&serde_json::to_string_pretty(&json).unwrap()).unwrap();
+    let mut edited = json.clone();
+    edited["particles"]["vx"][3] = 0.25.into();
+    let error = from_json(&edited.to_string()).err().unwrap().to_string();
+    assert!(error.contains("the file is damaged, or was edited"), "{error}");
+    edited.as_object_mut().unwrap().remove("checksum");
+    assert_eq!(from_json(&edited.to_string()).unwrap().discs[3].vx, 0.25);
+    for (at, byte) in text.bytes().enumerate().filter(|(_, byte)| byte.is_ascii_digit()).step_by(97) {
+        let mut flipped = text.clone().into_bytes();
+        flipped[at] = byte ^ 1;
+        let flipped = String::from_utf8(flipped).unwrap();
+        let same = |state: Simulation| to_json(&state).unwrap() == to_json(&packed).unwrap();
+        assert!(from_json(&flipped).map_or(true, same), "the digit at {at}");
+    }
+}
+
+#[test]
+fn messages_are_short() {
+    let text = to_json(&packed()).unwrap();
+    let mut json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    json["particles"]["x"][2] = 1e300.into();
+    let error = from_json(&json.to_string()).err().unwrap().to_string();
+    assert!(error.contains("x = 1e300,"), "{error}");
+    json["x".repeat(1_000_000)] = 1.into();
+    let error = from_json(&json.to_string()).err().unwrap().to_string();
+    assert!(error.len() < 600 && error.contains("characters left out"), "{}", error.len());
 }

@@ -52,7 +52,7 @@ impl StateRow {
         match values.iter().find(|(_, value, low, high)| !(low..=high).contains(&value)) {
             None => Ok(()),
             Some((key, value, low, high)) => Err(SurrogateError::Data(format!(
-                "packing {}, ramp {}, stop {}: {key} = {value}, allowed: {low} to {high}",
+                "packing {}, ramp {}, stop {}: {key} = {value:?}, allowed: {low} to {high}",
                 self.packing, self.ramp, self.stop
             ))),
         }
@@ -236,6 +236,8 @@ mod tests {
         rows[4].stress_yy = f64::NAN;
         let message = ramps(&rows).expect_err("NaN").to_string();
         assert!(message.contains("stress_yy = NaN") && message.contains("stop"), "{message}");
+        rows[4].stress_yy = 1e300;
+        assert!(ramps(&rows).expect_err("huge").to_string().contains("stress_yy = 1e300, allowed"));
         let mut rows = synthetic::rows(3, 2);
         rows.push(rows[0].clone());
         assert!(ramps(&rows).expect_err("twice").to_string().contains("twice"));

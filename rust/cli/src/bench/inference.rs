@@ -1,9 +1,9 @@
 //! `msdd bench inference`: cost of a surrogate's query.
 
 use crate::error::CliError;
-use crate::files::read_text;
 use crate::simd::SimdArgument;
 use clap::Args;
+use msdd_files::read_text;
 use msdd_surrogate::kernel;
 use msdd_surrogate::models;
 use msdd_surrogate::surrogate::{Batch, Known, MAX_STATE, Surrogate, evaluate_batch};
@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     }
     let result = json!({ "simd": kernel::simd(), "models": Value::Object(results) });
     let text = serde_json::to_string_pretty(&result);
-    println!("{}", text.map_err(|error| CliError::Message(error.to_string()))?);
+    outln!("{}", text.map_err(|error| CliError::Message(error.to_string()))?);
     Ok(())
 }
 

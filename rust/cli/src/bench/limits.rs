@@ -1,9 +1,9 @@
 //! `msdd bench limits`: how slowly RVEs have to be made, and what is left of them as they lose touch.
 
 use crate::error::CliError;
-use crate::files::{read_text, write_atomically};
 use crate::progress::Progress;
 use clap::Args;
+use msdd_files::{read_text, write};
 use msdd_rve::settle::{Outcome, UNBALANCED_LIMIT};
 use msdd_rve::{
     Averages, Boundary, Compression, Material, Packed, PackingSpec, Preparation, Protocol, RegionKind, Stop,
@@ -71,8 +71,8 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     });
     let text = serde_json::to_string_pretty(&result).map_err(|e| CliError::Message(e.to_string()))?;
     match &arguments.out {
-        Some(file) => write_atomically(file, text.as_bytes())?,
-        None => println!("{text}"),
+        Some(file) => write(file, text.as_bytes())?,
+        None => outln!("{text}"),
     }
     Ok(())
 }

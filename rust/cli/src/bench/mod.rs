@@ -44,7 +44,7 @@ pub struct DemArguments {
     #[command(flatten)]
     simd: SimdArgument,
     /// Threads of one simulation; small assemblies stay on one.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, default_value_t = 1, value_parser = crate::threads::parser())]
     threads: u32,
     /// Heat on: the walls are 50 K hotter than the grains (Table 2 of the paper), which then swell by their temperature.
     #[arg(long)]
@@ -81,7 +81,7 @@ fn dem(arguments: &DemArguments) -> Result<(), CliError> {
         .set_threads(arguments.threads as usize)
         .map_err(|error| CliError::Message(format!("--threads {}: {error}", arguments.threads)))?;
     let json = serde_json::to_string_pretty(&measure(&start, &alone, arguments.steps, arguments.threads));
-    println!("{}", json.map_err(|error| CliError::Message(error.to_string()))?);
+    outln!("{}", json.map_err(|error| CliError::Message(error.to_string()))?);
     Ok(())
 }
 

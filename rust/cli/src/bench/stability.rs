@@ -35,8 +35,8 @@ const FACTORS: [f64; 2] = [0.5, 2.0];
 const BISECTIONS: u32 = 6;
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    println!("largest stable step [s]       mechanical                       thermal");
-    println!("                      predicted  measured  ratio     predicted  measured  ratio");
+    outln!("largest stable step [s]       mechanical                       thermal");
+    outln!("                      predicted  measured  ratio     predicted  measured  ratio");
     for &porosity in &arguments.porosity {
         let (discs, compression) = (500, Compression::Isotropic);
         let spec = PackingSpec { discs, seed: 1, porosity, compression, ..PackingSpec::default() };
@@ -72,7 +72,7 @@ fn line(name: &str, simulation: &Simulation) {
     (0..200).for_each(|_| warm.conduct(1e-9)); // lets the power iteration converge
     let thermal = warm.heat().map_or(f64::NAN, |heat| heat.stable_step());
     let thermal_ratio = largest_factor(|factor| heat_is_stable(&warm, factor * thermal));
-    println!(
+    outln!(
         "{name:<20} {mechanical:>10.3e} {:>10.3e} {mechanical_ratio:>6.2} {thermal:>13.3e} {:>9.3e} {thermal_ratio:>6.2}",
         mechanical * mechanical_ratio,
         thermal * thermal_ratio

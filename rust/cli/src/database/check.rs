@@ -3,9 +3,12 @@
 use crate::error::CliError;
 use clap::Args;
 use msdd_rve::database::check::{Report, check};
-use msdd_rve::database::read;
+use msdd_rve::database::inspect;
 use std::path::PathBuf;
 
+/// Said of a file of an older program: no violation, but worth knowing.
+const NO_CHECKSUMS: &str =
+    "there are none, so damage that breaks no law goes unseen; msdd database seal gives it some";
 /// Violations that are printed one by one.
 const PRINTED: usize = 20;
 
@@ -17,33 +20,40 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let report = check(&read(&arguments.database)?);
+    let (dataset, damage) = inspect(&arguments.database)?;
+    let report = check(&dataset);
     print(&report);
-    let count = report.violations.len();
+    let (file, count) = (arguments.database.display(), report.violations.len());
     for violation in report.violations.iter().take(PRINTED) {
-        eprintln!("violated: {}: {}: {}", violation.row, violation.law, violation.found);
+        note!("violated: {violation}");
     }
-    if count > 0 {
-        let file = arguments.database.display();
-        return Err(CliError::Message(format!("{file}: {count} violations of exact laws")));
+    for problem in &damage {
+        note!("damaged: {problem}");
     }
-    println!("exact laws: hold on all {} rows", report.rows);
+    if count > 0 || !damage.is_empty() {
+        let damaged = if damage.is_empty() { "" } else { "is damaged: a checksum does not agree; " };
+        return Err(CliError::Message(format!("{file}: {damaged}{count} violations of exact laws")));
+    }
+    outln!("checksums: {}", if dataset.has_checksum() { "agree" } else { NO_CHECKSUMS });
+    outln!("exact laws: hold on all {} rows", report.rows);
     Ok(())
 }
 
 fn print(report: &Report) {
-    println!("Mirror symmetry: means over isotropic packings, 0 expected");
+    outln!("Mirror symmetry: means over isotropic packings, 0 expected");
     for mean in &report.symmetry {
-        println!(
+        outln!(
             "  {:>6} discs  {:<28} {:+.5} +- {:.5} ({} packings)",
-            mean.discs, mean.quantity, mean.mean, mean.standard_error, mean.packings
+            mean.discs,
+            mean.quantity,
+            mean.mean,
+            mean.standard_error,
+            mean.packings
         );
     }
-    println!(
-        "Size: packed states against those of the most frequent size, at equal porosity and fabric index"
-    );
+    outln!("Size: packed states against those of the most frequent size, at equal porosity and fabric index");
     for size in &report.sizes {
-        println!(
+        outln!(
             "  {:>6} / {} discs  {:<30} {:+.2} % +- {:.2} % ({} packings)",
             size.discs,
             size.base,
@@ -53,10 +63,10 @@ fn print(report: &Report) {
             size.packings
         );
     }
-    println!("Noise floor: scatter at equal initial porosity, initial fabric index and strain");
-    println!("   discs  output                       scatter   of all values' spread   best R2   states");
+    outln!("Noise floor: scatter at equal initial porosity, initial fabric index and strain");
+    outln!("   discs  output                       scatter   of all values' spread   best R2   states");
     for noise in &report.noise {
-        println!(
+        outln!(
             "  {:>6}  {:<26} {:>9.2e} {:>20.2} % {:>11.4} {:>8}",
             noise.discs,
             noise.output,

@@ -5,14 +5,16 @@ mod plot;
 mod timing;
 
 use crate::error::CliError;
-use crate::files::{read_text, write_atomically};
 use crate::progress::Progress;
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand};
-use msdd_rve::database::{Effort, Offenders, Plan, Run, Shard, export_csv, generate, merge, read};
+use msdd_files::{check_target, read_text, write};
+use msdd_rve::database::{
+    Effort, Offenders, Plan, Run, Shard, export_csv, generate, has_checksum, merge, read, seal,
+};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 #[derive(Subcommand)]
@@ -23,8 +25,11 @@ pub enum Command {
     Merge(MergeArguments),
     /// Write a database as CSV, with FILE.columns.csv (units, meaning) and FILE.provenance.json beside it.
     Export(ExportArguments),
-    /// Check exact laws on every row; print symmetry, size effects and noise floor. Status 1 when a law is violated.
+    /// Check checksums, and exact laws on every row; print symmetry, size effects and noise floor. Status 1 when a checksum
+    /// does not agree or a law is violated.
     Check(check::Arguments),
+    /// Give a database or CSV of an older program its checksums, if all laws hold on its rows.
+    Seal(SealArguments),
     /// Plan RVEs around the states that a solver asked about outside a model's range.
     Plan(PlanArguments),
     /// Draw the inputs with their hulls, and K and sigma against porosity.
@@ -40,8 +45,8 @@ pub struct GenerateArguments {
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Threads; the rows do not depend on it. Default: all cores.
-    #[arg(long)]
-    threads: Option<usize>,
+    #[arg(long, value_parser = crate::threads::parser())]
+    threads: Option<u32>,
     /// Part of the plan, as 3/16; `merge` joins the parts.
     #[arg(long, value_name = "NUMBER/COUNT", default_value_t)]
     shard: Shard,
@@ -88,6 +93,13 @@ pub struct MergeArguments {
 }
 
 #[derive(Args)]
+pub struct SealArguments {
+    /// Database, or the CSV that was exported from one; of the latter, FILE.provenance.json alone is written.
+    #[arg(value_name = "FILE")]
+    database: PathBuf,
+}
+
+#[derive(Args)]
 pub struct ExportArguments {
     /// The database.
     #[arg(value_name = "FILE")]
@@ -104,19 +116,40 @@ pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Generate(arguments) => make(arguments),
         Command::Merge(arguments) => {
+            warn_without_checksum(&arguments.shards)?;
             let rows = merge(&arguments.shards, &arguments.out)?;
-            println!("{rows} rows in {}", arguments.out.display());
+            outln!("{rows} rows in {}", arguments.out.display());
             Ok(())
         }
         Command::Export(arguments) => {
+            warn_without_checksum([&arguments.database])?;
             let rows = export_csv(&arguments.database, &arguments.out, arguments.digits.map(usize::from))?;
-            println!("{rows} rows in {}", arguments.out.display());
+            outln!("{rows} rows in {}", arguments.out.display());
             Ok(())
         }
         Command::Check(arguments) => check::run(arguments),
+        Command::Seal(arguments) => {
+            let rows = seal(&arguments.database)?;
+            outln!("{rows} rows sealed in {}", arguments.database.display());
+            Ok(())
+        }
         Command::Plan(arguments) => plan(arguments),
         Command::Plot(arguments) => plot::run(arguments),
     }
+}
+
+/// Says which files have no checksums, before anything is made of them.
+pub fn warn_without_checksum(files: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<(), CliError> {
+    for file in files {
+        let file = file.as_ref();
+        if !has_checksum(file)? {
+            note!(
+                "warning: {} has no checksums, so damage that breaks no law goes unseen; msdd database seal gives it some",
+                file.display()
+            );
+        }
+    }
+    Ok(())
 }
 
 fn plan(arguments: &PlanArguments) -> Result<(), CliError> {
@@ -124,9 +157,9 @@ fn plan(arguments: &PlanArguments) -> Result<(), CliError> {
     let like = Plan::parse(&read_text(&arguments.like)?, &arguments.like.display().to_string())?;
     let effort = Effort { discs: arguments.discs, repeats: arguments.repeats };
     let plan = offenders.plan(&like, effort)?;
-    write_atomically(&arguments.out, plan.text.as_bytes())?;
+    write(&arguments.out, plan.text.as_bytes())?;
     let (cells, packings) = (offenders.rows.len(), plan.jobs().len());
-    println!(
+    outln!(
         "{packings} packings, {} states for {cells} queries outside, in {}",
         plan.rows(),
         arguments.out.display()
@@ -136,12 +169,13 @@ fn plan(arguments: &PlanArguments) -> Result<(), CliError> {
 
 fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
     arguments.simd.apply()?;
+    arguments.timing.iter().try_for_each(|timing| check_target(timing))?;
     let plan = Plan::parse(&read_text(&arguments.plan)?, &arguments.plan.display().to_string())?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let built = option_env!("MSDD_COMMIT").unwrap_or("unknown");
     let run = Run {
         shard: arguments.shard,
-        threads: arguments.threads.unwrap_or(cores),
+        threads: arguments.threads.map_or(cores, |threads| threads as usize),
         commit: arguments.commit.clone().unwrap_or_else(|| built.to_string()),
     };
     let start = Instant::now();
@@ -170,7 +204,7 @@ fn report(arguments: &GenerateArguments, timing: &timing::Timing) -> Result<(), 
         *outcomes.entry(&record.outcome).or_default() += 1;
     }
     let list: Vec<String> = outcomes.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-    println!("{} rows ({}) in {}", records.len(), list.join(", "), arguments.out.display());
-    println!("{timing}");
+    outln!("{} rows ({}) in {}", records.len(), list.join(", "), arguments.out.display());
+    outln!("{timing}");
     Ok(())
 }

@@ -1,8 +1,9 @@
 //! `msdd database plot`: the inputs with their convex hulls (Fig. 4 of the paper), and outputs against porosity, as SVG.
 
+use super::warn_without_checksum;
 use crate::error::CliError;
-use crate::files::write_atomically;
 use clap::Args;
+use msdd_files::write;
 use msdd_rve::database::{Kind, RampName, Record, read};
 use msdd_rve::region::Polygon;
 use plotters::coord::Shift;
@@ -46,6 +47,7 @@ struct Panel {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    warn_without_checksum([&arguments.database])?;
     let points = points(&read(&arguments.database)?.records);
     if points.is_empty() {
         let file = arguments.database.display();
@@ -53,8 +55,8 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     }
     for (name, panels) in [("inputs.svg", inputs(&points)), ("outputs.svg", outputs(&points))] {
         let path = arguments.out.join(name);
-        write_atomically(&path, svg(&panels)?.as_bytes())?;
-        println!("{} states in {}", points.len(), path.display());
+        write(&path, svg(&panels)?.as_bytes())?;
+        outln!("{} states in {}", points.len(), path.display());
     }
     Ok(())
 }

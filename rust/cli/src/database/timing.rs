@@ -1,7 +1,7 @@
 //! Where the time of a generation went.
 
 use crate::error::CliError;
-use crate::files::write_atomically;
+use msdd_files::write;
 use msdd_rve::database::Progress;
 use msdd_rve::stopwatch::Stage;
 use serde::Serialize;
@@ -33,7 +33,7 @@ impl Timing {
     pub fn write(&self, path: &Path) -> Result<(), CliError> {
         let json =
             serde_json::to_string_pretty(self).map_err(|error| CliError::Message(error.to_string()))?;
-        write_atomically(path, json.as_bytes())
+        Ok(write(path, json.as_bytes())?)
     }
 }
 

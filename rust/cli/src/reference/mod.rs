@@ -3,11 +3,11 @@
 mod summary;
 
 use crate::error::CliError;
-use crate::files::write_atomically;
 use crate::progress::Progress;
 use crate::rve::{read_state, write_state};
 use clap::{Args, Subcommand};
 use msdd_dem::Simulation;
+use msdd_files::{check_target, write};
 use msdd_reference::model::{DISCS, ModelSpec, check_state, discs_of, pack, statistics};
 use msdd_reference::run::Watch;
 use msdd_reference::{
@@ -44,7 +44,7 @@ pub struct ModelArguments {
     /// Packed model (state file); packed and written when missing. Default: results/reference/packed_seed<N>.json.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    #[arg(long, default_value_t = threads(), value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
     threads: u32,
 }
 
@@ -143,6 +143,7 @@ impl ModelArguments {
     }
 
     fn pack(&self, case: &Case) -> Result<(), CliError> {
+        check_target(&self.path(case))?;
         let begin = Instant::now();
         let mut progress = Progress::new("packing, %", 100);
         let spec = ModelSpec { discs: self.discs(case), seed: self.seed };
@@ -151,7 +152,7 @@ impl ModelArguments {
         progress.finish();
         let path = self.path(case);
         write_state(&path, &model.simulation)?;
-        println!(
+        outln!(
             "packed seed {} in {:.1} s: {} after {} steps, {}",
             self.seed,
             begin.elapsed().as_secs_f64(),
@@ -175,18 +176,18 @@ fn pack_model(arguments: &PackArguments) -> Result<(), CliError> {
 
 fn print_statistics(s: &Statistics) {
     let [low, high] = s.porosity_range;
-    println!("porosity             {:.4}   paper 0.125", s.porosity);
-    println!("  of 10 x 3 regions  {low:.4} to {high:.4}   paper, windows: 0.117 to 0.131");
-    println!("  sum of areas       {:.4}", s.porosity_sum_of_areas);
+    outln!("porosity             {:.4}   paper 0.125", s.porosity);
+    outln!("  of 10 x 3 regions  {low:.4} to {high:.4}   paper, windows: 0.117 to 0.131");
+    outln!("  sum of areas       {:.4}", s.porosity_sum_of_areas);
     let [low, high] = s.fabric_range;
-    println!("fabric index         {:.4}   paper 0.050", s.fabric_index);
-    println!("  of 10 x 3 regions  {low:.4} to {high:.4}   paper, windows: 0.030 to 0.064");
-    println!("pressure [Pa]        {:.1}, stress_xx over stress_yy {:.3}", s.pressure, s.stress_ratio);
+    outln!("fabric index         {:.4}   paper 0.050", s.fabric_index);
+    outln!("  of 10 x 3 regions  {low:.4} to {high:.4}   paper, windows: 0.030 to 0.064");
+    outln!("pressure [Pa]        {:.1}, stress_xx over stress_yy {:.3}", s.pressure, s.stress_ratio);
     let [left, right] = s.stress_xx_ends;
-    println!("stress_xx at the ends {left:.1} {right:.1} Pa, mean of the left and right tenth");
+    outln!("stress_xx at the ends {left:.1} {right:.1} Pa, mean of the left and right tenth");
     let ([xx, yy], [nxx, nyy]) = (s.conductivity, s.conductivity_network);
-    println!("K/k, xx and yy       {xx:.4} {yy:.4}, network {nxx:.4} {nyy:.4}");
-    println!("coordination         {:.3}, rattlers {}", s.coordination, s.rattlers);
+    outln!("K/k, xx and yy       {xx:.4} {yy:.4}, network {nxx:.4} {nyy:.4}");
+    outln!("coordination         {:.3}, rattlers {}", s.coordination, s.rattlers);
 }
 
 fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
@@ -205,11 +206,13 @@ fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
     let name = format!("{}_seed{}", case.name, arguments.model.seed);
     let file = |suffix: &str| arguments.out.join(format!("{name}.{suffix}"));
     let checkpoint = file("checkpoint.json");
+    // Refused now rather than at the end of a long run.
+    [&checkpoint, &file("json"), &file("csv")].into_iter().try_for_each(|file| check_target(file))?;
     let begin = Instant::now();
     let results = watched(&case, &start, &spec, &checkpoint, arguments.vtk.as_deref())?;
     let json = serde_json::to_string(&results).map_err(ReferenceError::from)?;
-    write_atomically(&file("json"), json.as_bytes())?;
-    write_atomically(&file("csv"), results.series.to_csv().as_bytes())?;
+    write(&file("json"), json.as_bytes())?;
+    write(&file("csv"), results.series.to_csv().as_bytes())?;
     let _ = std::fs::remove_file(&checkpoint);
     report(&name, &results, begin.elapsed());
     Ok(())
@@ -225,14 +228,14 @@ fn watched(
     // In milliseconds of simulated time.
     let total = (1e3 * spec.end).ceil() as u64;
     let mut progress = Progress::new("simulated ms", total);
-    let io = |error: CliError| ReferenceError::Write(std::io::Error::other(error.to_string()));
+    let io = |error: CliError| ReferenceError::Watch(error.to_string());
     let mut watch = Watch {
         progress: &mut |time| progress.set(((1e3 * time) as u64).min(total), total, ""),
         profile: &mut |times, simulation| match vtk {
             Some(folder) => write_vtk(folder, times, simulation).map_err(io),
             None => Ok(()),
         },
-        save: &mut |text| write_atomically(checkpoint, text.as_bytes()).map_err(io),
+        save: &mut |text| Ok(write(checkpoint, text.as_bytes())?),
     };
     let results = run_case(case, start, spec, checkpoint, &mut watch)?;
     progress.finish();
@@ -243,9 +246,9 @@ fn watched(
 fn write_vtk(folder: &Path, times: &[f64], simulation: &Simulation) -> Result<(), CliError> {
     for (name, text) in [("particles", vtk::particles(simulation)), ("contacts", vtk::contacts(simulation))] {
         let file = |k: usize| format!("{name}_{k:04}.vtp");
-        write_atomically(&folder.join(file(times.len() - 1)), text.as_bytes())?;
+        write(&folder.join(file(times.len() - 1)), text.as_bytes())?;
         let list: Vec<(f64, String)> = times.iter().enumerate().map(|(k, &time)| (time, file(k))).collect();
-        write_atomically(&folder.join(format!("{name}.pvd")), vtk::series(&list).as_bytes())?;
+        write(&folder.join(format!("{name}.pvd")), vtk::series(&list).as_bytes())?;
     }
     Ok(())
 }
@@ -253,7 +256,7 @@ fn write_vtk(folder: &Path, times: &[f64], simulation: &Simulation) -> Result<()
 fn report(name: &str, results: &Results, elapsed: Duration) {
     let last = |column: &str| results.series.column(column).and_then(|values| values.last().copied());
     let show = |column: &str| last(column).map_or("-".to_string(), |value| format!("{value:.4}"));
-    println!(
+    outln!(
         "{name}: {} steps, {} thermal sub-steps in {:.1} s; at the end T {}, porosity {}, fabric index {}, \
          pressure {} Pa, K/k {} {}",
         results.steps,
@@ -286,9 +289,9 @@ fn write_fields(arguments: &FieldsArguments) -> Result<(), CliError> {
     );
     let out = arguments.out.clone().unwrap_or_else(|| case.folder.join("0"));
     for (name, text) in fields::files(&averages, &note) {
-        write_atomically(&out.join(name), text.as_bytes())?;
+        write(&out.join(name), text.as_bytes())?;
     }
-    println!(
+    outln!(
         "{} cells in {:.1} s: porosity {:.4} to {:.4}, fabric index {:.4} to {:.4}, pressure {:.1} to {:.1} Pa, {}",
         averages.len(),
         begin.elapsed().as_secs_f64(),

@@ -1,8 +1,8 @@
 //! `msdd reference summary`: what the seeds agree on, and what the step size costs.
 
 use crate::error::CliError;
-use crate::files::{read_text, write_atomically};
 use clap::Args;
+use msdd_files::{read_text, write};
 use msdd_reference::results::{Results, Table};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -51,7 +51,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         Some(path) => {
             let text =
                 serde_json::to_string_pretty(&summary).map_err(|e| CliError::Message(e.to_string()))?;
-            write_atomically(path, text.as_bytes())
+            Ok(write(path, text.as_bytes())?)
         }
         None => Ok(()),
     }
@@ -68,8 +68,8 @@ fn table(case: &str, results: &[&Results]) -> Result<Value, CliError> {
     let times = column(results[0], "time")?;
     let end = times.last().copied().unwrap_or(0.0);
     let moments = MOMENTS.map(|part| part * end);
-    println!("{case}, seeds {seeds:?}: mean +- standard deviation over the seeds");
-    println!("{:<24}{}", "", moments.map(|t| format!("{:>24}", format!("{t} s"))).join(""));
+    outln!("{case}, seeds {seeds:?}: mean +- standard deviation over the seeds");
+    outln!("{:<24}{}", "", moments.map(|t| format!("{:>24}", format!("{t} s"))).join(""));
     let mut columns = Map::new();
     let shown = |name: &&String| *name != "time" && !LEFT_OUT.iter().any(|part| name.starts_with(part));
     let names = results[0].series.columns.iter().chain(&results[0].network.columns);
@@ -80,7 +80,7 @@ fn table(case: &str, results: &[&Results]) -> Result<Value, CliError> {
             line.push(mean_and_deviation(&at.collect::<Result<Vec<f64>, _>>()?));
         }
         let cells = line.iter().map(|(mean, sd)| format!("{:>24}", shown_pair(*mean, *sd)));
-        println!("{name:<24}{}", cells.collect::<String>());
+        outln!("{name:<24}{}", cells.collect::<String>());
         columns.insert(name.clone(), json!(line.iter().map(|(m, s)| json!([m, s])).collect::<Vec<_>>()));
     }
     let profiles = profile_scatter(results)?;
@@ -115,7 +115,7 @@ fn profile_scatter(results: &[&Results]) -> Result<Value, CliError> {
             mean += m / bins as f64;
             square += deviation * deviation / bins as f64;
         }
-        println!("{:<24}{:>24}", format!("profile {name}, end"), shown_pair(mean, square.sqrt()));
+        outln!("{:<24}{:>24}", format!("profile {name}, end"), shown_pair(mean, square.sqrt()));
         scatter.insert(name.to_string(), json!([mean, square.sqrt()]));
     }
     Ok(Value::Object(scatter))
@@ -135,8 +135,8 @@ fn differences(first: &Results, second: &Results) -> Result<(), CliError> {
         Some(step) => format!("steps of {step} s"),
         None => "steps from the bound".to_string(),
     };
-    println!("{} with {} against {} with {}", second.case, step(second), first.case, step(first));
-    println!("{:<22} {:>14} {:>14} {:>14}", "", "largest", "at time [s]", "range of first");
+    outln!("{} with {} against {} with {}", second.case, step(second), first.case, step(first));
+    outln!("{:<22} {:>14} {:>14} {:>14}", "", "largest", "at time [s]", "range of first");
     for name in first.series.columns.iter().filter(|name| *name != "time") {
         let (mut largest, mut when) = (0.0f64, 0.0);
         let values = column(first, name)?;
@@ -148,7 +148,7 @@ fn differences(first: &Results, second: &Results) -> Result<(), CliError> {
         }
         let range = values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
             - values.iter().copied().fold(f64::INFINITY, f64::min);
-        println!("{name:<22} {largest:>14.6} {when:>14} {range:>14.6}");
+        outln!("{name:<22} {largest:>14.6} {when:>14} {range:>14.6}");
     }
     Ok(())
 }

@@ -2,10 +2,11 @@
 
 mod plot;
 
+use crate::database::warn_without_checksum;
 use crate::error::CliError;
-use crate::files::{read_text, write_atomically};
 use crate::rows::training_data;
 use clap::Args;
+use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
 use msdd_surrogate::composition::Composed;
@@ -32,6 +33,8 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    arguments.json.iter().try_for_each(|json| check_target(json))?;
+    warn_without_checksum(&arguments.database)?;
     let dataset = read_all(&arguments.database)?;
     let data = training_data(&dataset.records);
     let plan_hash = dataset.provenance.get("plan_hash").cloned().unwrap_or_default();
@@ -43,12 +46,12 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         let ramps = ramps(model.as_ref(), &data.rows, &plan_hash).map_err(failed)?;
         let result = score(model.as_ref(), &ramps);
         print(&result);
-        println!();
+        outln!();
         scores.push(result);
         if let Some(folder) = &arguments.plot {
             let folder = if arguments.model.len() > 1 { folder.join(model.name()) } else { folder.clone() };
             for (name, svg) in plot::all(model.as_ref(), &ramps.unseen)? {
-                write_atomically(&folder.join(name), svg.as_bytes())?;
+                write(&folder.join(name), svg.as_bytes())?;
             }
         }
     }
@@ -58,7 +61,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     if let Some(path) = &arguments.json {
         let text = serde_json::to_string_pretty(&scores)
             .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
-        write_atomically(path, (text + "\n").as_bytes())?;
+        write(path, (text + "\n").as_bytes())?;
     }
     Ok(())
 }
@@ -67,20 +70,20 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 const MANY: u32 = 500;
 
 fn print_side_by_side(scores: &[Score]) {
-    println!("Side by side: R2 of one step; rms error of K, sigma in % after a strain in {MANY} increments");
-    print!("{:<16} {:>7} {:>7} {:>7}", "model", "d eta", "K", "sigma");
+    outln!("Side by side: R2 of one step; rms error of K, sigma in % after a strain in {MANY} increments");
+    out!("{:<16} {:>7} {:>7} {:>7}", "model", "d eta", "K", "sigma");
     let strains = [0.02, -0.02, 0.05, -0.05];
-    strains.iter().for_each(|strain| print!(" {:>15}", format!("{:+.0} %: K sigma", 100.0 * strain)));
-    println!();
+    strains.iter().for_each(|strain| out!(" {:>15}", format!("{:+.0} %: K sigma", 100.0 * strain)));
+    outln!();
     for score in scores {
         let s = &score.unseen;
-        print!("{:<16} {:>7.4} {:>7.4} {:>7.4}", score.name, s.delta_porosity, s.conductivity, s.stress);
+        out!("{:<16} {:>7.4} {:>7.4} {:>7.4}", score.name, s.delta_porosity, s.conductivity, s.stress);
         for strain in strains {
             let found = score.composed.iter().find(|c| c.strain == strain && c.increments == MANY);
             let errors = found.map(|c| format!("{:.1} {:.1}", 100.0 * c.conductivity, 100.0 * c.stress));
-            print!(" {:>15}", errors.unwrap_or_default());
+            out!(" {:>15}", errors.unwrap_or_default());
         }
-        println!();
+        outln!();
     }
 }
 
@@ -94,49 +97,54 @@ pub fn print_training(
     let fits = &report["provenance"]["report"];
     for key in ["rates", "readouts"] {
         if !fits[key].is_null() {
-            println!("{key}: {}", fits[key]);
+            outln!("{key}: {}", fits[key]);
         }
     }
     print(&score(model, &ramps(model, &data.rows, plan_hash)?));
     if let Some(mechanics) = model.mechanics() {
-        println!("mechanics: {mechanics:?}");
+        outln!("mechanics: {mechanics:?}");
     }
     if let Some(friction) = model.wall_friction() {
-        println!("wall friction: {friction:?}");
+        outln!("wall friction: {friction:?}");
     }
     Ok(())
 }
 
 fn print(score: &Score) {
-    println!("{} \"{}\" {}", score.kind, score.name, &score.hash[..12]);
-    println!();
-    println!("R2 (Eq. 12), one step  packings samples  d eta    d f    d f_K      K    sigma");
+    outln!("{} \"{}\" {}", score.kind, score.name, &score.hash[..12]);
+    outln!();
+    outln!("R2 (Eq. 12), one step  packings samples  d eta    d f    d f_K      K    sigma");
     let line = |name: &str, s: &OneStep| {
         let fabric = s.delta_fabric_conductivity.map_or("     -".to_string(), |r| format!("{r:.4}"));
-        println!(
+        outln!(
             "{name:<22} {:>8} {:>7} {:.4} {:>7.4} {fabric} {:>7.4} {:.5}",
-            s.packings, s.samples, s.delta_porosity, s.delta_fabric_index, s.conductivity, s.stress
+            s.packings,
+            s.samples,
+            s.delta_porosity,
+            s.delta_fabric_index,
+            s.conductivity,
+            s.stress
         );
     };
     if let Some(training) = &score.training {
         line("training packings", training);
     }
     line(if score.held_out { "held-out packings" } else { "all packings" }, &score.unseen);
-    println!();
-    println!(
+    outln!();
+    outln!(
         "A strain in increments; rms error, relative in % (eta, f: absolute); mean of 30 packings: largest"
     );
-    println!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
+    outln!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
     for c in &score.composed {
         row(c);
     }
-    println!();
-    println!("Noise floor (Gamma test on the model's state)");
-    println!(" strain            K   sigma       p      eta        f");
+    outln!();
+    outln!("Noise floor (Gamma test on the model's state)");
+    outln!(" strain            K   sigma       p      eta        f");
     let percent = |value: Option<f64>| value.map_or("-".to_string(), |v| format!("{:.2}", 100.0 * v));
     let plain = |value: Option<f64>| value.map_or("-".to_string(), |v| format!("{v:.5}"));
     for f in &score.noise_floor {
-        println!(
+        outln!(
             "{:>+7.3}       {:>7} {:>7} {:>7} {:>8} {:>8}",
             f.strain,
             percent(f.conductivity),
@@ -146,10 +154,10 @@ fn print(score: &Score) {
             plain(f.fabric_index)
         );
     }
-    println!();
-    println!("There and back: what is left, relative in % (eta: absolute)");
+    outln!();
+    outln!("There and back: what is left, relative in % (eta: absolute)");
     for t in &score.there_and_back {
-        println!(
+        outln!(
             "{:>+7.3} in {}: p {:.3}, K {:.3}, eta {:.6}",
             t.strain,
             t.increments,
@@ -159,11 +167,11 @@ fn print(score: &Score) {
         );
     }
     if !score.way_back.is_empty() {
-        println!();
-        println!(
+        outln!();
+        outln!(
             "The database's way back to the packed radii; below it, by a model that takes it for virgin strain"
         );
-        println!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
+        outln!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
         for way in &score.way_back {
             row(&way.errors);
             row(&way.taken_for_virgin);
@@ -172,7 +180,7 @@ fn print(score: &Score) {
 }
 
 fn row(c: &Composed) {
-    println!(
+    outln!(
         "{:>+7.3} {:>5} {:>6} {:>7.2} {:>7.2} {:>7.2} {:>8.5} {:>8.5} {:>7.2} {:>7.2}",
         c.strain,
         c.increments,

@@ -7,8 +7,8 @@ mod read;
 mod table;
 
 use crate::error::CliError;
-use crate::files::write_atomically;
 use clap::Args;
+use msdd_files::write;
 use read::{CaseResult, Model};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -50,11 +50,11 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let cases = named.iter().map(|case| (case.folder, &case.result)).collect();
     let json = serde_json::to_string_pretty(&Summary { cases, model: &model })
         .map_err(|error| CliError::Message(error.to_string()))?;
-    write_atomically(&arguments.out, json.as_bytes())?;
-    write_atomically(&arguments.plot, plot::temperature(&named)?.as_bytes())?;
-    print!("{}", table::text(&named));
-    println!("model {} ({})", model.hash, model.source);
-    println!("figures: {}   plot: {}", arguments.out.display(), arguments.plot.display());
+    write(&arguments.out, json.as_bytes())?;
+    write(&arguments.plot, plot::temperature(&named)?.as_bytes())?;
+    out!("{}", table::text(&named));
+    outln!("model {} ({})", model.hash, model.source);
+    outln!("figures: {}   plot: {}", arguments.out.display(), arguments.plot.display());
     Ok(())
 }
 

@@ -1,7 +1,7 @@
 //! What the solver left in one case folder.
 
 use crate::error::CliError;
-use crate::files::read_text;
+use msdd_files::read_text;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;

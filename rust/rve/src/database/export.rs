@@ -1,68 +1,112 @@
-//! CSV with a column dictionary beside it, and reading a database in either form.
+//! CSV with a column dictionary and the provenance beside it.
 
-use super::DatabaseError;
+use super::csv_file::{beside, is_gzip_name};
+use super::dataset::{is_sqlite, read};
 use super::record::{COLUMNS, Record};
-use super::store::Store;
-use sha2::{Digest, Sha256};
-use std::collections::BTreeMap;
-use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
+use super::store::{COMPLETE, Store};
+use super::{DatabaseError, Dataset, ENGINE_VERSION, check, checksum, csv_file};
+use msdd_files::{check_target, write};
+use std::io::Write;
+use std::path::Path;
 
-/// Rows and where they come from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Dataset {
-    pub records: Vec<Record>,
-    pub provenance: BTreeMap<String, String>,
-}
-
-/// Files that belong to a CSV, compressed or not: the column dictionary and the provenance.
-fn beside(csv: &Path, what: &str) -> PathBuf {
-    let plain = if is_gzip_name(csv) { csv.with_extension("") } else { csv.to_path_buf() };
-    plain.with_extension(what)
-}
-
-fn is_gzip_name(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension == "gz")
-}
-
-fn io(path: &Path) -> impl FnOnce(std::io::Error) -> DatabaseError + '_ {
-    |source| DatabaseError::Io { path: path.to_path_buf(), source }
-}
+/// Provenance key of a rounded export: significant digits of its floats.
+pub(super) const DIGITS: &str = "digits";
+/// Digits from which on a float is taken as not rounded.
+const ALL_DIGITS: usize = 15;
 
 /// Writes the database as CSV (first line: column names; floats in the shortest form that reads back exactly), with
 /// FILE.columns.csv (name, unit, meaning) and FILE.provenance.json beside it. A name that ends in .gz is compressed.
 /// With `digits`, floats are rounded to as many significant ones: a file to ship needs no noise. Returns the number of rows.
+///
+/// # Errors
+/// Those of [`read`]; [`DatabaseError::File`] when a file cannot be written.
 pub fn export_csv(database: &Path, csv: &Path, digits: Option<usize>) -> Result<usize, DatabaseError> {
-    let dataset = read(database)?;
-    let failed = |path: &Path| {
-        let path = path.to_path_buf();
-        move |source| DatabaseError::Csv { path, source }
-    };
+    check_target(csv)?;
+    let mut dataset = read(database)?;
+    if let Some(digits) = digits {
+        dataset.records.iter_mut().for_each(|record| *record = rounded(record, digits));
+        // What had fewer before has no more now.
+        let before = dataset.provenance.get(DIGITS).and_then(|digits| digits.parse().ok());
+        let digits = before.map_or(digits, |before: usize| before.min(digits));
+        dataset.provenance.insert(DIGITS.to_string(), digits.to_string());
+    }
+    checksum::seal(&mut dataset.provenance, &dataset.records);
+    let failed = |source| DatabaseError::Csv { path: csv.to_path_buf(), source };
     let mut rows = csv::Writer::from_writer(Vec::new());
-    for record in &dataset.records {
-        let record = digits.map_or_else(|| record.clone(), |digits| rounded(record, digits));
-        rows.serialize(record).map_err(failed(csv))?;
-    }
+    dataset.records.iter().try_for_each(|record| rows.serialize(record)).map_err(failed)?;
     let mut dictionary = csv::Writer::from_writer(Vec::new());
-    dictionary.write_record(["name", "unit", "meaning"]).map_err(failed(csv))?;
+    dictionary.write_record(["name", "unit", "meaning"]).map_err(failed)?;
     for column in COLUMNS {
-        dictionary.write_record([column.0, column.2, column.3]).map_err(failed(csv))?;
+        dictionary.write_record([column.0, column.2, column.3]).map_err(failed)?;
     }
-    let provenance = serde_json::json!(dataset.provenance).to_string();
     let bytes = |writer: csv::Writer<Vec<u8>>| {
-        writer.into_inner().map_err(|error| io(csv)(std::io::Error::other(error.to_string())))
+        writer.into_inner().map_err(|error| failed(std::io::Error::other(error.to_string()).into()))
     };
-    if let Some(folder) = csv.parent() {
-        std::fs::create_dir_all(folder).map_err(io(folder))?;
-    }
     let mut text = bytes(rows)?;
     if is_gzip_name(csv) {
-        text = compressed(&text).map_err(io(csv))?;
+        text = compressed(&text).map_err(|error| failed(error.into()))?;
     }
-    write_atomically(&beside(csv, "columns.csv"), &bytes(dictionary)?)?;
-    write_atomically(&beside(csv, "provenance.json"), provenance.as_bytes())?;
-    write_atomically(csv, &text)?;
+    write(&beside(csv, "columns.csv"), &bytes(dictionary)?)?;
+    write_provenance(csv, &dataset)?;
+    write(csv, &text)?;
     Ok(dataset.records.len())
+}
+
+fn write_provenance(csv: &Path, dataset: &Dataset) -> Result<(), DatabaseError> {
+    let text = serde_json::json!(dataset.provenance).to_string();
+    Ok(write(&beside(csv, "provenance.json"), text.as_bytes())?)
+}
+
+/// Gives a database or CSV of an older program its checksums, if all laws hold on its rows; of a CSV only the provenance
+/// beside it is written. Returns the number of rows.
+///
+/// # Errors
+/// Those of [`read`]; [`DatabaseError::Unsound`]; [`DatabaseError::Format`] for a database that is not finished.
+pub fn seal(path: &Path) -> Result<usize, DatabaseError> {
+    let mut dataset = unsealed(path)?;
+    let digits = digits_of(&dataset.records);
+    if digits < ALL_DIGITS {
+        dataset.provenance.insert(DIGITS.to_string(), digits.to_string());
+    }
+    check::sound(path, &dataset)?;
+    checksum::seal(&mut dataset.provenance, &dataset.records);
+    if !is_sqlite(path)? {
+        write_provenance(path, &dataset)?;
+    } else if dataset.provenance.contains_key(COMPLETE) {
+        Store::write_whole(path, dataset.provenance, &Store::open(path)?.records()?)?;
+    } else {
+        let problem = "it is not finished; database generate finishes and seals it".to_string();
+        return Err(DatabaseError::Format { path: path.to_path_buf(), problem });
+    }
+    Ok(dataset.records.len())
+}
+
+/// As [`read`], but columns may be missing that rows of an older engine have not.
+fn unsealed(path: &Path) -> Result<Dataset, DatabaseError> {
+    if is_sqlite(path)? {
+        return read(path);
+    }
+    let mut provenance = csv_file::provenance(path)?;
+    let missing = csv_file::missing(path)?;
+    let is_older =
+        provenance.get("engine_version").is_some_and(|version| *version != ENGINE_VERSION.to_string());
+    if missing.is_empty() || !is_older || checksum::is_sealed(&provenance) {
+        return read(path);
+    }
+    provenance.insert(csv_file::ABSENT.to_string(), missing.join(" "));
+    csv_file::with_provenance(path, provenance).map(|(dataset, _)| dataset)
+}
+
+/// Significant digits of the float that has most.
+fn digits_of(records: &[Record]) -> usize {
+    let digits = |value: rusqlite::types::Value| match value {
+        rusqlite::types::Value::Real(real) => {
+            let text = format!("{real:e}");
+            text.split('e').next().unwrap_or_default().bytes().filter(u8::is_ascii_digit).count()
+        }
+        _ => 0,
+    };
+    records.iter().flat_map(Record::values).map(digits).max().unwrap_or(0)
 }
 
 /// The record with its floats rounded to `digits` significant digits.
@@ -82,79 +126,4 @@ fn compressed(text: &[u8]) -> std::io::Result<Vec<u8>> {
     let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
     encoder.write_all(text)?;
     encoder.finish()
-}
-
-/// Writes beside, then renames: a killed write leaves the old file.
-fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), DatabaseError> {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    std::fs::write(&part, bytes).map_err(io(&part))?;
-    std::fs::rename(&part, path).map_err(io(path))
-}
-
-/// The first bytes of a file.
-fn start(path: &Path) -> std::io::Result<Vec<u8>> {
-    let mut start = Vec::new();
-    std::fs::File::open(path)?.take(16).read_to_end(&mut start)?;
-    Ok(start)
-}
-
-/// Reads a database, or the CSV that was exported from one (plain or gzip) with its provenance beside it.
-pub fn read(path: &Path) -> Result<Dataset, DatabaseError> {
-    let start = start(path).map_err(io(path))?;
-    if start == b"SQLite format 3\0" {
-        let store = Store::open(path)?;
-        return Ok(Dataset { records: store.records()?, provenance: store.provenance()? });
-    }
-    let file = std::fs::File::open(path).map_err(io(path))?;
-    let text: Box<dyn Read> = if start.starts_with(&[0x1f, 0x8b]) {
-        Box::new(flate2::read::GzDecoder::new(file))
-    } else {
-        Box::new(file)
-    };
-    let failed = |source| DatabaseError::Csv { path: path.to_path_buf(), source };
-    let records =
-        csv::Reader::from_reader(text).deserialize().collect::<Result<Vec<Record>, _>>().map_err(failed)?;
-    let origin = beside(path, "provenance.json");
-    let text = std::fs::read_to_string(&origin).map_err(io(&origin))?;
-    let provenance = serde_json::from_str(&text)
-        .map_err(|error| DatabaseError::Format { path: origin, problem: error.to_string() })?;
-    Ok(Dataset { records, provenance })
-}
-
-/// What must be equal in databases that are read as one: rows of other grains or another engine do not mix.
-const SHARED: [&str; 5] = ["engine_version", "material", "radius_distribution", "radius_min", "radius_max"];
-
-/// Reads several databases as one. Packings are numbered on from file to file; the plan's hash is then of all plans.
-///
-/// # Errors
-/// Those of [`read`]; [`DatabaseError::Mismatch`] for databases of different grains or engines.
-pub fn read_all(paths: &[PathBuf]) -> Result<Dataset, DatabaseError> {
-    let mut all = Dataset { records: Vec::new(), provenance: BTreeMap::new() };
-    let mut plans = Vec::new();
-    for path in paths {
-        let Dataset { mut records, provenance } = read(path)?;
-        let first = plans.is_empty();
-        plans.push(provenance.get("plan_hash").cloned().unwrap_or_default());
-        if first {
-            all = Dataset { records, provenance };
-            continue;
-        }
-        for key in SHARED {
-            let [found, expected] =
-                [&provenance, &all.provenance].map(|p| p.get(key).cloned().unwrap_or_default());
-            if found != expected {
-                return Err(DatabaseError::Mismatch { path: path.clone(), key, found, expected });
-            }
-        }
-        let next = all.records.iter().map(|record| record.packing + 1).max().unwrap_or(0);
-        records.iter_mut().for_each(|record| record.packing += next);
-        all.records.append(&mut records);
-    }
-    if plans.len() > 1 {
-        let hash = Sha256::digest(plans.concat()).iter().map(|byte| format!("{byte:02x}")).collect();
-        all.provenance.insert("plan_hash".to_string(), hash);
-    }
-    Ok(all)
 }

@@ -43,14 +43,22 @@ pub struct Progress {
 /// `progress` is called after each, and may end the run there.
 ///
 /// # Errors
-/// [`DatabaseError::Mismatch`] when the file holds another plan or shard, or was made by another engine version; storage
-/// errors.
+/// [`DatabaseError::File`] when another run is at work on the file, before anything is made;
+/// [`DatabaseError::Mismatch`] when the file holds another plan or shard, or was made by another engine version;
+/// [`DatabaseError::Damaged`]; storage errors.
 pub fn generate(
     plan: &Plan,
     path: &Path,
     run: &Run,
     mut progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Progress, DatabaseError> {
+    msdd_files::check_target(path)?;
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        let failed = |source| msdd_files::FileError::Write { file: folder.to_path_buf(), source };
+        std::fs::create_dir_all(folder).map_err(failed)?;
+    }
+    // Another run on the same file would do the same work and then find its rows there already.
+    let _lock = msdd_files::Lock::take(path)?;
     let mut store = Store::open_for(path, plan, run)?;
     let stored = store.packings()?;
     let mut todo: Vec<Job> = plan.jobs().into_iter().filter(|job| run.shard.holds(job.packing)).collect();

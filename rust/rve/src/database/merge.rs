@@ -3,7 +3,7 @@
 use super::plan::Plan;
 use super::record::Record;
 use super::store::{Store, join_commits};
-use super::{DatabaseError, Shard};
+use super::{DatabaseError, Dataset, Shard};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -14,18 +14,19 @@ const SAME: [&str; 3] = ["schema", "engine_version", "plan_hash"];
 /// of rows.
 ///
 /// # Errors
-/// [`DatabaseError::Mismatch`] for another plan, schema or engine version; [`DatabaseError::Merge`] when packings are
+/// [`DatabaseError::Mismatch`] for another plan, schema or engine version; [`DatabaseError::Damaged`];
+/// [`DatabaseError::Merge`] when packings are
 /// missing or stand in two files; what reading and writing give.
 pub fn merge(shards: &[PathBuf], out: &Path) -> Result<usize, DatabaseError> {
+    msdd_files::check_target(out)?;
     let mut packings: BTreeMap<i64, (&Path, Vec<Record>)> = BTreeMap::new();
     let mut first: Option<BTreeMap<String, String>> = None;
     let mut commits = Vec::new();
     for path in shards {
-        let store = Store::open(path)?;
-        let provenance = store.provenance()?;
+        let Dataset { records, provenance } = Store::open(path)?.dataset()?;
         commits.push(provenance.get("commit").cloned().unwrap_or_default());
         agree(path, first.get_or_insert_with(|| provenance.clone()), &provenance)?;
-        for record in store.records()? {
+        for record in records {
             let (source, rows) = packings.entry(record.packing).or_insert((path, Vec::new()));
             if source != path {
                 let problem = format!("packing {} stands in {} too", record.packing, source.display());

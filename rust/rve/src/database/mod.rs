@@ -9,10 +9,19 @@
 //! | [`generate`](mod@generate) | makes the rows, on several threads |
 //! | [`merge`](mod@merge) | shards made on several machines become one file |
 //! | [`offenders`] | a plan from queries outside a model's range |
-//! | [`export`] | CSV with a column dictionary; reading any form |
+//! | [`dataset`] | reading any form, one file or several as one |
+//! | [`export`] | CSV with a column dictionary |
+//! | [`csv_file`] | reading CSV |
+//! | `schema` | what an SQLite file must be before it is read |
+//! | `cell` | one value of a row |
+//! | `checksum` | checksums over rows and provenance |
 //! | [`check`] | exact laws on every row, statistics, noise floor |
 
+mod cell;
 pub mod check;
+mod checksum;
+pub mod csv_file;
+pub mod dataset;
 pub mod export;
 pub mod generate;
 pub mod merge;
@@ -20,10 +29,12 @@ pub mod offenders;
 pub mod plan;
 pub mod record;
 mod rows;
+mod schema;
 mod shard;
 pub mod store;
 
-pub use export::{Dataset, export_csv, read, read_all};
+pub use dataset::{Dataset, has_checksum, inspect, read, read_all};
+pub use export::{export_csv, seal};
 pub use generate::{Progress, Run, generate};
 pub use merge::merge;
 pub use offenders::{Effort, Offenders};
@@ -32,6 +43,7 @@ pub use record::Record;
 pub use shard::Shard;
 pub use store::Store;
 
+use dataset::undamaged;
 use std::path::PathBuf;
 
 /// Raised by one whenever the same plan and seed give other numbers. Databases of different versions do not mix.
@@ -40,21 +52,35 @@ pub const ENGINE_VERSION: i64 = 4;
 /// What can go wrong with plans and databases.
 #[derive(Debug, thiserror::Error)]
 pub enum DatabaseError {
-    #[error("{file}: {problem}")]
+    #[error("{file}: {problem}", problem = crate::message::shortened(problem))]
     Plan { file: String, problem: String },
-    #[error("{path}: {source}")]
-    Io { path: PathBuf, source: std::io::Error },
+    #[error(transparent)]
+    File(#[from] msdd_files::FileError),
     #[error("{path}: {source}")]
     Sqlite { path: PathBuf, source: rusqlite::Error },
-    #[error("{path}: {source}")]
+    #[error("{path}: {source}", source = crate::message::shortened(&source.to_string()))]
     Csv { path: PathBuf, source: csv::Error },
     #[error("{path}: not an msdd database ({problem})")]
     Format { path: PathBuf, problem: String },
+    #[error("{path}: {table}, row {row}, column {column}: {problem}")]
+    Value { path: PathBuf, table: &'static str, row: u64, column: &'static str, problem: String },
+    #[error("{path}: is damaged: {problem}; take it from where it was made, or make it again")]
+    Damaged { path: PathBuf, problem: String },
+    #[error(
+        "{path}: {count} violations of exact laws, the first: {first}; nothing is made of such a file, and msdd database \
+         check says more"
+    )]
+    Unsound { path: PathBuf, count: usize, first: String },
+    #[error(
+        "{path}: packing {packing} is packing {other_packing} of {other}: the same grains would stand on both sides of the \
+         split into packings to train on and to judge by; give every database once, as itself or as its CSV"
+    )]
+    Twice { path: PathBuf, packing: i64, other: PathBuf, other_packing: i64 },
     #[error("{path}: {problem}")]
     Merge { path: PathBuf, problem: String },
     #[error(
         "{path}: was made with {key} = {found}, now it is {expected}; rows of both cannot stand in one database: choose \
-         another --out or remove the file"
+         another --out or remove the file", found = crate::message::shortened(found)
     )]
     Mismatch { path: PathBuf, key: &'static str, found: String, expected: String },
 }

@@ -1,8 +1,10 @@
 //! One row of the database: one state of one packing.
 
+use super::cell::Cell;
 use super::plan::{Job, Kind, RampName};
 use crate::slide::Sliding;
 use crate::{Averages, Boundary, Compression, Material, Outcome, RegionKind, Settled, Strains};
+use rusqlite::types::{Value, ValueRef};
 use serde::{Deserialize, Serialize};
 
 /// A column: name, SQLite type, unit, meaning.
@@ -17,6 +19,27 @@ macro_rules! record {
         #[serde(deny_unknown_fields)]
         pub struct Record {
             $(#[doc = concat!("[", $unit, "] ", $meaning)] pub $name: $type,)*
+        }
+
+        impl Record {
+            /// The fields in column order, as they are stored.
+            pub(super) fn values(&self) -> Vec<Value> {
+                vec![$(Cell::value(&self.$name),)*]
+            }
+
+            /// Reads the fields from cells by the number of their column; the error has the column's name.
+            pub(super) fn from_cells<'a>(
+                cell: impl Fn(usize) -> Result<ValueRef<'a>, String>,
+            ) -> Result<Self, (&'static str, String)> {
+                let mut next = 0..;
+                $(let $name = next
+                    .next()
+                    .ok_or_else(|| "no such column".to_string())
+                    .and_then(&cell)
+                    .and_then(Cell::read)
+                    .map_err(|problem| (stringify!($name), problem))?;)*
+                Ok(Self { $($name,)* })
+            }
         }
 
         /// The columns, in the order of [`Record`]'s fields.

@@ -1,18 +1,20 @@
 //! The database file: SQLite with the tables `states`, `provenance` (key, value) and `columns` (name, unit, meaning).
 
+use super::cell::Cell;
 use super::generate::Run;
 use super::plan::Plan;
 use super::record::{COLUMNS, Column, Record};
-use super::{DatabaseError, ENGINE_VERSION};
-use rusqlite::types::Value;
-use rusqlite::{Connection, params_from_iter};
+use super::{DatabaseError, Dataset, ENGINE_VERSION, checksum, schema};
+use msdd_files::Part;
+use rusqlite::types::ValueRef;
+use rusqlite::{Connection, Row, params_from_iter};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Number of the schema; raised when a table changes.
 pub const SCHEMA: i64 = 2;
 /// Provenance key that only whole files have, whose rows stand in plan order.
-const COMPLETE: &str = "complete";
+pub(super) const COMPLETE: &str = "complete";
 
 /// An open database.
 pub struct Store {
@@ -21,33 +23,38 @@ pub struct Store {
 }
 
 impl Store {
-    /// Opens an existing database. Work that a killed run has left half done is rolled back.
+    /// Opens an existing database, whose tables are ours and sound. Work that a killed run has left half done is rolled
+    /// back.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Format`] for another file, [`DatabaseError::Damaged`] for one that SQLite finds unsound,
+    /// [`DatabaseError::Mismatch`] for another schema, [`DatabaseError::Sqlite`].
     pub fn open(path: &Path) -> Result<Self, DatabaseError> {
-        let flags = rusqlite::OpenFlags::SQLITE_OPEN_READ_WRITE;
-        let connection = Connection::open_with_flags(path, flags).map_err(|s| sqlite(path, s))?;
+        let connection = schema::open(path, false).map_err(|s| sqlite(path, s))?;
         let store = Self { connection, path: path.to_path_buf() };
-        store.expect("schema", &SCHEMA.to_string())?;
+        store.check()?;
         Ok(store)
     }
 
-    /// Opens the database of a plan's shard, or makes an empty one.
+    fn check(&self) -> Result<(), DatabaseError> {
+        if let Some(problem) = schema::problem(&self.connection).map_err(|s| sqlite(&self.path, s))? {
+            return Err(DatabaseError::Format { path: self.path.clone(), problem });
+        }
+        self.expect("schema", &SCHEMA.to_string())
+    }
+
+    /// Opens the database of a plan's shard, or makes an empty one. What stands in it already must be what was written.
     pub(crate) fn open_for(path: &Path, plan: &Plan, run: &Run) -> Result<Self, DatabaseError> {
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder)
-                .map_err(|source| DatabaseError::Io { path: folder.to_path_buf(), source })?;
-        }
-        let connection = Connection::open(path).map_err(|s| sqlite(path, s))?;
+        let connection = schema::open(path, true).map_err(|s| sqlite(path, s))?;
         let mut store = Self { connection, path: path.to_path_buf() };
-        let exists = "SELECT count(*) FROM sqlite_master WHERE name = 'provenance'";
-        let tables: i64 =
-            store.connection.query_row(exists, [], |row| row.get(0)).map_err(|s| sqlite(path, s))?;
-        if tables == 0 {
-            store.create(&provenance(plan, run), &[]).map_err(|s| sqlite(path, s))?;
+        if schema::is_empty(&store.connection).map_err(|s| sqlite(path, s))? {
+            store.create(provenance(plan, run), &[]).map_err(|s| sqlite(path, s))?;
         }
-        store.expect("schema", &SCHEMA.to_string())?;
+        store.check()?;
         store.expect("engine_version", &ENGINE_VERSION.to_string())?;
         store.expect("plan_hash", &plan.hash())?;
         store.expect("shard", &run.shard.to_string())?;
+        store.dataset()?;
         store.add_commit(&run.commit)?;
         Ok(store)
     }
@@ -60,23 +67,20 @@ impl Store {
         records: &[Record],
     ) -> Result<(), DatabaseError> {
         provenance.insert(COMPLETE.to_string(), "yes".to_string());
-        let mut name = path.file_name().unwrap_or_default().to_os_string();
-        name.push(".part");
-        let part = path.with_file_name(name);
-        let io = |source| DatabaseError::Io { path: part.clone(), source };
-        if part.exists() {
-            std::fs::remove_file(&part).map_err(io)?;
-        }
-        let connection = Connection::open(&part).map_err(|s| sqlite(&part, s))?;
-        let mut store = Self { connection, path: part.clone() };
-        store.create(&provenance, records).map_err(|s| sqlite(&part, s))?;
-        store.connection.close().map_err(|(_, s)| sqlite(&part, s))?;
-        std::fs::rename(&part, path).map_err(io)
+        let part = Part::beside(path)?;
+        let failed = |source| sqlite(path, source);
+        let connection = schema::open(part.path(), false).map_err(failed)?;
+        // The part is on the disk before it gets its name, so SQLite's own way back to an older file is of no use.
+        connection.execute_batch("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;").map_err(failed)?;
+        let mut store = Self { connection, path: part.path().to_path_buf() };
+        store.create(provenance, records).map_err(failed)?;
+        store.connection.close().map_err(|(_, source)| failed(source))?;
+        Ok(part.put()?)
     }
 
     /// Puts the rows into plan order and the file into its last form, once.
     pub(crate) fn finish(self) -> Result<(), DatabaseError> {
-        let (provenance, records) = (self.provenance()?, self.records()?);
+        let Dataset { records, provenance } = self.dataset()?;
         if provenance.contains_key(COMPLETE) {
             return Ok(());
         }
@@ -84,19 +88,16 @@ impl Store {
         Self::write_whole(&self.path, provenance, &records)
     }
 
-    /// Tables, provenance and rows in one transaction, so that a killed start leaves nothing half made.
-    fn create(&mut self, provenance: &BTreeMap<String, String>, records: &[Record]) -> rusqlite::Result<()> {
-        let columns: Vec<String> = COLUMNS.iter().map(|c| format!("{} {}", c.0, c.1)).collect();
+    /// Tables, sealed provenance and rows in one transaction, so that a killed start leaves nothing half made.
+    fn create(
+        &mut self,
+        mut provenance: BTreeMap<String, String>,
+        records: &[Record],
+    ) -> rusqlite::Result<()> {
+        checksum::seal(&mut provenance, records);
         let transaction = self.connection.transaction()?;
-        transaction.execute_batch(&format!(
-            "CREATE TABLE states ({}, PRIMARY KEY (packing, ramp, stop));
-             CREATE TABLE provenance (key TEXT PRIMARY KEY, value TEXT NOT NULL);
-             CREATE TABLE columns (name TEXT PRIMARY KEY, unit TEXT NOT NULL, meaning TEXT NOT NULL);",
-            columns.join(", ")
-        ))?;
-        for (key, value) in provenance {
-            transaction.execute("INSERT INTO provenance VALUES (?1, ?2)", [key, value])?;
-        }
+        transaction.execute_batch(&schema::tables())?;
+        write_provenance(&transaction, &provenance)?;
         for Column(name, _, unit, meaning) in COLUMNS {
             transaction.execute("INSERT INTO columns VALUES (?1, ?2, ?3)", [name, unit, meaning])?;
         }
@@ -105,15 +106,16 @@ impl Store {
     }
 
     /// The commit of the program is recorded, not compared: of several, all are listed.
-    fn add_commit(&self, commit: &str) -> Result<(), DatabaseError> {
-        let recorded = self.provenance()?.remove("commit").unwrap_or_default();
+    fn add_commit(&mut self, commit: &str) -> Result<(), DatabaseError> {
+        let mut provenance = self.provenance()?;
+        let recorded = provenance.remove("commit").unwrap_or_default();
         let joined = join_commits([recorded.as_str(), commit]);
         if joined == recorded {
             return Ok(());
         }
-        let update = "UPDATE provenance SET value = ?1 WHERE key = 'commit'";
-        self.connection.execute(update, [joined]).map_err(|s| sqlite(&self.path, s))?;
-        Ok(())
+        provenance.insert("commit".to_string(), joined);
+        checksum::seal_provenance(&mut provenance);
+        self.write(&provenance, &[])
     }
 
     fn expect(&self, key: &'static str, expected: &str) -> Result<(), DatabaseError> {
@@ -126,15 +128,22 @@ impl Store {
     }
 
     /// Keys and values that say where the rows come from.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Value`] for what is no text, [`DatabaseError::Sqlite`].
     pub fn provenance(&self) -> Result<BTreeMap<String, String>, DatabaseError> {
-        let read = || -> rusqlite::Result<_> {
-            let mut statement = self.connection.prepare("SELECT key, value FROM provenance")?;
-            statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?.collect()
-        };
-        read().map_err(|s| sqlite(&self.path, s))
+        let names = ["key", "value"];
+        let pairs = self.rows("SELECT key, value FROM provenance", |row, number| {
+            let text = |column: usize| self.text(("provenance", number, names[column]), row.get_ref(column));
+            Ok((text(0)?, text(1)?))
+        })?;
+        Ok(pairs.into_iter().collect())
     }
 
     /// The packings stored.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Sqlite`].
     pub fn packings(&self) -> Result<BTreeSet<i64>, DatabaseError> {
         let read = || -> rusqlite::Result<_> {
             let mut statement = self.connection.prepare("SELECT DISTINCT packing FROM states")?;
@@ -145,32 +154,96 @@ impl Store {
 
     /// Stores the rows of one packing in one transaction.
     pub(crate) fn insert(&mut self, records: &[Record]) -> Result<(), DatabaseError> {
+        let mut provenance = self.provenance()?;
+        checksum::add(&mut provenance, records);
+        self.write(&provenance, records)
+    }
+
+    fn write(
+        &mut self,
+        provenance: &BTreeMap<String, String>,
+        records: &[Record],
+    ) -> Result<(), DatabaseError> {
         let mut write = || -> rusqlite::Result<()> {
             let transaction = self.connection.transaction()?;
             write_rows(&transaction, records)?;
+            write_provenance(&transaction, provenance)?;
             transaction.commit()
         };
         write().map_err(|s| sqlite(&self.path, s))
     }
 
     /// All rows, in plan order.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Value`] for what is not of its column's kind, [`DatabaseError::Sqlite`].
     pub fn records(&self) -> Result<Vec<Record>, DatabaseError> {
         let names: Vec<&str> = COLUMNS.iter().map(|c| c.0).collect();
         let query = format!("SELECT {} FROM states ORDER BY packing, rowid", names.join(", "));
-        let read = || -> rusqlite::Result<Vec<serde_json::Value>> {
-            let mut statement = self.connection.prepare(&query)?;
-            statement.query_map([], |row| row_as_json(row, &names))?.collect()
-        };
-        let rows = read().map_err(|s| sqlite(&self.path, s))?;
-        let parse = |row| {
-            serde_json::from_value(row).map_err(|error| DatabaseError::Format {
-                path: self.path.clone(),
-                problem: error.to_string(),
-            })
-        };
-        rows.into_iter().map(parse).collect()
+        self.rows(&query, |row, number| {
+            let cell = |column| row.get_ref(column).map_err(|error| error.to_string());
+            Record::from_cells(cell)
+                .map_err(|(column, problem)| self.value(("states", number, column), problem))
+        })
+    }
+
+    /// Rows in plan order and provenance, and what of them is not what was written.
+    ///
+    /// # Errors
+    /// Those of [`Store::records`].
+    pub(super) fn inspected(&self) -> Result<(Dataset, Vec<String>), DatabaseError> {
+        // One transaction: a generator may be at work on the file.
+        let transaction = self.connection.unchecked_transaction().map_err(|s| sqlite(&self.path, s))?;
+        let dataset = Dataset { records: self.records()?, provenance: self.provenance()? };
+        let mut damage = checksum::damage(&dataset);
+        let names = ["name", "unit", "meaning"];
+        let dictionary =
+            self.rows("SELECT name, unit, meaning FROM columns ORDER BY rowid", |row, number| {
+                let text = |column: usize| self.text(("columns", number, names[column]), row.get_ref(column));
+                Ok([text(0)?, text(1)?, text(2)?])
+            })?;
+        damage.extend(checksum::dictionary_damage(&dataset.provenance, &dictionary));
+        transaction.finish().map_err(|s| sqlite(&self.path, s))?;
+        Ok((dataset, damage))
+    }
+
+    /// Rows in plan order and provenance, which are what was written.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Damaged`]; those of [`Store::records`].
+    pub(super) fn dataset(&self) -> Result<Dataset, DatabaseError> {
+        let (dataset, damage) = self.inspected()?;
+        super::undamaged(&self.path, dataset, &damage)
+    }
+
+    /// The rows of a query, each by `read`, which gets its number from 1.
+    fn rows<T>(
+        &self,
+        query: &str,
+        mut read: impl FnMut(&Row, u64) -> Result<T, DatabaseError>,
+    ) -> Result<Vec<T>, DatabaseError> {
+        let failed = |source| sqlite(&self.path, source);
+        let mut statement = self.connection.prepare(query).map_err(failed)?;
+        let mut rows = statement.query([]).map_err(failed)?;
+        let mut found = Vec::new();
+        while let Some(row) = rows.next().map_err(failed)? {
+            found.push(read(row, found.len() as u64 + 1)?);
+        }
+        Ok(found)
+    }
+
+    fn text(&self, place: Place, value: rusqlite::Result<ValueRef>) -> Result<String, DatabaseError> {
+        let read = value.map_err(|error| error.to_string()).and_then(String::read);
+        read.map_err(|problem| self.value(place, problem))
+    }
+
+    fn value(&self, (table, row, column): Place, problem: String) -> DatabaseError {
+        DatabaseError::Value { path: self.path.clone(), table, row, column, problem }
     }
 }
+
+/// Table, row from 1, column.
+type Place = (&'static str, u64, &'static str);
 
 pub(super) fn sqlite(path: &Path, source: rusqlite::Error) -> DatabaseError {
     DatabaseError::Sqlite { path: path.to_path_buf(), source }
@@ -203,35 +276,18 @@ fn write_rows(transaction: &rusqlite::Transaction, records: &[Record]) -> rusqli
     let marks = vec!["?"; COLUMNS.len()].join(", ");
     let mut statement = transaction.prepare(&format!("INSERT INTO states VALUES ({marks})"))?;
     for record in records {
-        statement.execute(params_from_iter(values(record)))?;
+        statement.execute(params_from_iter(record.values()))?;
     }
     Ok(())
 }
 
-/// The fields of a record in column order. Goes through serde, so that field names stand in one place.
-fn values(record: &Record) -> Vec<Value> {
-    let fields = serde_json::json!(record);
-    let value = |column: &Column| match &fields[column.0] {
-        serde_json::Value::String(text) => Value::Text(text.clone()),
-        serde_json::Value::Number(n) if column.1 == "INTEGER" => {
-            n.as_i64().map_or(Value::Null, Value::Integer)
-        }
-        serde_json::Value::Number(n) => n.as_f64().map_or(Value::Null, Value::Real),
-        _ => Value::Null,
-    };
-    COLUMNS.iter().map(value).collect()
-}
-
-fn row_as_json(row: &rusqlite::Row, names: &[&str]) -> rusqlite::Result<serde_json::Value> {
-    let mut fields = serde_json::Map::new();
-    for (k, name) in names.iter().enumerate() {
-        let value = match row.get::<_, Value>(k)? {
-            Value::Integer(integer) => integer.into(),
-            Value::Real(real) => real.into(),
-            Value::Text(text) => text.into(),
-            _ => serde_json::Value::Null,
-        };
-        fields.insert((*name).to_string(), value);
-    }
-    Ok(fields.into())
+fn write_provenance(
+    transaction: &rusqlite::Transaction,
+    provenance: &BTreeMap<String, String>,
+) -> rusqlite::Result<()> {
+    let mut statement = transaction.prepare(
+        "INSERT INTO provenance VALUES (?1, ?2) ON CONFLICT (key) DO UPDATE SET value = excluded.value WHERE value <> \
+         excluded.value",
+    )?;
+    provenance.iter().try_for_each(|(key, value)| statement.execute([key, value]).map(|_| ()))
 }

@@ -21,15 +21,18 @@ impl Points<'_> {
             let [a, b] = self.inputs[k];
             ((a - at[0]) / scale[0]).hypot((b - at[1]) / scale[1])
         };
-        let mut order: Vec<usize> = (0..self.inputs.len()).collect();
-        order.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)).then(a.cmp(&b)));
-        let near = &order[..NEIGHBOURS];
+        let mut order: Vec<(f64, usize)> = (0..self.inputs.len()).map(|k| (distance(k), k)).collect();
+        let nearer = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        order.select_nth_unstable_by(NEIGHBOURS - 1, nearer);
+        let near = &mut order[..NEIGHBOURS];
+        near.sort_by(nearer);
+        let near: Vec<usize> = near.iter().map(|(_, k)| *k).collect();
         let basis = |k: usize| {
             let [a, b] = self.inputs[k];
             [1.0, (a - at[0]) / scale[0], (b - at[1]) / scale[1]]
         };
         let mut normal = [[0.0; 4]; 3];
-        for &k in near {
+        for &k in &near {
             let row = basis(k);
             for (i, equation) in normal.iter_mut().enumerate() {
                 (0..3).for_each(|j| equation[j] += row[i] * row[j]);

@@ -12,10 +12,11 @@ mod local;
 mod noise;
 mod statistics;
 
-use super::Dataset;
+use super::{DatabaseError, Dataset};
 pub use laws::Violation;
 pub use noise::Noise;
 pub use statistics::{Mean, SizeEffect};
+use std::path::Path;
 
 /// What a check has found.
 #[derive(Clone, Debug)]
@@ -31,15 +32,35 @@ pub struct Report {
     pub noise: Vec<Noise>,
 }
 
+/// Violations that a message names.
+const NAMED: usize = 3;
+
+/// Every law that does not hold.
+pub fn violations(dataset: &Dataset) -> Vec<Violation> {
+    let mut violations = laws::violations(dataset);
+    violations.extend(statistics::symmetry(&dataset.records).iter().filter_map(Mean::violation));
+    violations
+}
+
+/// Refuses a dataset on which a law does not hold; `path` names it.
+///
+/// # Errors
+/// [`DatabaseError::Unsound`] with the first violations.
+pub fn sound(path: &Path, dataset: &Dataset) -> Result<(), DatabaseError> {
+    let violations = violations(dataset);
+    if violations.is_empty() {
+        return Ok(());
+    }
+    let first: Vec<String> = violations.iter().take(NAMED).map(ToString::to_string).collect();
+    Err(DatabaseError::Unsound { path: path.to_path_buf(), count: violations.len(), first: first.join("; ") })
+}
+
 /// Checks a database.
 pub fn check(dataset: &Dataset) -> Report {
-    let mut violations = laws::violations(dataset);
-    let symmetry = statistics::symmetry(&dataset.records);
-    violations.extend(symmetry.iter().filter_map(Mean::violation));
     Report {
         rows: dataset.records.len(),
-        violations,
-        symmetry,
+        violations: violations(dataset),
+        symmetry: statistics::symmetry(&dataset.records),
         sizes: statistics::sizes(&dataset.records),
         noise: noise::noise(&dataset.records),
     }

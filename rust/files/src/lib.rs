@@ -1,0 +1,43 @@
+//! Files: written whole or not at all, read up to a limit, and made by one program at a time.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`part`] | a file in the making, beside the one that it will replace |
+//! | [`lock`] | one program at a time on a file |
+//! | [`limit`] | reading no more than was meant |
+#![forbid(unsafe_code)]
+
+pub mod limit;
+pub mod lock;
+pub mod part;
+
+pub use limit::{MOST_BYTES, read, read_text};
+pub use lock::Lock;
+pub use part::{Part, check_target, write};
+
+use std::io;
+use std::path::PathBuf;
+
+/// What can be wrong with a file, and which.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    #[error(
+        "{file}: is a symbolic link to {target}, which is neither followed nor replaced; name the file itself or remove the \
+         link", file = file.display(), target = target.display()
+    )]
+    Link { file: PathBuf, target: PathBuf },
+    #[error("{file}: is {kind}, allowed: a regular file, or a name that is not there yet", file = file.display())]
+    Kind { file: PathBuf, kind: &'static str },
+    #[error(
+        "{file}: {holder} is at work on it; wait until that has ended", file = file.display()
+    )]
+    Held { file: PathBuf, holder: String },
+    #[error("cannot write {file}: {source}", file = file.display())]
+    Write { file: PathBuf, source: io::Error },
+    #[error("cannot read {file}: {source}", file = file.display())]
+    Read { file: PathBuf, source: io::Error },
+    #[error("cannot read {file}: it holds more than {limit} bytes, the most that is read", file = file.display())]
+    Large { file: PathBuf, limit: u64 },
+    #[error("cannot read {file}: byte {byte} is not UTF-8 text", file = file.display())]
+    Text { file: PathBuf, byte: usize },
+}

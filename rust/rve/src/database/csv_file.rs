@@ -1,0 +1,188 @@
+//! Reading CSV: every column, every row once, and no more than was meant.
+
+use super::record::{COLUMNS, Record};
+use super::{DatabaseError, Dataset, checksum};
+use crate::message::shortened;
+use msdd_files::{FileError, MOST_BYTES};
+use rusqlite::types::ValueRef;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// Longest line [bytes]. A row has about 700.
+const LONGEST_LINE: u64 = 1 << 20;
+
+/// Provenance key of a file from before some columns were there: their names.
+pub(super) const ABSENT: &str = "absent_columns";
+
+/// Files that belong to a CSV, compressed or not: the column dictionary and the provenance.
+pub(super) fn beside(csv: &Path, what: &str) -> PathBuf {
+    let plain = if is_gzip_name(csv) { csv.with_extension("") } else { csv.to_path_buf() };
+    plain.with_extension(what)
+}
+
+pub(super) fn is_gzip_name(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "gz")
+}
+
+/// Rows and provenance, and what of them is not what was written.
+pub(super) fn inspected(path: &Path) -> Result<(Dataset, Vec<String>), DatabaseError> {
+    with_provenance(path, provenance(path)?)
+}
+
+/// The same with a given provenance.
+pub(super) fn with_provenance(
+    path: &Path,
+    provenance: BTreeMap<String, String>,
+) -> Result<(Dataset, Vec<String>), DatabaseError> {
+    let file =
+        std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
+    let absent: Vec<&str> = provenance.get(ABSENT).map_or("", String::as_str).split_whitespace().collect();
+    let records = records(path, file, &absent)?;
+    let dataset = Dataset { records, provenance };
+    let damage = checksum::damage(&dataset);
+    Ok((dataset, damage))
+}
+
+pub(super) fn provenance(csv: &Path) -> Result<BTreeMap<String, String>, DatabaseError> {
+    let origin = beside(csv, "provenance.json");
+    let text = match msdd_files::read_text(&origin) {
+        Err(FileError::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
+            let problem =
+                format!("there is no {} beside it, which says where the rows come from", origin.display());
+            return Err(DatabaseError::Format { path: csv.to_path_buf(), problem });
+        }
+        text => text?,
+    };
+    serde_json::from_str(&text).map_err(|error| {
+        let problem = format!("it is no provenance of a CSV: {}", shortened(&error.to_string()));
+        DatabaseError::Format { path: origin, problem }
+    })
+}
+
+/// Columns that are not in the file.
+pub(super) fn missing(path: &Path) -> Result<Vec<&'static str>, DatabaseError> {
+    let file =
+        std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
+    let mut reader = reader(path, file)?;
+    let head = reader.byte_headers().map_err(csv_error(path))?;
+    let absent = |name: &&str| !head.iter().any(|known| known == name.as_bytes());
+    Ok(COLUMNS.iter().map(|column| column.0).filter(absent).collect())
+}
+
+/// Reads rows from a plain or compressed text; `path` names it in errors, `absent` the columns that need not be there.
+///
+/// # Errors
+/// [`DatabaseError::Format`] for columns that are missing or unknown, [`DatabaseError::Value`] for a value that is none of
+/// its column or a row that stands twice, [`DatabaseError::Csv`] for the rest.
+pub fn records(path: &Path, text: impl Read, absent: &[&str]) -> Result<Vec<Record>, DatabaseError> {
+    let failed = csv_error(path);
+    let mut reader = reader(path, text)?;
+    let columns = columns(path, reader.byte_headers().map_err(&failed)?, absent)?;
+    let (mut rows, mut places) = (Vec::new(), BTreeSet::new());
+    let mut fields = csv::ByteRecord::new();
+    while reader.read_byte_record(&mut fields).map_err(&failed)? {
+        let value = |(column, problem)| DatabaseError::Value {
+            path: path.to_path_buf(),
+            table: "the CSV",
+            row: rows.len() as u64 + 1,
+            column,
+            problem,
+        };
+        let row = Record::from_cells(|k| cell(k, columns[k].and_then(|k| fields.get(k)).unwrap_or_default()))
+            .map_err(value)?;
+        // A small file can unpack to the same row a million times.
+        if !places.insert((row.packing, row.ramp, row.stop)) {
+            return Err(value(("stop", format!("{} stands twice", row.name()))));
+        }
+        rows.push(row);
+    }
+    Ok(rows)
+}
+
+fn csv_error(path: &Path) -> impl Fn(csv::Error) -> DatabaseError + use<> {
+    let path = path.to_path_buf();
+    move |source| DatabaseError::Csv { path: path.clone(), source }
+}
+
+/// The lines of a plain or compressed text.
+fn reader<'a>(
+    path: &Path,
+    mut text: impl Read + 'a,
+) -> Result<csv::Reader<Bounded<Box<dyn Read + 'a>>>, DatabaseError> {
+    let mut start = Vec::new();
+    let failed = csv_error(path);
+    text.by_ref().take(2).read_to_end(&mut start).map_err(|error| failed(error.into()))?;
+    let packed = start == [0x1f, 0x8b];
+    let whole = io::Cursor::new(start).chain(text);
+    let plain: Box<dyn Read + 'a> =
+        if packed { Box::new(flate2::read::GzDecoder::new(whole)) } else { Box::new(whole) };
+    Ok(csv::Reader::from_reader(Bounded { text: plain, left: MOST_BYTES, line: 0 }))
+}
+
+/// Where each column stands.
+fn columns(
+    path: &Path,
+    head: &csv::ByteRecord,
+    absent: &[&str],
+) -> Result<Vec<Option<usize>>, DatabaseError> {
+    let problem = |problem| DatabaseError::Format { path: path.to_path_buf(), problem };
+    let known = |name: &[u8]| COLUMNS.iter().any(|column| column.0.as_bytes() == name);
+    let mut seen = BTreeSet::new();
+    if let Some(name) = head.iter().find(|name| !known(name) || !seen.insert(name.to_vec())) {
+        let name = shortened(&String::from_utf8_lossy(name));
+        return Err(problem(format!("column '{name}' is unknown or stands twice")));
+    }
+    let place = |column: &super::record::Column| {
+        let found = head.iter().position(|name| name == column.0.as_bytes());
+        match found.is_some() || absent.contains(&column.0) {
+            true => Ok(found),
+            false => Err(problem(format!(
+                "column {} is missing; every column is needed, unless the rows are of an older program and sealed without",
+                column.0
+            ))),
+        }
+    };
+    COLUMNS.iter().map(place).collect()
+}
+
+/// A field as a value of the kind that its column has; an empty one is absent.
+fn cell(column: usize, field: &[u8]) -> Result<ValueRef<'_>, String> {
+    let number = |allowed: &str| {
+        let found = shortened(&String::from_utf8_lossy(field));
+        format!("'{found}', allowed: {allowed}")
+    };
+    let text = || std::str::from_utf8(field).unwrap_or_default();
+    match (field, COLUMNS[column].1) {
+        ([], _) => Ok(ValueRef::Null),
+        (_, "INTEGER") => text().parse().map(ValueRef::Integer).map_err(|_| number("a whole number")),
+        (_, "REAL") => text().parse().map(ValueRef::Real).map_err(|_| number("a finite number")),
+        _ => Ok(ValueRef::Text(field)),
+    }
+}
+
+/// A text that ends in an error when it, or a line of it, is longer than any table is.
+struct Bounded<R> {
+    text: R,
+    /// Bytes that may still come.
+    left: u64,
+    /// Bytes since the end of the last line.
+    line: u64,
+}
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.text.read(buffer)?;
+        let last = buffer[..count].iter().rposition(|byte| *byte == b'\n');
+        self.line = last.map_or(self.line + count as u64, |end| (count - 1 - end) as u64);
+        if self.line > LONGEST_LINE {
+            return Err(io::Error::other(format!("a line has more than {LONGEST_LINE} bytes")));
+        }
+        let Some(left) = self.left.checked_sub(count as u64) else {
+            let problem = format!("unpacked, it has more than {MOST_BYTES} bytes, the most that is read");
+            return Err(io::Error::other(problem));
+        };
+        self.left = left;
+        Ok(count)
+    }
+}

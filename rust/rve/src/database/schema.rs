@@ -1,0 +1,90 @@
+//! What an SQLite file must be before anything of it is read: our tables and nothing else, and sound by SQLite's own check.
+
+use super::record::COLUMNS;
+use rusqlite::limits::Limit;
+use rusqlite::types::ValueRef;
+use rusqlite::{Connection, OpenFlags};
+use std::path::Path;
+use std::sync::OnceLock;
+
+/// Longest value [bytes]: far more than a plan has.
+const LONGEST: i32 = 1 << 24;
+
+/// The statements that make the tables.
+pub(super) fn tables() -> String {
+    let columns: Vec<String> = COLUMNS.iter().map(|c| format!("{} {}", c.0, c.1)).collect();
+    format!(
+        "CREATE TABLE states ({}, PRIMARY KEY (packing, ramp, stop));
+             CREATE TABLE provenance (key TEXT PRIMARY KEY, value TEXT NOT NULL);
+             CREATE TABLE columns (name TEXT PRIMARY KEY, unit TEXT NOT NULL, meaning TEXT NOT NULL);",
+        columns.join(", ")
+    )
+}
+
+/// Opens a file. Names are names of files: `:memory:` and `file:x?mode=memory` mean nothing else to us.
+pub(super) fn open(path: &Path, create: bool) -> rusqlite::Result<Connection> {
+    let mut flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    if create {
+        flags |= OpenFlags::SQLITE_OPEN_CREATE;
+    }
+    // An absolute path has none of the beginnings that SQLite takes for something else.
+    let path = std::path::absolute(path).map_err(|_| rusqlite::Error::InvalidPath(path.to_path_buf()))?;
+    let connection = Connection::open_with_flags(path, flags)?;
+    connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, LONGEST)?;
+    // Nothing that stands in a stranger's file is run.
+    connection.execute_batch("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;")?;
+    Ok(connection)
+}
+
+/// A table, an index or what else a file declares: type, name, table and statement.
+type Entry = [String; 4];
+
+fn entries(connection: &Connection) -> rusqlite::Result<Vec<Entry>> {
+    let mut statement =
+        connection.prepare("SELECT type, name, tbl_name, sql FROM sqlite_master ORDER BY type, name")?;
+    let text = |value: ValueRef| match value {
+        ValueRef::Text(text) => String::from_utf8_lossy(text).into_owned(),
+        _ => String::new(),
+    };
+    let entry = |row: &rusqlite::Row| -> rusqlite::Result<Entry> {
+        let mut entry = Entry::default();
+        for (k, field) in entry.iter_mut().enumerate() {
+            *field = text(row.get_ref(k)?);
+        }
+        Ok(entry)
+    };
+    statement.query_map([], entry)?.collect()
+}
+
+fn expected() -> rusqlite::Result<&'static [Entry]> {
+    static EXPECTED: OnceLock<Vec<Entry>> = OnceLock::new();
+    if let Some(known) = EXPECTED.get() {
+        return Ok(known);
+    }
+    let connection = Connection::open_in_memory()?;
+    connection.execute_batch(&tables())?;
+    let made = entries(&connection)?;
+    Ok(EXPECTED.get_or_init(|| made))
+}
+
+/// Whether nothing was ever stored there.
+pub(super) fn is_empty(connection: &Connection) -> rusqlite::Result<bool> {
+    Ok(entries(connection)?.is_empty())
+}
+
+/// What is wrong, if anything: tables are compared by their names and statements before one is read, so that a view that
+/// never ends is not begun.
+pub(super) fn problem(connection: &Connection) -> rusqlite::Result<Option<String>> {
+    let (found, expected) = (entries(connection)?, expected()?);
+    if let Some([kind, name, ..]) = found.iter().find(|entry| !expected.contains(entry)) {
+        let name = crate::message::shortened(name);
+        return Ok(Some(format!("{kind} {name} is none of a database or not as it was made")));
+    }
+    if let Some([kind, name, ..]) = expected.iter().find(|entry| !found.contains(entry)) {
+        return Ok(Some(format!("{kind} {name} is missing")));
+    }
+    let report = connection.query_row("PRAGMA integrity_check(1)", [], |row| {
+        Ok(String::from_utf8_lossy(row.get_ref(0)?.as_bytes().unwrap_or_default()).into_owned())
+    })?;
+    Ok((report != "ok").then(|| crate::message::shortened(&report)))
+}

@@ -1,0 +1,128 @@
+//! Mutations of texts and files: the same in every run. MSDD_FUZZ sets their number a reader; a million takes minutes.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+pub struct Random(u64);
+
+impl Random {
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    pub fn below(&mut self, end: usize) -> usize {
+        (self.next() % end.max(1) as u64) as usize
+    }
+}
+
+/// What a number or a value may be replaced by: edges of types, of ranges, and of belief. None makes a long plan.
+const TOKENS: [&str; 30] = [
+    "0",
+    "-0.0",
+    "1",
+    "-1",
+    "2",
+    "0.5",
+    "0.12",
+    "-0.5",
+    "1e-3",
+    "1e3",
+    "1e-300",
+    "5e-324",
+    "1e300",
+    "-1e300",
+    "1.7976931348623157e308",
+    "1e999",
+    "4294967296",
+    "9223372036854775807",
+    "18446744073709551615",
+    "-9223372036854775808",
+    "NaN",
+    "nan",
+    "inf",
+    "null",
+    "true",
+    "\"\"",
+    "[]",
+    "{}",
+    "[0,0]",
+    "",
+];
+
+/// Start and end of a number of the text at or after a place of it.
+fn number(text: &[u8], from: usize) -> Option<(usize, usize)> {
+    let part = |byte: &u8| byte.is_ascii_digit() || b"+-.eE".contains(byte);
+    let start = from + text.get(from..)?.iter().position(u8::is_ascii_digit)?;
+    let start = start - text[..start].iter().rev().take_while(|byte| part(byte)).count();
+    Some((start, start + text[start..].iter().take_while(|byte| part(byte)).count()))
+}
+
+/// One to four changes: of a text mostly to its numbers, of other files to bits and runs of bytes.
+pub fn mutated(bytes: &[u8], other: &[u8], is_text: bool, random: &mut Random) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    for _ in 0..=random.below(4) {
+        let (at, length) = (random.below(bytes.len()), random.below(40));
+        let end = (at + length).min(bytes.len());
+        match random.below(if is_text { 12 } else { 6 }) {
+            0 => bytes.truncate(at),
+            1 => drop(bytes.drain(at..end)),
+            2 => {
+                let copy = bytes[at..end].to_vec();
+                bytes.splice(at..at, copy);
+            }
+            3 if !bytes.is_empty() => bytes[at] ^= 1 << random.below(8),
+            4 => {
+                let from = random.below(other.len());
+                let part = other[from..(from + length).min(other.len())].to_vec();
+                bytes.splice(at..end, part);
+            }
+            5 => bytes[at..end].fill(random.next() as u8),
+            _ => {
+                if let Some((start, end)) = number(&bytes, at) {
+                    bytes.splice(start..end, TOKENS[random.below(TOKENS.len())].bytes());
+                }
+            }
+        }
+    }
+    bytes
+}
+
+/// Tries a corpus and mutations of it; `check` says whether an input was accepted, or why it is a finding, as a panic is. The
+/// input of a finding is written to `folder`. Returns how many were accepted.
+pub fn fuzz(
+    (name, folder): (&str, &Path),
+    corpus: &[Vec<u8>],
+    usual: usize,
+    mut check: impl FnMut(&[u8]) -> Result<bool, String>,
+) -> usize {
+    let wanted = std::env::var("MSDD_FUZZ").ok().and_then(|text| text.parse().ok());
+    let count = wanted.unwrap_or(usual);
+    let mut random = Random(7);
+    let mut accepted = 0;
+    for trial in 0..corpus.len() + count {
+        let input = match corpus.get(trial) {
+            Some(bytes) => bytes.clone(),
+            None => {
+                let [one, other] = [0, 1].map(|_| &corpus[random.below(corpus.len())]);
+                mutated(one, other, std::str::from_utf8(one).is_ok(), &mut random)
+            }
+        };
+        let result =
+            catch_unwind(AssertUnwindSafe(|| check(&input))).unwrap_or_else(|_| Err("panic".to_string()));
+        match result {
+            Ok(good) => accepted += usize::from(good),
+            Err(why) => {
+                let file = folder.join(format!("fuzz-{name}"));
+                std::fs::write(&file, &input).expect("writable");
+                panic!("trial {trial} of {name}: {why}; the input is in {}", file.display());
+            }
+        }
+    }
+    println!("{name}: {count} mutations, {accepted} accepted");
+    accepted
+}

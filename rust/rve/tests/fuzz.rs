@@ -1,0 +1,126 @@
+//! Readers of states, plans, databases, CSV and offenders under mutations: no panic, and what is accepted is sound.
+
+#[path = "common/mutations.rs"]
+mod mutations;
+
+use msdd_rve::database::{
+    Dataset, Effort, Offenders, Plan, Run, check, csv_file, export_csv, generate, read,
+};
+use msdd_rve::state::{from_json, to_file, to_json};
+use msdd_rve::{Boundary, Material, PackingSpec, pack};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+const PLAN: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\
+    [[thermal]]\ndiscs = 20\nporosities = [0.16]\ncompressions = [\"isotropic\"]\nrepeats = 2\nstops = [0.01]\n\
+    [[wall_shear]]\ndiscs = 30\nporosities = [0.14]\ncompressions = [\"horizontal\"]\nrepeats = 1\nstops = [0.002]\n";
+const OFFENDERS: &str = "{\"schema\": \"msdd-offenders-1\", \"model_hash\": \"00\", \"state_names\": [\"porosity\", \
+    \"fabric_index\"], \"rows\": [{\"state\": [0.078, 0.0], \"strain\": 1e-5, \"column\": \"porosity\", \"side\": \"below\", \
+    \"distance\": 0.03, \"cell\": 0, \"time\": 0.1}]}";
+
+fn folder() -> &'static Path {
+    Path::new(env!("CARGO_TARGET_TMPDIR"))
+}
+
+fn text(bytes: &[u8]) -> Option<&str> {
+    std::str::from_utf8(bytes).ok()
+}
+
+/// A database, sealed and as an older program's, in a folder of its own.
+fn databases(name: &str) -> [PathBuf; 2] {
+    let folder = folder().join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    let [sealed, older] = ["sealed.msdd", "older.msdd"].map(|name| folder.join(name));
+    let plan = Plan::parse(PLAN, "plan").unwrap();
+    generate(&plan, &sealed, &Run::default(), |_| ControlFlow::Continue(())).unwrap();
+    std::fs::copy(&sealed, &older).unwrap();
+    let connection = rusqlite::Connection::open(&older).unwrap();
+    connection.execute("DELETE FROM provenance WHERE key LIKE '%_sha256'", []).unwrap();
+    [sealed, older]
+}
+
+fn bytes(files: &[PathBuf]) -> Vec<Vec<u8>> {
+    files.iter().map(|file| std::fs::read(file).unwrap()).collect()
+}
+
+/// An accepted state's own text is the same state.
+#[test]
+fn states() {
+    let spec = PackingSpec { discs: 12, porosity: 0.16, ..PackingSpec::default() };
+    let periodic = PackingSpec { boundary: Boundary::Periodic, discs: 30, ..spec };
+    let corpus = [spec, periodic].map(|spec| {
+        let packed = pack(&spec, &Material::default()).unwrap().simulation;
+        [to_json(&packed).unwrap(), to_file(&packed).unwrap()].map(String::into_bytes)
+    });
+    let accepted = mutations::fuzz(("states", folder()), corpus.as_flattened(), 2000, |input| {
+        let Some(Ok(state)) = text(input).map(from_json) else { return Ok(false) };
+        let own = to_file(&state).map_err(|error| error.to_string())?;
+        let again = from_json(&own).map_err(|error| format!("its own text is refused: {error}"))?;
+        if to_file(&again).is_ok_and(|text| text == own) {
+            Ok(true)
+        } else {
+            Err("its text changes".to_string())
+        }
+    });
+    assert!(accepted > 4);
+}
+
+#[test]
+fn plans() {
+    let accepted = mutations::fuzz(("plans", folder()), &[PLAN.as_bytes().to_vec()], 2000, |input| {
+        let Some(Ok(plan)) = text(input).map(|text| Plan::parse(text, "plan")) else { return Ok(false) };
+        let sound =
+            plan.jobs().iter().all(|job| job.spec.discs > 0 && job.stops.iter().all(|s| s.is_finite()));
+        if sound { Ok(true) } else { Err("its packings cannot be made".to_string()) }
+    });
+    assert!(accepted > 10);
+}
+
+/// Of a sealed database only what was written is accepted; of an older one numbers, whose laws can be looked at.
+#[test]
+fn sqlite_files() {
+    let files = databases("fuzz-sqlite");
+    let whole = read(&files[0]).unwrap();
+    let file = files[0].with_file_name("mutated.msdd");
+    let accepted = mutations::fuzz(("databases", folder()), &bytes(&files), 500, |input| {
+        std::fs::write(&file, input).map_err(|error| error.to_string())?;
+        let Ok(found) = read(&file) else { return Ok(false) };
+        if found.has_checksum() && found != whole {
+            return Err("its checksums agree, but it is another one".to_string());
+        }
+        check::violations(&found);
+        Ok(true)
+    });
+    assert!(accepted > 10);
+}
+
+#[test]
+fn csv_files() {
+    let [sealed, _] = databases("fuzz-csv");
+    let whole = read(&sealed).unwrap();
+    let files = ["a.csv", "b.csv.gz"].map(|name| sealed.with_file_name(name));
+    for file in &files {
+        export_csv(&sealed, file, None).unwrap();
+    }
+    let accepted = mutations::fuzz(("csv", folder()), &bytes(&files), 2000, |input| {
+        let Ok(records) = csv_file::records(Path::new("a.csv"), input, &[]) else { return Ok(false) };
+        check::violations(&Dataset { records, provenance: whole.provenance.clone() });
+        Ok(true)
+    });
+    assert!(accepted > 10);
+}
+
+#[test]
+fn offenders() {
+    let like = Plan::parse(PLAN, "plan").unwrap();
+    let accepted =
+        mutations::fuzz(("offenders", folder()), &[OFFENDERS.as_bytes().to_vec()], 2000, |input| {
+            let Some(Ok(offenders)) = text(input).map(|text| Offenders::parse(text, "offenders")) else {
+                return Ok(false);
+            };
+            let plan = offenders.plan(&like, Effort { discs: 20, repeats: 1 });
+            plan.map(|plan| !plan.jobs().is_empty())
+                .map_err(|error| format!("accepted, but no plan: {error}"))
+        });
+    assert!(accepted > 10);
+}
