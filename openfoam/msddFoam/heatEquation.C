@@ -69,6 +69,10 @@ Foam::heatEquation::heatEquation
     patchHeat_(mesh_.boundary().size(), Zero),
     sourceHeat_(0)
 {
+    // The matrix has set walls that follow the time to that of the start, and
+    // marked them: without this they would stay there for the first step
+    T_.correctBoundaryConditions();
+
     if (aligned_)
     {
         findAreas();

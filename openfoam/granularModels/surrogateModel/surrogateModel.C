@@ -46,11 +46,11 @@ static const wordList& ownNames()
 {
     static const wordList names
     ({
-        "D", "Kxx", "Kyy", "T", "areaRatio", "bulkDensity", "conductivity",
-        "granularProperties", "inRegion", "initialStress",
-        "initialTemperature", "leastThermalStrain", "mostThermalStrain",
-        "msddFoam", "nodeDisplacement", "onlineRve", "particleDensity",
-        "polyMesh", "pressure", "shearStress", "spread", "stress",
+        "areaRatio", "bulkDensity", "conductivity", "D", "granularProperties",
+        "initialStress", "initialTemperature", "inRegion", "Kxx", "Kyy",
+        "leastThermalStrain", "mostThermalStrain", "msddFoam",
+        "nodeDisplacement", "onlineRve", "particleDensity", "polyMesh",
+        "pressure", "shearStress", "spread", "strainLoops", "stress", "T",
         "thermalStrain", "thermalStrainIncrement", "uniform", "wallTraction"
     });
     return names;

@@ -49,9 +49,9 @@ check "plugin: the summary names it" grep -q 'medium.so' postProcessing/msddFoam
 
 foul() { # what, message, macros: a plug-in that has to be refused
     compiled medium.so rust/plugin/tests/plain.c -DHAS_ALL "${@:3}"
+    rm -rf 0.* 1 # from the start
     check "plugin: refused: $1" refused "$2"
 }
-rm -rf 0.* 1 # from the start
 foul "porosity that leaves its range" ', allowed: 0 to 1' -DANSWERS='step->next_state[0][0]-=1e5*step->thermal_strain[0]'
 foul "tension" 'stress_yy[3] = -7, allowed: 0 to 1e30: compression' -DANSWERS='step->stress_yy[3]=-7'
 foul "a path for a name" 'state_names[2] = "../../escaped", allowed' -DNAMES='"porosity","fabric_index","../../escaped"'

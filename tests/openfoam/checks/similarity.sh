@@ -90,9 +90,13 @@ restarts() {
     logged msddFoam
     halved halves
     sed -i 's/strainTolerance 2e-3/strainTolerance 1e-3/' constant/granularProperties
-    check "refused: another tolerance in a restart" refused 'strain_tolerance\": 0.002'
+    check "refused: another tolerance in a restart" refused "Setting 'modelCoeffs' is "
+    check "accepted, but the boxes are of another tolerance: refused" \
+        bash -c "! msddFoam -accept modelCoeffs > log.bad 2>&1 && grep -qF 'strain_tolerance\\\": 0.002' log.bad"
     rm -rf 1 0.5/onlineRve.json
-    check "refused: a restart without its boxes" refused 'onlineRve.json" is missing'
+    sed -i 's/strainTolerance 1e-3/strainTolerance 2e-3/' constant/granularProperties
+    logged msddFoam
+    check "a restart without its boxes goes back to the start" grep -q 'Time 0.5 is skipped: missing: onlineRve.json' log
 
     boxed halves-second "$(history 2e-3)"
     scheme 'timeScheme secondOrder; temperatureTolerance 2;'
@@ -127,7 +131,7 @@ processes() { # the serial answer, and a restart in the folders of the processes
     rm -rf 1
     logged reconstructPar -latestTime
     controls 'endTime 1.5;'
-    check "refused: a serial run that goes on from two processes" refused 'onlineRve.json" is missing'
+    check "refused: a serial run that goes on from two processes" refused 'missing: onlineRve.json'
 }
 
 reordered() { # the block turned by half a turn: the last cell is the first
