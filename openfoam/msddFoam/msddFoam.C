@@ -59,6 +59,9 @@ Usage
 #include "timeScheme.H"
 #include "restartTime.H"
 #include "stepWatch.H"
+
+#include <iostream>
+#include <unistd.h>
 #include "runSummary.H"
 
 // Written by msdd report --solver-table
@@ -67,6 +70,26 @@ static const char* const cheapestConfigurations =
     ;
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+//- OpenFOAM takes blanks out of paths, or ends without saying why
+static void checkPaths(const int argc, char* argv[])
+{
+    char here[4096] = "";
+    std::string path(::getcwd(here, sizeof here) ? here : "");
+    for (int i = 1; i + 1 < argc; i++)
+    {
+        path = string(argv[i]) == "-case" ? argv[i + 1] : path;
+    }
+    if (path.find_first_of(" \t\"'") != std::string::npos)
+    {
+        std::cerr
+            << "--> FOAM FATAL ERROR: The path of the case is " << path
+            << ", allowed: no blanks and no quotation marks, which OpenFOAM"
+            << " cannot work with\n";
+        std::exit(1);
+    }
+}
+
 
 int main(int argc, char *argv[])
 {
@@ -102,6 +125,8 @@ int main(int argc, char *argv[])
             return 0;
         }
     }
+
+    checkPaths(argc, argv);
 
     #include "addCheckCaseOptions.H"
     #include "setRootCaseLists.H"

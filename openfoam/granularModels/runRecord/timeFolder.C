@@ -227,7 +227,11 @@ Foam::string Foam::timeFolder::missing() const
 {
     if (!hasRecord())
     {
-        return exists() ? damage_ : string("it is not there");
+        return
+            !exists() ? string("it is not there")
+          : !holds("uniform/time") && !holds("T")
+          ? string(path_.name() + "/T is missing")
+          : damage_;
     }
     fileNameList lost;
     for (const auto& item : listed())

@@ -53,7 +53,12 @@ impl Dictionary {
         if !output.status.success() {
             let text = String::from_utf8_lossy(&output.stderr);
             let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-            return Err(failed(format!("foamDictionary: {}", lines.join(" "))));
+            let said = if lines.is_empty() {
+                "no message; does the file include itself?".into()
+            } else {
+                lines.join(" ")
+            };
+            return Err(failed(format!("foamDictionary ended with {}: {said}", output.status)));
         }
         Self::parse(file, &String::from_utf8_lossy(&output.stdout))
     }

@@ -100,5 +100,4 @@ cp -r 0 16 constant system "$work/cycle-restart"
 cd "$work/cycle-restart"
 logged foamDictionary -entry endTime -set 24 system/controlDict
 logged msddFoam
-e=$(difference ../cycle/24 24)
-check "cycle: restart after two cycles: difference after three $e <= 1e-6" below "$e" 1e-6
+check "cycle: restart after two cycles: the same bytes after three" diff -rq ../cycle/24 24

@@ -96,8 +96,18 @@ undershoot() {
     awk '/^\($/ && !done { print; getline; print -0.5; done = 1; next } { print }' 0.1/T > T.new
     mv T.new 0.1/T
     controls 'endTime 0.2;'
-    logged msddFoam
-    check "an undershoot of half a Kelvin: the restart goes on" test -d 0.2
+    logged msddFoam -accept files
+    check "an undershoot of half a Kelvin: the restart goes on from it" \
+        grep -q 'Accepted: time 0.1 as it is. not as written: T' log
+}
+
+blanks() {
+    rm -rf "$work/a case"
+    cp -r "$work/bad" "$work/a case"
+    cd "$work/a case"
+    check "refused: a path with blanks" refused 'allowed: no blanks'
+    cd "$work"
+    check "refused: -case with blanks" bash -c '! msddFoam -case "$PWD/a case" > log.bad 2>&1 && grep -q "allowed: no blanks" log.bad'
 }
 
 bad_dictionaries
@@ -106,3 +116,4 @@ undershoot
 three_dimensional
 inside_out
 too_cold
+blanks
