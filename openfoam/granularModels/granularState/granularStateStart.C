@@ -16,7 +16,6 @@ License
 
 #include "granularState.H"
 #include "caseChecks.H"
-#include "OStringStream.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 
 #include <cmath>
@@ -54,42 +53,6 @@ static void checkField
                 << exit(FatalError);
         }
     }
-}
-
-static string shown(const scalar value)
-{
-    OStringStream os;
-    os.precision(15);
-    os << value;
-    return os.str();
-}
-
-
-//- The entries of a dictionary in one line, but for some, and for those of
-//- other types
-static string shown(const dictionary& dict, const wordHashSet& but)
-{
-    OStringStream os;
-    os.precision(15);
-    for (const entry& item : dict)
-    {
-        if (!but.found(item.keyword()) && !item.keyword().endsWith("Coeffs"))
-        {
-            os << item;
-        }
-    }
-    string text;
-    bool blank = true;
-    for (const char c : os.str())
-    {
-        const bool space = isspace(c);
-        if (!space || !blank)
-        {
-            text += space ? ' ' : c;
-        }
-        blank = space;
-    }
-    return text.empty() ? string("default") : text;
 }
 
 } // End namespace Foam
@@ -228,64 +191,6 @@ Foam::IOobject Foam::granularState::io
     (
         name, mesh_.time().timeName(), mesh_, read, IOobject::AUTO_WRITE
     );
-}
-
-
-Foam::dictionary Foam::granularState::settings() const
-{
-    const dictionary& surrogate = properties_.surrogateDict();
-    const word type(surrogate.get<word>("type"));
-    const word mechanics
-    (
-        properties_.lookupOrDefault<word>("mechanics", "none")
-    );
-    dictionary all;
-    const auto add = [&](const word& key, const string& value)
-    {
-        all.add(key, value);
-    };
-    const auto number = [&](const dimensionedScalar& value)
-    {
-        add(value.name(), shown(value.value()));
-    };
-
-    // Of the model what it answers, whatever its file is called
-    add("model", type + (model_->hash().empty() ? "" : " " + model_->hash()));
-    add
-    (
-        "modelCoeffs",
-        shown
-        (
-            surrogate.optionalSubDict(type + "Coeffs"),
-            wordHashSet
-            ({
-                "type", "model", "library", "hash", "smallestStrain",
-                "outOfRegion"
-            })
-        )
-    );
-    number(properties_.density());
-    number(properties_.youngModulus());
-    number(properties_.thermalConductivity());
-    number(properties_.heatCapacity());
-    number(properties_.thermalExpansion());
-    number(properties_.meanRadius());
-    add
-    (
-        "bulkDensity",
-        granularProperties::bulkDensityModelNames[properties_.bulkDensity()]
-    );
-    add("mechanics", mechanics);
-    add
-    (
-        "mechanicsCoeffs",
-        shown
-        (
-            properties_.subOrEmptyDict(mechanics + "Coeffs"),
-            wordHashSet({"residual", "maxIterations", "maxResidual"})
-        )
-    );
-    return all;
 }
 
 

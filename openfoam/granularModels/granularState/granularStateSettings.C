@@ -1,0 +1,126 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularState.H"
+#include "OStringStream.H"
+
+#include <cctype>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static string shown(const scalar value)
+{
+    OStringStream os;
+    os.precision(15);
+    os << value;
+    return os.str();
+}
+
+
+//- The entries of a dictionary in one line, but for some, and for those of
+//- other types
+static string shown(const dictionary& dict, const wordHashSet& but)
+{
+    OStringStream os;
+    os.precision(15);
+    for (const entry& item : dict)
+    {
+        if (!but.found(item.keyword()) && !item.keyword().endsWith("Coeffs"))
+        {
+            os << item;
+        }
+    }
+    string text;
+    bool blank = true;
+    for (const char c : os.str())
+    {
+        const bool space = std::isspace(c);
+        if (!space || !blank)
+        {
+            text += space ? ' ' : c;
+        }
+        blank = space;
+    }
+    return text.empty() ? string("default") : text;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::dictionary Foam::granularState::settings() const
+{
+    const dictionary& surrogate = properties_.surrogateDict();
+    const word type(surrogate.get<word>("type"));
+    const word mechanics
+    (
+        properties_.lookupOrDefault<word>("mechanics", "none")
+    );
+    dictionary all;
+    const auto add = [&](const word& key, const string& value)
+    {
+        all.add(key, value);
+    };
+    const auto number = [&](const dimensionedScalar& value)
+    {
+        add(value.name(), shown(value.value()));
+    };
+
+    // Of the model what it answers, whatever its file is called
+    add("model", type + (model_->hash().empty() ? "" : " " + model_->hash()));
+    add
+    (
+        "modelCoeffs",
+        shown
+        (
+            surrogate.optionalSubDict(type + "Coeffs"),
+            wordHashSet
+            ({
+                "type", "model", "library", "hash", "smallestStrain",
+                "outOfRegion"
+            })
+        )
+    );
+    number(properties_.density());
+    number(properties_.youngModulus());
+    number(properties_.thermalConductivity());
+    number(properties_.heatCapacity());
+    number(properties_.thermalExpansion());
+    number(properties_.meanRadius());
+    add
+    (
+        "bulkDensity",
+        granularProperties::bulkDensityModelNames[properties_.bulkDensity()]
+    );
+    add("mechanics", mechanics);
+    add
+    (
+        "mechanicsCoeffs",
+        shown
+        (
+            properties_.subOrEmptyDict(mechanics + "Coeffs"),
+            wordHashSet({"residual", "maxIterations", "maxResidual"})
+        )
+    );
+    return all;
+}
+
+
+// ************************************************************************* //
