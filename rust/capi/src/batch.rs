@@ -175,8 +175,11 @@ impl<'a> Columns<'a> {
         outside: &[bool; LANES],
         total: &Lanes,
     ) {
+        // Of a state near the largest number, far outside of every trained range, what comes next and how far outside it lies
+        // would overflow; the largest number says as much.
+        let largest = |lanes: &Lanes| lanes.map(|value| value.clamp(f64::MIN, f64::MAX));
         for (column, lanes) in self.next_state.iter().zip(&answer.state) {
-            column.write(first, lanes);
+            column.write(first, &largest(lanes));
         }
         for k in [0, 1] {
             self.conductivity[k].write(first, &si.conductivity(answer.conductivity[k]));
@@ -187,8 +190,7 @@ impl<'a> Columns<'a> {
         for (column, lanes) in
             self.outside.iter().zip(answer.outside[..self.state.len()].iter().chain(strain))
         {
-            // A deviator near the largest number lies infinitely far outside; the largest number says as much.
-            column.write(first, &lanes.map(|beyond| beyond.clamp(f64::MIN, f64::MAX)));
+            column.write(first, &largest(lanes));
         }
         let lane_state = |lane: usize| answer.state.map(|column| column[lane]);
         if self.tangent.iter().any(Output::is_wanted) {

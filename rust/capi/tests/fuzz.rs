@@ -413,7 +413,7 @@ fn batch(model: &Model, trial: usize) -> Result<bool, String> {
             && cells.outputs[2].iter().all(|s| *s >= 0.0);
         return match finite && grains {
             true => Ok(true),
-            false => Err(format!("finite {finite}, grains {grains}: {:?} for {before:?}", cells.outputs)),
+            false => Err(format!("finite {finite}, grains {grains}: {cells:?} for {before:?}")),
         };
     }
     let refused = [abi::MSDD_INVALID_ARGUMENT, abi::MSDD_NON_FINITE, abi::MSDD_PLUGIN];

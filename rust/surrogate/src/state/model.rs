@@ -234,6 +234,8 @@ mod tests {
         let mut strain = signed(0.1 * scale.min(9.0));
         state[PRESSURE][0] = 0.0;
         state[PRESSURE][1] = f64::MIN_POSITIVE;
+        // Column 4 is the deviator.
+        (state[PRESSURE][3], state[4][3]) = (-1e196, f64::MAX);
         strain[2] = 0.0;
         (state, strain)
     }

@@ -237,7 +237,10 @@ impl FeatureRanges {
         }
         if let Some(column) = variables.deviator() {
             let pressure = V::read(&state[PRESSURE]).at_least(V::zero());
-            (beyond::<V>(ratio, self.stress_ratio) * pressure).write(&mut outside[column]);
+            // Finite, so that it is nothing times no pressure.
+            let finite = Range { min: f64::MIN, max: f64::MAX };
+            let ratio = clamped(beyond::<V>(ratio, self.stress_ratio), finite);
+            (ratio * pressure).write(&mut outside[column]);
         }
         beyond::<V>(strain, self.thermal_strain).write(&mut outside[MAX_STATE]);
     }
