@@ -49,6 +49,24 @@ tolerance_counts() { # a tenth of the tolerance, less than a third of the error
     done
 }
 
+default_tolerance() { # is a share of the range of T: a hundredth of all temperatures, a hundred times the expansion, the same steps
+    local scale e
+    for scale in 1 100; do
+        changed "range-$scale"
+        controls 'adjustTimeStep yes; deltaT 1e-3; writeControl runTime; writeInterval 1;'
+        scheme 'timeScheme secondOrder;'
+        [ $scale = 1 ] || {
+            sed -i 's/uniform 50;/uniform 0.5;/; s/uniform 100;/uniform 1;/; s/uniform 70;/uniform 0.7;/' 0/T
+            grains 'thermalExpansion 0.1;'
+        }
+        mesh_is '12 6 1'
+        logged msddFoam
+    done
+    e=$(paste -d ' ' <(field ../range-1/1/T) <(field 1/T) | awk '{ e = $1 - 100*$2; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR == 72 ? w + 0 : "nan") }')
+    check "adaptive, default tolerance: $(grep -c '^Time' log) steps, T of a hundredth of the range differs by $e <= 1e-9 K" below "$e" 1e-9
+    check "adaptive, default tolerance: as many steps" test "$(grep -c '^Time' log)" = "$(grep -c '^Time' ../range-1/log)"
+}
+
 fixed_restart() {
     changed second
     scheme 'timeScheme secondOrder;'
@@ -73,3 +91,4 @@ rm -rf "$work"/{halves,two,second-half}
 adaptive_restart
 tolerance_counts
 fixed_restart
+default_tolerance
