@@ -16,6 +16,7 @@ License
 
 #include "granularState.H"
 #include "OStringStream.H"
+#include "SHA1.H"
 
 #include <cctype>
 
@@ -23,6 +24,9 @@ License
 
 namespace Foam
 {
+
+//- Length from which on a text is cut; OpenFOAM reads none of above 1024
+static const size_t longest = 600;
 
 static string shown(const scalar value)
 {
@@ -56,6 +60,12 @@ static string shown(const dictionary& dict, const wordHashSet& but)
             text += space ? ' ' : c;
         }
         blank = space;
+    }
+    if (text.size() > longest)
+    {
+        return
+            text.substr(0, longest/2) + "... (SHA-1 "
+          + SHA1(text).digest().str() + ")";
     }
     return text.empty() ? string("default") : text;
 }
