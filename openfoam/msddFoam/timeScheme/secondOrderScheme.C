@@ -43,9 +43,11 @@ static const scalar safety = 0.9;
 static const scalar largestGrowth = 3;
 static const scalar largestCut = 0.1;
 
-//- Tolerance of T over the range of T seen so far, and smallest step over the
-//- end time, unless they are given
+//- Tolerance of T over the range of T seen so far, over the largest T where
+//- there is no range to speak of (the linear solver leaves less than that), and
+//- smallest step over the end time, unless they are given
 static const scalar toleranceShare = 1e-3;
+static const scalar noiseShare = 1e-6;
 static const scalar smallestShare = 5e-11;
 
 //- How often a step is halved for the sake of the mechanics
@@ -140,7 +142,15 @@ Foam::scalar Foam::timeSchemes::secondOrder::tolerance() const
     const runRecord& record = grains_.record();
     const scalar least = min(record.leastT, gMin(T_.primitiveField()));
     const scalar most = max(record.mostT, gMax(T_.primitiveField()));
-    return max(toleranceShare*(most - least), VSMALL);
+    return max
+    (
+        max
+        (
+            toleranceShare*(most - least),
+            noiseShare*max(mag(most), mag(least))
+        ),
+        VSMALL
+    );
 }
 
 
