@@ -237,14 +237,14 @@ impl FeatureRanges {
         }
         if let Some(column) = variables.deviator() {
             let pressure = V::read(&state[PRESSURE]).at_least(V::zero());
-            // Finite, so that it is nothing times no pressure.
-            let finite = Range { min: f64::MIN, max: f64::MAX };
-            let ratio = clamped(beyond::<V>(ratio, self.stress_ratio), finite);
-            (ratio * pressure).write(&mut outside[column]);
+            (beyond::<V>(ratio, self.stress_ratio) * pressure).write(&mut outside[column]);
         }
         beyond::<V>(strain, self.thermal_strain).write(&mut outside[MAX_STATE]);
     }
 }
+
+/// Deviator that counts as the largest [-]: far above any, and far from overflow.
+const LARGEST_DEVIATOR: f64 = 1e150;
 
 /// q̃/p̃ of a block of states; 0 when the deviator is not carried. Tension counts as no pressure.
 #[inline(always)]
@@ -252,7 +252,9 @@ pub fn stress_ratios<V: Vector>(variables: Variables, state: &StateLanes) -> Lan
     let mut ratios = [0.0; LANES];
     if let Some(column) = variables.deviator() {
         let pressure = V::read(&state[PRESSURE]).at_least(V::zero());
-        (V::read(&state[column]) / (pressure + V::all(PRESSURE_FLOOR))).write(&mut ratios);
+        // Within bounds that no grains reach, so that the ratio is a number: infinity times no pressure is none.
+        let deviator = V::read(&state[column]).within(V::all(-LARGEST_DEVIATOR), V::all(LARGEST_DEVIATOR));
+        (deviator / (pressure + V::all(PRESSURE_FLOOR))).write(&mut ratios);
     }
     ratios
 }
