@@ -117,15 +117,16 @@ impl<'a> Columns<'a> {
             .chain(self.strain.iter().flatten())
             .chain(&self.virgin_share)
             .try_for_each(Input::check_finite)?;
-        let range = |column: &Input, allowed: &str, inside: fn(f64) -> bool| {
-            let Some(cell) = column.position(|value| !inside(value)) else { return Ok(()) };
+        // The lower end does not belong to these.
+        let range = |column: &Input, low: f64, high: f64, allowed: &str| {
+            let Some(cell) = column.position(|value| value <= low || value > high) else { return Ok(()) };
             Err(Failure::number(format!("{}[{cell}]", column.name), column.at(cell), allowed))
         };
         if let Some(column) = &self.total_thermal_strain {
-            range(column, "above -1, to 10", |total| total > -1.0 && total <= LARGEST_STRAIN)?;
+            range(column, -1.0, LARGEST_STRAIN, "above -1, to 10")?;
         }
         for column in self.strain.iter().flatten() {
-            range(column, "above -0.2, to 0.2", |step| step > -LARGEST_STEP && step <= LARGEST_STEP)?;
+            range(column, -LARGEST_STEP, LARGEST_STEP, "above -0.2, to 0.2")?;
         }
         if let Some(column) = &self.virgin_share {
             column.check_range(0.0, 1.0, "0 to 1")?;
