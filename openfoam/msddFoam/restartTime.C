@@ -22,6 +22,22 @@ License
 #include "Time.H"
 #include "SortableList.H"
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- The size of the last step, for which Time has no function
+struct lastStep
+:
+    public Time
+{
+    using Time::deltaTSave_;
+};
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::restartTime::restartTime(const argList& args)
@@ -290,6 +306,14 @@ void Foam::restartTime::setValue(Time& runTime)
     )
     {
         runTime.value() = value;
+
+        // Time knows the next step's size of an adaptive run, not the last one's
+        const scalar last =
+            folder.record().lookupOrDefault<scalar>("lastDeltaT", 0);
+        if (last > 0)
+        {
+            runTime.*(&lastStep::deltaTSave_) = last;
+        }
     }
 }
 

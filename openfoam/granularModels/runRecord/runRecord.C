@@ -66,6 +66,7 @@ void Foam::runRecord::read(const timeFolder& folder)
     const dictionary& dict = folder.record();
     dict.readEntry("nextDeltaT", nextDeltaT);
     dict.readEntry("initialMass", initialMass);
+    dict.readIfPresent("lastDeltaT", lastDeltaT);
     dict.readIfPresent("startTime", startTime);
     dict.readIfPresent("leastT", leastT);
     dict.readIfPresent("mostT", mostT);
@@ -158,6 +159,7 @@ void Foam::runRecord::writeLast()
     os.writeEntry("process", Pstream::myProcNo());
     os.writeEntry("timeScheme", scheme);
     settings_.writeEntry("settings", os);
+    os.writeEntry("lastDeltaT", lastDeltaT);
     os.writeEntry("nextDeltaT", nextDeltaT);
     os.writeEntry("leastT", leastT);
     os.writeEntry("mostT", mostT);

@@ -121,6 +121,7 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
 
 void Foam::timeScheme::advanceTime()
 {
+    grains_.record().lastDeltaT = time_.deltaTValue();
     ++time_;
     if (time_.timeIndex() % logInterval_ == 0 || time_.writeTime())
     {
