@@ -32,6 +32,8 @@ pub enum DocsError {
     NoCheckout,
     #[error("{file}: {text}", file = file.display())]
     Json { file: PathBuf, text: String },
+    #[error("there is no section '{name}', allowed: {names}")]
+    Section { name: String, names: String },
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Found(Vec<Finding>),
 }

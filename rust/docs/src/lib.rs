@@ -5,6 +5,7 @@
 //! | [`results`] | `docs/results.json`: every measured number and table, with its unit, meaning and source |
 //! | [`marks`] | the marks in Markdown between which numbers and tables of the results stand |
 //! | [`fill`] | renews what stands between the marks, or says where it differs |
+//! | [`gather`] | makes sections of the results from what our programs wrote |
 //! | [`links`] | links, anchors, paths of the repository and the book's table of contents |
 //! | [`headings`] | the anchors that headings get |
 //! | [`paths`] | paths of the repository that are named in backticks |
@@ -13,6 +14,7 @@
 
 pub mod error;
 pub mod fill;
+pub mod gather;
 pub mod headings;
 pub mod links;
 pub mod marks;

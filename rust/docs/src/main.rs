@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use clap::{Parser, Subcommand};
-use msdd_docs::{DocsError, fill, links, pages};
+use msdd_docs::{DocsError, fill, gather, links, pages, results};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -25,6 +25,19 @@ enum Command {
         check: bool,
         /// Files, relative to the checkout [default: README.md, the book, READMEs of cases and rust].
         files: Vec<PathBuf>,
+    },
+    /// Renew a section of docs/results.json from what scripts/results left in results/numbers.
+    Gather {
+        section: String,
+        /// Commit of the sources that made the numbers.
+        #[arg(long)]
+        commit: String,
+        /// Day, year-month-day.
+        #[arg(long)]
+        date: String,
+        /// Processor and cores, if times are in the section.
+        #[arg(long, default_value = "")]
+        machine: String,
     },
     /// Check relative links, anchors, paths in backticks, and that SUMMARY.md lists every page.
     Links {
@@ -56,6 +69,10 @@ fn run(arguments: Arguments) -> Result<(), DocsError> {
         Command::Fill { check, files } => {
             let written = fill::fill(&root, &chosen(files)?, check)?;
             written.iter().for_each(|file| println!("renewed {}", file.display()));
+        }
+        Command::Gather { section, commit, date, machine } => {
+            gather::renew(&root, &section, gather::Origin { commit, date, machine })?;
+            println!("renewed the section {section} of {}", results::FILE);
         }
         Command::Links { files } => links::check(&root, &chosen(files)?)?,
     }
