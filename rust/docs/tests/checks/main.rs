@@ -3,6 +3,7 @@
 mod fill;
 mod links;
 mod repository;
+mod verification;
 
 use msdd_docs::DocsError;
 use msdd_docs::error::Finding;
