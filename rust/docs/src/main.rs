@@ -2,8 +2,8 @@
 #![forbid(unsafe_code)]
 
 use clap::{Parser, Subcommand};
-use msdd_docs::{DocsError, fill, gather, links, pages, results};
-use std::path::PathBuf;
+use msdd_docs::{DocsError, commands, fill, gather, links, math, pages, results};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -26,6 +26,25 @@ enum Command {
         /// Files, relative to the checkout [default: README.md, the book, READMEs of cases and rust].
         files: Vec<PathBuf>,
     },
+    /// Run the commands of the book, each page in a copy of the checkout; needs msdd and the solver built.
+    Commands {
+        /// Run blocks that are marked slow, too.
+        #[arg(long)]
+        full: bool,
+        /// Folder for the copies.
+        #[arg(long, value_name = "DIR", default_value = ".cache/tests/docs")]
+        work: PathBuf,
+        /// Most time that a page may take [s].
+        #[arg(long, value_name = "SECONDS", default_value_t = 900)]
+        limit: u64,
+        /// Pages, relative to the checkout [default: README.md, the book, READMEs of cases and rust].
+        files: Vec<PathBuf>,
+    },
+    /// Preprocessor of mdBook: equations as MathML.
+    Math {
+        #[command(subcommand)]
+        question: Option<Question>,
+    },
     /// Renew a section of docs/results.json from what scripts/results left in results/numbers.
     Gather {
         section: String,
@@ -44,6 +63,13 @@ enum Command {
         /// Files, relative to the checkout [default: README.md, the book, READMEs of cases and rust].
         files: Vec<PathBuf>,
     },
+}
+
+/// What mdBook asks before it hands the book over.
+#[derive(Subcommand)]
+enum Question {
+    /// Whether a renderer is supported: every one is.
+    Supports { renderer: String },
 }
 
 fn main() -> ExitCode {
@@ -70,11 +96,38 @@ fn run(arguments: Arguments) -> Result<(), DocsError> {
             let written = fill::fill(&root, &chosen(files)?, check)?;
             written.iter().for_each(|file| println!("renewed {}", file.display()));
         }
+        Command::Commands { full, work, limit, files } => {
+            run_commands(&root, &work, full, limit, &chosen(files)?)?
+        }
+        Command::Math { question: Some(Question::Supports { .. }) } => {}
+        Command::Math { question: None } => {
+            let input = std::io::read_to_string(std::io::stdin());
+            let input =
+                input.map_err(|source| DocsError::Folder { folder: "standard input".into(), source })?;
+            print!("{}", math::preprocess(&input)?);
+        }
         Command::Gather { section, commit, date, machine } => {
             gather::renew(&root, &section, gather::Origin { commit, date, machine })?;
             println!("renewed the section {section} of {}", results::FILE);
         }
         Command::Links { files } => links::check(&root, &chosen(files)?)?,
     }
+    Ok(())
+}
+
+fn run_commands(
+    root: &Path,
+    work: &Path,
+    slow: bool,
+    limit: u64,
+    files: &[PathBuf],
+) -> Result<(), DocsError> {
+    let program = std::env::current_exe();
+    let program = program.map_err(|source| DocsError::Folder { folder: "msdd-docs".into(), source })?;
+    let programs = program.parent().unwrap_or(root).to_path_buf();
+    let settings =
+        commands::Settings { root: root.to_path_buf(), work: root.join(work), programs, slow, limit };
+    let count = commands::run(&settings, files, |file| println!("commands of {}", file.display()))?;
+    println!("the commands of {count} pages ran");
     Ok(())
 }

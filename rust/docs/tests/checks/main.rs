@@ -1,7 +1,9 @@
 //! What `msdd-docs` finds in small checkouts made for the purpose, and in this one.
 
+mod commands;
 mod fill;
 mod links;
+mod math;
 mod repository;
 mod verification;
 

@@ -1,7 +1,8 @@
 //! README, book and READMEs of this checkout.
 
 use super::found;
-use msdd_docs::{fill, links, pages};
+use msdd_docs::pages::Page;
+use msdd_docs::{commands, fill, links, math, pages};
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {
@@ -11,6 +12,17 @@ fn root() -> PathBuf {
 #[test]
 fn every_number_is_the_one_in_the_results() {
     let wrong = found(fill::fill(&root(), &pages::all(&root()).unwrap(), true));
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_equation_parses_and_of_every_block_of_commands_it_is_said_whether_it_is_run() {
+    let mut wrong = Vec::new();
+    for file in pages::all(&root()).unwrap().into_iter().filter(|file| file.starts_with(pages::BOOK)) {
+        let page = Page::read(&root(), &file).unwrap();
+        wrong.extend(found(math::with_mathml(&page)));
+        wrong.extend(found(commands::script(&page, true)));
+    }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
