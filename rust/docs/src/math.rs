@@ -19,6 +19,7 @@ pub fn with_mathml(page: &Page) -> Result<String, DocsError> {
     let options = Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_FOOTNOTES;
     let events: Vec<(Event, Range<usize>)> =
         Parser::new_ext(&page.text, options).into_offset_iter().collect();
+    let mut in_block = false;
     // From the end, so that bytes before stay where they are.
     for (event, range) in events.into_iter().rev() {
         let made = match &event {
