@@ -2,6 +2,7 @@
 
 mod commands;
 mod fill;
+mod gather;
 mod links;
 mod math;
 mod repository;

@@ -44,3 +44,12 @@ fn every_page_of_the_contents_is_there() {
     let wrong = wrong_links().0;
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
+
+#[test]
+fn figures_of_the_book_are_those_of_the_case() {
+    for name in ["stress.svg", "displacement.svg"] {
+        let [book, case] = ["docs/src/quality", "cases/HC"]
+            .map(|folder| std::fs::read(root().join(folder).join(name)).unwrap());
+        assert!(book == case, "docs/src/quality/{name} is not cases/HC/{name}: copy it");
+    }
+}
