@@ -110,7 +110,7 @@ mod tests {
     fn all_cases_are_drawn_and_named_inside_the_range() {
         let folder = fixture::Cases::new("plot");
         let (cases, _) = read_all(folder.path(), Some(folder.path()), &fixture::reference()).unwrap();
-        assert_eq!(range(&cases), 0.0..120.0);
+        assert_eq!(range(&cases), 0.0..130.0);
         let svg = temperature(&cases).unwrap();
         for text in ["H", "C", "HC", "H*", "C*", "HC*", "t [s]", "T [K]", "grains move"] {
             assert!(svg.contains(&format!(">\n{text}\n</text>")), "no {text} in {svg}");

@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn without_runs_of_grains_that_move_there_are_none_in_the_table() {
         let table = table("stay", false);
-        assert!(!table.contains("grains move  ") && !table.contains("With grains that move"), "{table}");
+        assert!(!table.contains("H     grains move") && !table.contains("With grains that move"), "{table}");
         assert!(row(&table, "H  ", 0).starts_with("H 79.0 80.0 81.0 - - -"), "{table}");
     }
 }
