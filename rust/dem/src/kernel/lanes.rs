@@ -1,28 +1,8 @@
-//! What the loops ask of a vector of f64, and the one-lane implementation.
+//! Vectors of f64 from and to memory, and the one-lane implementation.
 
 use crate::disc::Disc;
 use crate::forces::Load;
-use std::ops::{Add, Div, Mul, Sub};
-
-/// Columns of a group of discs: one vector a field, in the order of [`Disc`].
-pub(crate) type Columns<V> = [V; 8];
-
-/// Arithmetic on vectors of f64: IEEE, lane by lane, never fused.
-pub(crate) trait Vector:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
-    type Mask: Copy;
-    /// The same value in all lanes.
-    fn like(self, value: f64) -> Self;
-    fn sqrt(self) -> Self;
-    /// The larger one; `other` when they are equal or one is NaN (as x86's maxpd): see [`super::larger`] for what keeps NaN.
-    fn max(self, other: Self) -> Self;
-    fn min(self, other: Self) -> Self;
-    fn greater(self, other: Self) -> Self::Mask;
-    fn any(mask: Self::Mask) -> bool;
-    /// `this` where the mask is set, `other` elsewhere.
-    fn select(mask: Self::Mask, this: Self, other: Self) -> Self;
-}
+use crate::vector::{Columns, Vector};
 
 /// Vectors from and to memory.
 ///
@@ -44,39 +24,6 @@ pub(crate) trait Lanes: Vector {
     unsafe fn read_loads(loads: *const Load) -> [Self; 4];
     /// Lane by lane, in order: loads[j] += (fx, fy, torque_j), then loads[i] −= (fx, fy, torque_i).
     unsafe fn scatter(loads: *mut Load, i: *const u32, j: *const u32, force: [Self; 2], torque: [Self; 2]);
-}
-
-impl Vector for f64 {
-    type Mask = bool;
-
-    #[inline(always)]
-    fn like(self, value: f64) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        f64::sqrt(self)
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        if self > other { self } else { other }
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if self < other { self } else { other }
-    }
-    #[inline(always)]
-    fn greater(self, other: Self) -> bool {
-        self > other
-    }
-    #[inline(always)]
-    fn any(mask: bool) -> bool {
-        mask
-    }
-    #[inline(always)]
-    fn select(mask: bool, this: Self, other: Self) -> Self {
-        if mask { this } else { other }
-    }
 }
 
 impl Lanes for f64 {

@@ -205,7 +205,7 @@ fn a_speed_that_is_no_number_is_no_small_speed() {
         // After the next step the list of candidates counts as used up, whatever the other discs have done.
         simulation.advance_boundaries();
         assert!(simulation.neighbours.stale(&simulation.discs, None), "{bad}");
-        assert!(matches!(simulation.run(50), Err(Failure::NonFinite { disc: 3, .. })), "{bad}");
+        assert!(matches!(simulation.run(50), Err(crate::Failure::NonFinite { disc: 3, .. })), "{bad}");
     }
 }
 

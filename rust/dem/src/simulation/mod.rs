@@ -1,19 +1,24 @@
 //! The state of one assembly, and one step of it.
 
+mod boundaries;
+mod heat;
+
+use crate::contact::{Contact, Touching};
 use crate::disc::Disc;
 use crate::forces::Load;
-use crate::heat::{HeatPipes, HeatState, Thermal, WallHeat};
-use crate::kernel::{Motion, Simd, larger};
+use crate::heat::HeatPipes;
+use crate::kernel::{Motion, Simd};
 use crate::law::PairLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
 use crate::pace::Pace;
-use crate::periodic::Periodic;
-use crate::run::{Failure, LastGood};
+use crate::periodic::{Cell, Periodic, SmallCell, check_size};
 use crate::slabs::{SlabLoads, Sweep};
+use crate::stage::Stage;
 use crate::team;
 use crate::time_step::{self, StepChoice};
-use crate::walls::{Flow, Walls};
+use crate::vector::larger;
+use crate::walls::Walls;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -62,26 +67,12 @@ pub struct Simulation {
     pub(crate) last_good: Option<LastGood>,
 }
 
-/// Parts of a step, in order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// Radii and walls.
-    Boundaries,
-    /// Neighbour search, when due.
-    Neighbours,
-    /// Contact forces between discs.
-    Pairs,
-    /// Contact forces on walls.
-    Walls,
-    /// Damping and motion.
-    Motion,
-    /// Heat pipes, when on.
-    Heat,
-}
-
-impl Stage {
-    pub const ALL: [Self; 6] =
-        [Self::Boundaries, Self::Neighbours, Self::Pairs, Self::Walls, Self::Motion, Self::Heat];
+/// A copy of a state that was good.
+#[derive(Clone, Debug)]
+pub(crate) struct LastGood {
+    /// Steps between two copies at least.
+    pub every: u64,
+    pub state: Box<Simulation>,
 }
 
 impl Simulation {
@@ -90,12 +81,23 @@ impl Simulation {
         Self::with_boundary(material, discs, walls, None)
     }
 
-    pub(crate) fn with_boundary(
+    /// An assembly in a periodic box between the positions of `walls`; the friction history is empty. Discs may lie
+    /// anywhere: their images fill the cell.
+    ///
+    /// # Errors
+    /// [`SmallCell`] when a disc could meet two images of another.
+    pub fn new_periodic(
         material: Material,
         discs: Vec<Disc>,
         walls: Walls,
-        periodic: Option<Periodic>,
-    ) -> Self {
+        periodic: Periodic,
+    ) -> Result<Self, SmallCell> {
+        let largest = discs.iter().map(|d| d.radius).fold(0.0, f64::max);
+        check_size(&walls, largest)?;
+        Ok(Self::with_boundary(material, discs, walls, Some(periodic)))
+    }
+
+    fn with_boundary(material: Material, discs: Vec<Disc>, walls: Walls, periodic: Option<Periodic>) -> Self {
         let mut simulation = Self {
             material,
             reference_radius: discs.iter().map(|d| d.radius).collect(),
@@ -125,7 +127,7 @@ impl Simulation {
         };
         simulation.rebuild_neighbours();
         simulation.largest_speed = simulation.discs.iter().map(Disc::speed).fold(0.0, larger);
-        simulation.time_step = time_step::SAFETY * time_step::stable_step(&simulation);
+        simulation.time_step = time_step::SAFETY * simulation.stable_step();
         simulation
     }
 
@@ -192,67 +194,6 @@ impl Simulation {
         self.time += self.time_step;
     }
 
-    /// Turns heat on: pipes between touching discs and to the walls; the present radii belong to the present
-    /// temperatures, and follow r = r_ref (1 + α (T − T_ref)) from now on (Eqs. 6 and 7, not compounded).
-    pub fn enable_heat(&mut self, thermal: Thermal, walls: [WallHeat; 4]) {
-        self.reset_strain();
-        self.pipes = Some(Box::new(HeatPipes::new(thermal, walls, &self.discs)));
-    }
-
-    /// Turns heat on where an earlier run stood; radii, reference radii and temperatures are those of its state.
-    ///
-    /// # Panics
-    /// When `state` has not one value a disc.
-    pub fn resume_heat(&mut self, thermal: Thermal, walls: [WallHeat; 4], state: HeatState) {
-        let lengths = [state.reference_temperature.len(), state.mode.len()];
-        assert_eq!(lengths, [self.discs.len(); 2], "one value a disc");
-        let mut pipes = HeatPipes::new(thermal, walls, &self.discs);
-        pipes.set_state(state);
-        self.pipes = Some(Box::new(pipes));
-    }
-
-    /// What the walls do to heat from now on; nothing when heat is off.
-    pub fn set_wall_heat(&mut self, walls: [WallHeat; 4]) {
-        if let Some(pipes) = &mut self.pipes {
-            pipes.walls = walls;
-        }
-    }
-
-    /// The heat pipes, when heat is on.
-    pub fn heat(&self) -> Option<&HeatPipes> {
-        self.pipes.as_deref()
-    }
-
-    /// Conducts heat over `dt` [s] on the present geometry, without motion; nothing when heat is off.
-    pub fn conduct(&mut self, dt: f64) {
-        self.conduct_through(dt, HeatPipes::connect);
-    }
-
-    fn conduct_through(&mut self, dt: f64, update: fn(&mut HeatPipes, &Self)) {
-        if let Some(mut pipes) = self.pipes.take() {
-            update(&mut pipes, self);
-            pipes.conduct(self.shared, &mut self.discs, dt);
-            self.pipes = Some(pipes);
-        }
-    }
-
-    /// Chooses how [`Simulation::run`] sets the time step.
-    ///
-    /// # Errors
-    /// A fixed step above the present bound, when it is to be refused.
-    pub fn choose_time_step(&mut self, choice: StepChoice) -> Result<(), Failure> {
-        self.step_choice = choice;
-        self.watch_time_step()
-    }
-
-    /// One explicit Euler step of heat, however long, through the pipes of the last [`Simulation::conduct`]: to find
-    /// out where it turns unstable.
-    pub fn conduct_once(&mut self, dt: f64) {
-        if let Some(pipes) = &mut self.pipes {
-            pipes.take_substeps(false, &mut self.discs, 1, dt);
-        }
-    }
-
     /// Instruction set of the kernels; all give the same bits.
     pub fn simd(&self) -> Simd {
         self.simd
@@ -289,6 +230,32 @@ impl Simulation {
         self.reference_radius = radii;
     }
 
+    /// Calls `visit` with every force-bearing contact: pairs row by row, then the walls.
+    pub fn for_each_contact(&self, visit: impl FnMut(Contact)) {
+        self.touching().for_each(visit);
+    }
+
+    /// The present contacts.
+    pub(crate) fn touching(&self) -> Touching<'_> {
+        Touching {
+            material: &self.material,
+            discs: &self.discs,
+            walls: &self.walls,
+            cell: self.cell(),
+            neighbours: &self.neighbours,
+        }
+    }
+
+    /// Bound on the stable time step at the present contacts [s], see [`crate::time_step`].
+    pub fn stable_step(&self) -> f64 {
+        time_step::stable_step(&self.touching())
+    }
+
+    /// The cell of a periodic box; none between walls.
+    pub fn cell(&self) -> Option<Cell> {
+        self.periodic.as_ref().map(|periodic| Cell::new(&self.walls, periodic))
+    }
+
     /// Runs the neighbour search now, due or not. Results do not depend on when it runs.
     pub fn rebuild_neighbours(&mut self) {
         self.neighbours.rebuild(&self.discs, &self.walls, self.cell().as_ref());
@@ -314,90 +281,19 @@ impl Simulation {
         self.discs.iter().map(|d| d.radius).sum::<f64>() / self.discs.len() as f64
     }
 
-    /// Radii and walls at the end of the step.
-    fn advance_boundaries(&mut self) {
-        let dt = self.time_step;
-        self.strain += self.strain_rate * dt;
-        let growth = self.advance_radii();
-        self.carry_discs();
-        if let Some(periodic) = &mut self.periodic {
-            periodic.advance(&self.walls, dt);
-            self.walls.advance(dt);
-            let [xx, yy, xy] = self.flow().gradient;
-            self.neighbours.record_flow((xx * xx + yy * yy + xy * xy).sqrt(), dt);
-            self.neighbours.record_motion(self.largest_speed, 0.0, growth / dt, dt);
-            return;
-        }
-        self.walls.advance(dt);
-        let wall_speed = self.walls.largest_speed();
-        // Carried discs move at most as fast as the walls.
-        let speed = self.largest_speed + if self.affine { wall_speed } else { 0.0 };
-        self.neighbours.record_motion(speed, wall_speed, growth / dt, dt);
-    }
-
-    /// The motion that carries the grains along in this step.
-    pub(crate) fn flow(&self) -> Flow {
-        match &self.periodic {
-            Some(periodic) => self.walls.sheared_flow(periodic.shear_rate),
-            None if self.affine => self.walls.flow(),
-            None => Flow::NONE,
-        }
-    }
-
-    fn carry_discs(&mut self) {
-        let flow = self.flow();
-        if flow != Flow::NONE {
-            let dt = self.time_step;
-            for disc in &mut self.discs {
-                let [ux, uy] = flow.at(disc.x, disc.y);
-                disc.x += dt * ux;
-                disc.y += dt * uy;
-            }
-        }
-    }
-
-    /// Sets the radii from strain and temperature; returns the largest growth [m].
-    fn advance_radii(&mut self) -> f64 {
-        let factor = 1.0 + self.strain;
-        match &self.pipes {
-            Some(pipes) if pipes.thermal.expansion != 0.0 => {
-                let mut growth = 0.0f64;
-                let references = self.reference_radius.iter().zip(&pipes.reference_temperature);
-                for (disc, (radius, temperature)) in self.discs.iter_mut().zip(references) {
-                    let thermal = pipes.thermal.expansion * (disc.temperature - temperature);
-                    let radius = radius * (factor + thermal);
-                    let grown = radius - disc.radius;
-                    growth = if grown > growth { grown } else { growth };
-                    disc.radius = radius;
-                }
-                growth
-            }
-            // Set in the sweep, or when neighbours are sought.
-            _ if self.strain_rate != 0.0 => {
-                (self.strain_rate * self.time_step * self.largest_reference_radius).max(0.0)
-            }
-            _ => 0.0,
-        }
-    }
-
     fn find_neighbours(&mut self) {
         self.scale_radii();
         self.rebuild_neighbours();
     }
 
-    /// Sets the radii when the strain rate alone does.
-    fn scale_radii(&mut self) {
-        if let Some(factor) = self.radius_factor() {
-            for (disc, radius) in self.discs.iter_mut().zip(&self.reference_radius) {
-                disc.radius = radius * factor;
+    /// Puts the ghosts behind the discs, at their present places.
+    fn place_ghosts(&mut self) {
+        if let Some(cell) = self.cell() {
+            for ghost in &self.neighbours.ghosts {
+                let image = cell.image(&self.discs[ghost.owner as usize], ghost.shift);
+                self.discs.push(image);
             }
         }
-    }
-
-    /// Radii over reference radii when the strain rate alone sets them.
-    fn radius_factor(&self) -> Option<f64> {
-        let by_heat = self.pipes.as_ref().is_some_and(|pipes| pipes.thermal.expansion != 0.0);
-        (self.strain_rate != 0.0 && !by_heat).then_some(1.0 + self.strain)
     }
 
     /// Radii, contact forces and motion.
@@ -430,5 +326,4 @@ impl Simulation {
 }
 
 #[cfg(test)]
-#[path = "simulation_tests.rs"]
 mod tests;
