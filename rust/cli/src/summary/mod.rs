@@ -9,7 +9,7 @@ mod table;
 use crate::error::CliError;
 use clap::Args;
 use msdd_files::write;
-use read::{CaseResult, Model};
+use read::{CaseResult, Model, Named};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -35,13 +35,6 @@ pub struct Arguments {
 struct Summary<'a> {
     cases: BTreeMap<&'static str, &'a CaseResult>,
     model: &'a Model,
-}
-
-/// A case and how it is called.
-struct Named {
-    folder: &'static str,
-    name: &'static str,
-    result: CaseResult,
 }
 
 /// Reads, checks and reports. All cases are read before anything is written.

@@ -1,6 +1,6 @@
 //! T at P2 over time in all cases, as SVG.
 
-use super::Named;
+use super::read::Named;
 use crate::error::CliError;
 use plotters::prelude::*;
 

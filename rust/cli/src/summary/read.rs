@@ -27,6 +27,13 @@ pub struct CaseResult {
     pub end: End,
 }
 
+/// A case and how it is called.
+pub struct Named {
+    pub folder: &'static str,
+    pub name: &'static str,
+    pub result: CaseResult,
+}
+
 /// What equilibrium of the stress needed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mechanics {

@@ -1,7 +1,6 @@
 //! The table on the terminal.
 
-use super::Named;
-use super::read::PROBES;
+use super::read::{Named, PROBES};
 use std::fmt::Write;
 
 /// Times at which temperatures are shown [s].

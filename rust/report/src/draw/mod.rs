@@ -277,13 +277,28 @@ fn marker_at(root: &DrawingArea<SVGBackend, Shift>, style: Style, (x, y): (i32, 
     Ok(())
 }
 
+/// Points without bars of deviation.
+pub fn series(points: Vec<(f64, f64)>, style: Style) -> Series {
+    Series { points, bars: Vec::new(), style }
+}
+
+/// An axis whose range is that of the data.
+pub fn from_data(label: &str, log: bool) -> Axis<'_> {
+    Axis { label, log, range: None }
+}
+
+/// Text as HTML and SVG hold it.
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
 /// The SVG for a page: as wide as its place, with a name for those who hear it.
 fn responsive(svg: &str, title: &str) -> String {
     let body: Vec<&str> = svg.lines().filter(|line| !line.starts_with("<?xml")).collect();
     let body = body.join("\n");
     let Some((head, rest)) = body.split_once('>') else { return body };
     let view = head.split("viewBox=").nth(1).map_or("", |v| v.split('"').nth(1).unwrap_or(""));
-    let title = crate::page::escape(title);
+    let title = escape(title);
     format!(
         "<svg viewBox=\"{view}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{title}\">{rest}\n"
     )

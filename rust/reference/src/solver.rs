@@ -1,8 +1,8 @@
-//! What the solver wrote: series, sub-regions, the summary.
+//! What the solver wrote into a case folder: series, sub-regions, the summary. With the function objects that the jobs of
+//! `msdd report` name: `spaceProbes`, `wallPressure`, `subRegions`, `columns`.
 
-use crate::grid::list;
-use crate::job::{MESH, SolverJob};
-use crate::{ReportError, read_text};
+use crate::ReferenceError;
+use msdd_files::{list, read_text};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -53,22 +53,19 @@ pub struct Run {
     pub end_porosity: f64,
 }
 
-/// Reads the results in a case folder.
+/// Reads the results in a case folder; `mesh`: cells along x and y, by which displacements are averaged; `end_time` [s]: of the run.
 ///
 /// # Errors
-/// [`ReportError::Read`] for a file that is missing or holds something else.
-pub fn read(folder: &Path, job: &SolverJob) -> Result<Run, ReportError> {
+/// [`ReferenceError::File`], [`ReferenceError::Read`] for a file that is missing or holds something else.
+pub fn read(folder: &Path, mesh: [usize; 2], end_time: f64) -> Result<Run, ReferenceError> {
     let post = folder.join("postProcessing");
     let summary = read_summary(&post.join("msddFoam/summary.json"))?;
     let count = |key: &str| summary[key].as_u64().unwrap_or_default();
     let end = |key: &str| summary["final"][key].as_f64().unwrap_or(f64::NAN);
-    let moved = displacement(folder, job)?;
-    let slices = |values: &Vec<Vec<f64>>| means_in(values, job.mesh, [10, 1]).iter().map(|u| u[0]).collect();
+    let moved = displacement(folder, end_time)?;
+    let slices = |values: &Vec<Vec<f64>>| means_in(values, mesh, [10, 1]).iter().map(|u| u[0]).collect();
     Ok(Run {
-        temperature: numbers(&newest(&post.join("spaceProbes"))?)?
-            .iter()
-            .filter_map(|row| row.get(..4)?.try_into().ok())
-            .collect(),
+        temperature: temperatures(folder)?,
         pressure: numbers(&newest(&post.join("wallPressure"))?)?
             .iter()
             .filter_map(|row| row.get(..2)?.try_into().ok())
@@ -76,7 +73,7 @@ pub fn read(folder: &Path, job: &SolverJob) -> Result<Run, ReportError> {
         sub_regions: last_windows(&post.join("subRegions"), 30)?,
         columns: last_windows(&post.join("columns"), 10)?,
         displacement: moved.as_ref().map(slices),
-        moved: moved.as_ref().map(|values| means_in(values, job.mesh, [10, 3])),
+        moved: moved.as_ref().map(|values| means_in(values, mesh, [10, 3])),
         watched: watched(&post)?,
         cells: count("cells"),
         steps: count("steps"),
@@ -89,27 +86,37 @@ pub fn read(folder: &Path, job: &SolverJob) -> Result<Run, ReportError> {
     })
 }
 
-fn read_summary(file: &Path) -> Result<Value, ReportError> {
+/// Time [s] and T [K] at P1, P2, P3: the means in windows of 40 mm around the probes that `spaceProbes` writes.
+///
+/// # Errors
+/// As [`read`].
+pub fn temperatures(folder: &Path) -> Result<Vec<[f64; 4]>, ReferenceError> {
+    let rows = numbers(&newest(&folder.join("postProcessing/spaceProbes"))?)?;
+    Ok(rows.iter().filter_map(|row| row.get(..4)?.try_into().ok()).collect())
+}
+
+fn read_summary(file: &Path) -> Result<Value, ReferenceError> {
     serde_json::from_str(&read_text(file)?)
-        .map_err(|error| ReportError::Read { file: file.to_path_buf(), problem: error.to_string() })
+        .map_err(|error| ReferenceError::Read { file: file.to_path_buf(), problem: error.to_string() })
 }
 
 /// The one file of a function object: its only one of the first start time.
-fn newest(folder: &Path) -> Result<std::path::PathBuf, ReportError> {
-    let none = || ReportError::Read { file: folder.to_path_buf(), problem: "no file".to_string() };
-    let start = crate::setup::files(folder)?.into_iter().next().ok_or_else(none)?;
-    crate::setup::files(&start)?.into_iter().next().ok_or_else(none)
+fn newest(folder: &Path) -> Result<std::path::PathBuf, ReferenceError> {
+    let none = || ReferenceError::Read { file: folder.to_path_buf(), problem: "no file".to_string() };
+    let start = list(folder)?.into_iter().next().ok_or_else(none)?;
+    list(&start)?.into_iter().next().ok_or_else(none)
 }
 
 /// Lines of numbers; brackets and lines that begin with # are left out.
-fn numbers(file: &Path) -> Result<Vec<Vec<f64>>, ReportError> {
+fn numbers(file: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
     let text = read_text(file)?;
-    let line = |line: &str| -> Result<Vec<f64>, ReportError> {
+    let line = |line: &str| -> Result<Vec<f64>, ReferenceError> {
         let parse = |word: &str| match word.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
-            _ => {
-                Err(ReportError::Read { file: file.to_path_buf(), problem: format!("'{word}' in '{line}'") })
-            }
+            _ => Err(ReferenceError::Read {
+                file: file.to_path_buf(),
+                problem: format!("'{word}' in '{line}'"),
+            }),
         };
         line.replace(['(', ')'], " ").split_whitespace().map(parse).collect()
     };
@@ -117,7 +124,7 @@ fn numbers(file: &Path) -> Result<Vec<Vec<f64>>, ReportError> {
 }
 
 /// The last lines of a file of sub-regions, without time and place.
-fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReportError> {
+fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReferenceError> {
     let file = newest(folder)?;
     let rows = numbers(&file)?;
     let first = rows.len().checked_sub(count);
@@ -125,7 +132,7 @@ fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReportErro
         first.map(|first| &rows[first..]).filter(|rows| rows.iter().all(|r| r.len() == 3 + COLUMNS.len()));
     match rows {
         Some(rows) => Ok(rows.iter().map(|row| row[3..].to_vec()).collect()),
-        None => Err(ReportError::Read {
+        None => Err(ReferenceError::Read {
             file,
             problem: format!("not {count} windows of {} columns", COLUMNS.len()),
         }),
@@ -133,13 +140,13 @@ fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReportErro
 }
 
 /// The displacement of the cells, x first [m], where the solver wrote it.
-fn displacement(folder: &Path, job: &SolverJob) -> Result<Option<Vec<Vec<f64>>>, ReportError> {
-    let file = folder.join(format!("{}/D", job.end));
+fn displacement(folder: &Path, end: f64) -> Result<Option<Vec<Vec<f64>>>, ReferenceError> {
+    let file = folder.join(format!("{end}/D"));
     if !file.exists() {
         return Ok(None);
     }
-    let wrong = |problem| ReportError::Read { file: file.clone(), problem };
-    list(&read_text(&file)?).map_err(wrong).map(Some)
+    let wrong = |problem| ReferenceError::Read { file: file.clone(), problem };
+    nonuniform(&read_text(&file)?).map_err(wrong).map(Some)
 }
 
 /// Means of the first two components over `parts` of the mesh, which the grains carry along; 0 where no cell is.
@@ -154,9 +161,9 @@ fn means_in(values: &[Vec<f64>], mesh: [usize; 2], parts: [usize; 2]) -> Vec<[f6
     sum.iter().zip(count).map(|(s, n)| s.map(|u| u / f64::max(n, 1.0))).collect()
 }
 
-fn watched(post: &Path) -> Result<BTreeMap<String, Vec<Vec<f64>>>, ReportError> {
+fn watched(post: &Path) -> Result<BTreeMap<String, Vec<Vec<f64>>>, ReferenceError> {
     let mut found = BTreeMap::new();
-    for folder in crate::setup::files(post)? {
+    for folder in list(post)? {
         let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if name.starts_with(WATCH) {
             found.insert(name, numbers(&newest(&folder)?)?);
@@ -165,12 +172,20 @@ fn watched(post: &Path) -> Result<BTreeMap<String, Vec<Vec<f64>>>, ReportError> 
     Ok(found)
 }
 
-/// Whether windows of 10 x 3 hold cells each, so that their means mean something.
-pub fn has_sub_regions(job: &SolverJob) -> bool {
-    job.mesh[0] >= 10
-        && job.mesh[1] >= 3
-        && job.part == crate::job::Part::Whole
-        && job.mesh[0] <= 10 * MESH[0]
+/// The values of a `nonuniform List` of scalars, vectors or tensors.
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn nonuniform(text: &str) -> Result<Vec<Vec<f64>>, String> {
+    let start = text.find("nonuniform List<").ok_or("no nonuniform internalField")?;
+    let body = text[start..].split_once("\n(\n").ok_or("no list")?.1;
+    let body = body.split_once("\n)").ok_or("the list has no end")?.0;
+    body.lines()
+        .map(|line| {
+            let numbers = line.trim().trim_start_matches('(').trim_end_matches(')').split_whitespace();
+            numbers.map(|n| n.parse().map_err(|_| format!("'{line}' is not a number"))).collect()
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -179,11 +194,11 @@ mod tests {
 
     #[test]
     fn lines_of_a_series_are_read_and_others_refused() {
-        let folder = std::env::temp_dir().join(format!("msdd-report-output-{}", std::process::id()));
+        let folder = std::env::temp_dir().join(format!("msdd-reference-solver-{}", std::process::id()));
         let file = folder.join("spaceProbes/0/T");
-        crate::write_text(&file, "# Time P1\n0.1 (1 2 3)\n0.2\t4\t5\t6\n").unwrap();
+        msdd_files::write(&file, b"# Time P1\n0.1 (1 2 3)\n0.2\t4\t5\t6\n").unwrap();
         assert_eq!(numbers(&newest(&folder.join("spaceProbes")).unwrap()).unwrap()[1], [0.2, 4.0, 5.0, 6.0]);
-        crate::write_text(&file, "0.1 nan\n").unwrap();
+        msdd_files::write(&file, b"0.1 nan\n").unwrap();
         assert!(numbers(&file).unwrap_err().to_string().contains("'nan'"));
         std::fs::remove_dir_all(&folder).unwrap();
     }

@@ -1,8 +1,10 @@
 //! Errors of solver runs against the reference: each run starts from the fields of one packing and is compared with that
 //! packing's discrete elements; the error of a case is the largest, over time, of the mean difference over the packings.
 
-use crate::output::{COLUMNS, Run};
-use crate::reference::{GRAIN_CONDUCTIVITY, Reference, pressure_range, statistics, temperature_range};
+use crate::packings::{GRAIN_CONDUCTIVITY, Reference, pressure_range, temperature_range};
+use crate::results::Results;
+use crate::series::{at, largest, root_mean_square, spread, statistics};
+use crate::solver::{COLUMNS, Run};
 use serde::Serialize;
 
 /// Differences over the sub-regions of all packings at the end.
@@ -86,6 +88,21 @@ pub fn errors(reference: &Reference, runs: &[&Run], affine: bool) -> Option<Erro
     })
 }
 
+/// Errors of T at P1 to P3 of one run, lines of time and three temperatures, against the discs of one packing, windows of
+/// 40 mm: the largest over the discs' times where the solver has values on both sides, solver minus discs [% of `range`,
+/// which is in K].
+pub fn temperature_errors(run: &[[f64; 4]], discs: &Results, range: f64) -> [f64; 3] {
+    let times = discs.series.column("time").unwrap_or_default();
+    [1, 2, 3].map(|probe| {
+        let values = discs.series.column(&format!("T_P{probe}_window")).unwrap_or_default();
+        let series: Vec<[f64; 2]> = run.iter().map(|row| [row[0], row[probe]]).collect();
+        let (first, last) = (series.first().map_or(0.0, |r| r[0]), series.last().map_or(0.0, |r| r[0]));
+        let inside = times.iter().zip(&values).filter(|(t, _)| (first..=last).contains(*t));
+        let differences: Vec<f64> = inside.map(|(&t, v)| 100.0 / range * (at(&series, t) - v)).collect();
+        largest(&differences)
+    })
+}
+
 /// Mean pressure of the solver minus a column of the discs [% of the paper's range], by packing; none without the column.
 fn pressure_differences(reference: &Reference, runs: &[&Run], column: &str) -> Vec<Vec<f64>> {
     let (times, scale) = (reference.times(), 100.0 / pressure_range(&reference.case));
@@ -102,11 +119,6 @@ fn means(by_packing: &[Vec<f64>]) -> Vec<f64> {
     statistics(by_packing).into_iter().map(|(mean, _)| mean).collect()
 }
 
-/// The value that is furthest from zero, with its sign.
-pub fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |worst: f64, &v| if v.abs() > worst.abs() { v } else { worst })
-}
-
 /// The solver writes no value at the start.
 fn with_start(series: &[[f64; 2]], start: f64) -> Vec<[f64; 2]> {
     match series.first() {
@@ -117,24 +129,6 @@ fn with_start(series: &[[f64; 2]], start: f64) -> Vec<[f64; 2]> {
 
 fn difference(times: &[f64], series: &[[f64; 2]], dem: &[f64], scale: f64) -> Vec<f64> {
     times.iter().zip(dem).map(|(&t, &value)| scale * (at(series, t) - value)).collect()
-}
-
-/// Value of a series at time `t`: by the cubic through the four points around (adaptive steps may be longer than the
-/// reference's 0.1 s, and the series are smooth), by fewer near the ends.
-pub fn at(series: &[[f64; 2]], t: f64) -> f64 {
-    let after = series.partition_point(|row| row[0] < t - 1e-9);
-    if let Some(row) = series.get(after).filter(|row| (row[0] - t).abs() < 1e-9) {
-        return row[1];
-    }
-    let first = after.saturating_sub(2);
-    let near = &series[first..(after + 2).min(series.len())];
-    near.iter()
-        .enumerate()
-        .map(|(i, row)| {
-            let others = near.iter().enumerate().filter(|&(j, _)| j != i);
-            others.fold(row[1], |w, (_, other)| w * (t - other[0]) / (row[0] - other[0]))
-        })
-        .sum()
 }
 
 /// (quantity, column of the reference, factor to the solver's unit, unit)
@@ -203,18 +197,6 @@ fn fields(reference: &Reference, runs: &[&Run], affine: bool) -> Vec<FieldError>
         .collect()
 }
 
-pub fn root_mean_square(values: &[f64]) -> f64 {
-    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
-}
-
-/// Mean over all, and the deviation over the sub-regions, averaged over the packings.
-pub fn spread(by_packing: &[Vec<f64>]) -> (f64, f64) {
-    let each: Vec<(f64, f64)> =
-        by_packing.iter().map(|values| crate::reference::mean_and_deviation(values)).collect();
-    let n = each.len() as f64;
-    (each.iter().map(|e| e.0).sum::<f64>() / n, each.iter().map(|e| e.1).sum::<f64>() / n)
-}
-
 fn displacement(reference: &Reference, runs: &[&Run]) -> Option<f64> {
     let solver: Vec<Vec<f64>> = runs.iter().map(|run| run.displacement.clone()).collect::<Option<_>>()?;
     let (solver, dem) = (means(&solver), means(&reference.slices("displacement_x")));
@@ -261,14 +243,5 @@ mod tests {
         assert!(found.pressure.abs() < 1e-9 && found.field("stress_xx").unwrap().rms < 1e-9);
         let short = Run { temperature: runs[0].temperature[..100].to_vec(), ..runs[0].clone() };
         assert!(errors(&reference, &[&short, &runs[1]], false).is_none());
-    }
-
-    #[test]
-    fn a_series_is_interpolated_by_a_cubic() {
-        let cubic = |t: f64| 1.0 + t - 2.0 * t * t + 0.3 * t * t * t;
-        let series: Vec<[f64; 2]> = [0.0, 0.4, 1.1, 1.5, 2.6].map(|t| [t, cubic(t)]).to_vec();
-        for t in [0.7, 1.2, 1.5] {
-            assert!((at(&series, t) - cubic(t)).abs() < 1e-12, "{t}");
-        }
     }
 }

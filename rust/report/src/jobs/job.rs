@@ -86,6 +86,11 @@ impl SolverJob {
         job.control("deltaT 1e-2;")
     }
 
+    /// The first packing on few cells, which is enough to see a method break.
+    pub fn coarse(case: &str) -> Self {
+        Self { mesh: [25, 8], limit: 120, ..Self::new(case, 1) }
+    }
+
     /// `text` at the end of `file`.
     pub fn with(mut self, file: &str, text: &str) -> Self {
         let entry = self.append.entry(file.to_string()).or_default();

@@ -1,12 +1,12 @@
 //! What the mechanics' parameters do to the result: each is changed by more than the database leaves open.
 
-use crate::compare::errors;
-use crate::execute::Outcome;
-use crate::job::{Job, SolverJob};
+use crate::jobs::execute::Outcome;
+use crate::jobs::job::{Job, SolverJob};
+use crate::jobs::pool::{Asked, Records};
 use crate::plan::{self, CHARTED, FAMILIES};
-use crate::pool::{Asked, Records};
-use crate::reference::Reference;
-use crate::report::Settings;
+use crate::settings::Settings;
+use msdd_reference::compare::errors;
+use msdd_reference::packings::Reference;
 use serde::Serialize;
 
 /// The packing that it is made for.

@@ -1,8 +1,10 @@
 //! Runs one job. It always ends, within its time limit, in an outcome.
 
-use crate::job::{Job, SolverJob, ToolJob};
-use crate::output::{self, Run};
-use crate::{ReportError, read_text, setup, write_text};
+use super::setup;
+use crate::jobs::job::{Job, SolverJob, ToolJob};
+use crate::{ReportError, read_text, write_text};
+use msdd_reference::solver;
+use msdd_reference::solver::Run;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -106,7 +108,7 @@ pub fn execute(place: &Place, job: &Job, name: &str) -> Result<Record, ReportErr
 
 /// Removes the folders of runs that were killed.
 pub fn sweep(work: &Path) {
-    for folder in setup::files(work).unwrap_or_default() {
+    for folder in msdd_files::list(work).unwrap_or_default() {
         let process = folder.extension().map(|id| Path::new("/proc").join(id));
         if process.is_some_and(|process| !process.exists()) {
             let _ = std::fs::remove_dir_all(&folder);
@@ -176,17 +178,17 @@ fn record(place: &Place, job: &Job, ended: &Ended, outcome: Outcome, message: St
     }
 }
 
-fn run_solver(place: &Place, job: &Job, solver: &SolverJob, folder: &Path) -> Result<Record, ReportError> {
-    setup::write_case(&place.checkout, solver, folder)?;
-    let preparation = setup::preparation(&place.checkout, solver);
-    let ended = timed(place, folder, &preparation, "msddFoam", solver.limit)?;
+fn run_solver(place: &Place, job: &Job, asked: &SolverJob, folder: &Path) -> Result<Record, ReportError> {
+    setup::write_case(&place.checkout, asked, folder)?;
+    let preparation = setup::preparation(&place.checkout, asked);
+    let ended = timed(place, folder, &preparation, "msddFoam", asked.limit)?;
     let log = read_text(&folder.join("log")).unwrap_or_default();
     if ended.code == 97 {
         let log = read_text(&folder.join("log.blockMesh")).unwrap_or_default();
         return Ok(record(place, job, &ended, Outcome::Refused, format!("blockMesh: {}", fatal(&log))));
     }
     if timed_out(ended.code) {
-        let message = format!("stopped after {} s at t = {} s", solver.limit, last_time(&log));
+        let message = format!("stopped after {} s at t = {} s", asked.limit, last_time(&log));
         return Ok(record(place, job, &ended, Outcome::TimedOut, message));
     }
     let begun = log.contains("\nTime = ");
@@ -195,7 +197,7 @@ fn run_solver(place: &Place, job: &Job, solver: &SolverJob, folder: &Path) -> Re
         let at = if begun { format!(" (t = {} s)", last_time(&log)) } else { String::new() };
         return Ok(record(place, job, &ended, outcome, fatal(&log) + &at));
     }
-    match output::read(folder, solver) {
+    match solver::read(folder, asked.mesh, asked.end) {
         Ok(run) => {
             let mut record = record(place, job, &ended, Outcome::Done, warning(&log));
             record.run = Some(run);
@@ -300,7 +302,7 @@ mod tests {
         assert_eq!((failed.outcome, failed.message.as_str()), (Outcome::Failed, "msdd: no such file"));
         let endless = execute(&place(), &shell("while true; do true; done", 1), "endless").unwrap();
         assert_eq!(endless.outcome, Outcome::TimedOut);
-        assert!(endless.is_settled() && !setup::files(&place().work).unwrap().iter().any(|f| f.is_dir()));
+        assert!(endless.is_settled() && !msdd_files::list(&place().work).unwrap().iter().any(|f| f.is_dir()));
         std::fs::remove_dir_all(place().work).unwrap();
     }
 

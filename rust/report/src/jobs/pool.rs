@@ -1,9 +1,9 @@
 //! Runs many jobs, some at a time, from the cache where it has them.
 
 use crate::ReportError;
-use crate::cache::Cache;
-use crate::execute::{Place, Record, execute};
-use crate::job::Job;
+use crate::jobs::cache::Cache;
+use crate::jobs::execute::{Place, Record, execute};
+use crate::jobs::job::Job;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

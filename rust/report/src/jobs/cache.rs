@@ -1,8 +1,8 @@
 //! Results of jobs on disk, by a hash of all that decides them: the job, the files that it reads, the programs, the processor.
 
-use crate::execute::Record;
-use crate::job::{Job, Part};
-use crate::{ReportError, read_text, setup, write_text};
+use crate::jobs::execute::Record;
+use crate::jobs::job::{Job, Part};
+use crate::{ReportError, read_text, write_text};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -104,7 +104,7 @@ impl Cache {
 
 fn add(digest: &mut Sha256, path: &Path) -> Result<(), ReportError> {
     if path.is_dir() {
-        for entry in setup::files(path)? {
+        for entry in msdd_files::list(path)? {
             let name = entry.file_name().unwrap_or_default().to_string_lossy().into_owned();
             if name == "polyMesh" || name == "target" {
                 continue;
@@ -128,8 +128,8 @@ fn hex(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::execute::{Outcome, Stamp};
-    use crate::job::ToolJob;
+    use crate::jobs::execute::{Outcome, Stamp};
+    use crate::jobs::job::ToolJob;
 
     fn job(limit: u64) -> Job {
         let inputs = vec!["input".to_string()];
@@ -155,12 +155,12 @@ mod tests {
             cached: false,
         };
         assert!(cache().get(&key).is_none());
-        let asked = [crate::pool::Asked { job: job(1), guess: 1.0 }];
-        let error = crate::pool::found(&cache(), &asked).unwrap_err().to_string();
+        let asked = [crate::jobs::pool::Asked { job: job(1), guess: 1.0 }];
+        let error = crate::jobs::pool::found(&cache(), &asked).unwrap_err().to_string();
         assert!(error.contains("nothing to draw") && error.contains("cache"), "{error}");
         cache().put(&key, &record).unwrap();
         assert_eq!(cache().get(&key), Some(Record { cached: true, ..record }));
-        assert_eq!(crate::pool::found(&cache(), &asked).unwrap().len(), 1);
+        assert_eq!(crate::jobs::pool::found(&cache(), &asked).unwrap().len(), 1);
         assert_ne!(cache().key(&job(2)).unwrap(), key);
         assert_ne!(Cache::new(&folder, &folder, "other").key(&job(1)).unwrap(), key);
         write_text(&folder.join("input/a"), "2").unwrap();

@@ -1,7 +1,7 @@
 //! The case folder of a job: the shipped case, its mesh, the initial fields of a packing, what is written, and the job's keys.
 
-use crate::grid::Field;
-use crate::job::{Part, SolverJob};
+use crate::jobs::grid::Field;
+use crate::jobs::job::{Part, SolverJob};
 use crate::{ReportError, read_text, write_text};
 use std::path::Path;
 
@@ -18,7 +18,7 @@ pub fn write_case(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(),
     let case = checkout.join("cases").join(&job.case);
     let shipped = job.part == Part::Shipped;
     for part in ["0", "constant", "system"] {
-        for file in files(&case.join(part))? {
+        for file in msdd_files::list(&case.join(part))? {
             // Not the mesh that a run by hand left, which is a folder, and not the fields, which follow.
             let field = FIELDS.iter().any(|name| file.ends_with(format!("0/{name}")));
             if file.is_dir() || (field && !shipped) {
@@ -35,20 +35,6 @@ pub fn write_case(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(),
     }
     write_text(&folder.join("system/blockMeshDict"), &mesh(job))?;
     write_fields(checkout, job, folder)
-}
-
-/// The files in a folder, in order.
-///
-/// # Errors
-/// [`ReportError::Read`].
-pub fn files(folder: &Path) -> Result<Vec<std::path::PathBuf>, ReportError> {
-    let failed =
-        |error: std::io::Error| ReportError::Read { file: folder.to_path_buf(), problem: error.to_string() };
-    let entries = std::fs::read_dir(folder).map_err(failed)?;
-    let mut files: Vec<_> =
-        entries.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>().map_err(failed)?;
-    files.sort();
-    Ok(files)
 }
 
 /// What every job has at the end of a file, before its own keys.
@@ -153,7 +139,7 @@ mod tests {
         assert!(text("system/blockMeshDict").contains("(10 3 1)"));
         assert!(text("constant/granularProperties").ends_with("builtin:paper; }\n"));
         assert!(!text("0/T").contains("\"../../"));
-        assert_eq!(crate::grid::list(&text("0/porosity")).unwrap().len(), 30);
+        assert_eq!(msdd_reference::solver::nonuniform(&text("0/porosity")).unwrap().len(), 30);
         assert!(text("system/controlDict").contains("deltaT 1e-2;"));
         std::fs::remove_dir_all(&folder).unwrap();
     }

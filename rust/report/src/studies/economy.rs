@@ -1,12 +1,13 @@
 //! What each case needs: the same case with less computed, and what that costs in accuracy.
 
-use crate::compare::{at, errors, largest};
-use crate::execute::Outcome;
-use crate::job::{Job, Part, SolverJob};
-use crate::output::Run;
-use crate::pool::{Asked, Records};
-use crate::reference::{CASES, Reference, temperature_range};
-use crate::report::Settings;
+use crate::jobs::execute::Outcome;
+use crate::jobs::job::{Job, Part, SolverJob};
+use crate::jobs::pool::{Asked, Records};
+use crate::settings::Settings;
+use msdd_reference::compare::errors;
+use msdd_reference::packings::{CASES, Reference, temperature_range};
+use msdd_reference::series::{at, largest};
+use msdd_reference::solver::Run;
 use serde::Serialize;
 
 /// One way to compute a case, summed over its run (first packing), errors over the packings.

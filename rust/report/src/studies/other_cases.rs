@@ -1,15 +1,15 @@
 //! Cases that nothing was chosen on, as shipped, against discs of other packings: another scene (`corner`), another material
 //! (`material`). And the two ways to make a stress dimensionless, by their packings.
 
-use crate::compare::{at, largest};
-use crate::execute::Outcome;
-use crate::job::{Job, Part, SolverJob};
-use crate::output::Run;
-use crate::pool::{Asked, Records};
-use crate::reference::Reference;
-use crate::report::Settings;
+use crate::jobs::execute::Outcome;
+use crate::jobs::job::{Job, Part, SolverJob};
+use crate::jobs::pool::{Asked, Records};
+use crate::settings::Settings;
 use crate::{ReportError, read_text};
+use msdd_reference::compare::temperature_errors;
+use msdd_reference::packings::Reference;
 use msdd_reference::results::Results;
+use msdd_reference::solver::Run;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -88,8 +88,7 @@ pub fn read(
     let mut found = OtherCases::default();
     for other in &OTHERS {
         let file = checkout.join(format!("cases/reference/results/{}.json", other.discs));
-        let discs: Results = serde_json::from_str(&read_text(&file)?)
-            .map_err(|error| ReportError::Read { file, problem: error.to_string() })?;
+        let discs = Results::read(&file)?;
         for (what, keys) in WAYS {
             let Some(record) = settings.record(records, &Job::Solver(job(other, keys))) else { continue };
             let run = record.run.as_ref().filter(|_| record.outcome == Outcome::Done);
@@ -97,7 +96,7 @@ pub fn read(
             found.rows.push(OtherCase {
                 case: other.case.to_string(),
                 what: what.to_string(),
-                temperature: run.map(|run| errors(run, &discs, other.range)),
+                temperature: run.map(|run| temperature_errors(&run.temperature, &discs, other.range)),
                 pressure: run.zip(end).map(|(run, end)| [run.end_pressure, end]),
                 outcome: record.outcome.as_str().to_string(),
             });
@@ -112,19 +111,6 @@ pub fn read(
         found.scalings.push(scaling(checkout, discs)?);
     }
     Ok(found)
-}
-
-/// Largest over the discs' times, where the solver has values on both sides.
-fn errors(run: &Run, discs: &Results, range: f64) -> [f64; 3] {
-    let times = discs.series.column("time").unwrap_or_default();
-    [1, 2, 3].map(|probe| {
-        let values = discs.series.column(&format!("T_P{probe}_window")).unwrap_or_default();
-        let series: Vec<[f64; 2]> = run.temperature.iter().map(|row| [row[0], row[probe]]).collect();
-        let (first, last) = (series.first().map_or(0.0, |r| r[0]), series.last().map_or(0.0, |r| r[0]));
-        let inside = times.iter().zip(&values).filter(|(t, _)| (first..=last).contains(*t));
-        let differences: Vec<f64> = inside.map(|(&t, v)| 100.0 / range * (at(&series, t) - v)).collect();
-        largest(&differences)
-    })
 }
 
 fn scaling(checkout: &Path, discs: &Results) -> Result<Scaling, ReportError> {
@@ -170,8 +156,9 @@ mod tests {
     fn the_reduced_pressure_is_that_of_the_grains_and_the_other_is_not() {
         let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let [first, other] = ["H_seed1", "material_seed12"].map(|name| {
-            let text = read_text(&checkout.join(format!("cases/reference/results/{name}.json"))).unwrap();
-            scaling(&checkout, &serde_json::from_str(&text).unwrap()).unwrap()
+            let discs =
+                Results::read(&checkout.join(format!("cases/reference/results/{name}.json"))).unwrap();
+            scaling(&checkout, &discs).unwrap()
         });
         assert_eq!((first.young_modulus, other.young_modulus, other.mean_radius), (1e7, 4e7, 2.5e-3));
         assert!((other.reduced / first.reduced - 1.0).abs() < 0.05, "{first:?} {other:?}");

@@ -1,10 +1,10 @@
 //! Order of the coupling in time (section 3.4): mean T of case H with fixed steps against one run with far smaller errors.
 
-use crate::compare::{at, root_mean_square};
-use crate::execute::Outcome;
-use crate::job::{Job, SolverJob};
-use crate::pool::{Asked, Records};
-use crate::report::Settings;
+use crate::jobs::execute::Outcome;
+use crate::jobs::job::{Job, SolverJob};
+use crate::jobs::pool::{Asked, Records};
+use crate::settings::Settings;
+use msdd_reference::series::{at, root_mean_square};
 use serde::Serialize;
 
 /// Mean of the box over time, by a sub-region that is all of it.

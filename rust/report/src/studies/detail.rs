@@ -1,20 +1,20 @@
 //! Runs of the validated configurations that also write what figures need: walls, sub-regions over time, the state at the start.
 
 use crate::ReportError;
-use crate::execute::Outcome;
-use crate::job::{Job, SolverJob};
-use crate::other_cases::grain_value;
-use crate::output::Run;
+use crate::jobs::execute::Outcome;
+use crate::jobs::job::{Job, SolverJob};
+use crate::jobs::pool::{Asked, Records};
 use crate::plan::{self, CHARTED, Configuration, FAMILIES};
-use crate::pool::{Asked, Records};
-use crate::report::Settings;
+use crate::settings::Settings;
+use crate::studies::other_cases::grain_value;
+use msdd_reference::solver::Run;
 use std::collections::BTreeMap;
 
 /// Mean pressure and normal stress [Pa] in the cells at each wall; in lines of [`WALL_COLUMNS`] after time and mean.
 pub const WALLS: &str = "watchWalls";
 /// Normal stress at left, right, bottom and top, in the lines of [`WALLS`].
 pub const WALL_COLUMNS: [usize; 4] = [3, 5, 7, 9];
-/// Sub-regions at several times: time, x and y index, [`crate::output::COLUMNS`].
+/// Sub-regions at several times: time, x and y index, [`msdd_reference::solver::COLUMNS`].
 pub const REGIONS: &str = "watchRegions";
 
 /// The state where runs start, by a case whose grains do not expand: their state never changes.

@@ -2,7 +2,8 @@
 //! the fine ones hold together, and fine ones copies.
 
 use crate::ReportError;
-use crate::job::{BOX, MESH, Part};
+use crate::jobs::job::{BOX, MESH, Part};
+use msdd_reference::solver::nonuniform;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -20,7 +21,7 @@ impl Field {
     pub fn read(file: &Path) -> Result<Self, ReportError> {
         let text = crate::read_text(file)?;
         let wrong = |problem: String| ReportError::Read { file: file.to_path_buf(), problem };
-        let values = list(&text).map_err(wrong)?;
+        let values = nonuniform(&text).map_err(wrong)?;
         let cells = MESH[0] * MESH[1];
         if values.len() != cells {
             return Err(wrong(format!("{} values of internalField, allowed: {cells}", values.len())));
@@ -81,22 +82,6 @@ fn shares(k: usize, coarse: usize, fraction: f64, fine: usize) -> Vec<(usize, f6
         .collect()
 }
 
-/// The values of a `nonuniform List` of scalars, vectors or tensors.
-///
-/// # Errors
-/// What is wrong with the text.
-pub fn list(text: &str) -> Result<Vec<Vec<f64>>, String> {
-    let start = text.find("nonuniform List<").ok_or("no nonuniform internalField")?;
-    let body = text[start..].split_once("\n(\n").ok_or("no list")?.1;
-    let body = body.split_once("\n)").ok_or("the list has no end")?.0;
-    body.lines()
-        .map(|line| {
-            let numbers = line.trim().trim_start_matches('(').trim_end_matches(')').split_whitespace();
-            numbers.map(|n| n.parse().map_err(|_| format!("'{line}' is not a number"))).collect()
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,7 +114,7 @@ mod tests {
     fn a_field_is_read_as_written() {
         let field =
             Field { values: vec![vec![1.0, 2.0, 0.0, 3.0, 0.0, 0.0], vec![-4.0, 0.5, 0.0, 2.0, 0.0, 1.0]] };
-        assert_eq!(list(&field.to_text("stress")).unwrap(), field.values);
-        assert!(list("internalField uniform 1;").is_err());
+        assert_eq!(nonuniform(&field.to_text("stress")).unwrap(), field.values);
+        assert!(nonuniform("internalField uniform 1;").is_err());
     }
 }

@@ -1,7 +1,7 @@
-//! The committed runs by discrete elements, three packings a case.
+//! The committed runs by discrete elements of `cases/reference`, three packings a case: what the solver is judged by.
 
-use crate::{ReportError, read_text};
-use msdd_reference::results::{Results, Table};
+use crate::ReferenceError;
+use crate::results::{Results, Table};
 use std::path::Path;
 
 /// Packings of the reference.
@@ -37,12 +37,10 @@ impl Reference {
     /// Reads `cases/reference/results/<case>_seed<N>.json`.
     ///
     /// # Errors
-    /// [`ReportError::Read`].
-    pub fn read(checkout: &Path, case: &str, seeds: &[u32]) -> Result<Self, ReportError> {
+    /// [`ReferenceError::File`], [`ReferenceError::Read`].
+    pub fn read(checkout: &Path, case: &str, seeds: &[u32]) -> Result<Self, ReferenceError> {
         let read = |seed: &u32| {
-            let file = checkout.join(format!("cases/reference/results/{case}_seed{seed}.json"));
-            serde_json::from_str(&read_text(&file)?)
-                .map_err(|error| ReportError::Read { file, problem: error.to_string() })
+            Results::read(&checkout.join(format!("cases/reference/results/{case}_seed{seed}.json")))
         };
         Ok(Self { case: case.to_string(), results: seeds.iter().map(read).collect::<Result<_, _>>()? })
     }
@@ -96,22 +94,6 @@ fn last_profile(profiles: &Table, column: &str) -> Vec<f64> {
     last.chunks(2).map(|pair| pair.iter().sum::<f64>() / pair.len() as f64).collect()
 }
 
-/// Mean and standard deviation over packings (n - 1).
-pub fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
-    (mean, if n > 1.0 { (squares / (n - 1.0)).sqrt() } else { 0.0 })
-}
-
-/// Mean and deviation of columns `[packing][k]` at each `k`.
-pub fn statistics(by_packing: &[Vec<f64>]) -> Vec<(f64, f64)> {
-    let count = by_packing.iter().map(Vec::len).min().unwrap_or(0);
-    (0..count)
-        .map(|k| mean_and_deviation(&by_packing.iter().map(|values| values[k]).collect::<Vec<_>>()))
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,11 +108,5 @@ mod tests {
         let displacement = reference.slices("displacement_x");
         assert_eq!(displacement[0].len(), 10);
         assert!(displacement[0].iter().all(|&u| u > 0.0 && u < 0.03));
-    }
-
-    #[test]
-    fn mean_and_deviation_over_packings() {
-        assert_eq!(statistics(&[vec![1.0, 5.0], vec![3.0, 5.0]])[1], (5.0, 0.0));
-        assert!((statistics(&[vec![1.0], vec![3.0]])[0].1 - 2f64.sqrt()).abs() < 1e-12);
     }
 }
