@@ -1,4 +1,5 @@
-//! Neighbour search: a cell grid fills the contact rows with all pairs closer than the skin.
+//! Neighbour search: which pairs of discs are so near each other that they may touch soon (candidates), and when that has to
+//! be found out again. Candidates are all pairs whose surfaces are closer than a distance that is called the skin.
 
 use crate::contacts::{PairList, WallContacts};
 use crate::disc::Disc;
@@ -7,8 +8,8 @@ use crate::periodic::{Cell, Image, index_of};
 use crate::vector::larger;
 use crate::walls::{Side, Walls};
 
-/// Surfaces closer than this times the mean radius become candidates. Chosen by speed: wider rows cost force
-/// evaluations, narrower ones rebuilds.
+/// The skin over the mean radius. With a wider one each step looks at more pairs that do not touch, with a narrower one the
+/// search runs more often; this is where a run is fastest.
 const SKIN_OVER_MEAN_RADIUS: f64 = 0.25;
 
 /// Rows of candidates, and how far things have moved since they were found.
@@ -19,9 +20,9 @@ pub struct Neighbours {
     /// Images among the pairs of a periodic box, by owner and shift; numbered after the discs.
     pub ghosts: Vec<Image>,
     skin: f64,
-    /// Bound on how much the gap of any pair has closed since the last rebuild [m].
+    /// Upper bound on how much nearer the surfaces of any two discs have come since the last rebuild [m].
     closed: f64,
-    /// The part of it that growing radii and moving walls closed.
+    /// The part of it that is due to growing radii and moving walls [m].
     closed_by_boundaries: f64,
     /// Largest distance at which a pair was taken [m].
     reach: f64,
@@ -32,17 +33,18 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// True when a pair that is no candidate may have come into contact.
+    /// True when a pair that is no candidate may touch now, so that the search has to run.
     ///
-    /// First by the bound on speeds, which costs nothing; when that is used up, by how far the discs have really
-    /// come, which then replaces it: discs that tremble about a place do not force rebuilds.
+    /// A bound from the speeds, which costs nothing, is asked first. When it has used up the skin, the distances that the
+    /// discs have really moved are measured and replace it: discs that vibrate about a place are fast but get nowhere, and
+    /// cause no new search.
     pub fn stale(&mut self, discs: &[Disc], cell: Option<&Cell>) -> bool {
         if self.closed < self.skin {
             return false;
         }
         self.closed = self.closed_by_boundaries + self.closed_by_motion(discs, cell);
-        // The measure costs about as much as a step, so it should be good for a few.
-        // A motion that is not a number keeps no pair apart.
+        // Measuring costs about as much as a step: when less than a fifth of the skin is left, a search now is cheaper than
+        // another measurement soon. When a velocity is not a number nothing is known of the gaps, so the search has to run.
         self.closed.is_nan() || self.closed > 0.8 * self.skin
     }
 

@@ -103,7 +103,8 @@ impl Simulation {
         for (disc, load) in self.discs.iter().zip(self.loads.iter(&self.neighbours)) {
             sums.add(disc, load);
         }
-        // The velocities at the time of the forces: half a kick ago.
+        // The forces were taken before the velocities changed by them: half of that change is taken back, so that power and
+        // forces are those of one time.
         if sums.power <= 0.5 * self.time_step * sums.force2 {
             self.discs.iter_mut().for_each(Disc::stop);
             self.largest_speed = 0.0;

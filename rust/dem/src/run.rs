@@ -5,7 +5,7 @@ use crate::periodic::check_size;
 use crate::simulation::{LastGood, Simulation};
 use crate::time_step::{self, Excess, StepChoice};
 
-/// Steps between two looks at the state. A look costs about one step.
+/// Steps after which the state is checked and the time step is chosen again. That costs about one step.
 const LOOK_EVERY: u64 = 50;
 
 impl Simulation {
@@ -34,13 +34,13 @@ impl Simulation {
         self.last_good = Some(LastGood { every, state });
     }
 
-    /// The last copy, and an end of keeping them.
+    /// Hands the last copy over and stops keeping copies.
     pub fn take_last_good(&mut self) -> Option<Simulation> {
         self.last_good.take().map(|kept| *kept.state)
     }
 
-    /// Whether no disc has been pressed through a wall. That does not end a run (packings of 6 % porosity know it), but
-    /// such a state is none to start from: readers of state files refuse it.
+    /// Whether the centres of all discs are between the walls. A run goes on when they are not, as in packings of 6 %
+    /// porosity, but readers of state files refuse such a state, so it is not kept as the last good one.
     fn centres_are_inside(&self) -> bool {
         let mut inside = true;
         self.for_each_contact(|contact| {
@@ -58,7 +58,8 @@ impl Simulation {
         }
     }
 
-    /// Looks for signs of a blow-up.
+    /// Refuses what only a run that has gone wrong leads to: positions or velocities that are not finite, a disc that moves
+    /// too far in one step, two that overlap too much, a periodic box that is too small for its discs.
     pub fn check(&self) -> Result<(), Failure> {
         let time = self.time;
         if self.periodic.is_some() {
