@@ -103,6 +103,8 @@ fn tables_of(page: &str, text: &str) -> Vec<(String, Table)> {
         let (columns, rows) = (table[0].clone(), table[2..].to_vec());
         let uneven = rows.iter().find(|row| row.len() != columns.len());
         assert!(uneven.is_none(), "{place}: {uneven:?} has not {} cells", columns.len());
+        let empty = rows.iter().find(|row| row.iter().any(String::is_empty));
+        assert!(empty.is_none(), "{place}: {empty:?} has an empty cell");
         found.push((name.to_string(), Table { place, columns, rows }));
     }
     found

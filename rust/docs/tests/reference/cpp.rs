@@ -90,6 +90,12 @@ pub fn with_literals(mut set: Set, source: &str) -> Set {
             set = set.with(&found[1], "allowed", Cell::Range(low, high));
         }
     }
+    for key in firsts(r#"\bget<[^>();]*>\s*\(\s*"(\w+)""#, source) {
+        set = set.with(&key, "default", Cell::Begins("required"));
+    }
+    for found in all(r#""(\w+)", FixedList<label, 2>\(\{(\d+), (\d+)\}\)"#, source) {
+        set = set.with(&found[1], "default", Cell::Text(format!("({} {})", found[2], found[3])));
+    }
     for found in all(r#"\bchoice\s*\(\s*"(\w+)"\s*,\s*\{([^}]*)\}"#, source) {
         let words = strings(&found[2]);
         set = set.with(&found[1], "default", Cell::Text(words[0].clone()));
@@ -103,6 +109,26 @@ pub fn with_literals(mut set: Set, source: &str) -> Set {
     }
     for found in all(r#"Names\.getOrDefault\s*\(\s*"(\w+)"\s*,\s*[\w*]+\s*,\s*\w+::(\w+)\s*\)"#, source) {
         set = set.with(&found[1], "default", Cell::Text(found[2].clone()));
+    }
+    set
+}
+
+/// Units of quantities that the source gives with their dimensions, which have to be there.
+pub fn with_units(mut set: Set, source: &str) -> Set {
+    const UNITS: [(&str, &str); 6] = [
+        ("dimDensity", "kg/m³"),
+        ("dimPressure", "Pa"),
+        ("dimPower/dimLength/dimTemperature", "W/(m K)"),
+        ("dimSpecificHeatCapacity", "J/(kg K)"),
+        ("dimless/dimTemperature", "1/K"),
+        ("dimLength", "m"),
+    ];
+    for found in all(r#"(?:positive|\w+_)\s*\(\s*"(\w+)",\s*([\w/]+)(?:,\s*\*this)?\s*\)"#, source) {
+        let unit = UNITS.iter().find(|(dimensions, _)| *dimensions == found[2]);
+        let (_, unit) =
+            unit.unwrap_or_else(|| panic!("{}: the unit of {} is not known here", found[1], found[2]));
+        set = set.with(&found[1], "unit", Cell::Text((*unit).to_string()));
+        set = set.with(&found[1], "default", Cell::Begins("required"));
     }
     set
 }

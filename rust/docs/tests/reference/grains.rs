@@ -15,26 +15,36 @@ pub fn sets() -> Vec<Set> {
 fn plan() -> Vec<Set> {
     let ramps = variants(RVE, "RampName");
     let compressions = variants(RVE, "Compression");
-    let block = fields_of(PLAN, "block", RVE, "Block")
+    let block = with_required(fields_of(PLAN, "block", RVE, "Block"), RVE, "Block")
+        .with("boundary", "default", default_variant(RVE, "Boundary"))
+        .with("slide", "default", default_variant(RVE, "Slide"))
         .with_words("compressions", "allowed", &compressions)
         .with_words("boundary", "allowed", &variants(RVE, "Boundary"))
         .with_words("slide", "allowed", &variants(RVE, "Slide"));
-    let plan = fields_of(PLAN, "plan", RVE, "Plan").with_words(
-        "relaxation",
-        "allowed",
-        &variants(RVE, "Relaxation"),
-    );
+    let relaxations = variants(RVE, "Relaxation");
+    let plan = with_required(fields_of(PLAN, "plan", RVE, "Plan"), RVE, "Plan")
+        .with_words("relaxation", "allowed", &relaxations)
+        .with("relaxation", "default", default_variant(RVE, "Relaxation"));
     let specification = fields_of(C_INTERFACE, "specification", "rust/capi/src", "Specification")
         .with_words("compression", "allowed", &compressions)
         .with_words("boundary", "allowed", &variants(RVE, "Boundary"))
-        .with_words("relaxation", "allowed", &variants(RVE, "Relaxation"));
+        .with("boundary", "default", default_variant(RVE, "Boundary"))
+        .with("relaxation", "default", default_variant(RVE, "Relaxation"))
+        .with_words("relaxation", "allowed", &relaxations);
+    let specification = with_defaults(specification, RVE, "PackingSpec");
+    let material = fields_of(PLAN, "material", "rust/dem/src", "Material");
+    let material = with_defaults(material, "rust/dem/src", "Material");
     vec![
         plan,
         block,
-        with_defaults(fields_of(PLAN, "material", "rust/dem/src", "Material"), "rust/dem/src", "Material"),
+        with_ranges(
+            material,
+            "rust/dem/src",
+            r#"\("(\w+)", self\.[^"]*"([^"]*)"\)|\(\s*"(\w+)",\s*self\.[^"]*"([^"]*)",\s*\)"#,
+        ),
         Set::new(PLAN, "compressions", RVE, compressions),
         Set::new(PLAN, "ramps", RVE, ramps),
-        with_defaults(specification, RVE, "PackingSpec"),
+        with_ranges(specification, RVE, r#"parameter\("(\w+)", [^"]*, "([^"]*)"\)()()"#),
     ]
 }
 
@@ -147,6 +157,35 @@ fn with_defaults(mut set: Set, place: &str, name: &str) -> Set {
         }
     }
     set
+}
+
+/// Adds ranges from the messages that refuse a value: a pattern of key and range, in either two of four groups.
+fn with_ranges(mut set: Set, folder: &str, pattern: &str) -> Set {
+    let text: String = files(folder, &["rs"]).into_iter().map(|(_, text)| text).collect();
+    let found = all(pattern, &text);
+    assert!(!found.is_empty(), "{folder}: no ranges for {}: have the messages another form now?", set.table);
+    for range in found {
+        let (key, text) = if range[1].is_empty() { (&range[3], &range[4]) } else { (&range[1], &range[2]) };
+        set = set.with_range(key, text);
+    }
+    set
+}
+
+/// Says of keys without `#[serde(default)]` that they are required, which is none of the other defaults.
+fn with_required(mut set: Set, place: &str, name: &str) -> Set {
+    let body = body_of(place, &format!(r"struct {name}(?:<[^>]*>)? \{{"));
+    let fields = all(r"(?m)((?:^ +#\[[^\n]*\n)*)^ +pub (\w+): ", &body);
+    for field in fields.iter().filter(|field| !field[1].contains("serde")) {
+        set = set.with(&field[2], "default", Cell::Begins("required"));
+    }
+    set
+}
+
+/// The variant that is marked as default.
+fn default_variant(place: &str, name: &str) -> Cell {
+    let body = body_of(place, &format!(r"enum {name} \{{"));
+    let found = firsts(r"#\[default\]\s+(\w+),", &body);
+    Cell::Text(found.first().unwrap_or_else(|| panic!("{name} has no default")).to_lowercase())
 }
 
 #[test]

@@ -20,6 +20,8 @@ pub struct Set {
 pub enum Cell {
     /// This text, backticks aside.
     Text(String),
+    /// This word first.
+    Begins(&'static str),
     /// This number first.
     Number(f64),
     /// Both numbers, among others.
@@ -83,6 +85,14 @@ impl Set {
         self
     }
 
+    /// The least and the largest number of a text as "0.01 to 0.3" in a message; nothing if it has not two.
+    pub fn with_range(self, name: &str, text: &str) -> Self {
+        match numbers(text).as_slice() {
+            [low, .., high] => self.with(name, "allowed", Cell::Range(*low, *high)),
+            _ => self,
+        }
+    }
+
     pub fn with_words(self, name: &str, column: &'static str, words: &[String]) -> Self {
         assert!(!words.is_empty(), "{}: no values of {name} in {}", self.table, self.source);
         self.with(name, column, Cell::Words(words.to_vec()))
@@ -128,6 +138,7 @@ fn difference(table: &Table, name: &str, column: &str, expected: &Cell) -> Optio
     let numbers = numbers(cell);
     let same = match expected {
         Cell::Text(text) => plain(cell) == plain(text),
+        Cell::Begins(word) => plain(cell).split(' ').next() == Some(word),
         Cell::Number(number) => numbers.first() == Some(number),
         Cell::Range(low, high) => numbers.contains(low) && numbers.contains(high),
         Cell::Words(words) => {

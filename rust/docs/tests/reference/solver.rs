@@ -1,8 +1,8 @@
 //! Keys of the case files that `msddFoam` and its function objects read.
 
 use crate::cpp::{
-    allowed_keys, allowed_list, lookups as lookups_of, selectable, source, with_literals, without_comments,
-    words_of,
+    allowed_keys, allowed_list, lookups as lookups_of, selectable, source, with_literals, with_units,
+    without_comments, words_of,
 };
 use crate::set::{Cell, Set};
 use crate::sources::{self, firsts, strings};
@@ -65,7 +65,7 @@ fn grains() -> Vec<Set> {
         .with_words("bulkDensity", "allowed", &words_of("bulkDensityModelNames", &text))
         .with_words("mechanics", "allowed", &selectable("granularMechanics", &all));
     let mechanics = source("openfoam/granularModels/granularMechanics/granularMechanics.C");
-    vec![with_literals(set, &(text + &mechanics))]
+    vec![with_literals(with_units(set, &text), &(text + &mechanics))]
 }
 
 fn surrogates() -> Vec<Set> {
@@ -75,7 +75,11 @@ fn surrogates() -> Vec<Set> {
     let header = source("openfoam/granularModels/granularProperties/granularProperties.H");
     let surrogate = Set::new(GRAINS, "surrogate", MODEL, keys).with_words("type", "allowed", &types);
     // The default of smallestStrain is an argument of its function, that of most models.
-    let surrogate = with_literals(surrogate, &header).with("smallestStrain", "default", Cell::Number(0.0));
+    let surrogate = with_literals(surrogate, &(source(MODEL) + &header)).with(
+        "smallestStrain",
+        "default",
+        Cell::Number(0.0),
+    );
     let mut sets = vec![surrogate];
     for name in types {
         let folder = format!("openfoam/granularModels/{name}Model");
