@@ -173,5 +173,11 @@ fn environment() -> Set {
             names.extend(firsts(r"\$[({]?(MSDD_[A-Z_]+)", &text));
         }
     }
+    // Set by the build itself.
+    for (_, text) in files("rust", &["rs"]) {
+        firsts(r"cargo:rustc-env=(\w+)", &text).iter().for_each(|name| {
+            names.remove(name);
+        });
+    }
     Set::new(PAGE, "environment", "sources, scripts and cases", names)
 }
