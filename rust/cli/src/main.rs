@@ -7,6 +7,7 @@ mod output;
 mod ablation;
 mod bench;
 mod database;
+mod draw;
 mod error;
 mod progress;
 mod reference;
