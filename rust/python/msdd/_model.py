@@ -115,6 +115,14 @@ class Model:
         return description
 
     @property
+    def trained_range(self) -> dict[str, tuple[float, float]]:
+        """Least and largest value of each input in the training, beyond which `Step.clamped` is set: porosity [-], fabric_index
+        [-], thermal_strain [-] and, of a model that carries stress, pressure (reduced as the state is), fabric_conductivity
+        and stress_ratio (deviator over pressure) [-]. Empty for a plug-in, which does not tell."""
+        ranges = self.info.get("trained_range") or {}
+        return {name: (ends["min"], ends["max"]) for name, ends in ranges.items()}
+
+    @property
     def state_names(self) -> tuple[str, ...]:
         """Names of the state's columns; the first two are "porosity" and "fabric_index"."""
         return self._state_names
@@ -234,25 +242,6 @@ class Model:
         limit, slip = c.c_double(), c.c_double()
         check(library.msdd_surrogate_wall_friction(self._handle, _scales(material), c.byref(limit), c.byref(slip)))
         return WallFriction(limit.value, slip.value)
-
-    def trained_range(self) -> dict[str, tuple[float, float]]:
-        """Least and largest value of each input, the columns of the state and "thermal_strain", that the model answers
-        without clamping; infinite for one without limits, as a plug-in may be."""
-        # Asked of the model itself: how far outside are values that are far outside for certain?
-        far = np.array([-FAR, FAR])
-        strain = np.array([-0.99, 9.0])
-        scales = Material(1.0, 1.0, 1.0)
-        step = self.advance(scales, {name: far for name in self._state_names}, strain)
-        ranges = {}
-        for name, outside in step.outside.items():
-            ends = (strain if name == "thermal_strain" else far) - outside
-            low, high = np.where(outside == 0, [-np.inf, np.inf], ends)
-            ranges[name] = (float(low), float(high))
-        return ranges
-
-
-FAR = 1e3
-"""Beyond the trained range of every column of a state, and small enough to leave 13 digits behind the point."""
 
 
 def load_model(source: Union[str, os.PathLike[str]] = "builtin", conductivity: Optional[str] = None) -> Model:
