@@ -20,7 +20,6 @@ Failures are exceptions derived from `MsddError`.
 from ._case import Probes, read_field, read_probes, read_summary, read_table, time_folders
 from ._database import export_database, generate_database, read_database
 from ._errors import (
-    Cancelled,
     CaseError,
     FileError,
     InternalError,
@@ -40,7 +39,6 @@ from ._rve import Averages, Contacts, Grains, Rve, pack
 __all__ = [
     "Averages",
     "CaseError",
-    "Cancelled",
     "Contacts",
     "FileError",
     "Grains",

@@ -50,7 +50,9 @@ def read_probes(case: PathLike, field: str = "T", name: str = "probes") -> Probe
 
     case: folder of the case. field: "T" [K] or any that the probes list. Raises CaseError.
     """
-    times, values, positions = [], [], np.zeros((0, 3))
+    times: list[Any] = []
+    values: list[Any] = []
+    positions = np.zeros((0, 3))
     for start, file in _outputs(case, name, field):
         text = _text(file)
         found = re.findall(r"^# *Probe +\d+ *\(([^()]*)\)", text, re.MULTILINE)

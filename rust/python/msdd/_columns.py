@@ -22,7 +22,7 @@ def _numbers(name: str, values: ArrayLike) -> NDArray[np.generic]:
         raise TypeError(f"{name} is not an array of numbers: {error}") from None
     if array.dtype.kind not in "buif":
         raise TypeError(f"{name} is not an array of real numbers: its type is {array.dtype}")
-    if np.ma.is_masked(values):
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         raise TypeError(f"{name} has masked values: fill them first")
     return array
 

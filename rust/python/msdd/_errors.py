@@ -42,12 +42,6 @@ class RveError(MsddError, RuntimeError):
     status = 5
 
 
-class Cancelled(MsddError):
-    """The progress function asked to stop. What was made until then is kept."""
-
-    status = 6
-
-
 class PluginError(MsddError, RuntimeError):
     """A plug-in could not be loaded, failed, or gave an answer that no packing of grains has."""
 
@@ -66,7 +60,7 @@ class CaseError(MsddError, ValueError):
 
 _BY_STATUS = {
     kind.status: kind
-    for kind in (InvalidArgument, FileError, ModelError, NonFinite, RveError, Cancelled, PluginError, InternalError)
+    for kind in (InvalidArgument, FileError, ModelError, NonFinite, RveError, PluginError, InternalError)
 }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gzip
 import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +24,8 @@ class FoamFile(NamedTuple):
     path: Path
     data: bytes
     binary: bool
-    real: np.dtype[np.floating]
-    label: np.dtype[np.signedinteger]
+    real: np.dtype[Any]
+    label: np.dtype[Any]
 
     def wrong(self, what: str) -> CaseError:
         return CaseError(f"{self.path}: {what}")

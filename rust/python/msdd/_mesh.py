@@ -47,7 +47,7 @@ def read_mesh(case: Union[str, os.PathLike[str]]) -> Mesh:
     faces_of_cell = np.bincount(cells, minlength=count)[:, None]
     middle = _sums(centres, cells, count) / np.maximum(faces_of_cell, 1)
     volume = np.einsum("ij,ij->i", areas, centres - middle[cells]) / 3
-    volumes = np.bincount(cells, volume, count)
+    volumes: Array = np.bincount(cells, volume, count).astype(np.float64)
     if np.any(volumes <= 0):
         raise CaseError(f"{folder}: cells without volume, the first is number {int(np.argmax(volumes <= 0))}")
     return Mesh(_sums(volume[:, None] * (0.75 * centres + 0.25 * middle[cells]), cells, count) / volumes[:, None], volumes)

@@ -221,8 +221,11 @@ class Model:
         clamped = np.empty(shape, np.bool_)
         for name, pointers in rows.items():
             setattr(batch, name, c.addressof(pointers))
-        for name, column in {**{name: columns[name] for name in strains}, **answers, "clamped": clamped}.items():
-            setattr(batch, name, address(column))
+        for name in strains:
+            setattr(batch, name, address(columns[name]))
+        for name, answer in answers.items():
+            setattr(batch, name, address(answer))
+        batch.clamped = address(clamped)
         check(library.msdd_surrogate_advance(self._handle, _scales(material), c.byref(batch)))
         return Step(state=after, outside=outside, clamped=clamped, **answers)
 

@@ -81,12 +81,14 @@ class Averages:
 
 
 class Contacts(NamedTuple):
-    """Contacts that carry a tangential force."""
+    """Contacts that press. Of a contact with a wall, `i` is -1 (left), -2 (right), -3 (bottom) or -4 (top)."""
 
     i: NDArray[np.int64]
-    """number of the one grain"""
+    """number of the one grain, or a wall"""
     j: NDArray[np.int64]
-    """number of the other one"""
+    """number of the other grain"""
+    overlap: Array
+    """[m]; the normal force is proportional to it"""
     tangential_force: Array
     """[N]"""
 
@@ -172,10 +174,10 @@ class Rve:
         return {name: np.array(column, np.float64) for name, column in particles.items()}
 
     def contacts(self) -> Contacts:
-        """Which grains touch, of those contacts that carry a tangential force."""
-        found = json.loads(self.to_json())["contacts"]
-        i, j = (np.array(found[name], np.int64) for name in "ij")
-        return Contacts(i, j, np.array(found["tangential_force"], np.float64))
+        """Which grains and walls press on each other, and how far they overlap."""
+        state = json.loads(self.to_json())
+        found = {name: np.array(column) for name, column in state["contacts"].items()}
+        return Contacts(found["i"], found["j"], _overlaps(state, found), found["tangential_force"])
 
     def bounds(self) -> tuple[float, float, float, float]:
         """x_min, x_max, y_min, y_max of the box [m]."""
@@ -227,3 +229,17 @@ def _number(value: object) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     raise TypeError(f"{type(value).__name__} is neither a number nor a text")
+
+
+def _overlaps(state: dict[str, Any], contacts: dict[str, NDArray[Any]]) -> Array:
+    """Overlaps of the contacts of a state [m]. A contact across the border of a periodic box is one with the image of grain j
+    that lies shift_x and shift_y boxes away; the images above are sheared by shear_offset against the box."""
+    box, i, j = state["box"], contacts["i"], contacts["j"]
+    x, y, radius = (np.array(state["particles"][name]) for name in ("x", "y", "radius"))
+    shift_x, shift_y = contacts.get("shift_x", 0), contacts.get("shift_y", 0)
+    along = x[j] - x[i] + shift_x * (box["x_max"] - box["x_min"]) + shift_y * box.get("shear_offset", 0.0)
+    across = y[j] - y[i] + shift_y * (box["y_max"] - box["y_min"])
+    walls = [box["y_max"] - y[j], y[j] - box["y_min"], box["x_max"] - x[j], x[j] - box["x_min"]]  # of i = -4, ..., -1
+    distance = np.choose(np.clip(i + 4, 0, 4), [*walls, np.hypot(along, across) - radius[i]])
+    overlaps: Array = radius[j] - distance
+    return overlaps
