@@ -65,7 +65,9 @@ def read_probes(case: PathLike, field: str = "T", name: str = "probes") -> Probe
         times, values = _before(times, kept), _before(values, kept)
         times += list(table[:, 0])
         values += [row.reshape(len(positions), -1) for row in table[:, 1:]]
-    stacked = np.array(values).reshape(len(times), len(positions), -1)
+    if not times:
+        return Probes(np.zeros(0), positions, np.zeros((0, len(positions))))
+    stacked = np.array(values)
     return Probes(np.array(times), positions, stacked[:, :, 0] if stacked.shape[2] == 1 else stacked)
 
 

@@ -27,31 +27,30 @@ def _numbers(name: str, values: ArrayLike) -> NDArray[np.generic]:
     return array
 
 
-def aligned(named: Mapping[str, Optional[ArrayLike]]) -> tuple[tuple[int, ...], dict[str, Optional[Array]]]:
-    """The arrays broadcast to their common shape, as contiguous doubles; None stays None. An array that is all of that
-    already is passed on as it is, without a copy."""
-    arrays = {name: None if values is None else _numbers(name, values) for name, values in named.items()}
+def aligned(
+    needed: Mapping[str, ArrayLike], optional: Mapping[str, Optional[ArrayLike]]
+) -> tuple[tuple[int, ...], dict[str, Array]]:
+    """The arrays broadcast to their common shape, as contiguous doubles, without those that are None and may be. An array
+    that is all of that already is passed on as it is, without a copy."""
+    arrays = {name: _numbers(name, values) for name, values in needed.items()}
+    arrays.update({name: _numbers(name, values) for name, values in optional.items() if values is not None})
     try:
-        shape = np.broadcast_shapes(*(array.shape for array in arrays.values() if array is not None))
+        shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
     except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items() if array is not None)
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise ValueError(f"columns of shapes that do not go together: {shapes}") from None
-    columns: dict[str, Optional[Array]] = {}
-    for name, array in arrays.items():
-        if array is None:
-            columns[name] = None
-        else:
-            # Aligned to 8 bytes, too, which a field of a packed record is not.
-            columns[name] = np.require(np.broadcast_to(array, shape), np.float64, ["C", "A"])
-    return shape, columns
+    # Aligned to 8 bytes, too, which a field of a packed record is not.
+    return shape, {
+        name: np.require(np.broadcast_to(array, shape), np.float64, ["C", "A"]) for name, array in arrays.items()
+    }
 
 
-def address(array: Optional[NDArray[np.generic]]) -> Optional[int]:
+def address(array: NDArray[np.generic]) -> int:
     """Where an array begins; it has to live as long as the address is used."""
-    return None if array is None else array.ctypes.data
+    return array.ctypes.data
 
 
-def table(arrays: Iterable[Optional[NDArray[np.generic]]]) -> c.Array[c.c_void_p]:
+def table(arrays: Iterable[NDArray[np.generic]]) -> c.Array[c.c_void_p]:
     """Addresses of several columns, for a `double **`."""
     addresses = [address(array) for array in arrays]
     return (c.c_void_p * len(addresses))(*addresses)

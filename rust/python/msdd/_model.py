@@ -161,8 +161,10 @@ class Model:
         Arrays of any shapes that broadcast to one; the state has that shape.
         Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
         """
-        known = {"porosity": porosity, "fabric_index": fabric_index, "fabric_conductivity": fabric_conductivity}
-        shape, columns = aligned({**known, "stress_xx": stress_xx, "stress_yy": stress_yy})
+        shape, columns = aligned(
+            {"porosity": porosity, "fabric_index": fabric_index},
+            {"fabric_conductivity": fabric_conductivity, "stress_xx": stress_xx, "stress_yy": stress_yy},
+        )
         initial = InitialStruct(c.sizeof(InitialStruct), _count(shape))
         for name, column in columns.items():
             setattr(initial, name, address(column))
@@ -198,34 +200,34 @@ class Model:
         Arrays of any shapes that broadcast to one. Contiguous ones of doubles are read where they are, without a copy.
         Raises InvalidArgument, NonFinite, PluginError; KeyError for a missing column of the state.
         """
+        if not hasattr(state, "keys"):
+            raise TypeError(f"state is a dictionary of arrays by name, not {type(state).__name__}")
         missing = [name for name in self._state_names if name not in state]
         if missing:
             raise KeyError(f"the state lacks {', '.join(missing)}")
         total = thermal_strain if total_thermal_strain is None else total_thermal_strain
-        strains: dict[str, Optional[ArrayLike]] = {
-            "thermal_strain": thermal_strain,
-            "total_thermal_strain": total,
-            "strain_xx": strain_xx,
-            "strain_yy": strain_yy,
-            "virgin_share": virgin_share,
-        }
         before = {f"state[{name!r}]": state[name] for name in self._state_names}
-        shape, columns = aligned({**before, **strains})
-        batch = BatchStruct(struct_size=c.sizeof(BatchStruct), cells=_count(shape))
-        rows = {name: table(columns[key] for key in before) for name in ("state",)}
+        shape, columns = aligned(
+            {**before, "thermal_strain": thermal_strain, "total_thermal_strain": total},
+            {"strain_xx": strain_xx, "strain_yy": strain_yy, "virgin_share": virgin_share},
+        )
         after = {name: np.empty(shape) for name in self._state_names}
         outside = {name: np.empty(shape) for name in (*self._state_names, "thermal_strain")}
-        rows.update(next_state=table(after.values()), outside=table(outside.values()))
         wanted = _ANSWERS + (_TANGENT if tangent else ()) + (("spread",) if spread else ())
         answers = {name: np.empty(shape) for name in wanted}
         clamped = np.empty(shape, np.bool_)
-        for name, pointers in rows.items():
+        # Arrays and tables live to the end of this function, and so do the addresses in the batch.
+        tables = {
+            "state": table(columns[name] for name in before),
+            "next_state": table(after.values()),
+            "outside": table(outside.values()),
+        }
+        batch = BatchStruct(struct_size=c.sizeof(BatchStruct), cells=_count(shape), clamped=address(clamped))
+        for name, pointers in tables.items():
             setattr(batch, name, c.addressof(pointers))
-        for name in strains:
-            setattr(batch, name, address(columns[name]))
-        for name, answer in answers.items():
-            setattr(batch, name, address(answer))
-        batch.clamped = address(clamped)
+        for name, column in {**columns, **answers}.items():
+            if name not in before:
+                setattr(batch, name, address(column))
         check(library.msdd_surrogate_advance(self._handle, _scales(material), c.byref(batch)))
         return Step(state=after, outside=outside, clamped=clamped, **answers)
 
@@ -234,7 +236,7 @@ class Model:
 
         porosity: overlaps counted once, 0 to 1. The bulk density that conserves mass is that of the grains times the answer.
         """
-        shape, columns = aligned({"porosity": porosity})
+        shape, columns = aligned({"porosity": porosity}, {})
         answer = np.empty(shape)
         given = address(columns["porosity"])
         check(library.msdd_surrogate_solid_fraction(self._handle, _count(shape), given, address(answer)))
