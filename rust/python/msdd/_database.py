@@ -6,7 +6,11 @@ import csv
 import ctypes as c
 import json
 import os
+import signal
 import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Callable, Optional, Union
 
@@ -37,17 +41,33 @@ def generate_database(
 
     def hear(_: Optional[int], done: int, total: int, failed: int) -> int:
         try:
-            if progress is not None:
+            if progress is not None and not raised:
                 progress(done, total, failed)
-        except BaseException as error:  # KeyboardInterrupt, too: nothing may pass through the library
+        except BaseException as error:  # nothing may pass through the library
             raised.append(error)
         return len(raised)
 
     arguments = encoded("plan", text), encoded("database", database), _threads(threads)
-    status = library.msdd_database_generate(*arguments, Progress(hear), None)
+    with _interrupts_kept(raised):
+        status = library.msdd_database_generate(*arguments, Progress(hear), None)
     if raised:
         raise raised[0]
     check(status)
+
+
+@contextmanager
+def _interrupts_kept(raised: list[BaseException]) -> Iterator[None]:
+    """Ctrl-C is put into the list. Python would raise it when a function begins that the library calls, where nothing can
+    catch it, and it would be lost."""
+    main = threading.current_thread() is threading.main_thread()
+    if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield
+        return
+    signal.signal(signal.SIGINT, lambda *_: raised.append(KeyboardInterrupt()))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _threads(threads: int) -> int:
