@@ -60,9 +60,11 @@ Usage
 #include "restartTime.H"
 #include "stepWatch.H"
 
+#include "runSummary.H"
+#include "version.H"
+
 #include <iostream>
 #include <unistd.h>
-#include "runSummary.H"
 
 // Written by msdd report --solver-table
 static const char* const cheapestConfigurations =
@@ -106,6 +108,13 @@ int main(int argc, char *argv[])
         " scripts/report, and exit; needs no case"
     );
 
+    argList::addBoolOption
+    (
+        "version",
+        "Print the version and the commit that msddFoam was built from, and"
+        " exit; needs no case"
+    );
+
     argList::addOption
     (
         "accept",
@@ -119,6 +128,12 @@ int main(int argc, char *argv[])
 
     for (int i = 1; i < argc; i++)
     {
+        if (string(argv[i]) == "-version")
+        {
+            Info<< "msddFoam " << msddVersion << ", OpenFOAM "
+                << OPENFOAM << endl;
+            return 0;
+        }
         if (string(argv[i]) == "-cheapest")
         {
             Info<< cheapestConfigurations;
@@ -134,9 +149,14 @@ int main(int argc, char *argv[])
     runRecord::accepted = wordHashSet(args.getList<word>("accept", false));
     const restartTime restart(args);
 
+    Info<< "msddFoam " << msddVersion << nl << endl;
+
     #include "createTime.H"
 
     restart.setValue(runTime);
+
+    // The log is for people: writePrecision is for the fields
+    Sout.precision(6);
 
     #include "createMesh.H"
 
@@ -170,7 +190,7 @@ int main(int argc, char *argv[])
     (
         timeScheme::New(T, grains, mechanics(), granular)
     );
-    const runSummary summary(grains, mechanics(), wallClock);
+    const runSummary summary(T, grains, mechanics(), wallClock);
     grains.record().findFiles();
 
     stepWatch watch(scheme->waitLimit());

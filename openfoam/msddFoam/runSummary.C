@@ -21,11 +21,13 @@ License
 
 Foam::runSummary::runSummary
 (
-    const granularState& grains,
+    const volScalarField& T,
+    granularState& grains,
     const granularMechanics& mechanics,
     const clockTime& wallClock
 )
 :
+    T_(T),
     grains_(grains),
     mechanics_(mechanics),
     wallClock_(wallClock)
@@ -66,9 +68,23 @@ void Foam::runSummary::write(const label rejected) const
     const scalar meanPressure = mean(grains_.pressure());
     const granularModel::counters counts(grains_.modelCounts());
     const scalar wallSeconds = wallClock_.elapsedTime();
+    const scalar cpuSeconds =
+        returnReduce(time.elapsedCpuTime(), sumOp<scalar>());
+
+    const heatBalance heat(this->heat());
+    const List<string> sentences
+    ({
+        range(), doubt(), balance(heat), motion(), cost()
+    });
 
     Info<< "Steps: " << steps << ", repeated " << rejected << nl
-        << "Wall time: " << wallSeconds << " s" << nl << endl;
+        << "Wall time: " << wallSeconds << " s" << nl << nl
+        << "What to know about this run:" << nl;
+    for (const string& sentence : sentences)
+    {
+        Info<< "  - " << sentence.c_str() << nl;
+    }
+    Info<< endl;
 
     if (!Pstream::master())
     {
@@ -82,6 +98,7 @@ void Foam::runSummary::write(const label rejected) const
         os.precision(10);
         os  << "{\n  \"application\": \"msddFoam\",\n"
             << "  \"wall_seconds\": " << wallSeconds << ",\n"
+            << "  \"cpu_seconds\": " << cpuSeconds << ",\n"
             << "  \"steps\": " << steps << ",\n"
             << "  \"cells\": " << cells << ",\n"
             << "  \"queries\": " << grains_.queries() << ",\n"
@@ -104,6 +121,17 @@ void Foam::runSummary::write(const label rejected) const
             os  << (i ? ", " : "") << moved.warnings[i];
         }
         os  << "]},\n"
+            << "  \"heat\": {\"patches\": " << heat.patches
+            << ", \"sources\": " << heat.sources
+            << ", \"stored\": " << heat.stored
+            << ", \"exchanged\": " << heat.exchanged
+            << ", \"relative_difference\": " << heat.difference() << "},\n"
+            << "  \"what_to_know\": [";
+        forAll(sentences, i)
+        {
+            os  << (i ? ",\n    " : "\n    ") << sentences[i];
+        }
+        os  << "\n  ],\n"
             << "  \"model\": {\"source\": " << grains_.model().source()
             << ", \"hash\": " << string(grains_.model().hash())
             << ", \"library_version\": "

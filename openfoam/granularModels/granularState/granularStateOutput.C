@@ -204,4 +204,33 @@ void Foam::granularState::writeReport() const
 }
 
 
+Foam::label Foam::granularState::cellsOutside() const
+{
+    label outside = 0;
+    for (const scalar inside : inRegion_.primitiveField())
+    {
+        outside += inside < 0.5;
+    }
+    return returnReduce(outside, sumOp<label>());
+}
+
+
+Foam::scalar Foam::granularState::storedHeat(const volScalarField& T) const
+{
+    const scalarField& bulk = bulkDensity_.primitiveField();
+    const scalarField& start = initialTemperature_.primitiveField();
+    return properties_.heatCapacity().value()
+       *gSum(bulk*mesh_.V().field()*(T.primitiveField() - start));
+}
+
+
+Foam::scalar Foam::granularState::meanSpread()
+{
+    findSpread();
+    return spread_.valid()
+      ? spread_().weightedAverage(mesh_.V()).value()
+      : -1;
+}
+
+
 // ************************************************************************* //

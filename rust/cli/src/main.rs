@@ -7,6 +7,7 @@ mod output;
 mod ablation;
 mod bench;
 mod database;
+mod draw;
 mod error;
 mod progress;
 mod reference;
@@ -22,6 +23,9 @@ mod train;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
+/// Version, and the commit that this was built from.
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (commit ", env!("MSDD_COMMIT"), ")");
+
 const AFTER_HELP: &str = "\
 The way of the data:
   msdd database generate --plan cases/database/quick.toml --out results/quick.msdd
@@ -31,7 +35,7 @@ then name the model in a case's constant/granularProperties, run msddFoam, and
 
 /// Multiscale data-driven simulation of heat conduction with thermal expansion in granular media: the offline work.
 #[derive(Parser)]
-#[command(version, after_help = AFTER_HELP, arg_required_else_help = true)]
+#[command(name = "msdd", version = VERSION, after_help = AFTER_HELP, arg_required_else_help = true)]
 struct Program {
     #[command(subcommand)]
     command: Command,

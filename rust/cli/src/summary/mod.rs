@@ -1,5 +1,7 @@
-//! `msdd summary`: what the solver left in the case folders, as a table, as JSON and as a plot.
+//! `msdd summary`: what the solver left in the case folders, beside discrete elements of the same cases, as a table, as JSON
+//! and as a plot.
 
+mod discs;
 #[cfg(test)]
 mod fixture;
 mod plot;
@@ -8,6 +10,7 @@ mod table;
 
 use crate::error::CliError;
 use clap::Args;
+use discs::{Discs, Errors};
 use msdd_files::write;
 use read::{CaseResult, Model};
 use serde::Serialize;
@@ -20,58 +23,105 @@ const CASES: [(&str, &str); 6] =
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Folder of the case folders H, C, HC, Hstar, Cstar, HCstar.
+    /// Folder of the case folders H, C, HC, Hstar, Cstar, HCstar, run with the paper's scheme: grains stay in their cells.
     #[arg(long, value_name = "DIR", default_value = "cases")]
     cases: PathBuf,
+    /// Folder of the same cases, run with grains that move (`mechanics equilibrium`). Without it they are left out.
+    #[arg(long, value_name = "DIR")]
+    moving: Option<PathBuf>,
+    /// Folder of the results by discrete elements.
+    #[arg(long, value_name = "DIR", default_value = "cases/reference")]
+    reference: PathBuf,
     /// JSON to write.
     #[arg(long, value_name = "FILE", default_value = "results/summary.json")]
     out: PathBuf,
-    /// Plot of T at P2 to write (SVG).
+    /// Plot of T at the three probes in all cases to write (SVG).
     #[arg(long, value_name = "FILE", default_value = "results/temperature.svg")]
     plot: PathBuf,
 }
 
 #[derive(Serialize)]
 struct Summary<'a> {
+    /// With the paper's scheme.
     cases: BTreeMap<&'static str, &'a CaseResult>,
+    /// With grains that move.
+    moving: BTreeMap<&'static str, &'a CaseResult>,
+    comparison: BTreeMap<&'static str, Comparison<'a>>,
     model: &'a Model,
 }
 
-/// A case and how it is called.
+#[derive(Serialize)]
+struct Comparison<'a> {
+    discs: &'a Discs,
+    grains_stay: Option<Errors>,
+    grains_move: Option<Errors>,
+}
+
+/// A case, how it is called, its runs, and discrete elements of it.
 struct Named {
     folder: &'static str,
     name: &'static str,
-    result: CaseResult,
+    stay: CaseResult,
+    moving: Option<CaseResult>,
+    discs: Discs,
+}
+
+impl Named {
+    fn errors(&self, run: &CaseResult) -> Option<Errors> {
+        self.discs.errors(self.folder, run)
+    }
 }
 
 /// Reads, checks and reports. All cases are read before anything is written.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let (named, model) = read_all(&arguments.cases)?;
-    let cases = named.iter().map(|case| (case.folder, &case.result)).collect();
-    let json = serde_json::to_string_pretty(&Summary { cases, model: &model })
-        .map_err(|error| CliError::Message(error.to_string()))?;
+    let (named, model) = read_all(&arguments.cases, arguments.moving.as_deref(), &arguments.reference)?;
+    let json = serde_json::to_string_pretty(&Summary {
+        cases: named.iter().map(|case| (case.folder, &case.stay)).collect(),
+        moving: named.iter().filter_map(|case| Some((case.folder, case.moving.as_ref()?))).collect(),
+        comparison: named.iter().map(|case| (case.folder, comparison(case))).collect(),
+        model: &model,
+    })
+    .map_err(|error| CliError::Message(error.to_string()))?;
     write(&arguments.out, json.as_bytes())?;
     write(&arguments.plot, plot::temperature(&named)?.as_bytes())?;
     out!("{}", table::text(&named));
-    outln!("model {} ({})", model.hash, model.source);
-    outln!("figures: {}   plot: {}", arguments.out.display(), arguments.plot.display());
+    outln!("model: {}, SHA-256 {}", model.source, model.hash);
+    outln!("numbers: {}   plot: {}", arguments.out.display(), arguments.plot.display());
     Ok(())
 }
 
-/// The six cases in the folder `cases`, and the one model they were run with: figures of different models are no comparison.
-fn read_all(cases: &Path) -> Result<(Vec<Named>, Model), CliError> {
+fn comparison(case: &Named) -> Comparison<'_> {
+    Comparison {
+        discs: &case.discs,
+        grains_stay: case.errors(&case.stay),
+        grains_move: case.moving.as_ref().and_then(|run| case.errors(run)),
+    }
+}
+
+/// The six cases in the folder `cases` and, with grains that move, in `moving`, and the one model they were run with: figures of
+/// different models are no comparison.
+fn read_all(cases: &Path, moving: Option<&Path>, reference: &Path) -> Result<(Vec<Named>, Model), CliError> {
     let mut named = Vec::new();
-    let mut models: Vec<(&str, Model)> = Vec::new();
+    let mut models: Vec<(PathBuf, Model)> = Vec::new();
     for (folder, name) in CASES {
-        let (result, model) = read::case(&cases.join(folder))?;
-        named.push(Named { folder, name, result });
-        models.push((folder, model));
+        let mut run = |parent: &Path| -> Result<CaseResult, CliError> {
+            let path = parent.join(folder);
+            let (result, model) = read::case(&path)?;
+            models.push((path, model));
+            Ok(result)
+        };
+        let stay = run(cases)?;
+        let moving = moving.map(run).transpose()?;
+        named.push(Named { folder, name, stay, moving, discs: Discs::read(reference, folder)? });
     }
     let (first, model) = models.swap_remove(0);
     if let Some((other, differing)) = models.iter().find(|(_, m)| m.hash != model.hash) {
         return Err(CliError::Message(format!(
-            "cases {first} and {other} were run with different models ({} and {}): run them again",
-            model.hash, differing.hash
+            "cases {} and {} were run with different models ({} and {}): run them again",
+            first.display(),
+            other.display(),
+            model.hash,
+            differing.hash
         )));
     }
     Ok((named, model))
@@ -81,21 +131,31 @@ fn read_all(cases: &Path) -> Result<(Vec<Named>, Model), CliError> {
 mod tests {
     use super::*;
 
+    fn arguments(folder: &fixture::Cases, moving: bool) -> Arguments {
+        Arguments {
+            cases: folder.path().to_path_buf(),
+            moving: moving.then(|| folder.path().to_path_buf()),
+            reference: fixture::reference(),
+            out: folder.path().join("results/summary.json"),
+            plot: folder.path().join("results/temperature.svg"),
+        }
+    }
+
     #[test]
     fn six_cases_of_one_model_are_written_as_table_json_and_plot() {
         let folder = fixture::Cases::new("good");
-        let arguments = Arguments {
-            cases: folder.path().to_path_buf(),
-            out: folder.path().join("results/summary.json"),
-            plot: folder.path().join("results/temperature.svg"),
-        };
+        let arguments = arguments(&folder, true);
         run(&arguments).unwrap();
         let json: serde_json::Value =
             serde_json::from_str(&std::fs::read_to_string(&arguments.out).unwrap()).unwrap();
         assert_eq!(json["cases"].as_object().unwrap().len(), CASES.len());
+        assert_eq!(json["moving"].as_object().unwrap().len(), CASES.len());
         assert_eq!(json["cases"]["HCstar"]["probes"]["P2"][1], serde_json::json!([5.0, 80.0]));
         assert_eq!(json["cases"]["H"]["final"]["pressure"], 5000.0);
         assert!(json["cases"]["H"]["final"].get("time").is_none());
+        let compared = &json["comparison"]["H"];
+        assert_eq!(compared["discs"]["temperature"]["P1"].as_array().unwrap().len(), 201);
+        assert!(compared["grains_move"]["temperature"][0].is_f64());
         assert_eq!(json["model"]["hash"], "abc");
         assert!(std::fs::read_to_string(&arguments.plot).unwrap().ends_with("</svg>\n"));
     }
@@ -104,7 +164,11 @@ mod tests {
     fn cases_of_different_models_are_refused_by_name() {
         let folder = fixture::Cases::new("models");
         folder.write_summary("Cstar", &fixture::SOLVER.replace("abc", "def"));
-        let error = read_all(folder.path()).err().unwrap().to_string();
-        assert!(error.contains("cases H and Cstar were run with different models (abc and def)"), "{error}");
+        let error = run(&arguments(&folder, false)).err().unwrap().to_string();
+        assert!(
+            error.contains("H and ") && error.contains("Cstar were run with different models"),
+            "{error}"
+        );
+        assert!(error.contains("(abc and def)"), "{error}");
     }
 }

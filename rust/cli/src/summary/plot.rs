@@ -1,76 +1,103 @@
-//! T at P2 over time in all cases, as SVG.
+//! T at the three probes over time in all cases, beside the discs, as SVG.
 
 use super::Named;
+use super::read::PROBES;
 use crate::error::CliError;
+use plotters::coord::Shift;
 use plotters::prelude::*;
 
-const SIZE: (u32, u32) = (860, 520);
+const SIZE: (u32, u32) = (1000, 1020);
+/// Colours of P1, P2, P3: Okabe and Ito's, told apart by the colour-blind, and in grey.
+const COLOURS: [RGBColor; 3] = [RGBColor(230, 159, 0), RGBColor(0, 0, 0), RGBColor(0, 114, 178)];
+/// One in so many of the discs' times (0.1 s apart) has a point.
+const SPARSE: usize = 8;
 
-/// Colours of hot, cold, and hot–cold cases: Okabe and Ito's, told apart by the colour-blind, and in grey.
-const COLOURS: [RGBColor; 3] = [RGBColor(230, 159, 0), RGBColor(0, 114, 178), RGBColor(0, 0, 0)];
+type Drawn = Result<(), Box<dyn std::error::Error>>;
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// The plot's SVG text. Cases without expansion are dashed.
+/// The plot's SVG text: a panel a case; dashed the paper's scheme, solid with grains that move, points and bars the discs.
 pub fn temperature(cases: &[Named]) -> Result<String, CliError> {
     let mut svg = String::new();
     draw(cases, &mut svg).map_err(|error| CliError::Message(format!("cannot draw the plot: {error}")))?;
     Ok(svg)
 }
 
-/// Lowest and highest T at P2, rounded outwards to tens of kelvin, 0 to 100 K at least: the walls of the shipped cases.
+/// Lowest and highest T, rounded outwards to tens of kelvin, 0 to 100 K at least: the walls of the shipped cases.
 fn range(cases: &[Named]) -> std::ops::Range<f64> {
-    let values = || cases.iter().flat_map(|case| &case.result.probes["P2"]).map(|&(_, value)| value / 10.0);
-    let low = values().fold(0.0, f64::min).floor();
-    let high = values().fold(10.0, f64::max).ceil();
+    let runs = cases.iter().flat_map(|case| [Some(&case.stay), case.moving.as_ref()]).flatten();
+    let values: Vec<f64> =
+        runs.flat_map(|run| run.probes.values().flatten()).map(|row| row.1 / 10.0).collect();
+    let low = values.iter().copied().fold(0.0, f64::min).floor();
+    let high = values.iter().copied().fold(10.0, f64::max).ceil();
     10.0 * low..10.0 * high
 }
 
-fn draw(cases: &[Named], svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+fn draw(cases: &[Named], svg: &mut String) -> Drawn {
     let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
-    let end = cases.iter().map(|case| case.result.end.time).fold(0.0, f64::max);
-    let mut chart = ChartBuilder::on(&root)
-        .caption("Temperature at P2, the centre", ("sans-serif", 20))
-        .margin(14)
-        .x_label_area_size(44)
-        .y_label_area_size(56)
-        .build_cartesian_2d(0.0..end, range(cases))?;
+    let (head, body) = root.split_vertically(60);
+    legend(&head)?;
+    // H beside H*, C beside C*, HC beside HC*.
+    let rows = cases.len().div_ceil(2);
+    let panels = body.split_evenly((rows, 2));
+    for (k, case) in cases.iter().enumerate() {
+        panel(&panels[2 * (k % rows) + k / rows], case, range(cases))?;
+    }
+    root.present()?;
+    Ok(())
+}
+
+/// A row of samples with their names.
+fn legend(area: &Area) -> Drawn {
+    let text = |x: i32, words: &str| {
+        area.draw(&Text::new(words.to_string(), (x, 22), ("sans-serif", 15).into_font()))
+    };
+    let grey = BLACK.mix(0.6).stroke_width(2);
+    area.draw(&PathElement::new(vec![(30, 30), (40, 30)], grey))?;
+    area.draw(&PathElement::new(vec![(46, 30), (56, 30)], grey))?;
+    text(64, "paper's scheme: grains stay")?;
+    area.draw(&PathElement::new(vec![(290, 30), (316, 30)], grey))?;
+    text(324, "grains move")?;
+    area.draw(&Circle::new((440, 30), 3, BLACK.mix(0.6).filled()))?;
+    area.draw(&PathElement::new(vec![(440, 22), (440, 38)], BLACK.mix(0.6).stroke_width(1)))?;
+    text(452, "15 000 discs: mean and scatter of three packings")?;
+    for (k, (probe, colour)) in PROBES.into_iter().zip(COLOURS).enumerate() {
+        let x = 835 + 50 * k as i32;
+        area.draw(&Rectangle::new([(x, 25), (x + 10, 35)], colour.filled()))?;
+        text(x + 15, probe)?;
+    }
+    Ok(())
+}
+
+fn panel(area: &Area, case: &Named, range: std::ops::Range<f64>) -> Drawn {
+    let end = case.discs.pressure.last().map_or(case.stay.end.time, |row| row.0.max(case.stay.end.time));
+    let mut chart = ChartBuilder::on(area)
+        .caption(case.name, ("sans-serif", 18))
+        .margin(10)
+        .x_label_area_size(36)
+        .y_label_area_size(48)
+        .build_cartesian_2d(0.0..end, range)?;
     chart
         .configure_mesh()
         .x_desc("t [s]")
         .y_desc("T [K]")
         .light_line_style(WHITE)
         .bold_line_style(BLACK.mix(0.12))
-        .label_style(("sans-serif", 14))
-        .axis_desc_style(("sans-serif", 16))
+        .label_style(("sans-serif", 13))
+        .axis_desc_style(("sans-serif", 14))
         .draw()?;
-    for (case, colour) in cases.iter().zip(COLOURS.iter().cycle()) {
-        let points = case.result.probes["P2"].iter().copied();
+    for (probe, colour) in PROBES.into_iter().zip(COLOURS) {
         let style = colour.stroke_width(2);
-        let series = if case.name.ends_with('*') {
-            chart.draw_series(DashedLineSeries::new(points, 7, 5, style))?
-        } else {
-            chart.draw_series(LineSeries::new(points, style))?
-        };
-        // Two dashes, which meet in a solid line.
-        let gap = if case.name.ends_with('*') { 4 } else { 0 };
-        series.label(case.name).legend(move |at| {
-            EmptyElement::at(at)
-                + PathElement::new(vec![(0, 0), (13 - gap, 0)], style)
-                + PathElement::new(vec![(13 + gap, 0), (26, 0)], style)
-        });
+        if let Some(run) = &case.moving {
+            chart.draw_series(LineSeries::new(run.probes[probe].iter().copied(), style))?;
+        }
+        chart.draw_series(DashedLineSeries::new(case.stay.probes[probe].iter().copied(), 7, 5, style))?;
+        let discs = case.discs.temperature[probe].iter().step_by(SPARSE);
+        chart.draw_series(discs.clone().map(|&(t, mean, _)| Circle::new((t, mean), 3, colour.filled())))?;
+        chart.draw_series(discs.map(|&(t, mean, scatter)| {
+            PathElement::new(vec![(t, mean - scatter), (t, mean + scatter)], colour.stroke_width(1))
+        }))?;
     }
-    chart
-        .configure_series_labels()
-        // Between the curves that end near 100 K and those that end near 50 K.
-        .position(SeriesLabelPosition::Coordinate(660, 34))
-        .background_style(WHITE)
-        .border_style(BLACK.mix(0.3))
-        .label_font(("sans-serif", 15))
-        .legend_area_size(34)
-        .margin(8)
-        .draw()?;
-    root.present()?;
-    drop(chart);
     Ok(())
 }
 
@@ -82,10 +109,10 @@ mod tests {
     #[test]
     fn all_cases_are_drawn_and_named_inside_the_range() {
         let folder = fixture::Cases::new("plot");
-        let (cases, _) = read_all(folder.path()).unwrap();
-        assert_eq!(range(&cases), 0.0..120.0);
+        let (cases, _) = read_all(folder.path(), Some(folder.path()), &fixture::reference()).unwrap();
+        assert_eq!(range(&cases), 0.0..130.0);
         let svg = temperature(&cases).unwrap();
-        for text in ["H", "C", "HC", "H*", "C*", "HC*", "t [s]", "T [K]"] {
+        for text in ["H", "C", "HC", "H*", "C*", "HC*", "t [s]", "T [K]", "grains move"] {
             assert!(svg.contains(&format!(">\n{text}\n</text>")), "no {text} in {svg}");
         }
         for RGBColor(r, g, b) in COLOURS {

@@ -16,6 +16,9 @@ pub type Probes = BTreeMap<&'static str, Vec<(f64, f64)>>;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CaseResult {
     pub wall_seconds: f64,
+    /// Processor time of all processes [s]; absent in what an older solver wrote.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cpu_seconds: Option<f64>,
     pub steps: u64,
     pub queries: u64,
     pub clamped_queries: u64,
@@ -71,6 +74,7 @@ pub struct Model {
 #[derive(Deserialize)]
 struct SolverSummary {
     wall_seconds: f64,
+    cpu_seconds: Option<f64>,
     steps: u64,
     queries: u64,
     clamped_queries: u64,
@@ -93,6 +97,7 @@ pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
     let problem = |text: String| CliError::Message(format!("{}: {text}", path.display()));
     let result = CaseResult {
         wall_seconds: solver.wall_seconds,
+        cpu_seconds: solver.cpu_seconds,
         steps: solver.steps,
         queries: solver.queries,
         clamped_queries: solver.clamped_queries,

@@ -1,78 +1,144 @@
-//! The table on the terminal.
+//! The tables on the terminal.
 
-use super::Named;
-use super::read::PROBES;
+use super::read::{CaseResult, PROBES};
+use super::{Errors, Named};
 use std::fmt::Write;
 
-/// Times at which temperatures are shown [s].
-const TIMES: [f64; 4] = [1.0, 5.0, 10.0, 20.0];
+/// Time at which temperatures are shown [s]: the cases differ most in the middle of the heating.
+const TIME: f64 = 5.0;
+const WAYS: [&str; 2] = ["grains stay", "grains move"];
 
-/// Value of a series at `time`, if it has one there.
+/// Value of a series at `time`, or the next within a tenth of a second (adaptive steps).
 fn at(series: &[(f64, f64)], time: f64) -> Option<f64> {
-    series.iter().find(|(t, _)| (t - time).abs() < 1e-6).map(|&(_, value)| value)
+    let near = series.iter().min_by(|a, b| (a.0 - time).abs().total_cmp(&(b.0 - time).abs()))?;
+    ((near.0 - time).abs() < 0.11).then_some(near.1)
 }
 
-/// Temperatures at the probes, then the state at the end and the cost.
+fn line(out: &mut String, text: &str) {
+    writeln!(out, "{}", text.trim_end()).unwrap_or_default();
+}
+
+/// The runs of a case with the words for them.
+fn runs(case: &Named) -> Vec<(&'static str, &CaseResult)> {
+    let moving = case.moving.as_ref().map(|run| (WAYS[1], run));
+    [Some((WAYS[0], &case.stay)), moving].into_iter().flatten().collect()
+}
+
+/// Temperatures, errors and cost beside the discs, the state at the end, and what that means in a sentence.
 pub fn text(cases: &[Named]) -> String {
     let mut out = String::new();
-    let line = |out: &mut String, text: String| writeln!(out, "{}", text.trim_end()).unwrap_or_default();
-    line(&mut out, "T [K] at P1, P2, P3".to_string());
-    let times: Vec<String> = TIMES.iter().map(|t| format!("{:^24}", format!("t = {t} s"))).collect();
-    line(&mut out, format!("case  {}", times.join("  ")));
+    temperatures(&mut out, cases);
+    errors(&mut out, cases);
+    ends(&mut out, cases);
+    sentences(&mut out, cases);
+    out
+}
+
+fn temperatures(out: &mut String, cases: &[Named]) {
+    line(out, &format!("T [K] after {TIME} s at P1, P2, P3 (left, middle, right)"));
+    line(
+        out,
+        &format!(
+            "case    {:<20}    {:<20}    15 000 discs, mean and scatter of 3 packings",
+            WAYS[0], WAYS[1]
+        ),
+    );
     for case in cases {
-        let mut row = format!("{:<6}", case.name);
-        for time in TIMES {
+        let mut row = format!("{:<5}", case.name);
+        for run in [Some(&case.stay), case.moving.as_ref()] {
             for probe in PROBES {
-                let value = case.result.probes.get(probe).and_then(|series| at(series, time));
-                row += &value.map_or(format!("{:>8}", "-"), |v| format!("{v:>8.2}"));
+                let value = run.and_then(|run| at(run.probes.get(probe)?, TIME));
+                row += &value.map_or(format!("{:>7}", "-"), |v| format!("{v:>7.1}"));
             }
-            row += "  ";
+            row += "   ";
         }
-        line(&mut out, row);
+        for probe in PROBES {
+            let found = case.discs.temperature[probe].iter().find(|row| (row.0 - TIME).abs() < 1e-6);
+            row += &found.map_or(String::new(), |(_, mean, scatter)| format!("{mean:>7.1} ± {scatter:<4.1}"));
+        }
+        line(out, &row);
     }
-    line(&mut out, String::new());
-    let head =
-        "case  porosity   fabric   K_xx   K_yy [W/(m K)]   p [kPa]   wall [s]    steps  queries  clamped";
-    line(&mut out, format!("means at the end\n{head}"));
+}
+
+fn errors(out: &mut String, cases: &[Named]) {
+    line(out, "\nLargest difference of T from the discs' mean over the whole run [% of the range], and cost");
+    line(
+        out,
+        "case  way             P1     P2     P3   packings scatter by   cost [s of a core]   discs [s of a core]",
+    );
     for case in cases {
-        let (result, end) = (&case.result, &case.result.end);
+        for (way, run) in runs(case) {
+            let mut row = format!("{:<5} {way:<12}", case.name);
+            match case.errors(run) {
+                Some(Errors { temperature, .. }) => {
+                    temperature.iter().for_each(|error| row += &format!("{error:>7.1}"));
+                }
+                None => row += "  (ended before the discs)",
+            }
+            let discs = case.discs.core_seconds.map_or("-".to_string(), |s| format!("{s:.0}"));
+            row += &format!(
+                "{:>22.1} {:>20.1} {discs:>21}",
+                case.discs.scatter,
+                run.cpu_seconds.unwrap_or(run.wall_seconds)
+            );
+            line(out, &row);
+        }
+    }
+}
+
+fn ends(out: &mut String, cases: &[Named]) {
+    line(out, "\nMeans over the bed at the end");
+    line(
+        out,
+        "case  way          porosity   K_xx   K_yy [W/(m K)]   pressure [kPa]   discs [kPa]   steps   out of range",
+    );
+    for case in cases {
+        let pressure = case.discs.pressure.last().map_or(f64::NAN, |row| row.1);
+        for (way, run) in runs(case) {
+            let end = &run.end;
+            line(
+                out,
+                &format!(
+                    "{:<5} {way:<12} {:>8.4} {:>6.1} {:>6.1} {:>25.3} {:>13.3} {:>7} {:>14}",
+                    case.name,
+                    end.porosity,
+                    end.conductivity_xx,
+                    end.conductivity_yy,
+                    end.pressure / 1e3,
+                    pressure / 1e3,
+                    run.steps,
+                    run.clamped_queries
+                ),
+            );
+        }
+    }
+}
+
+/// What the tables say about the cases with expansion, in words.
+fn sentences(out: &mut String, cases: &[Named]) {
+    let expanding: Vec<&Named> = cases.iter().filter(|case| !case.name.ends_with('*')).collect();
+    let worst = |run: fn(&Named) -> Option<&CaseResult>| {
+        let errors = expanding.iter().filter_map(|case| case.errors(run(case)?));
+        errors.map(|errors| errors.largest()).reduce(f64::max)
+    };
+    let scatter = expanding.iter().map(|case| case.discs.scatter).fold(0.0, f64::max);
+    line(out, "");
+    if let Some(stay) = worst(|case| Some(&case.stay)) {
         line(
-            &mut out,
-            format!(
-                "{:<6}{:>8.4} {:>8.4} {:>6.1} {:>6.1} {:>19.3} {:>10.1} {:>8} {:>8} {:>8}",
-                case.name,
-                end.porosity,
-                end.fabric,
-                end.conductivity_xx,
-                end.conductivity_yy,
-                end.pressure / 1e3,
-                result.wall_seconds,
-                result.steps,
-                result.queries,
-                result.clamped_queries
+            out,
+            &format!(
+                "With the paper's scheme, in which grains stay in their cells, T of H, C and HC is within {stay:.1} % of the discs'."
             ),
         );
     }
-    let moved = cases.iter().filter_map(|case| Some((case, case.result.mechanics.as_ref()?)));
-    let moved: Vec<_> = moved.filter(|(_, mechanics)| mechanics.kind != "none").collect();
-    if !moved.is_empty() {
-        let head =
-            "case  mechanics     solves iterations  linear  in parts  residual [Pa]  displacement [mm]";
-        line(&mut out, format!("\n{head}"));
-    }
-    for (case, m) in moved {
-        let counts =
-            format!("{:>7} {:>10} {:>7} {:>9}", m.solves, m.iterations, m.linear_iterations, m.cut_steps);
-        let row = format!(
-            "{:<6}{:<12} {counts} {:>14.3} {:>18.2}",
-            case.name,
-            m.kind,
-            m.residual,
-            1e3 * m.displacement
+    if let Some(moving) = worst(|case| case.moving.as_ref()) {
+        line(
+            out,
+            &format!(
+                "With grains that move it is within {moving:.1} %. Packings themselves scatter by up to {scatter:.1} % (one standard deviation)."
+            ),
         );
-        line(&mut out, row);
     }
-    out
 }
 
 #[cfg(test)]
@@ -80,41 +146,32 @@ mod tests {
     use super::*;
     use crate::summary::{fixture, read_all};
 
-    #[test]
-    fn rows_hold_temperatures_by_time_and_the_state_at_the_end() {
-        let folder = fixture::Cases::new("table");
-        let (cases, _) = read_all(folder.path()).unwrap();
-        let table = text(&cases);
-        let rows: Vec<Vec<&str>> = table
-            .lines()
-            .filter(|line| line.starts_with("HC* "))
-            .map(|line| line.split_whitespace().collect())
-            .collect();
-        // The fixture has no row at 10 s.
-        let temperatures = "HC* 50.00 51.00 52.00 79.00 80.00 81.00 - - - 119.00 120.00 121.00";
-        assert_eq!(rows[0].join(" "), temperatures);
-        assert_eq!(rows[1].join(" "), "HC* 0.0800 0.0200 52.0 46.0 5.000 30.5 20000 20000 7");
+    fn table(name: &str, moving: bool) -> String {
+        let folder = fixture::Cases::new(name);
+        let cases = folder.path();
+        text(&read_all(cases, moving.then_some(cases), &fixture::reference()).unwrap().0)
+    }
+
+    fn row(table: &str, start: &str, nth: usize) -> String {
+        let mut rows = table.lines().filter(|line| line.starts_with(start));
+        rows.nth(nth).unwrap().split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
     #[test]
-    fn mechanics_has_rows_where_there_was_any() {
-        let folder = fixture::Cases::new("mechanics");
-        let with = |kind: &str| {
-            let mechanics = format!(
-                r#""mechanics": {{"kind": "{kind}", "solves": 40, "iterations": 90, "linear_iterations": 300,
-                "cut_steps": 2, "unconverged_steps": 1, "residual": 4.5, "displacement": 0.019}}, "model""#
-            );
-            fixture::SOLVER.replace("\"model\"", &mechanics)
-        };
-        folder.write_summary("H", &with("none"));
-        folder.write_summary("HC", &with("equilibrium"));
-        let (cases, _) = read_all(folder.path()).unwrap();
-        let table = text(&cases);
-        let rows: Vec<&str> = table.lines().skip_while(|line| !line.contains("in parts")).skip(1).collect();
-        let row: Vec<&str> = rows[0].split_whitespace().collect();
-        assert_eq!((rows.len(), row.join(" ").as_str()), (1, "HC equilibrium 40 90 300 2 4.500 19.00"));
-        let json = serde_json::to_value(&cases[0].result).unwrap();
-        assert_eq!(json["mechanics"]["solves"], 40);
-        assert!(serde_json::to_value(&cases[1].result).unwrap().get("mechanics").is_none());
+    fn rows_hold_both_ways_beside_the_discs() {
+        let table = table("table", true);
+        let temperatures = "HC* 79.0 80.0 81.0 79.0 80.0 81.0 68.4 ± 0.2 50.0 ± 0.0 31.8 ± 0.5";
+        assert_eq!(row(&table, "HC* ", 0), temperatures);
+        let errors = row(&table, "H  ", 2);
+        assert!(errors.starts_with("H grains move"), "{errors}");
+        assert!(row(&table, "HC* ", 3).starts_with("HC* grains stay 0.0800 52.0 46.0 5.000 2.48"), "{table}");
+        assert!(table.contains("With grains that move it is within"));
+    }
+
+    #[test]
+    fn without_runs_of_grains_that_move_there_are_none_in_the_table() {
+        let table = table("stay", false);
+        assert!(!table.contains("H     grains move") && !table.contains("With grains that move"), "{table}");
+        assert!(row(&table, "H  ", 0).starts_with("H 79.0 80.0 81.0 - - -"), "{table}");
     }
 }

@@ -1,0 +1,135 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "runSummary.H"
+#include "Time.H"
+#include <sstream>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+//- A number with three digits, whatever the writePrecision of the case
+static std::string brief(const double value)
+{
+    std::ostringstream text;
+    text.precision(3);
+    text<< value;
+    return text.str();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::runSummary::heatBalance Foam::runSummary::heat() const
+{
+    const runRecord& record = grains_.record();
+    return
+    {
+        returnReduce(sum(record.heat), sumOp<scalar>()),
+        returnReduce(record.sourceHeat, sumOp<scalar>()),
+        grains_.storedHeat(T_),
+        returnReduce(record.exchanged, sumOp<scalar>())
+    };
+}
+
+
+Foam::string Foam::runSummary::range() const
+{
+    const int64_t clamped = grains_.clampedQueries();
+    if (!clamped)
+    {
+        return
+            "Range: the model was never asked about a state outside the range"
+            " that it was made for.";
+    }
+    const scalar share = 100*scalar(clamped)/max(scalar(grains_.asked()), 1.0);
+    const label cells =
+        returnReduce(grains_.mesh().nCells(), sumOp<label>());
+    return
+        "Range: " + brief(share) + " % of the states that the model was asked"
+        " about lay outside the range that it was made for, and were answered"
+        " as if they lay at its edge; so do "
+      + Foam::name(grains_.cellsOutside()) + " of " + Foam::name(cells)
+      + " cells now (field inRegion is 0 there). The farthest are listed in"
+        " postProcessing/msddFoam/offenders.json.";
+}
+
+
+Foam::string Foam::runSummary::doubt() const
+{
+    const scalar spread = grains_.meanSpread();
+    if (spread < 0)
+    {
+        return "Doubt: this model does not tell how far packings of equal state"
+            " differ.";
+    }
+    return
+        "Doubt: small boxes of grains of equal state differ by "
+      + brief(100*spread) + " % in conductivity (standard deviation, mean over"
+        " the bed); a cell cannot be known better than that.";
+}
+
+
+Foam::string Foam::runSummary::balance(const heatBalance& heat) const
+{
+    if (heat.exchanged < VSMALL)
+    {
+        return "Heat: none went into the bed or out of it.";
+    }
+    return
+        "Heat: since the bed's start " + brief(heat.patches) + " J came in"
+        " through the boundary and " + brief(heat.sources) + " J from sources;"
+        " the grains hold " + brief(heat.stored) + " J more. What is missing is"
+        " " + brief(heat.difference()) + " of all heat that was exchanged.";
+}
+
+
+Foam::string Foam::runSummary::motion() const
+{
+    if (mechanics_.type() == "none")
+    {
+        return
+            "Grains: they stay in their cells (mechanics none), as in the"
+            " paper. Where one part of the bed is heated more than another,"
+            " they move in truth: mechanics equilibrium in"
+            " constant/granularProperties lets them.";
+    }
+    const granularMechanics::counters moved(mechanics_.count());
+    return
+        "Grains: they moved by at most " + brief(1e3*moved.displacement)
+      + " mm; " + (moved.unconverged
+          ? Foam::name(moved.unconverged) + " steps ended out of balance, by at"
+            " most " + brief(moved.residual) + " Pa."
+          : string("the stress was brought into balance in every step."));
+}
+
+
+Foam::string Foam::runSummary::cost() const
+{
+    const scalar processor = returnReduce
+    (
+        grains_.mesh().time().elapsedCpuTime(), sumOp<scalar>()
+    );
+    const scalar steps = max(scalar(grains_.cellSteps()), 1.0);
+    const label processes = Pstream::nProcs();
+    return
+        "Cost: " + brief(wallClock_.elapsedTime()) + " s on "
+      + Foam::name(processes) + (processes > 1 ? " processes, " : " process, ")
+      + brief(processor) + " s of processor time, "
+      + brief(1e6*processor/steps) + " microseconds for each cell and step.";
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,144 @@
+//! The solver's runs beside discrete elements of the same cases: mean and scatter of three packings.
+
+use super::read::{CaseResult, PROBES};
+use crate::error::CliError;
+use msdd_files::read_text;
+use msdd_report::compare::{at, largest};
+use msdd_report::reference::{Reference, SEEDS, pressure_range, statistics, temperature_range};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Mean and standard deviation over packings at a time: (t [s], mean, deviation).
+pub type Band = Vec<(f64, f64, f64)>;
+
+/// One case by discrete elements.
+#[derive(Clone, Debug, Serialize)]
+pub struct Discs {
+    /// Range of T by which errors are divided [K].
+    pub temperature_range: f64,
+    /// T of windows of 40 mm at the probes [K], by name.
+    pub temperature: BTreeMap<&'static str, Band>,
+    /// Mean pressure of the box [Pa], compression positive.
+    pub pressure: Band,
+    /// Standard deviation of T between packings, the largest over time and probes [% of the range].
+    pub scatter: f64,
+    /// Processor time of one packing [s], if it was measured.
+    pub core_seconds: Option<f64>,
+}
+
+/// Solver minus discs' mean, the largest over time, with its sign.
+#[derive(Clone, Debug, Serialize)]
+pub struct Errors {
+    /// Of T at the probes [% of the range].
+    pub temperature: [f64; 3],
+    /// Of the mean pressure at the end [% of the paper's range].
+    pub pressure_at_end: f64,
+}
+
+impl Errors {
+    /// The largest of the three probes, without its sign [% of the range].
+    pub fn largest(&self) -> f64 {
+        largest(&self.temperature).abs()
+    }
+}
+
+/// Processor times of the reference runs [s], by case folder: `cost.json` beside the results, written by their script.
+fn costs(reference: &Path) -> Result<BTreeMap<String, f64>, CliError> {
+    let path = reference.join("cost.json");
+    if !path.exists() {
+        return Ok(BTreeMap::new());
+    }
+    #[derive(serde::Deserialize)]
+    struct Cost {
+        core_seconds: BTreeMap<String, f64>,
+    }
+    let cost: Cost = serde_json::from_str(&read_text(&path)?)
+        .map_err(|error| CliError::Message(format!("{}: {error}", path.display())))?;
+    Ok(cost.core_seconds)
+}
+
+impl Discs {
+    /// Reads the three packings of `case` in the checkout of which `reference` is the folder `cases/reference`.
+    pub fn read(reference: &Path, case: &str) -> Result<Self, CliError> {
+        let checkout = reference.join("../..");
+        let discs =
+            Reference::read(&checkout, case, &SEEDS).map_err(|error| CliError::Message(error.to_string()))?;
+        let range = temperature_range(case);
+        let times = discs.times();
+        let band = |by_packing: &[Vec<f64>]| -> Band {
+            let moments = statistics(by_packing);
+            times.iter().zip(moments).map(|(&t, (mean, deviation))| (t, mean, deviation)).collect()
+        };
+        let temperature: BTreeMap<_, _> =
+            PROBES.into_iter().zip(discs.temperature().iter().map(|probe| band(probe))).collect();
+        let widest = temperature.values().flatten().map(|&(_, _, deviation)| deviation).fold(0.0, f64::max);
+        Ok(Self {
+            temperature_range: range,
+            temperature,
+            pressure: band(&discs.series("pressure")),
+            scatter: 100.0 * widest / range,
+            core_seconds: costs(reference)?.get(case).copied(),
+        })
+    }
+
+    /// How far `run` is from the mean of the packings. None when it ended before the discs.
+    pub fn errors(&self, case: &str, run: &CaseResult) -> Option<Errors> {
+        let end = self.pressure.last()?;
+        let of_probe = |probe: &str| -> Option<f64> {
+            let mut series: Vec<[f64; 2]> =
+                run.probes.get(probe)?.iter().map(|&(t, value)| [t, value]).collect();
+            if series.last()?[0] < end.0 - 1e-6 {
+                return None;
+            }
+            let band = &self.temperature[probe];
+            if series[0][0] > 0.0 {
+                // The solver's probes have no value at the start, where all grains have the same T.
+                series.insert(0, [0.0, band[0].1]);
+            }
+            let differences: Vec<f64> = band
+                .iter()
+                .map(|&(t, mean, _)| 100.0 * (at(&series, t) - mean) / self.temperature_range)
+                .collect();
+            Some(largest(&differences))
+        };
+        Some(Errors {
+            temperature: [of_probe(PROBES[0])?, of_probe(PROBES[1])?, of_probe(PROBES[2])?],
+            pressure_at_end: 100.0 * (run.end.pressure - end.1) / pressure_range(case),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::summary::fixture;
+
+    fn reference() -> std::path::PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/reference")
+    }
+
+    /// A run that gives back the discs' mean, P3 two kelvin warmer, with a pressure 38 Pa too high.
+    #[test]
+    fn an_offset_is_found_and_the_mean_itself_has_no_error() {
+        let discs = Discs::read(&reference(), "HC").unwrap();
+        let folder = fixture::Cases::new("offset");
+        let (mut run, _) = crate::summary::read::case(&folder.path().join("HC")).unwrap();
+        for (probe, offset) in PROBES.into_iter().zip([0.0, 0.0, 2.0]) {
+            let series = discs.temperature[probe].iter().skip(1).map(|&(t, mean, _)| (t, mean + offset));
+            run.probes.insert(probe, series.collect());
+        }
+        run.end.pressure = discs.pressure.last().unwrap().1 + 38.0;
+        let errors = discs.errors("HC", &run).unwrap();
+        assert!(errors.temperature[0].abs() < 1e-9 && (errors.largest() - 2.0).abs() < 1e-9, "{errors:?}");
+        assert!((errors.pressure_at_end - 1.0).abs() < 1e-9);
+        run.probes.get_mut("P1").unwrap().truncate(100);
+        assert!(discs.errors("HC", &run).is_none());
+    }
+
+    #[test]
+    fn the_packings_of_c_scatter_more_than_those_of_h() {
+        let scatter = |case| Discs::read(&reference(), case).unwrap().scatter;
+        assert!(scatter("C") > 2.0 && scatter("H") < 1.0);
+    }
+}
