@@ -3,7 +3,7 @@
 use crate::error::CliError;
 use clap::Args;
 use msdd_files::{read_text, write};
-use msdd_report::grid::list;
+use msdd_reference::solver::nonuniform;
 use msdd_rve::{Simulation, state};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -76,7 +76,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 
 /// The values of a scalar field, if there are as many as `cells`.
 fn scalars(text: &str, cells: &[usize]) -> Result<Vec<f64>, String> {
-    let values: Vec<f64> = list(text)?.iter().filter_map(|row| row.first().copied()).collect();
+    let values: Vec<f64> = nonuniform(text)?.iter().filter_map(|row| row.first().copied()).collect();
     let expected: usize = cells.iter().product();
     if values.len() == expected {
         Ok(values)

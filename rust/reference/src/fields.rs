@@ -1,7 +1,7 @@
 //! Initial fields for the solver: averages in windows of the packed box around the cells of a mesh.
 
 use crate::ReferenceError;
-use crate::observe::shear_stress;
+use crate::observe::{MARGIN, shear_stress};
 use msdd_dem::Simulation;
 use msdd_rve::window::crop;
 use msdd_rve::{Averages, window_around};
@@ -10,9 +10,6 @@ use std::fmt::Write;
 
 /// Side of a window [m]: about 500 discs (section 3.2.1).
 pub const WINDOW: f64 = 0.215;
-/// Distance of windows from the walls, in mean radii: the grains next to a wall lie looser, with up to 2 % less conductivity in
-/// a window, but conduct to it as well as the material does.
-pub const MARGIN: f64 = 2.0;
 /// Height of a band of the box [m].
 const BAND: f64 = 0.05;
 

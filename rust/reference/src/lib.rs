@@ -11,18 +11,26 @@
 //! | [`checkpoint`] | what a killed run continues from |
 //! | [`fields`] | initial fields for the solver |
 //! | [`results`] | result files |
+//! | [`packings`] | the committed runs, three packings a case |
+//! | [`solver`] | what the solver wrote into a case folder |
+//! | [`series`] | interpolation, means and deviations |
+//! | [`compare`] | the solver's errors against the discs |
 //! | [`walls`] | what walls do to heat, over time |
 #![forbid(unsafe_code)]
 
 pub mod case;
 pub mod checkpoint;
+pub mod compare;
 pub mod dictionary;
 pub mod fields;
 pub mod mesh;
 pub mod model;
 pub mod observe;
+pub mod packings;
 pub mod results;
 pub mod run;
+pub mod series;
+pub mod solver;
 pub mod walls;
 
 pub use case::Case;

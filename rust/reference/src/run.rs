@@ -10,7 +10,7 @@ use crate::observe::{
     series_row, sub_regions,
 };
 use crate::results::{Results, SCHEMA, Table};
-use msdd_dem::time_step::{self, SAFETY};
+use msdd_dem::time_step::SAFETY;
 use msdd_dem::{Excess, Failure, Simulation, StepChoice, WallHeat};
 use msdd_rve::state;
 use std::path::Path;
@@ -219,7 +219,7 @@ fn advance(
         if left < 1e-9 {
             return Ok(());
         }
-        let bound = time_step::stable_step(simulation);
+        let bound = simulation.stable_step();
         let limit = match spec.time_step {
             None => SAFETY * bound,
             Some(step) if step <= bound => step,

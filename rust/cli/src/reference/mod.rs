@@ -1,5 +1,6 @@
 //! `msdd reference`: the box of a case by discrete elements.
 
+mod compare;
 mod summary;
 
 use crate::error::CliError;
@@ -27,6 +28,8 @@ pub enum Command {
     Fields(FieldsArguments),
     /// Table of results: mean and scatter over the seeds; or how far two runs differ.
     Summary(summary::Arguments),
+    /// How far T of a run of the solver is from that of discrete elements at the probes.
+    Compare(compare::Arguments),
 }
 
 /// Which packed model.
@@ -108,6 +111,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Run(arguments) => run_model(arguments),
         Command::Fields(arguments) => write_fields(arguments),
         Command::Summary(arguments) => summary::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
     }
 }
 
