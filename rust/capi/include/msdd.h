@@ -144,8 +144,8 @@ int32_t msdd_surrogate_with_conductivity(const msdd_surrogate *surrogate, const 
 /** SHA-256 of the bytes of the model file or plug-in, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
 const char *msdd_surrogate_hash(const msdd_surrogate *surrogate);
 
-/** Description of the model (kind, name, state columns, conductivities, provenance) as one JSON object. Owned by the model.
- *  NULL for a null handle. */
+/** Description of the model (kind, name, state columns, conductivities, trained_range, provenance) as one JSON object. Owned by the
+ *  model. NULL for a null handle. */
 const char *msdd_surrogate_describe(const msdd_surrogate *surrogate);
 
 /** Number of state columns, at least 2; 0 for a null handle. */

@@ -74,6 +74,7 @@ impl BatchModel for Own {
             "fabric_conductivity": model.fabric_conductivity_kind(),
             "mechanics": model.mechanics(),
             "wall_friction": model.wall_friction(),
+            "trained_range": file.get("ranges").or(file.get("trained_range")),
             "schema": file["schema"],
             "provenance": file["provenance"],
         })

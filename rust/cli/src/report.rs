@@ -3,9 +3,10 @@
 use crate::error::CliError;
 use crate::progress::Progress;
 use clap::Args;
-use msdd_report::cache::Cache;
-use msdd_report::execute::{Place, Stamp};
-use msdd_report::report::{Settings, make};
+use msdd_report::jobs::cache::Cache;
+use msdd_report::jobs::execute::{Place, Stamp};
+use msdd_report::report::{Report, make};
+use msdd_report::settings::Settings;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -74,8 +75,25 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         msdd_report::write_text(file, &msdd_report::solver_table::text(report))?;
     }
     outln!("{} jobs, {} from the cache", report.jobs, report.cached_jobs);
+    outln!("{}", judged(report));
     outln!("page: {}   figures: {}", page.display(), arguments.json.display());
     Ok(())
+}
+
+/// What the report judges, and in a quick one what it does not.
+fn judged(report: &Report) -> String {
+    let rows = &report.failures.rows;
+    let good = rows.iter().filter(|row| row.as_allowed).count();
+    let edges = format!("{good} of {} configurations at an edge behave as they should", rows.len());
+    if report.quick {
+        return format!(
+            "{edges}; the {} targets of accuracy are not judged by the quick report, whose meshes are coarse and which runs one \
+             packing: scripts/report judges them",
+            report.targets.len()
+        );
+    }
+    let met = report.targets.iter().filter(|target| target.met == Some(true)).count();
+    format!("{met} of {} targets of accuracy reached; {edges}", report.targets.len())
 }
 
 fn settings(arguments: &Arguments, checkout: &Path) -> Result<Settings, CliError> {

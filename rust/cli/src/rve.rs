@@ -22,6 +22,8 @@ pub enum Command {
     Homogenise(HomogeniseArguments),
     /// Conduct heat through a whole frozen assembly; prints it beside the homogenised conductivity as JSON.
     HeatCheck(HeatCheckArguments),
+    /// Draw the grains of a state and the forces between them as SVG, alone or beside a field of the solver.
+    Draw(crate::draw::Arguments),
 }
 
 #[derive(Args)]
@@ -187,6 +189,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Expand(arguments) => expand_one(arguments),
         Command::Homogenise(arguments) => homogenise_one(arguments),
         Command::HeatCheck(arguments) => check_heat(arguments),
+        Command::Draw(arguments) => crate::draw::run(arguments),
     }
 }
 

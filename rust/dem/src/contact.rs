@@ -1,9 +1,11 @@
-//! One force-bearing contact, as averages and audits want to see it.
+//! One force-bearing contact, as averages and audits want to see it, and the way through all contacts of a box.
 
+use crate::disc::Disc;
 use crate::law::{pair_stiffness, wall_stiffness};
-use crate::periodic::{Image, Shift};
-use crate::simulation::Simulation;
-use crate::walls::Side;
+use crate::material::Material;
+use crate::neighbours::Neighbours;
+use crate::periodic::{Cell, Image, Shift};
+use crate::walls::{Side, Walls};
 
 /// A force-bearing contact. n points from i to j (from the wall inwards), t = (−n_y, n_x).
 #[derive(Clone, Copy, Debug)]
@@ -52,20 +54,31 @@ impl Contact {
     }
 }
 
-impl Simulation {
+/// Discs in a box at one moment: what their contacts follow from.
+#[derive(Clone, Copy)]
+pub(crate) struct Touching<'a> {
+    pub material: &'a Material,
+    pub discs: &'a [Disc],
+    pub walls: &'a Walls,
+    /// Of a periodic box.
+    pub cell: Option<Cell>,
+    pub neighbours: &'a Neighbours,
+}
+
+impl Touching<'_> {
     /// Calls `visit` with every force-bearing contact: pairs row by row, then the walls.
-    pub fn for_each_contact(&self, mut visit: impl FnMut(Contact)) {
+    pub fn for_each(&self, mut visit: impl FnMut(Contact)) {
         let pairs = &self.neighbours.pairs;
         for (k, (&i, &j)) in pairs.i().iter().zip(pairs.j()).enumerate() {
             if let Some(contact) = self.pair_contact(i as usize, self.image_of(j), pairs.tangential[k]) {
                 visit(contact);
             }
         }
-        self.for_each_wall_contact(visit);
+        self.for_each_at_walls(visit);
     }
 
     /// Calls `visit` with every force-bearing contact of a wall.
-    pub(crate) fn for_each_wall_contact(&self, mut visit: impl FnMut(Contact)) {
+    pub fn for_each_at_walls(&self, mut visit: impl FnMut(Contact)) {
         for side in Side::ALL {
             let contacts = &self.neighbours.walls[side as usize];
             for (&j, &tangential) in contacts.disc.iter().zip(&contacts.tangential) {
@@ -76,10 +89,18 @@ impl Simulation {
         }
     }
 
+    /// What a number in the pair list stands for: a disc, or an image of one.
+    pub fn image_of(&self, index: u32) -> Image {
+        match (index as usize).checked_sub(self.discs.len()) {
+            None => Image { owner: index, shift: [0, 0] },
+            Some(ghost) => self.neighbours.ghosts[ghost],
+        }
+    }
+
     fn pair_contact(&self, i: usize, image: Image, tangential_force: f64) -> Option<Contact> {
         let Image { owner, shift } = image;
         let (a, mut b) = (&self.discs[i], self.discs[owner as usize]);
-        if let Some(cell) = self.cell().filter(|_| shift != [0, 0]) {
+        if let Some(cell) = self.cell.filter(|_| shift != [0, 0]) {
             b = cell.image(&b, shift);
         }
         let branch = [b.x - a.x, b.y - a.y];

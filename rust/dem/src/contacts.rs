@@ -21,7 +21,8 @@ pub struct PairList {
     slabs: Vec<Slab>,
 }
 
-/// Rows in a run that one thread works through. Slabs depend on the number of discs alone, never on threads.
+/// Consecutive rows that one thread works through. Slabs, and with them all results, depend on the number of discs and not
+/// on that of threads.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slab {
     pub rows: Range<usize>,
@@ -42,7 +43,7 @@ pub(crate) struct Block {
     pub reach: usize,
 }
 
-/// Slabs of a list. One for RVEs; what lies between two slabs costs extra.
+/// Number of slabs of a list. Assemblies as small as RVEs have one, because pairs across two slabs take extra work.
 fn slab_count(discs: usize) -> usize {
     if discs < 4000 { 1 } else { 4 }
 }

@@ -4,10 +4,10 @@
 //! in as many sub-steps as stability asks for. The thermal limit is the smaller one in dense assemblies: a single
 //! squeezed small disc sets it.
 
-use crate::contact::Contact;
+use crate::contact::{Contact, Touching};
 use crate::disc::Disc;
+use crate::neighbours::Neighbours;
 use crate::network::Network;
-use crate::simulation::Simulation;
 use crate::walls::Side;
 use serde::{Deserialize, Serialize};
 
@@ -156,45 +156,45 @@ impl HeatPipes {
     }
 
     /// Takes pipes and conductances from the present geometry.
-    pub(crate) fn connect(&mut self, simulation: &Simulation) {
+    pub(crate) fn connect(&mut self, touching: &Touching) {
         let (mut ends, mut values) = (Vec::new(), Vec::new());
         let conductivity = self.thermal.conductivity;
-        simulation.for_each_contact(|contact| {
+        touching.for_each(|contact| {
             if let Ok(i) = contact.i {
                 ends.push((i as u32, contact.j as u32));
-                values.push(conductance(&contact, &simulation.discs, conductivity));
+                values.push(conductance(&contact, touching.discs, conductivity));
             }
         });
-        self.network = Network::new(simulation.discs.len(), ends.into_iter());
+        self.network = Network::new(touching.discs.len(), ends.into_iter());
         self.network.set(false, &values);
         self.of_rebuild = None;
-        self.connect_walls(simulation);
+        self.connect_walls(touching);
         self.estimate_largest_rate();
     }
 
     /// Takes the conductances of pairs that the step just taken has found beside its forces, and those of walls from
-    /// the present geometry.
-    pub(crate) fn follow(&mut self, simulation: &Simulation) {
-        let pairs = &simulation.neighbours.pairs;
-        if self.of_rebuild != Some(simulation.neighbours.rebuilds) {
-            let partners = pairs.j().iter().map(|&j| simulation.image_of(j).owner);
+    /// the present geometry; side by side when `parallel`.
+    pub(crate) fn follow(&mut self, touching: &Touching, parallel: bool) {
+        let Neighbours { pairs, rebuilds, .. } = touching.neighbours;
+        if self.of_rebuild != Some(*rebuilds) {
+            let partners = pairs.j().iter().map(|&j| touching.image_of(j).owner);
             let ends = pairs.i().iter().copied().zip(partners);
-            self.network = Network::new(simulation.discs.len(), ends);
-            self.of_rebuild = Some(simulation.neighbours.rebuilds);
+            self.network = Network::new(touching.discs.len(), ends);
+            self.of_rebuild = Some(*rebuilds);
         }
-        self.network.set(simulation.shared, &pairs.conductance);
-        self.connect_walls(simulation);
+        self.network.set(parallel, &pairs.conductance);
+        self.connect_walls(touching);
         self.since_estimate += 1;
         if self.largest_rate == 0.0 || self.since_estimate >= STEPS_AN_ESTIMATE {
             self.estimate_largest_rate();
         }
     }
 
-    fn connect_walls(&mut self, simulation: &Simulation) {
+    fn connect_walls(&mut self, touching: &Touching) {
         self.at_wall.iter_mut().for_each(Vec::clear);
-        simulation.for_each_wall_contact(|contact| {
+        touching.for_each_at_walls(|contact| {
             if let Err(side) = contact.i {
-                let value = conductance(&contact, &simulation.discs, self.thermal.conductivity);
+                let value = conductance(&contact, touching.discs, self.thermal.conductivity);
                 self.at_wall[side as usize].push((contact.j as u32, value));
             }
         });

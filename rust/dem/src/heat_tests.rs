@@ -1,7 +1,7 @@
 //! Heat against closed forms.
 
 use super::*;
-use crate::{Material, Walls};
+use crate::{Material, Simulation, Walls};
 
 const R: f64 = 5e-3;
 const OVERLAP: f64 = 2e-4;

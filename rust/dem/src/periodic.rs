@@ -10,11 +10,7 @@
 //! (b with a = 0, else a), so each pair occurs once. Ghosts are numbered by owner and shift, hence the order of all sums
 //! does not depend on when the list was rebuilt.
 
-use crate::contacts::PairList;
 use crate::disc::Disc;
-use crate::material::Material;
-use crate::neighbours::Grid;
-use crate::simulation::Simulation;
 use crate::walls::Walls;
 
 /// Shear of a periodic box, beside the positions and normal velocities of [`Walls`].
@@ -138,84 +134,12 @@ pub(crate) fn forward(i: u32, j: u32, shift: Shift) -> bool {
     if shift == [0, 0] { i < j } else { shift > [0, 0] }
 }
 
-/// All pairs closer than `skin`, images included, and the ghosts in it, numbered after the discs.
-pub(crate) fn pairs_within(discs: &[Disc], skin: f64, cell: &Cell) -> (PairList, Vec<Image>) {
-    let largest = discs.iter().fold(0.0f64, |r, d| r.max(d.radius));
-    let images = cell.images(discs, 2.0 * largest + skin);
-    let placed: Vec<Disc> =
-        images.iter().map(|image| cell.image(&discs[image.owner as usize], image.shift)).collect();
-    let mut rows: Vec<Vec<Image>> = vec![Vec::new(); discs.len()];
-    if !discs.is_empty() {
-        let grid = Grid::new(&placed, 2.0 * largest + skin);
-        for (i, row) in rows.iter_mut().enumerate() {
-            grid.around(&placed[i], |m| {
-                let (a, b, image) = (&placed[i], &placed[m as usize], &images[m as usize]);
-                let shift = [0, 1].map(|k| image.shift[k].wrapping_sub(images[i].shift[k]));
-                let reach = a.radius + b.radius + skin;
-                let (dx, dy) = (b.x - a.x, b.y - a.y);
-                if forward(i as u32, image.owner, shift) && dx * dx + dy * dy < reach * reach {
-                    row.push(Image { owner: image.owner, shift });
-                }
-            });
-        }
-    }
-    let mut ghosts: Vec<Image> = rows.iter().flatten().copied().filter(|g| g.shift != [0, 0]).collect();
-    ghosts.sort_unstable();
-    ghosts.dedup();
-    let count = discs.len();
-    let list = PairList::build_over(count, count + ghosts.len(), (1, count.max(1)), |i, row| {
-        row.extend(rows[i].iter().map(|partner| index_of(partner, count, &ghosts).unwrap_or(u32::MAX)));
-    });
-    (list, ghosts)
-}
-
 /// Number of an image in a list over `count` discs and `ghosts`.
 pub(crate) fn index_of(image: &Image, count: usize, ghosts: &[Image]) -> Option<u32> {
     if image.shift == [0, 0] {
         return Some(image.owner);
     }
     ghosts.binary_search(image).ok().map(|k| (count + k) as u32)
-}
-
-impl Simulation {
-    /// An assembly in a periodic box between the positions of `walls`; the friction history is empty. Discs may lie
-    /// anywhere: their images fill the cell.
-    ///
-    /// # Errors
-    /// [`SmallCell`] when a disc could meet two images of another.
-    pub fn new_periodic(
-        material: Material,
-        discs: Vec<Disc>,
-        walls: Walls,
-        periodic: Periodic,
-    ) -> Result<Self, SmallCell> {
-        let largest = discs.iter().map(|d| d.radius).fold(0.0, f64::max);
-        check_size(&walls, largest)?;
-        Ok(Self::with_boundary(material, discs, walls, Some(periodic)))
-    }
-
-    /// The cell of a periodic box; none between walls.
-    pub fn cell(&self) -> Option<Cell> {
-        self.periodic.as_ref().map(|periodic| Cell::new(&self.walls, periodic))
-    }
-
-    /// What a number in the pair list stands for: a disc, or an image of one.
-    pub(crate) fn image_of(&self, index: u32) -> Image {
-        match (index as usize).checked_sub(self.discs.len()) {
-            None => Image { owner: index, shift: [0, 0] },
-            Some(ghost) => self.neighbours.ghosts[ghost],
-        }
-    }
-
-    /// Puts the ghosts behind the discs, at their present places.
-    pub(crate) fn place_ghosts(&mut self) {
-        if let Some(cell) = self.cell() {
-            for ghost in &self.neighbours.ghosts {
-                let image = cell.image(&self.discs[ghost.owner as usize], ghost.shift);
-                self.discs.push(image);
-            }
-        }
-    }
 }
 
 /// Refuses cells in which a disc of radius `largest` could meet two images of another.

@@ -5,11 +5,11 @@
 //! springs, so where a sliding contact ends depends a little on the way.
 
 use crate::disc::Disc;
+use crate::failure::Failure;
 use crate::forces::Load;
-use crate::kernel::larger;
-use crate::run::Failure;
 use crate::simulation::Simulation;
 use crate::time_step::{StepChoice, contact_stiffness};
+use crate::vector::larger;
 
 /// Steps downhill before the step grows; growth and cut of the step; start and decay of the turning. Values of the
 /// paper.
@@ -91,7 +91,7 @@ impl Simulation {
 
     /// Masses in proportion to the stiffness that a disc feels, so that all have the same bound on the step.
     fn even_out_masses(&mut self) {
-        let stiffness = contact_stiffness(self);
+        let stiffness = contact_stiffness(&self.touching());
         for (disc, stiffness) in self.discs.iter_mut().zip(stiffness) {
             disc.mass = stiffness;
         }
@@ -103,7 +103,8 @@ impl Simulation {
         for (disc, load) in self.discs.iter().zip(self.loads.iter(&self.neighbours)) {
             sums.add(disc, load);
         }
-        // The velocities at the time of the forces: half a kick ago.
+        // The forces were taken before the velocities changed by them: half of that change is taken back, so that power and
+        // forces are those of one time.
         if sums.power <= 0.5 * self.time_step * sums.force2 {
             self.discs.iter_mut().for_each(Disc::stop);
             self.largest_speed = 0.0;

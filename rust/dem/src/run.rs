@@ -1,43 +1,12 @@
 //! Many steps in a row, watched: the time step follows the contacts, and a state that has gone wrong ends the run.
 
-use crate::periodic::{SmallCell, check_size};
-use crate::simulation::Simulation;
+use crate::failure::{Failure, LARGEST_OVERLAP, LARGEST_STRIDE};
+use crate::periodic::check_size;
+use crate::simulation::{LastGood, Simulation};
 use crate::time_step::{self, Excess, StepChoice};
 
-/// Steps between two looks at the state. A look costs about one step.
+/// Steps after which the state is checked and the time step is chosen again. That costs about one step.
 const LOOK_EVERY: u64 = 50;
-/// Largest overlap over the mean of the two radii before a run counts as blown up: beyond, a small disc is swallowed and
-/// the contact law means nothing. Packings of 6 % porosity come near it.
-pub const LARGEST_OVERLAP: f64 = 1.0;
-/// Largest way of a disc in one step over its radius.
-const LARGEST_STRIDE: f64 = 0.5;
-
-/// A copy of a state that was good.
-#[derive(Clone, Debug)]
-pub(crate) struct LastGood {
-    /// Steps between two copies at least.
-    every: u64,
-    state: Box<Simulation>,
-}
-
-/// Why a run ended before its time. `time` [s] is that of the look that found it.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Failure {
-    #[error("t = {time} s: disc {disc} has a non-finite position or velocity")]
-    NonFinite { disc: usize, time: f64 },
-    #[error(
-        "t = {time} s: discs {i} and {j} overlap by {ratio:.3} of their mean radius, allowed: {LARGEST_OVERLAP}"
-    )]
-    Overlap { i: usize, j: usize, ratio: f64, time: f64 },
-    #[error(
-        "t = {time} s: disc {disc} moves {ratio:.3} of its radius in one step, allowed: {LARGEST_STRIDE}"
-    )]
-    Speed { disc: usize, ratio: f64, time: f64 },
-    #[error("t = {time} s: time step {step:.3e} s exceeds the stability bound {bound:.3e} s")]
-    TimeStep { step: f64, bound: f64, time: f64 },
-    #[error("t = {time} s: {problem}")]
-    Cell { problem: SmallCell, time: f64 },
-}
 
 impl Simulation {
     /// Takes `steps` steps. The time step is looked after every 50 of them, as chosen by
@@ -65,13 +34,13 @@ impl Simulation {
         self.last_good = Some(LastGood { every, state });
     }
 
-    /// The last copy, and an end of keeping them.
+    /// Hands the last copy over and stops keeping copies.
     pub fn take_last_good(&mut self) -> Option<Simulation> {
         self.last_good.take().map(|kept| *kept.state)
     }
 
-    /// Whether no disc has been pressed through a wall. That does not end a run (packings of 6 % porosity know it), but
-    /// such a state is none to start from: readers of state files refuse it.
+    /// Whether the centres of all discs are between the walls. A run goes on when they are not, as in packings of 6 %
+    /// porosity, but readers of state files refuse such a state, so it is not kept as the last good one.
     fn centres_are_inside(&self) -> bool {
         let mut inside = true;
         self.for_each_contact(|contact| {
@@ -89,7 +58,8 @@ impl Simulation {
         }
     }
 
-    /// Looks for signs of a blow-up.
+    /// Refuses what only a run that has gone wrong leads to: positions or velocities that are not finite, a disc that moves
+    /// too far in one step, two that overlap too much, a periodic box that is too small for its discs.
     pub fn check(&self) -> Result<(), Failure> {
         let time = self.time;
         if self.periodic.is_some() {
@@ -117,9 +87,18 @@ impl Simulation {
         worst.map_or(Ok(()), Err)
     }
 
+    /// Chooses how [`Simulation::run`] sets the time step.
+    ///
+    /// # Errors
+    /// A fixed step above the present bound, when it is to be refused.
+    pub fn choose_time_step(&mut self, choice: StepChoice) -> Result<(), Failure> {
+        self.step_choice = choice;
+        self.watch_time_step()
+    }
+
     /// Applies the choice of time step to the present contacts.
     pub(crate) fn watch_time_step(&mut self) -> Result<(), Failure> {
-        let bound = time_step::stable_step(self);
+        let bound = self.stable_step();
         match self.step_choice {
             StepChoice::Adaptive { safety } => self.time_step = safety * bound,
             StepChoice::Fixed { step, .. } if step <= bound => self.time_step = step,

@@ -15,8 +15,9 @@ use crate::kernel::{self, Motion, SharedDiscs, Simd};
 use crate::law::PairLaw;
 use crate::neighbours::Neighbours;
 use crate::periodic::Image;
-use crate::simulation::Stage;
+use crate::stage::Stage;
 use crate::team;
+use crate::vector::larger;
 use crate::walls::{Flow, Side, Walls};
 use std::ops::Range;
 
@@ -44,7 +45,7 @@ pub(crate) struct Swept {
 
 impl Swept {
     fn add(&mut self, other: &Self) {
-        self.fastest2 = kernel::larger(self.fastest2, other.fastest2);
+        self.fastest2 = larger(self.fastest2, other.fastest2);
         for (sum, part) in self.wall_force.iter_mut().flatten().zip(other.wall_force.iter().flatten()) {
             *sum += part;
         }
@@ -99,7 +100,7 @@ impl SlabLoads {
             let rows = slab.rows.start..slab.shared;
             let loads = self.complete(number, rows.clone(), &slabs);
             let fastest2 = kernel::advance(sweep.simd, sweep.motion, &mut discs[rows], loads);
-            result.fastest2 = kernel::larger(result.fastest2, fastest2);
+            result.fastest2 = larger(result.fastest2, fastest2);
         }
         result
     }
@@ -183,7 +184,7 @@ impl Task<'_> {
                 let loads = &self.loads[movable.start - first..movable.end - first];
                 let discs = self.discs.rows_mut(movable);
                 let fastest2 = kernel::advance(sweep.simd, sweep.motion, discs, loads);
-                swept.fastest2 = kernel::larger(swept.fastest2, fastest2);
+                swept.fastest2 = larger(swept.fastest2, fastest2);
             }
             mark(Stage::Motion);
         }

@@ -1,6 +1,6 @@
 //! The mechanical time step: its bound and its choice. (Heat has sub-steps of its own, see [`crate::heat`].)
 
-use crate::simulation::Simulation;
+use crate::contact::Touching;
 
 /// Default step over the bound. Explosion was measured at the bound itself; 0.4 keeps the contact period resolved.
 pub const SAFETY: f64 = 0.4;
@@ -17,7 +17,7 @@ pub enum StepChoice {
 /// What happens when a fixed step exceeds the bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Excess {
-    /// The run ends with [`crate::run::Failure::TimeStep`].
+    /// The run ends with [`crate::failure::Failure::TimeStep`].
     Refuse,
     /// The step is cut to [`SAFETY`] times the bound for as long as needed.
     Cut,
@@ -28,22 +28,22 @@ const FEWEST_CONTACTS: f64 = 4.0;
 
 /// Δt_max = 2 / √(2 max_i Σ_c s_n / m_i) [s], the sum over the contacts of disc i (Gershgorin's circle for the
 /// stiffness matrix over the masses).
-pub fn stable_step(simulation: &Simulation) -> f64 {
-    let stiffness = contact_stiffness(simulation);
-    let ratios = simulation.discs.iter().zip(&stiffness).map(|(disc, sum)| sum / disc.mass);
+pub(crate) fn stable_step(touching: &Touching) -> f64 {
+    let stiffness = contact_stiffness(touching);
+    let ratios = touching.discs.iter().zip(&stiffness).map(|(disc, sum)| sum / disc.mass);
     2.0 / (2.0 * ratios.fold(0.0, f64::max)).sqrt()
 }
 
 /// Σ_c s_n [N/m] over the contacts of each disc, at least that of a disc with a few.
-pub(crate) fn contact_stiffness(simulation: &Simulation) -> Vec<f64> {
-    let least = FEWEST_CONTACTS * simulation.material.young_modulus;
-    let mut stiffness = vec![0.0; simulation.discs.len()];
-    simulation.for_each_contact(|contact| {
+pub(crate) fn contact_stiffness(touching: &Touching) -> Vec<f64> {
+    let least = FEWEST_CONTACTS * touching.material.young_modulus;
+    let mut stiffness = vec![0.0; touching.discs.len()];
+    touching.for_each(|contact| {
         for disc in contact.discs() {
             stiffness[disc] += contact.stiffness;
         }
     });
-    for (sum, disc) in stiffness.iter_mut().zip(&simulation.discs) {
+    for (sum, disc) in stiffness.iter_mut().zip(touching.discs) {
         *sum = sum.max(least * disc.radius);
     }
     stiffness

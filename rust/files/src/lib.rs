@@ -5,12 +5,15 @@
 //! | [`part`] | a file in the making, beside the one that it will replace |
 //! | [`lock`] | one program at a time on a file |
 //! | [`limit`] | reading no more than was meant |
+//! | [`folder`] | what lies in a folder |
 #![forbid(unsafe_code)]
 
+pub mod folder;
 pub mod limit;
 pub mod lock;
 pub mod part;
 
+pub use folder::list;
 pub use limit::{MOST_BYTES, read, read_text};
 pub use lock::Lock;
 pub use part::{Part, check_target, write};

@@ -1,7 +1,7 @@
 //! What the answers of a plug-in are held to: what no packing of grains has is refused, with column and cell.
 
 use crate::PluginError;
-use crate::plugin::Answer;
+use crate::questions::Answer;
 
 /// Values that a column may hold.
 #[derive(Clone, Copy)]

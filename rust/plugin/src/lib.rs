@@ -20,6 +20,8 @@ mod error;
 mod library;
 mod names;
 mod plugin;
+mod questions;
 
 pub use error::{PluginError, shown};
-pub use plugin::{Answer, Plugin, Start, Step, WallFriction};
+pub use plugin::Plugin;
+pub use questions::{Answer, Start, Step, WallFriction};

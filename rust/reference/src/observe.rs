@@ -3,7 +3,6 @@
 //! Compression positive. T of a place is given twice: of the closest disc, as in the paper, which may be a rattler, and of
 //! the heat in a window of 40 mm.
 
-use crate::fields::MARGIN;
 use crate::model::SUB_REGIONS;
 use crate::results::{Grains, Table};
 use msdd_dem::{Side, Simulation};
@@ -11,6 +10,9 @@ use msdd_rve::network::Network;
 use msdd_rve::region::{Polygon, whole_box};
 use msdd_rve::{Averages, Cut, homogenise_affine_in, windows};
 
+/// Distance of windows from the walls, in mean radii: the grains next to a wall lie looser, with up to 2 % less conductivity in
+/// a window, but conduct to it as well as the material does.
+pub const MARGIN: f64 = 2.0;
 /// Side of the window around a probe [m].
 const PROBE_WINDOW: f64 = 0.04;
 /// Side of the window whose discs are listed [m].

@@ -1,8 +1,11 @@
 //! Results of a run: one compact JSON file, and its time series as CSV.
 
+use crate::ReferenceError;
 use crate::model::Statistics;
+use msdd_files::read_text;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
+use std::path::Path;
 
 /// Name of the schema.
 pub const SCHEMA: &str = "msdd-reference-1";
@@ -87,6 +90,17 @@ pub struct Results {
     /// Discs around the second probe at the start and at the end; absent in older files and without that probe.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grains: Option<Grains>,
+}
+
+impl Results {
+    /// Reads a result file.
+    ///
+    /// # Errors
+    /// [`ReferenceError::File`], [`ReferenceError::Read`] for what is no result.
+    pub fn read(file: &Path) -> Result<Self, ReferenceError> {
+        serde_json::from_str(&read_text(file)?)
+            .map_err(|error| ReferenceError::Read { file: file.to_path_buf(), problem: error.to_string() })
+    }
 }
 
 /// Discs in a small window: number, x, y, r [m], T [K].

@@ -2,7 +2,6 @@
 //! not expand.
 
 use crate::ReferenceError;
-use crate::case::Case;
 use crate::checkpoint::{Checkpoint, Records};
 use crate::model::statistics;
 use crate::observe::{
@@ -10,7 +9,8 @@ use crate::observe::{
     series_row, sub_regions,
 };
 use crate::results::{Results, SCHEMA, Table};
-use msdd_dem::time_step::{self, SAFETY};
+use msdd_case::Case;
+use msdd_dem::time_step::SAFETY;
 use msdd_dem::{Excess, Failure, Simulation, StepChoice, WallHeat};
 use msdd_rve::state;
 use std::path::Path;
@@ -219,7 +219,7 @@ fn advance(
         if left < 1e-9 {
             return Ok(());
         }
-        let bound = time_step::stable_step(simulation);
+        let bound = simulation.stable_step();
         let limit = match spec.time_step {
             None => SAFETY * bound,
             Some(step) if step <= bound => step,

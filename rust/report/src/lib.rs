@@ -1,56 +1,32 @@
 //! Speed against accuracy: runs of the solver and of the discrete elements as cached jobs, compared with the committed
 //! reference, as `results/report.json` and as a page that needs nothing else.
 //!
+//! A module uses only modules above it in this table.
+//!
 //! | module | what |
 //! |---|---|
-//! | [`job`] | one configuration to run: a case of the solver, or a program |
-//! | [`setup`] | the case folder of a job |
-//! | [`grid`] | initial fields of the reference on other meshes |
-//! | [`execute`] | runs a job with a time limit; what came out |
-//! | [`output`] | reads what the solver wrote |
-//! | [`cache`] | results of jobs by the hash of what decides them |
-//! | [`pool`] | runs many jobs, some at a time |
+//! | [`jobs`] | runs with a cache of their results |
 //! | [`plan`] | the configurations of the report |
-//! | [`reference`](mod@reference) | the committed runs by discrete elements |
-//! | [`compare`] | errors against the reference |
-//! | [`front`] | cheapest configurations, Pareto front |
-//! | [`solver_table`] | the former as `msddFoam -cheapest` prints them |
-//! | [`detail`] | runs that write what some figures need |
-//! | [`convergence`] | order of the coupling in time |
-//! | [`sensitivity`] | what the mechanics' parameters do |
-//! | [`other_cases`] | another scene, another material |
-//! | [`known`] | states of the database |
-//! | [`economy`] | what each case needs |
+//! | [`settings`] | what is to be made, and where |
+//! | [`studies`] | what is found out by runs |
 //! | [`failures`] | where methods break, and what the program does there |
-//! | [`targets`] | what the validation is to reach |
 //! | [`report`] | all of it as data: the JSON |
+//! | [`solver_table`] | the cheapest configurations as `msddFoam -cheapest` prints them |
 //! | [`draw`] | figures as SVG |
 //! | [`page`] | the page |
+//!
+//! Errors against the discrete elements are those of [`msdd_reference::compare`].
 #![forbid(unsafe_code)]
 
-pub mod cache;
-pub mod compare;
-pub mod convergence;
-pub mod detail;
 pub mod draw;
-pub mod economy;
-pub mod execute;
 pub mod failures;
-pub mod front;
-pub mod grid;
-pub mod job;
-pub mod known;
-pub mod other_cases;
-pub mod output;
+pub mod jobs;
 pub mod page;
 pub mod plan;
-pub mod pool;
-pub mod reference;
 pub mod report;
-pub mod sensitivity;
-pub mod setup;
+pub mod settings;
 pub mod solver_table;
-pub mod targets;
+pub mod studies;
 
 use std::path::{Path, PathBuf};
 
@@ -63,6 +39,8 @@ pub enum ReportError {
     Write { file: PathBuf, problem: String },
     #[error(transparent)]
     File(#[from] msdd_files::FileError),
+    #[error(transparent)]
+    Reference(#[from] msdd_reference::ReferenceError),
     #[error("{cache} has no result of these jobs: nothing to draw; without --draw they are run", cache = cache.display())]
     Empty { cache: PathBuf },
     #[error("cannot start {program}: {problem}")]
@@ -74,10 +52,9 @@ pub enum ReportError {
 /// Reads a text file.
 ///
 /// # Errors
-/// [`ReportError::Read`].
+/// [`ReportError::File`].
 pub fn read_text(file: &Path) -> Result<String, ReportError> {
-    std::fs::read_to_string(file)
-        .map_err(|error| ReportError::Read { file: file.to_path_buf(), problem: error.to_string() })
+    Ok(msdd_files::read_text(file)?)
 }
 
 /// Writes a whole text file, so that a killed run leaves the old file or the new one. Makes the folder.

@@ -1,7 +1,7 @@
 //! The configurations of the report. Adding one is a line in [`chart`].
 
-use crate::job::{Job, SolverJob, ToolJob};
-use crate::pool::Asked;
+use crate::jobs::job::{Job, SolverJob, ToolJob};
+use crate::jobs::pool::Asked;
 
 /// Kinds of configurations, told apart by marker and colour.
 pub const FAMILIES: [&str; 9] = [
@@ -139,7 +139,7 @@ const MEDIUM: &str = "surrogate { type plugin; pluginCoeffs { library plugin.so;
 /// What validation is made of: the paper's algorithm with both networks and with boxes of grains in all cells, and with grains
 /// that move.
 pub fn validated(quick: bool) -> Vec<Configuration> {
-    let all: Vec<&'static str> = crate::reference::CASES.iter().map(|case| case.0).collect();
+    let all: Vec<&'static str> = msdd_reference::packings::CASES.iter().map(|case| case.0).collect();
     let mut state = fixed("1e-2", 2.0).named("state network", FAMILIES[0]).only(&all);
     let mut paper = model("paper's network", FAMILIES[2], PAPER, 3.0).only(&all);
     let mut moves = moving("2e-2", 25.0).named("state network, grains move", FAMILIES[1]);

@@ -1,6 +1,7 @@
 //! What `msddFoam -cheapest` prints, as a header of C++.
 
-use crate::report::{Cheapest, Report};
+use crate::report::Report;
+use crate::studies::chart::Cheapest;
 use std::fmt::Write;
 
 /// The header: one raw string, built into the solver.

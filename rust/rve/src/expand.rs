@@ -1,11 +1,10 @@
 //! Straining a packed RVE: radii grow or shrink in fixed walls, with stops (section 2.4); or walls move as well.
 
 use crate::homogenise::{Averages, homogenise};
-use crate::last_good;
 use crate::pack::Packed;
 use crate::region::RegionKind;
 use crate::scale::rate_factor;
-use crate::settle::{Relaxation, Settled, UNBALANCED_LIMIT, settle_to};
+use crate::settle::{KEEP_EVERY, Relaxation, Settled, UNBALANCED_LIMIT, settle_to};
 use crate::stopwatch::{self, Stage};
 use crate::{RveError, Simulation};
 
@@ -112,7 +111,7 @@ pub fn follow(
         return Err(RveError::Parameter { key: "xy", value: strains.xy.to_string(), allowed });
     }
     simulation.reset_strain();
-    simulation.keep_last_good(last_good::EVERY);
+    simulation.keep_last_good(KEEP_EVERY);
     let start = Start::of(simulation);
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
     for &strains in path {

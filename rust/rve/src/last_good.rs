@@ -4,9 +4,6 @@ use crate::Simulation;
 use crate::state::{StateError, to_file};
 use std::path::{Path, PathBuf};
 
-/// Steps between two copies of the state at least: they cost a thousandth of a run.
-pub const EVERY: u64 = 1000;
-
 /// Writes `state` to `<out>.last-good.json` and returns that path. It is a state file like any other: it can be averaged,
 /// looked at, and run on.
 ///

@@ -1,10 +1,9 @@
 //! Packing: walls, or the borders of a periodic box, close on randomly placed discs until a target porosity, then the assembly relaxes (section 2.4).
 
 use crate::area::porosity_of_box;
-use crate::last_good;
 use crate::place::{Random, radii, scatter, scatter_periodic};
 use crate::scale::{rate_factor, speed_factor};
-use crate::settle::{Relaxation, Settled, settle};
+use crate::settle::{KEEP_EVERY, Relaxation, Settled, settle};
 use crate::stopwatch::{self, Stage};
 use crate::{Material, RveError, Simulation};
 use msdd_dem::{Periodic, Side, Walls};
@@ -207,7 +206,7 @@ pub fn pack_watched(
 ) -> Result<Packed, Stopped> {
     let start = checked_start(spec, preparation, material);
     let mut simulation = start.map_err(|error| Stopped { error, last_good: None })?;
-    simulation.keep_last_good(last_good::EVERY);
+    simulation.keep_last_good(KEEP_EVERY);
     let settled = close_and_settle(&mut simulation, spec, preparation, material);
     let last_good = simulation.take_last_good().map(Box::new);
     match settled {

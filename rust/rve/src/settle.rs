@@ -4,6 +4,9 @@ use crate::RveError;
 use msdd_dem::Simulation;
 use serde::{Deserialize, Serialize};
 
+/// Steps between two copies of the last good state at least: they cost a thousandth of a run.
+pub(crate) const KEEP_EVERY: u64 = 1000;
+
 /// Settled when mean |resultant| < this times the mean contact force. Paper: "static equilibrium", no number; 1e-4
 /// leaves pressure within 1e-3 of its limit.
 pub const UNBALANCED_LIMIT: f64 = 1e-4;

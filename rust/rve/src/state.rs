@@ -10,7 +10,7 @@
 //! A file of ours has a checksum over its values, in any layout; one without is accepted, one with a wrong checksum is not.
 
 use crate::message::{number, shortened};
-use msdd_dem::run::LARGEST_OVERLAP;
+use msdd_dem::failure::LARGEST_OVERLAP;
 use msdd_dem::{Disc, Material, MaterialError, Periodic, RunState, Side, Simulation, Walls};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};

@@ -5,11 +5,14 @@
 use crate::SurrogateError;
 use crate::dataset::{self, Sample, StateRow};
 use crate::network::INPUTS;
+use crate::options::TrainingOptions;
+use crate::report::Parts;
 use crate::scaling;
 use crate::score::{OneStep, one_step, ramps};
 use crate::scores::Scores;
-use crate::state::training::{Mechanical, StateOptions, train_blind};
-use crate::training::{self, Parts, TrainingOptions};
+use crate::state::provenance::StateOptions;
+use crate::state::training::{Mechanical, train_blind};
+use crate::training;
 use serde::Serialize;
 
 /// Inputs of the paper's network.

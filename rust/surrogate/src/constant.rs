@@ -2,11 +2,11 @@
 
 use crate::SurrogateError;
 use crate::dataset::StateRow;
+use crate::document::{field, hash, json, schema};
 use crate::kernel::{LANES, Lanes};
-use crate::model_file::{field, hash, json, schema};
+use crate::options::TrainingOptions;
 use crate::solid_fraction::SolidFraction;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
-use crate::training::TrainingOptions;
 use serde::{Deserialize, Serialize};
 
 /// Raise the number when a reader of the old schema would misread the new.

@@ -4,6 +4,7 @@ use crate::SurrogateError;
 use crate::network::{INPUTS, OUTPUTS};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One state of one packing on one ramp. The packed state is stop 0 of both ramps.
@@ -55,6 +56,34 @@ impl StateRow {
                 "packing {}, ramp {}, stop {}: {key} = {value:?}, allowed: {low} to {high}",
                 self.packing, self.ramp, self.stop
             ))),
+        }
+    }
+}
+
+/// Two estimates of a state's conductivity from its contacts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ConductivityKind {
+    /// All discs on the mean gradient: Eq. 9, an upper bound.
+    Affine,
+    /// Disc temperatures solved for on the contact network.
+    Network,
+}
+
+impl ConductivityKind {
+    /// Name in model files and descriptions.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Affine => "affine",
+            Self::Network => "network",
+        }
+    }
+
+    /// K_xx/k, K_yy/k of a row; `None` when the database lacks this kind.
+    pub fn of(self, row: &StateRow) -> Option<[f64; 2]> {
+        match self {
+            Self::Affine => Some([row.conductivity_xx, row.conductivity_yy]),
+            Self::Network => row.conductivity_network,
         }
     }
 }

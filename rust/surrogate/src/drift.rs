@@ -2,7 +2,7 @@
 
 use crate::composition::increment;
 use crate::dataset::{Ramp, strain_between};
-use crate::model::Predictor;
+use crate::predictor::Predictor;
 use serde::{Deserialize, Serialize};
 
 /// Error at the end of the held-out packings' ramps, from their packed states.

@@ -24,14 +24,16 @@
 //! | [`region`] | where the training states lie, and how much packings of equal state differ |
 //! | [`mechanics`], [`wall_friction`] | mechanical tangent and wall friction |
 //! | [`solid_fraction`] | sum-of-areas solid fraction from porosity |
-//! | [`model`] | the trained surrogate |
-//! | [`model_file`] | its file |
+//! | [`predictor`], [`model`] | what of the paper's network answers; the trained model |
+//! | [`options`], [`report`] | how to train, and how that went |
+//! | [`model_file`], `document` | its file; what all model files share |
 #![deny(unsafe_code)] // kernel/ alone may: vectors of the instruction sets and what calls them
 
 pub mod ablation;
 pub mod composition;
 pub mod constant;
 pub mod dataset;
+pub mod document;
 pub mod drift;
 mod error;
 pub mod fit;
@@ -44,9 +46,12 @@ pub mod model_file;
 pub mod models;
 pub mod network;
 pub mod noise;
+pub mod options;
 pub mod paper;
 pub mod perceptron;
+pub mod predictor;
 pub mod region;
+pub mod report;
 pub mod scaling;
 pub mod score;
 pub mod scores;
@@ -61,7 +66,9 @@ pub mod wall_friction;
 pub use dataset::StateRow;
 pub use error::SurrogateError;
 pub use levenberg_marquardt::Stopping;
-pub use model::{Block, Model, Prediction};
-pub use model_file::DatabaseProvenance;
+pub use model::Model;
+pub use options::{DatabaseProvenance, TrainingOptions};
+pub use predictor::{Block, Prediction};
+pub use report::Report;
 pub use surrogate::Surrogate;
-pub use training::{Progress, Report, TrainingOptions, train};
+pub use training::{Progress, train};

@@ -1,44 +1,16 @@
 //! The model file: JSON, versioned, exact to the last bit of every number.
 
-use crate::model::Predictor;
+use crate::document::{field, hash, json, schema};
 use crate::network::{Network, WEIGHT_LIMIT, WEIGHTS};
+use crate::predictor::Predictor;
+use crate::report::Provenance;
 use crate::scaling::{OutputScales, Range, TrainedRange};
 use crate::solid_fraction::SolidFraction;
-use crate::training::{Report, TrainingOptions};
 use crate::{Model, SurrogateError};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 /// Raise the number when a reader of the old schema would misread the new.
 pub const SCHEMA: &str = "msdd-model-1";
-
-/// Where the training data came from.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DatabaseProvenance {
-    /// SHA-256 of the plan's text.
-    pub plan_hash: String,
-    /// SHA-256 of the rows as JSON, in order; a plan run by another engine gives other rows. Older files lack it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rows_hash: Option<String>,
-    /// Version of the program that made the database.
-    pub engine_version: String,
-    /// Grain parameters of the database.
-    pub material: serde_json::Value,
-    /// Smallest and largest grain radius [m].
-    pub radius_min: f64,
-    pub radius_max: f64,
-}
-
-/// How the model came to be.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Provenance {
-    /// Version of this library that trained it.
-    pub library_version: String,
-    pub training: TrainingOptions,
-    pub report: Report,
-}
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -62,7 +34,35 @@ struct Description<'a> {
     provenance: &'a Provenance,
 }
 
-pub(crate) fn text(model: &Model) -> String {
+impl Model {
+    /// The model compiled into the library.
+    ///
+    /// # Errors
+    /// Those of [`Model::from_json`]; a test guards against them.
+    pub fn builtin() -> Result<Self, SurrogateError> {
+        Self::from_json(include_str!("../models/paper.json"))
+    }
+
+    /// Reads the text of a model file.
+    ///
+    /// # Errors
+    /// [`SurrogateError::Damaged`], [`SurrogateError::Schema`] or [`SurrogateError::Field`].
+    pub fn from_json(text: &str) -> Result<Self, SurrogateError> {
+        read(text)
+    }
+
+    /// Text of the model file; [`Model::hash`] is its SHA-256. Reading it gives this model, bit for bit.
+    pub fn to_json(&self) -> String {
+        text(self)
+    }
+
+    /// All about the model but its weights, as one JSON object.
+    pub fn description(&self) -> String {
+        description(self)
+    }
+}
+
+fn text(model: &Model) -> String {
     let file = ModelFile {
         schema: SCHEMA.to_string(),
         name: model.name.clone(),
@@ -75,7 +75,7 @@ pub(crate) fn text(model: &Model) -> String {
     json(&file) + "\n"
 }
 
-pub(crate) fn description(model: &Model) -> String {
+fn description(model: &Model) -> String {
     json(&Description {
         schema: SCHEMA,
         name: &model.name,
@@ -86,27 +86,7 @@ pub(crate) fn description(model: &Model) -> String {
     })
 }
 
-/// Writing plain data of finite numbers and string keys to memory cannot fail.
-pub(crate) fn json<T: Serialize>(value: &T) -> String {
-    serde_json::to_string_pretty(value).unwrap_or_else(|error| unreachable!("{error}"))
-}
-
-/// SHA-256 of a text, 64 hexadecimal digits.
-pub fn hash(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// Schema of a model file of any kind.
-pub(crate) fn schema(text: &str) -> Result<String, SurrogateError> {
-    #[derive(Deserialize)]
-    struct Head {
-        schema: String,
-    }
-    let head: Result<Head, _> = serde_json::from_str(text);
-    head.map(|head| head.schema).map_err(|error| SurrogateError::Damaged(error.to_string()))
-}
-
-pub(crate) fn read(text: &str) -> Result<Model, SurrogateError> {
+fn read(text: &str) -> Result<Model, SurrogateError> {
     let damaged = |error: serde_json::Error| SurrogateError::Damaged(error.to_string());
     let found = schema(text)?;
     if found != SCHEMA {
@@ -187,10 +167,6 @@ fn check_range(
     }
 }
 
-pub(crate) fn field<T>(key: &str, value: impl ToString, allowed: &'static str) -> Result<T, SurrogateError> {
-    Err(SurrogateError::Field { key: key.to_string(), value: value.to_string(), allowed })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,11 +182,6 @@ mod tests {
         assert_eq!(again, Model { hash: again.hash.clone(), ..model });
         assert_eq!(again.hash, hash(&again.to_json()));
         assert_eq!(again.hash.len(), 64);
-    }
-
-    #[test]
-    fn hash_is_sha_256() {
-        assert_eq!(hash("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! The kinds of models, by name. A new kind is a file beside this one and a line in [`MODELS`].
 
 use crate::dataset::StateRow;
-use crate::model_file;
-use crate::state::training::{Mechanical, StateOptions};
+use crate::document::schema;
+use crate::state::provenance::StateOptions;
+use crate::state::training::Mechanical;
 use crate::surrogate::Surrogate;
 use crate::{Model, SurrogateError, constant, state, training};
 
@@ -97,7 +98,7 @@ pub fn builtin(name: &str) -> Trained {
 /// # Errors
 /// [`SurrogateError::Damaged`], [`SurrogateError::Schema`] or [`SurrogateError::Field`].
 pub fn read(text: &str) -> Trained {
-    let found = model_file::schema(text)?;
+    let found = schema(text)?;
     match MODELS.iter().find(|kind| found.starts_with(kind.schema)) {
         Some(kind) => (kind.read)(text),
         None => Err(SurrogateError::Schema { found, expected: "msdd-{constant-,,state-}model-1" }),

@@ -1,6 +1,7 @@
 //! The paper's network: 3 inputs, two hidden layers of 16 tanh neurons, 6 linear outputs (Fig. 3).
 
-use crate::kernel::{Activations, LANES, Lanes, activations};
+use crate::kernel::vector::Vector;
+use crate::kernel::{LANES, Lanes, Task, dispatch, layer};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -16,6 +17,13 @@ pub const HIDDEN_WEIGHTS: usize = HIDDEN * (INPUTS + 1) + HIDDEN * (HIDDEN + 1);
 pub const WEIGHTS: usize = HIDDEN_WEIGHTS + OUTPUTS * (HIDDEN + 1);
 /// Magnitude that no sound weight reaches; keeps every sum far from overflow.
 pub const WEIGHT_LIMIT: f64 = 1e9;
+
+/// Values of all neurons of the paper's network for a block of cells.
+pub struct Activations {
+    pub hidden_1: [Lanes; HIDDEN],
+    pub hidden_2: [Lanes; HIDDEN],
+    pub outputs: [Lanes; OUTPUTS],
+}
 
 /// Weights layer by layer, neuron by neuron: the neuron's weights, then its bias.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +61,11 @@ impl Network {
 
     /// All neurons for a block of scaled inputs.
     pub fn activations(&self, inputs: &[Lanes; INPUTS]) -> Activations {
-        activations(&self.weights, inputs)
+        let zero = [0.0; LANES];
+        let mut all =
+            Activations { hidden_1: [zero; HIDDEN], hidden_2: [zero; HIDDEN], outputs: [zero; OUTPUTS] };
+        dispatch(Activate { weights: &self.weights, inputs, all: &mut all });
+        all
     }
 
     /// ∂(output)/∂(weights) of one lane: the derivative by the hidden layers' weights goes to `column`. That by the
@@ -86,6 +98,24 @@ impl Network {
     }
 }
 
+struct Activate<'a> {
+    weights: &'a [f64; WEIGHTS],
+    inputs: &'a [Lanes; INPUTS],
+    all: &'a mut Activations,
+}
+
+impl Task for Activate<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { weights, inputs, all } = self;
+        let (first, rest) = weights.split_at(HIDDEN * (INPUTS + 1));
+        let (second, third) = rest.split_at(HIDDEN * (HIDDEN + 1));
+        layer::<V>(first, inputs, &mut all.hidden_1, true);
+        layer::<V>(second, &all.hidden_1, &mut all.hidden_2, true);
+        layer::<V>(third, &all.hidden_2, &mut all.outputs, false);
+    }
+}
+
 /// Derivatives by a neuron's weights (delta · input), then by its bias (delta).
 fn fill(part: &mut [f64], delta: f64, input: impl Fn(usize) -> f64) {
     let bias = part.len() - 1;
@@ -108,6 +138,18 @@ pub fn padded(count: usize, value: impl Fn(usize) -> f64) -> Lanes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::with_every_set;
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let weights: [f64; WEIGHTS] = std::array::from_fn(|i| ((i * 37 % 101) as f64 - 50.0) * 0.03);
+        let inputs: [Lanes; INPUTS] =
+            std::array::from_fn(|k| std::array::from_fn(|lane| ((k * 8 + lane) as f64 * 0.71).sin()));
+        let network = Network { weights: Box::new(weights) };
+        let bits = || network.activations(&inputs).outputs.map(|lanes| lanes.map(f64::to_bits));
+        let expected = bits();
+        with_every_set(|set| assert_eq!(bits(), expected, "{set}"));
+    }
 
     #[test]
     fn counts_of_the_paper() {

@@ -2,9 +2,9 @@
 
 use crate::kernel::{LANES, Lanes};
 use crate::model::Model;
+use crate::options::TrainingOptions;
 use crate::state::readout::CONDUCTIVITY_FLOOR;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
-use crate::training::TrainingOptions;
 
 impl Surrogate for Model {
     fn kind(&self) -> &'static str {

@@ -1,15 +1,12 @@
 //! A small tanh network of any shape within [`WIDTH`]: one or two hidden layers, linear outputs. The state model is
 //! made of these.
 
-use crate::kernel::{self, LANES, Lanes};
+use crate::kernel::{self, LANES, LayerValues};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
-/// Most inputs, neurons of a hidden layer, or outputs.
-pub const WIDTH: usize = 16;
-/// Inputs, two hidden layers, outputs.
-pub const MAX_LAYERS: usize = 4;
+pub use crate::kernel::{MAX_LAYERS, WIDTH};
 
 /// Layer sizes and weights: layer by layer, neuron by neuron, the neuron's weights and then its bias.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,7 +19,7 @@ pub struct Perceptron {
 
 /// Values of all neurons of a block of cells, layer by layer; the inputs are layer 0.
 pub struct Neurons {
-    pub layers: [[Lanes; WIDTH]; MAX_LAYERS],
+    pub layers: LayerValues,
 }
 
 impl Neurons {
@@ -79,7 +76,7 @@ impl Perceptron {
 
     /// Evaluates a block whose inputs stand in `neurons.layers[0]`; returns the index of the layer of outputs.
     pub fn run(&self, neurons: &mut Neurons) -> usize {
-        kernel::forward(&self.sizes, &self.weights, neurons);
+        kernel::forward(&self.sizes, &self.weights, &mut neurons.layers);
         self.sizes.len() - 1
     }
 

@@ -2,8 +2,8 @@
 
 use crate::dataset::Sample;
 use crate::kernel::LANES;
-use crate::model::Predictor;
 use crate::network::{OUTPUTS, padded};
+use crate::predictor::Predictor;
 use serde::{Deserialize, Serialize};
 
 /// R² of every output over some samples [-]; 1 is perfect. 0 also where the data does not vary.

@@ -2,8 +2,8 @@
 
 use crate::SurrogateError;
 use crate::dataset::StateRow;
+use crate::document::field;
 use crate::least_squares;
-use crate::model_file::field;
 use crate::network::WEIGHT_LIMIT;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};

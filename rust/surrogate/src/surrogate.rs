@@ -1,9 +1,9 @@
 //! What every surrogate model can do. A model is immutable once made and may be asked from several threads.
 
+use crate::dataset::ConductivityKind;
 use crate::kernel::{LANES, Lanes};
 use crate::mechanics::{Mechanics, Tangent};
-use crate::state::variables::ConductivityKind;
-use crate::training::TrainingOptions;
+use crate::options::TrainingOptions;
 use crate::wall_friction::WallFriction;
 
 /// Most state variables of any model.

@@ -1,85 +1,19 @@
 //! Training of the paper's network (section 3.1.2) on database rows.
 
-use crate::dataset::{self, Ramp, Sample, Split, StateRow};
-use crate::drift::{Drift, drifts};
+use crate::dataset::{self, Ramp, Sample, StateRow};
+use crate::drift::drifts;
 use crate::fit::NetworkFit;
 use crate::levenberg_marquardt::{LeastSquares, Limits, Stopping, minimise};
-use crate::model::Predictor;
-use crate::model_file::{DatabaseProvenance, Provenance};
 use crate::network::Network;
+use crate::options::TrainingOptions;
+use crate::predictor::Predictor;
+use crate::report::{Parts, Provenance, Report};
 use crate::scaling::{self, OutputScales, TrainedRange};
 use crate::scores::{Scores, scores};
 use crate::solid_fraction::SolidFraction;
 use crate::{Model, SurrogateError};
 use nalgebra::DVector;
-use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
-
-/// How to train.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TrainingOptions {
-    /// Name of the model.
-    pub name: String,
-    /// Fixes the split and the starting weights.
-    pub seed: u64,
-    /// Starts from other weights; the one with the best validation error is kept.
-    pub restarts: u32,
-    /// Epochs at most, per start.
-    pub max_epochs: u32,
-    /// Epochs without a better validation error after which training stops (paper: 20).
-    pub patience: u32,
-    /// Where the rows came from.
-    pub database: DatabaseProvenance,
-    /// Threads, 0 = one a core. Does not change the result and is not in the model file.
-    #[serde(skip)]
-    pub threads: usize,
-}
-
-impl Default for TrainingOptions {
-    fn default() -> Self {
-        Self {
-            name: "unnamed".to_string(),
-            seed: 1,
-            restarts: 1,
-            max_epochs: 200,
-            patience: 20,
-            database: DatabaseProvenance::default(),
-            threads: 0,
-        }
-    }
-}
-
-impl TrainingOptions {
-    pub(crate) fn check(&self) -> Result<(), SurrogateError> {
-        for (key, value) in
-            [("restarts", self.restarts), ("max_epochs", self.max_epochs), ("patience", self.patience)]
-        {
-            if !(1..=100_000).contains(&value) {
-                return Err(SurrogateError::Option { key, value: value.to_string(), allowed: "1 to 100000" });
-            }
-        }
-        let DatabaseProvenance { radius_min, radius_max, .. } = self.database;
-        if !(0.0..=radius_max).contains(&radius_min) || !radius_max.is_finite() {
-            let value = format!("{radius_min} to {radius_max}");
-            return Err(SurrogateError::Option {
-                key: "database radii",
-                value,
-                allowed: "0 <= min <= max, finite",
-            });
-        }
-        Ok(())
-    }
-}
-
-impl TrainingOptions {
-    pub(crate) fn threads_used(&self) -> usize {
-        match self.threads {
-            0 => std::thread::available_parallelism().map_or(1, |cores| cores.get()),
-            threads => threads,
-        }
-    }
-}
 
 /// State of a training under way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,37 +25,6 @@ pub struct Progress {
     /// Mean squared residuals of the scaled outputs [-].
     pub training_error: f64,
     pub validation_error: f64,
-}
-
-/// One value for each part of the split.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Parts<T> {
-    pub training: T,
-    pub validation: T,
-    /// Packings that the training never saw.
-    pub test: T,
-}
-
-/// Outcome of a training.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Report {
-    pub packings: Parts<usize>,
-    /// Mirror images included.
-    pub samples: Parts<usize>,
-    /// The start that was kept, from 0.
-    pub restart: u32,
-    /// Epochs of that start, and the one whose weights were kept.
-    pub epochs: u32,
-    pub best_epoch: u32,
-    pub stopping: Stopping,
-    /// Mean squared residuals of the scaled outputs at the kept weights [-].
-    pub training_error: f64,
-    pub validation_error: f64,
-    pub scores: Parts<Scores>,
-    /// On the test packings.
-    pub drift: Vec<Drift>,
 }
 
 /// Trains a model on the rows of a database.
@@ -179,17 +82,6 @@ pub(crate) fn scores_of_fit(
 ) -> Scores {
     let network = best_of_starts(samples, range, scales, options, &mut |_| ()).network;
     scores(&Predictor { network, range: *range, scales: *scales }, &samples.test)
-}
-
-impl<T> Parts<T> {
-    pub(crate) fn of(split: &Split, part: impl Fn(&[Ramp]) -> T) -> Self {
-        let Split { training, validation, test } = split;
-        Self { training: part(training), validation: part(validation), test: part(test) }
-    }
-
-    pub(crate) fn map<U>(&self, part: impl Fn(&T) -> U) -> Parts<U> {
-        Parts { training: part(&self.training), validation: part(&self.validation), test: part(&self.test) }
-    }
 }
 
 /// What one start led to.

@@ -50,24 +50,11 @@ top=$(field 60/T | awk '$1 > top { top = $1 } END { print top }')
 check "breeder: the middle ends at $top, 85 to 89 K" below "$(awk "BEGIN { print ($top - 87)^2 }")" 4
 check "breeder: heat balance closes to $(worst heatAudit 6) <= 1e-10" below "$(worst heatAudit 6)" 1e-10
 
-# Largest difference from the windows of 40 mm at the probes, in % of the range [K]; the discs' series is interpolated in time
+# Largest difference from the windows of 40 mm at the probes, in % of the range [K]
+(cd "$checkout" && cargo build --release --quiet ${MSDD_PACKAGES:---package msdd-cli})
+msdd=$(cd "$checkout" && realpath -m "${CARGO_TARGET_DIR:-target}")/release/msdd
 against_discs() { # reference, range
-    python3 - "$checkout/cases/reference/results/$1.json" postProcessing/spaceProbes/0/spaceProbes.dat "$2" << 'END'
-import bisect, json, sys
-series = json.load(open(sys.argv[1]))["series"]
-times = [row[0] for row in series["rows"]]
-columns = [series["columns"].index(f"T_P{k}_window") for k in (1, 2, 3)]
-worst = 0.0
-lines = [line.split() for line in open(sys.argv[2]) if not line.startswith("#")]
-assert len(lines) > 20
-for time, *values in (map(float, line) for line in lines):
-    k = min(max(bisect.bisect(times, time), 1), len(times) - 1)
-    share = (time - times[k - 1]) / (times[k] - times[k - 1])
-    for column, value in zip(columns, values):
-        discs = (1 - share) * series["rows"][k - 1][column] + share * series["rows"][k][column]
-        worst = max(worst, 100 * abs(value - discs) / float(sys.argv[3]))
-print(f"{worst:.3f}")
-END
+    "$msdd" reference compare --case . --discs "$checkout/cases/reference/results/$1.json" --range "$2" | awk '$1 == "largest" { print $2 }'
 }
 # Cases that nothing was chosen on, as shipped, grains that move: half of the walls hot; other grains
 for case in "corner corner_seed11 50" "material material_seed12 100"; do

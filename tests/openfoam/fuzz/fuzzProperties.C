@@ -147,6 +147,8 @@ int main(int argc, char *argv[])
     FatalError.throwExceptions();
     FatalIOError.throwExceptions();
     messageStream::level = 0;
+    // Else OpenFOAM ends at a quoted name of a sub-dictionary with a blank
+    fileName::debug = 0;
 
     label taken = 0, asked = 0, refused = 0;
     for (label round = 0; round < rounds; ++round)

@@ -2,7 +2,7 @@
 
 use crate::error::CliError;
 use clap::Args;
-use msdd_dem::{Simulation, Thermal, WallHeat, time_step};
+use msdd_dem::{Simulation, Thermal, WallHeat};
 use msdd_rve::{Compression, Material, PackingSpec, pack};
 use std::path::PathBuf;
 
@@ -63,7 +63,7 @@ fn shocked(mut simulation: Simulation) -> Result<Simulation, CliError> {
 }
 
 fn line(name: &str, simulation: &Simulation) {
-    let mechanical = time_step::stable_step(simulation);
+    let mechanical = simulation.stable_step();
     let mechanical_ratio = largest_factor(|factor| shaken_is_stable(simulation, factor * mechanical));
     let mut warm = simulation.clone();
     if warm.heat().is_none() {

@@ -3,18 +3,19 @@
 mod check;
 mod plot;
 mod timing;
+mod warning;
+
+pub use warning::warn_without_checksum;
 
 use crate::error::CliError;
 use crate::progress::Progress;
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand};
 use msdd_files::{check_target, read_text, write};
-use msdd_rve::database::{
-    Effort, Offenders, Plan, Run, Shard, export_csv, generate, has_checksum, merge, read, seal,
-};
+use msdd_rve::database::{Effort, Offenders, Plan, Run, Shard, export_csv, generate, merge, read, seal};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 #[derive(Subcommand)]
@@ -136,20 +137,6 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Plan(arguments) => plan(arguments),
         Command::Plot(arguments) => plot::run(arguments),
     }
-}
-
-/// Says which files have no checksums, before anything is made of them.
-pub fn warn_without_checksum(files: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<(), CliError> {
-    for file in files {
-        let file = file.as_ref();
-        if !has_checksum(file)? {
-            note!(
-                "warning: {} has no checksums, so damage that breaks no law goes unseen; msdd database seal gives it some",
-                file.display()
-            );
-        }
-    }
-    Ok(())
 }
 
 fn plan(arguments: &PlanArguments) -> Result<(), CliError> {

@@ -1,6 +1,6 @@
 //! `msdd database plot`: the inputs with their convex hulls (Fig. 4 of the paper), and outputs against porosity, as SVG.
 
-use super::warn_without_checksum;
+use super::warning::warn_without_checksum;
 use crate::error::CliError;
 use clap::Args;
 use msdd_files::write;

@@ -1,18 +1,18 @@
 //! `msdd reference`: the box of a case by discrete elements.
 
+mod compare;
 mod summary;
 
 use crate::error::CliError;
 use crate::progress::Progress;
 use crate::rve::{read_state, write_state};
 use clap::{Args, Subcommand};
+use msdd_case::{Case, mesh};
 use msdd_dem::Simulation;
 use msdd_files::{check_target, write};
 use msdd_reference::model::{DISCS, ModelSpec, check_state, discs_of, pack, statistics};
 use msdd_reference::run::Watch;
-use msdd_reference::{
-    Case, ReferenceError, RunSpec, Statistics, fields, mesh, results::Results, run as run_case,
-};
+use msdd_reference::{ReferenceError, RunSpec, Statistics, fields, results::Results, run as run_case};
 use msdd_rve::vtk;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -27,6 +27,8 @@ pub enum Command {
     Fields(FieldsArguments),
     /// Table of results: mean and scatter over the seeds; or how far two runs differ.
     Summary(summary::Arguments),
+    /// How far T of a run of the solver is from that of discrete elements at the probes.
+    Compare(compare::Arguments),
 }
 
 /// Which packed model.
@@ -108,6 +110,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Run(arguments) => run_model(arguments),
         Command::Fields(arguments) => write_fields(arguments),
         Command::Summary(arguments) => summary::run(arguments),
+        Command::Compare(arguments) => compare::run(arguments),
     }
 }
 

@@ -2,11 +2,12 @@
 
 use crate::error::CliError;
 use clap::Args;
-use msdd_files::{read_text, write};
+use msdd_files::write;
 use msdd_reference::results::{Results, Table};
+use msdd_reference::series::mean_and_deviation;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Args)]
 #[command(after_help = "Examples:
@@ -32,7 +33,8 @@ const PROFILES: [&str; 6] = ["T", "displacement_x", "porosity", "stress_xx", "st
 const LEFT_OUT: [&str; 2] = ["tangential_force", "mobilised"];
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let results: Vec<Results> = arguments.results.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
+    let results: Vec<Results> =
+        arguments.results.iter().map(|path| Results::read(path)).collect::<Result<_, _>>()?;
     if arguments.differences {
         return match results.as_slice() {
             [first, second] => differences(first, second),
@@ -55,11 +57,6 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         }
         None => Ok(()),
     }
-}
-
-fn read(path: &Path) -> Result<Results, CliError> {
-    let failed = |error| CliError::Message(format!("{}: {error}", path.display()));
-    serde_json::from_str(&read_text(path)?).map_err(failed)
 }
 
 /// Prints and returns mean and standard deviation over the seeds of the columns at several moments.
@@ -119,13 +116,6 @@ fn profile_scatter(results: &[&Results]) -> Result<Value, CliError> {
         scatter.insert(name.to_string(), json!([mean, square.sqrt()]));
     }
     Ok(Value::Object(scatter))
-}
-
-fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let square: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
-    (mean, if values.len() > 1 { (square / (count - 1.0)).sqrt() } else { 0.0 })
 }
 
 /// Prints how far the second result is from the first.

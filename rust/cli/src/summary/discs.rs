@@ -3,8 +3,8 @@
 use super::read::{CaseResult, PROBES};
 use crate::error::CliError;
 use msdd_files::read_text;
-use msdd_report::compare::{at, largest};
-use msdd_report::reference::{Reference, SEEDS, pressure_range, statistics, temperature_range};
+use msdd_reference::packings::{Reference, SEEDS, pressure_range, temperature_range};
+use msdd_reference::series::{at, largest, statistics};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -40,6 +40,38 @@ impl Errors {
     /// The largest of the three probes, without its sign [% of the range].
     pub fn largest(&self) -> f64 {
         largest(&self.temperature).abs()
+    }
+}
+
+/// A case, how it is called, its runs, and discrete elements of it.
+pub struct Named {
+    pub folder: &'static str,
+    pub name: &'static str,
+    /// With the paper's scheme, and with grains that move.
+    pub stay: CaseResult,
+    pub moving: Option<CaseResult>,
+    pub discs: Discs,
+}
+
+/// The same for programs.
+#[derive(Serialize)]
+pub struct Comparison<'a> {
+    discs: &'a Discs,
+    grains_stay: Option<Errors>,
+    grains_move: Option<Errors>,
+}
+
+impl Named {
+    pub fn errors(&self, run: &CaseResult) -> Option<Errors> {
+        self.discs.errors(self.folder, run)
+    }
+
+    pub fn comparison(&self) -> Comparison<'_> {
+        Comparison {
+            discs: &self.discs,
+            grains_stay: self.errors(&self.stay),
+            grains_move: self.moving.as_ref().and_then(|run| self.errors(run)),
+        }
     }
 }
 

@@ -10,16 +10,13 @@ mod table;
 
 use crate::error::CliError;
 use clap::Args;
-use discs::{Discs, Errors};
+use discs::{Comparison, Discs, Named};
 use msdd_files::write;
+use msdd_reference::packings::CASES;
 use read::{CaseResult, Model};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// The cases, by folder, and how they are called: with a star, they do not expand.
-const CASES: [(&str, &str); 6] =
-    [("H", "H"), ("C", "C"), ("HC", "HC"), ("Hstar", "H*"), ("Cstar", "C*"), ("HCstar", "HC*")];
 
 #[derive(Args)]
 pub struct Arguments {
@@ -50,35 +47,13 @@ struct Summary<'a> {
     model: &'a Model,
 }
 
-#[derive(Serialize)]
-struct Comparison<'a> {
-    discs: &'a Discs,
-    grains_stay: Option<Errors>,
-    grains_move: Option<Errors>,
-}
-
-/// A case, how it is called, its runs, and discrete elements of it.
-struct Named {
-    folder: &'static str,
-    name: &'static str,
-    stay: CaseResult,
-    moving: Option<CaseResult>,
-    discs: Discs,
-}
-
-impl Named {
-    fn errors(&self, run: &CaseResult) -> Option<Errors> {
-        self.discs.errors(self.folder, run)
-    }
-}
-
 /// Reads, checks and reports. All cases are read before anything is written.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let (named, model) = read_all(&arguments.cases, arguments.moving.as_deref(), &arguments.reference)?;
     let json = serde_json::to_string_pretty(&Summary {
         cases: named.iter().map(|case| (case.folder, &case.stay)).collect(),
         moving: named.iter().filter_map(|case| Some((case.folder, case.moving.as_ref()?))).collect(),
-        comparison: named.iter().map(|case| (case.folder, comparison(case))).collect(),
+        comparison: named.iter().map(|case| (case.folder, case.comparison())).collect(),
         model: &model,
     })
     .map_err(|error| CliError::Message(error.to_string()))?;
@@ -88,14 +63,6 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     outln!("model: {}, SHA-256 {}", model.source, model.hash);
     outln!("numbers: {}   plot: {}", arguments.out.display(), arguments.plot.display());
     Ok(())
-}
-
-fn comparison(case: &Named) -> Comparison<'_> {
-    Comparison {
-        discs: &case.discs,
-        grains_stay: case.errors(&case.stay),
-        grains_move: case.moving.as_ref().and_then(|run| case.errors(run)),
-    }
 }
 
 /// The six cases in the folder `cases` and, with grains that move, in `moving`, and the one model they were run with: figures of

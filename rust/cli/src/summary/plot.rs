@@ -1,6 +1,6 @@
 //! T at the three probes over time in all cases, beside the discs, as SVG.
 
-use super::Named;
+use super::discs::Named;
 use super::read::PROBES;
 use crate::error::CliError;
 use plotters::coord::Shift;

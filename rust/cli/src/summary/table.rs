@@ -1,7 +1,7 @@
 //! The tables on the terminal.
 
+use super::discs::{Errors, Named};
 use super::read::{CaseResult, PROBES};
-use super::{Errors, Named};
 use std::fmt::Write;
 
 /// Time at which temperatures are shown [s]: the cases differ most in the middle of the heating.

@@ -1,12 +1,13 @@
 //! Damping and symplectic Euler (Eqs. 3 and 4) for discs in a row.
 
-use super::Simd;
-use super::vector::{Columns, Lanes};
+use super::lanes::Lanes;
+use super::simd::Simd;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2, Avx512};
 use crate::disc::Disc;
 use crate::forces::Load;
 use crate::law::damping_scale;
+use crate::vector::{Columns, larger};
 
 /// How the discs move in one step.
 #[derive(Clone, Copy, Debug)]
@@ -17,12 +18,6 @@ pub(crate) struct Motion {
     pub keep_free: f64,
     /// Δt [s].
     pub dt: f64,
-}
-
-/// The larger of two numbers; NaN when either is: [`f64::max`] drops it, and a bound on a motion that is not known would
-/// hold.
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
 }
 
 /// Velocities, then positions, over one step. Returns the square of the largest speed [m²/s²]; NaN when one is.

@@ -1,13 +1,14 @@
 //! Contact forces of all pairs.
 
-use super::Simd;
-use super::vector::{Columns, Lanes};
+use super::lanes::Lanes;
+use super::simd::Simd;
 #[cfg(target_arch = "x86_64")]
 use super::x86::{Avx2, Avx512};
 use crate::contacts::Pairs;
 use crate::disc::Disc;
 use crate::forces::Load;
 use crate::law::{self, PairLaw};
+use crate::vector::Columns;
 
 /// Adds the forces of `pairs` to `loads` and updates their friction history. The first elements of `discs` and `loads`
 /// belong to disc `pairs.first`.

@@ -3,9 +3,10 @@
 //! A disc is 64 bytes, so groups of discs are loaded line by line and transposed in registers; hardware gathers were
 //! measured to gain nothing over that.
 
-use super::vector::{Columns, Lanes, Vector};
+use super::lanes::Lanes;
 use crate::disc::Disc;
 use crate::forces::Load;
+use crate::vector::{Columns, Vector};
 use std::arch::x86_64::*;
 
 /// Rows a..d of four f64 to columns.

@@ -1,13 +1,24 @@
 //! Ten cycles of 50 K ± 20 K (case `cycle`): solver beside discrete elements.
 
-use super::{Cycles, Failures};
-use crate::compare::{at, reference_sub_regions, sub_regions};
-use crate::job::{Job, Part, SolverJob};
-use crate::pool::Records;
+use crate::jobs::job::{Job, Part, SolverJob};
+use crate::jobs::pool::Records;
 use crate::read_text;
-use crate::reference::{Reference, statistics};
-use crate::report::Settings;
+use crate::settings::Settings;
+use msdd_reference::compare::{reference_sub_regions, sub_regions};
+use msdd_reference::packings::Reference;
+use msdd_reference::series::at;
+use msdd_reference::series::statistics;
+use serde::Serialize;
 use std::path::Path;
+
+/// Pressure over that at the start [-] at the ends of the quarters of the cycles, the start first.
+#[derive(Clone, Debug, Serialize)]
+pub struct Cycles {
+    pub name: String,
+    pub stops: Vec<f64>,
+    /// K_xx/K_yy at the end [-].
+    pub anisotropy: f64,
+}
 
 /// A cycle [s]; 50 K at its start, 70 K after a quarter, 30 K after three.
 pub const PERIOD: f64 = 8.0;
@@ -74,14 +85,12 @@ impl Cycles {
     }
 }
 
-impl Failures {
-    /// Largest difference of the pressure, over that at the start, between a run of the solver and the discrete elements [%].
-    pub fn worst_cycle(&self, name: &str) -> Option<f64> {
-        let of = |part: &str| self.cycles.iter().find(|c| c.name.contains(part));
-        let (run, discs) = (of(name)?, of("discs")?);
-        let differences = run.stops.iter().zip(&discs.stops).map(|(a, b)| 100.0 * (a - b).abs());
-        Some(differences.fold(0.0, f64::max))
-    }
+/// Largest difference of the pressure, over that at the start, between a run of the solver and the discrete elements [%].
+pub fn worst(cycles: &[Cycles], name: &str) -> Option<f64> {
+    let of = |part: &str| cycles.iter().find(|c| c.name.contains(part));
+    let (run, discs) = (of(name)?, of("discs")?);
+    let differences = run.stops.iter().zip(&discs.stops).map(|(a, b)| 100.0 * (a - b).abs());
+    Some(differences.fold(0.0, f64::max))
 }
 
 #[cfg(test)]

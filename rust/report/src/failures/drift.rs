@@ -1,9 +1,9 @@
 //! Networks in many increments: one strain in more and more of them, and with more and more neurons.
 
-use crate::execute::{Outcome, THEN};
-use crate::job::{Job, ToolJob};
-use crate::pool::Records;
-use crate::report::Settings;
+use crate::jobs::execute::{Outcome, THEN};
+use crate::jobs::job::{Job, ToolJob};
+use crate::jobs::pool::Records;
+use crate::settings::Settings;
 use serde::Serialize;
 use serde_json::Value;
 

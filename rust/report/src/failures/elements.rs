@@ -1,6 +1,6 @@
 //! Limits of the discrete elements.
 
-use crate::job::{Job, ToolJob};
+use crate::jobs::job::{Job, ToolJob};
 use crate::plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -14,20 +14,11 @@ pub mod elements;
 pub mod rows;
 pub mod solver;
 
-use crate::execute::Outcome;
-use crate::job::{Job, SolverJob};
-use crate::pool::{Asked, Records};
-use crate::report::Settings;
+use crate::jobs::execute::Outcome;
+use crate::jobs::job::Job;
+use crate::jobs::pool::{Asked, Records};
+use crate::settings::Settings;
 use serde::Serialize;
-
-/// Pressure over that at the start [-] at the ends of the quarters of the cycles, the start first.
-#[derive(Clone, Debug, Serialize)]
-pub struct Cycles {
-    pub name: String,
-    pub stops: Vec<f64>,
-    /// K_xx/K_yy at the end [-].
-    pub anisotropy: f64,
-}
 
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Failures {
@@ -37,14 +28,9 @@ pub struct Failures {
     pub coupling: Vec<solver::Coupling>,
     pub contrast: Vec<solver::Contrast>,
     pub slant: Vec<solver::Slant>,
-    pub cycles: Vec<Cycles>,
+    pub cycles: Vec<cycles::Cycles>,
     pub drift: Vec<drift::Drift>,
     pub depth: Vec<drift::Depth>,
-}
-
-/// A case on few cells, which is enough to see a method break.
-fn small(case: &str) -> SolverJob {
-    SolverJob { mesh: [25, 8], limit: 120, ..SolverJob::new(case, 1) }
 }
 
 pub fn jobs(quick: bool) -> Vec<Asked> {

@@ -1,13 +1,12 @@
 //! Configurations at the edge of a method. Each was run, and each has to be refused, ended, cut or reported, as its line says.
 //! Adding one is a line in [`edges`].
 
-use super::small;
-use crate::execute::{Outcome, Record};
-use crate::job::{Job, SolverJob};
-use crate::output::Run;
+use crate::jobs::execute::{Outcome, Record};
+use crate::jobs::job::{Job, SolverJob};
+use crate::jobs::pool::Records;
 use crate::plan;
-use crate::pool::Records;
-use crate::report::Settings;
+use crate::settings::Settings;
+use msdd_reference::solver::Run;
 use serde::Serialize;
 
 /// A configuration at or beyond the edge of a method, and what came of it.
@@ -54,7 +53,7 @@ fn edge(
 }
 
 fn uniform(case: &str, porosity: f64) -> SolverJob {
-    SolverJob { uniform: Some([porosity, 0.04]), ..small(case).control("deltaT 0.02;") }
+    SolverJob { uniform: Some([porosity, 0.04]), ..SolverJob::coarse(case).control("deltaT 0.02;") }
 }
 
 fn policy(column: &str, side: &str, action: &str) -> String {
@@ -62,7 +61,7 @@ fn policy(column: &str, side: &str, action: &str) -> String {
 }
 
 fn stepped(step: &str) -> SolverJob {
-    small("H").control(&format!("deltaT {step};"))
+    SolverJob::coarse("H").control(&format!("deltaT {step};"))
 }
 
 fn walls(job: SolverJob, kelvin: &str) -> SolverJob {
@@ -132,7 +131,9 @@ fn region() -> Vec<Edge> {
 }
 
 fn unjamming() -> Vec<Edge> {
-    let cold = || walls(small("C").control("deltaT 0.02;"), "0").temperature("internalField uniform 100;");
+    let cold = || {
+        walls(SolverJob::coarse("C").control("deltaT 0.02;"), "0").temperature("internalField uniform 100;")
+    };
     let paper = "surrogate { model builtin:paper; }";
     vec![
         edge(
@@ -181,7 +182,7 @@ fn equilibrium() -> Vec<Edge> {
             "residual of 1e-9 Pa",
             "below round-off: ends, fields written",
             ENDED,
-            small("HC").control("deltaT 0.1;").grains(exact),
+            SolverJob::coarse("HC").control("deltaT 0.1;").grains(exact),
         ),
         edge(
             "equilibrium",

@@ -1,11 +1,10 @@
 //! Where the solver's discretisation loses accuracy: long steps, contrasts of conductivity, slanted cells.
 
-use super::small;
-use crate::compare::{at, largest};
-use crate::job::{BOX, Job, PROBES, SolverJob};
-use crate::output::Run;
-use crate::pool::Records;
-use crate::report::Settings;
+use crate::jobs::job::{BOX, Job, PROBES, SolverJob};
+use crate::jobs::pool::Records;
+use crate::settings::Settings;
+use msdd_reference::series::{at, largest};
+use msdd_reference::solver::Run;
 use serde::Serialize;
 
 /// Error in time of the coupled steps, case H on 25 x 8 cells, against adaptive steps of 0.0005 K.
@@ -72,13 +71,13 @@ pub fn jobs(quick: bool) -> Vec<Job> {
 }
 
 fn coupled(scheme: &str, step: f64) -> SolverJob {
-    let job = small("H").control(&format!("deltaT {step};"));
+    let job = SolverJob::coarse("H").control(&format!("deltaT {step};"));
     job.solution(&format!("msddFoam {{ timeScheme {scheme}; }}"))
 }
 
 /// What the coupled steps are measured against.
 fn converged() -> SolverJob {
-    small("H")
+    SolverJob::coarse("H")
         .control("deltaT 1e-3; adjustTimeStep yes;")
         .solution("msddFoam { timeScheme secondOrder; temperatureTolerance 0.0005; stateTolerance 0.5; }")
         .solution("solvers { T { tolerance 1e-12; } }")

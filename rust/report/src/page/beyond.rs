@@ -1,11 +1,11 @@
 //! Beyond the six cases: order in time, sensitivity, another scene and another material.
 
-use super::{Figure, case_name, fixed, table};
+use super::html::{Figure, case_name, fixed, table};
 use crate::ReportError;
 use crate::draw::{Axis, Line, Marker, Series, Style, plot};
-use crate::other_cases::WAYS;
 use crate::plan::CHARTED;
 use crate::report::Made;
+use crate::studies::other_cases::WAYS;
 
 pub fn section(made: &Made) -> Result<String, ReportError> {
     Ok(convergence(made)? + &sensitivity(made) + &other_cases(made)?)
@@ -140,7 +140,7 @@ fn other_cases(made: &Made) -> Result<String, ReportError> {
 }
 
 fn other_table(made: &Made) -> String {
-    let row = |row: &crate::other_cases::OtherCase| {
+    let row = |row: &crate::studies::other_cases::OtherCase| {
         let mut cells = vec![case_name(&row.case).to_string(), row.what.clone()];
         cells.extend((0..3).map(|k| fixed(row.temperature.map(|t| t[k]), 2)));
         cells.extend((0..2).map(|k| fixed(row.pressure.map(|p| 1e-3 * p[k]), 2)));
@@ -162,7 +162,7 @@ fn other_table(made: &Made) -> String {
 /// Why p ℓ/(E r̄) is carried and not the paper's p/E.
 fn scalings(made: &Made) -> String {
     let all = &made.other_cases.scalings;
-    let row = |s: &crate::other_cases::Scaling| {
+    let row = |s: &crate::studies::other_cases::Scaling| {
         vec![
             s.case.clone(),
             format!("{:.0}", 1e-6 * s.young_modulus),

@@ -1,11 +1,11 @@
 //! Error against cost, and the ledger.
 
-use super::{Figure, case_name, fixed, table};
+use super::html::{Figure, case_name, fixed, table};
 use crate::ReportError;
 use crate::draw::{Axis, Line, MARKERS, Series, Style, plot};
-use crate::front::Point;
 use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
+use crate::studies::front::Point;
 use std::fmt::Write;
 
 const COST: Axis = Axis { label: "cost [core-s]", log: true, range: Some((0.05, 2e5)) };

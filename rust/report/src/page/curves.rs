@@ -1,14 +1,16 @@
 //! Curves over time: T at the probes, mean pressure, stress at the walls.
 
-use super::{Figure, case_name};
+use super::html::{Figure, case_name};
 use crate::ReportError;
-use crate::compare::{at, largest};
-use crate::detail::{WALL_COLUMNS, WALLS};
 use crate::draw::{Axis, Line, Marker, Series, Style, plot};
-use crate::output::Run;
 use crate::plan::FAMILIES;
-use crate::reference::{Reference, statistics};
-use crate::report::{Made, Validated};
+use crate::report::Made;
+use crate::studies::detail::{WALL_COLUMNS, WALLS};
+use crate::studies::validation::Validated;
+use msdd_reference::packings::Reference;
+use msdd_reference::series::statistics;
+use msdd_reference::series::{at, largest};
+use msdd_reference::solver::Run;
 
 const SOURCE: &str = "discrete elements committed; solver measured and cached";
 const TIME: Axis = Axis { label: "t [s]", log: false, range: Some((0.0, 20.0)) };

@@ -1,16 +1,15 @@
 //! Fields in sub-regions and along x: at the start and at the end.
 
 use super::curves::{configurations, curves, keys};
-use super::{Figure, case_name};
+use super::html::{Figure, case_name};
 use crate::ReportError;
-use crate::compare::{
-    largest, reference_start, reference_sub_regions, root_mean_square, spread, sub_regions,
-};
 use crate::draw::{Axis, Marker, Series, Style, maps, plot};
-use crate::output::{COLUMNS, Run};
 use crate::plan::FAMILIES;
-use crate::reference::statistics;
 use crate::report::Made;
+use msdd_reference::compare::{reference_start, reference_sub_regions, sub_regions};
+use msdd_reference::series::statistics;
+use msdd_reference::series::{largest, root_mean_square, spread};
+use msdd_reference::solver::{COLUMNS, Run};
 
 const SOURCE: &str = "discrete elements committed; solver measured and cached";
 

@@ -5,11 +5,12 @@ mod chart;
 mod curves;
 mod edge;
 mod fields;
+mod html;
 mod states;
 mod validation;
 
 use crate::ReportError;
-use crate::draw::{Style, key};
+use crate::draw::escape;
 use crate::report::Made;
 use std::fmt::Write;
 
@@ -60,84 +61,10 @@ fn numbered(page: &str) -> String {
     parts.enumerate().fold(first, |text, (k, part)| format!("{text}Fig. {}.{part}", k + 1))
 }
 
-/// Text as HTML.
-pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// A figure: panels, what the markers mean, one sentence of what one sees, and where it comes from.
-struct Figure<'a> {
-    id: &'a str,
-    panels: Vec<String>,
-    keys: Vec<(Style, String)>,
-    caption: String,
-    source: &'a str,
-}
-
-impl Figure<'_> {
-    fn html(&self, made: &Made) -> Result<String, ReportError> {
-        let mut keys = String::new();
-        for (style, text) in &self.keys {
-            let _ = write!(keys, "<span>{} {}</span>", key(*style)?, escape(text));
-        }
-        let stamp = &made.report.made;
-        Ok(format!(
-            "<figure id=\"{}\">\n<div class=\"panels\">\n{}</div>\n<div class=\"key\">{keys}</div>\n<figcaption>{} \
-             <span class=\"source\">{} · <code>scripts/report</code> · {} · {}</span></figcaption>\n</figure>\n",
-            self.id,
-            self.panels.concat(),
-            escape(&self.caption),
-            escape(self.source),
-            escape(&stamp.commit),
-            escape(&stamp.date)
-        ))
-    }
-}
-
-/// A table that scrolls in its box. Columns whose head begins with "'" hold text, with "\"" long text.
-fn table(heads: &[&str], rows: &[Vec<String>]) -> String {
-    let class = |head: &str| match head.chars().next() {
-        Some('\'') => " class=\"text\"",
-        Some('"') => " class=\"long\"",
-        _ => "",
-    };
-    let mut html = "<div class=\"scroll\"><table>\n<tr>".to_string();
-    for head in heads {
-        let named = head.trim_start_matches(['\'', '"']);
-        let aligned = if named.len() == head.len() { "" } else { " class=\"text\"" };
-        let _ = write!(html, "<th{aligned}>{}</th>", escape(named));
-    }
-    html += "</tr>\n";
-    for row in rows {
-        html += "<tr>";
-        for (head, cell) in heads.iter().zip(row) {
-            let _ = write!(html, "<td{}>{}</td>", class(head), escape(cell));
-        }
-        html += "</tr>\n";
-    }
-    html + "</table></div>\n"
-}
-
-/// A number with so many digits after the point; a dash for none.
-fn fixed(value: Option<f64>, digits: usize) -> String {
-    value.filter(|v| v.is_finite()).map_or("–".to_string(), |v| format!("{v:.digits$}"))
-}
-
-/// The cases' names, with a star for those without expansion.
-fn case_name(case: &str) -> &str {
-    crate::reference::CASES.iter().find(|c| c.0 == case).map_or(case, |c| c.1)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
-
     #[test]
-    fn text_of_runs_cannot_break_the_page() {
-        let html = table(&["'a", "b"], &[vec!["<script>".to_string(), "1 & 2".to_string()]]);
-        assert!(html.contains("&lt;script&gt;") && html.contains("1 &amp; 2") && !html.contains("<script>"));
-        assert_eq!(numbered("a Fig. #. b Fig. #. c"), "a Fig. 1. b Fig. 2. c");
-        assert_eq!(fixed(None, 2), "–");
-        assert_eq!(fixed(Some(1.005), 1), "1.0");
+    fn figures_are_numbered_as_they_follow_each_other() {
+        assert_eq!(super::numbered("a Fig. #. b Fig. #. c"), "a Fig. 1. b Fig. 2. c");
     }
 }

@@ -1,14 +1,14 @@
 //! States that the solver asks for, on what the database knows; grains around P2.
 
-use super::{Figure, case_name};
+use super::html::{Figure, case_name};
 use crate::ReportError;
-use crate::detail::REGIONS;
 use crate::draw::{Axis, Grain, Line, Series, Style, grains, plot};
-use crate::known::{DATABASE, KnownStates};
-use crate::output::{COLUMNS, Run};
 use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
+use crate::studies::detail::REGIONS;
+use crate::studies::known::{DATABASE, KnownStates};
 use msdd_reference::results::Table;
+use msdd_reference::solver::{COLUMNS, Run};
 
 pub fn section(made: &Made) -> Result<String, ReportError> {
     Ok(queries(made)? + &around_the_middle(made)?)

@@ -1,14 +1,12 @@
-//! Rows and where they come from, read from a database or its CSV, alone or together.
+//! Rows and where they come from.
 
-use super::plan::RampName;
+use super::DatabaseError;
 use super::record::Record;
-use super::store::Store;
-use super::{DatabaseError, check, checksum, csv_file};
-use msdd_files::FileError;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+/// Provenance key of a rounded export: significant digits of its floats.
+pub(super) const DIGITS: &str = "digits";
 
 /// Rows and where they come from.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,154 +16,10 @@ pub struct Dataset {
     pub provenance: BTreeMap<String, String>,
 }
 
-impl Dataset {
-    /// Whether checksums say that it is what was written. Files of older programs have none.
-    pub fn has_checksum(&self) -> bool {
-        checksum::is_sealed(&self.provenance)
-    }
-}
-
-/// Whether a file has checksums; see [`Dataset::has_checksum`].
-///
-/// # Errors
-/// [`DatabaseError`] for what cannot be read.
-pub fn has_checksum(path: &Path) -> Result<bool, DatabaseError> {
-    let provenance = match is_sqlite(path)? {
-        true => Store::open(path)?.provenance()?,
-        false => csv_file::provenance(path)?,
-    };
-    Ok(checksum::is_sealed(&provenance))
-}
-
-/// Reads a database, or the CSV that was exported from one (plain or gzip) with its provenance beside it.
-///
-/// # Errors
-/// [`DatabaseError::Damaged`] when a checksum does not agree; [`DatabaseError`] for what cannot be read.
-pub fn read(path: &Path) -> Result<Dataset, DatabaseError> {
-    let (dataset, damage) = inspect(path)?;
-    undamaged(path, dataset, &damage)
-}
-
-/// As [`read`], but says what is not what was written, and gives it all the same: for a closer look.
-///
-/// # Errors
-/// [`DatabaseError`] for what cannot be read.
-pub fn inspect(path: &Path) -> Result<(Dataset, Vec<String>), DatabaseError> {
-    let (mut dataset, damage) = match is_sqlite(path)? {
-        true => Store::open(path)?.inspected()?,
-        false => csv_file::inspected(path)?,
-    };
-    dataset.records.sort_by_key(place);
-    Ok((dataset, damage))
-}
-
 /// The dataset, unless it is not what was written.
 pub(super) fn undamaged(path: &Path, dataset: Dataset, damage: &[String]) -> Result<Dataset, DatabaseError> {
     match damage {
         [] => Ok(dataset),
         damage => Err(DatabaseError::Damaged { path: path.to_path_buf(), problem: damage.join("; ") }),
-    }
-}
-
-/// Place of a row: stops of each ramp outward, those on the negative side first.
-fn place(record: &Record) -> (i64, RampName, bool, u64) {
-    (record.packing, record.ramp, record.stop > 0, record.stop.unsigned_abs())
-}
-
-pub(super) fn is_sqlite(path: &Path) -> Result<bool, DatabaseError> {
-    let failed = |source| FileError::Read { file: path.to_path_buf(), source };
-    // A pipe can be read once, and a device has no end.
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        let problem = "it is no regular file".to_string();
-        return Err(DatabaseError::Format { path: path.to_path_buf(), problem });
-    }
-    let mut start = Vec::new();
-    std::fs::File::open(path).map_err(failed)?.take(16).read_to_end(&mut start).map_err(failed)?;
-    Ok(start == b"SQLite format 3\0")
-}
-
-/// What must be equal in databases that are read as one: rows of other grains or another engine do not mix.
-const SHARED: [&str; 5] = ["engine_version", "material", "radius_distribution", "radius_min", "radius_max"];
-
-/// Reads several databases as one, all of them sound. Packings are numbered on from file to file; the plan's hash is then
-/// of all plans.
-///
-/// # Errors
-/// Those of [`read`]; [`DatabaseError::Unsound`] for what [`check::violations`] finds; [`DatabaseError::Mismatch`] for
-/// databases of different grains or engines; [`DatabaseError::Twice`] for a packing that stands in two of them.
-pub fn read_all(paths: &[PathBuf]) -> Result<Dataset, DatabaseError> {
-    let mut all = Dataset { records: Vec::new(), provenance: BTreeMap::new() };
-    let mut plans = Vec::new();
-    let mut known = Known::default();
-    for path in paths {
-        let dataset = read(path)?;
-        check::sound(path, &dataset)?;
-        known.add(path, &dataset.records)?;
-        let Dataset { mut records, provenance } = dataset;
-        let first = plans.is_empty();
-        plans.push(provenance.get("plan_hash").cloned().unwrap_or_default());
-        if first {
-            all = Dataset { records, provenance };
-            continue;
-        }
-        for key in SHARED {
-            let [found, expected] =
-                [&provenance, &all.provenance].map(|p| p.get(key).cloned().unwrap_or_default());
-            if found != expected {
-                return Err(DatabaseError::Mismatch { path: path.clone(), key, found, expected });
-            }
-        }
-        let next = all.records.iter().map(|record| record.packing + 1).max().unwrap_or(0);
-        records.iter_mut().for_each(|record| record.packing += next);
-        all.records.append(&mut records);
-    }
-    if plans.len() > 1 {
-        let hash = Sha256::digest(plans.concat()).iter().map(|byte| format!("{byte:02x}")).collect();
-        all.provenance.insert("plan_hash".to_string(), hash);
-        // They were of the first file alone.
-        checksum::unseal(&mut all.provenance);
-    }
-    Ok(all)
-}
-
-/// What decides a packing together with the grains: seed, discs, compression, region (which tells the boundary).
-type Key = (u64, u64, String, String);
-
-/// The packings of the files so far.
-#[derive(Default)]
-struct Known(BTreeMap<Key, Vec<Packing>>);
-
-struct Packing {
-    /// Target porosity and friction angle while packing, which exports round.
-    made: [f64; 2],
-    file: PathBuf,
-    packing: i64,
-}
-
-/// Rounding to three digits moves a value by less.
-const ROUNDING: f64 = 0.006;
-
-impl Known {
-    /// Takes note of a file's packings: one that is there already would stand on both sides of the split into packings to
-    /// train on and packings to judge by.
-    fn add(&mut self, path: &Path, records: &[Record]) -> Result<(), DatabaseError> {
-        for record in records.iter().filter(|record| record.ramp == RampName::Packed) {
-            let key = (record.seed, record.discs, format!("{:?}", record.compression), record.region.clone());
-            let made = [record.target_porosity, record.packing_friction_angle];
-            let like = |other: &&Packing| {
-                made.iter().zip(other.made).all(|(a, b)| (a - b).abs() <= ROUNDING * a.abs().max(b.abs()))
-            };
-            let others = self.0.entry(key).or_default();
-            if let Some(other) = others.iter().find(like) {
-                return Err(DatabaseError::Twice {
-                    path: path.to_path_buf(),
-                    packing: record.packing,
-                    other: other.file.clone(),
-                    other_packing: other.packing,
-                });
-            }
-            others.push(Packing { made, file: path.to_path_buf(), packing: record.packing });
-        }
-        Ok(())
     }
 }

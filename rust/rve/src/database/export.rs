@@ -1,7 +1,8 @@
 //! CSV with a column dictionary and the provenance beside it.
 
 use super::csv_file::{beside, is_gzip_name};
-use super::dataset::{is_sqlite, read};
+use super::dataset::DIGITS;
+use super::read::{is_sqlite, read};
 use super::record::{COLUMNS, Record};
 use super::store::{COMPLETE, Store};
 use super::{DatabaseError, Dataset, ENGINE_VERSION, check, checksum, csv_file};
@@ -9,8 +10,6 @@ use msdd_files::{check_target, write};
 use std::io::Write;
 use std::path::Path;
 
-/// Provenance key of a rounded export: significant digits of its floats.
-pub(super) const DIGITS: &str = "digits";
 /// Digits from which on a float is taken as not rounded.
 const ALL_DIGITS: usize = 15;
 

@@ -59,7 +59,7 @@ pub fn generate(
     }
     // Another run on the same file would do the same work and then find its rows there already.
     let _lock = msdd_files::Lock::take(path)?;
-    let mut store = Store::open_for(path, plan, run)?;
+    let mut store = Store::open_for(path, plan, run.shard, &run.commit)?;
     let stored = store.packings()?;
     let mut todo: Vec<Job> = plan.jobs().into_iter().filter(|job| run.shard.holds(job.packing)).collect();
     let total = todo.len();

@@ -9,7 +9,8 @@
 //! | [`generate`](mod@generate) | makes the rows, on several threads |
 //! | [`merge`](mod@merge) | shards made on several machines become one file |
 //! | [`offenders`] | a plan from queries outside a model's range |
-//! | [`dataset`] | reading any form, one file or several as one |
+//! | [`dataset`] | rows and where they come from |
+//! | [`read`](mod@read) | reading any form, one file or several as one |
 //! | [`export`] | CSV with a column dictionary |
 //! | [`csv_file`] | reading CSV |
 //! | `schema` | what an SQLite file must be before it is read |
@@ -27,23 +28,24 @@ pub mod generate;
 pub mod merge;
 pub mod offenders;
 pub mod plan;
+mod read;
 pub mod record;
 mod rows;
 mod schema;
 mod shard;
 pub mod store;
 
-pub use dataset::{Dataset, has_checksum, inspect, read, read_all};
+pub use dataset::Dataset;
 pub use export::{export_csv, seal};
 pub use generate::{Progress, Run, generate};
 pub use merge::merge;
 pub use offenders::{Effort, Offenders};
 pub use plan::{Kind, Plan, RampName};
+pub use read::{has_checksum, inspect, read, read_all};
 pub use record::Record;
 pub use shard::Shard;
 pub use store::Store;
 
-use dataset::undamaged;
 use std::path::PathBuf;
 
 /// Raised by one whenever the same plan and seed give other numbers. Databases of different versions do not mix.

@@ -1,10 +1,10 @@
 //! The database file: SQLite with the tables `states`, `provenance` (key, value) and `columns` (name, unit, meaning).
 
 use super::cell::Cell;
-use super::generate::Run;
+use super::dataset::undamaged;
 use super::plan::Plan;
 use super::record::{COLUMNS, Column, Record};
-use super::{DatabaseError, Dataset, ENGINE_VERSION, checksum, schema};
+use super::{DatabaseError, Dataset, ENGINE_VERSION, Shard, checksum, schema};
 use msdd_files::Part;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, Row, params_from_iter};
@@ -44,18 +44,24 @@ impl Store {
     }
 
     /// Opens the database of a plan's shard, or makes an empty one. What stands in it already must be what was written.
-    pub(crate) fn open_for(path: &Path, plan: &Plan, run: &Run) -> Result<Self, DatabaseError> {
+    /// `commit` is that of the program.
+    pub(crate) fn open_for(
+        path: &Path,
+        plan: &Plan,
+        shard: Shard,
+        commit: &str,
+    ) -> Result<Self, DatabaseError> {
         let connection = schema::open(path, true).map_err(|s| sqlite(path, s))?;
         let mut store = Self { connection, path: path.to_path_buf() };
         if schema::is_empty(&store.connection).map_err(|s| sqlite(path, s))? {
-            store.create(provenance(plan, run), &[]).map_err(|s| sqlite(path, s))?;
+            store.create(provenance(plan, shard, commit), &[]).map_err(|s| sqlite(path, s))?;
         }
         store.check()?;
         store.expect("engine_version", &ENGINE_VERSION.to_string())?;
         store.expect("plan_hash", &plan.hash())?;
-        store.expect("shard", &run.shard.to_string())?;
+        store.expect("shard", &shard.to_string())?;
         store.dataset()?;
-        store.add_commit(&run.commit)?;
+        store.add_commit(commit)?;
         Ok(store)
     }
 
@@ -213,7 +219,7 @@ impl Store {
     /// [`DatabaseError::Damaged`]; those of [`Store::records`].
     pub(super) fn dataset(&self) -> Result<Dataset, DatabaseError> {
         let (dataset, damage) = self.inspected()?;
-        super::undamaged(&self.path, dataset, &damage)
+        undamaged(&self.path, dataset, &damage)
     }
 
     /// The rows of a query, each by `read`, which gets its number from 1.
@@ -249,12 +255,12 @@ pub(super) fn sqlite(path: &Path, source: rusqlite::Error) -> DatabaseError {
     DatabaseError::Sqlite { path: path.to_path_buf(), source }
 }
 
-fn provenance(plan: &Plan, run: &Run) -> BTreeMap<String, String> {
+fn provenance(plan: &Plan, shard: Shard, commit: &str) -> BTreeMap<String, String> {
     let pairs = [
         ("schema", SCHEMA.to_string()),
         ("engine_version", ENGINE_VERSION.to_string()),
-        ("commit", run.commit.clone()),
-        ("shard", run.shard.to_string()),
+        ("commit", commit.to_string()),
+        ("shard", shard.to_string()),
         ("plan", plan.text.clone()),
         ("plan_hash", plan.hash()),
         ("material", serde_json::json!(plan.material).to_string()),

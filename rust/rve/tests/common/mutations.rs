@@ -1,10 +1,12 @@
 //! Mutations of texts and files: the same in every run. MSDD_FUZZ sets their number a reader; a million takes minutes.
+//! Tests of other crates include this file, too.
+#![allow(dead_code)] // each test uses a part
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
-pub struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
     pub fn next(&mut self) -> u64 {
@@ -21,12 +23,13 @@ impl Random {
 }
 
 /// What a number or a value may be replaced by: edges of types, of ranges, and of belief. None makes a long plan.
-const TOKENS: [&str; 30] = [
+pub const TOKENS: [&str; 33] = [
     "0",
     "-0.0",
     "1",
     "-1",
     "2",
+    "3",
     "0.5",
     "0.12",
     "-0.5",
@@ -38,6 +41,7 @@ const TOKENS: [&str; 30] = [
     "-1e300",
     "1.7976931348623157e308",
     "1e999",
+    "4294967295",
     "4294967296",
     "9223372036854775807",
     "18446744073709551615",
@@ -48,6 +52,7 @@ const TOKENS: [&str; 30] = [
     "null",
     "true",
     "\"\"",
+    "\"walls\"",
     "[]",
     "{}",
     "[0,0]",
@@ -92,6 +97,11 @@ pub fn mutated(bytes: &[u8], other: &[u8], is_text: bool, random: &mut Random) -
     bytes
 }
 
+/// How many mutations are tried of a reader that usually gets `usual`.
+pub fn trials(usual: usize) -> usize {
+    std::env::var("MSDD_FUZZ").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
 /// Tries a corpus and mutations of it; `check` says whether an input was accepted, or why it is a finding, as a panic is. The
 /// input of a finding is written to `folder`. Returns how many were accepted.
 pub fn fuzz(
@@ -100,8 +110,7 @@ pub fn fuzz(
     usual: usize,
     mut check: impl FnMut(&[u8]) -> Result<bool, String>,
 ) -> usize {
-    let wanted = std::env::var("MSDD_FUZZ").ok().and_then(|text| text.parse().ok());
-    let count = wanted.unwrap_or(usual);
+    let count = trials(usual);
     let mut random = Random(7);
     let mut accepted = 0;
     for trial in 0..corpus.len() + count {

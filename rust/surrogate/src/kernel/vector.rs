@@ -1,8 +1,13 @@
-//! Arithmetic on a block of lanes, and its portable implementation.
+//! A block of cells, arithmetic on it, and its portable implementation.
 
-use super::{LANES, Lanes};
 use std::mem::MaybeUninit;
 use std::ops::{Add, Div, Mul, Sub};
+
+/// Cells in a block: two AVX-512 registers of f64, whose chains of dependent operations overlap.
+pub const LANES: usize = 16;
+
+/// One quantity of a block of cells.
+pub type Lanes = [f64; LANES];
 
 /// One quantity of a block of cells in registers. Every operation acts on each lane alone, rounds as IEEE 754 says, and gives
 /// the same bits in all implementations.

@@ -1,11 +1,10 @@
 //! Sixteen lanes in x86-64 registers: two of AVX-512, four of AVX2.
 //!
-//! The types are this module's and [`super`]'s alone, and named there only inside functions that are compiled for their
-//! instruction set and called where the machine has it: that is what makes the intrinsics below sound.
+//! The types are this module's and [`super::dispatch`]'s alone, and named there only inside functions that are compiled for
+//! their instruction set and called where the machine has it: that is what makes the intrinsics below sound.
 #![allow(unsafe_code)]
 
-use super::Lanes;
-use super::vector::Vector;
+use super::vector::{LANES, Lanes, Vector};
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
 use std::ops::{Add, Div, Mul, Sub};
@@ -27,7 +26,7 @@ macro_rules! vector {
         power: $v:ident => $power:expr; greater: ($a:ident, $b:ident, $this:ident, $other:ident) => $greater:expr
     ) => {
         #[derive(Clone, Copy)]
-        pub(super) struct $name([$register; super::LANES / $width]);
+        pub(super) struct $name([$register; LANES / $width]);
 
         vector!(operator $name, [$($k)*], Add, add, $add);
         vector!(operator $name, [$($k)*], Sub, sub, $sub);

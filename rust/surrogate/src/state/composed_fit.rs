@@ -7,7 +7,7 @@ use super::fit::PerceptronFit;
 use super::pairs::{self, Track};
 use super::rates::{EVEN_OUTPUTS, RateInputs, Rates, direction};
 use super::variables::{FeatureRanges, POROSITY, PRESSURE, Variables};
-use crate::kernel::{self, LANES, add_outer_products};
+use crate::kernel::{LANES, add_outer_products};
 use crate::levenberg_marquardt::{LeastSquares, NormalEquations};
 use crate::perceptron::{Neurons, Perceptron, WIDTH};
 use crate::surrogate::{MAX_STATE, StateLanes, VIRGIN};
@@ -74,7 +74,7 @@ impl RatesFit<'_> {
         let (variables, strain_lanes) = (self.variables, [strain; LANES]);
         let from = RateInputs { variables, state: &lanes, strain: &strain_lanes, virgin: &VIRGIN, features };
         let mut next = lanes;
-        kernel::advance(rates, from, neurons, &mut next);
+        rates.advance(from, neurons, &mut next);
         let Some(sensitivity) = sensitivity else { return next.map(|column| column[0]) };
         let names = self.variables.names().len();
         let old = std::mem::take(sensitivity);

@@ -1,14 +1,15 @@
 //! The file of a state model: JSON, versioned, exact to the last bit of every number.
 
+use super::core::Core;
 use super::mean::MeanState;
-use super::model::{Core, StateModel};
+use super::model::StateModel;
+use super::provenance::Provenance;
 use super::rates::{self, Rates};
 use super::readout::Readout;
-use super::training::{StateOptions, StateReport};
 use super::variables::{FeatureRanges, Variables};
 use crate::SurrogateError;
+use crate::document::{field, hash, json, schema};
 use crate::mechanics::Mechanics;
-use crate::model_file::{field, hash, json, schema};
 use crate::network::WEIGHT_LIMIT;
 use crate::perceptron::{Perceptron, weight_count};
 use crate::region::{Region, Spread};
@@ -19,16 +20,6 @@ use serde::{Deserialize, Serialize};
 
 /// Raise the number when a reader of the old schema would misread the new.
 pub const SCHEMA: &str = "msdd-state-model-1";
-
-/// How the model came to be.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Provenance {
-    /// Version of the library that trained it.
-    pub library_version: String,
-    pub training: StateOptions,
-    pub report: StateReport,
-}
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -49,23 +40,26 @@ struct File {
     provenance: Provenance,
 }
 
-pub(crate) fn text(model: &StateModel) -> String {
-    let model = model.clone();
-    json(&File {
-        schema: SCHEMA.to_string(),
-        name: model.name,
-        variables: model.core.variables,
-        ranges: model.core.ranges,
-        rates: model.core.rates,
-        readouts: model.core.readouts,
-        mean_state: model.mean,
-        region: model.region,
-        spread: model.spread,
-        solid_fraction: model.solid_fraction,
-        mechanics: model.mechanics,
-        wall_friction: model.wall_friction,
-        provenance: model.provenance,
-    }) + "\n"
+impl StateModel {
+    /// Text of the model file.
+    pub(crate) fn text(&self) -> String {
+        let model = self.clone();
+        json(&File {
+            schema: SCHEMA.to_string(),
+            name: model.name,
+            variables: model.core.variables,
+            ranges: model.core.ranges,
+            rates: model.core.rates,
+            readouts: model.core.readouts,
+            mean_state: model.mean,
+            region: model.region,
+            spread: model.spread,
+            solid_fraction: model.solid_fraction,
+            mechanics: model.mechanics,
+            wall_friction: model.wall_friction,
+            provenance: model.provenance,
+        }) + "\n"
+    }
 }
 
 /// Reads the text of a state model's file.

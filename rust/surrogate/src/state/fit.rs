@@ -177,3 +177,8 @@ impl LeastSquares for PerceptronFit {
         Self::equations(&sum, parameters.len(), self.residuals)
     }
 }
+
+/// Residual of one output.
+pub fn residual(first: usize, coefficients: [f64; TERMS], target: f64) -> Residual {
+    Residual { first, coefficients, floor: f64::NEG_INFINITY, target }
+}

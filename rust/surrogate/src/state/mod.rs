@@ -15,16 +15,20 @@
 //! | [`pairs`] | pairs of stops and states as samples |
 //! | [`fit`] | fit of a network as a least-squares problem |
 //! | [`mean`] | the mean state, when the stress at the start is not known |
+//! | [`core`](mod@core) | what of the trained model answers queries |
+//! | [`provenance`] | how it was trained, and how that went |
 //! | [`model`] | the trained model |
 //! | [`file`] | its file |
 //! | [`training`] | the whole training |
 
 pub mod composed_fit;
+pub mod core;
 pub mod file;
 pub mod fit;
 pub mod mean;
 pub mod model;
 pub mod pairs;
+pub mod provenance;
 pub mod rates;
 pub mod readout;
 pub mod training;

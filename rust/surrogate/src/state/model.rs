@@ -1,18 +1,17 @@
 //! The trained state model as a [`Surrogate`].
 
+use super::core::Core;
 use super::mean::MeanState;
-use super::rates::{RateInputs, Rates};
-use super::readout::Readout;
-use super::variables::{
-    ConductivityKind, FABRIC_INDEX, FeatureRanges, Features, POROSITY, PRESSURE, Variables, stress_ratios,
-};
-use crate::kernel::vector::Vector;
-use crate::kernel::{self, LANES, Lanes};
-use crate::mechanics::Tangent;
+use super::provenance::Provenance;
+use super::variables::{FABRIC_INDEX, POROSITY, PRESSURE};
+use crate::dataset::ConductivityKind;
+use crate::kernel::{LANES, Lanes};
+use crate::mechanics::{Mechanics, Tangent};
+use crate::options::TrainingOptions;
 use crate::region::{Region, Spread};
 use crate::solid_fraction::SolidFraction;
-use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate, VIRGIN};
-use crate::training::TrainingOptions;
+use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
+use crate::wall_friction::WallFriction;
 
 /// State model; see [`super`].
 #[derive(Clone, Debug, PartialEq)]
@@ -22,58 +21,11 @@ pub struct StateModel {
     pub region: Region,
     pub spread: Spread,
     pub solid_fraction: SolidFraction,
-    pub mechanics: Option<crate::mechanics::Mechanics>,
-    pub wall_friction: Option<crate::wall_friction::WallFriction>,
+    pub mechanics: Option<Mechanics>,
+    pub wall_friction: Option<WallFriction>,
     pub name: String,
-    pub provenance: super::file::Provenance,
+    pub provenance: Provenance,
     pub(crate) hash: String,
-}
-
-/// The part that answers queries.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Core {
-    pub variables: Variables,
-    pub ranges: FeatureRanges,
-    pub rates: Rates,
-    /// One for each kind of conductivity in the database; the first is the default.
-    pub readouts: Vec<Readout>,
-    /// Which of them answers.
-    pub active: usize,
-}
-
-impl Core {
-    /// As [`Surrogate::block`].
-    pub fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer {
-        let mut answer = Answer::default();
-        kernel::state_block(self, state, strain, &VIRGIN, &mut answer);
-        answer
-    }
-
-    /// The work of [`Core::block`], compiled per instruction set by [`kernel::state_block`].
-    #[inline(always)]
-    pub(crate) fn block_into<V: Vector>(
-        &self,
-        state: &StateLanes,
-        strain: &Lanes,
-        virgin: &Lanes,
-        answer: &mut Answer,
-    ) {
-        let mut buffers = kernel::buffers();
-        let (variables, ranges, network) = (self.variables, &self.ranges, &self.rates.network);
-        let ratio = stress_ratios::<V>(variables, state);
-        ranges.outside::<V>(variables, state, &ratio, strain, &mut answer.outside);
-        let limits = [ranges.thermal_strain.min, ranges.thermal_strain.max].map(V::all);
-        let mut allowed = [0.0; LANES];
-        V::read(strain).within(limits[0], limits[1]).write(&mut allowed);
-        let mut features = Features::default();
-        ranges.fill_features::<V>(variables, state, &ratio, &allowed, &mut features);
-        let outputs = kernel::outputs::<V>(&network.sizes, &network.weights, &features.even, &mut buffers);
-        let from = RateInputs { variables, state, strain: &allowed, virgin, features: &features };
-        self.rates.advanced::<V>(&from, outputs, &mut answer.state);
-        let ratio = stress_ratios::<V>(variables, &answer.state);
-        ranges.fill_features::<V>(variables, &answer.state, &ratio, &allowed, &mut features);
-        self.readouts[self.active].answer::<V>(variables, &features, &mut buffers, answer);
-    }
 }
 
 impl StateModel {
@@ -118,16 +70,16 @@ impl Surrogate for StateModel {
         Some(Box::new(self.clone().with_conductivity(kind)?))
     }
 
-    fn mechanics(&self) -> Option<&crate::mechanics::Mechanics> {
+    fn mechanics(&self) -> Option<&Mechanics> {
         self.mechanics.as_ref()
     }
 
-    fn wall_friction(&self) -> Option<&crate::wall_friction::WallFriction> {
+    fn wall_friction(&self) -> Option<&WallFriction> {
         self.wall_friction.as_ref()
     }
 
     fn to_json(&self) -> String {
-        super::file::text(self)
+        self.text()
     }
 
     fn state_names(&self) -> &[&'static str] {
@@ -159,7 +111,7 @@ impl Surrogate for StateModel {
     }
 
     fn block_into(&self, state: &StateLanes, strain: &Lanes, virgin: &Lanes, answer: &mut Answer) {
-        kernel::state_block(&self.core, state, strain, virgin, answer);
+        self.core.answer(state, strain, virgin, answer);
     }
 
     fn tangent(&self, state: &[f64; MAX_STATE]) -> Option<Tangent> {
@@ -211,7 +163,7 @@ mod tests {
     use super::*;
     use crate::kernel::vector::Portable;
     use crate::state::training::{Mechanical, StateOptions, train};
-    use crate::surrogate::{Batch, evaluate_batch};
+    use crate::surrogate::{Batch, VIRGIN, evaluate_batch};
     use crate::synthetic;
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::{Rng, SeedableRng};

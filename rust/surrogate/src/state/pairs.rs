@@ -1,14 +1,11 @@
 //! Pairs of stops as samples of the rates' fit, states as samples of the readout's, and the composed error.
 
-use super::fit::{Residual, Sample, TERMS};
+use super::fit::{Residual, Sample, TERMS, residual};
 use super::rates::{self, EVEN_OUTPUTS, Rates, direction};
 use super::readout::CONDUCTIVITY_FLOOR;
-use super::training::residual;
-use super::variables::{
-    ConductivityKind, FABRIC_INDEX, FeatureRanges, POROSITY, PRESSURE, Point, READOUT_INPUTS, Variables,
-};
+use super::variables::{FABRIC_INDEX, FeatureRanges, POROSITY, PRESSURE, Point, READOUT_INPUTS, Variables};
 use crate::composition::increment;
-use crate::dataset::{Ramp, strain_between};
+use crate::dataset::{ConductivityKind, Ramp, strain_between};
 use crate::kernel::LANES;
 use crate::perceptron::Perceptron;
 use crate::surrogate::MAX_STATE;

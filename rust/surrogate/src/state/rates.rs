@@ -1,9 +1,9 @@
 //! Advance of the state: Δx = ε · g(x, ε).
 
 use super::variables::{FABRIC_INDEX, Features, MAX_ODD, POROSITY, PRESSURE, RATE_INPUTS, Variables};
-use crate::kernel::Lanes;
 use crate::kernel::vector::Vector;
-use crate::perceptron::Perceptron;
+use crate::kernel::{Lanes, Task, all_layers, dispatch};
+use crate::perceptron::{Neurons, Perceptron};
 use crate::surrogate::{MAX_STATE, StateLanes};
 use serde::{Deserialize, Serialize};
 
@@ -46,7 +46,30 @@ pub struct RateInputs<'a> {
     pub features: &'a Features,
 }
 
+struct Advance<'a> {
+    rates: &'a Rates,
+    from: RateInputs<'a>,
+    neurons: &'a mut Neurons,
+    next: &'a mut StateLanes,
+}
+
+impl Task for Advance<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { rates, from, neurons, next } = self;
+        let Perceptron { sizes, weights } = &rates.network;
+        neurons.layers[0][..from.features.even.len()].copy_from_slice(&from.features.even);
+        all_layers::<V>(sizes, weights, &mut neurons.layers);
+        rates.advanced::<V>(&from, &neurons.layers[sizes.len() - 1], next);
+    }
+}
+
 impl Rates {
+    /// Advances a block of states: [`Rates::advanced`]; leaves all neurons' values.
+    pub fn advance(&self, from: RateInputs<'_>, neurons: &mut Neurons, next: &mut StateLanes) {
+        dispatch(Advance { rates: self, from, neurons, next });
+    }
+
     /// The state after a strain, in the model's columns of `next`; `outputs` are those of the network at the features.
     #[inline(always)]
     pub fn advanced<V: Vector>(&self, from: &RateInputs, outputs: &[Lanes], next: &mut StateLanes) {

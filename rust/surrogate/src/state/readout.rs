@@ -1,7 +1,8 @@
 //! What is read from the state: the conductivity, and odd quantities that the state does not carry.
 
 use super::rates::odd_sum;
-use super::variables::{ConductivityKind, Features, PRESSURE, READOUT_INPUTS, Variables};
+use super::variables::{Features, PRESSURE, READOUT_INPUTS, Variables};
+use crate::dataset::ConductivityKind;
 use crate::kernel::vector::Vector;
 use crate::kernel::{self, Buffers};
 use crate::perceptron::Perceptron;

@@ -1,87 +1,38 @@
 //! Training of the state model.
 
 use super::composed_fit::RatesFit;
-use super::file::Provenance;
-use super::fit::{PerceptronFit, Residual, Sample, TERMS};
+use super::core::Core;
+use super::fit::{PerceptronFit, Sample};
 use super::mean::MeanState;
-use super::model::{Core, StateModel};
+use super::model::StateModel;
 use super::pairs::{self, Pair};
+use super::provenance::{FitReport, Provenance, StateReport};
 use super::rates::Rates;
 use super::readout::Readout;
-use super::variables::{ConductivityKind, FeatureRanges, PRESSURE, Point, Variables};
+use super::variables::{FeatureRanges, PRESSURE, Point};
+use crate::SurrogateError;
 use crate::composition::{self, Composed};
-use crate::dataset::{self, Ramp, Split, StateRow};
-use crate::levenberg_marquardt::{LeastSquares, Limits, Stopping, minimise};
+use crate::dataset::{self, ConductivityKind, Ramp, Split, StateRow};
+use crate::document::hash;
+use crate::kernel::LANES;
+use crate::levenberg_marquardt::{LeastSquares, Limits, minimise};
 use crate::mechanics::{Mechanics, WallStrain};
 use crate::perceptron::Perceptron;
 use crate::region::{Region, Spread};
+use crate::report::Parts;
 use crate::scaling::Range;
 use crate::solid_fraction::SolidFraction;
-use crate::training::{Parts, TrainingOptions};
 use crate::wall_friction::{WallFriction, WallSlip};
-use crate::{SurrogateError, model_file};
 use nalgebra::DVector;
-use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// How to train a state model.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StateOptions {
-    pub common: TrainingOptions,
-    pub variables: Variables,
-    /// Neurons of the hidden layers of the rates' network, one or two layers.
-    pub hidden: Vec<usize>,
-    /// The same of the readout's.
-    pub readout_hidden: Vec<usize>,
-}
-
-impl Default for StateOptions {
-    fn default() -> Self {
-        Self {
-            common: TrainingOptions { restarts: 2, max_epochs: 40, ..TrainingOptions::default() },
-            variables: Variables::ALL,
-            hidden: vec![4],
-            readout_hidden: vec![4],
-        }
-    }
-}
+pub use super::provenance::StateOptions;
 
 /// What there is to train on beside the thermal ramps.
 #[derive(Clone, Debug, Default)]
 pub struct Mechanical {
     pub wall_strains: Vec<WallStrain>,
     pub wall_slips: Vec<WallSlip>,
-}
-
-/// How one network's fit went.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FitReport {
-    pub weights: usize,
-    /// The start that was kept, from 0.
-    pub restart: u32,
-    /// Epochs of that start, and the one whose weights were kept.
-    pub epochs: u32,
-    pub best_epoch: u32,
-    pub stopping: Stopping,
-    /// Mean squared weighted residual.
-    pub training_error: f64,
-    /// The same on the validation packings; it chose the epoch and the start.
-    pub validation_error: f64,
-}
-
-/// Outcome of a training.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StateReport {
-    pub packings: Parts<usize>,
-    /// Pairs of stops.
-    pub samples: Parts<usize>,
-    pub rates: FitReport,
-    pub readouts: Vec<FitReport>,
-    /// On the held-out packings.
-    pub composed: Vec<Composed>,
 }
 
 /// Trains a state model on thermal ramps; the mechanical parts of the model are there when their data is.
@@ -179,7 +130,7 @@ pub(crate) fn train_blind(
     model.provenance.training.common.threads = 0;
     report.composed = held_out(&model, &split.test);
     model.provenance.report = report;
-    model.hash = model_file::hash(&super::file::text(&model));
+    model.hash = hash(&model.text());
     Ok(model)
 }
 
@@ -189,27 +140,6 @@ fn without(blind: Option<usize>, mut samples: Vec<Sample>) -> Vec<Sample> {
         *input = 0.0;
     }
     samples
-}
-
-impl StateOptions {
-    /// Threads of one fit, when the starts share them.
-    fn fit_threads(&self) -> usize {
-        let threads = self.common.threads_used();
-        (threads / threads.min(self.common.restarts as usize).max(1)).max(1)
-    }
-
-    fn check(&self) -> Result<(), SurrogateError> {
-        self.common.check()?;
-        for (key, layers) in [("hidden", &self.hidden), ("readout_hidden", &self.readout_hidden)] {
-            let sizes = [&[1], layers.as_slice(), &[1]].concat();
-            if !crate::perceptron::shape_is_sound(&sizes) {
-                let value = format!("{layers:?}");
-                let allowed = "one or two layers of 1 to 16 neurons";
-                return Err(SurrogateError::Option { key, value, allowed });
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Kinds of conductivity that all rows have, the default one first.
@@ -243,14 +173,13 @@ fn spread(core: &Core, split: &Split, kind: ConductivityKind) -> Spread {
     let unseen: Vec<Ramp> = split.validation.iter().chain(&split.test).cloned().collect();
     let (mut conductivity, mut rate) = (Vec::new(), Vec::new());
     for pair in pairs::pairs(core.variables, kind, &unseen).iter().filter(|pair| pair.jammed()) {
-        let lanes = pair.from.state.map(|value| [value; crate::kernel::LANES]);
-        let answer = core.block(&lanes, &[pair.strain; crate::kernel::LANES]);
+        let lanes = pair.from.state.map(|value| [value; LANES]);
+        let answer = core.block(&lanes, &[pair.strain; LANES]);
         let (start, end) = (pair.from.state[PRESSURE], pair.to.state[PRESSURE]);
         rate.push((start, (answer.state[PRESSURE][0] - end) / pair.strain));
     }
     for point in pairs::points(core.variables, kind, &unseen).iter().filter(|p| p.jammed) {
-        let answer =
-            core.block(&point.state.map(|v| [v; crate::kernel::LANES]), &[0.0; crate::kernel::LANES]);
+        let answer = core.block(&point.state.map(|v| [v; LANES]), &[0.0; LANES]);
         let mean = 0.5 * (answer.conductivity[0][0] + answer.conductivity[1][0]);
         conductivity.push((point.state[PRESSURE], mean / point.conductivity - 1.0));
     }
@@ -333,9 +262,4 @@ fn fit_from<P: LeastSquares>(
         validation_error,
     };
     (Perceptron { sizes, weights: weights.as_slice().to_vec() }, report)
-}
-
-/// Residual of one output.
-pub(super) fn residual(first: usize, coefficients: [f64; TERMS], target: f64) -> Residual {
-    Residual { first, coefficients, floor: f64::NEG_INFINITY, target }
 }

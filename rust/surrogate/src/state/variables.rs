@@ -1,6 +1,7 @@
 //! Variables of the state, and the features that the networks see.
 
 use crate::SurrogateError;
+pub use crate::dataset::ConductivityKind;
 use crate::dataset::StateRow;
 use crate::kernel::vector::{Portable, Vector};
 use crate::kernel::{LANES, Lanes};
@@ -72,34 +73,6 @@ pub struct Point {
     pub stress_ratio: f64,
     /// p̃ > 0: without force chains, f and the rest of the odd quantities are noise.
     pub jammed: bool,
-}
-
-/// Two estimates of a state's conductivity from its contacts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ConductivityKind {
-    /// All discs on the mean gradient: Eq. 9, an upper bound.
-    Affine,
-    /// Disc temperatures solved for on the contact network.
-    Network,
-}
-
-impl ConductivityKind {
-    /// Name in model files and descriptions.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Affine => "affine",
-            Self::Network => "network",
-        }
-    }
-
-    /// K_xx/k, K_yy/k of a row; `None` when the database lacks this kind.
-    pub fn of(self, row: &StateRow) -> Option<[f64; 2]> {
-        match self {
-            Self::Affine => Some([row.conductivity_xx, row.conductivity_yy]),
-            Self::Network => row.conductivity_network,
-        }
-    }
 }
 
 impl Point {

@@ -1,8 +1,9 @@
 //! Limits of the discrete elements.
 
-use super::{Axis, Figure, Line, Marker, Series, Style, from_data, plot, series};
 use crate::ReportError;
+use crate::draw::{Axis, Line, Marker, Series, Style, from_data, plot, series};
 use crate::failures::elements::Limits;
+use crate::page::html::Figure;
 use crate::report::Made;
 
 pub fn steps(made: &Made) -> Result<String, ReportError> {

@@ -4,9 +4,8 @@ mod elements;
 mod networks;
 mod solver;
 
-use super::{Figure, table};
+use super::html::table;
 use crate::ReportError;
-use crate::draw::{Axis, Line, Marker, Series, Style, plot};
 use crate::report::Made;
 
 pub fn section(made: &Made) -> Result<String, ReportError> {
@@ -35,12 +34,4 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
     html += &networks::drift(made)?;
     html += &networks::depth(made)?;
     Ok(html)
-}
-
-fn series(points: Vec<(f64, f64)>, style: Style) -> Series {
-    Series { points, bars: Vec::new(), style }
-}
-
-fn from_data(label: &str, log: bool) -> Axis<'_> {
-    Axis { label, log, range: None }
 }

@@ -1,7 +1,8 @@
 //! Networks in many increments.
 
-use super::{Axis, Figure, Line, Marker, Style, plot, series};
 use crate::ReportError;
+use crate::draw::{Axis, Line, Marker, Style, plot, series};
+use crate::page::html::Figure;
 use crate::report::Made;
 
 pub fn drift(made: &Made) -> Result<String, ReportError> {

@@ -1,7 +1,9 @@
 //! Limits of the solver's discretisation.
 
-use super::{Axis, Figure, Line, Marker, Style, from_data, plot, series};
 use crate::ReportError;
+use crate::draw::{Axis, Line, Marker, Style, from_data, plot, series};
+use crate::failures::cycles::{Cycles, worst};
+use crate::page::html::{Figure, fixed};
 use crate::report::Made;
 
 /// A panel, its keys, and what the caption says of it.
@@ -126,14 +128,14 @@ pub fn cycles(made: &Made) -> Result<String, ReportError> {
         keys.push((Style { line: Line::Solid, ..Style::marker(colour, marker) }, cycles.name.clone()));
     }
     for (quarter, title) in quarters {
-        let line = |cycles: &crate::failures::Cycles, style: Style| {
+        let line = |cycles: &Cycles, style: Style| {
             let stops = cycles.stops.iter().skip(quarter).step_by(4).enumerate();
             series(stops.map(|(k, p)| (k as f64 + 0.25 * quarter as f64, *p)).collect(), style)
         };
         let drawn: Vec<_> = all.iter().zip(&keys).map(|(cycles, (style, _))| line(cycles, *style)).collect();
         panels.push(plot(title, &x, &from_data("pressure over the start's [-]", false), &drawn)?);
     }
-    let ends = |cycles: &crate::failures::Cycles| {
+    let ends = |cycles: &Cycles| {
         let at = |k: usize| cycles.stops.get(4 * k).copied().unwrap_or(f64::NAN);
         format!(
             "{}: {:.4}, {:.4} and {:.4} (K_xx/K_yy in the end {:.2})",
@@ -149,8 +151,8 @@ pub fn cycles(made: &Made) -> Result<String, ReportError> {
          the first cycle and hardly after; T lags behind the walls, so that a cycle does not end at 50 K. Largest difference to the \
          discrete elements: {} %, with grains that move {} %.",
         all.iter().map(ends).collect::<Vec<_>>().join("; "),
-        super::super::fixed(made.report.failures.worst_cycle("keep"), 1),
-        super::super::fixed(made.report.failures.worst_cycle("move"), 1)
+        fixed(worst(&made.report.failures.cycles, "keep"), 1),
+        fixed(worst(&made.report.failures.cycles, "move"), 1)
     );
     let source = "discrete elements committed, seeds 21 to 23; solver measured and cached";
     Figure { id: "cycles", panels, keys, caption, source }.html(made)

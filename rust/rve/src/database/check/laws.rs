@@ -1,6 +1,6 @@
 //! What must hold on every row.
 
-use crate::database::export::DIGITS;
+use crate::database::dataset::DIGITS;
 use crate::database::plan::RampName;
 use crate::database::record::FAILED;
 use crate::database::{Dataset, Plan, Record, Shard};

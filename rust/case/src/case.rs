@@ -1,0 +1,152 @@
+//! A case folder as the reference sees it: the solver's own files, and no second copy of a parameter.
+
+use crate::CaseError;
+use crate::dictionary::{Dictionary, Entry, Token, joined};
+use crate::walls::{WallOverTime, heat_of_walls};
+use msdd_dem::{Material, Thermal};
+use std::path::{Path, PathBuf};
+
+/// Keys of `constant/granularProperties` that say something about the grains.
+const GRAIN_KEYS: [&str; 6] =
+    ["density", "youngModulus", "thermalConductivity", "heatCapacity", "thermalExpansion", "meanRadius"];
+/// Keys there that concern the solver alone.
+const SOLVER_KEYS: [&str; 5] = ["FoamFile", "surrogate", "bulkDensity", "mechanics", "equilibriumCoeffs"];
+/// What a case folder says.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub folder: PathBuf,
+    /// Name of the folder.
+    pub name: String,
+    /// Density and E of the case; the parameters that the solver does not have are those of Table 2.
+    pub material: Material,
+    pub thermal: Thermal,
+    /// r̄ of the grains [m].
+    pub mean_radius: f64,
+    /// T of all grains at the start [K].
+    pub initial_temperature: f64,
+    /// In the order of [`Side`].
+    pub walls: [WallOverTime; 4],
+    /// Lower left corner of the box in the case's coordinates [m].
+    pub origin: [f64; 2],
+    /// Width and height of the box [m].
+    pub size: [f64; 2],
+    /// The simulation ends here [s].
+    pub end_time: f64,
+    /// Where T is recorded [m]; the lower left corner of the box is the origin.
+    pub probes: Vec<[f64; 2]>,
+}
+
+impl Case {
+    /// Reads `0/T`, `constant/granularProperties`, `system/controlDict` and `system/blockMeshDict` of a folder.
+    ///
+    /// # Errors
+    /// [`CaseError`] names file, key, value and what is allowed: nothing is skipped that might matter.
+    pub fn read(folder: &Path) -> Result<Self, CaseError> {
+        let temperature = Dictionary::expanded(&folder.join("0/T"))?;
+        let grains = Dictionary::expanded(&folder.join("constant/granularProperties"))?;
+        let control = Dictionary::expanded(&folder.join("system/controlDict"))?;
+        let mesh = Dictionary::expanded(&folder.join("system/blockMeshDict"))?;
+        let (low, high) = bounds(&mesh)?;
+        let (material, thermal, mean_radius) = read_grains(&grains)?;
+        let name = folder.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_owned()));
+        Ok(Self {
+            folder: folder.to_path_buf(),
+            name: name.unwrap_or_default().to_string_lossy().into_owned(),
+            material,
+            thermal,
+            mean_radius,
+            initial_temperature: initial_temperature(&temperature)?,
+            walls: heat_of_walls(&temperature)?,
+            origin: low,
+            size: [high[0] - low[0], high[1] - low[1]],
+            end_time: end_time(&control)?,
+            probes: probes(&control)?.into_iter().map(|[x, y]| [x - low[0], y - low[1]]).collect(),
+        })
+    }
+}
+
+fn read_grains(file: &Dictionary) -> Result<(Material, Thermal, f64), CaseError> {
+    file.check_keys(&[&GRAIN_KEYS, &SOLVER_KEYS])?;
+    let positive = |key| file.number(key, |v| v > 0.0 && v.is_finite(), "> 0");
+    let material = Material {
+        density: positive("density")?,
+        young_modulus: positive("youngModulus")?,
+        ..Material::default()
+    };
+    let thermal = Thermal {
+        conductivity: positive("thermalConductivity")?,
+        heat_capacity: positive("heatCapacity")?,
+        expansion: file.number("thermalExpansion", |v| v >= 0.0 && v.is_finite(), ">= 0")?,
+    };
+    Ok((material, thermal, positive("meanRadius")?))
+}
+
+fn initial_temperature(file: &Dictionary) -> Result<f64, CaseError> {
+    file.check_keys(&[&["FoamFile", "dimensions", "internalField", "boundaryField"]])?;
+    let dimensions = file.text("dimensions")?;
+    if dimensions != "[ 0 0 0 1 0 0 0 ]" {
+        return Err(file.refuse("dimensions", &dimensions, "[ 0 0 0 1 0 0 0 ]"));
+    }
+    file.uniform("internalField")
+}
+
+fn end_time(file: &Dictionary) -> Result<f64, CaseError> {
+    file.number("startTime", |v| v == 0.0, "0, as the grains start at rest")?;
+    let stop = file.text("stopAt")?;
+    if stop != "endTime" {
+        return Err(file.refuse("stopAt", &stop, "endTime"));
+    }
+    file.number("endTime", |v| v > 0.0 && v.is_finite(), "> 0 s")
+}
+
+/// The places of the function object `probes`; none without it.
+fn probes(file: &Dictionary) -> Result<Vec<[f64; 2]>, CaseError> {
+    let Some(Entry::Dictionary(functions)) = file.get("functions") else { return Ok(Vec::new()) };
+    let Some(Entry::Dictionary(probes)) = functions.get("probes") else { return Ok(Vec::new()) };
+    let tokens = probes.value("probeLocations")?;
+    points(tokens)
+        .map(|points| points.into_iter().map(|[x, y, _]| [x, y]).collect())
+        .ok_or_else(|| probes.refuse("probeLocations", &joined(tokens), "a list of points (x y z)"))
+}
+
+/// Lower left and upper right corner of the box in the plane [m].
+pub(crate) fn bounds(file: &Dictionary) -> Result<([f64; 2], [f64; 2]), CaseError> {
+    let key = if file.get("scale").is_some() { "scale" } else { "convertToMeters" };
+    let scale = file.number(key, |v| v > 0.0 && v.is_finite(), "> 0")?;
+    let tokens = file.value("vertices")?;
+    let points = points(tokens).filter(|points| points.len() == 8);
+    let points =
+        points.ok_or_else(|| file.refuse("vertices", &joined(tokens), "the 8 corners of one block"))?;
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for point in &points {
+        for k in 0..2 {
+            low[k] = low[k].min(scale * point[k]);
+            high[k] = high[k].max(scale * point[k]);
+        }
+    }
+    let corner = |p: &[f64; 3]| (0..2).all(|k| scale * p[k] == low[k] || scale * p[k] == high[k]);
+    if !points.iter().all(corner) || low[0] >= high[0] || low[1] >= high[1] {
+        return Err(file.refuse("vertices", &joined(tokens), "the corners of a box along the axes"));
+    }
+    Ok((low, high))
+}
+
+/// `( ( x y z ) ... )`, also with the number of points in front.
+fn points(tokens: &[Token]) -> Option<Vec<[f64; 3]>> {
+    let inner = match tokens {
+        [open, inner @ .., close] if open.text == "(" && close.text == ")" => inner,
+        [_, open, inner @ .., close] if open.text == "(" && close.text == ")" => inner,
+        _ => return None,
+    };
+    let point = |chunk: &[Token]| match chunk {
+        [open, x, y, z, close] if open.text == "(" && close.text == ")" => {
+            Some([x.text.parse().ok()?, y.text.parse().ok()?, z.text.parse().ok()?])
+        }
+        _ => None,
+    };
+    inner.chunks(5).map(point).collect()
+}
+
+#[cfg(test)]
+#[path = "case_tests.rs"]
+mod tests;

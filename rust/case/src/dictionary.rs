@@ -1,0 +1,333 @@
+//! OpenFOAM dictionaries as `foamDictionary -expand` prints them: includes, macros and the order of entries are
+//! OpenFOAM's own business. What is left is keys, values and nested dictionaries.
+
+use crate::CaseError;
+use regex::Regex;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Where Debian's package has `etc/`, which OpenFOAM's programs need to be told.
+const DEBIAN_PROJECT_DIR: &str = "/usr/share/openfoam";
+
+/// One word, string or bracket.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Token {
+    pub text: String,
+    /// Written in double quotes; such a key is a regular expression.
+    pub quoted: bool,
+    line: usize,
+}
+
+/// What a key stands for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Entry {
+    Value(Vec<Token>),
+    Dictionary(Dictionary),
+}
+
+/// Keys and what they stand for, in the order of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dictionary {
+    /// The file, for messages.
+    pub file: PathBuf,
+    /// Keys of the enclosing dictionaries, joined by '/'.
+    path: String,
+    entries: Vec<(Token, Entry)>,
+}
+
+impl Dictionary {
+    /// Reads a file of a case through `foamDictionary -expand`.
+    ///
+    /// # Errors
+    /// [`CaseError::Read`] with what OpenFOAM says; [`CaseError::Syntax`].
+    pub fn expanded(file: &Path) -> Result<Self, CaseError> {
+        let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
+        let mut command = Command::new("foamDictionary");
+        command.arg("-expand").arg(file);
+        if std::env::var_os("WM_PROJECT_DIR").is_none() {
+            command.env("WM_PROJECT_DIR", DEBIAN_PROJECT_DIR);
+        }
+        let output = command
+            .output()
+            .map_err(|error| failed(format!("foamDictionary: {error} (scripts/setup installs OpenFOAM)")))?;
+        if !output.status.success() {
+            let text = String::from_utf8_lossy(&output.stderr);
+            let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+            let said = if lines.is_empty() {
+                "no message; does the file include itself?".into()
+            } else {
+                lines.join(" ")
+            };
+            return Err(failed(format!("foamDictionary ended with {}: {said}", output.status)));
+        }
+        Self::parse(file, &String::from_utf8_lossy(&output.stdout))
+    }
+
+    /// Reads expanded text; `file` is for messages.
+    ///
+    /// # Errors
+    /// [`CaseError::Syntax`] with the line of the text.
+    pub fn parse(file: &Path, text: &str) -> Result<Self, CaseError> {
+        let tokens = tokens(text);
+        let mut reader = Reader { file, tokens: &tokens, at: 0 };
+        let dictionary = reader.dictionary(String::new())?;
+        match reader.next() {
+            None => Ok(dictionary),
+            Some(token) => Err(reader.syntax(token.line, "'}' without '{'")),
+        }
+    }
+
+    pub fn keys(&self) -> impl Iterator<Item = &Token> {
+        self.entries.iter().map(|(key, _)| key)
+    }
+
+    /// The entry of exactly this key.
+    pub fn get(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|(name, _)| !name.quoted && name.text == key).map(|(_, entry)| entry)
+    }
+
+    /// The entry whose key reads so, in quotes or not.
+    pub fn get_any(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|(name, _)| name.text == key).map(|(_, entry)| entry)
+    }
+
+    /// The entry that OpenFOAM takes for a key: that of the key itself, else that of the last matching pattern.
+    pub fn matching(&self, key: &str) -> Option<&Entry> {
+        let pattern = || self.entries.iter().rev().find(|(name, _)| name.quoted && name.matches(key));
+        self.get(key).or_else(|| pattern().map(|(_, entry)| entry))
+    }
+
+    /// A nested dictionary.
+    ///
+    /// # Errors
+    /// [`CaseError::Key`] when it is missing or a value.
+    pub fn dictionary_at(&self, key: &str) -> Result<&Self, CaseError> {
+        match self.get(key) {
+            Some(Entry::Dictionary(dictionary)) => Ok(dictionary),
+            _ => Err(self.refuse(key, "missing", "a dictionary")),
+        }
+    }
+
+    /// The tokens of a value.
+    ///
+    /// # Errors
+    /// [`CaseError::Key`] when it is missing or a dictionary.
+    pub fn value(&self, key: &str) -> Result<&[Token], CaseError> {
+        match self.get(key) {
+            Some(Entry::Value(tokens)) => Ok(tokens),
+            Some(Entry::Dictionary(_)) => Err(self.refuse(key, "{...}", "a value")),
+            None => Err(self.refuse(key, "missing", "a value")),
+        }
+    }
+
+    /// The tokens of a value joined by spaces.
+    ///
+    /// # Errors
+    /// Those of [`Dictionary::value`].
+    pub fn text(&self, key: &str) -> Result<String, CaseError> {
+        Ok(joined(self.value(key)?))
+    }
+
+    /// A number that `good` accepts.
+    ///
+    /// # Errors
+    /// [`CaseError::Key`] with what is allowed.
+    pub fn number(&self, key: &str, good: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, CaseError> {
+        let tokens = self.value(key)?;
+        self.number_in(key, tokens, good, allowed)
+    }
+
+    /// `uniform <number>`.
+    ///
+    /// # Errors
+    /// [`CaseError::Key`] for anything else.
+    pub fn uniform(&self, key: &str) -> Result<f64, CaseError> {
+        match self.value(key)? {
+            [word, number @ ..] if word.text == "uniform" => {
+                self.number_in(key, number, f64::is_finite, "uniform <number>")
+            }
+            other => Err(self.refuse(key, &joined(other), "uniform <number>")),
+        }
+    }
+
+    fn number_in(
+        &self,
+        key: &str,
+        tokens: &[Token],
+        good: impl Fn(f64) -> bool,
+        allowed: &str,
+    ) -> Result<f64, CaseError> {
+        let number = match tokens {
+            [token] => token.text.parse().ok().filter(|&number| good(number)),
+            _ => None,
+        };
+        number.ok_or_else(|| self.refuse(key, &joined(tokens), allowed))
+    }
+
+    /// Refuses every key that is not in one of the lists.
+    ///
+    /// # Errors
+    /// [`CaseError::Key`] with the first such key.
+    pub fn check_keys(&self, known: &[&[&str]]) -> Result<(), CaseError> {
+        let is_known = |key: &Token| known.iter().any(|list| list.contains(&key.text.as_str()));
+        match self.entries.iter().find(|(key, _)| !is_known(key)) {
+            None => Ok(()),
+            Some((key, entry)) => {
+                let value = match entry {
+                    Entry::Value(tokens) => joined(tokens),
+                    Entry::Dictionary(_) => "{...}".to_string(),
+                };
+                Err(self.refuse(&key.text, &value, &format!("the keys {}", known.concat().join(", "))))
+            }
+        }
+    }
+
+    /// A key of this dictionary with those of the enclosing ones in front, joined by '/'.
+    pub fn path_of(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_string() } else { format!("{}/{key}", self.path) }
+    }
+
+    /// The error that a key of this dictionary has a value which is not allowed.
+    pub fn refuse(&self, key: &str, value: &str, allowed: &str) -> CaseError {
+        CaseError::Key {
+            file: self.file.clone(),
+            key: self.path_of(key),
+            value: value.to_string(),
+            allowed: allowed.to_string(),
+        }
+    }
+}
+
+impl Token {
+    /// Whether this pattern matches the whole of `key`.
+    pub fn matches(&self, key: &str) -> bool {
+        Regex::new(&format!("^(?:{})$", self.text)).is_ok_and(|pattern| pattern.is_match(key))
+    }
+}
+
+/// Tokens as text.
+pub fn joined(tokens: &[Token]) -> String {
+    tokens.iter().map(|token| token.text.as_str()).collect::<Vec<_>>().join(" ")
+}
+
+struct Reader<'a> {
+    file: &'a Path,
+    tokens: &'a [Token],
+    at: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn next(&mut self) -> Option<&'a Token> {
+        self.at += 1;
+        self.tokens.get(self.at - 1)
+    }
+
+    fn syntax(&self, line: usize, problem: &str) -> CaseError {
+        CaseError::Syntax { file: self.file.to_path_buf(), line, problem: problem.to_string() }
+    }
+
+    /// Entries up to the closing brace, or the end of the outermost dictionary.
+    fn dictionary(&mut self, path: String) -> Result<Dictionary, CaseError> {
+        let mut entries = Vec::new();
+        while let Some(key) = self.tokens.get(self.at) {
+            if !key.quoted && key.text == "}" {
+                break;
+            }
+            self.at += 1;
+            if !key.quoted && ["{", "(", ")", "[", "]", ";"].contains(&key.text.as_str()) {
+                return Err(self.syntax(key.line, &format!("'{}' where a key should be", key.text)));
+            }
+            let entry = self.entry(key, &path)?;
+            entries.push((key.clone(), entry));
+        }
+        Ok(Dictionary { file: self.file.to_path_buf(), path, entries })
+    }
+
+    fn entry(&mut self, key: &Token, path: &str) -> Result<Entry, CaseError> {
+        if self.tokens.get(self.at).is_some_and(|token| !token.quoted && token.text == "{") {
+            self.at += 1;
+            let path = if path.is_empty() { key.text.clone() } else { format!("{path}/{}", key.text) };
+            let dictionary = self.dictionary(path)?;
+            return match self.next() {
+                Some(_) => Ok(Entry::Dictionary(dictionary)),
+                None => Err(self.syntax(key.line, &format!("'{}' is not closed", key.text))),
+            };
+        }
+        let (mut value, mut depth) = (Vec::new(), 0);
+        while let Some(token) = self.next() {
+            match token.text.as_str() {
+                _ if token.quoted => {}
+                ";" if depth == 0 => return Ok(Entry::Value(value)),
+                "(" => depth += 1,
+                ")" => depth -= 1,
+                _ => {}
+            }
+            value.push(token.clone());
+        }
+        Err(self.syntax(key.line, &format!("'{}' has no ';'", key.text)))
+    }
+}
+
+/// Words, strings and brackets of a text; comments left out.
+fn tokens(text: &str) -> Vec<Token> {
+    let mut tokens = Vec::new();
+    let (mut rest, mut line) = (text, 1);
+    while let Some(first) = rest.chars().next() {
+        let length = match first {
+            _ if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
+            _ if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |end| end + 2),
+            '"' => rest[1..].find('"').map_or(rest.len(), |end| end + 2),
+            '{' | '}' | '(' | ')' | '[' | ']' | ';' => 1,
+            _ if first.is_whitespace() => first.len_utf8(),
+            _ => rest.find(|c: char| c.is_whitespace() || "{}()[];\"".contains(c)).unwrap_or(rest.len()),
+        };
+        let (token, after) = rest.split_at(length);
+        let comment = token.starts_with("//") || token.starts_with("/*");
+        if !comment && !first.is_whitespace() {
+            let (text, quoted) = (token.trim_matches('"').to_string(), first == '"');
+            tokens.push(Token { text, quoted, line });
+        }
+        line += token.matches('\n').count();
+        rest = after;
+    }
+    tokens
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Dictionary, CaseError> {
+        Dictionary::parse(Path::new("0/T"), text)
+    }
+
+    #[test]
+    fn values_lists_and_nested_dictionaries() {
+        let dictionary = parse(
+            "/* head */ a 1e+07; // note\n list ( ( 1 2 ) { x y ; } ); inner { deep { b uniform 3; } \"p|q\" { c d; } }",
+        )
+        .unwrap();
+        assert_eq!(dictionary.number("a", |v| v > 0.0, "> 0").unwrap(), 1e7);
+        assert_eq!(dictionary.text("list").unwrap(), "( ( 1 2 ) { x y ; } )");
+        let inner = dictionary.dictionary_at("inner").unwrap();
+        assert_eq!(inner.dictionary_at("deep").unwrap().uniform("b").unwrap(), 3.0);
+        assert!(inner.get("q").is_none() && inner.matching("q").is_some() && inner.matching("pq").is_none());
+    }
+
+    #[test]
+    fn errors_name_file_key_value_and_what_is_allowed() {
+        let dictionary = parse("a { b nonuniform 3; }").unwrap();
+        let error = dictionary.dictionary_at("a").unwrap().uniform("b").unwrap_err().to_string();
+        assert_eq!(error, "0/T: a/b = nonuniform 3, allowed: uniform <number>");
+        let error = dictionary.check_keys(&[&["c"], &["d"]]).unwrap_err().to_string();
+        assert_eq!(error, "0/T: a = {...}, allowed: the keys c, d");
+        for (text, message) in [
+            ("a 1", "0/T: line 1: 'a' has no ';'"),
+            ("a {\n b 1;", "0/T: line 1: 'a' is not closed"),
+            ("a 1;\n}", "0/T: line 2: '}' without '{'"),
+            ("( a );", "0/T: line 1: '(' where a key should be"),
+        ] {
+            assert_eq!(parse(text).unwrap_err().to_string(), message);
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Cell centres of a case's mesh, from `constant/polyMesh` as OpenFOAM works them out: the mean of its pyramids on the
+//! faces, by volume. Text files only.
+
+use crate::CaseError;
+use std::path::Path;
+
+/// Centres [m] of all cells in the plane of the grains.
+///
+/// # Errors
+/// [`CaseError::Read`] when a file is missing, and [`CaseError::Key`] when it is not a list of text.
+pub fn cell_centres(case: &Path) -> Result<Vec<[f64; 2]>, CaseError> {
+    let folder = case.join("constant/polyMesh");
+    let points: Vec<[f64; 3]> =
+        numbers(&folder.join("points"))?.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
+    let faces = lists(&folder.join("faces"))?;
+    let owner = labels(&folder.join("owner"))?;
+    let neighbour = labels(&folder.join("neighbour"))?;
+    let bad = |file: &str, value: String, allowed: String| CaseError::Key {
+        file: folder.join(file),
+        key: "list".to_string(),
+        value,
+        allowed,
+    };
+    if owner.len() != faces.len() || neighbour.len() > faces.len() {
+        let value = format!("{} owners, {} neighbours", owner.len(), neighbour.len());
+        return Err(bad("owner", value, format!("one owner for each of {} faces", faces.len())));
+    }
+    if let Some(point) = faces.iter().flatten().find(|&&point| point >= points.len()) {
+        return Err(bad("faces", point.to_string(), format!("points below {}", points.len())));
+    }
+    let faces: Vec<Face> = faces.iter().map(|face| Face::new(face, &points)).collect();
+    let sides = owner.iter().enumerate().chain(neighbour.iter().enumerate());
+    let sides: Vec<(usize, usize)> = sides.map(|(face, &cell)| (face, cell)).collect();
+    Ok(centres(&faces, &sides))
+}
+
+/// Centre and area vector of a face.
+struct Face {
+    centre: [f64; 3],
+    area: [f64; 3],
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn mean(points: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
+    let (mut sum, mut count) = ([0.0; 3], 0.0f64);
+    for point in points {
+        (0..3).for_each(|k| sum[k] += point[k]);
+        count += 1.0;
+    }
+    sum.map(|x| x / count.max(1.0))
+}
+
+impl Face {
+    /// Triangles around the mean of the corners.
+    fn new(corners: &[usize], points: &[[f64; 3]]) -> Self {
+        let middle = mean(corners.iter().map(|&k| points[k]));
+        let (mut area, mut weighted, mut sum) = ([0.0; 3], [0.0; 3], 0.0);
+        for (k, &corner) in corners.iter().enumerate() {
+            let (a, b) = (points[corner], points[corners[(k + 1) % corners.len()]]);
+            let part = cross(minus(a, middle), minus(b, middle)).map(|x| 0.5 * x);
+            let size = dot(part, part).sqrt();
+            for k in 0..3 {
+                area[k] += part[k];
+                weighted[k] += size * (a[k] + b[k] + middle[k]) / 3.0;
+            }
+            sum += size;
+        }
+        Self { centre: if sum > 0.0 { weighted.map(|x| x / sum) } else { middle }, area }
+    }
+}
+
+/// `sides` are pairs of face and cell.
+fn centres(faces: &[Face], sides: &[(usize, usize)]) -> Vec<[f64; 2]> {
+    let count = sides.iter().map(|side| side.1 + 1).max().unwrap_or(0);
+    let mut middle = vec![([0.0; 3], 0.0f64); count];
+    for &(face, cell) in sides {
+        (0..3).for_each(|k| middle[cell].0[k] += faces[face].centre[k]);
+        middle[cell].1 += 1.0;
+    }
+    let middle: Vec<[f64; 3]> = middle.into_iter().map(|(sum, n)| sum.map(|x| x / n.max(1.0))).collect();
+    let mut pyramids = vec![([0.0; 2], 0.0); count];
+    for &(face, cell) in sides {
+        let Face { centre, area } = &faces[face];
+        // Whichever side of the face the cell is on.
+        let volume = dot(*area, minus(*centre, middle[cell])).abs();
+        for k in 0..2 {
+            pyramids[cell].0[k] += volume * (0.75 * centre[k] + 0.25 * middle[cell][k]);
+        }
+        pyramids[cell].1 += volume;
+    }
+    pyramids.into_iter().map(|(sum, volume)| sum.map(|x| x / volume)).collect()
+}
+
+/// The list of a file, as the text between its outermost parentheses.
+fn content(file: &Path) -> Result<String, CaseError> {
+    let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
+    let bytes = std::fs::read(file).map_err(|error| failed(format!("{error} (blockMesh makes the mesh)")))?;
+    let text =
+        String::from_utf8(bytes).map_err(|_| failed("binary; allowed: writeFormat ascii".to_string()))?;
+    // The head ends with its brace.
+    let body = text.find('}').map_or(text.as_str(), |end| &text[end + 1..]);
+    let (open, close) = (body.find('('), body.rfind(')'));
+    match (open, close) {
+        (Some(open), Some(close)) if open < close => Ok(body[open + 1..close].to_string()),
+        _ => Err(failed("no list".to_string())),
+    }
+}
+
+fn parsed<T: std::str::FromStr>(file: &Path, text: &str) -> Result<Vec<T>, CaseError> {
+    let words =
+        text.split(|c: char| c.is_whitespace() || c == '(' || c == ')').filter(|word| !word.is_empty());
+    let parse = |word: &str| {
+        word.parse().map_err(|_| CaseError::Key {
+            file: file.to_path_buf(),
+            key: "list".to_string(),
+            value: word.to_string(),
+            allowed: "numbers".to_string(),
+        })
+    };
+    words.map(parse).collect()
+}
+
+fn numbers(file: &Path) -> Result<Vec<f64>, CaseError> {
+    parsed(file, &content(file)?)
+}
+
+fn labels(file: &Path) -> Result<Vec<usize>, CaseError> {
+    parsed(file, &content(file)?)
+}
+
+/// `4(0 1 2 3)` line by line.
+fn lists(file: &Path) -> Result<Vec<Vec<usize>>, CaseError> {
+    let text = content(file)?;
+    let inner = text.split(')').filter_map(|part| Some(part.split_once('(')?.1));
+    inner.map(|list| parsed(file, list)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wedge-shaped prism: its centre is that of the triangle, not the mean of its corners' box.
+    #[test]
+    fn centre_of_a_prism() {
+        let points = [
+            [0.0, 0.0, 0.0],
+            [3.0, 0.0, 0.0],
+            [0.0, 3.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [3.0, 0.0, 1.0],
+            [0.0, 3.0, 1.0],
+        ];
+        let faces: [&[usize]; 5] = [&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
+        let faces: Vec<Face> = faces.iter().map(|face| Face::new(face, &points)).collect();
+        let sides: Vec<(usize, usize)> = (0..5).map(|face| (face, 0)).collect();
+        let centre = centres(&faces, &sides)[0];
+        assert!((centre[0] - 1.0).abs() < 1e-12 && (centre[1] - 1.0).abs() < 1e-12, "{centre:?}");
+    }
+}

@@ -1,0 +1,207 @@
+//! What the walls of a case do to heat, over time: the patches of `0/T`.
+
+use crate::CaseError;
+use crate::dictionary::{Dictionary, Entry, Token, joined};
+use msdd_dem::{Side, WallHeat};
+
+/// Names of the four walls in the mesh, in the order of [`Side`].
+const PATCHES: [&str; 4] = ["left", "right", "bottom", "top"];
+/// Patch types of meshes, not of heat: OpenFOAM lists them all, whether a patch has them or not.
+const CONSTRAINTS: [&str; 12] = [
+    "empty",
+    "cyclic",
+    "cyclicAMI",
+    "cyclicACMI",
+    "cyclicSlip",
+    "nonuniformTransformCyclic",
+    "processor",
+    "processorCyclic",
+    "symmetry",
+    "symmetryPlane",
+    "wedge",
+    "overset",
+];
+
+/// What a wall does to heat.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WallOverTime {
+    Steady(WallHeat),
+    /// Times [s], from 0 on and rising, and temperatures [K]; straight between two, the last one after the end.
+    Table(Vec<[f64; 2]>),
+}
+
+impl WallOverTime {
+    /// Of rows of time [s] and temperature [K]; `None` unless there are two or more, with finite numbers and times that rise
+    /// from 0.
+    pub fn table(rows: Vec<[f64; 2]>) -> Option<Self> {
+        let finite = rows.iter().flatten().all(|number: &f64| number.is_finite());
+        let rising = rows.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        (rows.len() > 1 && rows[0][0] == 0.0 && finite && rising).then_some(Self::Table(rows))
+    }
+
+    /// At `time` [s].
+    pub fn at(&self, time: f64) -> WallHeat {
+        match self {
+            Self::Steady(heat) => *heat,
+            Self::Table(rows) => WallHeat::Temperature(interpolated(rows, time)),
+        }
+    }
+}
+
+fn interpolated(rows: &[[f64; 2]], time: f64) -> f64 {
+    let next = rows.partition_point(|row| row[0] <= time).clamp(1, rows.len() - 1);
+    let ([t0, from], [t1, to]) = (rows[next - 1], rows[next]);
+    from + (to - from) * ((time - t0) / (t1 - t0)).clamp(0.0, 1.0)
+}
+
+/// `table ( ( 0 50 ) ( 2 70 ) ... )`, two rows or more.
+fn table(tokens: &[Token]) -> Option<WallOverTime> {
+    let [word, open, inner @ .., close] = tokens else { return None };
+    if [&word.text, &open.text, &close.text] != ["table", "(", ")"] {
+        return None;
+    }
+    let row = |chunk: &[Token]| match chunk {
+        [open, time, value, close] if open.text == "(" && close.text == ")" => {
+            Some([time.text.parse().ok()?, value.text.parse().ok()?])
+        }
+        _ => None,
+    };
+    WallOverTime::table(inner.chunks(4).map(row).collect::<Option<_>>()?)
+}
+
+/// The four walls of `0/T`, in the order of [`Side`].
+///
+/// # Errors
+/// [`CaseError::Key`] for a patch, type or key that means something else or nothing here.
+pub fn heat_of_walls(file: &Dictionary) -> Result<[WallOverTime; 4], CaseError> {
+    let patches = file.dictionary_at("boundaryField")?;
+    let stray = |key: &&Token| {
+        let wall = PATCHES.iter().any(|name| if key.quoted { key.matches(name) } else { key.text == *name });
+        let constraint = match patches.get(&key.text) {
+            Some(Entry::Dictionary(patch)) => {
+                patch.text("type").is_ok_and(|kind| CONSTRAINTS.contains(&kind.as_str()))
+            }
+            _ => false,
+        };
+        !wall && !constraint
+    };
+    if let Some(key) = patches.keys().find(stray) {
+        return Err(patches.refuse(&key.text, "{...}", "left, right, bottom, top, or a constraint type"));
+    }
+    let mut walls = [WallHeat::Insulated; 4].map(WallOverTime::Steady);
+    for side in Side::ALL {
+        let name = PATCHES[side as usize];
+        walls[side as usize] = match patches.matching(name) {
+            Some(Entry::Dictionary(patch)) => wall_heat(patch)?,
+            _ => {
+                return Err(patches.refuse(
+                    name,
+                    "missing",
+                    "a dictionary for each of left, right, bottom, top",
+                ));
+            }
+        };
+    }
+    Ok(walls)
+}
+
+fn wall_heat(patch: &Dictionary) -> Result<WallOverTime, CaseError> {
+    use WallOverTime::Steady;
+    let kind = patch.text("type")?;
+    match kind.as_str() {
+        "fixedValue" => {
+            patch.check_keys(&[&["type", "value"]])?;
+            Ok(Steady(WallHeat::Temperature(patch.uniform("value")?)))
+        }
+        "uniformFixedValue" => {
+            patch.check_keys(&[&["type", "uniformValue", "value"]])?;
+            let tokens = patch.value("uniformValue")?;
+            let table = table(tokens).ok_or_else(|| {
+                patch.refuse("uniformValue", &joined(tokens), "table ((time T) ...), times from 0 on, rising")
+            })?;
+            Ok(table)
+        }
+        "zeroGradient" => {
+            patch.check_keys(&[&["type", "value"]])?;
+            Ok(Steady(WallHeat::Insulated))
+        }
+        "fixedGradient" => {
+            patch.check_keys(&[&["type", "gradient", "value"]])?;
+            match patch.uniform("gradient")? {
+                0.0 => Ok(Steady(WallHeat::Insulated)),
+                // Its heat flux is K times it, and grains have no K of their own.
+                other => Err(patch.refuse("gradient", &format!("uniform {other}"), "uniform 0")),
+            }
+        }
+        _ => Err(patch.refuse("type", &kind, "fixedValue, uniformFixedValue, zeroGradient, fixedGradient")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    fn walls_of(patches: &str) -> Result<[WallOverTime; 4], String> {
+        let text = format!("boundaryField {{ {patches} }}");
+        let file = Dictionary::parse(Path::new("0/T"), &text).unwrap();
+        heat_of_walls(&file).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn patches_by_name_and_by_pattern() {
+        let walls = walls_of(
+            "empty { type empty; } \".*\" { type zeroGradient; } \"left|right\" { type fixedValue; value uniform 7; }
+             right { type fixedGradient; gradient uniform 0; }",
+        );
+        let expected =
+            [WallHeat::Temperature(7.0), WallHeat::Insulated, WallHeat::Insulated, WallHeat::Insulated];
+        assert_eq!(walls.unwrap(), expected.map(WallOverTime::Steady));
+    }
+
+    #[test]
+    fn refuses_what_it_does_not_know() {
+        let rest = "\"right|bottom|top\" { type zeroGradient; }";
+        for (left, message) in [
+            (
+                "left { type codedFixedValue; }",
+                "boundaryField/left/type = codedFixedValue, allowed: fixedValue",
+            ),
+            (
+                "left { type uniformFixedValue; uniformValue sine; }",
+                "left/uniformValue = sine, allowed: table",
+            ),
+            (
+                "left { type uniformFixedValue; uniformValue table ((0 1) (0 2)); }",
+                "allowed: table ((time T) ...)",
+            ),
+            ("left { type uniformFixedValue; uniformValue table ((0 1)); }", "allowed: table ((time T) ...)"),
+            ("left { type fixedValue; value nonuniform 3; }", "boundaryField/left/value = nonuniform 3"),
+            (
+                "left { type fixedValue; value uniform 3; ramp 2; }",
+                "boundaryField/left/ramp = 2, allowed: the keys",
+            ),
+            (
+                "left { type fixedGradient; gradient uniform 5; }",
+                "left/gradient = uniform 5, allowed: uniform 0",
+            ),
+            ("leeft { type zeroGradient; }", "boundaryField/leeft = {...}, allowed: left, right"),
+            ("", "boundaryField/left = missing"),
+        ] {
+            let error = walls_of(&format!("{left} {rest}")).unwrap_err();
+            assert!(error.starts_with("0/T: ") && error.contains(message), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_table_is_straight_between_its_rows() {
+        let text =
+            "\".*\" { type uniformFixedValue; uniformValue table ((0 50) (2 70) (4 30)); value uniform 50; }";
+        let wall = walls_of(text).unwrap()[2].clone();
+        for (time, temperature) in
+            [(0.0, 50.0), (1.0, 60.0), (2.0, 70.0), (3.0, 50.0), (4.0, 30.0), (9.0, 30.0)]
+        {
+            assert_eq!(wall.at(time), WallHeat::Temperature(temperature), "{time} s");
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! `msdd reference compare`: T of a run of the solver beside that of discrete elements.
+
+use crate::error::CliError;
+use clap::Args;
+use msdd_reference::compare::temperature_errors;
+use msdd_reference::results::Results;
+use msdd_reference::solver::temperatures;
+use std::path::PathBuf;
+
+#[derive(Args)]
+#[command(after_help = "Example, after cases/corner/Allrun:
+  msdd reference compare --case cases/corner --discs cases/reference/results/corner_seed11.json --range 50
+The case needs the function object spaceProbes, which the shipped cases have.")]
+pub struct Arguments {
+    /// Case folder in which msddFoam has run.
+    #[arg(long, value_name = "DIR")]
+    case: PathBuf,
+    /// Result of `msdd reference run` for the same case.
+    #[arg(long, value_name = "FILE")]
+    discs: PathBuf,
+    /// Range of temperatures [K] that errors are given in per cent of: hottest minus coldest wall or start.
+    #[arg(long, value_name = "K", value_parser = range)]
+    range: f64,
+}
+
+fn range(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+    value.ok_or_else(|| "allowed: a number above 0".to_string())
+}
+
+/// Prints the largest difference over time at each probe, and the largest of all without its sign.
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let discs = Results::read(&arguments.discs)?;
+    let solver = temperatures(&arguments.case)?;
+    let errors = temperature_errors(&solver, &discs, arguments.range);
+    outln!("T of the solver minus T of the discs, means in windows of 40 mm, where they differ most");
+    for (probe, error) in (1..).zip(errors) {
+        outln!("P{probe} {error:+.3} % of {} K", arguments.range);
+    }
+    outln!("largest {:.3} %", errors.into_iter().map(f64::abs).fold(0.0, f64::max));
+    Ok(())
+}

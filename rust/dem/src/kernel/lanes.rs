@@ -1,0 +1,74 @@
+//! Vectors of f64 from and to memory, and the one-lane implementation.
+
+use crate::disc::Disc;
+use crate::forces::Load;
+use crate::vector::{Columns, Vector};
+
+/// Vectors from and to memory.
+///
+/// # Safety
+/// The methods may be called only on a machine with the instruction set: they are the only source of values, so a
+/// value proves that the set is there and arithmetic is safe. Pointers must be valid for the lanes.
+#[allow(clippy::missing_safety_doc)] // stated once, above
+pub(crate) trait Lanes: Vector {
+    const LANES: usize;
+    unsafe fn splat(value: f64) -> Self;
+    unsafe fn read(from: *const f64) -> Self;
+    unsafe fn write(self, to: *mut f64);
+    /// Fields of the discs `index[0..LANES]`. `discs` may lie outside of the array, `discs` + index may not.
+    unsafe fn gather(discs: *const Disc, index: *const u32) -> Columns<Self>;
+    /// Fields of LANES discs in a row, and back.
+    unsafe fn read_discs(discs: *const Disc) -> Columns<Self>;
+    unsafe fn write_discs(columns: Columns<Self>, discs: *mut Disc);
+    /// Columns fx, fy, torque (and one of no meaning) of LANES loads in a row.
+    unsafe fn read_loads(loads: *const Load) -> [Self; 4];
+    /// Lane by lane, in order: loads[j] += (fx, fy, torque_j), then loads[i] −= (fx, fy, torque_i).
+    unsafe fn scatter(loads: *mut Load, i: *const u32, j: *const u32, force: [Self; 2], torque: [Self; 2]);
+}
+
+impl Lanes for f64 {
+    const LANES: usize = 1;
+
+    #[inline(always)]
+    unsafe fn splat(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    unsafe fn read(from: *const f64) -> Self {
+        unsafe { *from }
+    }
+    #[inline(always)]
+    unsafe fn write(self, to: *mut f64) {
+        unsafe { *to = self }
+    }
+    #[inline(always)]
+    unsafe fn gather(discs: *const Disc, index: *const u32) -> Columns<Self> {
+        unsafe { Self::read_discs(discs.wrapping_add(*index as usize)) }
+    }
+    #[inline(always)]
+    unsafe fn read_discs(discs: *const Disc) -> Columns<Self> {
+        let d = unsafe { &*discs };
+        [d.x, d.y, d.radius, d.vx, d.vy, d.angular_velocity, d.mass, d.temperature]
+    }
+    #[inline(always)]
+    unsafe fn write_discs(columns: Columns<Self>, discs: *mut Disc) {
+        let [x, y, radius, vx, vy, angular_velocity, mass, temperature] = columns;
+        unsafe { *discs = Disc { x, y, radius, vx, vy, angular_velocity, mass, temperature } }
+    }
+    #[inline(always)]
+    unsafe fn read_loads(loads: *const Load) -> [Self; 4] {
+        let load = unsafe { &*loads };
+        [load.fx, load.fy, load.torque, 0.0]
+    }
+    #[inline(always)]
+    unsafe fn scatter(loads: *mut Load, i: *const u32, j: *const u32, force: [Self; 2], torque: [Self; 2]) {
+        let on_j = unsafe { &mut *loads.wrapping_add(*j as usize) };
+        on_j.fx += force[0];
+        on_j.fy += force[1];
+        on_j.torque += torque[1];
+        let on_i = unsafe { &mut *loads.wrapping_add(*i as usize) };
+        on_i.fx -= force[0];
+        on_i.fy -= force[1];
+        on_i.torque -= torque[0];
+    }
+}

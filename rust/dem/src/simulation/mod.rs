@@ -1,0 +1,329 @@
+//! The state of one assembly, and one step of it.
+
+mod boundaries;
+mod heat;
+
+use crate::contact::{Contact, Touching};
+use crate::disc::Disc;
+use crate::forces::Load;
+use crate::heat::HeatPipes;
+use crate::kernel::{Motion, Simd};
+use crate::law::PairLaw;
+use crate::material::Material;
+use crate::neighbours::Neighbours;
+use crate::pace::Pace;
+use crate::periodic::{Cell, Periodic, SmallCell, check_size};
+use crate::slabs::{SlabLoads, Sweep};
+use crate::stage::Stage;
+use crate::team;
+use crate::time_step::{self, StepChoice};
+use crate::vector::larger;
+use crate::walls::Walls;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Discs in a box. Build with [`Simulation::new`], drive by setting wall velocities and [`Simulation::set_strain_rate`].
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    pub material: Material,
+    pub discs: Vec<Disc>,
+    pub walls: Walls,
+    /// None between walls. In a periodic box `walls` are the borders of the cell; whether there is one is chosen by the
+    /// constructor and stays.
+    pub periodic: Option<Periodic>,
+    /// Δt [s] of the next step; [`Simulation::run`] keeps it as chosen.
+    pub time_step: f64,
+    pub(crate) step_choice: StepChoice,
+    /// Drag on discs without contact force [1/s]; 0 (off) as in the paper, whose damping lets them fly for ever.
+    pub free_drag: f64,
+    /// Whether moving walls carry the grains along (affine motion); their own velocities are relative to that then. Off
+    /// as in the paper; a periodic box always does it.
+    pub affine: bool,
+    /// Whether walls shrink and stretch with the affine motion: carried grains do not slip along them then. Friction of
+    /// the long walls of a box would drag the grains to its ends otherwise.
+    pub affine_walls: bool,
+    /// Steps taken.
+    pub steps: u64,
+    /// t [s].
+    pub time: f64,
+    /// Force of the grains on each wall [N]: normal (outwards positive) and tangential (along t of the inward normal).
+    pub wall_force: [[f64; 2]; 4],
+    /// Radii at zero strain [m].
+    pub(crate) reference_radius: Vec<f64>,
+    largest_reference_radius: f64,
+    /// ε [-]: radii are `reference_radius` (1 + ε), not compounded (Eq. 6).
+    pub(crate) strain: f64,
+    pub(crate) strain_rate: f64,
+    pub(crate) largest_speed: f64,
+    simd: Simd,
+    pub(crate) neighbours: Neighbours,
+    pub(crate) loads: SlabLoads,
+    pipes: Option<Box<HeatPipes>>,
+    /// Threads of large assemblies; none: the caller's alone.
+    pool: Option<Arc<rayon::ThreadPool>>,
+    pace: Pace,
+    /// Whether the present step is shared among the pool's threads.
+    pub(crate) shared: bool,
+    pub(crate) last_good: Option<LastGood>,
+}
+
+/// A copy of a state that was good.
+#[derive(Clone, Debug)]
+pub(crate) struct LastGood {
+    /// Steps between two copies at least.
+    pub every: u64,
+    pub state: Box<Simulation>,
+}
+
+impl Simulation {
+    /// An assembly with given discs in given walls; the friction history is empty.
+    pub fn new(material: Material, discs: Vec<Disc>, walls: Walls) -> Self {
+        Self::with_boundary(material, discs, walls, None)
+    }
+
+    /// An assembly in a periodic box between the positions of `walls`; the friction history is empty. Discs may lie
+    /// anywhere: their images fill the cell.
+    ///
+    /// # Errors
+    /// [`SmallCell`] when a disc could meet two images of another.
+    pub fn new_periodic(
+        material: Material,
+        discs: Vec<Disc>,
+        walls: Walls,
+        periodic: Periodic,
+    ) -> Result<Self, SmallCell> {
+        let largest = discs.iter().map(|d| d.radius).fold(0.0, f64::max);
+        check_size(&walls, largest)?;
+        Ok(Self::with_boundary(material, discs, walls, Some(periodic)))
+    }
+
+    fn with_boundary(material: Material, discs: Vec<Disc>, walls: Walls, periodic: Option<Periodic>) -> Self {
+        let mut simulation = Self {
+            material,
+            reference_radius: discs.iter().map(|d| d.radius).collect(),
+            largest_reference_radius: discs.iter().map(|d| d.radius).fold(0.0, f64::max),
+            loads: SlabLoads::default(),
+            discs,
+            walls,
+            periodic,
+            time_step: 0.0,
+            step_choice: StepChoice::Adaptive { safety: time_step::SAFETY },
+            free_drag: 0.0,
+            affine: false,
+            affine_walls: false,
+            steps: 0,
+            time: 0.0,
+            pipes: None,
+            pool: None,
+            pace: Pace::default(),
+            shared: false,
+            last_good: None,
+            wall_force: [[0.0; 2]; 4],
+            strain: 0.0,
+            strain_rate: 0.0,
+            largest_speed: 0.0,
+            simd: Simd::preferred(),
+            neighbours: Neighbours::default(),
+        };
+        simulation.rebuild_neighbours();
+        simulation.largest_speed = simulation.discs.iter().map(Disc::speed).fold(0.0, larger);
+        simulation.time_step = time_step::SAFETY * simulation.stable_step();
+        simulation
+    }
+
+    /// One step of Δt.
+    pub fn step(&mut self) {
+        self.step_marked(|_| ());
+    }
+
+    /// `count` steps, without looking at the state in between; on the chosen threads.
+    pub fn take_steps(&mut self, count: u64) {
+        match self.pool.clone() {
+            Some(pool) => self.take_steps_on(&pool, count),
+            None => (0..count).for_each(|_| self.step()),
+        }
+    }
+
+    /// Steps shared among the threads of the pool whenever that is the faster way.
+    fn take_steps_on(&mut self, pool: &rayon::ThreadPool, count: u64) {
+        let mut left = count;
+        while left > 0 {
+            let (shared, steps) = self.pace.next(left);
+            let begin = Instant::now();
+            self.shared = shared;
+            if shared {
+                team::together(pool, || (0..steps).for_each(|_| self.step()));
+            } else {
+                (0..steps).for_each(|_| self.step());
+            }
+            self.shared = false;
+            self.pace.record(shared, steps, begin.elapsed());
+            left -= steps;
+        }
+    }
+
+    /// Chooses the number of threads for [`Simulation::take_steps`] and [`Simulation::run`]. Results do not depend on it.
+    /// Periodic boxes and assemblies below a few thousand discs stay on one: their steps are too short to share.
+    ///
+    /// # Errors
+    /// What the system says when it has no more threads.
+    pub fn set_threads(&mut self, threads: usize) -> std::io::Result<()> {
+        let slabs = self.neighbours.pairs.slabs().len();
+        let threads = threads.min(slabs);
+        self.pool = None;
+        if threads > 1 {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            self.pool = Some(Arc::new(pool.map_err(std::io::Error::other)?));
+        }
+        Ok(())
+    }
+
+    /// As [`Simulation::step`]; `mark` is called as each stage ends, for timing: pairs, walls and motion come block by
+    /// block of discs.
+    pub fn step_marked(&mut self, mut mark: impl FnMut(Stage)) {
+        self.advance_boundaries();
+        mark(Stage::Boundaries);
+        if self.neighbours.stale(&self.discs, self.cell().as_ref()) {
+            self.find_neighbours();
+        }
+        mark(Stage::Neighbours);
+        self.sweep(&mut mark);
+        self.conduct_through(self.time_step, HeatPipes::follow);
+        mark(Stage::Heat);
+        self.steps += 1;
+        self.time += self.time_step;
+    }
+
+    /// Instruction set of the kernels; all give the same bits.
+    pub fn simd(&self) -> Simd {
+        self.simd
+    }
+
+    /// Chooses the instruction set.
+    ///
+    /// # Panics
+    /// When the machine does not have it; ask [`Simd::available`].
+    pub fn set_simd(&mut self, simd: Simd) {
+        assert!(simd.available(), "{simd:?} is not available on this machine");
+        self.simd = simd;
+    }
+
+    /// ε [-], relative to the radii at the last [`Simulation::reset_strain`].
+    pub fn strain(&self) -> f64 {
+        self.strain
+    }
+
+    /// Prescribes dε/dt [1/s] for all discs.
+    pub fn set_strain_rate(&mut self, rate: f64) {
+        self.strain_rate = rate;
+    }
+
+    /// Makes the present radii the reference: ε = 0.
+    pub fn reset_strain(&mut self) {
+        self.set_reference_radii(self.discs.iter().map(|d| d.radius).collect());
+        self.strain = 0.0;
+        self.strain_rate = 0.0;
+    }
+
+    pub(crate) fn set_reference_radii(&mut self, radii: Vec<f64>) {
+        self.largest_reference_radius = radii.iter().copied().fold(0.0, f64::max);
+        self.reference_radius = radii;
+    }
+
+    /// Calls `visit` with every force-bearing contact: pairs row by row, then the walls.
+    pub fn for_each_contact(&self, visit: impl FnMut(Contact)) {
+        self.touching().for_each(visit);
+    }
+
+    /// The present contacts.
+    pub(crate) fn touching(&self) -> Touching<'_> {
+        Touching {
+            material: &self.material,
+            discs: &self.discs,
+            walls: &self.walls,
+            cell: self.cell(),
+            neighbours: &self.neighbours,
+        }
+    }
+
+    /// Bound on the stable time step at the present contacts [s], see [`crate::time_step`].
+    pub fn stable_step(&self) -> f64 {
+        time_step::stable_step(&self.touching())
+    }
+
+    /// The cell of a periodic box; none between walls.
+    pub fn cell(&self) -> Option<Cell> {
+        self.periodic.as_ref().map(|periodic| Cell::new(&self.walls, periodic))
+    }
+
+    /// Runs the neighbour search now, due or not. Results do not depend on when it runs.
+    pub fn rebuild_neighbours(&mut self) {
+        self.neighbours.rebuild(&self.discs, &self.walls, self.cell().as_ref());
+    }
+
+    /// How often the neighbour search has run.
+    pub fn rebuilds(&self) -> u64 {
+        self.neighbours.rebuilds
+    }
+
+    /// Candidate pairs of the neighbour search, touching or not.
+    pub fn candidates(&self) -> usize {
+        self.neighbours.pairs.len()
+    }
+
+    /// Resultants of the contact forces in the last step, one a disc.
+    pub fn loads(&self) -> Vec<Load> {
+        self.loads.iter(&self.neighbours).copied().collect()
+    }
+
+    /// Mean disc radius [m].
+    pub fn mean_radius(&self) -> f64 {
+        self.discs.iter().map(|d| d.radius).sum::<f64>() / self.discs.len() as f64
+    }
+
+    fn find_neighbours(&mut self) {
+        self.scale_radii();
+        self.rebuild_neighbours();
+    }
+
+    /// Puts the ghosts behind the discs, at their present places.
+    fn place_ghosts(&mut self) {
+        if let Some(cell) = self.cell() {
+            for ghost in &self.neighbours.ghosts {
+                let image = cell.image(&self.discs[ghost.owner as usize], ghost.shift);
+                self.discs.push(image);
+            }
+        }
+    }
+
+    /// Radii, contact forces and motion.
+    fn sweep(&mut self, mark: impl FnMut(Stage)) {
+        let count = self.discs.len();
+        if self.periodic.is_some() {
+            self.scale_radii();
+            self.place_ghosts();
+        }
+        let (dt, flow) = (self.time_step, self.flow());
+        let conductivity = self.pipes.as_ref().map(|pipes| pipes.thermal.conductivity);
+        let sweep = Sweep {
+            simd: self.simd,
+            law: PairLaw::new(&self.material, dt, flow.gradient, conductivity),
+            walls: &self.walls,
+            flow,
+            affine_walls: self.affine_walls,
+            motion: Motion {
+                damping: self.material.damping,
+                keep_free: (1.0 - self.free_drag * dt).max(0.0),
+                dt,
+            },
+            radii: self.radius_factor().map(|factor| (factor, self.reference_radius.as_slice())),
+        };
+        let swept = self.loads.sweep(self.shared, sweep, &mut self.discs, &mut self.neighbours, mark);
+        self.discs.truncate(count);
+        self.wall_force = swept.wall_force;
+        self.largest_speed = swept.fastest2.sqrt();
+    }
+}
+
+#[cfg(test)]
+mod tests;

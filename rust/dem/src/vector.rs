@@ -1,0 +1,62 @@
+//! Arithmetic on one or several discs at a time: what laws are written with, and the case of one number.
+
+use std::ops::{Add, Div, Mul, Sub};
+
+/// Columns of a group of discs: one vector a field, in the order of [`Disc`].
+pub(crate) type Columns<V> = [V; 8];
+
+/// Arithmetic on vectors of f64: IEEE, lane by lane, never fused.
+pub(crate) trait Vector:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    type Mask: Copy;
+    /// The same value in all lanes.
+    fn like(self, value: f64) -> Self;
+    fn sqrt(self) -> Self;
+    /// The larger one; `other` when they are equal or one is NaN (as x86's maxpd): [`larger`] keeps NaN.
+    fn max(self, other: Self) -> Self;
+    fn min(self, other: Self) -> Self;
+    fn greater(self, other: Self) -> Self::Mask;
+    fn any(mask: Self::Mask) -> bool;
+    /// `this` where the mask is set, `other` elsewhere.
+    fn select(mask: Self::Mask, this: Self, other: Self) -> Self;
+}
+
+impl Vector for f64 {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+    #[inline(always)]
+    fn greater(self, other: Self) -> bool {
+        self > other
+    }
+    #[inline(always)]
+    fn any(mask: bool) -> bool {
+        mask
+    }
+    #[inline(always)]
+    fn select(mask: bool, this: Self, other: Self) -> Self {
+        if mask { this } else { other }
+    }
+}
+
+/// The larger of two numbers; NaN when either is: [`f64::max`] drops it, and a bound on a motion that is not known would
+/// hold.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}

@@ -1,0 +1,197 @@
+//! Plans, databases and other files of the Rust programs.
+
+use crate::set::{Cell, Set};
+use crate::sources::{all, between, files, firsts};
+
+const PLAN: &str = "reference/plan.md";
+const DATABASE: &str = "reference/database.md";
+const C_INTERFACE: &str = "reference/c-interface.md";
+const RVE: &str = "rust/rve/src";
+
+pub fn sets() -> Vec<Set> {
+    [plan(), database(), other_files()].concat()
+}
+
+fn plan() -> Vec<Set> {
+    let ramps = variants(RVE, "RampName");
+    let compressions = variants(RVE, "Compression");
+    let block = with_required(fields_of(PLAN, "block", RVE, "Block"), RVE, "Block")
+        .with("boundary", "default", default_variant(RVE, "Boundary"))
+        .with("slide", "default", default_variant(RVE, "Slide"))
+        .with_words("compressions", "allowed", &compressions)
+        .with_words("boundary", "allowed", &variants(RVE, "Boundary"))
+        .with_words("slide", "allowed", &variants(RVE, "Slide"));
+    let relaxations = variants(RVE, "Relaxation");
+    let plan = with_required(fields_of(PLAN, "plan", RVE, "Plan"), RVE, "Plan")
+        .with_words("relaxation", "allowed", &relaxations)
+        .with("relaxation", "default", default_variant(RVE, "Relaxation"));
+    let specification = fields_of(C_INTERFACE, "specification", "rust/capi/src", "Specification")
+        .with_words("compression", "allowed", &compressions)
+        .with_words("boundary", "allowed", &variants(RVE, "Boundary"))
+        .with("boundary", "default", default_variant(RVE, "Boundary"))
+        .with("relaxation", "default", default_variant(RVE, "Relaxation"))
+        .with_words("relaxation", "allowed", &relaxations);
+    let specification = with_defaults(specification, RVE, "PackingSpec");
+    let material = fields_of(PLAN, "material", "rust/dem/src", "Material");
+    let material = with_defaults(material, "rust/dem/src", "Material");
+    vec![
+        plan,
+        block,
+        with_ranges(
+            material,
+            "rust/dem/src",
+            r#"\("(\w+)", self\.[^"]*"([^"]*)"\)|\(\s*"(\w+)",\s*self\.[^"]*"([^"]*)",\s*\)"#,
+        ),
+        Set::new(PLAN, "compressions", RVE, compressions),
+        Set::new(PLAN, "ramps", RVE, ramps),
+        with_ranges(specification, RVE, r#"parameter\("(\w+)", [^"]*, "([^"]*)"\)()()"#),
+    ]
+}
+
+fn database() -> Vec<Set> {
+    let all_text: String =
+        files(&format!("{RVE}/database"), &["rs"]).into_iter().map(|(_, text)| text).collect();
+    let column = r#"(?m)^    (\w+): [\w<>]+, "(?:INTEGER|REAL|TEXT)", "([^"]*)", ""#;
+    let mut columns = Set::new(DATABASE, "columns", RVE, firsts(column, &all_text));
+    for found in all(column, &all_text) {
+        columns = columns.with(&found[1], "unit", Cell::Text(found[2].clone()));
+    }
+    let tables = firsts(r"CREATE TABLE (\w+)", &all_text);
+    vec![
+        columns,
+        Set::new(DATABASE, "tables", RVE, tables),
+        Set::new(DATABASE, "provenance", RVE, provenance(&all_text)),
+    ]
+}
+
+/// Keys of the list that a new database begins with, and those that are inserted later, by their constants.
+fn provenance(text: &str) -> Vec<String> {
+    let list = between(text, r"^fn provenance\(plan", r"^\}", RVE);
+    let mut keys = firsts(r#"\("(\w+)","#, &list);
+    for found in all(r#"provenance\.insert\((?:"(\w+)"|([A-Z_]+)|[\w:]+::([A-Z_]+))\.to_string\(\)"#, text) {
+        if !found[1].is_empty() {
+            keys.push(found[1].clone());
+            continue;
+        }
+        let constant =
+            [&found[2], &found[3]].into_iter().find(|name| !name.is_empty()).expect("one of three");
+        let value = format!(r#"const {constant}: &str = "(\w+)""#);
+        keys.extend(firsts(&value, text));
+    }
+    keys
+}
+
+fn other_files() -> Vec<Set> {
+    let state = ["File", "Bounds", "Particles", "Contacts", "Run"];
+    let names = state.iter().flat_map(|name| structure("rust/rve/src/state", name));
+    vec![
+        Set::new(DATABASE, "state file", "rust/rve/src/state.rs", names),
+        fields_of(DATABASE, "state model", "rust/surrogate/src/state", "File"),
+        fields_of(DATABASE, "paper model", "rust/surrogate/src", "ModelFile"),
+        fields_of(DATABASE, "reference results", "rust/reference/src", "Results"),
+        fields_of(DATABASE, "reference model", "rust/reference/src", "Statistics"),
+    ]
+}
+
+/// A table that lists the fields of one structure.
+pub fn fields_of(page: &'static str, table: &str, place: &str, name: &str) -> Set {
+    Set::new(page, table, &format!("struct {name} of {place}"), structure(place, name))
+}
+
+/// Names that serde gives to the fields of a structure, in the one file below a folder, or that begins so, which has it.
+pub fn structure(place: &str, name: &str) -> Vec<String> {
+    let body = body_of(place, &format!(r"struct {name}(?:<[^>]*>)? \{{"));
+    let mut names = Vec::new();
+    let mut attributes = String::new();
+    for line in body.lines().map(str::trim) {
+        if line.starts_with("#[") {
+            attributes.push_str(line);
+            continue;
+        }
+        let Some(field) = firsts(r"^(?:pub(?:\([^)]*\))? )?(\w+): ", line).pop() else { continue };
+        let renamed = firsts(r#"rename = "(\w+)""#, &attributes).pop();
+        if !attributes.contains("serde(skip)") {
+            names.push(renamed.unwrap_or(field));
+        }
+        attributes.clear();
+    }
+    names
+}
+
+/// Names that serde gives to the variants of an enumeration.
+fn variants(place: &str, name: &str) -> Vec<String> {
+    let body = body_of(place, &format!(r"enum {name} \{{"));
+    let snake = |variant: String| {
+        let parts = firsts("([A-Z][a-z0-9]*)", &variant);
+        parts.iter().map(|part| part.to_lowercase()).collect::<Vec<_>>().join("_")
+    };
+    firsts(r"(?m)^\s+([A-Z]\w*),$", &body).into_iter().map(snake).collect()
+}
+
+/// What stands between a head and the brace that ends it, in the one file that has the head.
+fn body_of(place: &str, head: &str) -> String {
+    let (folder, beginning) = place.rsplit_once('/').expect("a folder below rust");
+    let inside =
+        if crate::sources::checkout().join(place).is_dir() { (place, "") } else { (folder, beginning) };
+    let pattern = format!(r"(?ms){head}\n(.*?)^\}}");
+    let found: Vec<String> = files(inside.0, &["rs"])
+        .into_iter()
+        .filter(|(path, _)| path.starts_with(&format!("{folder}/{beginning}")))
+        .flat_map(|(_, text)| firsts(&pattern, &text))
+        .collect();
+    assert!(found.len() == 1, "{place}: {} times {head}, 1 is needed", found.len());
+    found[0].clone()
+}
+
+/// Adds the numbers and variants of `impl Default`.
+fn with_defaults(mut set: Set, place: &str, name: &str) -> Set {
+    let body = body_of(place, &format!(r"impl Default for {name} \{{"));
+    for found in all(r"(?m)^\s+(\w+): ([^\s,]+),$", &body) {
+        let default = match found[2].rsplit_once("::") {
+            None => found[2].parse().ok().map(Cell::Number),
+            Some((_, variant)) if variant.contains('(') => None,
+            Some((_, variant)) => Some(Cell::Text(variant.to_lowercase())),
+        };
+        if let Some(default) = default {
+            set = set.with(&found[1], "default", default);
+        }
+    }
+    set
+}
+
+/// Adds ranges from the messages that refuse a value: a pattern of key and range, in either two of four groups.
+fn with_ranges(mut set: Set, folder: &str, pattern: &str) -> Set {
+    let text: String = files(folder, &["rs"]).into_iter().map(|(_, text)| text).collect();
+    let found = all(pattern, &text);
+    assert!(!found.is_empty(), "{folder}: no ranges for {}: have the messages another form now?", set.table);
+    for range in found {
+        let (key, text) = if range[1].is_empty() { (&range[3], &range[4]) } else { (&range[1], &range[2]) };
+        set = set.with_range(key, text);
+    }
+    set
+}
+
+/// Says of keys without `#[serde(default)]` that they are required, which is none of the other defaults.
+fn with_required(mut set: Set, place: &str, name: &str) -> Set {
+    let body = body_of(place, &format!(r"struct {name}(?:<[^>]*>)? \{{"));
+    let fields = all(r"(?m)((?:^ +#\[[^\n]*\n)*)^ +pub (\w+): ", &body);
+    for field in fields.iter().filter(|field| !field[1].contains("serde")) {
+        set = set.with(&field[2], "default", Cell::Begins("required"));
+    }
+    set
+}
+
+/// The variant that is marked as default.
+fn default_variant(place: &str, name: &str) -> Cell {
+    let body = body_of(place, &format!(r"enum {name} \{{"));
+    let found = firsts(r"#\[default\]\s+(\w+),", &body);
+    Cell::Text(found.first().unwrap_or_else(|| panic!("{name} has no default")).to_lowercase())
+}
+
+#[test]
+fn structures_are_read_as_serde_does() {
+    assert!(structure(RVE, "Plan").contains(&"radius_min".to_string()));
+    assert!(!structure(RVE, "Plan").contains(&"text".to_string()), "text is skipped");
+    assert!(structure("rust/reference/src", "Results").contains(&"box".to_string()), "size is called box");
+    assert_eq!(variants(RVE, "RampName")[3..5], ["up_down", "down_up"]);
+}

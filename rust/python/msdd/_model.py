@@ -1,0 +1,273 @@
+"""Surrogate models: what cells of a granular bed do when their grains are heated."""
+
+from __future__ import annotations
+
+import ctypes as c
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._columns import Array, State, address, aligned, table
+from ._library import BatchStruct, Handle, InitialStruct, MaterialStruct, check, encoded, library
+
+
+@dataclass(frozen=True)
+class Material:
+    """What turns a model's dimensionless answers into SI units."""
+
+    thermal_conductivity: float
+    """k of the grains [W/(m K)], 1e-12 to 1e12"""
+    young_modulus: float
+    """E of the grains [Pa], 1e-9 to 1e15"""
+    mean_radius: float
+    """mean radius of the grains in the initial state [m], 1e-12 to 1e6"""
+
+    def _struct(self) -> c.Structure:
+        values = (self.thermal_conductivity, self.young_modulus, self.mean_radius)
+        return MaterialStruct(c.sizeof(MaterialStruct), *map(float, values))
+
+
+class WallFriction(NamedTuple):
+    """Friction of a wall after the slip s [m] is `limit * s / (s + slip)`."""
+
+    limit: float
+    """friction coefficient of a wall that has slipped far [-]"""
+    slip: float
+    """slip at which half of it is mobilised [m]"""
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """Cells after a step. All arrays have the shape of the cells that were asked for."""
+
+    state: State
+    """state after the step: an array [-] for each of `Model.state_names`"""
+    conductivity_xx: Array
+    """K_xx [W/(m K)]"""
+    conductivity_yy: Array
+    """K_yy [W/(m K)]"""
+    stress_xx: Array
+    """sigma_xx [Pa], compression positive"""
+    stress_yy: Array
+    """sigma_yy [Pa], compression positive"""
+    clamped: NDArray[np.bool_]
+    """True where an input was outside the range that the model was trained in; the nearest end of it was used"""
+    outside: State
+    """how far outside, for each of `Model.state_names` and "thermal_strain", in that input's own unit: negative below the
+    range, positive above, 0 inside"""
+    spread: Optional[Array] = None
+    """relative standard deviation of K between boxes of equal state [-], NaN if the model does not know; None unless asked for"""
+    c11: Optional[Array] = None
+    """-d sigma_xx/d strain_xx [Pa]; this and all below are None unless the tangent was asked for"""
+    c22: Optional[Array] = None
+    """-d sigma_yy/d strain_yy [Pa]"""
+    c12: Optional[Array] = None
+    """-d sigma_xx/d strain_yy = -d sigma_yy/d strain_xx [Pa]"""
+    porosity_rate: Optional[Array] = None
+    """d porosity/d (strain_xx + strain_yy) [-]"""
+    fabric_index_rate: Optional[Array] = None
+    """d fabric_index/d (strain_xx - strain_yy) [-]"""
+
+
+_ANSWERS = ("conductivity_xx", "conductivity_yy", "stress_xx", "stress_yy")
+_TANGENT = ("c11", "c22", "c12", "porosity_rate", "fabric_index_rate")
+
+
+class Model:
+    """A surrogate model, made by `load_model`. It never changes, and several threads may use it at once: Python's other
+    threads run while it computes. Porosity counts overlaps of grains once; fabric_index is F_xx - F_yy."""
+
+    __slots__ = ("_handle", "_state_names")
+
+    _handle: Handle
+    _state_names: tuple[str, ...]
+
+    def __init__(self) -> None:
+        raise TypeError("models are made by msdd.load_model")
+
+    @classmethod
+    def _own(cls, made: c.c_void_p) -> Model:
+        self = object.__new__(cls)
+        self._handle = Handle(made, "msdd_surrogate_free")
+        size = library.msdd_surrogate_state_size(self._handle)
+        names = (library.msdd_surrogate_state_name(self._handle, column) for column in range(size))
+        self._state_names = tuple(name.decode() for name in names)
+        return self
+
+    def __repr__(self) -> str:
+        return f"<msdd.Model {self.info['name']!r} {self.hash[:12]}>"
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of the model file or plug-in, 64 hexadecimal digits."""
+        text: bytes = library.msdd_surrogate_hash(self._handle)
+        return text.decode()
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """What the model says of itself: kind, name, state, conductivities, scores, and the database it was trained on."""
+        description: dict[str, Any] = json.loads(library.msdd_surrogate_describe(self._handle))
+        return description
+
+    @property
+    def trained_range(self) -> dict[str, tuple[float, float]]:
+        """Least and largest value of each input in the training, beyond which `Step.clamped` is set: porosity [-], fabric_index
+        [-], thermal_strain [-] and, of a model that carries stress, pressure (reduced as the state is), fabric_conductivity
+        and stress_ratio (deviator over pressure) [-]. Empty for a plug-in, which does not tell."""
+        ranges = self.info.get("trained_range") or {}
+        return {name: (ends["min"], ends["max"]) for name, ends in ranges.items()}
+
+    @property
+    def state_names(self) -> tuple[str, ...]:
+        """Names of the state's columns; the first two are "porosity" and "fabric_index"."""
+        return self._state_names
+
+    @property
+    def has_tangent(self) -> bool:
+        """Whether the model answers mechanical strains, and has a mechanical tangent."""
+        return bool(library.msdd_surrogate_has_tangent(self._handle))
+
+    def with_conductivity(self, kind: str) -> Model:
+        """The same model with conductivities of another kind.
+
+        kind: "network" (heat flow from grain to grain solved) or "affine" (temperatures of grains taken from the mean
+            gradient, an upper bound); `info["conductivities"]` lists those that it was trained for.
+        Raises InvalidArgument for any other.
+        """
+        made = c.c_void_p()
+        check(library.msdd_surrogate_with_conductivity(self._handle, encoded("kind", kind), c.byref(made)))
+        return Model._own(made)
+
+    def initial_state(
+        self,
+        material: Material,
+        porosity: ArrayLike,
+        fabric_index: ArrayLike = 0.0,
+        *,
+        fabric_conductivity: Optional[ArrayLike] = None,
+        stress_xx: Optional[ArrayLike] = None,
+        stress_yy: Optional[ArrayLike] = None,
+    ) -> State:
+        """State of cells at the start. What is not given is the mean of the packings that the model was trained on.
+
+        porosity: 0 to 1. fabric_index: F_xx - F_yy, -1 to 1.
+        fabric_conductivity: (K_xx - K_yy)/(K_xx + K_yy), -1 to 1.
+        stress_xx, stress_yy: [Pa], compression positive, both or none.
+        Arrays of any shapes that broadcast to one; the state has that shape.
+        Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
+        """
+        shape, columns = aligned(
+            {"porosity": porosity, "fabric_index": fabric_index},
+            {"fabric_conductivity": fabric_conductivity, "stress_xx": stress_xx, "stress_yy": stress_yy},
+        )
+        initial = InitialStruct(c.sizeof(InitialStruct), _count(shape))
+        for name, column in columns.items():
+            setattr(initial, name, address(column))
+        state = {name: np.empty(shape) for name in self._state_names}
+        scales = _scales(material)
+        check(library.msdd_surrogate_initial_state(self._handle, scales, c.byref(initial), table(state.values())))
+        return state
+
+    def advance(
+        self,
+        material: Material,
+        state: Mapping[str, ArrayLike],
+        thermal_strain: ArrayLike,
+        *,
+        total_thermal_strain: Optional[ArrayLike] = None,
+        strain_xx: Optional[ArrayLike] = None,
+        strain_yy: Optional[ArrayLike] = None,
+        virgin_share: Optional[ArrayLike] = None,
+        spread: bool = False,
+        tangent: bool = False,
+    ) -> Step:
+        """Takes cells through one step. What was given is left as it is.
+
+        state: an array for each of `state_names`; more (the columns of a data frame, say) is ignored.
+        thermal_strain: radial strain of the grains in this step relative to their present radius, growth positive, -1 to 10.
+        total_thermal_strain: the same from the initial state on, this step included, by which stress follows from the
+            grains' present radius; None = `thermal_strain`, right for a single step from the start.
+        strain_xx, strain_yy: strain of the cell along x and y in this step, after the thermal one, extension positive,
+            -0.2 to 0.2; None = 0. Need `has_tangent`.
+        virgin_share: share of `thermal_strain`, 0 to 1, that leads beyond all totals that the cell has had before; None = 1,
+            right as long as no cell is heated and cooled again.
+        spread, tangent: whether to compute these, too. The tangent needs `has_tangent`.
+        Arrays of any shapes that broadcast to one. Contiguous ones of doubles are read where they are, without a copy.
+        Raises InvalidArgument, NonFinite, PluginError; KeyError for a missing column of the state.
+        """
+        if not hasattr(state, "keys"):
+            raise TypeError(f"state is a dictionary of arrays by name, not {type(state).__name__}")
+        missing = [name for name in self._state_names if name not in state]
+        if missing:
+            raise KeyError(f"the state lacks {', '.join(missing)}")
+        total = thermal_strain if total_thermal_strain is None else total_thermal_strain
+        before = {f"state[{name!r}]": state[name] for name in self._state_names}
+        shape, columns = aligned(
+            {**before, "thermal_strain": thermal_strain, "total_thermal_strain": total},
+            {"strain_xx": strain_xx, "strain_yy": strain_yy, "virgin_share": virgin_share},
+        )
+        after = {name: np.empty(shape) for name in self._state_names}
+        outside = {name: np.empty(shape) for name in (*self._state_names, "thermal_strain")}
+        wanted = _ANSWERS + (_TANGENT if tangent else ()) + (("spread",) if spread else ())
+        answers = {name: np.empty(shape) for name in wanted}
+        clamped = np.empty(shape, np.bool_)
+        # Arrays and tables live to the end of this function, and so do the addresses in the batch.
+        tables = {
+            "state": table(columns[name] for name in before),
+            "next_state": table(after.values()),
+            "outside": table(outside.values()),
+        }
+        batch = BatchStruct(struct_size=c.sizeof(BatchStruct), cells=_count(shape), clamped=address(clamped))
+        for name, pointers in tables.items():
+            setattr(batch, name, c.addressof(pointers))
+        for name, column in {**columns, **answers}.items():
+            if name not in before:
+                setattr(batch, name, address(column))
+        check(library.msdd_surrogate_advance(self._handle, _scales(material), c.byref(batch)))
+        return Step(state=after, outside=outside, clamped=clamped, **answers)
+
+    def solid_fraction(self, porosity: ArrayLike) -> Array:
+        """Sum of the grains' areas over the area of an initial state [-], overlaps counted twice: a fit to the database.
+
+        porosity: overlaps counted once, 0 to 1. The bulk density that conserves mass is that of the grains times the answer.
+        """
+        shape, columns = aligned({"porosity": porosity}, {})
+        answer = np.empty(shape)
+        given = address(columns["porosity"])
+        check(library.msdd_surrogate_solid_fraction(self._handle, _count(shape), given, address(answer)))
+        return answer
+
+    def wall_friction(self, material: Material) -> WallFriction:
+        """Friction of walls that slip along the grains. Raises InvalidArgument when the model was not trained for it."""
+        limit, slip = c.c_double(), c.c_double()
+        check(library.msdd_surrogate_wall_friction(self._handle, _scales(material), c.byref(limit), c.byref(slip)))
+        return WallFriction(limit.value, slip.value)
+
+
+def load_model(source: Union[str, os.PathLike[str]] = "builtin", conductivity: Optional[str] = None) -> Model:
+    """Loads a surrogate model.
+
+    source: "builtin", the model that comes with the library; "builtin:paper", the network of the paper; a path of a model
+        file; or "plugin:" and the path of a shared library. Loading a plug-in runs its code: take none from a stranger.
+    conductivity: "network" or "affine", see `Model.with_conductivity`; None = as the model was made.
+    Raises FileError, ModelError, PluginError, InvalidArgument.
+    """
+    made = c.c_void_p()
+    check(library.msdd_surrogate_load(encoded("source", source), c.byref(made)))
+    model = Model._own(made)
+    return model if conductivity is None else model.with_conductivity(conductivity)
+
+
+def _scales(material: Material) -> Any:
+    if not isinstance(material, Material):
+        raise TypeError(f"material is a msdd.Material, not {type(material).__name__}")
+    return c.byref(material._struct())
+
+
+def _count(shape: tuple[int, ...]) -> int:
+    return int(np.prod(shape, dtype=np.int64))

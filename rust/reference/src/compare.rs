@@ -1,0 +1,247 @@
+//! Errors of solver runs against the reference: each run starts from the fields of one packing and is compared with that
+//! packing's discrete elements; the error of a case is the largest, over time, of the mean difference over the packings.
+
+use crate::packings::{GRAIN_CONDUCTIVITY, Reference, pressure_range, temperature_range};
+use crate::results::Results;
+use crate::series::{at, largest, root_mean_square, spread, statistics};
+use crate::solver::{COLUMNS, Run};
+use serde::Serialize;
+
+/// Differences over the sub-regions of all packings at the end.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FieldError {
+    pub quantity: String,
+    pub unit: String,
+    pub rms: f64,
+    /// Of the 8 x 1 sub-regions that touch no wall.
+    pub rms_inner: f64,
+    /// Largest of any sub-region, with its sign.
+    pub worst: f64,
+    /// Of the means over the box, and of the standard deviations over the sub-regions: solver and discrete elements.
+    pub means: [f64; 2],
+    pub deviations: [f64; 2],
+}
+
+/// Errors of one configuration in one case. Signed: solver minus discrete elements.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Errors {
+    /// Of T at P1, P2, P3 [% of the range].
+    pub temperature: [f64; 3],
+    /// The same of each packing.
+    pub temperature_of_seeds: Vec<[f64; 3]>,
+    /// Of the mean pressure [% of the paper's range].
+    pub pressure: f64,
+    pub pressure_of_seeds: Vec<f64>,
+    /// The same against the discs' mean off the walls, where they lie looser: what the solver's cells hold. None when the reference
+    /// does not have it.
+    pub pressure_inner: Option<f64>,
+    pub pressure_inner_of_seeds: Vec<f64>,
+    pub fields: Vec<FieldError>,
+    /// Of the displacement along x at the end, largest difference over largest displacement [%].
+    pub displacement: Option<f64>,
+}
+
+impl Errors {
+    /// The largest of the three probes, without its sign [% of the range].
+    pub fn largest_temperature(&self) -> f64 {
+        self.temperature.iter().fold(0.0, |worst, e| worst.max(e.abs()))
+    }
+
+    pub fn field(&self, quantity: &str) -> Option<&FieldError> {
+        self.fields.iter().find(|f| f.quantity == quantity)
+    }
+}
+
+/// Compares one run a packing, in the order of the reference's packings. `affine`: K is compared with Eq. 9 instead of the
+/// network's. None when a run ends before the reference.
+pub fn errors(reference: &Reference, runs: &[&Run], affine: bool) -> Option<Errors> {
+    let times = reference.times();
+    let end = times.last()?;
+    if runs.len() != reference.results.len()
+        || runs.iter().any(|run| run.temperature.last().is_none_or(|row| row[0] < end - 1e-6))
+    {
+        return None;
+    }
+    let range = temperature_range(&reference.case);
+    let of_probe = |probe: usize| -> Vec<Vec<f64>> {
+        let start = reference.temperature()[probe][0][0];
+        let differences = |(run, dem): (&&Run, &Vec<f64>)| {
+            let series: Vec<[f64; 2]> = run.temperature.iter().map(|row| [row[0], row[1 + probe]]).collect();
+            difference(&times, &with_start(&series, start), dem, 100.0 / range)
+        };
+        runs.iter().zip(&reference.temperature()[probe]).map(differences).collect()
+    };
+    let temperatures = [0, 1, 2].map(of_probe);
+    let pressures = pressure_differences(reference, runs, "pressure");
+    let inner = pressure_differences(reference, runs, "pressure_inner");
+    Some(Errors {
+        temperature: [0, 1, 2].map(|p| largest(&means(&temperatures[p]))),
+        temperature_of_seeds: (0..runs.len())
+            .map(|seed| [0, 1, 2].map(|p| largest(&temperatures[p][seed])))
+            .collect(),
+        pressure: largest(&means(&pressures)),
+        pressure_of_seeds: pressures.iter().map(|p| largest(p)).collect(),
+        pressure_inner: (!inner.is_empty()).then(|| largest(&means(&inner))),
+        pressure_inner_of_seeds: inner.iter().map(|p| largest(p)).collect(),
+        fields: fields(reference, runs, affine),
+        displacement: displacement(reference, runs),
+    })
+}
+
+/// Errors of T at P1 to P3 of one run, lines of time and three temperatures, against the discs of one packing, windows of
+/// 40 mm: the largest over the discs' times where the solver has values on both sides, solver minus discs [% of `range`,
+/// which is in K].
+pub fn temperature_errors(run: &[[f64; 4]], discs: &Results, range: f64) -> [f64; 3] {
+    let times = discs.series.column("time").unwrap_or_default();
+    [1, 2, 3].map(|probe| {
+        let values = discs.series.column(&format!("T_P{probe}_window")).unwrap_or_default();
+        let series: Vec<[f64; 2]> = run.iter().map(|row| [row[0], row[probe]]).collect();
+        let (first, last) = (series.first().map_or(0.0, |r| r[0]), series.last().map_or(0.0, |r| r[0]));
+        let inside = times.iter().zip(&values).filter(|(t, _)| (first..=last).contains(*t));
+        let differences: Vec<f64> = inside.map(|(&t, v)| 100.0 / range * (at(&series, t) - v)).collect();
+        largest(&differences)
+    })
+}
+
+/// Mean pressure of the solver minus a column of the discs [% of the paper's range], by packing; none without the column.
+fn pressure_differences(reference: &Reference, runs: &[&Run], column: &str) -> Vec<Vec<f64>> {
+    let (times, scale) = (reference.times(), 100.0 / pressure_range(&reference.case));
+    let series = reference.series(column);
+    if series.iter().any(Vec::is_empty) {
+        return Vec::new();
+    }
+    let of =
+        |(run, dem): (&&Run, Vec<f64>)| difference(&times, &with_start(&run.pressure, dem[0]), &dem, scale);
+    runs.iter().zip(series).map(of).collect()
+}
+
+fn means(by_packing: &[Vec<f64>]) -> Vec<f64> {
+    statistics(by_packing).into_iter().map(|(mean, _)| mean).collect()
+}
+
+/// The solver writes no value at the start.
+fn with_start(series: &[[f64; 2]], start: f64) -> Vec<[f64; 2]> {
+    match series.first() {
+        Some(first) if first[0] > 1e-9 => [&[[0.0, start]], series].concat(),
+        _ => series.to_vec(),
+    }
+}
+
+fn difference(times: &[f64], series: &[[f64; 2]], dem: &[f64], scale: f64) -> Vec<f64> {
+    times.iter().zip(dem).map(|(&t, &value)| scale * (at(series, t) - value)).collect()
+}
+
+/// (quantity, column of the reference, factor to the solver's unit, unit)
+fn quantities(affine: bool) -> [(&'static str, &'static str, f64, &'static str); 6] {
+    let k = GRAIN_CONDUCTIVITY;
+    let (xx, yy) = if affine {
+        ("conductivity_xx", "conductivity_yy")
+    } else {
+        ("conductivity_network_xx", "conductivity_network_yy")
+    };
+    [
+        ("porosity", "porosity", 1.0, "-"),
+        ("fabric_index", "fabric_index", 1.0, "-"),
+        ("conductivity_xx", xx, k, "W/(m K)"),
+        ("conductivity_yy", yy, k, "W/(m K)"),
+        ("stress_xx", "stress_xx", 1.0, "Pa"),
+        ("stress_yy", "stress_yy", 1.0, "Pa"),
+    ]
+}
+
+/// A quantity of [`COLUMNS`] in the sub-regions of a run.
+pub fn sub_regions(run: &Run, quantity: &str) -> Vec<f64> {
+    let Some(k) = COLUMNS.iter().position(|column| *column == quantity) else { return Vec::new() };
+    run.sub_regions.iter().map(|row| row[k]).collect()
+}
+
+/// A quantity in the sub-regions of the reference, in the solver's units, by packing.
+pub fn reference_sub_regions(reference: &Reference, quantity: &str, affine: bool) -> Vec<Vec<f64>> {
+    scaled(quantity, affine, |column| reference.sub_regions(column))
+}
+
+/// The same at the start.
+pub fn reference_start(reference: &Reference, quantity: &str, affine: bool) -> Vec<Vec<f64>> {
+    scaled(quantity, affine, |column| reference.sub_regions_start(column))
+}
+
+fn scaled(quantity: &str, affine: bool, read: impl Fn(&str) -> Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let table = quantities(affine);
+    let Some((_, column, factor, _)) = table.iter().find(|q| q.0 == quantity) else { return Vec::new() };
+    let in_units = |values: Vec<f64>| values.into_iter().map(|v| factor * v).collect();
+    read(column).into_iter().map(in_units).collect()
+}
+
+fn fields(reference: &Reference, runs: &[&Run], affine: bool) -> Vec<FieldError> {
+    quantities(affine)
+        .iter()
+        .map(|&(quantity, _, _, unit)| {
+            let dem = reference_sub_regions(reference, quantity, affine);
+            let solver: Vec<Vec<f64>> = runs.iter().map(|run| sub_regions(run, quantity)).collect();
+            let pairs = solver.iter().flatten().zip(dem.iter().flatten());
+            let differences: Vec<f64> = pairs.map(|(s, d)| s - d).collect();
+            let inner = |k: usize| (1..9).contains(&(k % 10)) && k % 30 / 10 == 1;
+            let inside: Vec<f64> =
+                (0..differences.len()).filter(|&k| inner(k)).map(|k| differences[k]).collect();
+            let both = [&solver, &dem].map(|values| spread(values));
+            FieldError {
+                quantity: quantity.to_string(),
+                unit: unit.to_string(),
+                rms: root_mean_square(&differences),
+                rms_inner: root_mean_square(&inside),
+                worst: largest(&differences),
+                means: both.map(|b| b.0),
+                deviations: both.map(|b| b.1),
+            }
+        })
+        .collect()
+}
+
+fn displacement(reference: &Reference, runs: &[&Run]) -> Option<f64> {
+    let solver: Vec<Vec<f64>> = runs.iter().map(|run| run.displacement.clone()).collect::<Option<_>>()?;
+    let (solver, dem) = (means(&solver), means(&reference.slices("displacement_x")));
+    let differences: Vec<f64> = solver.iter().zip(&dem).map(|(s, d)| s - d).collect();
+    let most = largest(&dem).abs();
+    // Where nothing moves by symmetry, a ratio says nothing.
+    (most > 1e-3).then(|| 100.0 * largest(&differences) / most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// A run that gives back the reference, `offset` warmer [K], with `factor` on the pressure.
+    fn echo(reference: &Reference, packing: usize, offset: f64, factor: f64) -> Run {
+        let times = reference.times();
+        let temperature = reference.temperature();
+        let pressure = &reference.series("pressure")[packing];
+        let column = |q: &str| reference_sub_regions(reference, q, false)[packing].clone();
+        let columns = COLUMNS.map(|q| if q == "T" || q == "pressure" { vec![0.0; 30] } else { column(q) });
+        Run {
+            temperature: (1..times.len())
+                .map(|k| {
+                    let [p1, p2, p3] = [0, 1, 2].map(|p| temperature[p][packing][k]);
+                    [times[k], p1 + offset, p2, p3]
+                })
+                .collect(),
+            pressure: (1..times.len()).map(|k| [times[k], factor * pressure[k]]).collect(),
+            sub_regions: (0..30).map(|k| columns.iter().map(|c| c[k]).collect()).collect(),
+            ..Run::default()
+        }
+    }
+
+    #[test]
+    fn the_reference_has_no_error_against_itself_and_an_offset_is_found() {
+        let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let reference = Reference::read(&checkout, "HC", &[1, 2]).unwrap();
+        let runs = [echo(&reference, 0, 2.0, 1.0), echo(&reference, 1, -1.0, 1.0)];
+        let found = errors(&reference, &runs.iter().collect::<Vec<_>>(), false).unwrap();
+        assert!((found.temperature[0] - 0.5).abs() < 1e-9, "{:?}", found.temperature);
+        assert!(found.temperature[1].abs() < 1e-9 && (found.largest_temperature() - 0.5).abs() < 1e-9);
+        assert!((found.temperature_of_seeds[1][0] + 1.0).abs() < 1e-9);
+        assert!(found.pressure.abs() < 1e-9 && found.field("stress_xx").unwrap().rms < 1e-9);
+        let short = Run { temperature: runs[0].temperature[..100].to_vec(), ..runs[0].clone() };
+        assert!(errors(&reference, &[&short, &runs[1]], false).is_none());
+    }
+}

@@ -1,0 +1,215 @@
+//! What the solver wrote into a case folder: series, sub-regions, the summary. With the function objects that the jobs of
+//! `msdd report` name: `spaceProbes`, `wallPressure`, `subRegions`, `columns`.
+
+use crate::ReferenceError;
+use msdd_files::{list, read_text};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Names of a job's own function objects begin so.
+pub const WATCH: &str = "watch";
+
+/// Columns of the sub-regions, in the order that the solver writes them. K in W/(m K), stress in Pa, compression positive.
+pub const COLUMNS: [&str; 8] = [
+    "T",
+    "porosity",
+    "fabric_index",
+    "conductivity_xx",
+    "conductivity_yy",
+    "stress_xx",
+    "stress_yy",
+    "pressure",
+];
+
+/// Results of a run of the solver.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// t [s], and T [K] at P1, P2, P3.
+    pub temperature: Vec<[f64; 4]>,
+    /// t [s], mean pressure [Pa].
+    pub pressure: Vec<[f64; 2]>,
+    /// A line a sub-region of 10 x 3, from the lower left, x first: [`COLUMNS`].
+    pub sub_regions: Vec<Vec<f64>>,
+    /// The same of ten slices along x.
+    pub columns: Vec<Vec<f64>>,
+    /// Displacement along x in ten slices [m]; with grains that move only.
+    pub displacement: Option<Vec<f64>>,
+    /// Displacement along x and y of the grains that started in each sub-region [m]; with grains that move only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Vec<[f64; 2]>>,
+    /// Lines of numbers of each function object that the job adds, by its name, which begins with [`WATCH`].
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub watched: BTreeMap<String, Vec<Vec<f64>>>,
+    pub cells: u64,
+    pub steps: u64,
+    pub rejected_steps: u64,
+    pub cell_queries: u64,
+    pub cell_steps: u64,
+    pub clamped_queries: u64,
+    /// Mean pressure [Pa] and porosity at the end.
+    pub end_pressure: f64,
+    pub end_porosity: f64,
+}
+
+/// Reads the results in a case folder; `mesh`: cells along x and y, by which displacements are averaged; `end_time` [s]: of the run.
+///
+/// # Errors
+/// [`ReferenceError::File`], [`ReferenceError::Read`] for a file that is missing or holds something else.
+pub fn read(folder: &Path, mesh: [usize; 2], end_time: f64) -> Result<Run, ReferenceError> {
+    let post = folder.join("postProcessing");
+    let summary = read_summary(&post.join("msddFoam/summary.json"))?;
+    let count = |key: &str| summary[key].as_u64().unwrap_or_default();
+    let end = |key: &str| summary["final"][key].as_f64().unwrap_or(f64::NAN);
+    let moved = displacement(folder, end_time)?;
+    let slices = |values: &Vec<Vec<f64>>| means_in(values, mesh, [10, 1]).iter().map(|u| u[0]).collect();
+    Ok(Run {
+        temperature: temperatures(folder)?,
+        pressure: numbers(&newest(&post.join("wallPressure"))?)?
+            .iter()
+            .filter_map(|row| row.get(..2)?.try_into().ok())
+            .collect(),
+        sub_regions: last_windows(&post.join("subRegions"), 30)?,
+        columns: last_windows(&post.join("columns"), 10)?,
+        displacement: moved.as_ref().map(slices),
+        moved: moved.as_ref().map(|values| means_in(values, mesh, [10, 3])),
+        watched: watched(&post)?,
+        cells: count("cells"),
+        steps: count("steps"),
+        rejected_steps: count("rejected_steps"),
+        cell_queries: count("cell_queries"),
+        cell_steps: count("cell_steps"),
+        clamped_queries: count("clamped_queries"),
+        end_pressure: end("pressure"),
+        end_porosity: end("porosity"),
+    })
+}
+
+/// Time [s] and T [K] at P1, P2, P3: the means in windows of 40 mm around the probes that `spaceProbes` writes.
+///
+/// # Errors
+/// As [`read`].
+pub fn temperatures(folder: &Path) -> Result<Vec<[f64; 4]>, ReferenceError> {
+    let rows = numbers(&newest(&folder.join("postProcessing/spaceProbes"))?)?;
+    Ok(rows.iter().filter_map(|row| row.get(..4)?.try_into().ok()).collect())
+}
+
+fn read_summary(file: &Path) -> Result<Value, ReferenceError> {
+    serde_json::from_str(&read_text(file)?)
+        .map_err(|error| ReferenceError::Read { file: file.to_path_buf(), problem: error.to_string() })
+}
+
+/// The one file of a function object: its only one of the first start time.
+fn newest(folder: &Path) -> Result<std::path::PathBuf, ReferenceError> {
+    let none = || ReferenceError::Read { file: folder.to_path_buf(), problem: "no file".to_string() };
+    let start = list(folder)?.into_iter().next().ok_or_else(none)?;
+    list(&start)?.into_iter().next().ok_or_else(none)
+}
+
+/// Lines of numbers; brackets and lines that begin with # are left out.
+fn numbers(file: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
+    let text = read_text(file)?;
+    let line = |line: &str| -> Result<Vec<f64>, ReferenceError> {
+        let parse = |word: &str| match word.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => Err(ReferenceError::Read {
+                file: file.to_path_buf(),
+                problem: format!("'{word}' in '{line}'"),
+            }),
+        };
+        line.replace(['(', ')'], " ").split_whitespace().map(parse).collect()
+    };
+    text.lines().filter(|l| !l.starts_with('#') && !l.trim().is_empty()).map(line).collect()
+}
+
+/// The last lines of a file of sub-regions, without time and place.
+fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReferenceError> {
+    let file = newest(folder)?;
+    let rows = numbers(&file)?;
+    let first = rows.len().checked_sub(count);
+    let rows =
+        first.map(|first| &rows[first..]).filter(|rows| rows.iter().all(|r| r.len() == 3 + COLUMNS.len()));
+    match rows {
+        Some(rows) => Ok(rows.iter().map(|row| row[3..].to_vec()).collect()),
+        None => Err(ReferenceError::Read {
+            file,
+            problem: format!("not {count} windows of {} columns", COLUMNS.len()),
+        }),
+    }
+}
+
+/// The displacement of the cells, x first [m], where the solver wrote it.
+fn displacement(folder: &Path, end: f64) -> Result<Option<Vec<Vec<f64>>>, ReferenceError> {
+    let file = folder.join(format!("{end}/D"));
+    if !file.exists() {
+        return Ok(None);
+    }
+    let wrong = |problem| ReferenceError::Read { file: file.clone(), problem };
+    nonuniform(&read_text(&file)?).map_err(wrong).map(Some)
+}
+
+/// Means of the first two components over `parts` of the mesh, which the grains carry along; 0 where no cell is.
+fn means_in(values: &[Vec<f64>], mesh: [usize; 2], parts: [usize; 2]) -> Vec<[f64; 2]> {
+    let [nx, ny] = mesh.map(|n| n.max(1));
+    let (mut sum, mut count) = (vec![[0.0; 2]; parts[0] * parts[1]], vec![0.0; parts[0] * parts[1]]);
+    for (k, value) in values.iter().enumerate() {
+        let part = parts[0] * (k % nx) / nx + parts[0] * (parts[1] * (k / nx) / ny);
+        (0..2).for_each(|c| sum[part][c] += value[c]);
+        count[part] += 1.0;
+    }
+    sum.iter().zip(count).map(|(s, n)| s.map(|u| u / f64::max(n, 1.0))).collect()
+}
+
+fn watched(post: &Path) -> Result<BTreeMap<String, Vec<Vec<f64>>>, ReferenceError> {
+    let mut found = BTreeMap::new();
+    for folder in list(post)? {
+        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if name.starts_with(WATCH) {
+            found.insert(name, numbers(&newest(&folder)?)?);
+        }
+    }
+    Ok(found)
+}
+
+/// The values of a `nonuniform List` of scalars, vectors or tensors.
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn nonuniform(text: &str) -> Result<Vec<Vec<f64>>, String> {
+    let start = text.find("nonuniform List<").ok_or("no nonuniform internalField")?;
+    let body = text[start..].split_once("\n(\n").ok_or("no list")?.1;
+    let body = body.split_once("\n)").ok_or("the list has no end")?.0;
+    body.lines()
+        .map(|line| {
+            let numbers = line.trim().trim_start_matches('(').trim_end_matches(')').split_whitespace();
+            numbers.map(|n| n.parse().map_err(|_| format!("'{line}' is not a number"))).collect()
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_a_series_are_read_and_others_refused() {
+        let folder = std::env::temp_dir().join(format!("msdd-reference-solver-{}", std::process::id()));
+        let file = folder.join("spaceProbes/0/T");
+        msdd_files::write(&file, b"# Time P1\n0.1 (1 2 3)\n0.2\t4\t5\t6\n").unwrap();
+        assert_eq!(numbers(&newest(&folder.join("spaceProbes")).unwrap()).unwrap()[1], [0.2, 4.0, 5.0, 6.0]);
+        msdd_files::write(&file, b"0.1 nan\n").unwrap();
+        assert!(numbers(&file).unwrap_err().to_string().contains("'nan'"));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn displacement_by_parts_of_the_mesh() {
+        // 20 x 6 cells: u_x the column, u_y the row
+        let values: Vec<Vec<f64>> =
+            (0..120).map(|k| vec![f64::from(k % 20), f64::from(k / 20), 0.0]).collect();
+        let parts = means_in(&values, [20, 6], [10, 3]);
+        assert_eq!((parts.len(), parts[0], parts[12]), (30, [0.5, 0.5], [4.5, 2.5]));
+        assert_eq!(means_in(&values[..20], [20, 1], [10, 1])[9], [18.5, 0.0]);
+    }
+}

@@ -1,0 +1,333 @@
+//! Figures as SVG, small enough to be read on a phone: lines and markers on axes, and maps of sub-regions. Colours are Okabe and
+//! Ito's; what differs in colour differs in marker or dash as well.
+
+mod grains;
+mod maps;
+
+pub use grains::{Grain, grains};
+pub use maps::maps;
+
+use crate::ReportError;
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
+use plotters::prelude::*;
+
+/// Width and height of a figure [px], before it is scaled to the page.
+pub const SIZE: (u32, u32) = (480, 330);
+const FONT: &str = "sans-serif";
+const COLOURS: [RGBColor; 8] = [
+    RGBColor(0, 0, 0),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 114, 178),
+    RGBColor(0, 158, 115),
+    RGBColor(150, 150, 150),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(230, 159, 0),
+];
+
+type Drawn = Result<(), Box<dyn std::error::Error>>;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Marker {
+    None,
+    Circle,
+    Square,
+    Triangle,
+    Diamond,
+    Cross,
+    Plus,
+    Down,
+    Star,
+}
+
+/// In the order of [`crate::plan::FAMILIES`].
+pub const MARKERS: [Marker; 9] = [
+    Marker::Circle,
+    Marker::Square,
+    Marker::Triangle,
+    Marker::Diamond,
+    Marker::Cross,
+    Marker::Down,
+    Marker::Plus,
+    Marker::Star,
+    Marker::Square,
+];
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Line {
+    None,
+    Solid,
+    Dashed,
+    Dotted,
+}
+
+/// How a series looks.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    /// Index, any number.
+    pub colour: usize,
+    pub marker: Marker,
+    pub line: Line,
+    pub hollow: bool,
+    /// Half the size of a marker [px].
+    pub size: i32,
+}
+
+impl Style {
+    pub fn line(colour: usize, line: Line) -> Self {
+        Self { colour, marker: Marker::None, line, hollow: false, size: 4 }
+    }
+    pub fn marker(colour: usize, marker: Marker) -> Self {
+        Self { colour, marker, line: Line::None, hollow: false, size: 4 }
+    }
+    fn rgb(self) -> RGBColor {
+        COLOURS[self.colour % COLOURS.len()]
+    }
+}
+
+pub struct Series {
+    pub points: Vec<(f64, f64)>,
+    /// Half the length of error bars along y; empty: none.
+    pub bars: Vec<f64>,
+    pub style: Style,
+}
+
+pub struct Axis<'a> {
+    /// With its unit.
+    pub label: &'a str,
+    pub log: bool,
+    /// None: from the points.
+    pub range: Option<(f64, f64)>,
+}
+
+impl Axis<'_> {
+    fn range(&self, values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+        if let Some((low, high)) = self.range {
+            return low..high;
+        }
+        let usable = values.filter(|v| v.is_finite() && (!self.log || *v > 0.0));
+        let (low, high) = usable.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        if low > high {
+            return if self.log { 0.1..10.0 } else { 0.0..1.0 };
+        }
+        if self.log {
+            return 0.7 * low..1.4 * high;
+        }
+        let margin = 0.05 * (high - low).max(1e-12 + 0.01 * high.abs());
+        low - margin..high + margin
+    }
+}
+
+/// Lines and markers. `title` says which panel of the figure this is.
+///
+/// # Errors
+/// [`ReportError::Draw`].
+pub fn plot(title: &str, x: &Axis, y: &Axis, series: &[Series]) -> Result<String, ReportError> {
+    let mut svg = String::new();
+    panel(&mut svg, title, x, y, series)
+        .map_err(|error| ReportError::Draw { figure: title.to_string(), problem: error.to_string() })?;
+    Ok(responsive(&svg, title))
+}
+
+fn panel(svg: &mut String, title: &str, x: &Axis, y: &Axis, series: &[Series]) -> Drawn {
+    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+    root.fill(&WHITE)?;
+    let xs = x.range(series.iter().flat_map(|s| s.points.iter().map(|p| p.0)));
+    let with_bars = |s: &Series| -> Vec<f64> {
+        let bar = |k: usize| s.bars.get(k).copied().unwrap_or(0.0);
+        s.points.iter().enumerate().flat_map(|(k, p)| [p.1 - bar(k), p.1 + bar(k)]).collect()
+    };
+    let ys = y.range(series.iter().flat_map(with_bars));
+    let mut builder = ChartBuilder::on(&root);
+    builder.caption(title, (FONT, 16)).margin(6).margin_right(18).x_label_area_size(42).y_label_area_size(58);
+    match (x.log, y.log) {
+        (false, false) => fill(builder.build_cartesian_2d(xs, ys)?, x, y, series)?,
+        (true, false) => fill(builder.build_cartesian_2d(xs.log_scale(), ys)?, x, y, series)?,
+        (false, true) => fill(builder.build_cartesian_2d(xs, ys.log_scale())?, x, y, series)?,
+        (true, true) => fill(builder.build_cartesian_2d(xs.log_scale(), ys.log_scale())?, x, y, series)?,
+    }
+    root.present()?;
+    Ok(())
+}
+
+fn number(value: f64) -> String {
+    match value.abs() {
+        v if v < 1e-12 => "0".to_string(),
+        v if !(1e-3..1e5).contains(&v) => format!("{value:.0e}"),
+        _ => format!("{}", (1e6 * value).round() / 1e6),
+    }
+}
+
+fn fill<X, Y>(
+    mut chart: ChartContext<SVGBackend, Cartesian2d<X, Y>>,
+    x: &Axis,
+    y: &Axis,
+    series: &[Series],
+) -> Drawn
+where
+    X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    chart
+        .configure_mesh()
+        .x_desc(x.label)
+        .y_desc(y.label)
+        .x_labels(7)
+        .y_labels(7)
+        .x_label_formatter(&|v| number(*v))
+        .y_label_formatter(&|v| number(*v))
+        .light_line_style(WHITE)
+        .bold_line_style(BLACK.mix(0.12))
+        .label_style((FONT, 13))
+        .axis_desc_style((FONT, 14))
+        .draw()?;
+    for one in series {
+        let style = one.style;
+        let stroke = style.rgb().stroke_width(2);
+        let points = one.points.iter().copied().filter(|p| p.0.is_finite() && p.1.is_finite());
+        match style.line {
+            Line::None => {}
+            Line::Solid => drop(chart.draw_series(LineSeries::new(points.clone(), stroke))?),
+            Line::Dashed => drop(chart.draw_series(DashedLineSeries::new(points.clone(), 8, 4, stroke))?),
+            Line::Dotted => drop(chart.draw_series(DashedLineSeries::new(points.clone(), 2, 3, stroke))?),
+        }
+        for ((px, py), bar) in one.points.iter().zip(&one.bars) {
+            let ends = vec![(*px, py - bar), (*px, py + bar)];
+            chart.draw_series([PathElement::new(ends, style.rgb().stroke_width(1))])?;
+        }
+        let area = chart.plotting_area();
+        for point in points {
+            for (outline, filled) in outlines(style) {
+                if filled {
+                    area.draw(&(EmptyElement::at(point) + Polygon::new(outline, style.rgb().filled())))?;
+                } else {
+                    area.draw(&(EmptyElement::at(point) + PathElement::new(outline, stroke)))?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Outlines of a marker around its place [px], and whether each is filled.
+fn outlines(style: Style) -> Vec<(Vec<(i32, i32)>, bool)> {
+    let s = style.size;
+    let d = (f64::from(s) * 0.8).round() as i32;
+    let closed = |points: &[(i32, i32)]| vec![([points, &points[..1]].concat(), !style.hollow)];
+    match style.marker {
+        Marker::None => Vec::new(),
+        Marker::Circle => {
+            let at = |k: i32| f64::from(k) * std::f64::consts::PI / 8.0;
+            let round = |v: f64| (f64::from(s) * v).round() as i32;
+            closed(&(0..16).map(|k| (round(at(k).cos()), round(at(k).sin()))).collect::<Vec<_>>())
+        }
+        Marker::Square => closed(&[(-d, -d), (d, -d), (d, d), (-d, d)]),
+        Marker::Triangle => closed(&[(-s, d), (0, -s), (s, d)]),
+        Marker::Down => closed(&[(-s, -d), (0, s), (s, -d)]),
+        Marker::Diamond => closed(&[(-s, 0), (0, -s), (s, 0), (0, s)]),
+        Marker::Cross => vec![(vec![(-d, -d), (d, d)], false), (vec![(-d, d), (d, -d)], false)],
+        Marker::Plus => vec![(vec![(-s, 0), (s, 0)], false), (vec![(0, -s), (0, s)], false)],
+        Marker::Star => {
+            vec![
+                (vec![(-s, 0), (s, 0)], false),
+                (vec![(-d, -d), (d, d)], false),
+                (vec![(-d, d), (d, -d)], false),
+            ]
+        }
+    }
+}
+
+/// A piece of line with its marker, for a legend beside the text.
+///
+/// # Errors
+/// [`ReportError::Draw`].
+pub fn key(style: Style) -> Result<String, ReportError> {
+    let mut svg = String::new();
+    let draw = |svg: &mut String| -> Drawn {
+        let root = SVGBackend::with_string(svg, (34, 14)).into_drawing_area();
+        let stroke = style.rgb().stroke_width(2);
+        let dash = |from: i32, to: i32| PathElement::new(vec![(from, 7), (to, 7)], stroke);
+        match style.line {
+            Line::None => {}
+            Line::Solid => root.draw(&dash(1, 33))?,
+            Line::Dashed => {
+                [(1, 9), (13, 21), (25, 33)].iter().try_for_each(|&(a, b)| root.draw(&dash(a, b)))?
+            }
+            Line::Dotted => (0..7).try_for_each(|k| root.draw(&dash(1 + 5 * k, 3 + 5 * k)))?,
+        }
+        marker_at(&root, style, (17, 7))?;
+        root.present()?;
+        Ok(())
+    };
+    draw(&mut svg)
+        .map_err(|error| ReportError::Draw { figure: "a legend".to_string(), problem: error.to_string() })?;
+    Ok(svg.lines().filter(|line| !line.starts_with("<?xml")).collect::<Vec<_>>().join(""))
+}
+
+fn marker_at(root: &DrawingArea<SVGBackend, Shift>, style: Style, (x, y): (i32, i32)) -> Drawn {
+    for (outline, filled) in outlines(style) {
+        let outline: Vec<(i32, i32)> = outline.into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
+        if filled {
+            root.draw(&Polygon::new(outline, style.rgb().filled()))?;
+        } else {
+            root.draw(&PathElement::new(outline, style.rgb().stroke_width(2)))?;
+        }
+    }
+    Ok(())
+}
+
+/// Points without bars of deviation.
+pub fn series(points: Vec<(f64, f64)>, style: Style) -> Series {
+    Series { points, bars: Vec::new(), style }
+}
+
+/// An axis whose range is that of the data.
+pub fn from_data(label: &str, log: bool) -> Axis<'_> {
+    Axis { label, log, range: None }
+}
+
+/// Text as HTML and SVG hold it.
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// The SVG for a page: as wide as its place, with a name for those who hear it.
+fn responsive(svg: &str, title: &str) -> String {
+    let body: Vec<&str> = svg.lines().filter(|line| !line.starts_with("<?xml")).collect();
+    let body = body.join("\n");
+    let Some((head, rest)) = body.split_once('>') else { return body };
+    let view = head.split("viewBox=").nth(1).map_or("", |v| v.split('"').nth(1).unwrap_or(""));
+    let title = escape(title);
+    format!(
+        "<svg viewBox=\"{view}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{title}\">{rest}\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const X: Axis = Axis { label: "cost [core-s]", log: true, range: None };
+    const Y: Axis = Axis { label: "error [%]", log: true, range: None };
+
+    #[test]
+    fn a_plot_holds_its_labels_and_scales() {
+        let series = [Series {
+            points: vec![(0.1, 5.0), (100.0, 0.5)],
+            bars: Vec::new(),
+            style: Style::marker(1, Marker::Circle),
+        }];
+        let svg = plot("case H", &X, &Y, &series).unwrap();
+        for text in ["cost [core-s]", "error [%]", "case H", "viewBox=\"0 0 480 330\""] {
+            assert!(svg.contains(text), "{text}");
+        }
+        assert_eq!(svg.matches("#D55E00").count(), 2, "two markers");
+        assert!(!svg.contains("width=\"480\" height=\"330\" viewBox"), "scales with the page");
+    }
+
+    #[test]
+    fn an_empty_plot_is_drawn() {
+        assert!(plot("none", &X, &Axis { log: false, ..Y }, &[]).unwrap().contains("</svg>"));
+    }
+}

@@ -1,0 +1,321 @@
+//! Runs one job. It always ends, within its time limit, in an outcome.
+
+use super::setup;
+use crate::jobs::job::{Job, SolverJob, ToolJob};
+use crate::{ReportError, read_text, write_text};
+use msdd_reference::solver;
+use msdd_reference::solver::Run;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    Done,
+    /// Ended with an error before the first step.
+    Refused,
+    /// Ended with an error later.
+    Failed,
+    /// Stopped at its limit of processor time; or, on a busy machine, at [`PATIENCE`] times as much wall time.
+    TimedOut,
+    /// Not asked to run.
+    NotRun,
+}
+
+impl Record {
+    /// Whether another run would end alike: not when a busy machine kept the job from its processor time.
+    pub fn is_settled(&self) -> bool {
+        self.outcome != Outcome::TimedOut || self.cpu_seconds >= 0.9 * self.job.limit() as f64
+    }
+}
+
+impl Outcome {
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Done => "done",
+            Self::Refused => "refused",
+            Self::Failed => "failed",
+            Self::TimedOut => "timed out",
+            Self::NotRun => "not run",
+        }
+    }
+}
+
+/// When and where a job ran.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stamp {
+    /// UTC.
+    pub date: String,
+    /// Of the checkout, with a + when files differed from it.
+    pub commit: String,
+    pub cpu: String,
+}
+
+/// A job and what came out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    pub job: Job,
+    pub outcome: Outcome,
+    /// Why, unless done; of a solver run that is done, its first warning.
+    pub message: String,
+    /// Processor time of the program alone, user and system [s].
+    pub cpu_seconds: f64,
+    pub wall_seconds: f64,
+    pub run: Option<Run>,
+    /// What a tool printed, and the file that was asked for.
+    pub printed: String,
+    pub file: Option<String>,
+    pub stamp: Stamp,
+    /// Taken from the cache; not part of the file.
+    #[serde(skip)]
+    pub cached: bool,
+}
+
+/// Where jobs run.
+#[derive(Clone, Debug)]
+pub struct Place {
+    pub checkout: PathBuf,
+    /// The `msdd` that tools are run with.
+    pub msdd: PathBuf,
+    /// Folders of running jobs.
+    pub work: PathBuf,
+    pub stamp: Stamp,
+}
+
+/// Between the arguments of two commands of one job, the second of which needs what the first wrote.
+pub const THEN: &str = "THEN";
+/// Characters of a message that are kept.
+const MESSAGE: usize = 400;
+
+/// Runs `job` in a folder of its own, which is removed afterwards.
+///
+/// # Errors
+/// Only what says nothing about the job: files that cannot be written, a shell that cannot be started.
+pub fn execute(place: &Place, job: &Job, name: &str) -> Result<Record, ReportError> {
+    let folder = place.work.join(format!("{name}.{}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    let record = match job {
+        Job::Solver(solver) => run_solver(place, job, solver, &folder),
+        Job::Tool(tool) => run_tool(place, job, tool, &folder),
+    };
+    let _ = std::fs::remove_dir_all(&folder);
+    // Where it ran says nothing.
+    let inside = format!("{}/", folder.display());
+    record.map(|record| Record { message: record.message.replace(&inside, ""), ..record })
+}
+
+/// Removes the folders of runs that were killed.
+pub fn sweep(work: &Path) {
+    for folder in msdd_files::list(work).unwrap_or_default() {
+        let process = folder.extension().map(|id| Path::new("/proc").join(id));
+        if process.is_some_and(|process| !process.exists()) {
+            let _ = std::fs::remove_dir_all(&folder);
+        }
+    }
+}
+
+struct Ended {
+    code: i32,
+    cpu: f64,
+    wall: f64,
+}
+
+/// On a busy machine a job may take this many times its limit of processor time.
+const PATIENCE: u64 = 6;
+
+/// Runs `preparation`, then `program` with its processor time taken, in `folder`; output in `log`. Status 97: preparation failed.
+/// The limit is processor time, so that the outcome does not depend on what else the machine does.
+fn timed(
+    place: &Place,
+    folder: &Path,
+    preparation: &str,
+    program: &str,
+    limit: u64,
+) -> Result<Ended, ReportError> {
+    let script = format!(
+        ". '{}/scripts/foam-env' && cd '{}' && {{ {preparation}; }} || exit 97\n\
+         ulimit -t {limit}\n\
+         TIMEFORMAT='%U %S'\n\
+         {{ time timeout --kill-after=5 {wall} {program} > log 2>&1; }} 2> cpu\n\
+         exit $?", // as the last command of all bash would replace itself by it, and take no time
+        place.checkout.display(),
+        folder.display(),
+        wall = PATIENCE * limit,
+    );
+    let began = Instant::now();
+    let status = Command::new("bash")
+        .args(["-c", &script])
+        .stdin(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .status()
+        .map_err(|error| ReportError::Start { program: "bash".to_string(), problem: error.to_string() })?;
+    let cpu = read_text(&folder.join("cpu")).unwrap_or_default();
+    // The last line: above it bash may tell which signal ended the program.
+    let cpu = cpu.lines().last().unwrap_or_default();
+    let cpu = cpu.split_whitespace().filter_map(|word| word.parse::<f64>().ok()).sum();
+    Ok(Ended { code: status.code().unwrap_or(137), cpu, wall: began.elapsed().as_secs_f64() })
+}
+
+/// Ended by `timeout` (124), killed (128 + 9) or out of processor time (128 + 24).
+fn timed_out(code: i32) -> bool {
+    [124, 137, 152].contains(&code)
+}
+
+fn record(place: &Place, job: &Job, ended: &Ended, outcome: Outcome, message: String) -> Record {
+    Record {
+        job: job.clone(),
+        outcome,
+        message,
+        cpu_seconds: ended.cpu,
+        wall_seconds: ended.wall,
+        run: None,
+        printed: String::new(),
+        file: None,
+        stamp: place.stamp.clone(),
+        cached: false,
+    }
+}
+
+fn run_solver(place: &Place, job: &Job, asked: &SolverJob, folder: &Path) -> Result<Record, ReportError> {
+    setup::write_case(&place.checkout, asked, folder)?;
+    let preparation = setup::preparation(&place.checkout, asked);
+    let ended = timed(place, folder, &preparation, "msddFoam", asked.limit)?;
+    let log = read_text(&folder.join("log")).unwrap_or_default();
+    if ended.code == 97 {
+        let log = read_text(&folder.join("log.blockMesh")).unwrap_or_default();
+        return Ok(record(place, job, &ended, Outcome::Refused, format!("blockMesh: {}", fatal(&log))));
+    }
+    if timed_out(ended.code) {
+        let message = format!("stopped after {} s at t = {} s", asked.limit, last_time(&log));
+        return Ok(record(place, job, &ended, Outcome::TimedOut, message));
+    }
+    let begun = log.contains("\nTime = ");
+    if ended.code != 0 {
+        let outcome = if begun { Outcome::Failed } else { Outcome::Refused };
+        let at = if begun { format!(" (t = {} s)", last_time(&log)) } else { String::new() };
+        return Ok(record(place, job, &ended, outcome, fatal(&log) + &at));
+    }
+    match solver::read(folder, asked.mesh, asked.end) {
+        Ok(run) => {
+            let mut record = record(place, job, &ended, Outcome::Done, warning(&log));
+            record.run = Some(run);
+            Ok(record)
+        }
+        Err(error) => {
+            let text = error.to_string().replace(&folder.display().to_string(), "");
+            Ok(record(place, job, &ended, Outcome::Failed, text))
+        }
+    }
+}
+
+fn run_tool(place: &Place, job: &Job, tool: &ToolJob, folder: &Path) -> Result<Record, ReportError> {
+    write_text(&folder.join("log"), "")?;
+    let log = folder.join("log");
+    let work = folder.display().to_string();
+    let command = |arguments: &[String]| {
+        let quoted: Vec<String> =
+            arguments.iter().map(|a| format!("'{}'", a.replace("WORK", &work))).collect();
+        format!("'{}' {}", place.msdd.display(), quoted.join(" "))
+    };
+    let commands: Vec<String> = tool.arguments.split(|a| a == THEN).map(command).collect();
+    // Tools take paths relative to the checkout.
+    let script = format!("sh -c \"cd '{}' && {}\"", place.checkout.display(), commands.join(" && "));
+    let ended = timed(place, folder, "true", &script, tool.limit)?;
+    let printed = read_text(&log).unwrap_or_default();
+    let outcome = match ended.code {
+        0 => Outcome::Done,
+        code if timed_out(code) => Outcome::TimedOut,
+        _ => Outcome::Failed,
+    };
+    let message = if outcome == Outcome::Done { String::new() } else { tail(&printed) };
+    let mut record = record(place, job, &ended, outcome, message);
+    record.printed = printed;
+    record.file = tool.output.as_ref().and_then(|name| read_text(&folder.join(name)).ok());
+    Ok(record)
+}
+
+fn short(text: &str) -> String {
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    text.chars().take(MESSAGE).collect()
+}
+
+fn tail(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+    short(&lines[lines.len().saturating_sub(3)..].join(" "))
+}
+
+/// The message of OpenFOAM's fatal error, without its frame; else the last lines.
+fn fatal(log: &str) -> String {
+    let Some(at) = log.find("FOAM FATAL") else { return tail(log) };
+    let body: Vec<&str> = log[at..]
+        .lines()
+        .skip(1)
+        .take_while(|line| {
+            !["From ", "file: ", "FOAM exiting"].iter().any(|end| line.trim_start().starts_with(end))
+        })
+        .collect();
+    short(&body.join(" "))
+}
+
+/// The first warning of a run, without its frame.
+fn warning(log: &str) -> String {
+    let Some((_, rest)) = log.split_once("FOAM Warning :") else { return String::new() };
+    let frame = |line: &&str| ["From ", "in file"].iter().any(|begin| line.trim_start().starts_with(begin));
+    let over =
+        |line: &str| line.trim().is_empty() || line.starts_with("DICPCG") || line.starts_with("Time = ");
+    let lines = rest.lines().enumerate().take_while(|(k, line)| *k < 1 || !over(line));
+    short(&lines.map(|(_, line)| line).filter(|line| !frame(line)).collect::<Vec<_>>().join(" "))
+}
+
+fn last_time(log: &str) -> &str {
+    log.rsplit("\nTime = ")
+        .next()
+        .filter(|_| log.contains("\nTime = "))
+        .map_or("0", |rest| rest.lines().next().unwrap_or("0"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place() -> Place {
+        let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap();
+        let work = std::env::temp_dir().join(format!("msdd-report-execute-{}", std::process::id()));
+        Place { checkout, msdd: PathBuf::from("/bin/sh"), work, stamp: Stamp::default() }
+    }
+
+    fn shell(text: &str, limit: u64) -> Job {
+        let arguments = ["-c", text].map(str::to_string).to_vec();
+        Job::Tool(ToolJob { arguments, inputs: Vec::new(), output: Some("kept".to_string()), limit })
+    }
+
+    #[test]
+    fn a_job_ends_in_an_outcome() {
+        let done = execute(&place(), &shell("echo said; echo text > WORK/kept", 60), "done").unwrap();
+        assert_eq!(
+            (done.outcome, done.printed.as_str(), done.file.as_deref()),
+            (Outcome::Done, "said\n", Some("text\n"))
+        );
+        let failed = execute(&place(), &shell("echo msdd: no such file; exit 3", 60), "failed").unwrap();
+        assert_eq!((failed.outcome, failed.message.as_str()), (Outcome::Failed, "msdd: no such file"));
+        let endless = execute(&place(), &shell("while true; do true; done", 1), "endless").unwrap();
+        assert_eq!(endless.outcome, Outcome::TimedOut);
+        assert!(endless.is_settled() && !msdd_files::list(&place().work).unwrap().iter().any(|f| f.is_dir()));
+        std::fs::remove_dir_all(place().work).unwrap();
+    }
+
+    #[test]
+    fn the_fatal_message_is_taken_from_its_frame() {
+        let log = "Time = 3\n\n--> FOAM FATAL ERROR: \nporosity is 0.05,\nallowed: 0.06\n\n    From void f()\nFOAM exiting\n";
+        assert_eq!(fatal(log), "porosity is 0.05, allowed: 0.06");
+        let warned =
+            "x\n--> FOAM Warning : \n    From void f()\n    in file f.C at line 3\n    too hot\n\nTime = 4\n";
+        assert_eq!(warning(warned), "too hot");
+        assert_eq!(warning("--> FOAM Warning : too cold\n\nTime = 4\n"), "too cold");
+        assert_eq!(fatal("a\nb\n\nc\nd\n"), "b c d");
+        assert_eq!(last_time("\nTime = 0.1\n\nTime = 0.2\nx"), "0.2");
+        assert_eq!(last_time("nothing"), "0");
+    }
+}

@@ -1,0 +1,178 @@
+//! One configuration to run. A job holds all that decides its result but the files that the cache hashes beside it.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Cells along x and y of the shipped cases.
+pub const MESH: [usize; 2] = [100, 30];
+/// Width and height of the box of the cases [m] (Fig. 7).
+pub const BOX: [f64; 2] = [2.15, 0.645];
+/// Where T is compared [m] (Fig. 7).
+pub const PROBES: [[f64; 2]; 3] = [[0.3225, 0.3225], [1.075, 0.3225], [1.8275, 0.3225]];
+
+/// How much of the box is computed; the cut is a plane of symmetry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Part {
+    Whole,
+    /// x up to the middle.
+    Half,
+    /// x and y up to the middle.
+    Quarter,
+    /// The box of a case that brings its own: mesh, fields and probes as shipped.
+    Shipped,
+}
+
+impl Part {
+    /// Width and height of what is computed of the box of the cases [m].
+    pub fn size(self) -> [f64; 2] {
+        match self {
+            Self::Whole | Self::Shipped => BOX,
+            Self::Half => [0.5 * BOX[0], BOX[1]],
+            Self::Quarter => [0.5 * BOX[0], 0.5 * BOX[1]],
+        }
+    }
+
+    /// The probes inside, P3 at its mirror image P1; a hair inside of the planes of symmetry.
+    pub fn probes(self) -> [[f64; 2]; 3] {
+        let inside = |[x, y]: [f64; 2]| {
+            let size = self.size();
+            [x.min((1.0 - 1e-5) * size[0]), y.min((1.0 - 1e-5) * size[1])]
+        };
+        match self {
+            Self::Whole | Self::Shipped => PROBES,
+            _ => [inside(PROBES[0]), inside(PROBES[1]), inside(PROBES[0])],
+        }
+    }
+}
+
+/// A run of `msddFoam`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SolverJob {
+    /// Folder in `cases`.
+    pub case: String,
+    /// Packing whose windows are the initial fields.
+    pub seed: u32,
+    pub mesh: [usize; 2],
+    pub part: Part,
+    /// Porosity and fabric index everywhere, instead of the packing's windows.
+    pub uniform: Option<[f64; 2]>,
+    /// Text at the end of files of the case: OpenFOAM merges dictionaries, the last value counts.
+    pub append: BTreeMap<String, String>,
+    /// End [s].
+    pub end: f64,
+    /// C source of a plug-in, relative to the checkout, which the case finds as `plugin.so`.
+    pub plugin: Option<String>,
+    /// The ends of the box lean over by this angle to the right [degrees]; its height stays.
+    pub slant: f64,
+    /// Processor time after which it is stopped [s].
+    pub limit: u64,
+}
+
+impl SolverJob {
+    /// The shipped case with steps of 10 ms.
+    pub fn new(case: &str, seed: u32) -> Self {
+        let job = Self {
+            case: case.to_string(),
+            seed,
+            mesh: MESH,
+            part: Part::Whole,
+            uniform: None,
+            append: BTreeMap::new(),
+            end: 20.0,
+            plugin: None,
+            slant: 0.0,
+            limit: 600,
+        };
+        job.control("deltaT 1e-2;")
+    }
+
+    /// The first packing on few cells, which is enough to see a method break.
+    pub fn coarse(case: &str) -> Self {
+        Self { mesh: [25, 8], limit: 120, ..Self::new(case, 1) }
+    }
+
+    /// `text` at the end of `file`.
+    pub fn with(mut self, file: &str, text: &str) -> Self {
+        let entry = self.append.entry(file.to_string()).or_default();
+        entry.push_str(text);
+        entry.push('\n');
+        self
+    }
+    pub fn control(self, text: &str) -> Self {
+        self.with("system/controlDict", text)
+    }
+    pub fn solution(self, text: &str) -> Self {
+        self.with("system/fvSolution", text)
+    }
+    pub fn grains(self, text: &str) -> Self {
+        self.with("constant/granularProperties", text)
+    }
+    pub fn temperature(self, text: &str) -> Self {
+        self.with("0/T", text)
+    }
+}
+
+/// A program of this project, by its output.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ToolJob {
+    /// Arguments of `msdd`; `WORK` stands for the folder of the job.
+    pub arguments: Vec<String>,
+    /// Files and folders, relative to the checkout, that decide the result beside the arguments.
+    pub inputs: Vec<String>,
+    /// File in `WORK` whose text is kept.
+    pub output: Option<String>,
+    pub limit: u64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Job {
+    Solver(SolverJob),
+    Tool(ToolJob),
+}
+
+impl Job {
+    /// Short, for the progress line.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Solver(job) => format!("{} seed {} on {}x{}", job.case, job.seed, job.mesh[0], job.mesh[1]),
+            Self::Tool(job) => {
+                format!("msdd {}", job.arguments.iter().take(2).cloned().collect::<Vec<_>>().join(" "))
+            }
+        }
+    }
+
+    pub fn limit(&self) -> u64 {
+        match self {
+            Self::Solver(job) => job.limit,
+            Self::Tool(job) => job.limit,
+        }
+    }
+}
+
+impl From<SolverJob> for Job {
+    fn from(job: SolverJob) -> Self {
+        Self::Solver(job)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn probes_of_a_part_lie_inside_of_it() {
+        for part in [Part::Whole, Part::Half, Part::Quarter] {
+            let size = part.size();
+            for [x, y] in part.probes() {
+                assert!(x < size[0] && y < size[1], "{part:?} {x} {y}");
+            }
+        }
+        assert_eq!(Part::Half.probes()[2], PROBES[0]);
+    }
+
+    #[test]
+    fn keys_are_appended_in_the_order_given() {
+        let job = SolverJob::new("H", 1).control("endTime 1;");
+        assert_eq!(job.append["system/controlDict"], "deltaT 1e-2;\nendTime 1;\n");
+    }
+}

@@ -1,0 +1,17 @@
+//! Jobs: runs of the solver or of `msdd` in folders of their own, within a time limit, with a cache of their results.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`job`] | one configuration to run: a case of the solver, or a program |
+//! | [`grid`] | initial fields of the reference on other meshes |
+//! | [`setup`] | the case folder of a job |
+//! | [`execute`] | runs a job; what came out |
+//! | [`cache`] | results of jobs by the hash of what decides them |
+//! | [`pool`] | runs many jobs, some at a time |
+
+pub mod cache;
+pub mod execute;
+pub mod grid;
+pub mod job;
+pub mod pool;
+pub mod setup;

@@ -1,0 +1,110 @@
+//! Runs many jobs, some at a time, from the cache where it has them.
+
+use crate::ReportError;
+use crate::jobs::cache::Cache;
+use crate::jobs::execute::{Place, Record, execute};
+use crate::jobs::job::Job;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// Results by the job's key.
+pub type Records = BTreeMap<String, Record>;
+
+/// How far a set of jobs is.
+pub struct Progress<'a> {
+    pub done: usize,
+    pub total: usize,
+    /// Processor-independent guess of what is done and of all [s].
+    pub work: [f64; 2],
+    /// Of jobs that ran now.
+    pub elapsed: f64,
+    pub last: &'a str,
+}
+
+/// A job and a guess of its wall time [s], which serves the time left only.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    pub job: Job,
+    pub guess: f64,
+}
+
+/// What the cache has of the jobs.
+///
+/// # Errors
+/// [`ReportError::Read`] for a file of a job that is missing; [`ReportError::Empty`] when the cache has nothing.
+pub fn found(cache: &Cache, jobs: &[Asked]) -> Result<Records, ReportError> {
+    let mut records = Records::new();
+    for asked in jobs {
+        let key = cache.key(&asked.job)?;
+        if let Some(record) = cache.get(&key) {
+            records.insert(key, record);
+        }
+    }
+    match records.is_empty() {
+        true => Err(ReportError::Empty { cache: cache.folder().to_path_buf() }),
+        false => Ok(records),
+    }
+}
+
+/// Runs the jobs that the cache does not have, `at_a_time`; each once.
+///
+/// # Errors
+/// The first error that is none of a job: jobs under way are finished first.
+pub fn run(
+    cache: &Cache,
+    place: &Place,
+    jobs: &[Asked],
+    at_a_time: usize,
+    watch: &mut (dyn FnMut(&Progress) + Send),
+) -> Result<Records, ReportError> {
+    let mut records = Records::new();
+    let mut waiting = Vec::new();
+    let mut seen = BTreeSet::new();
+    for asked in jobs {
+        let key = cache.key(&asked.job)?;
+        if !seen.insert(key.clone()) {
+            continue;
+        }
+        match cache.get(&key) {
+            Some(record) => drop(records.insert(key, record)),
+            None => waiting.push((key, asked)),
+        }
+    }
+    let total = seen.len();
+    let all: f64 = waiting.iter().map(|(_, asked)| asked.guess).sum();
+    let began = Instant::now();
+    let next = AtomicUsize::new(0);
+    let state = Mutex::new((records, 0.0, None, watch));
+    let worker = || {
+        while let Some((key, asked)) = waiting.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let result = execute(place, &asked.job, &key[..16]).and_then(|record| {
+                if record.is_settled() { cache.put(key, &record).map(|()| record) } else { Ok(record) }
+            });
+            let Ok(mut state) = state.lock() else { return };
+            let (records, work, failed, watch) = &mut *state;
+            match result {
+                Ok(record) => drop(records.insert(key.clone(), record)),
+                Err(error) => {
+                    failed.get_or_insert(error);
+                    next.store(waiting.len(), Ordering::Relaxed);
+                }
+            }
+            *work += asked.guess;
+            watch(&Progress {
+                done: records.len(),
+                total,
+                work: [*work, all],
+                elapsed: began.elapsed().as_secs_f64(),
+                last: &asked.job.name(),
+            });
+        }
+    };
+    std::thread::scope(|scope| (0..at_a_time).for_each(|_| drop(scope.spawn(worker))));
+    let (records, _, failed, _) = match state.into_inner() {
+        Ok(state) => state,
+        Err(poisoned) => poisoned.into_inner(),
+    };
+    failed.map_or(Ok(records), Err)
+}
