@@ -9,6 +9,8 @@ pub enum CliError {
     #[error("cannot write to standard output: {0}")]
     Output(String),
     #[error(transparent)]
+    Case(#[from] msdd_case::CaseError),
+    #[error(transparent)]
     Database(#[from] msdd_rve::database::DatabaseError),
     #[error(transparent)]
     Reference(#[from] msdd_reference::ReferenceError),

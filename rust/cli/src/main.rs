@@ -6,6 +6,7 @@ mod output;
 
 mod ablation;
 mod bench;
+mod case;
 mod database;
 mod draw;
 mod error;
@@ -43,6 +44,9 @@ struct Program {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Begin a case of your own, or check one before it runs.
+    #[command(subcommand)]
+    Case(case::Command),
     /// Generate and export databases of packed and expanded RVEs.
     #[command(subcommand)]
     Database(database::Command),
@@ -71,6 +75,7 @@ fn main() -> ExitCode {
     // A reader that closes the pipe, such as head, ends the program instead of making it panic.
     sigpipe::reset();
     let result = match Program::parse().command {
+        Command::Case(command) => case::run(&command),
         Command::Database(command) => database::run(&command),
         Command::Rve(command) => rve::run(&command),
         Command::Reference(command) => reference::run(&command),

@@ -28,6 +28,11 @@ pub fn print(text: Arguments) {
     keep(io::stdout().lock().write_fmt(text));
 }
 
+/// Shows what was printed so far, before an answer is waited for.
+pub fn flush() {
+    keep(io::stdout().flush());
+}
+
 pub fn note(text: Arguments) {
     // There is no other place to complain at.
     let _ = writeln!(io::stderr(), "{text}");

@@ -36,6 +36,7 @@ impl Progress {
             if done == first {
                 bar.reset_eta();
             }
+            bar.set_length(total);
             bar.set_position(done);
             bar.set_message(format!("{} {note}", self.what));
             return;

@@ -46,7 +46,9 @@ fn every_key_that_is_looked_up_is_in_the_book() {
     let missing: Vec<String> = solver::lookups()
         .into_iter()
         .filter(|(_, key)| !known.contains(key) && !solver::NO_KEYS.iter().any(|(name, _)| name == key))
-        .map(|(file, key)| format!("{file} reads '{key}', which no table of docs/src/reference has"))
+        .map(|(file, key)| {
+            format!("docs/src/{}: `{key}`, which {file} reads, stands in no table", solver::page_of(&file))
+        })
         .collect();
     assert!(missing.is_empty(), "{}", missing.join("\n"));
 }

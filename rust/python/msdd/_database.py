@@ -6,7 +6,11 @@ import csv
 import ctypes as c
 import json
 import os
+import signal
 import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Callable, Optional, Union
 
@@ -37,17 +41,33 @@ def generate_database(
 
     def hear(_: Optional[int], done: int, total: int, failed: int) -> int:
         try:
-            if progress is not None:
+            if progress is not None and not raised:
                 progress(done, total, failed)
-        except BaseException as error:  # KeyboardInterrupt, too: nothing may pass through the library
+        except BaseException as error:  # nothing may pass through the library
             raised.append(error)
         return len(raised)
 
     arguments = encoded("plan", text), encoded("database", database), _threads(threads)
-    status = library.msdd_database_generate(*arguments, Progress(hear), None)
+    with _interrupts_kept(raised):
+        status = library.msdd_database_generate(*arguments, Progress(hear), None)
     if raised:
         raise raised[0]
     check(status)
+
+
+@contextmanager
+def _interrupts_kept(raised: list[BaseException]) -> Iterator[None]:
+    """Ctrl-C is put into the list. Python would raise it when a function begins that the library calls, where nothing can
+    catch it, and it would be lost."""
+    main = threading.current_thread() is threading.main_thread()
+    if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield
+        return
+    signal.signal(signal.SIGINT, lambda *_: raised.append(KeyboardInterrupt()))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _threads(threads: int) -> int:
@@ -98,8 +118,9 @@ def _stem(path: Path) -> Optional[str]:
 def _read_csv(path: Path) -> pandas.DataFrame:
     import pandas
 
-    # The default of pandas rounds some numbers in the last bit.
-    frame = pandas.read_csv(path, float_precision="round_trip", low_memory=False)
+    # Up to 3.0, pandas rounds every fourth number in the last bit unless told not to; later it warns of being told.
+    old = tuple(map(int, pandas.__version__.split(".")[:2])) < (3, 1)
+    frame = pandas.read_csv(path, low_memory=False, **({"float_precision": "round_trip"} if old else {}))
     with open(path.with_name(f"{_stem(path)}.columns.csv"), newline="", encoding="utf-8") as file:
         columns = list(csv.DictReader(file))
     frame.attrs["units"] = {column["name"]: column["unit"] for column in columns}

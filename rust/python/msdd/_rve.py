@@ -205,7 +205,7 @@ def pack(
         or "sheared" (along x, while those of y open an eighth as fast).
     boundary: "walls" or "periodic". radius_min, radius_max: of the grains [m], evenly spread between.
     relaxation: how grains come to rest, "damped" or "fire" (fast inertial relaxation engine). grains: None = Grains().
-    Takes about half a second for 500 grains. Raises InvalidArgument, RveError.
+    Raises InvalidArgument, RveError.
     """
     specification = {
         "discs": discs,

@@ -101,6 +101,16 @@ class Meshes(WithCase):
             # Centroid of a triangle is the mean of its corners.
             np.testing.assert_allclose(mesh.centres, [[0.5, 0.5, 0.5], [5 / 3, 1 / 3, 0.5]], rtol=1e-14)
 
+    def test_a_frustum(self) -> None:
+        # Of a square pyramid, 2 wide at the bottom, 1 at the top, 1 high: its sides are trapezoids, and their centres are
+        # not the means of their corners.
+        points = [[x, y, 0] for y in (0, 2) for x in (0, 2)] + [[x, y, 1] for y in (0.5, 1.5) for x in (0.5, 1.5)]
+        faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+        write_mesh(self.case, np.array(points, np.float64), faces, [0] * 6, [])
+        mesh = msdd.read_mesh(self.case)
+        np.testing.assert_allclose(mesh.volumes, [7 / 3], rtol=1e-14)
+        np.testing.assert_allclose(mesh.centres, [[1, 1, 11 / 28]], rtol=1e-14)
+
     def test_meshes_that_are_none(self) -> None:
         self.refused("points", msdd.read_mesh, self.case)
         points, faces, owner, neighbour = two_cells()

@@ -1,8 +1,12 @@
 """Databases: made, stopped and gone on with, exported, opened as a data frame."""
 
+import csv as csv_module
 import gzip
+import os
+import signal
 import sys
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -42,7 +46,11 @@ class Databases(unittest.TestCase):
         self.assertEqual(msdd.export_database(self.database, csv), len(frame))
         self.assertTrue(msdd.read_database(str(csv)).equals(frame))
         with gzip.open(csv, "rt") as file:
-            self.assertEqual(list(frame.columns), file.readline().strip().split(","))
+            rows = list(csv_module.DictReader(file))
+        self.assertEqual(list(frame.columns), list(rows[0]))
+        # To the last bit, which pandas does not do by itself.
+        for name in ("porosity", "pressure", "conductivity_network_xx"):
+            self.assertEqual(list(frame[name]), [float(row[name]) for row in rows])
         self.assertEqual(set(frame.attrs["units"]), set(frame.columns))
         self.assertEqual(frame.attrs["units"]["pressure"], "Pa")
         self.assertIn("plan", frame.attrs["provenance"])
@@ -62,6 +70,23 @@ class Databases(unittest.TestCase):
         msdd.generate_database(self.plan, self.database, progress=lambda done, *_: heard.append(done))
         self.assertGreaterEqual(heard[0], 2)
         self.assertEqual(heard[-1], 4)
+
+    def test_interrupted_by_the_keyboard(self) -> None:
+        self.plan.write_text(PLAN.replace("repeats = 2", "repeats = 1000"))  # a minute or so
+        threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            msdd.generate_database(self.plan, self.database)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+
+        class Enough(Exception):
+            pass
+
+        def enough(done: int, total: int, failed: int) -> None:
+            raise Enough(done, total)
+
+        with self.assertRaises(Enough) as stopped:
+            msdd.generate_database(self.plan, self.database, progress=enough)
+        self.assertLess(*stopped.exception.args)
 
     def test_mistakes(self) -> None:
         with self.assertRaises(FileNotFoundError):

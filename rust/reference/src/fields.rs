@@ -2,11 +2,11 @@
 
 use crate::ReferenceError;
 use crate::observe::{MARGIN, shear_stress};
+use msdd_case::fields::{FieldKind, list};
 use msdd_dem::Simulation;
 use msdd_rve::window::crop;
 use msdd_rve::{Averages, window_around};
 use rayon::prelude::*;
-use std::fmt::Write;
 
 /// Side of a window [m]: about 500 discs (section 3.2.1).
 pub const WINDOW: f64 = 0.215;
@@ -57,10 +57,7 @@ fn bands(simulation: &Simulation) -> Vec<Simulation> {
 pub fn files(averages: &[Averages], note: &str) -> Vec<(&'static str, String)> {
     let scalar = |name, what: &str, value: fn(&Averages) -> f64| {
         let lines = averages.iter().map(|a| format!("{:.6}", value(a)));
-        (
-            name,
-            field(name, ["volScalarField", "scalar", "[0 0 0 0 0 0 0]"], &format!("{what}. {note}"), lines),
-        )
+        (name, list(name, FieldKind::Ratio, &format!("{what}. {note}"), lines))
     };
     // OpenFOAM's stress: tension positive. The grains are in a plane, so the rest is zero.
     let stress = averages.iter().map(|a| {
@@ -68,12 +65,11 @@ pub fn files(averages: &[Averages], note: &str) -> Vec<(&'static str, String)> {
         format!("({xx:.2} {xy:.2} 0 {yy:.2} 0 0)")
     });
     let stress_note = format!("Initial stress [Pa], tension positive. {note}");
-    let kind = ["volSymmTensorField", "symmTensor", "[1 -1 -2 0 0 0 0]"];
     vec![
         scalar("porosity", "Initial porosity, overlaps counted once", |a| a.porosity),
         scalar("fabricIndex", "Initial fabric index F_xx - F_yy", |a| a.fabric_index),
         scalar("fabricConductivity", "Initial (K_xx - K_yy)/(K_xx + K_yy), network", network_anisotropy),
-        ("stress", field("stress", kind, &stress_note, stress)),
+        ("stress", list("stress", FieldKind::Stress, &stress_note, stress)),
     ]
 }
 
@@ -81,26 +77,6 @@ pub fn files(averages: &[Averages], note: &str) -> Vec<(&'static str, String)> {
 fn network_anisotropy(a: &Averages) -> f64 {
     let (xx, yy) = (a.conductivity_network_xx, a.conductivity_network_yy);
     if xx + yy > 0.0 { (xx - yy) / (xx + yy) } else { 0.0 }
-}
-
-/// One field: class, type of its values, dimensions; a note; the values.
-fn field(
-    name: &str,
-    [class, values, dimensions]: [&str; 3],
-    note: &str,
-    lines: impl ExactSizeIterator<Item = String>,
-) -> String {
-    let mut text = format!(
-        "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {class};\n    object      {name};\n}}\n\n\
-         // {note}\n\n\
-         dimensions      {dimensions};\ninternalField   nonuniform List<{values}>\n{}\n(\n",
-        lines.len()
-    );
-    for line in lines {
-        let _ = writeln!(text, "{line}");
-    }
-    text + ");\nboundaryField\n{\n    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\"\n    {\n        \
-            type    zeroGradient;\n    }\n}\n"
 }
 
 #[cfg(test)]

@@ -2,9 +2,6 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`dictionary`] | OpenFOAM dictionaries as `foamDictionary -expand` prints them |
-//! | [`case`] | material, temperatures, box and times of a case folder |
-//! | [`mesh`] | cell centres of a case's mesh |
 //! | [`model`] | the packed initial model and its statistics |
 //! | [`mod@observe`] | what is recorded of a state: series, sub-regions, profiles |
 //! | [`run`](mod@run) | heat, expansion and motion to the end time |
@@ -15,15 +12,13 @@
 //! | [`solver`] | what the solver wrote into a case folder |
 //! | [`series`] | interpolation, means and deviations |
 //! | [`compare`] | the solver's errors against the discs |
-//! | [`walls`] | what walls do to heat, over time |
+//!
+//! Case folders are read by [`msdd_case`].
 #![forbid(unsafe_code)]
 
-pub mod case;
 pub mod checkpoint;
 pub mod compare;
-pub mod dictionary;
 pub mod fields;
-pub mod mesh;
 pub mod model;
 pub mod observe;
 pub mod packings;
@@ -31,22 +26,19 @@ pub mod results;
 pub mod run;
 pub mod series;
 pub mod solver;
-pub mod walls;
 
-pub use case::Case;
 pub use model::{Model, ModelSpec, Statistics};
+pub use msdd_case::Case;
 pub use run::{RunSpec, run};
 
-use msdd_rve::message::{shortened, value as value_text};
+use msdd_rve::message::value as value_text;
 use std::path::PathBuf;
 
 /// What can be wrong with a case, or go wrong in a run.
 #[derive(Debug, thiserror::Error)]
 pub enum ReferenceError {
-    #[error("{file}: {key} = {value}, allowed: {allowed}", file = file.display(), value = value_text(value))]
-    Key { file: PathBuf, key: String, value: String, allowed: String },
-    #[error("{file}: line {line}: {problem}", file = file.display(), problem = shortened(problem))]
-    Syntax { file: PathBuf, line: usize, problem: String },
+    #[error(transparent)]
+    Case(#[from] msdd_case::CaseError),
     #[error("cannot read {file}: {problem}", file = file.display())]
     Read { file: PathBuf, problem: String },
     #[error("{key} = {value}, allowed: {allowed}", value = value_text(value))]

@@ -6,7 +6,9 @@
 //! box at three times the pressure of the other.
 
 use crate::ReferenceError;
-use crate::case::Case;
+use msdd_case::Case;
+pub use msdd_case::packing::PACKING_FRICTION;
+use msdd_case::packing::RADIUS_RANGE;
 use msdd_dem::{Disc, Material, Simulation, Walls};
 use msdd_rve::pack::FREE_DRAG;
 use msdd_rve::place::{Random, radii, scatter};
@@ -18,14 +20,9 @@ use std::f64::consts::PI;
 
 /// Discs in the box of the paper's cases.
 pub const DISCS: usize = 15_000;
-/// Smallest and largest radius over the mean: 3 and 7 mm of 5.
-const RADIUS_RANGE: [f64; 2] = [0.6, 1.4];
 /// 1 − Σ π r² / area of the box. The paper's 12.5 % counts overlaps once; with the friction below this gives it. (15 000
 /// discs of the paper's radii have 10.5 % on average; they are made 0.05 % larger.)
 pub const SUM_POROSITY: f64 = 0.104;
-/// tan φ while the box is packed. Paper silent. Friction raises the porosity at which the grains jam and the fabric index:
-/// 0.3 ends near η, f = 12.4 %, 0.036; the material's own 0.546 jams at 12.9–13.1 %.
-pub const PACKING_FRICTION: f64 = 0.42;
 /// Area fraction of the discs at the start; a denser start has more even sub-regions and more fabric.
 const START_DENSITY: f64 = 0.55;
 /// Strain rate of the box [1/s] while grains hardly touch, and from the sum-of-areas porosity below on.

@@ -2,7 +2,6 @@
 //! not expand.
 
 use crate::ReferenceError;
-use crate::case::Case;
 use crate::checkpoint::{Checkpoint, Records};
 use crate::model::statistics;
 use crate::observe::{
@@ -10,6 +9,7 @@ use crate::observe::{
     series_row, sub_regions,
 };
 use crate::results::{Results, SCHEMA, Table};
+use msdd_case::Case;
 use msdd_dem::time_step::SAFETY;
 use msdd_dem::{Excess, Failure, Simulation, StepChoice, WallHeat};
 use msdd_rve::state;

@@ -7,13 +7,12 @@ use crate::error::CliError;
 use crate::progress::Progress;
 use crate::rve::{read_state, write_state};
 use clap::{Args, Subcommand};
+use msdd_case::{Case, mesh};
 use msdd_dem::Simulation;
 use msdd_files::{check_target, write};
 use msdd_reference::model::{DISCS, ModelSpec, check_state, discs_of, pack, statistics};
 use msdd_reference::run::Watch;
-use msdd_reference::{
-    Case, ReferenceError, RunSpec, Statistics, fields, mesh, results::Results, run as run_case,
-};
+use msdd_reference::{ReferenceError, RunSpec, Statistics, fields, results::Results, run as run_case};
 use msdd_rve::vtk;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

@@ -2,6 +2,7 @@
 
 use crate::set::{Cell, Set};
 use crate::sources::{all, checkout, files, firsts, text};
+use regex::Regex;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -28,7 +29,8 @@ const POSITIONAL: [(&str, &str); 4] = [
 ];
 
 /// Defaults that depend on the machine.
-const OF_MACHINE: [&str; 3] = ["msdd reference pack", "msdd reference run", "msdd reference fields"];
+const OF_MACHINE: [&str; 4] =
+    ["msdd reference pack", "msdd reference run", "msdd reference fields", "msdd case new"];
 
 pub fn sets() -> Vec<Set> {
     let program = program();
@@ -76,25 +78,22 @@ fn section(help: &str, title: &str) -> String {
     lines.take_while(|line| line.is_empty() || line.starts_with(' ')).collect::<Vec<_>>().join("\n") + "\n"
 }
 
-/// Options and arguments of a command, with defaults and possible values.
+/// Options and arguments of a command, under whatever title, with defaults and possible values.
 fn command(name: &str, help: &str) -> Set {
     let usage = firsts("(?m)^Usage: (.*)$", help).join(" ");
-    let text = section(help, "Arguments") + &section(help, "Options");
-    let starts = all(r"(?m)^ {2,6}(?:-\w, )?(--[\w-]+|<\w+>)", &text);
-    let parts: Vec<&str> = {
-        let places: Vec<usize> = regex::Regex::new(r"(?m)^ {2,6}(?:-\w, )?(?:--[\w-]+|<\w+>)")
-            .expect("a pattern")
-            .find_iter(&text)
-            .map(|found| found.start())
-            .collect();
-        let ends = places.iter().skip(1).copied().chain([text.len()]);
-        places.iter().zip(ends).map(|(&start, end)| &text[start..end]).collect()
-    };
-    let options: Vec<(String, &str)> = starts
+    let start = Regex::new(r"(?m)^ {2,6}(?:-\w, )?(--[\w-]+|<\w+>|\[\w+\])").expect("a pattern");
+    let starts: Vec<(String, usize)> = start
+        .captures_iter(help)
+        .map(|found| (found[1].to_string(), found.get(0).map_or(0, |m| m.start())))
+        .collect();
+    let ends = starts.iter().skip(1).map(|(_, place)| *place).chain([help.len()]);
+    // What follows a blank line belongs to the next title.
+    let part = |start: usize, end: usize| help[start..end].split("\n\n").next().unwrap_or_default();
+    let options: Vec<(&str, &str)> = starts
         .iter()
-        .zip(parts)
-        .map(|(start, part)| (start[1].clone(), part))
-        .filter(|(option, _)| option != "--help")
+        .zip(ends)
+        .map(|((option, start), end)| (option.as_str(), part(*start, end)))
+        .filter(|(option, _)| *option != "--help")
         .collect();
     let source = format!("`{name} --help`");
     let mut set = Set::new(PAGE, name, &source, options.iter().map(|(option, part)| argument(option, part)));
@@ -116,7 +115,7 @@ fn with_help(mut set: Set, name: &str, option: &str, part: &str, usage: &str) ->
         set = set.with_words(option, "allowed", &values);
     }
     let of_machine = OF_MACHINE.contains(&name) && option == "--threads";
-    if let Some(default) = firsts(r"\[default: ([^\]]*)\]", &part).pop().filter(|_| !of_machine) {
+    if let Some(default) = firsts(r"\[default: ([^\]]+)\]", &part).pop().filter(|_| !of_machine) {
         set = set.with(option, "default", Cell::Text(default));
     }
     if all(r"<?[\w-]+>?", usage).iter().any(|word| word[0] == option.trim_end_matches('.')) {
@@ -172,6 +171,12 @@ fn environment() -> Set {
             names.extend(firsts(r"\$\{([A-Z][A-Z_]+):-", &text));
             names.extend(firsts(r"\$[({]?(MSDD_[A-Z_]+)", &text));
         }
+    }
+    // Set by the build itself.
+    for (_, text) in files("rust", &["rs"]) {
+        firsts(r"cargo:rustc-env=(\w+)", &text).iter().for_each(|name| {
+            names.remove(name);
+        });
     }
     Set::new(PAGE, "environment", "sources, scripts and cases", names)
 }

@@ -15,6 +15,8 @@ const SUMMARY: &str = "openfoam/msddFoam/runSummary.C";
 const REGION: &str = "openfoam/granularModels/regionPolicy/regionPolicy.C";
 const BOXES: &str = "openfoam/granularModels/onlineRveModel/onlineRveFile.C";
 const ONLINE: &str = "openfoam/granularModels/onlineRveModel/onlineRveModel.C";
+/// `msdd summary`.
+const GATHERED: &str = "rust/cli/src/summary";
 const SURROGATE: &str = "openfoam/granularModels/surrogateModel/surrogateModel.C";
 
 /// Entries of JSON that a C++ source writes: `\"name\":`.
@@ -42,8 +44,16 @@ pub fn sets() -> Vec<Set> {
         Set::new(PAGE, "counters of models", ONLINE, firsts(r#"\{"(\w+)","#, &counters)),
         Set::new(PAGE, "offenders.json", REGION, firsts(JSON_ENTRY, &source(REGION))),
         Set::new(PAGE, "offenders.json", "struct Offenders, which reads it", offenders),
-        fields_of(PAGE, "results/summary.json", "rust/cli/src", "CaseResult"),
+        fields_of(PAGE, "results/summary.json", GATHERED, "Summary"),
+        fields_of(PAGE, "cases of results/summary.json", GATHERED, "CaseResult"),
+        comparison(),
     ]
+}
+
+/// The entries of errors have names of their own but for the temperature, which discs have, too.
+fn comparison() -> Set {
+    let names = ["Comparison", "Discs", "Errors"].map(|name| structure(GATHERED, name)).concat();
+    Set::new(PAGE, "comparison of results/summary.json", GATHERED, names)
 }
 
 fn fields() -> Set {

@@ -30,6 +30,18 @@ pub enum Cell {
     Words(Vec<String>),
 }
 
+impl std::fmt::Display for Cell {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            Self::Text(text) => write!(f, "'{text}'"),
+            Self::Begins(word) => write!(f, "'{word}'"),
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Range(low, high) => write!(f, "{low} to {high}"),
+            Self::Words(words) => write!(f, "`{}`", words.join("`, `")),
+        }
+    }
+}
+
 impl Set {
     pub fn new(
         page: &'static str,
@@ -102,7 +114,10 @@ impl Set {
 /// In what table and set differ, in both directions.
 pub fn problems(book: &Book, set: &Set) -> Vec<String> {
     let Some(table) = book.table(&set.table) else {
-        return vec![format!("docs/src/{}: no table '{}'", set.page, set.table)];
+        let names: Vec<String> = set.names.keys().map(|name| format!("`{name}`")).collect();
+        let line = format!("docs/src/{}: no table '{}' (comment", set.page, set.table);
+        let comment = format!("<!-- checked: {} -->", set.table);
+        return vec![format!("{line} {comment} before it), for {} of {}", names.join(", "), set.source)];
     };
     let place = format!("{} ({})", table.place, set.table);
     let mut found = Vec::new();
@@ -132,7 +147,7 @@ pub fn problems(book: &Book, set: &Set) -> Vec<String> {
 fn difference(table: &Table, name: &str, column: &str, expected: &Cell) -> Option<String> {
     let row = table.row(name)?;
     let Some(k) = table.column(column) else {
-        return Some(format!("no column '{column}', which `{name}` needs; it is {expected:?}"));
+        return Some(format!("no column '{column}', which `{name}` needs; it is {expected}"));
     };
     let cell = &row[k];
     let numbers = numbers(cell);
@@ -148,7 +163,7 @@ fn difference(table: &Table, name: &str, column: &str, expected: &Cell) -> Optio
             written == expected
         }
     };
-    (!same).then(|| format!("`{name}` has the {column} '{cell}', but it is {expected:?}"))
+    (!same).then(|| format!("`{name}` has the {column} '{cell}', but it is {expected}"))
 }
 
 /// Without backticks, and one kind of dash.
@@ -184,7 +199,9 @@ mod tests {
         );
         assert!(found("| `a`, `b` | 0 to 1 | 0.5 |", &set).contains("`b` is not in code.C"));
         assert!(found("| `a`, `a` | 0 to 1 | 0.5 |", &set).contains("`a` stands twice"));
-        assert!(found("| `a` | 0 to 1 | 0.51 |", &set).contains("the default '0.51', but it is Number(0.5)"));
+        assert!(
+            found("| `a` | 0 to 1 | 0.51 |", &set).contains("the default '0.51', but it is 0.5 in code.C")
+        );
         assert!(found("| `a` | 0 to 2 | 0.5 |", &set).contains("the allowed '0 to 2'"));
         let words =
             Set::new("p.md", "t", "code.C", ["a"]).with_words("a", "allowed", &["x".into(), "y".into()]);

@@ -53,6 +53,17 @@ pub fn lookups() -> Vec<(String, String)> {
     all_sources().into_iter().flat_map(found).collect()
 }
 
+/// The page for keys that a source reads.
+pub fn page_of(file: &str) -> &'static str {
+    let pages = [
+        ("openfoam/functionObjects", OBJECTS),
+        ("openfoam/msddFoam", SYSTEM),
+        ("openfoam/granularModels/granularState", SYSTEM),
+        ("openfoam/granularModels/runRecord", "reference/fields.md"),
+    ];
+    pages.iter().find(|(folder, _)| file.starts_with(folder)).map_or(GRAINS, |(_, page)| page)
+}
+
 pub fn sets() -> Vec<Set> {
     [grains(), surrogates(), regions(), equilibrium(), system(), function_objects()].concat()
 }

@@ -42,7 +42,7 @@ fn walk(checkout: &Path, folder: &Path, endings: &[&str], found: &mut Vec<(Strin
         let path = entry.expect("a readable folder").path();
         let name = path.strip_prefix(checkout).expect("below the checkout").display().to_string();
         let left_out = |folder: &&str| name == **folder || name.ends_with(&format!("/{folder}"));
-        if NO_SOURCES.iter().any(|folder| left_out(folder)) {
+        if NO_SOURCES.iter().any(left_out) {
             continue;
         }
         if path.is_dir() {

@@ -1,21 +1,21 @@
 //! Cell centres of a case's mesh, from `constant/polyMesh` as OpenFOAM works them out: the mean of its pyramids on the
 //! faces, by volume. Text files only.
 
-use crate::ReferenceError;
+use crate::CaseError;
 use std::path::Path;
 
 /// Centres [m] of all cells in the plane of the grains.
 ///
 /// # Errors
-/// [`ReferenceError::Read`] when a file is missing, and [`ReferenceError::Key`] when it is not a list of text.
-pub fn cell_centres(case: &Path) -> Result<Vec<[f64; 2]>, ReferenceError> {
+/// [`CaseError::Read`] when a file is missing, and [`CaseError::Key`] when it is not a list of text.
+pub fn cell_centres(case: &Path) -> Result<Vec<[f64; 2]>, CaseError> {
     let folder = case.join("constant/polyMesh");
     let points: Vec<[f64; 3]> =
         numbers(&folder.join("points"))?.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
     let faces = lists(&folder.join("faces"))?;
     let owner = labels(&folder.join("owner"))?;
     let neighbour = labels(&folder.join("neighbour"))?;
-    let bad = |file: &str, value: String, allowed: String| ReferenceError::Key {
+    let bad = |file: &str, value: String, allowed: String| CaseError::Key {
         file: folder.join(file),
         key: "list".to_string(),
         value,
@@ -103,8 +103,8 @@ fn centres(faces: &[Face], sides: &[(usize, usize)]) -> Vec<[f64; 2]> {
 }
 
 /// The list of a file, as the text between its outermost parentheses.
-fn content(file: &Path) -> Result<String, ReferenceError> {
-    let failed = |problem: String| ReferenceError::Read { file: file.to_path_buf(), problem };
+fn content(file: &Path) -> Result<String, CaseError> {
+    let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
     let bytes = std::fs::read(file).map_err(|error| failed(format!("{error} (blockMesh makes the mesh)")))?;
     let text =
         String::from_utf8(bytes).map_err(|_| failed("binary; allowed: writeFormat ascii".to_string()))?;
@@ -117,11 +117,11 @@ fn content(file: &Path) -> Result<String, ReferenceError> {
     }
 }
 
-fn parsed<T: std::str::FromStr>(file: &Path, text: &str) -> Result<Vec<T>, ReferenceError> {
+fn parsed<T: std::str::FromStr>(file: &Path, text: &str) -> Result<Vec<T>, CaseError> {
     let words =
         text.split(|c: char| c.is_whitespace() || c == '(' || c == ')').filter(|word| !word.is_empty());
     let parse = |word: &str| {
-        word.parse().map_err(|_| ReferenceError::Key {
+        word.parse().map_err(|_| CaseError::Key {
             file: file.to_path_buf(),
             key: "list".to_string(),
             value: word.to_string(),
@@ -131,16 +131,16 @@ fn parsed<T: std::str::FromStr>(file: &Path, text: &str) -> Result<Vec<T>, Refer
     words.map(parse).collect()
 }
 
-fn numbers(file: &Path) -> Result<Vec<f64>, ReferenceError> {
+fn numbers(file: &Path) -> Result<Vec<f64>, CaseError> {
     parsed(file, &content(file)?)
 }
 
-fn labels(file: &Path) -> Result<Vec<usize>, ReferenceError> {
+fn labels(file: &Path) -> Result<Vec<usize>, CaseError> {
     parsed(file, &content(file)?)
 }
 
 /// `4(0 1 2 3)` line by line.
-fn lists(file: &Path) -> Result<Vec<Vec<usize>>, ReferenceError> {
+fn lists(file: &Path) -> Result<Vec<Vec<usize>>, CaseError> {
     let text = content(file)?;
     let inner = text.split(')').filter_map(|part| Some(part.split_once('(')?.1));
     inner.map(|list| parsed(file, list)).collect()

@@ -1,6 +1,6 @@
 //! What the walls of a case do to heat, over time: the patches of `0/T`.
 
-use crate::ReferenceError;
+use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
 use msdd_dem::{Side, WallHeat};
 
@@ -31,6 +31,14 @@ pub enum WallOverTime {
 }
 
 impl WallOverTime {
+    /// Of rows of time [s] and temperature [K]; `None` unless there are two or more, with finite numbers and times that rise
+    /// from 0.
+    pub fn table(rows: Vec<[f64; 2]>) -> Option<Self> {
+        let finite = rows.iter().flatten().all(|number: &f64| number.is_finite());
+        let rising = rows.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        (rows.len() > 1 && rows[0][0] == 0.0 && finite && rising).then_some(Self::Table(rows))
+    }
+
     /// At `time` [s].
     pub fn at(&self, time: f64) -> WallHeat {
         match self {
@@ -47,7 +55,7 @@ fn interpolated(rows: &[[f64; 2]], time: f64) -> f64 {
 }
 
 /// `table ( ( 0 50 ) ( 2 70 ) ... )`, two rows or more.
-fn table(tokens: &[Token]) -> Option<Vec<[f64; 2]>> {
+fn table(tokens: &[Token]) -> Option<WallOverTime> {
     let [word, open, inner @ .., close] = tokens else { return None };
     if [&word.text, &open.text, &close.text] != ["table", "(", ")"] {
         return None;
@@ -58,17 +66,14 @@ fn table(tokens: &[Token]) -> Option<Vec<[f64; 2]>> {
         }
         _ => None,
     };
-    let rows: Vec<[f64; 2]> = inner.chunks(4).map(row).collect::<Option<_>>()?;
-    let finite = rows.iter().flatten().all(|number: &f64| number.is_finite());
-    let rising = rows.windows(2).all(|pair| pair[0][0] < pair[1][0]);
-    (rows.len() > 1 && rows[0][0] == 0.0 && finite && rising).then_some(rows)
+    WallOverTime::table(inner.chunks(4).map(row).collect::<Option<_>>()?)
 }
 
 /// The four walls of `0/T`, in the order of [`Side`].
 ///
 /// # Errors
-/// [`ReferenceError::Key`] for a patch, type or key that means something else or nothing here.
-pub fn heat_of_walls(file: &Dictionary) -> Result<[WallOverTime; 4], ReferenceError> {
+/// [`CaseError::Key`] for a patch, type or key that means something else or nothing here.
+pub fn heat_of_walls(file: &Dictionary) -> Result<[WallOverTime; 4], CaseError> {
     let patches = file.dictionary_at("boundaryField")?;
     let stray = |key: &&Token| {
         let wall = PATCHES.iter().any(|name| if key.quoted { key.matches(name) } else { key.text == *name });
@@ -100,8 +105,8 @@ pub fn heat_of_walls(file: &Dictionary) -> Result<[WallOverTime; 4], ReferenceEr
     Ok(walls)
 }
 
-fn wall_heat(patch: &Dictionary) -> Result<WallOverTime, ReferenceError> {
-    use WallOverTime::{Steady, Table};
+fn wall_heat(patch: &Dictionary) -> Result<WallOverTime, CaseError> {
+    use WallOverTime::Steady;
     let kind = patch.text("type")?;
     match kind.as_str() {
         "fixedValue" => {
@@ -114,7 +119,7 @@ fn wall_heat(patch: &Dictionary) -> Result<WallOverTime, ReferenceError> {
             let table = table(tokens).ok_or_else(|| {
                 patch.refuse("uniformValue", &joined(tokens), "table ((time T) ...), times from 0 on, rising")
             })?;
-            Ok(Table(table))
+            Ok(table)
         }
         "zeroGradient" => {
             patch.check_keys(&[&["type", "value"]])?;

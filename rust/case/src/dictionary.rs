@@ -1,7 +1,7 @@
 //! OpenFOAM dictionaries as `foamDictionary -expand` prints them: includes, macros and the order of entries are
 //! OpenFOAM's own business. What is left is keys, values and nested dictionaries.
 
-use crate::ReferenceError;
+use crate::CaseError;
 use regex::Regex;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -39,9 +39,9 @@ impl Dictionary {
     /// Reads a file of a case through `foamDictionary -expand`.
     ///
     /// # Errors
-    /// [`ReferenceError::Read`] with what OpenFOAM says; [`ReferenceError::Syntax`].
-    pub fn expanded(file: &Path) -> Result<Self, ReferenceError> {
-        let failed = |problem: String| ReferenceError::Read { file: file.to_path_buf(), problem };
+    /// [`CaseError::Read`] with what OpenFOAM says; [`CaseError::Syntax`].
+    pub fn expanded(file: &Path) -> Result<Self, CaseError> {
+        let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
         let mut command = Command::new("foamDictionary");
         command.arg("-expand").arg(file);
         if std::env::var_os("WM_PROJECT_DIR").is_none() {
@@ -66,8 +66,8 @@ impl Dictionary {
     /// Reads expanded text; `file` is for messages.
     ///
     /// # Errors
-    /// [`ReferenceError::Syntax`] with the line of the text.
-    pub fn parse(file: &Path, text: &str) -> Result<Self, ReferenceError> {
+    /// [`CaseError::Syntax`] with the line of the text.
+    pub fn parse(file: &Path, text: &str) -> Result<Self, CaseError> {
         let tokens = tokens(text);
         let mut reader = Reader { file, tokens: &tokens, at: 0 };
         let dictionary = reader.dictionary(String::new())?;
@@ -86,6 +86,11 @@ impl Dictionary {
         self.entries.iter().find(|(name, _)| !name.quoted && name.text == key).map(|(_, entry)| entry)
     }
 
+    /// The entry whose key reads so, in quotes or not.
+    pub fn get_any(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|(name, _)| name.text == key).map(|(_, entry)| entry)
+    }
+
     /// The entry that OpenFOAM takes for a key: that of the key itself, else that of the last matching pattern.
     pub fn matching(&self, key: &str) -> Option<&Entry> {
         let pattern = || self.entries.iter().rev().find(|(name, _)| name.quoted && name.matches(key));
@@ -95,8 +100,8 @@ impl Dictionary {
     /// A nested dictionary.
     ///
     /// # Errors
-    /// [`ReferenceError::Key`] when it is missing or a value.
-    pub fn dictionary_at(&self, key: &str) -> Result<&Self, ReferenceError> {
+    /// [`CaseError::Key`] when it is missing or a value.
+    pub fn dictionary_at(&self, key: &str) -> Result<&Self, CaseError> {
         match self.get(key) {
             Some(Entry::Dictionary(dictionary)) => Ok(dictionary),
             _ => Err(self.refuse(key, "missing", "a dictionary")),
@@ -106,8 +111,8 @@ impl Dictionary {
     /// The tokens of a value.
     ///
     /// # Errors
-    /// [`ReferenceError::Key`] when it is missing or a dictionary.
-    pub fn value(&self, key: &str) -> Result<&[Token], ReferenceError> {
+    /// [`CaseError::Key`] when it is missing or a dictionary.
+    pub fn value(&self, key: &str) -> Result<&[Token], CaseError> {
         match self.get(key) {
             Some(Entry::Value(tokens)) => Ok(tokens),
             Some(Entry::Dictionary(_)) => Err(self.refuse(key, "{...}", "a value")),
@@ -119,20 +124,15 @@ impl Dictionary {
     ///
     /// # Errors
     /// Those of [`Dictionary::value`].
-    pub fn text(&self, key: &str) -> Result<String, ReferenceError> {
+    pub fn text(&self, key: &str) -> Result<String, CaseError> {
         Ok(joined(self.value(key)?))
     }
 
     /// A number that `good` accepts.
     ///
     /// # Errors
-    /// [`ReferenceError::Key`] with what is allowed.
-    pub fn number(
-        &self,
-        key: &str,
-        good: impl Fn(f64) -> bool,
-        allowed: &str,
-    ) -> Result<f64, ReferenceError> {
+    /// [`CaseError::Key`] with what is allowed.
+    pub fn number(&self, key: &str, good: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, CaseError> {
         let tokens = self.value(key)?;
         self.number_in(key, tokens, good, allowed)
     }
@@ -140,8 +140,8 @@ impl Dictionary {
     /// `uniform <number>`.
     ///
     /// # Errors
-    /// [`ReferenceError::Key`] for anything else.
-    pub fn uniform(&self, key: &str) -> Result<f64, ReferenceError> {
+    /// [`CaseError::Key`] for anything else.
+    pub fn uniform(&self, key: &str) -> Result<f64, CaseError> {
         match self.value(key)? {
             [word, number @ ..] if word.text == "uniform" => {
                 self.number_in(key, number, f64::is_finite, "uniform <number>")
@@ -156,7 +156,7 @@ impl Dictionary {
         tokens: &[Token],
         good: impl Fn(f64) -> bool,
         allowed: &str,
-    ) -> Result<f64, ReferenceError> {
+    ) -> Result<f64, CaseError> {
         let number = match tokens {
             [token] => token.text.parse().ok().filter(|&number| good(number)),
             _ => None,
@@ -167,8 +167,8 @@ impl Dictionary {
     /// Refuses every key that is not in one of the lists.
     ///
     /// # Errors
-    /// [`ReferenceError::Key`] with the first such key.
-    pub fn check_keys(&self, known: &[&[&str]]) -> Result<(), ReferenceError> {
+    /// [`CaseError::Key`] with the first such key.
+    pub fn check_keys(&self, known: &[&[&str]]) -> Result<(), CaseError> {
         let is_known = |key: &Token| known.iter().any(|list| list.contains(&key.text.as_str()));
         match self.entries.iter().find(|(key, _)| !is_known(key)) {
             None => Ok(()),
@@ -182,12 +182,16 @@ impl Dictionary {
         }
     }
 
+    /// A key of this dictionary with those of the enclosing ones in front, joined by '/'.
+    pub fn path_of(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_string() } else { format!("{}/{key}", self.path) }
+    }
+
     /// The error that a key of this dictionary has a value which is not allowed.
-    pub fn refuse(&self, key: &str, value: &str, allowed: &str) -> ReferenceError {
-        let key = if self.path.is_empty() { key.to_string() } else { format!("{}/{key}", self.path) };
-        ReferenceError::Key {
+    pub fn refuse(&self, key: &str, value: &str, allowed: &str) -> CaseError {
+        CaseError::Key {
             file: self.file.clone(),
-            key,
+            key: self.path_of(key),
             value: value.to_string(),
             allowed: allowed.to_string(),
         }
@@ -218,12 +222,12 @@ impl<'a> Reader<'a> {
         self.tokens.get(self.at - 1)
     }
 
-    fn syntax(&self, line: usize, problem: &str) -> ReferenceError {
-        ReferenceError::Syntax { file: self.file.to_path_buf(), line, problem: problem.to_string() }
+    fn syntax(&self, line: usize, problem: &str) -> CaseError {
+        CaseError::Syntax { file: self.file.to_path_buf(), line, problem: problem.to_string() }
     }
 
     /// Entries up to the closing brace, or the end of the outermost dictionary.
-    fn dictionary(&mut self, path: String) -> Result<Dictionary, ReferenceError> {
+    fn dictionary(&mut self, path: String) -> Result<Dictionary, CaseError> {
         let mut entries = Vec::new();
         while let Some(key) = self.tokens.get(self.at) {
             if !key.quoted && key.text == "}" {
@@ -239,7 +243,7 @@ impl<'a> Reader<'a> {
         Ok(Dictionary { file: self.file.to_path_buf(), path, entries })
     }
 
-    fn entry(&mut self, key: &Token, path: &str) -> Result<Entry, ReferenceError> {
+    fn entry(&mut self, key: &Token, path: &str) -> Result<Entry, CaseError> {
         if self.tokens.get(self.at).is_some_and(|token| !token.quoted && token.text == "{") {
             self.at += 1;
             let path = if path.is_empty() { key.text.clone() } else { format!("{path}/{}", key.text) };
@@ -293,7 +297,7 @@ fn tokens(text: &str) -> Vec<Token> {
 mod tests {
     use super::*;
 
-    fn parse(text: &str) -> Result<Dictionary, ReferenceError> {
+    fn parse(text: &str) -> Result<Dictionary, CaseError> {
         Dictionary::parse(Path::new("0/T"), text)
     }
 

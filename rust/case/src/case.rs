@@ -1,6 +1,6 @@
 //! A case folder as the reference sees it: the solver's own files, and no second copy of a parameter.
 
-use crate::ReferenceError;
+use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
 use crate::walls::{WallOverTime, heat_of_walls};
 use msdd_dem::{Material, Thermal};
@@ -40,8 +40,8 @@ impl Case {
     /// Reads `0/T`, `constant/granularProperties`, `system/controlDict` and `system/blockMeshDict` of a folder.
     ///
     /// # Errors
-    /// [`ReferenceError`] names file, key, value and what is allowed: nothing is skipped that might matter.
-    pub fn read(folder: &Path) -> Result<Self, ReferenceError> {
+    /// [`CaseError`] names file, key, value and what is allowed: nothing is skipped that might matter.
+    pub fn read(folder: &Path) -> Result<Self, CaseError> {
         let temperature = Dictionary::expanded(&folder.join("0/T"))?;
         let grains = Dictionary::expanded(&folder.join("constant/granularProperties"))?;
         let control = Dictionary::expanded(&folder.join("system/controlDict"))?;
@@ -65,7 +65,7 @@ impl Case {
     }
 }
 
-fn read_grains(file: &Dictionary) -> Result<(Material, Thermal, f64), ReferenceError> {
+fn read_grains(file: &Dictionary) -> Result<(Material, Thermal, f64), CaseError> {
     file.check_keys(&[&GRAIN_KEYS, &SOLVER_KEYS])?;
     let positive = |key| file.number(key, |v| v > 0.0 && v.is_finite(), "> 0");
     let material = Material {
@@ -81,7 +81,7 @@ fn read_grains(file: &Dictionary) -> Result<(Material, Thermal, f64), ReferenceE
     Ok((material, thermal, positive("meanRadius")?))
 }
 
-fn initial_temperature(file: &Dictionary) -> Result<f64, ReferenceError> {
+fn initial_temperature(file: &Dictionary) -> Result<f64, CaseError> {
     file.check_keys(&[&["FoamFile", "dimensions", "internalField", "boundaryField"]])?;
     let dimensions = file.text("dimensions")?;
     if dimensions != "[ 0 0 0 1 0 0 0 ]" {
@@ -90,7 +90,7 @@ fn initial_temperature(file: &Dictionary) -> Result<f64, ReferenceError> {
     file.uniform("internalField")
 }
 
-fn end_time(file: &Dictionary) -> Result<f64, ReferenceError> {
+fn end_time(file: &Dictionary) -> Result<f64, CaseError> {
     file.number("startTime", |v| v == 0.0, "0, as the grains start at rest")?;
     let stop = file.text("stopAt")?;
     if stop != "endTime" {
@@ -100,7 +100,7 @@ fn end_time(file: &Dictionary) -> Result<f64, ReferenceError> {
 }
 
 /// The places of the function object `probes`; none without it.
-fn probes(file: &Dictionary) -> Result<Vec<[f64; 2]>, ReferenceError> {
+fn probes(file: &Dictionary) -> Result<Vec<[f64; 2]>, CaseError> {
     let Some(Entry::Dictionary(functions)) = file.get("functions") else { return Ok(Vec::new()) };
     let Some(Entry::Dictionary(probes)) = functions.get("probes") else { return Ok(Vec::new()) };
     let tokens = probes.value("probeLocations")?;
@@ -110,7 +110,7 @@ fn probes(file: &Dictionary) -> Result<Vec<[f64; 2]>, ReferenceError> {
 }
 
 /// Lower left and upper right corner of the box in the plane [m].
-fn bounds(file: &Dictionary) -> Result<([f64; 2], [f64; 2]), ReferenceError> {
+pub(crate) fn bounds(file: &Dictionary) -> Result<([f64; 2], [f64; 2]), CaseError> {
     let key = if file.get("scale").is_some() { "scale" } else { "convertToMeters" };
     let scale = file.number(key, |v| v > 0.0 && v.is_finite(), "> 0")?;
     let tokens = file.value("vertices")?;

@@ -1,0 +1,134 @@
+//! `system/controlDict` and `system/fvSolution`.
+
+use super::finding::Findings;
+use super::keys;
+use crate::dictionary::{Dictionary, Entry};
+
+/// Path in the case folder.
+pub const CONTROL: &str = "system/controlDict";
+/// Path in the case folder.
+pub const SOLUTION: &str = "system/fvSolution";
+
+/// Keys that OpenFOAM looks for, against mistyping.
+const OPENFOAM: [&str; 31] = [
+    "FoamFile",
+    "application",
+    "startFrom",
+    "startTime",
+    "stopAt",
+    "endTime",
+    "deltaT",
+    "writeControl",
+    "writeInterval",
+    "purgeWrite",
+    "writeFormat",
+    "writePrecision",
+    "writeCompression",
+    "timeFormat",
+    "timePrecision",
+    "runTimeModifiable",
+    "adjustTimeStep",
+    "maxDeltaT",
+    "minDeltaT",
+    "maxCo",
+    "maxDi",
+    "functions",
+    "libs",
+    "graphFormat",
+    "DebugSwitches",
+    "InfoSwitches",
+    "OptimisationSwitches",
+    "DimensionedConstants",
+    "secondaryWriteControl",
+    "secondaryWriteInterval",
+    "writeOnceNow",
+];
+
+/// Libraries that come with OpenFOAM or with this project: others are code of somebody else.
+const LIBRARIES: [&str; 7] = [
+    "libsampling.so",
+    "libfieldFunctionObjects.so",
+    "libutilityFunctionObjects.so",
+    "libforces.so",
+    "libgranularFunctionObjects.so",
+    "libgranularModels.so",
+    "libsolverFunctionObjects.so",
+];
+
+/// What the checks of other files need from here.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Times {
+    /// [s]
+    pub end: f64,
+    /// The (first) step [s].
+    pub step: f64,
+    /// Whether steps follow from their error.
+    pub adaptive: bool,
+}
+
+/// Checks both; gives the times when they are known.
+pub fn check(control: &Dictionary, solution: Option<&Dictionary>, found: &mut Findings) -> Option<Times> {
+    for key in keys::CONTROL {
+        keys::value(control, CONTROL, key, found);
+    }
+    for key in control.keys().filter(|key| !OPENFOAM.contains(&key.text.as_str())) {
+        if let Some(near) = keys::nearest(&key.text, &OPENFOAM) {
+            let advice = format!("OpenFOAM does not know this key and passes over it: is '{near}' meant?");
+            found.doubt([CONTROL, &key.text], "", "", &advice);
+        }
+    }
+    let adaptive = matches!(control.text("adjustTimeStep").as_deref(), Ok("yes" | "on" | "true"));
+    let scheme = solution.map_or_else(|| "paper".to_string(), |solution| check_solution(solution, found));
+    if adaptive && scheme == "paper" {
+        let advice = "The paper's scheme has fixed steps; for adaptive ones, give 'msddFoam { timeScheme secondOrder; }' in \
+                      system/fvSolution";
+        found.error([CONTROL, "adjustTimeStep"], "yes", "no with timeScheme paper", advice);
+    }
+    check_code(control, found);
+    let number = |key: &str| keys::number(control, key, "");
+    let (start, end, step) = (number("startTime").unwrap_or(0.0), number("endTime")?, number("deltaT")?);
+    if step > 0.0 && end - start <= 0.5 * step {
+        let allowed = format!("more than half of deltaT = {step} s after startTime = {start} s");
+        found.error([CONTROL, "endTime"], &end.to_string(), &allowed, "No step would be taken");
+        return None;
+    }
+    Some(Times { end: end - start, step, adaptive })
+}
+
+/// Gives the time scheme.
+fn check_solution(solution: &Dictionary, found: &mut Findings) -> String {
+    let solves = matches!(solution.dictionary_at("solvers"), Ok(solvers) if solvers.matching("T").is_some());
+    if !solves {
+        let allowed = "a dictionary with the linear solver of T, such as { solver PCG; preconditioner DIC; tolerance 1e-10; relTol 0; }";
+        found.error([SOLUTION, "solvers/T"], "missing", allowed, "");
+    }
+    let Ok(own) = solution.dictionary_at("msddFoam") else { return "paper".to_string() };
+    keys::check(own, SOLUTION, keys::SOLVER, &[], found);
+    own.text("timeScheme").unwrap_or_else(|_| "paper".to_string())
+}
+
+/// Code that a case brings along runs with the rights of whoever runs the case.
+fn check_code(control: &Dictionary, found: &mut Findings) {
+    check_libraries(control, found);
+    let Ok(functions) = control.dictionary_at("functions") else { return };
+    for key in functions.keys() {
+        let Some(Entry::Dictionary(function)) = functions.get_any(&key.text) else { continue };
+        check_libraries(function, found);
+        let kind = function.text("type").unwrap_or_default();
+        if kind.starts_with("coded") {
+            let advice =
+                "This function is source code that the run compiles and starts, with all your rights";
+            found.doubt([CONTROL, &functions.path_of(&key.text)], &kind, "", advice);
+        }
+    }
+}
+
+fn check_libraries(dictionary: &Dictionary, found: &mut Findings) {
+    let Ok(tokens) = dictionary.value("libs") else { return };
+    let strange = |text: &str| !["(", ")"].contains(&text) && !LIBRARIES.contains(&text);
+    for token in tokens.iter().filter(|token| strange(&token.text)) {
+        let advice = "This library does not come with OpenFOAM or MSDD as far as is known here: running the case runs its code, \
+                      with all your rights. Run it only if you trust who wrote it";
+        found.doubt([CONTROL, &dictionary.path_of("libs")], &token.text, "", advice);
+    }
+}

@@ -1,0 +1,265 @@
+//! The keys of the solver's dictionaries and what they may hold, as its sources have them.
+
+use super::finding::Findings;
+use crate::dictionary::{Dictionary, Entry, joined};
+use msdd_rve::message::number as number_text;
+
+/// What a key holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// A number above 0, of OpenFOAM's dimensions, in a unit.
+    Positive(&'static str, &'static str),
+    /// A number of 0 and above, likewise.
+    NotNegative(&'static str, &'static str),
+    /// A number from the first to the second, in a unit.
+    Range(f64, f64, &'static str),
+    /// One of these words.
+    Word(&'static [&'static str]),
+    Dictionary,
+    /// Looked at elsewhere, or OpenFOAM's own business.
+    Any,
+}
+
+/// A key of a dictionary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    pub name: &'static str,
+    pub required: bool,
+    pub kind: Kind,
+}
+
+const fn must(name: &'static str, kind: Kind) -> Key {
+    Key { name, required: true, kind }
+}
+
+const fn may(name: &'static str, kind: Kind) -> Key {
+    Key { name, required: false, kind }
+}
+
+/// `constant/granularProperties`.
+pub const GRAINS: &[Key] = &[
+    may("FoamFile", Kind::Any),
+    must("surrogate", Kind::Dictionary),
+    must("density", Kind::Positive("kg/m3", "[ 1 -3 0 0 0 0 0 ]")),
+    must("youngModulus", Kind::Positive("Pa", "[ 1 -1 -2 0 0 0 0 ]")),
+    must("thermalConductivity", Kind::Positive("W/(m K)", "[ 1 1 -3 -1 0 0 0 ]")),
+    must("heatCapacity", Kind::Positive("J/(kg K)", "[ 0 2 -2 -1 0 0 0 ]")),
+    must("thermalExpansion", Kind::NotNegative("1/K", "[ 0 0 0 -1 0 0 0 ]")),
+    must("meanRadius", Kind::Positive("m", "[ 0 1 0 0 0 0 0 ]")),
+    may("bulkDensity", Kind::Word(&["massConsistent", "paper"])),
+    may("mechanics", Kind::Word(&["equilibrium", "none"])),
+    may("equilibriumCoeffs", Kind::Dictionary),
+];
+
+/// `surrogate` in it, whatever its type.
+pub const SURROGATE: &[Key] = &[
+    must("type", Kind::Word(&["constant", "network", "onlineRve", "plugin"])),
+    may("smallestStrain", Kind::Range(0.0, 0.01, "")),
+    may("outOfRegion", Kind::Dictionary),
+    may("networkCoeffs", Kind::Dictionary),
+    may("constantCoeffs", Kind::Dictionary),
+    may("pluginCoeffs", Kind::Dictionary),
+    may("onlineRveCoeffs", Kind::Dictionary),
+];
+
+/// `networkCoeffs`.
+pub const NETWORK: &[Key] = &[
+    must("model", Kind::Any),
+    may("hash", Kind::Any),
+    may("conductivity", Kind::Word(&["affine", "network"])),
+];
+
+/// `constantCoeffs`.
+pub const CONSTANT: &[Key] = &[
+    may("model", Kind::Any),
+    may("hash", Kind::Any),
+    may("conductivity", Kind::Any),
+    may("stress", Kind::Any),
+];
+
+/// `pluginCoeffs`.
+pub const PLUGIN: &[Key] = &[must("library", Kind::Any), may("hash", Kind::Any)];
+
+/// `onlineRveCoeffs`.
+pub const ONLINE_RVE: &[Key] = &[
+    may("discs", Kind::Range(20.0, 1e6, "")),
+    may("seed", Kind::Range(0.0, 1e9, "")),
+    may("compression", Kind::Word(&["isotropic", "horizontal", "intermediate", "sheared"])),
+    may("boundary", Kind::Word(&["periodic", "walls"])),
+    may("relaxation", Kind::Word(&["fire", "damped"])),
+    may("conductivity", Kind::Word(&["affine", "network"])),
+    may("stiffnessRatio", Kind::Range(0.01, 10.0, "")),
+    may("frictionAngle", Kind::Range(0.0, 1.5, "rad")),
+    may("porosityTolerance", Kind::Range(1e-6, 1.0, "")),
+    may("fabricTolerance", Kind::Range(1e-6, 2.0, "")),
+    may("rvePer", Kind::Word(&["cell", "history"])),
+    may("strainTolerance", Kind::Range(1e-6, 0.1, "")),
+];
+
+/// What is done beyond the region of a model.
+pub const POLICY: Kind = Kind::Word(&["clamp", "cutStep", "error", "warn"]);
+
+/// `outOfRegion`; a model may have further columns.
+pub const OUT_OF_REGION: &[Key] = &[
+    may("maxFraction", Kind::Range(0.0, 1.0, "")),
+    may("porosity", Kind::Dictionary),
+    may("fabricIndex", Kind::Dictionary),
+    may("reducedPressure", Kind::Dictionary),
+    may("fabricConductivity", Kind::Dictionary),
+    may("reducedDeviator", Kind::Dictionary),
+    may("thermalStrain", Kind::Dictionary),
+];
+
+/// A column in it.
+pub const SIDES: &[Key] = &[may("below", POLICY), may("above", POLICY)];
+
+/// `equilibriumCoeffs`; residual, maxResidual and slip depend on the grains.
+pub const EQUILIBRIUM: &[Key] = &[
+    may("residual", Kind::Any),
+    may("maxIterations", Kind::Range(1.0, 1000.0, "")),
+    may("maxResidual", Kind::Any),
+    may("sinPhi", Kind::Range(0.01, 1.0, "")),
+    may("shearFactor", Kind::Range(0.01, 10.0, "")),
+    may("walls", Kind::Dictionary),
+];
+
+/// A wall in its `walls`.
+pub const WALL: &[Key] = &[
+    may("type", Kind::Word(&["rigid", "frictionless", "symmetry", "displacement", "pressure"])),
+    may("friction", Kind::Range(0.0, 10.0, "")),
+    may("slip", Kind::Any),
+    may("displacement", Kind::Any),
+    may("pressure", Kind::Any),
+    may("displacementCoeffs", Kind::Dictionary),
+    may("pressureCoeffs", Kind::Dictionary),
+];
+
+/// `msddFoam` of `system/fvSolution`.
+pub const SOLVER: &[Key] = &[
+    may("timeScheme", Kind::Word(&["paper", "secondOrder"])),
+    may("nNonOrthogonalCorrectors", Kind::Range(0.0, 100.0, "")),
+    may("temperatureTolerance", Kind::Range(1e-12, 1e6, "K")),
+    may("stateTolerance", Kind::Range(1e-9, 100.0, "%")),
+    may("logInterval", Kind::Range(1.0, 1e9, "steps")),
+    may("waitLimit", Kind::Range(0.0, 1e9, "s")),
+];
+
+/// Numbers of `system/controlDict`; all its other keys are OpenFOAM's.
+pub const CONTROL: &[Key] = &[
+    may("startTime", Kind::Range(0.0, 1e300, "s")),
+    must("endTime", Kind::Range(-1e300, 1e300, "s")),
+    must("deltaT", Kind::Positive("s", "")),
+    may("maxDeltaT", Kind::Positive("s", "")),
+    may("minDeltaT", Kind::NotNegative("s", "")),
+    may("writeInterval", Kind::Positive("s or steps", "")),
+];
+
+/// Holds a dictionary against the keys that it may have. `known`: further names that are no mistake.
+pub fn check(dictionary: &Dictionary, file: &str, keys: &[Key], known: &[&str], found: &mut Findings) {
+    for key in dictionary.keys() {
+        let name = key.text.as_str();
+        if !keys.iter().any(|key| key.name == name) && !known.contains(&name) {
+            let names: Vec<&str> =
+                keys.iter().map(|key| key.name).filter(|&name| name != "FoamFile").collect();
+            let advice = match nearest(name, &names) {
+                Some(near) => format!("No such key: is '{near}' meant?"),
+                None => "No such key".to_string(),
+            };
+            found.error(
+                [file, &dictionary.path_of(name)],
+                &shown(dictionary, name),
+                &names.join(", "),
+                &advice,
+            );
+        }
+    }
+    for key in keys {
+        value(dictionary, file, key, found);
+    }
+}
+
+/// Holds one value against its key.
+pub fn value(dictionary: &Dictionary, file: &str, key: &Key, found: &mut Findings) {
+    let place = dictionary.path_of(key.name);
+    let allowed = key.kind.allowed();
+    let Some(entry) = dictionary.get(key.name) else {
+        if key.required {
+            found.error([file, &place], "missing", &allowed, "The solver needs it; add it");
+        }
+        return;
+    };
+    let good = match (key.kind, entry) {
+        (Kind::Any, _) | (Kind::Dictionary, Entry::Dictionary(_)) => true,
+        (Kind::Word(words), Entry::Value(tokens)) => words.contains(&joined(tokens).as_str()),
+        (Kind::Positive(_, dimensions), Entry::Value(_)) => {
+            number(dictionary, key.name, dimensions).is_some_and(|value| value > 0.0)
+        }
+        (Kind::NotNegative(_, dimensions), Entry::Value(_)) => {
+            number(dictionary, key.name, dimensions).is_some_and(|value| value >= 0.0)
+        }
+        (Kind::Range(least, most, _), Entry::Value(_)) => {
+            number(dictionary, key.name, "").is_some_and(|value| (least..=most).contains(&value))
+        }
+        _ => false,
+    };
+    if !good {
+        let advice = match (key.kind, entry) {
+            (Kind::Word(words), Entry::Value(tokens)) => {
+                nearest(&joined(tokens), words).map(|near| format!("Is '{near}' meant?")).unwrap_or_default()
+            }
+            _ => String::new(),
+        };
+        found.error([file, &place], &shown(dictionary, key.name), &allowed, &advice);
+    }
+}
+
+/// A number, which may have its name and its dimensions in front; then these must be as expected.
+pub fn number(dictionary: &Dictionary, key: &str, dimensions: &str) -> Option<f64> {
+    let tokens = dictionary.value(key).ok()?;
+    let (last, front) = tokens.split_last()?;
+    let given = joined(front);
+    let given = given.strip_prefix(key).unwrap_or(&given).trim();
+    let value: f64 = last.text.parse().ok()?;
+    (value.is_finite() && (given.is_empty() || given == dimensions)).then_some(value)
+}
+
+fn shown(dictionary: &Dictionary, key: &str) -> String {
+    match dictionary.get(key) {
+        Some(Entry::Value(tokens)) => joined(tokens),
+        Some(Entry::Dictionary(_)) => "{...}".to_string(),
+        None => "missing".to_string(),
+    }
+}
+
+impl Kind {
+    /// For messages.
+    pub fn allowed(self) -> String {
+        match self {
+            Self::Positive(unit, dimensions) => format!("> 0 {unit} {}", of(dimensions)).trim().to_string(),
+            Self::NotNegative(unit, dimensions) => {
+                format!(">= 0 {unit} {}", of(dimensions)).trim().to_string()
+            }
+            Self::Range(least, most, unit) => {
+                format!("{} to {} {unit}", number_text(least), number_text(most)).trim().to_string()
+            }
+            Self::Word(words) => words.join(", "),
+            Self::Dictionary => "a dictionary in braces".to_string(),
+            Self::Any => "a value".to_string(),
+        }
+    }
+}
+
+fn of(dimensions: &str) -> String {
+    if dimensions.is_empty() { String::new() } else { format!("{dimensions}, if dimensions are given") }
+}
+
+/// The name that a mistyped one is nearest to, if it is near at all.
+pub fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
+    let far = |other: &str| strsim::damerau_levenshtein(&name.to_lowercase(), &other.to_lowercase());
+    let near = names.iter().copied().min_by_key(|other| far(other))?;
+    (far(near) <= 1 + name.chars().count() / 4).then_some(near)
+}
+
+#[cfg(test)]
+#[path = "keys_tests.rs"]
+mod tests;

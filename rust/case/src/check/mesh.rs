@@ -1,0 +1,176 @@
+//! The mesh: from `constant/polyMesh` when it is there, else from `system/blockMeshDict`.
+
+use super::finding::Findings;
+use crate::dictionary::{Dictionary, Entry, joined};
+use std::path::Path;
+
+/// Path in the case folder.
+pub const BLOCKS: &str = "system/blockMeshDict";
+
+/// What other checks need to know.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Names of the patches with their types; empty when they are not known.
+    pub patches: Vec<[String; 2]>,
+    /// Number of cells.
+    pub cells: Option<usize>,
+    /// Cells along x and y, of a single block.
+    pub shape: Option<[usize; 2]>,
+    /// Lower left and upper right corner [m].
+    pub bounds: Option<[[f64; 2]; 2]>,
+}
+
+impl Mesh {
+    /// Names of the patches.
+    pub fn names(&self) -> Vec<String> {
+        self.patches.iter().map(|[name, _]| name.clone()).collect()
+    }
+
+    /// Sides of a cell [m], where all cells are alike.
+    pub fn cell(&self) -> Option<[f64; 2]> {
+        let ([low, high], [nx, ny]) = (self.bounds?, self.shape?);
+        Some([(high[0] - low[0]) / nx as f64, (high[1] - low[1]) / ny as f64])
+    }
+}
+
+/// Reads what there is of a mesh; `blocks` is `system/blockMeshDict`.
+pub fn check(folder: &Path, blocks: Option<&Dictionary>, found: &mut Findings) -> Mesh {
+    let mut mesh = Mesh::default();
+    if let Some(blocks) = blocks {
+        read_blocks(blocks, &mut mesh, found);
+    }
+    // What the solver reads is the mesh; blockMeshDict may have been changed after it was made.
+    let boundary = folder.join("constant/polyMesh/boundary");
+    if let Ok(text) = msdd_files::read_text(&boundary) {
+        match patches_of_mesh(&boundary, &text) {
+            Some(patches) => mesh.patches = patches,
+            None => found.error(
+                ["constant/polyMesh/boundary", ""],
+                "no list of patches",
+                "",
+                "Make the mesh again: blockMesh",
+            ),
+        }
+        let old = mesh.cells;
+        mesh.cells = cells_of_mesh(folder).or(old);
+        if old.is_some() && mesh.cells != old {
+            let (made, wanted) = (mesh.cells.unwrap_or(0), old.unwrap_or(0));
+            let advice = "The mesh in constant/polyMesh is older than this file; Allrun makes it again, or run blockMesh";
+            found.doubt([BLOCKS, "blocks"], &format!("{wanted} cells, but the mesh has {made}"), "", advice);
+            mesh.shape = None;
+        }
+    } else if blocks.is_none() {
+        let advice = "Neither a mesh in constant/polyMesh nor a description for blockMesh is there; 'msdd case new' writes one";
+        found.error([BLOCKS, ""], "missing", "", advice);
+    }
+    mesh
+}
+
+fn read_blocks(blocks: &Dictionary, mesh: &mut Mesh, found: &mut Findings) {
+    mesh.bounds = crate::case::bounds(blocks).ok().map(|(low, high)| [low, high]);
+    match blocks.value("blocks").map(joined) {
+        Ok(text) => {
+            let numbers = cells_in(&text);
+            mesh.cells = (!numbers.is_empty()).then(|| numbers.iter().map(|[x, y, z]| x * y * z).sum());
+            if let [[nx, ny, nz]] = numbers[..] {
+                mesh.shape = Some([nx, ny]);
+                if nz != 1 {
+                    let advice = "The solver is two-dimensional: one cell in z, with patches of type empty in front and behind";
+                    found.error(
+                        [BLOCKS, "blocks"],
+                        &format!("( {nx} {ny} {nz} )"),
+                        "one cell along z",
+                        advice,
+                    );
+                }
+            }
+        }
+        Err(error) => found.refused(BLOCKS, error, ""),
+    }
+    mesh.patches = patches_of_blocks(blocks);
+}
+
+/// The numbers of cells of each `hex ( ... ) ( nx ny nz )`, also with the name of a zone between.
+fn cells_in(text: &str) -> Vec<[usize; 3]> {
+    let after = |part: &str| {
+        let (_, rest) = part.split_once(')')?;
+        let (_, rest) = rest.split_once('(')?;
+        let (numbers, _) = rest.split_once(')')?;
+        let numbers: Option<Vec<usize>> = numbers.split_whitespace().map(|word| word.parse().ok()).collect();
+        <[usize; 3]>::try_from(numbers?).ok()
+    };
+    text.split("hex").skip(1).filter_map(after).collect()
+}
+
+/// `boundary ( name { type t; faces (...); } ... )`.
+fn patches_of_blocks(blocks: &Dictionary) -> Vec<[String; 2]> {
+    let Ok(tokens) = blocks.value("boundary") else { return Vec::new() };
+    let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
+    patches_in(&words)
+}
+
+fn patches_in(words: &[&str]) -> Vec<[String; 2]> {
+    let mut patches = Vec::new();
+    for (k, pair) in words.windows(2).enumerate() {
+        if pair[1] != "{" {
+            continue;
+        }
+        let inside = &words[k + 2..];
+        let end = inside.iter().position(|&word| word == "}").unwrap_or(inside.len());
+        let kind = inside[..end].windows(2).find(|pair| pair[0] == "type").map_or("", |pair| pair[1]);
+        patches.push([pair[0].to_string(), kind.to_string()]);
+    }
+    patches
+}
+
+/// Patches of `constant/polyMesh/boundary`, a list with its length in front and no key.
+fn patches_of_mesh(file: &Path, text: &str) -> Option<Vec<[String; 2]>> {
+    let body = text.find('(').map(|open| &text[open..])?;
+    let list = Dictionary::parse(file, &format!("list {};", body.trim_end_matches(|c| c != ')'))).ok()?;
+    let Some(Entry::Value(tokens)) = list.get("list") else { return None };
+    let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
+    Some(patches_in(&words))
+}
+
+/// `nCells:N` of the note in `constant/polyMesh/owner`.
+fn cells_of_mesh(folder: &Path) -> Option<usize> {
+    let text = msdd_files::read_text(&folder.join("constant/polyMesh/owner")).ok()?;
+    let (_, rest) = text.split_once("nCells:")?;
+    rest.trim_start().split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_and_patches_are_read() {
+        let text = "vertices ( (0 0 0) (2 0 0) (2 1 0) (0 1 0) (0 0 1) (2 0 1) (2 1 1) (0 1 1) ); scale 0.1;
+            blocks ( hex (0 1 2 3 4 5 6 7) (20 10 1) simpleGrading (1 1 1) );
+            boundary ( left { type wall; faces ((0 4 7 3)); } front { type empty; faces ((0 3 2 1)); } );";
+        let blocks = Dictionary::parse(Path::new(BLOCKS), text).unwrap();
+        let mut found = Findings::default();
+        let mesh = check(Path::new("no such folder"), Some(&blocks), &mut found);
+        assert_eq!(found, Findings::default());
+        assert_eq!(
+            (mesh.cells, mesh.shape, mesh.names()),
+            (Some(200), Some([20, 10]), vec!["left".into(), "front".into()])
+        );
+        assert_eq!(mesh.patches[1][1], "empty");
+        let [x, y] = mesh.cell().unwrap();
+        assert!((x - 0.01).abs() < 1e-12 && (y - 0.01).abs() < 1e-12);
+        let deep =
+            Dictionary::parse(Path::new(BLOCKS), &text.replace("(20 10 1)", "zone (20 10 3)")).unwrap();
+        check(Path::new("no such folder"), Some(&deep), &mut found);
+        assert!(found.0[0].to_string().contains("( 20 10 3 ), allowed: one cell along z"), "{}", found.0[0]);
+        check(Path::new("no such folder"), None, &mut found);
+        assert!(found.0[1].to_string().starts_with("error: system/blockMeshDict: missing"), "{}", found.0[1]);
+    }
+
+    #[test]
+    fn the_mesh_says_its_patches() {
+        let text = "FoamFile { class polyBoundaryMesh; }\n2\n(\n left { type wall; inGroups 1(wall); nFaces 3; }\n back { type empty; }\n)\n// end";
+        let patches = patches_of_mesh(Path::new("boundary"), text).unwrap();
+        assert_eq!(patches, [["left", "wall"], ["back", "empty"]].map(|pair| pair.map(str::to_string)));
+    }
+}

@@ -1,0 +1,263 @@
+//! Temperatures, lengths and times of a case beside each other.
+
+use super::control::{CONTROL, Times};
+use super::fields::Values;
+use super::finding::Findings;
+use super::mesh::{BLOCKS, Mesh};
+use super::state::Bed;
+use crate::dictionary::{Dictionary, Entry, Token};
+use crate::folder::grains_in;
+use crate::grains::Grains;
+use crate::scene::rounded;
+use msdd_rve::message::number;
+
+/// Path in the case folder.
+pub const SOURCES: &str = "constant/fvOptions";
+/// Grains of a cell below which it is doubtful to speak of their mean.
+const LEAST_GRAINS: f64 = 4.0;
+/// Mean radii of the narrowest box that is worth it: four grains side by side.
+const LEAST_RADII: f64 = 8.0;
+/// Largest thermal strain that the shipped models were trained with [-].
+const MOST_STRAIN: f64 = 0.05;
+/// End over diffusion time between which nothing is said.
+const USUAL_END: [f64; 2] = [0.02, 50.0];
+
+/// What is known of a case; what is not known is not judged.
+pub struct Scene<'a> {
+    mesh: &'a Mesh,
+    times: Option<Times>,
+    /// T at the start [K].
+    start: Option<&'a Values>,
+    /// Names of walls (patches that are not empty), and the temperatures that each has over time [K]; none for a condition that
+    /// sets no temperature.
+    walls: Vec<(String, Vec<f64>)>,
+    /// Whether a wall has a condition that is neither a temperature nor insulation: then not all is known.
+    strange: bool,
+    /// Heat released [W/m³].
+    source: f64,
+    has_source: bool,
+}
+
+impl<'a> Scene<'a> {
+    pub fn new(
+        temperature: Option<&Dictionary>,
+        start: Option<&'a Values>,
+        sources: Option<&Dictionary>,
+        mesh: &'a Mesh,
+        times: Option<Times>,
+    ) -> Self {
+        let mut scene = Self {
+            mesh,
+            times,
+            start,
+            walls: Vec::new(),
+            strange: false,
+            source: 0.0,
+            has_source: sources.is_some(),
+        };
+        if let Some(boundary) = temperature.and_then(|file| file.dictionary_at("boundaryField").ok()) {
+            for [name, kind] in &mesh.patches {
+                if kind != "empty" {
+                    scene.read_wall(name, boundary);
+                }
+            }
+        }
+        if let Some(sources) = sources {
+            scene.source = source_of(sources);
+        }
+        scene
+    }
+
+    fn read_wall(&mut self, name: &str, boundary: &Dictionary) {
+        let Some(Entry::Dictionary(patch)) = boundary.matching(name) else { return };
+        let kind = patch.text("type").unwrap_or_default();
+        let values = match kind.as_str() {
+            "fixedValue" => patch.value("value").map(numbers_in).unwrap_or_default(),
+            "uniformFixedValue" => match patch.value("uniformValue") {
+                Ok([first, rows @ ..]) if first.text == "table" => {
+                    numbers_in(rows).into_iter().skip(1).step_by(2).collect()
+                }
+                Ok(tokens) => numbers_in(tokens),
+                Err(_) => Vec::new(),
+            },
+            "zeroGradient" => Vec::new(),
+            _ => {
+                self.strange = true;
+                Vec::new()
+            }
+        };
+        self.walls.push((name.to_string(), values));
+    }
+
+    /// Walls that are below 0 K, or that do nothing.
+    pub fn check_walls(&self, found: &mut Findings) {
+        for (name, values) in &self.walls {
+            if let Some(value) = values.iter().find(|value| !(**value >= 0.0)) {
+                let place = format!("boundaryField/{name}");
+                found.error(
+                    ["0/T", &place],
+                    &format!("{} K", number(*value)),
+                    ">= 0 K",
+                    "Temperatures are in Kelvin",
+                );
+            }
+        }
+        let Some(start) = self.start else { return };
+        let all = start.numbers.iter().map(|value| value[0]);
+        let [least, most] = self.range(all.clone());
+        let quiet = !self.strange && !self.has_source && !self.walls.is_empty();
+        if quiet && most - least <= 1e-9 * most.abs() {
+            let advice = "No wall has another temperature than the bed, and there is no heat source: nothing will happen. Give a \
+                          wall a temperature, such as { type fixedValue; value uniform 350; }";
+            found.doubt(["0/T", "boundaryField"], "nothing heats or cools", "", advice);
+        }
+    }
+
+    /// Least and largest temperature of these and of all walls [K].
+    fn range(&self, values: impl Iterator<Item = f64>) -> [f64; 2] {
+        let walls = self.walls.iter().flat_map(|(_, values)| values.iter().copied());
+        values
+            .chain(walls)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)])
+    }
+
+    /// Cells and box beside the grains.
+    pub fn check_cells(&self, grains: &Grains, porosity: f64, found: &mut Findings) {
+        if let Some([width, height]) = self.mesh.cell() {
+            let count = grains_in(width * height, porosity, grains.mean_radius);
+            if count < LEAST_GRAINS {
+                let value = format!("{} grains in a cell", number(rounded(count, 2)));
+                let side = number(rounded(crate::scene::CELL_RADII * grains.mean_radius, 2));
+                let advice = format!(
+                    "A cell stands for the mean over its grains, which means little here, however smooth the result looks: make \
+                     cells of about {side} m (fewer of them), or check meanRadius, which is {} m",
+                    number(grains.mean_radius)
+                );
+                found.doubt([BLOCKS, "blocks"], &value, "about 4 and more", &advice);
+            }
+        }
+        let Some([low, high]) = self.mesh.bounds else { return };
+        let narrow = (high[0] - low[0]).min(high[1] - low[1]);
+        if narrow < LEAST_RADII * grains.mean_radius {
+            let value = format!(
+                "a box {} m wide, {} grains",
+                number(rounded(narrow, 3)),
+                number(rounded(0.5 * narrow / grains.mean_radius, 2))
+            );
+            let advice = "With so few grains side by side, the walls arrange them, and a bed's mean properties say little. Are the \
+                          lengths in metres (key scale)?";
+            found.doubt([BLOCKS, "vertices"], &value, "about 4 grains side by side and more", advice);
+        }
+    }
+
+    /// Thermal strains beside what the model was trained with; `walk` follows one of them, with its temperature.
+    pub fn check_strains(
+        &self,
+        grains: &Grains,
+        bed: &Bed,
+        found: &mut Findings,
+        walk: impl Fn([f64; 2], &mut Findings),
+    ) {
+        let Some(start) = self.start else { return };
+        let initial = start.mean(0);
+        let [least, most] = self.range(start.numbers.iter().map(|value| value[0]));
+        // A steady source heats by q L²/(2 K) at the far end of the way.
+        let rise = self.way().map_or(0.0, |way| self.source * way * way / (2.0 * bed.conductivity));
+        for temperature in [least + rise.min(0.0), most + rise.max(0.0)] {
+            let strain = grains.thermal_expansion * (temperature - initial);
+            if strain.abs() > 1.0001 * MOST_STRAIN {
+                let value = format!(
+                    "{} times {} K = {}",
+                    number(grains.thermal_expansion),
+                    number(rounded(temperature - initial, 3)),
+                    number(rounded(strain, 3))
+                );
+                let advice = "The strain from the start to the hottest or coldest place is beyond what the model was trained with. \
+                              It is composed of small steps, and may still be right, but nobody has checked that";
+                found.doubt(
+                    [super::grains::FILE, "thermalExpansion"],
+                    &value,
+                    "strains from -0.05 to 0.05",
+                    advice,
+                );
+            } else if strain.abs() > 1e-4 {
+                walk([strain, rounded(temperature, 4)], found);
+            }
+        }
+    }
+
+    /// Length over which heat has to spread [m]: half the box between two walls that have a temperature, all of it with one.
+    fn way(&self) -> Option<f64> {
+        let [low, high] = self.mesh.bounds?;
+        let warm = |name: &str| self.walls.iter().any(|(wall, values)| wall == name && !values.is_empty());
+        let way = |k: usize, a: &str, b: &str| match (warm(a), warm(b)) {
+            (true, true) => Some(0.5 * (high[k] - low[k])),
+            (false, false) => None,
+            _ => Some(high[k] - low[k]),
+        };
+        match (way(0, "left", "right"), way(1, "bottom", "top")) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        }
+    }
+
+    /// End and step beside the time that heat takes.
+    pub fn check_times(&self, bed: &Bed, found: &mut Findings) {
+        let Some(times) = self.times else { return };
+        if let Some(way) = self.way() {
+            let whole = way * way / bed.diffusivity;
+            let ratio = times.end / whole;
+            let steady =
+                self.walls.iter().all(|(_, values)| values.windows(2).all(|pair| pair[0] == pair[1]));
+            let value = format!("{} s", number(times.end));
+            let shown = number(rounded(whole, 2));
+            if ratio < USUAL_END[0] {
+                let reach = number(rounded((bed.diffusivity * times.end).sqrt(), 2));
+                let advice = format!(
+                    "Heat takes about {shown} s to spread over the {} m between wall and middle; by the end it has come some {reach} m \
+                     far",
+                    number(rounded(way, 3))
+                );
+                found.doubt([CONTROL, "endTime"], &value, "", &advice);
+            } else if ratio > USUAL_END[1] && steady {
+                let advice = format!(
+                    "Heat takes about {shown} s to spread; long before the end nothing changes any more"
+                );
+                found.doubt([CONTROL, "endTime"], &value, "", &advice);
+            }
+        }
+        if let Some([width, height]) = self.mesh.cell() {
+            let side = width.min(height);
+            let crossed = side * side / bed.diffusivity;
+            if !times.adaptive && times.step > crossed {
+                let advice = format!(
+                    "Heat crosses a cell in {} s: steps longer than that are stable but smear the beginning. Take shorter ones, or \
+                     adaptive ones (adjustTimeStep yes, timeScheme secondOrder)",
+                    number(rounded(crossed, 2))
+                );
+                found.doubt([CONTROL, "deltaT"], &format!("{} s", number(times.step)), "", &advice);
+            }
+        }
+    }
+}
+
+/// All numbers among the tokens.
+fn numbers_in(tokens: &[Token]) -> Vec<f64> {
+    tokens.iter().filter_map(|token| token.text.parse().ok()).collect()
+}
+
+/// Sum of the constant sources of T [W/m³] that are given per volume.
+fn source_of(sources: &Dictionary) -> f64 {
+    let of = |source: &Dictionary| {
+        let inner = source.get("scalarSemiImplicitSourceCoeffs");
+        let source = if let Some(Entry::Dictionary(inner)) = inner { inner } else { source };
+        let rates = source.dictionary_at("injectionRateSuSp").ok()?;
+        let specific = source.text("volumeMode").is_ok_and(|mode| mode == "specific");
+        specific.then(|| rates.value("T").map(numbers_in).unwrap_or_default().first().copied()).flatten()
+    };
+    let all = sources.keys().filter_map(|key| match sources.get(&key.text) {
+        Some(Entry::Dictionary(source)) => of(source),
+        _ => None,
+    });
+    all.sum()
+}

@@ -1,0 +1,356 @@
+//! The files of a new case: complete and of its own, so that it runs from anywhere on the disk.
+
+use crate::CaseError;
+use crate::fields::{FieldKind, head, uniform};
+use crate::packing::{Packing, RADIUS_RANGE, Spread};
+use crate::scene::{Mechanics, Scene, WALLS, rounded};
+use crate::walls::WallOverTime;
+use msdd_dem::WallHeat;
+use msdd_rve::Compression;
+use std::f64::consts::PI;
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+
+/// Times at which fields are written, and lines of the probes' tables, over the run.
+const WRITES: f64 = 4.0;
+const PROBE_LINES: f64 = 200.0;
+/// A step is at most this part of the run, so that curves of T are smooth.
+const STEPS: f64 = 100.0;
+
+macro_rules! template {
+    ($name:literal) => {
+        include_str!(concat!("../templates/", $name))
+    };
+}
+
+/// One file of a case: path below the folder, text, whether it is a program.
+pub struct File {
+    pub path: &'static str,
+    pub text: String,
+    pub program: bool,
+}
+
+/// Refuses a folder that cannot become a case; `force` allows one that is not empty.
+///
+/// # Errors
+/// [`CaseError::Parameter`].
+pub fn check_folder(folder: &Path, force: bool) -> Result<PathBuf, CaseError> {
+    let refuse = |value: &Path, allowed: &str| {
+        Err(CaseError::Parameter {
+            key: "folder".to_string(),
+            value: value.display().to_string(),
+            allowed: allowed.to_string(),
+        })
+    };
+    let Ok(whole) = std::path::absolute(folder) else {
+        return refuse(folder, "a folder, or a name that is not there yet");
+    };
+    let blank = |byte: u8| byte.is_ascii_whitespace() || byte == b'"' || byte == b'\'';
+    if whole.as_os_str().as_encoded_bytes().iter().any(|&byte| blank(byte)) {
+        return refuse(&whole, "a path without blanks and quotation marks, which OpenFOAM cannot work with");
+    }
+    let holds = fs::read_dir(folder).map(|mut entries| entries.next().is_some());
+    match holds {
+        Ok(true) if !force => refuse(
+            folder,
+            "an empty folder, or a name that is not there yet; with --force the files that 'case new' writes are replaced, and \
+             all others stay",
+        ),
+        Ok(_) => Ok(whole),
+        Err(_) if folder.symlink_metadata().is_err() => Ok(whole),
+        Err(_) => refuse(folder, "a folder, or a name that is not there yet"),
+    }
+}
+
+/// The files of the case. `checkout`: where the solver was built; `name`: of the folder.
+///
+/// # Errors
+/// [`CaseError::Model`].
+pub fn files(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> Result<Vec<File>, CaseError> {
+    let values = values(scene, packing, name, checkout)?;
+    let filled = |template: &str| fill(template, &values);
+    let foam = |path: &'static str, class: &str, template: &str| {
+        let object = path.rsplit('/').next().unwrap_or(path);
+        File { path, text: head(class, object) + &filled(template), program: false }
+    };
+    let mut files = vec![
+        File { path: "Allrun", text: filled(template!("Allrun")), program: true },
+        File { path: "Allclean", text: filled(template!("Allclean")), program: true },
+        File { path: "README.md", text: filled(template!("README.md")), program: false },
+        foam("constant/granularProperties", "dictionary", template!("granularProperties")),
+        foam("system/controlDict", "dictionary", template!("controlDict")),
+        foam("system/blockMeshDict", "dictionary", template!("blockMeshDict")),
+        foam("system/fvSchemes", "dictionary", template!("fvSchemes")),
+        foam("system/fvSolution", "dictionary", template!("fvSolution")),
+        foam("system/decomposeParDict", "dictionary", template!("decomposeParDict")),
+        foam("0/T", "volScalarField", template!("T")),
+    ];
+    if scene.heat_source.is_some() {
+        files.push(foam("constant/fvOptions", "dictionary", template!("fvOptions")));
+    }
+    files.extend(initial_fields(packing));
+    Ok(files)
+}
+
+/// Writes the files, each whole or not at all.
+///
+/// # Errors
+/// [`CaseError::File`].
+pub fn write(folder: &Path, files: &[File]) -> Result<(), CaseError> {
+    for file in files {
+        let path = folder.join(file.path);
+        msdd_files::write(&path, file.text.as_bytes())?;
+        if file.program {
+            let failed = |source| msdd_files::FileError::Write { file: path.clone(), source };
+            let mode = fs::metadata(&path).map_err(failed)?.permissions().mode();
+            // Who may read it may run it.
+            fs::set_permissions(&path, fs::Permissions::from_mode(mode | (mode & 0o444) >> 2))
+                .map_err(failed)?;
+        }
+    }
+    Ok(())
+}
+
+/// porosity, fabricIndex, fabricConductivity and stress, the same in all cells.
+fn initial_fields(packing: &Packing) -> Vec<File> {
+    let origin = format!(
+        "Mean of {} periodic boxes of {} packed grains, {} compression: written by 'msdd case new'",
+        packing.boxes,
+        packing.grains,
+        compression_name(packing.compression)
+    );
+    let ratio = |path: &'static str, what: &str, spread: Spread| {
+        let name = path.trim_start_matches("0/");
+        let text =
+            uniform(name, FieldKind::Ratio, &format!("{what}\n{origin}"), &format!("{:.4}", spread.mean));
+        File { path, text, program: false }
+    };
+    let [xx, yy] = packing.stress.map(|stress| -rounded(stress.mean, 5));
+    let what = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM";
+    let stress =
+        uniform("stress", FieldKind::Stress, &format!("{what}\n{origin}"), &format!("({xx} 0 0 {yy} 0 0)"));
+    vec![
+        ratio(
+            "0/porosity",
+            "Initial porosity: share of the plane without grains, overlaps counted once",
+            packing.porosity,
+        ),
+        ratio(
+            "0/fabricIndex",
+            "Initial fabric index F_xx - F_yy: above 0 when more contacts point along x",
+            packing.fabric_index,
+        ),
+        ratio(
+            "0/fabricConductivity",
+            "Initial anisotropy of the conductivity, (K_xx - K_yy)/(K_xx + K_yy)",
+            packing.fabric_conductivity,
+        ),
+        File { path: "0/stress", text: stress, program: false },
+    ]
+}
+
+type Values = Vec<(&'static str, String)>;
+
+/// What stands for `@key@` in the templates.
+fn values(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> Result<Values, CaseError> {
+    let end = scene.end_time;
+    let probe_interval = plain(rounded(end / PROBE_LINES, 2));
+    let depth = scene.cell()[0].min(scene.cell()[1]);
+    let mut values: Values = vec![
+        (
+            "spaceProbes",
+            match scene.mechanics {
+                Mechanics::Equilibrium => template!("spaceProbes").to_string(),
+                Mechanics::None => String::new(),
+            },
+        ),
+        ("checkout", checkout.display().to_string()),
+        ("name", name.to_string()),
+        ("mechanics", mechanics_name(scene.mechanics).to_string()),
+        ("endTime", plain(end)),
+        ("deltaT", plain(scene.first_step()?)),
+        ("maxDeltaT", plain(rounded(end / STEPS, 2))),
+        ("writeInterval", plain(end / WRITES)),
+        ("probeInterval", probe_interval),
+        ("depth", plain(rounded(depth, 3))),
+        ("probes", probes(scene, depth)),
+        ("initialTemperature", plain(scene.initial_temperature)),
+        ("walls", walls(scene)),
+        ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
+        (
+            "tolerance",
+            match scene.tolerance {
+                Some(value) => format!("temperatureTolerance    {};", plain(value)),
+                None => "// temperatureTolerance    0.05;".to_string(),
+            },
+        ),
+    ];
+    values.extend(scene.grains.named().map(|(key, value, _)| (key, plain(value))));
+    values.extend(mesh_values(scene, packing));
+    values.extend(readme_values(scene, packing));
+    Ok(values)
+}
+
+fn mesh_values(scene: &Scene, packing: &Packing) -> Values {
+    let [width, height] = scene.size;
+    let [cell_width, cell_height] = scene.cell();
+    vec![
+        ("width", plain(width)),
+        ("height", plain(height)),
+        ("nx", scene.cells[0].to_string()),
+        ("ny", scene.cells[1].to_string()),
+        ("cellWidth", plain(rounded(cell_width, 3))),
+        ("cellHeight", plain(rounded(cell_height, 3))),
+        (
+            "grainsInCell",
+            format!(
+                "{:.1}",
+                grains_in(cell_width * cell_height, packing.porosity.mean, scene.grains.mean_radius)
+            ),
+        ),
+        (
+            "discs",
+            plain(rounded(grains_in(width * height, packing.porosity.mean, scene.grains.mean_radius), 2)),
+        ),
+    ]
+}
+
+/// Number of grains on an area [m²] of a porosity, overlaps left out of account.
+pub fn grains_in(area: f64, porosity: f64, mean_radius: f64) -> f64 {
+    let [low, high] = RADIUS_RANGE.map(|ratio| ratio * mean_radius);
+    // Mean of r² for radii that are uniform between the two.
+    area * (1.0 - porosity) / (PI * (low * low + low * high + high * high) / 3.0)
+}
+
+fn readme_values(scene: &Scene, packing: &Packing) -> Values {
+    let row = |(name, wall): (&str, &WallOverTime)| format!("| {name} wall | {} | `0/T` |\n", describe(wall));
+    vec![
+        ("wallRows", WALLS.into_iter().zip(&scene.walls).map(row).collect()),
+        ("material", scene.material.clone()),
+        ("compression", compression_name(packing.compression).to_string()),
+        ("boxes", packing.boxes.to_string()),
+        ("boxGrains", packing.grains.to_string()),
+        ("packing", table(packing)),
+        (
+            "sourceRow",
+            match scene.heat_source {
+                Some(value) => format!("{} W/m3", plain(value)),
+                None => "nothing (no such file)".to_string(),
+            },
+        ),
+        (
+            "noSource",
+            match scene.heat_source {
+                Some(_) => "; it has no heat source, so this case is out of its reach".to_string(),
+                None => String::new(),
+            },
+        ),
+    ]
+}
+
+/// What a wall does, for a reader.
+pub fn describe(wall: &WallOverTime) -> String {
+    match wall {
+        WallOverTime::Steady(WallHeat::Temperature(value)) => format!("{} K", plain(*value)),
+        WallOverTime::Steady(_) => "insulated".to_string(),
+        WallOverTime::Table(rows) => {
+            let list: Vec<String> = rows
+                .iter()
+                .map(|[time, value]| format!("{} K at {} s", plain(*value), plain(*time)))
+                .collect();
+            list.join(", ")
+        }
+    }
+}
+
+/// Rows of the initial state: quantity, mean, scatter.
+pub fn packing_rows(packing: &Packing) -> Vec<[String; 3]> {
+    let row = |what: &str, spread: Spread, digits: usize| {
+        [what.to_string(), format!("{:.digits$}", spread.mean), format!("{:.digits$}", spread.deviation)]
+    };
+    let pascal = |what: &str, spread: Spread| {
+        [what.to_string(), plain(rounded(spread.mean, 4)), plain(rounded(spread.deviation, 2))]
+    };
+    vec![
+        row("porosity (overlaps counted once)", packing.porosity, 4),
+        pascal("pressure [Pa]", packing.pressure),
+        pascal("stress along x [Pa], compression positive", packing.stress[0]),
+        pascal("stress along y [Pa]", packing.stress[1]),
+        row("fabric index F_xx - F_yy", packing.fabric_index, 4),
+        row("conductivity of the bed over that of the grains", packing.conductivity, 4),
+        row("its anisotropy (K_xx - K_yy)/(K_xx + K_yy)", packing.fabric_conductivity, 4),
+    ]
+}
+
+fn table(packing: &Packing) -> String {
+    let rows = packing_rows(packing)
+        .into_iter()
+        .map(|[what, mean, deviation]| format!("| {what} | {mean} | {deviation} |\n"));
+    let rows: String = rows.collect();
+    format!("| quantity | mean | scatter |\n|---|---|---|\n{}", rows.trim_end())
+}
+
+fn probes(scene: &Scene, depth: f64) -> String {
+    let z = plain(rounded(0.5 * depth, 3));
+    let line = |[x, y]: &[f64; 2]| format!("            ({} {} {z})", plain(*x), plain(*y));
+    scene.probes.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn walls(scene: &Scene) -> String {
+    let condition = |wall: &WallOverTime| match wall {
+        WallOverTime::Steady(WallHeat::Temperature(value)) => {
+            format!("type    fixedValue;\n        value   uniform {};", plain(*value))
+        }
+        WallOverTime::Steady(_) => "type    zeroGradient;".to_string(),
+        WallOverTime::Table(rows) => {
+            let list: String =
+                rows.iter().map(|[time, value]| format!(" ({} {})", plain(*time), plain(*value))).collect();
+            format!(
+                "type            uniformFixedValue;\n        uniformValue    table ({} );\n        value           uniform {};",
+                list,
+                plain(rows[0][1])
+            )
+        }
+    };
+    let block = |(name, wall): (&str, &WallOverTime)| {
+        format!("    {name}\n    {{\n        {}\n    }}\n", condition(wall))
+    };
+    WALLS.into_iter().zip(&scene.walls).map(block).collect()
+}
+
+/// As `constant/granularProperties` calls it.
+pub fn mechanics_name(mechanics: Mechanics) -> &'static str {
+    match mechanics {
+        Mechanics::None => "none",
+        Mechanics::Equilibrium => "equilibrium",
+    }
+}
+
+pub fn compression_name(compression: Compression) -> &'static str {
+    match compression {
+        Compression::Isotropic => "isotropic",
+        Compression::Horizontal => "horizontal",
+        Compression::Intermediate => "intermediate",
+        Compression::Sheared => "sheared",
+    }
+}
+
+/// A number as one writes it: 0.012, 1.93e11. Reads back exactly.
+pub fn plain(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || (1e-4..1e7).contains(&size) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// Puts values in the places of `@key@`.
+fn fill(template: &str, values: &Values) -> String {
+    let filled = values
+        .iter()
+        .fold(template.to_string(), |text, (key, value)| text.replace(&format!("@{key}@"), value));
+    debug_assert!(!filled.contains("@}"), "{filled}");
+    filled
+}
+
+#[cfg(test)]
+#[path = "folder_tests.rs"]
+mod tests;

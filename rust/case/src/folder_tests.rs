@@ -1,0 +1,125 @@
+//! What the files of a new case say, and which folders are refused.
+
+use super::*;
+use crate::Case;
+use crate::dictionary::Dictionary;
+use crate::grains::PRESETS;
+use crate::packing::Start;
+use crate::scene::{parse_wall, proposed_cells, proposed_probes};
+
+fn spread(mean: f64) -> Spread {
+    Spread { mean, deviation: 0.01 * mean }
+}
+
+fn made(change: impl Fn(&mut Scene)) -> Vec<File> {
+    let size = [0.2, 0.1];
+    let mut scene = Scene {
+        size,
+        cells: proposed_cells(size, 1e-3),
+        walls: ["350", "insulated", "0:293,60:350", "insulated"].map(|text| parse_wall(text).unwrap()),
+        initial_temperature: 293.15,
+        material: "steel".to_string(),
+        grains: PRESETS[1].grains,
+        start: Start::Porosity(0.125),
+        compression: Compression::Horizontal,
+        mechanics: Mechanics::Equilibrium,
+        heat_source: None,
+        end_time: 60.0,
+        tolerance: None,
+        probes: proposed_probes(size),
+    };
+    change(&mut scene);
+    let packing = Packing {
+        boxes: 4,
+        grains: 500,
+        compression: Compression::Horizontal,
+        porosity: spread(0.125),
+        fabric_index: spread(0.04),
+        fabric_conductivity: spread(0.13),
+        stress: [spread(1.3e7), spread(7e6)],
+        pressure: spread(1.01e7),
+        conductivity: spread(0.3),
+    };
+    files(&scene, &packing, "bed", Path::new("/checkout")).unwrap()
+}
+
+fn text<'a>(files: &'a [File], path: &str) -> &'a str {
+    &files.iter().find(|file| file.path == path).unwrap().text
+}
+
+#[test]
+fn every_place_of_every_template_is_filled_and_every_dictionary_is_read() {
+    for mechanics in [Mechanics::None, Mechanics::Equilibrium] {
+        let files = made(|scene| {
+            scene.mechanics = mechanics;
+            scene.heat_source = Some(3000.0);
+            scene.tolerance = Some(0.05);
+        });
+        assert_eq!(files.len(), 15);
+        for File { path, text, program } in &files {
+            assert!(!regex::Regex::new("@[A-Za-z]+@").unwrap().is_match(text), "{path}: {text}");
+            assert_eq!(*program, path.starts_with("All"));
+            if path.contains('/') {
+                let dictionary = Dictionary::parse(Path::new(path), text).unwrap();
+                assert_eq!(
+                    dictionary.dictionary_at("FoamFile").unwrap().text("object").unwrap(),
+                    path.rsplit('/').next().unwrap()
+                );
+            }
+        }
+        assert_eq!(
+            text(&files, "system/controlDict").contains("spaceProbes"),
+            mechanics == Mechanics::Equilibrium
+        );
+        assert!(text(&files, "system/fvSolution").contains("\n    temperatureTolerance    0.05;"));
+        assert!(text(&files, "constant/fvOptions").contains("(3000 0)"));
+    }
+}
+
+#[test]
+fn values_stand_where_the_solver_looks_for_them() {
+    let files = made(|_| ());
+    let read = |path: &str| Dictionary::parse(Path::new(path), text(&files, path)).unwrap();
+    assert_eq!(read("constant/granularProperties").number("youngModulus", |_| true, "").unwrap(), 193e9);
+    assert_eq!(read("0/stress").text("internalField").unwrap(), "uniform ( -13000000 0 0 -7000000 0 0 )");
+    let temperature = read("0/T");
+    assert_eq!(temperature.uniform("internalField").unwrap(), 293.15);
+    let walls = crate::walls::heat_of_walls(&temperature);
+    let expected = ["350", "insulated", "0:293,60:350", "insulated"].map(|text| parse_wall(text).unwrap());
+    // The line that OpenFOAM expands stands among the patches.
+    assert!(walls.is_err() || walls.unwrap() == expected);
+    assert!(text(&files, "Allrun").contains("MSDD=${MSDD:-/checkout}"));
+    assert!(text(&files, "README.md").contains("| left wall | 350 K | `0/T` |\n| right wall | insulated |"));
+}
+
+/// Through foamDictionary, which needs OpenFOAM.
+#[test]
+fn the_reference_reads_what_is_written() {
+    if std::process::Command::new("foamDictionary").arg("-help").output().is_err() {
+        return;
+    }
+    let folder = std::env::temp_dir().join(format!("msdd-case-{}", std::process::id()));
+    write(&folder, &made(|_| ())).unwrap();
+    let case = Case::read(&folder).unwrap();
+    assert_eq!((case.size, case.end_time, case.mean_radius), ([0.2, 0.1], 60.0, 1e-3));
+    assert_eq!(
+        case.walls,
+        ["350", "insulated", "0:293,60:350", "insulated"].map(|text| parse_wall(text).unwrap())
+    );
+    assert_eq!(case.probes, proposed_probes([0.2, 0.1]));
+    let mode = fs::metadata(folder.join("Allrun")).unwrap().permissions().mode();
+    assert_eq!(mode & 0o111, (mode & 0o444) >> 2);
+    assert!(check_folder(&folder, false).unwrap_err().to_string().contains("allowed: an empty folder"));
+    assert!(check_folder(&folder, true).is_ok());
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn folders_that_are_none_are_refused() {
+    let refused = |path: &str| check_folder(Path::new(path), true).unwrap_err().to_string();
+    assert!(refused("/tmp/a case").contains("allowed: a path without blanks"));
+    assert!(
+        refused(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml")).contains("allowed: a folder, or a name")
+    );
+    assert!(check_folder(Path::new("/tmp/no/such/folder/yet"), false).is_ok());
+}

@@ -1,0 +1,157 @@
+//! Grains of a new case: their material by name or by value.
+
+use crate::CaseError;
+use msdd_dem::{Material, Thermal};
+use msdd_rve::message::number;
+
+/// What the solver needs to know about the grains. All grains are of one material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grains {
+    /// ρ [kg/m³], of the grains, not of the bed.
+    pub density: f64,
+    /// E [Pa]. Contact forces are E r δ (r: harmonic mean of the two radii, δ: overlap), so it scales the pressure.
+    pub young_modulus: f64,
+    /// k [W/(m K)].
+    pub thermal_conductivity: f64,
+    /// c [J/(kg K)].
+    pub heat_capacity: f64,
+    /// α [1/K], linear.
+    pub thermal_expansion: f64,
+    /// r̄ [m]; the radii are uniform between 0.6 and 1.4 of it.
+    pub mean_radius: f64,
+}
+
+/// A material that has a name.
+pub struct Preset {
+    pub name: &'static str,
+    /// What it is, and where the numbers come from.
+    pub about: &'static str,
+    pub grains: Grains,
+    /// Temperature at the start that suits it [K].
+    pub temperature: f64,
+}
+
+/// The first one is the default.
+pub const PRESETS: [Preset; 4] = [
+    Preset {
+        name: "paper",
+        about: "the model material of the paper (Table 2): soft grains that expand strongly, so that effects show within \
+                seconds",
+        grains: Grains {
+            density: 3000.0,
+            young_modulus: 1e7,
+            thermal_conductivity: 100.0,
+            heat_capacity: 1.0,
+            thermal_expansion: 1e-3,
+            mean_radius: 5e-3,
+        },
+        temperature: 50.0,
+    },
+    Preset {
+        name: "steel",
+        about: "stainless steel AISI 304 near room temperature (ASM material data sheet), balls of 2 mm diameter",
+        grains: Grains {
+            density: 8000.0,
+            young_modulus: 193e9,
+            thermal_conductivity: 16.2,
+            heat_capacity: 500.0,
+            thermal_expansion: 17.3e-6,
+            mean_radius: 1e-3,
+        },
+        temperature: 293.15,
+    },
+    Preset {
+        name: "glass",
+        about: "soda-lime glass near room temperature (MakeItFrom.com, annealed soda-lime glass), beads of 1 mm diameter",
+        grains: Grains {
+            density: 2400.0,
+            young_modulus: 71e9,
+            thermal_conductivity: 1.0,
+            heat_capacity: 800.0,
+            thermal_expansion: 8.8e-6,
+            mean_radius: 0.5e-3,
+        },
+        temperature: 293.15,
+    },
+    Preset {
+        name: "alumina",
+        about: "sintered alumina at 20 degrees Celsius (NIST Standard Reference Database 150; R. G. Munro, J. Am. Ceram. \
+                Soc. 80, 1919, 1997), spheres of 3 mm diameter",
+        grains: Grains {
+            density: 3984.0,
+            young_modulus: 416e9,
+            thermal_conductivity: 33.0,
+            heat_capacity: 755.0,
+            thermal_expansion: 4.6e-6,
+            mean_radius: 1.5e-3,
+        },
+        temperature: 293.15,
+    },
+];
+
+/// The material of this name.
+///
+/// # Errors
+/// [`CaseError::Parameter`] that lists the names there are.
+pub fn preset(name: &str) -> Result<&'static Preset, CaseError> {
+    PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
+        let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+        CaseError::Parameter {
+            key: "material".to_string(),
+            value: name.to_string(),
+            allowed: format!("{}; give the values of others one by one", names.join(", ")),
+        }
+    })
+}
+
+impl Grains {
+    /// Values by the names that they have in `constant/granularProperties`, with unit.
+    pub fn named(&self) -> [(&'static str, f64, &'static str); 6] {
+        [
+            ("density", self.density, "kg/m3"),
+            ("youngModulus", self.young_modulus, "Pa"),
+            ("thermalConductivity", self.thermal_conductivity, "W/(m K)"),
+            ("heatCapacity", self.heat_capacity, "J/(kg K)"),
+            ("thermalExpansion", self.thermal_expansion, "1/K"),
+            ("meanRadius", self.mean_radius, "m"),
+        ]
+    }
+
+    /// Refuses what has no meaning; names the first such value.
+    ///
+    /// # Errors
+    /// [`CaseError::Parameter`].
+    pub fn check(&self) -> Result<(), CaseError> {
+        for (key, value, unit) in self.named() {
+            // Far from where products of such numbers overflow.
+            let (least, most) = if key == "thermalExpansion" { (0.0, 1.0) } else { (1e-12, 1e15) };
+            if !(least..=most).contains(&value) {
+                let allowed = format!("{least:e} to {most:e} {unit}");
+                return Err(CaseError::Parameter { key: key.to_string(), value: number(value), allowed });
+            }
+        }
+        Ok(())
+    }
+
+    /// For the engine; friction, stiffness ratio and damping are those of the paper, for which the shipped model was trained.
+    pub fn material(&self) -> Material {
+        Material { density: self.density, young_modulus: self.young_modulus, ..Material::default() }
+    }
+
+    /// E r̄/ℓ with ℓ = 1 m [Pa]: stresses of packings of equal structure are in proportion to it.
+    pub fn stress_scale(&self) -> f64 {
+        self.young_modulus * self.mean_radius
+    }
+
+    /// From what a case folder says.
+    pub fn of(material: &Material, thermal: &Thermal, mean_radius: f64) -> Self {
+        Self {
+            density: material.density,
+            young_modulus: material.young_modulus,
+            thermal_conductivity: thermal.conductivity,
+            heat_capacity: thermal.heat_capacity,
+            thermal_expansion: thermal.expansion,
+            mean_radius,
+        }
+    }
+}

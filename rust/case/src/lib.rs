@@ -1,0 +1,52 @@
+//! Case folders of the solver `msddFoam`: read, begun and checked.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`dictionary`] | OpenFOAM dictionaries as `foamDictionary -expand` prints them |
+//! | [`case`] | material, temperatures, box and times of a case folder |
+//! | [`walls`] | what the walls of a case do to heat, over time |
+//! | [`mesh`] | cell centres of a case's mesh |
+//! | [`fields`] | texts of initial fields |
+//! | [`grains`] | materials of new cases |
+//! | [`scene`] | what a new case is about |
+//! | [`packing`] | the packing that it starts with |
+//! | [`folder`] | the files of a new case |
+//! | [`check`](mod@check) | what is missing, out of range or doubtful before a run |
+#![forbid(unsafe_code)]
+
+pub mod case;
+pub mod check;
+pub mod dictionary;
+pub mod fields;
+pub mod folder;
+pub mod grains;
+pub mod mesh;
+pub mod packing;
+pub mod scene;
+pub mod walls;
+
+pub use case::Case;
+
+use msdd_rve::message::{shortened, value as value_text};
+use std::path::PathBuf;
+
+/// What can be wrong with a case folder, or with a wish for a new one.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    #[error("{file}: {key} = {value}, allowed: {allowed}", file = file.display(), value = value_text(value))]
+    Key { file: PathBuf, key: String, value: String, allowed: String },
+    #[error("{file}: line {line}: {problem}", file = file.display(), problem = shortened(problem))]
+    Syntax { file: PathBuf, line: usize, problem: String },
+    #[error("cannot read {file}: {problem}", file = file.display())]
+    Read { file: PathBuf, problem: String },
+    #[error("{key} = {value}, allowed: {allowed}", value = value_text(value))]
+    Parameter { key: String, value: String, allowed: String },
+    #[error(transparent)]
+    Rve(#[from] msdd_rve::RveError),
+    #[error(transparent)]
+    Model(#[from] msdd_surrogate::SurrogateError),
+    #[error("cannot start threads: {0}")]
+    Threads(std::io::Error),
+    #[error(transparent)]
+    File(#[from] msdd_files::FileError),
+}

@@ -1,0 +1,338 @@
+//! The state that a case begins with: means over small periodic boxes of its grains, packed by discrete elements.
+
+use crate::CaseError;
+use crate::grains::Grains;
+use msdd_rve::message::number;
+use msdd_rve::{
+    Averages, Boundary, Compression, PackingSpec, Preparation, RegionKind, Relaxation, homogenise, pack_as,
+};
+use msdd_surrogate::Surrogate;
+use msdd_surrogate::surrogate::Known;
+use rayon::prelude::*;
+
+/// Smallest and largest radius over the mean: 3 and 7 mm of 5 in the paper.
+pub const RADIUS_RANGE: [f64; 2] = [0.6, 1.4];
+/// tan φ while a box is packed. Paper silent. Friction raises the porosity at which the grains jam and the fabric index:
+/// 0.3 ends near η, f = 12.4 %, 0.036; the material's own 0.546 jams at 12.9–13.1 %.
+pub const PACKING_FRICTION: f64 = 0.42;
+/// Porosities at the start that are allowed [-]: those of the packings which the shipped model was trained with.
+pub const POROSITIES: [f64; 2] = [0.06, 0.19];
+/// Grains in each box.
+const GRAINS: usize = 500;
+/// A pressure is met when it is as near as this, relative.
+const PRESSURE_TOLERANCE: f64 = 0.01;
+/// Rounds of packing at most until it is.
+const ROUNDS: usize = 8;
+
+/// What is wanted of the initial packing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// η [-], overlaps counted once.
+    Porosity(f64),
+    /// p [Pa], compression positive.
+    Pressure(f64),
+}
+
+/// Mean over the boxes, and how far a single box is from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    pub mean: f64,
+    /// Standard deviation between boxes.
+    pub deviation: f64,
+}
+
+/// The initial state. Compression positive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Packing {
+    pub boxes: usize,
+    /// Grains in each.
+    pub grains: usize,
+    pub compression: Compression,
+    /// η [-], overlaps counted once.
+    pub porosity: Spread,
+    /// f = F_xx − F_yy [-].
+    pub fabric_index: Spread,
+    /// (K_xx − K_yy)/(K_xx + K_yy) [-], network of contacts solved.
+    pub fabric_conductivity: Spread,
+    /// σ_xx, σ_yy [Pa].
+    pub stress: [Spread; 2],
+    /// p [Pa].
+    pub pressure: Spread,
+    /// (K_xx + K_yy)/2k [-], network of contacts solved.
+    pub conductivity: Spread,
+}
+
+/// How to pack.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Boxes that are averaged.
+    pub boxes: usize,
+    /// Seed of the first one.
+    pub seed: u64,
+    /// Results do not depend on it.
+    pub threads: usize,
+}
+
+/// Packs boxes of the grains and averages them. `progress` hears the number of boxes done, of how many in all as far as is
+/// known.
+///
+/// # Errors
+/// [`CaseError::Parameter`] for a porosity or pressure that such grains do not have or the shipped model does not know;
+/// [`CaseError::Rve`] when a packing fails.
+pub fn pack(
+    grains: &Grains,
+    start: Start,
+    compression: Compression,
+    effort: Effort,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Packing, CaseError> {
+    grains.check()?;
+    check(grains, start, compression)?;
+    match start {
+        Start::Porosity(porosity) => {
+            boxes_of(grains, porosity, compression, effort, &|done| progress(done, effort.boxes))
+        }
+        Start::Pressure(pressure) => to_pressure(grains, pressure, compression, effort, progress),
+    }
+}
+
+/// Refuses what is out of range before anything is packed.
+///
+/// # Errors
+/// [`CaseError::Parameter`].
+pub fn check(grains: &Grains, start: Start, compression: Compression) -> Result<(), CaseError> {
+    let [least, most] = POROSITIES;
+    match start {
+        Start::Porosity(porosity) if !(least..=most).contains(&porosity) => Err(CaseError::Parameter {
+            key: "porosity".to_string(),
+            value: number(porosity),
+            allowed: format!(
+                "{least} to {most}, the packings of discs that the model was trained with (in two dimensions; looser discs \
+                 hardly touch, denser ones overlap too much)"
+            ),
+        }),
+        Start::Pressure(pressure) => {
+            let [low, high] = pressures(grains, compression)?;
+            if (low..=high).contains(&pressure) {
+                return Ok(());
+            }
+            Err(CaseError::Parameter {
+                key: "pressure".to_string(),
+                value: format!("{} Pa", number(pressure)),
+                allowed: format!(
+                    "{} to {} Pa for these grains, which is what packings of a porosity from {most} to {least} have; it is \
+                     in proportion to youngModulus times meanRadius",
+                    rounded(low),
+                    rounded(high)
+                ),
+            })
+        }
+        Start::Porosity(_) => Ok(()),
+    }
+}
+
+/// Three digits.
+fn rounded(value: f64) -> String {
+    number(crate::scene::rounded(value, 3))
+}
+
+/// Pressures [Pa] of the loosest and of the densest packing that are allowed, as the shipped model knows them.
+fn pressures(grains: &Grains, compression: Compression) -> Result<[f64; 2], CaseError> {
+    let model = msdd_surrogate::models::builtin(msdd_surrogate::models::BUILTIN)?;
+    let at = |porosity| grains.stress_scale() * expected(model.as_ref(), porosity, compression);
+    Ok([at(POROSITIES[1]), at(POROSITIES[0])])
+}
+
+/// p̃ [-] of the mean packing of a porosity, as the model knows it.
+fn expected(model: &dyn Surrogate, porosity: f64, compression: Compression) -> f64 {
+    let known = Known { porosity, fabric_index: usual_fabric(compression), ..Known::default() };
+    let answer = model.evaluate(&model.initial_state(&known), 0.0);
+    0.5 * (answer.stress[0][0] + answer.stress[1][0])
+}
+
+/// Fabric index of packings that were compressed in this way [-], roughly.
+pub fn usual_fabric(compression: Compression) -> f64 {
+    match compression {
+        Compression::Isotropic => 0.0,
+        _ => 0.045,
+    }
+}
+
+/// Looks for the porosity by interpolation between the two packings that are nearest in √p, of which it is nearly linear.
+fn to_pressure(
+    grains: &Grains,
+    pressure: f64,
+    compression: Compression,
+    effort: Effort,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Packing, CaseError> {
+    let wanted = (pressure / grains.stress_scale()).sqrt();
+    let mut porosity = model_porosity(pressure / grains.stress_scale(), compression)?;
+    let mut known: Vec<[f64; 2]> = Vec::new();
+    for round in 0..ROUNDS {
+        let done = round * effort.boxes;
+        let all = effort.boxes * (round + 1).max(2);
+        let packing = boxes_of(grains, porosity, compression, effort, &|here| progress(done + here, all))?;
+        if (packing.pressure.mean / pressure - 1.0).abs() < PRESSURE_TOLERANCE {
+            return Ok(packing);
+        }
+        known.push([porosity, (packing.pressure.mean / grains.stress_scale()).max(0.0).sqrt()]);
+        known.sort_by(|a, b| (a[1] - wanted).abs().total_cmp(&(b[1] - wanted).abs()));
+        let slope = match known.as_slice() {
+            [a, b, ..] if a[1] != b[1] => (a[0] - b[0]) / (a[1] - b[1]),
+            // Of √p̃ against η of the shipped model's packings, to begin with.
+            _ => -0.47,
+        };
+        let [low, high] = [POROSITIES[0] - 0.01, POROSITIES[1] + 0.01];
+        porosity = (known[0][0] + slope * (wanted - known[0][1])).clamp(low, high);
+    }
+    Err(CaseError::Parameter {
+        key: "pressure".to_string(),
+        value: format!("{} Pa", number(pressure)),
+        allowed: format!("one that packings of these grains reach; {ROUNDS} rounds of packing did not"),
+    })
+}
+
+/// Porosity at which the model's mean packing has the reduced pressure p̃.
+pub(crate) fn model_porosity(pressure: f64, compression: Compression) -> Result<f64, CaseError> {
+    let model = msdd_surrogate::models::builtin(msdd_surrogate::models::BUILTIN)?;
+    let [mut dense, mut loose] = POROSITIES;
+    for _ in 0..40 {
+        let middle = 0.5 * (dense + loose);
+        if expected(model.as_ref(), middle, compression) > pressure { dense = middle } else { loose = middle }
+    }
+    Ok(0.5 * (dense + loose))
+}
+
+fn boxes_of(
+    grains: &Grains,
+    porosity: f64,
+    compression: Compression,
+    effort: Effort,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Packing, CaseError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(effort.threads.max(1)).build();
+    let pool = pool.map_err(|error| CaseError::Threads(std::io::Error::other(error)))?;
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let one = |k: usize| {
+        let averages = packed(grains, porosity, compression, effort.seed + k as u64);
+        progress(done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1);
+        averages
+    };
+    let averages: Result<Vec<Averages>, CaseError> =
+        pool.install(|| (0..effort.boxes.max(1)).into_par_iter().map(one).collect());
+    Ok(Packing::of(&averages?, compression))
+}
+
+fn packed(
+    grains: &Grains,
+    porosity: f64,
+    compression: Compression,
+    seed: u64,
+) -> Result<Averages, CaseError> {
+    let [radius_min, radius_max] = RADIUS_RANGE.map(|ratio| ratio * grains.mean_radius);
+    let boundary = Boundary::Periodic;
+    let relaxation = Relaxation::Fire;
+    let spec = PackingSpec {
+        discs: GRAINS,
+        seed,
+        porosity,
+        compression,
+        radius_min,
+        radius_max,
+        boundary,
+        relaxation,
+    };
+    let preparation = Preparation { friction_angle: Some(PACKING_FRICTION.atan()), ..Preparation::default() };
+    let packed = pack_as(&spec, &preparation, &grains.material())?;
+    Ok(homogenise(&packed.simulation, RegionKind::Cell))
+}
+
+impl Packing {
+    /// Of packings that were compressed alike in both directions what differs between x and y is chance: such are averaged
+    /// with themselves turned by 90°.
+    fn of(averages: &[Averages], compression: Compression) -> Self {
+        let alike = compression == Compression::Isotropic;
+        let spread = |value: fn(&Averages) -> f64| Spread::of(averages.iter().map(value));
+        let odd = |value: fn(&Averages) -> f64| {
+            let found = spread(value);
+            if alike { Spread { mean: 0.0, ..found } } else { found }
+        };
+        let pressure = spread(|a| a.pressure);
+        let stress = [spread(|a| a.stress_xx), spread(|a| a.stress_yy)]
+            .map(|found| if alike { Spread { mean: pressure.mean, ..found } } else { found });
+        Self {
+            boxes: averages.len(),
+            grains: GRAINS,
+            compression,
+            porosity: spread(|a| a.porosity),
+            fabric_index: odd(|a| a.fabric_index),
+            fabric_conductivity: odd(|a| {
+                let (xx, yy) = (a.conductivity_network_xx, a.conductivity_network_yy);
+                if xx + yy > 0.0 { (xx - yy) / (xx + yy) } else { 0.0 }
+            }),
+            stress,
+            pressure,
+            conductivity: spread(|a| 0.5 * (a.conductivity_network_xx + a.conductivity_network_yy)),
+        }
+    }
+}
+
+impl Spread {
+    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let count = values.clone().count().max(1) as f64;
+        let mean = values.clone().sum::<f64>() / count;
+        let square: f64 = values.map(|value| (value - mean) * (value - mean)).sum();
+        Self { mean, deviation: (square / (count - 1.0).max(1.0)).sqrt() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grains::PRESETS;
+    use msdd_rve::database::plan::Plan;
+
+    const EFFORT: Effort = Effort { boxes: 4, seed: 1, threads: 2 };
+
+    #[test]
+    fn porosities_are_those_of_the_plan_that_the_model_was_trained_with() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/database/periodic.toml");
+        let plan = Plan::parse(&std::fs::read_to_string(file).unwrap(), file).unwrap();
+        let all = || plan.thermal.iter().flat_map(|block| block.porosities.iter().copied());
+        assert_eq!(POROSITIES, [all().fold(1.0, f64::min), all().fold(0.0, f64::max)]);
+    }
+
+    #[test]
+    fn packed_boxes_are_what_the_model_expects_at_any_size_and_stiffness() {
+        let model = msdd_surrogate::models::builtin("builtin").unwrap();
+        for preset in &PRESETS[..2] {
+            let packing =
+                pack(&preset.grains, Start::Porosity(0.12), Compression::Horizontal, EFFORT, &|_, _| ())
+                    .unwrap();
+            assert!((packing.porosity.mean - 0.12).abs() < 1e-3, "{packing:?}");
+            let reduced = packing.pressure.mean / preset.grains.stress_scale();
+            let expected = expected(model.as_ref(), 0.12, Compression::Horizontal);
+            assert!((reduced / expected - 1.0).abs() < 0.1, "{}: {reduced} {expected}", preset.name);
+            assert!(packing.fabric_index.mean > 0.02 && packing.stress[0].mean > packing.stress[1].mean);
+        }
+    }
+
+    #[test]
+    fn a_pressure_is_met_and_one_that_no_packing_has_is_refused_with_the_range() {
+        let grains = PRESETS[1].grains;
+        let wanted = 0.05 * grains.stress_scale();
+        let packing =
+            pack(&grains, Start::Pressure(wanted), Compression::Isotropic, EFFORT, &|_, _| ()).unwrap();
+        assert!((packing.pressure.mean / wanted - 1.0).abs() < PRESSURE_TOLERANCE, "{packing:?}");
+        assert_eq!(packing.stress[0].mean, packing.stress[1].mean);
+        let refused = |start| check(&grains, start, Compression::Isotropic).unwrap_err().to_string();
+        let error = refused(Start::Pressure(1e3));
+        assert!(
+            error.starts_with("pressure = 1000 Pa, allowed: ") && error.contains("youngModulus"),
+            "{error}"
+        );
+        assert!(refused(Start::Porosity(0.4)).starts_with("porosity = 0.4, allowed: 0.06 to 0.19"));
+        assert!(refused(Start::Porosity(f64::NAN)).contains("allowed: 0.06 to 0.19"));
+    }
+}

@@ -1,0 +1,63 @@
+//! Questions on the terminal, one line each; an empty answer takes the proposal.
+
+use crate::error::CliError;
+use std::io::{self, BufRead};
+
+/// Where answers come from.
+pub struct Asker {
+    /// Otherwise all proposals are taken.
+    pub interactive: bool,
+}
+
+impl Asker {
+    /// The value that was given as an option, else the answer to a question, else the proposal. `help`: what the question is
+    /// about, for somebody who sees it for the first time.
+    ///
+    /// # Errors
+    /// [`CliError::Message`] when a proposal is wrong, or the answers have come to an end.
+    pub fn value<T>(
+        &self,
+        given: Option<T>,
+        help: &str,
+        question: &str,
+        proposal: &str,
+        read: impl Fn(&str) -> Result<T, String>,
+    ) -> Result<T, CliError> {
+        if let Some(value) = given {
+            return Ok(value);
+        }
+        if !self.interactive {
+            return read(proposal).map_err(|allowed| wrong(question, proposal, &allowed));
+        }
+        outln!("\n{help}");
+        loop {
+            out!("{question} [{proposal}]: ");
+            crate::output::flush();
+            let mut line = String::new();
+            let bytes = io::stdin().lock().read_line(&mut line);
+            if bytes.map_err(|error| CliError::Message(format!("cannot read the answer: {error}")))? == 0 {
+                let message = format!(
+                    "no answer to '{question}', the input has ended; --yes takes all proposals without asking"
+                );
+                return Err(CliError::Message(message));
+            }
+            let answer = line.trim();
+            match read(if answer.is_empty() { proposal } else { answer }) {
+                Ok(value) => return Ok(value),
+                Err(allowed) => outln!("    '{answer}' is not understood, allowed: {allowed}"),
+            }
+        }
+    }
+}
+
+fn wrong(question: &str, value: &str, allowed: &str) -> CliError {
+    CliError::Message(format!("{question} = {value}, allowed: {allowed}"))
+}
+
+/// A number; ranges are checked once all is known.
+pub fn number(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|value: &f64| value.is_finite())
+        .ok_or_else(|| "a number, such as 0.05 or 2e11".to_string())
+}

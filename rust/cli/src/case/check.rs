@@ -1,0 +1,49 @@
+//! `msdd case check`.
+
+use crate::error::CliError;
+use clap::Args;
+use msdd_case::check::check;
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+#[command(
+    after_help = "Each line is an error (the solver refuses the case) or a doubt (it runs, but look at the result with care), with file, key, value,
+what is allowed, and what to do. Status 1 with errors, 0 without. Nothing is run and nothing is written; OpenFOAM must be
+installed, since its own program reads the dictionaries.
+
+Example: msdd case check cases/H"
+)]
+pub struct Arguments {
+    /// The case folder.
+    folder: PathBuf,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    report(&arguments.folder)
+}
+
+/// Prints what a check finds.
+///
+/// # Errors
+/// [`CliError::Message`] with the number of errors.
+pub fn report(folder: &Path) -> Result<(), CliError> {
+    let found = check(folder);
+    for finding in &found.0 {
+        outln!("{finding}");
+    }
+    let [errors, doubts] = found.counts();
+    let many =
+        |count: usize, what: &str| if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") };
+    let folder = folder.display();
+    if errors > 0 {
+        let (errors, doubts) = (many(errors, "error"), many(doubts, "doubt"));
+        return Err(CliError::Message(format!(
+            "{folder}: {errors} and {doubts}; the case will not run as it is"
+        )));
+    }
+    match doubts {
+        0 => outln!("{folder}: checked, nothing is missing, out of range or doubtful"),
+        _ => outln!("{folder}: checked, no errors, {}", many(doubts, "doubt")),
+    }
+    Ok(())
+}

@@ -1,0 +1,137 @@
+//! `msdd case new`.
+
+use super::ask::Asker;
+use super::wishes::{Wishes, summary};
+use crate::error::CliError;
+use crate::progress::Progress;
+use clap::Args;
+use msdd_case::folder::{self, check_folder, files, packing_rows, plain};
+use msdd_case::grains::PRESETS;
+use msdd_case::packing::{Effort, pack};
+use msdd_case::scene::Scene;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+#[derive(Args)]
+#[command(
+    after_help = "On a terminal it asks for whatever is not given as an option, with a proposal for each; an empty answer takes it.
+Without a terminal, or with --yes, the proposals are taken.
+
+Examples:
+  msdd case new bed                                   asks
+  msdd case new bed --yes                             the paper's grains, hot on the left
+  msdd case new bed --yes --material glass --box 0.05x0.02 --left 350 --pressure 2e6
+  msdd case new bed --yes --box 0.5x0.2 --left insulated --right insulated --top 50 --bottom 50 --heat-source 3000
+
+Then: bed/Allrun. The folder stands for itself: it may lie anywhere and be copied."
+)]
+pub struct Arguments {
+    /// The new case folder; missing or empty.
+    #[arg(required_unless_present = "list_materials")]
+    folder: Option<PathBuf>,
+    /// Take the proposal for all that is not given, without asking.
+    #[arg(long, visible_alias = "non-interactive", conflicts_with = "ask")]
+    yes: bool,
+    /// Ask even if the input is no terminal: one answer a line.
+    #[arg(long)]
+    ask: bool,
+    /// Write into a folder that is not empty: files of the same name are replaced, all others stay.
+    #[arg(long)]
+    force: bool,
+    /// List the materials that have a name, with their values and sources.
+    #[arg(long)]
+    list_materials: bool,
+    #[command(flatten)]
+    wishes: Wishes,
+    /// Boxes of 500 grains that are packed and averaged for the start.
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = "Packing at the start")]
+    packings: u32,
+    /// Seed of the first of them.
+    #[arg(long, default_value_t = 1, help_heading = "Packing at the start")]
+    seed: u64,
+    /// Default: all processor cores. The results do not depend on it.
+    #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
+    threads: u32,
+    /// MSDD's checkout, whose solver the case will run. Default: the one that this program was built in.
+    #[arg(long, value_name = "DIR")]
+    checkout: Option<PathBuf>,
+}
+
+fn threads() -> u32 {
+    std::thread::available_parallelism().map_or(1, |n| n.get().min(64) as u32)
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let Some(folder) = &arguments.folder else {
+        list_materials();
+        return Ok(());
+    };
+    let whole = check_folder(folder, arguments.force)?;
+    let checkout = checkout(arguments.checkout.as_deref())?;
+    let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
+    let asker = Asker { interactive: arguments.ask || (terminal && !arguments.yes) };
+    let scene = arguments.wishes.scene(&asker)?;
+    outln!("{}", summary(&scene));
+    let packing = packed(&scene, arguments)?;
+    outln!(
+        "packing at the start, mean of {} boxes of {} grains, and scatter between boxes:",
+        packing.boxes,
+        packing.grains
+    );
+    for [what, mean, deviation] in packing_rows(&packing) {
+        outln!("    {what:55} {mean:>10} +- {deviation}");
+    }
+    let name = whole.file_name().unwrap_or_default().to_string_lossy();
+    folder::write(folder, &files(&scene, &packing, &name, &checkout)?)?;
+    outln!("written: {}", folder.display());
+    super::check::report(folder)?;
+    outln!("Run it with {}/Allrun; {0}/README.md says what is where.", folder.display());
+    Ok(())
+}
+
+fn packed(scene: &Scene, arguments: &Arguments) -> Result<msdd_case::packing::Packing, CliError> {
+    let boxes = arguments.packings as usize;
+    let progress = Mutex::new(Progress::new("packing boxes of grains", boxes as u64));
+    let watch = |done: usize, all: usize| {
+        if let Ok(mut progress) = progress.lock() {
+            progress.set(done as u64, all as u64, "");
+        }
+    };
+    let effort = Effort { boxes, seed: arguments.seed, threads: arguments.threads as usize };
+    let packing = pack(&scene.grains, scene.start, scene.compression, effort, &watch)?;
+    if let Ok(progress) = progress.lock() {
+        progress.finish();
+    }
+    Ok(packing)
+}
+
+/// The folder with the solver: the one that was named, one above this program, or the one that it was compiled in.
+fn checkout(named: Option<&Path>) -> Result<PathBuf, CliError> {
+    let is_checkout = |folder: &Path| folder.join("scripts/foam-env").is_file();
+    let missing = |folder: &Path| {
+        let folder = folder.display();
+        CliError::Message(format!(
+            "--checkout = {folder}, allowed: a checkout of MSDD, which has scripts/foam-env"
+        ))
+    };
+    if let Some(folder) = named {
+        let whole = folder.canonicalize().unwrap_or(folder.to_path_buf());
+        return if is_checkout(&whole) { Ok(whole) } else { Err(missing(folder)) };
+    }
+    let program = std::env::current_exe().and_then(|path| path.canonicalize()).unwrap_or_default();
+    let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap_or_default();
+    let found = program.ancestors().find(|folder| is_checkout(folder)).map(Path::to_path_buf);
+    found.or_else(|| is_checkout(&built).then_some(built)).ok_or_else(|| {
+        CliError::Message("no checkout of MSDD above this program; name it by --checkout DIR".to_string())
+    })
+}
+
+fn list_materials() {
+    for preset in &PRESETS {
+        outln!("{}: {}", preset.name, preset.about);
+        for (key, value, unit) in preset.grains.named() {
+            outln!("    {key:20} {:>10} {unit}", plain(value));
+        }
+    }
+}

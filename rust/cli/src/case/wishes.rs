@@ -1,0 +1,362 @@
+//! What a user wishes of a new case: options, and questions about what no option says.
+
+use super::ask::{Asker, number};
+use crate::error::CliError;
+use clap::{Args, ValueEnum};
+use msdd_case::folder::{describe, plain};
+use msdd_case::grains::{Grains, PRESETS, Preset, preset};
+use msdd_case::packing::{POROSITIES, Start};
+use msdd_case::scene::{
+    Mechanics, Scene, cells_of, parse_pair, parse_point, parse_wall, proposed_cells, proposed_probes,
+};
+use msdd_case::walls::WallOverTime;
+use msdd_rve::Compression;
+
+/// Temperature of the hot wall over that of the start that is proposed [K]; for the paper's grains, a strain of 5 %.
+const HOTTER: f64 = 50.0;
+
+#[derive(Args)]
+pub struct Wishes {
+    /// Width x height of the box [m], such as 0.6x0.2.
+    #[arg(long = "box", value_name = "WxH", value_parser = parse_pair::<f64>, help_heading = "Box")]
+    size: Option<[f64; 2]>,
+    /// Cells along x and y, such as 30x10. Default: cells of 4.3 mean radii, which hold nearly five grains, but not more than
+    /// 100 along the longer side.
+    #[arg(long, value_name = "NXxNY", value_parser = parse_pair::<usize>, conflicts_with = "cell_size", help_heading = "Box")]
+    cells: Option<[usize; 2]>,
+    /// Side of a cell [m], roughly, instead of their number.
+    #[arg(long, value_name = "M", help_heading = "Box")]
+    cell_size: Option<f64>,
+    /// Left wall: a temperature [K], 'insulated', or temperatures over time such as 0:300,60:350 (at 0 s 300 K, at 60 s 350 K,
+    /// straight between).
+    #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
+    left: Option<WallOverTime>,
+    /// Right wall.
+    #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
+    right: Option<WallOverTime>,
+    /// Bottom.
+    #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
+    bottom: Option<WallOverTime>,
+    /// Top.
+    #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
+    top: Option<WallOverTime>,
+    /// Temperature at the start, everywhere [K].
+    #[arg(long, value_name = "K", help_heading = "Walls and temperatures")]
+    initial_temperature: Option<f64>,
+    /// Heat released inside of the bed [W/m3 of bed]; negative takes heat away.
+    #[arg(long, value_name = "W/M3", allow_negative_numbers = true, help_heading = "Walls and temperatures")]
+    heat_source: Option<f64>,
+    #[command(flatten)]
+    grains: GrainWishes,
+    /// Share of the plane without grains at the start, overlaps counted once: 0.06 (dense) to 0.19 (loose).
+    #[arg(long, value_name = "ETA", conflicts_with = "pressure", help_heading = "Packing at the start")]
+    porosity: Option<f64>,
+    /// Pressure at the start [Pa] instead of the porosity, which is then found by packing.
+    #[arg(long, value_name = "PA", help_heading = "Packing at the start")]
+    pressure: Option<f64>,
+    /// How the grains were brought together: from all sides alike, or along x alone, as `msdd reference` fills its box (more
+    /// contacts point along x then, and the bed conducts better along x).
+    #[arg(long, value_enum, help_heading = "Packing at the start")]
+    compression: Option<CompressionName>,
+    /// Whether the grains move until their stress is in equilibrium, as grains do, or stay where they are, as in the paper.
+    #[arg(long, value_enum, help_heading = "Computation")]
+    mechanics: Option<MechanicsName>,
+    /// End of the simulation [s]. Default: the time in which heat spreads over the box.
+    #[arg(long, value_name = "S", help_heading = "Computation")]
+    end_time: Option<f64>,
+    /// Error of temperature that one time step may make [K]. Default: a thousandth of the range of temperatures.
+    #[arg(long, value_name = "K", help_heading = "Computation")]
+    tolerance: Option<f64>,
+    /// A place where the temperature is recorded [m], such as 0.1,0.05; may be given several times. Default: three along the
+    /// middle.
+    #[arg(long = "probe", value_name = "X,Y", value_parser = parse_point, help_heading = "Computation")]
+    probes: Vec<[f64; 2]>,
+}
+
+#[derive(Args)]
+struct GrainWishes {
+    /// Material of the grains: paper, steel, glass or alumina (values and sources: `msdd case new --list-materials`). Each of
+    /// the values below replaces one of it.
+    #[arg(long, value_name = "NAME", help_heading = "Grains")]
+    material: Option<String>,
+    /// Density of the grains [kg/m3].
+    #[arg(long, value_name = "KG/M3", help_heading = "Grains")]
+    density: Option<f64>,
+    /// Young's modulus of the grains [Pa].
+    #[arg(long, value_name = "PA", help_heading = "Grains")]
+    young_modulus: Option<f64>,
+    /// Thermal conductivity of the grains [W/(m K)].
+    #[arg(long, value_name = "W/(M K)", help_heading = "Grains")]
+    thermal_conductivity: Option<f64>,
+    /// Specific heat capacity of the grains [J/(kg K)].
+    #[arg(long, value_name = "J/(KG K)", help_heading = "Grains")]
+    heat_capacity: Option<f64>,
+    /// Linear thermal expansion coefficient of the grains [1/K].
+    #[arg(long, value_name = "1/K", help_heading = "Grains")]
+    thermal_expansion: Option<f64>,
+    /// Mean radius of the grains [m]; radii are uniform between 0.6 and 1.4 of it.
+    #[arg(long, value_name = "M", help_heading = "Grains")]
+    mean_radius: Option<f64>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum CompressionName {
+    Isotropic,
+    Horizontal,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum MechanicsName {
+    Equilibrium,
+    None,
+}
+
+impl Wishes {
+    /// The scene, once all questions are answered.
+    ///
+    /// # Errors
+    /// What cannot be made a case, as [`Scene::check`] says it.
+    pub fn scene(&self, asker: &Asker) -> Result<Scene, CliError> {
+        let (base, material, grains) = self.grains.ask(asker)?;
+        let (size, cells) = self.ask_box(asker, grains.mean_radius)?;
+        let initial_temperature = asker.value(
+            self.initial_temperature,
+            "The whole bed has one temperature at the start. Temperatures are in Kelvin.",
+            "Temperature at the start [K]",
+            &plain(base.temperature),
+            number,
+        )?;
+        let walls = self.ask_walls(asker, initial_temperature)?;
+        let start = self.ask_start(asker)?;
+        let mut scene = Scene {
+            size,
+            cells,
+            walls,
+            initial_temperature,
+            material,
+            grains,
+            start,
+            compression: self.ask_compression(asker)?,
+            mechanics: self.ask_mechanics(asker)?,
+            heat_source: self.ask_heat(asker)?.filter(|&value| value != 0.0),
+            end_time: 1.0,
+            tolerance: self.tolerance,
+            probes: if self.probes.is_empty() { proposed_probes(size) } else { self.probes.clone() },
+        };
+        scene.check()?;
+        scene.end_time = asker.value(
+            self.end_time,
+            "Heat spreads over a length L in a time of about L^2/D (D: thermal diffusivity of the bed). The proposal is that \
+             time for this box: most of the change has happened by then.",
+            "End of the simulation [s]",
+            &plain(scene.proposed_end()?),
+            number,
+        )?;
+        scene.check()?;
+        Ok(scene)
+    }
+
+    fn ask_box(&self, asker: &Asker, mean_radius: f64) -> Result<([f64; 2], [usize; 2]), CliError> {
+        let proposal = [129.0, 43.0].map(|radii| plain(msdd_case::scene::rounded(radii * mean_radius, 3)));
+        let size = asker.value(
+            self.size,
+            &format!(
+                "The bed fills a box with four walls. It is two-dimensional; mean radius of the grains: {} m.",
+                plain(mean_radius)
+            ),
+            "Width x height of the box [m]",
+            &proposal.join("x"),
+            parse_pair::<f64>,
+        )?;
+        let given = match self.cell_size {
+            Some(cell) if cell > 0.0 && cell.is_finite() => Some(cells_of(size, cell)),
+            Some(cell) => {
+                return Err(CliError::Message(format!("cell size = {cell}, allowed: > 0 m")));
+            }
+            None => self.cells,
+        };
+        let [nx, ny] = proposed_cells(size, mean_radius);
+        let cells = asker.value(
+            given,
+            "The box is divided into cells; each stands for the grains in it, which should be four or more. More cells resolve \
+             more and take longer.",
+            "Cells along x and y",
+            &format!("{nx}x{ny}"),
+            parse_pair::<usize>,
+        )?;
+        Ok((size, cells))
+    }
+
+    fn ask_walls(&self, asker: &Asker, initial: f64) -> Result<[WallOverTime; 4], CliError> {
+        let help = "Each wall is insulated, or has a temperature [K], or one that changes over time: 0:300,60:350 is 300 K at \
+                    0 s, 350 K at 60 s, and straight between.";
+        let hot = plain(initial + HOTTER);
+        let cold = plain(initial);
+        let left = asker.value(self.left.clone(), help, "Left wall", &hot, parse_wall)?;
+        let others = [
+            (&self.right, "Right wall", cold.as_str()),
+            (&self.bottom, "Bottom", "insulated"),
+            (&self.top, "Top", "insulated"),
+        ];
+        let mut walls = vec![left];
+        for (given, name, proposal) in others {
+            walls.push(asker.value(given.clone(), "(as above)", name, proposal, parse_wall)?);
+        }
+        walls.try_into().map_err(|_| CliError::Message("four walls".to_string()))
+    }
+
+    fn ask_start(&self, asker: &Asker) -> Result<Start, CliError> {
+        let given = match (self.porosity, self.pressure) {
+            (Some(porosity), _) => Some(Start::Porosity(porosity)),
+            (None, Some(pressure)) => Some(Start::Pressure(pressure)),
+            (None, None) => None,
+        };
+        let [least, most] = POROSITIES;
+        asker.value(
+            given,
+            &format!(
+                "How dense the bed is at the start: its porosity, the share of the plane without grains, from {least} (dense) \
+                 to {most} (loose; discs in a plane pack denser than balls), or its pressure, such as '3000 Pa'."
+            ),
+            "Porosity, or pressure in Pa",
+            "0.125",
+            parse_start,
+        )
+    }
+
+    fn ask_compression(&self, asker: &Asker) -> Result<Compression, CliError> {
+        let name = asker.value(
+            self.compression,
+            "How the grains were brought together: along x alone (horizontal), as 'msdd reference' does when it fills a box for \
+             comparison, or from all sides alike (isotropic).",
+            "Compression",
+            "horizontal",
+            |text| CompressionName::from_str(text, true).map_err(|_| "horizontal, isotropic".to_string()),
+        )?;
+        Ok(match name {
+            CompressionName::Isotropic => Compression::Isotropic,
+            CompressionName::Horizontal => Compression::Horizontal,
+        })
+    }
+
+    fn ask_mechanics(&self, asker: &Asker) -> Result<Mechanics, CliError> {
+        let name = asker.value(
+            self.mechanics,
+            "Grains that are heated push their neighbours away. With 'equilibrium' they move until all forces are in balance, \
+             which agrees with discrete elements; with 'none' they stay where they are, as in the paper.",
+            "Mechanics",
+            "equilibrium",
+            |text| MechanicsName::from_str(text, true).map_err(|_| "equilibrium, none".to_string()),
+        )?;
+        Ok(match name {
+            MechanicsName::Equilibrium => Mechanics::Equilibrium,
+            MechanicsName::None => Mechanics::None,
+        })
+    }
+
+    fn ask_heat(&self, asker: &Asker) -> Result<Option<f64>, CliError> {
+        let help = "Heat may be released inside of the bed, as by radiation or a reaction [W per m3 of bed].";
+        asker.value(self.heat_source, help, "Heat released inside [W/m3]", "0", number).map(Some)
+    }
+}
+
+/// `0.125` or `3000 Pa`.
+fn parse_start(text: &str) -> Result<Start, String> {
+    let allowed = || "a porosity such as 0.125, or a pressure with its unit such as '3000 Pa'".to_string();
+    match text.strip_suffix("Pa") {
+        Some(pressure) => number(pressure.trim()).map(Start::Pressure).map_err(|_| allowed()),
+        None => number(text).map(Start::Porosity).map_err(|_| allowed()),
+    }
+}
+
+impl GrainWishes {
+    /// The named material that was begun with, what to call the result, and the grains.
+    fn ask(&self, asker: &Asker) -> Result<(&'static Preset, String, Grains), CliError> {
+        let base = match &self.material {
+            Some(name) => preset(name)?,
+            None => {
+                let list: Vec<String> =
+                    PRESETS.iter().map(|one| format!("  {:8} {}", one.name, one.about)).collect();
+                let help = format!("Material of the grains:\n{}", list.join("\n"));
+                let read = |text: &str| preset(text).map_err(|error| error.to_string());
+                asker.value(None, &help, "Material", PRESETS[0].name, read)?
+            }
+        };
+        let own = Grains {
+            density: self.density.unwrap_or(base.grains.density),
+            young_modulus: self.young_modulus.unwrap_or(base.grains.young_modulus),
+            thermal_conductivity: self.thermal_conductivity.unwrap_or(base.grains.thermal_conductivity),
+            heat_capacity: self.heat_capacity.unwrap_or(base.grains.heat_capacity),
+            thermal_expansion: self.thermal_expansion.unwrap_or(base.grains.thermal_expansion),
+            mean_radius: self.mean_radius.unwrap_or(base.grains.mean_radius),
+        };
+        let asked = if asker.interactive { self.ask_values(asker, own)? } else { own };
+        asked.check()?;
+        let material = if asked == base.grains {
+            format!("{}: {}", base.name, base.about)
+        } else {
+            let changed = asked.named().into_iter().zip(base.grains.named()).filter(|(a, b)| a.1 != b.1);
+            let names: Vec<&str> = changed.map(|(a, _)| a.0).collect();
+            format!("{} ({}), but {} as wished", base.name, base.about, names.join(", "))
+        };
+        Ok((base, material, asked))
+    }
+
+    /// Asks for the values that no option says.
+    fn ask_values(&self, asker: &Asker, from: Grains) -> Result<Grains, CliError> {
+        let given = [
+            self.density,
+            self.young_modulus,
+            self.thermal_conductivity,
+            self.heat_capacity,
+            self.thermal_expansion,
+            self.mean_radius,
+        ];
+        let questions = [
+            ("rho, of a grain, not of the bed.", "Density [kg/m3]"),
+            (
+                "E: how stiff contacts are. The pressure of the bed is in proportion to it.",
+                "Young's modulus [Pa]",
+            ),
+            ("k, of a grain: the bed conducts about a third of it.", "Thermal conductivity [W/(m K)]"),
+            ("c.", "Specific heat capacity [J/(kg K)]"),
+            (
+                "alpha, linear. Times the change of temperature it should stay below 0.05.",
+                "Thermal expansion [1/K]",
+            ),
+            ("Mean radius; radii are uniform between 0.6 and 1.4 of it.", "Mean radius [m]"),
+        ];
+        let mut values = from.named().map(|(_, value, _)| value);
+        for ((value, given), (help, question)) in values.iter_mut().zip(given).zip(questions) {
+            *value = asker.value(given, help, question, &plain(*value), number)?;
+        }
+        let [density, young_modulus, thermal_conductivity, heat_capacity, thermal_expansion, mean_radius] =
+            values;
+        Ok(Grains {
+            density,
+            young_modulus,
+            thermal_conductivity,
+            heat_capacity,
+            thermal_expansion,
+            mean_radius,
+        })
+    }
+}
+
+/// What will be made, in lines for the terminal.
+pub fn summary(scene: &Scene) -> String {
+    let [width, height] = scene.size.map(plain);
+    let walls: Vec<String> = msdd_case::scene::WALLS
+        .into_iter()
+        .zip(&scene.walls)
+        .map(|(name, wall)| format!("{name} {}", describe(wall)))
+        .collect();
+    format!(
+        "box {width} x {height} m, {} x {} cells; {}; {} K at the start; {} s",
+        scene.cells[0],
+        scene.cells[1],
+        walls.join(", "),
+        plain(scene.initial_temperature),
+        plain(scene.end_time)
+    )
+}
