@@ -10,7 +10,8 @@
 //! | `<!-- append: name -->` | is written at the end of a file |
 //!
 //! A block of `sh` without any of them is an error, so that no command escapes. The blocks of a page run one after the other
-//! in one shell, in a copy of the checkout that is made for the page.
+//! in one shell, in a copy of the checkout that is made for the page, with what the book tells its readers to set once:
+//! OpenFOAM's environment, `msdd` in the path, the Python package in Python's path.
 
 use crate::error::{DocsError, Finding, none_found};
 use crate::pages::Page;
@@ -177,6 +178,7 @@ fn run_page(settings: &Settings, file: &Path, script: &str) -> Result<Option<Fin
         .env("BASH_ENV", &begin)
         .env("MSDD_DOCS_FAILED", &failed)
         .env("PATH", format!("{}:{path}", settings.programs.display()))
+        .env("PYTHONPATH", copy.join("rust/python"))
         .stderr(out.try_clone().map_err(broken)?)
         .stdout(out)
         .status()

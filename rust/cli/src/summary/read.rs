@@ -93,7 +93,10 @@ pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
     }
     let solver = solver_summary(&read_text(&path)?)
         .map_err(|text| CliError::Message(format!("{}: {text}", path.display())))?;
-    let path = folder.join("postProcessing/probes/0/T");
+    // Points of OpenFOAM's own probes move with the grains; those of spaceProbes stay.
+    let [in_space, with_grains] =
+        ["spaceProbes.dat", "T"].map(|name| folder.join("postProcessing/probes/0").join(name));
+    let path = if in_space.exists() { in_space } else { with_grains };
     let problem = |text: String| CliError::Message(format!("{}: {text}", path.display()));
     let result = CaseResult {
         wall_seconds: solver.wall_seconds,

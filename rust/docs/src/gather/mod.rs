@@ -21,10 +21,11 @@ pub const INPUTS: &str = "results/numbers";
 type Make = fn(&Path) -> Result<Section, DocsError>;
 
 /// Sections by name.
-pub const SECTIONS: [(&str, Make); 6] = [
+pub const SECTIONS: [(&str, Make); 7] = [
     ("cases", cases::section),
     ("database", database::section),
     ("report", report::section),
+    ("solver", speed::solver),
     ("speed", speed::section),
     ("surrogate", surrogate::section),
     ("witness", witness::section),

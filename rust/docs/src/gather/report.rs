@@ -180,13 +180,22 @@ fn targets(section: &mut Section, report: &Json) -> Result<(), DocsError> {
             target.text("/what")?,
             decimals(target.number("/target")?, 1),
             or_none(target.maybe("/reached"), |value| decimals(value, 2)),
-            if target.value["met"] == true { "met" } else { "missed" }.to_string(),
+            verdict(target).to_string(),
         ])
     };
     let rows = list.iter().map(row).collect::<Result<_, _>>()?;
     let meaning = "targets of the solver with grains that move, steps of 20 ms, against 15 000 discs";
     section.add_table("targets", meaning, FILE, &["case", "what", "target", "reached", ""], rows);
     Ok(())
+}
+
+/// Whether a target is met, if it could be judged.
+fn verdict(target: &Json) -> &'static str {
+    match (target.maybe("/reached"), target.value["met"] == true) {
+        (None, _) => "not judged",
+        (_, true) => "met",
+        (_, false) => "missed",
+    }
 }
 
 fn sensitivity(section: &mut Section, report: &Json) -> Result<(), DocsError> {

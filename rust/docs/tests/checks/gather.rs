@@ -23,55 +23,37 @@ fn with_cases(name: &str, files: &[(&str, &str)]) -> PathBuf {
     root
 }
 
-/// What `msdd summary` writes for runs that find the first packing's discs, `offset` [K] warmer at P2.
-fn summary(offset: f64) -> String {
-    let cases = pages::checkout(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap().join("cases");
-    let mut all = BTreeMap::new();
-    for case in CASES {
-        let text = fs::read_to_string(cases.join(format!("reference/results/{case}_seed1.json"))).unwrap();
-        let discs: Value = serde_json::from_str(&text).unwrap();
-        let columns = discs["series"]["columns"].as_array().unwrap();
-        let rows = discs["series"]["rows"].as_array().unwrap();
-        let series = |probe: usize| -> Vec<Value> {
-            let column = columns.iter().position(|c| c == &format!("T_P{probe}_window")).unwrap();
-            let value = |row: &Value| row[column].as_f64().unwrap() + if probe == 2 { offset } else { 0.0 };
-            rows.iter().skip(1).map(|row| json!([row[0], value(row)])).collect()
-        };
-        let end =
-            json!({"porosity": 0.1, "conductivity_xx": 40.0, "conductivity_yy": 30.0, "pressure": 3000.0});
-        all.insert(
-            case,
-            json!({"probes": {"P1": series(1), "P2": series(2), "P3": series(3)}, "final": end}),
-        );
-    }
-    json!({ "cases": all }).to_string()
-}
-
-fn seconds() -> String {
-    let each: BTreeMap<&str, f64> = CASES.iter().map(|case| (*case, 12.34)).collect();
-    json!({"paper": each, "moving": each}).to_string()
+/// What `msdd summary` writes, made small: of each case a value at 4.9, 5 and 20 s.
+fn summary() -> String {
+    let series = |value: f64| json!([[4.9, value - 1.0], [5.02, value], [20.0, value + 1.0]]);
+    let probes = json!({"P1": series(70.04), "P2": series(50.0), "P3": series(38.96)});
+    let end =
+        json!({"porosity": 0.1194, "conductivity_xx": 40.0, "conductivity_yy": 30.0, "pressure": 2984.0});
+    let band = |value: f64| json!([[0.0, 50.0, 0.0], [5.0, value, 0.25], [20.0, value, 0.1]]);
+    let discs =
+        json!({"temperature": {"P1": band(71.0), "P2": band(50.0), "P3": band(34.5)}, "scatter": 0.34});
+    let run = json!({"probes": probes, "final": end, "cpu_seconds": 12.34});
+    let errors = |largest: f64| json!({"temperature": [0.5, -0.1, largest]});
+    let comparison = json!({"discs": discs, "grains_stay": errors(-4.46), "grains_move": errors(0.3)});
+    let of_all = |value: &Value| CASES.iter().map(|case| (*case, value.clone())).collect::<BTreeMap<_, _>>();
+    json!({"cases": of_all(&run), "moving": of_all(&run), "comparison": of_all(&comparison)}).to_string()
 }
 
 #[test]
-fn errors_of_cases_are_shares_of_the_range() {
-    let (paper, moving, seconds) = (summary(1.0), summary(-0.25), seconds());
-    let files = [
-        ("results/numbers/paper.json", paper.as_str()),
-        ("results/numbers/moving.json", moving.as_str()),
-        ("results/numbers/seconds.json", seconds.as_str()),
-    ];
-    let root = with_cases("cases", &files);
+fn cases_stand_beside_discs_and_the_paper() {
+    let root = with_cases("cases", &[("results/summary.json", summary().as_str())]);
     renew(&root, "cases", origin()).unwrap();
     let results = Results::read(&root).unwrap();
     let value = |key: &str| results.value(key).unwrap_or_else(|| panic!("no {key}")).value.clone();
-    assert_eq!(value("cases.H.paper.error"), "2.0"); // 1 K of 50 K
-    assert_eq!(value("cases.HC.paper.error"), "1.0"); // of 100 K
-    assert_eq!(value("cases.HC.moving.error"), "0.2"); // 0.25 of 100 K
-    assert_eq!(value("cases.H.paper.seconds"), "12");
-    assert_eq!(value("cases.H.paper.pressure"), "3.00");
+    assert_eq!([value("cases.H.paper.error"), value("cases.HC.moving.error")], ["4.5", "0.5"]);
+    assert_eq!([value("cases.H.paper.T_P1"), value("cases.H.discs.T_P3")], ["70.0", "34.5 ± 0.2"]);
+    assert_eq!([value("cases.H.paper.seconds"), value("cases.H.paper.pressure")], ["12", "2.98"]);
     let first = results.table("first").unwrap();
     assert_eq!((first.columns.len(), first.rows.len()), (7, 4));
-    assert_eq!(first.rows[0][1], "2.0 % in 12 s");
+    assert_eq!(
+        [&first.rows[0][1], &first.rows[2][1], &first.rows[3][3]],
+        ["4.5 % in 12 s", "± 0.3 %", "6.5 % in 40 s"]
+    );
     let section = &results.sections["cases"];
     assert_eq!(
         [&section.command, &section.commit, &section.machine],
