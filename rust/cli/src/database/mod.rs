@@ -15,7 +15,7 @@ use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::{Effort, Offenders, Plan, Run, Shard, export_csv, generate, merge, read, seal};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 #[derive(Subcommand)]

@@ -50,7 +50,13 @@ impl Core {
 
     /// The work of [`Core::answer`], compiled per instruction set.
     #[inline(always)]
-    fn block_into<V: Vector>(&self, state: &StateLanes, strain: &Lanes, virgin: &Lanes, answer: &mut Answer) {
+    pub(crate) fn block_into<V: Vector>(
+        &self,
+        state: &StateLanes,
+        strain: &Lanes,
+        virgin: &Lanes,
+        answer: &mut Answer,
+    ) {
         let mut buffers = kernel::buffers();
         let (variables, ranges, network) = (self.variables, &self.ranges, &self.rates.network);
         let ratio = stress_ratios::<V>(variables, state);

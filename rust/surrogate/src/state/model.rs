@@ -163,7 +163,7 @@ mod tests {
     use super::*;
     use crate::kernel::vector::Portable;
     use crate::state::training::{Mechanical, StateOptions, train};
-    use crate::surrogate::{Batch, evaluate_batch};
+    use crate::surrogate::{Batch, VIRGIN, evaluate_batch};
     use crate::synthetic;
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::{Rng, SeedableRng};
