@@ -39,6 +39,8 @@ use std::path::PathBuf;
 pub enum ReferenceError {
     #[error(transparent)]
     Case(#[from] msdd_case::CaseError),
+    #[error("cannot read {file}: {problem}", file = file.display())]
+    Read { file: PathBuf, problem: String },
     #[error("{key} = {value}, allowed: {allowed}", value = value_text(value))]
     Parameter { key: &'static str, value: String, allowed: String },
     #[error(

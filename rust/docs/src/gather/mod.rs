@@ -1,0 +1,79 @@
+//! Makes sections of the results from what our programs wrote. `scripts/results` runs the programs; their files lie in
+//! `results/numbers` under fixed names. Nothing is measured here: numbers are chosen, converted and rounded for print.
+
+pub mod cases;
+pub mod database;
+pub mod json;
+pub mod print;
+pub mod report;
+pub mod speed;
+pub mod surrogate;
+pub mod witness;
+
+use crate::DocsError;
+use crate::results::{Results, Section, Table, Value};
+use std::path::Path;
+
+/// Where scripts/results leaves what the programs wrote, relative to the checkout.
+pub const INPUTS: &str = "results/numbers";
+
+/// Makes one section of the checkout; its origin is filled in by [`renew`].
+type Make = fn(&Path) -> Result<Section, DocsError>;
+
+/// Sections by name.
+pub const SECTIONS: [(&str, Make); 6] = [
+    ("cases", cases::section),
+    ("database", database::section),
+    ("report", report::section),
+    ("speed", speed::section),
+    ("surrogate", surrogate::section),
+    ("witness", witness::section),
+];
+
+/// Where a section comes from.
+pub struct Origin {
+    pub commit: String,
+    pub date: String,
+    pub machine: String,
+}
+
+/// Renews one section of docs/results.json from the files of its programs; the others stay.
+///
+/// # Errors
+/// A section that there is none of; files that are missing or lack an entry.
+pub fn renew(root: &Path, name: &str, origin: Origin) -> Result<(), DocsError> {
+    let Some((_, make)) = SECTIONS.iter().find(|(section, _)| *section == name) else {
+        let names = SECTIONS.map(|(section, _)| section).join(", ");
+        return Err(DocsError::Section { name: name.to_string(), names });
+    };
+    let made = make(root)?;
+    let command = format!("scripts/results {name}");
+    let section =
+        Section { command, commit: origin.commit, date: origin.date, machine: origin.machine, ..made };
+    let mut results =
+        if root.join(crate::results::FILE).is_file() { Results::read(root)? } else { Results::default() };
+    results.sections.insert(name.to_string(), section);
+    results.write(root)
+}
+
+impl Section {
+    /// Adds a number, as it is printed.
+    fn number(&mut self, key: &str, value: String, unit: &str, meaning: &str, source: &str) {
+        let [unit, meaning, source] = [unit, meaning, source].map(str::to_string);
+        self.values.insert(key.to_string(), Value { value, unit, meaning, source });
+    }
+
+    /// Adds a table.
+    fn add_table(
+        &mut self,
+        name: &str,
+        meaning: &str,
+        source: &str,
+        columns: &[&str],
+        rows: Vec<Vec<String>>,
+    ) {
+        let columns = columns.iter().map(|column| (*column).to_string()).collect();
+        let (meaning, source) = (meaning.to_string(), source.to_string());
+        self.tables.insert(name.to_string(), Table { meaning, source, columns, rows });
+    }
+}

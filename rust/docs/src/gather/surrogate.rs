@@ -1,0 +1,135 @@
+//! How good the shipped models are on packings that their training never saw: what `msdd score` found.
+
+use super::json::Json;
+use super::print::{NONE, decimals, grouped, or_none};
+use super::{INPUTS, Section};
+use crate::DocsError;
+use std::path::Path;
+
+/// Key, file of the scores, words.
+const MODELS: [(&str, &str, &str); 2] = [
+    ("state", "score_state.json", "state network (shipped), periodic boxes"),
+    ("paper", "score_paper.json", "the paper's network, boxes between walls"),
+];
+/// Strains of the tables, and the number of increments.
+const STRAINS: [f64; 4] = [0.02, -0.02, 0.05, -0.05];
+const INCREMENTS: f64 = 500.0;
+
+/// # Errors
+/// Scores that are missing or lack an entry.
+pub fn section(root: &Path) -> Result<Section, DocsError> {
+    let mut section = Section::default();
+    let (mut one_step_rows, mut composed_rows) = (Vec::new(), Vec::new());
+    for (key, file, words) in MODELS {
+        let score = Json::read(root, &format!("{INPUTS}/{file}"))?.at("/0")?;
+        let packings = grouped(score.number("/unseen/packings")?);
+        let meaning = format!("packings that the training of the model '{key}' never saw");
+        section.number(&format!("{key}.packings"), packings, "1", &meaning, "msdd score");
+        one_step_rows.push(one_step(&score, words)?);
+        composed_rows.extend(composed(&mut section, &score, key, words)?);
+        if key == "state" {
+            way_back(&mut section, &score)?;
+            means(&mut section, &score)?;
+        }
+    }
+    let columns = [
+        "model",
+        "porosity increment",
+        "fabric increment",
+        "conductive fabric increment",
+        "conductivity",
+        "stress",
+    ];
+    let meaning = "coefficient of determination of one step on packings that training never saw";
+    section.add_table("surrogate-one-step", meaning, "msdd score", &columns, one_step_rows);
+    let columns = ["model", "strain", "K [%]", "stress [%]", "pressure [%]", "porosity", "fabric index"];
+    let meaning = "rms error after a strain in 500 increments, packings that training never saw; in brackets what packings of equal \
+                   state scatter by (noise floor)";
+    section.add_table("surrogate-composed", meaning, "msdd score", &columns, composed_rows);
+    Ok(section)
+}
+
+fn one_step(score: &Json, words: &str) -> Result<Vec<String>, DocsError> {
+    let names =
+        ["delta_porosity", "delta_fabric_index", "delta_fabric_conductivity", "conductivity", "stress"];
+    let cells = names.map(|name| or_none(score.maybe(&format!("/unseen/{name}")), |v| decimals(v, 4)));
+    if cells[0] == NONE {
+        return Err(score.wrong("/unseen/delta_porosity", "is not a number"));
+    }
+    Ok([vec![words.to_string()], cells.to_vec()].concat())
+}
+
+fn composed(
+    section: &mut Section,
+    score: &Json,
+    key: &str,
+    words: &str,
+) -> Result<Vec<Vec<String>>, DocsError> {
+    let mut rows = Vec::new();
+    for strain in STRAINS {
+        let at = |entry: &Json| entry.maybe("/strain") == Some(strain);
+        let what = format!("strain {strain} in {INCREMENTS}");
+        let found =
+            score.find("/composed", &what, |e| at(e) && e.maybe("/increments") == Some(INCREMENTS))?;
+        let floor = score.find("/noise_floor", &what, at)?;
+        let sign = format!("{:+.0}", 100.0 * strain);
+        let mut row = vec![words.to_string(), format!("{sign} %")];
+        for (name, factor, digits) in [
+            ("conductivity", 100.0, 1),
+            ("stress", 100.0, 1),
+            ("pressure", 100.0, 1),
+            ("porosity", 1.0, 4),
+            ("fabric_index", 1.0, 4),
+        ] {
+            let value = decimals(factor * found.number(&format!("/{name}"))?, digits);
+            let below = or_none(floor.maybe(&format!("/{name}")), |v| decimals(factor * v, digits));
+            row.push(format!("{value} ({below})"));
+            let meaning = format!("{words}: rms error of {name} after {sign} % in 500 increments");
+            let unit = if factor > 1.0 { "%" } else { "1" };
+            let strain_key = sign.replace('+', "plus").replace('-', "minus");
+            section.number(&format!("{key}.{strain_key}.{name}"), value, unit, &meaning, "msdd score");
+        }
+        rows.push(row);
+    }
+    Ok(rows)
+}
+
+/// The largest errors of means over 30 packings, over all strains.
+fn means(section: &mut Section, score: &Json) -> Result<(), DocsError> {
+    let composed = score.list("/composed")?;
+    let many = composed.iter().filter(|entry| entry.maybe("/increments") == Some(INCREMENTS));
+    let many: Vec<&Json> = many.collect();
+    for (entry, words) in [("mean_conductivity", "conductivity"), ("mean_pressure", "pressure")] {
+        let values =
+            many.iter().map(|one| one.number(&format!("/{entry}"))).collect::<Result<Vec<f64>, _>>()?;
+        let worst = decimals(100.0 * values.into_iter().fold(0.0, f64::max), 1);
+        let meaning = format!(
+            "largest error of the mean {words} of 30 packings after a strain of up to 5 % in 500 increments"
+        );
+        section.number(&format!("state.{entry}"), worst, "%", &meaning, "msdd score");
+    }
+    Ok(())
+}
+
+/// Strains of the database that are taken back, by the model that knows it and by one that takes them for virgin.
+fn way_back(section: &mut Section, score: &Json) -> Result<(), DocsError> {
+    let mut rows = Vec::new();
+    for way in score.list("/way_back")? {
+        let errors = |name: &str, factor: f64, digits: usize| -> Result<String, DocsError> {
+            let value =
+                |part: &str| way.number(&format!("/{part}/{name}")).map(|v| decimals(factor * v, digits));
+            Ok(format!("{} ({})", value("errors")?, value("taken_for_virgin")?))
+        };
+        rows.push(vec![
+            format!("{:+.0} %", -100.0 * way.number("/errors/strain")?),
+            grouped(way.number("/errors/ramps")?),
+            errors("conductivity", 100.0, 1)?,
+            errors("stress", 100.0, 1)?,
+            errors("fabric_index", 1.0, 3)?,
+        ]);
+    }
+    let columns = ["back from about", "ramps", "K [%]", "stress [%]", "fabric index"];
+    let meaning = "rms error after the way back to the packed radii in 500 increments; in brackets by a model that takes it for the first";
+    section.add_table("surrogate-way-back", meaning, "msdd score", &columns, rows);
+    Ok(())
+}

@@ -1,0 +1,100 @@
+//! Which Markdown files there are, and reading them.
+
+use crate::DocsError;
+use pulldown_cmark::{Event, Options, Parser};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// The folder of the book's pages.
+pub const BOOK: &str = "docs/src";
+/// The book's table of contents.
+pub const SUMMARY: &str = "docs/src/SUMMARY.md";
+
+/// One Markdown file.
+#[derive(Clone, Debug)]
+pub struct Page {
+    /// Relative to the checkout.
+    pub file: PathBuf,
+    pub text: String,
+}
+
+impl Page {
+    /// Reads a file of the checkout `root`; `file` is relative to it.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is no UTF-8.
+    pub fn read(root: &Path, file: &Path) -> Result<Self, DocsError> {
+        Ok(Self { file: file.to_path_buf(), text: msdd_files::read_text(&root.join(file))? })
+    }
+
+    /// What the text is made of, with the bytes where it stands: as mdBook reads it.
+    pub fn events(&self) -> impl Iterator<Item = (Event<'_>, Range<usize>)> {
+        let options = Options::ENABLE_TABLES
+            | Options::ENABLE_FOOTNOTES
+            | Options::ENABLE_STRIKETHROUGH
+            | Options::ENABLE_TASKLISTS
+            | Options::ENABLE_HEADING_ATTRIBUTES;
+        Parser::new_ext(&self.text, options).into_offset_iter()
+    }
+
+    /// The line that holds a byte, from 1.
+    pub fn line(&self, byte: usize) -> usize {
+        1 + self.text.as_bytes()[..byte.min(self.text.len())].iter().filter(|&&b| b == b'\n').count()
+    }
+
+    /// Whether the page is one of the book.
+    pub fn in_book(&self) -> bool {
+        self.file.starts_with(BOOK)
+    }
+}
+
+/// The nearest folder from `start` upwards that holds docs/book.toml.
+///
+/// # Errors
+/// There is none.
+pub fn checkout(start: &Path) -> Result<PathBuf, DocsError> {
+    let found = start.ancestors().find(|folder| folder.join("docs/book.toml").is_file());
+    found.map(Path::to_path_buf).ok_or(DocsError::NoCheckout)
+}
+
+/// README.md, the book, and every README.md below cases and rust: relative to `root`, in alphabetical order.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn all(root: &Path) -> Result<Vec<PathBuf>, DocsError> {
+    let mut files = Vec::new();
+    if root.join("README.md").is_file() {
+        files.push(PathBuf::from("README.md"));
+    }
+    collect(root, Path::new(BOOK), &mut |file| file.extension().is_some_and(|e| e == "md"), &mut files)?;
+    for folder in ["cases", "rust"] {
+        collect(root, Path::new(folder), &mut |file| file.ends_with("README.md"), &mut files)?;
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// The files below `folder` that are `wanted`, without hidden folders.
+fn collect(
+    root: &Path,
+    folder: &Path,
+    wanted: &mut dyn FnMut(&Path) -> bool,
+    files: &mut Vec<PathBuf>,
+) -> Result<(), DocsError> {
+    let whole = root.join(folder);
+    if !whole.is_dir() {
+        return Ok(());
+    }
+    let failed = |source| DocsError::Folder { folder: whole.clone(), source };
+    for entry in std::fs::read_dir(&whole).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        let file = folder.join(entry.file_name());
+        let kind = entry.file_type().map_err(failed)?;
+        if kind.is_dir() && !entry.file_name().to_string_lossy().starts_with('.') {
+            collect(root, &file, wanted, files)?;
+        } else if kind.is_file() && wanted(&file) {
+            files.push(file);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,66 @@
+//! Commands on pages.
+
+use super::{checkout, found};
+use msdd_docs::commands::{Settings, run};
+use std::path::PathBuf;
+use std::process::Command;
+
+const GOOD: &str = "# A\n\n<!-- file: folder/a.txt -->\n```text\none\n$two\n```\n\n<!-- run -->\n```sh\ncd folder\nword=three\n```\n\n\
+                    <!-- append: a.txt -->\n```text\nmore\n```\n\n<!-- run -->\n```sh\ntest \"$(cat a.txt)\" = 'one\n$two\nmore'\n\
+                    echo $word > result\n```\n\n<!-- no run: it would delete all -->\n```sh\nfalse\n```\n\n<!-- run: slow -->\n\
+                    ```sh\ntouch slow\nfalse\n```\n\n```text\nnothing is said about text\n```\n";
+
+/// Runs the commands of one page in a checkout of git; what was found.
+fn commands(name: &str, text: &str, slow: bool) -> Vec<String> {
+    let root = checkout(&format!("commands-{name}"), &[("docs/src/a.md", text), ("scripts/foam-env", "")]);
+    for arguments in [&["init", "-q"][..], &["add", "."]] {
+        assert!(Command::new("git").args(arguments).current_dir(&root).status().unwrap().success());
+    }
+    let settings = Settings { work: root.join("work"), programs: root.clone(), root, slow, limit: 3 };
+    found(run(&settings, &[PathBuf::from("docs/src/a.md")], |_| ()))
+}
+
+#[test]
+fn a_page_is_one_shell_and_its_files_are_written() {
+    assert_eq!(commands("good", GOOD, false), [""; 0]);
+}
+
+#[test]
+fn slow_blocks_run_when_they_are_asked_for() {
+    let wrong = commands("slow", GOOD, true);
+    assert!(wrong.len() == 1 && wrong[0].starts_with("docs/src/a.md:36: 'false' failed"), "{wrong:?}");
+}
+
+#[test]
+fn a_command_that_fails_is_named_with_page_line_and_output() {
+    let block = |line: &str| format!("<!-- run -->\n```sh\ntrue\n{line}\n```\n\nText\n");
+    for (name, line, messages) in [
+        ("exit", "echo hello; test 1 = 2", ["docs/src/a.md:4: 'test 1 = 2' failed", "hello"]),
+        (
+            "unknown",
+            "no-such-program --flag",
+            ["docs/src/a.md:4: 'no-such-program --flag' failed", "command not found"],
+        ),
+        ("pipe", "false | cat", ["docs/src/a.md:4: ", "failed"]),
+        ("long", "sleep 30", ["took more than 3 s", "docs/src/a.md"]),
+    ] {
+        let wrong = commands(name, &block(line), false);
+        assert!(wrong.len() == 1 && messages.iter().all(|message| wrong[0].contains(message)), "{wrong:?}");
+    }
+}
+
+#[test]
+fn no_block_escapes() {
+    for (name, text, message) in [
+        ("silent", "```sh\ntrue\n```\n", "nothing is said about running these commands"),
+        ("typo", "<!-- runs -->\n```sh\ntrue\n```\n", "nothing is said about running these commands"),
+        ("far", "<!-- run -->\n\nText\n\n```sh\ntrue\n```\n", "nothing is said about running these commands"),
+        ("how", "<!-- run: quick -->\n```sh\ntrue\n```\n", "'run: quick' is not known"),
+        ("why", "<!-- no run -->\n```sh\ntrue\n```\n", "has to say why"),
+        ("language", "<!-- run -->\n```c\nint a;\n```\n", "a block of 'c' cannot be run"),
+        ("file", "<!-- file: -->\n```c\nint a;\n```\n", "has to name a file"),
+    ] {
+        let wrong = commands(name, text, false);
+        assert!(wrong.len() == 1 && wrong[0].contains(message), "{wrong:?}");
+    }
+}

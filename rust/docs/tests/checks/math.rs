@@ -1,0 +1,64 @@
+//! Equations as MathML.
+
+use super::found;
+use msdd_docs::math::{preprocess, with_mathml};
+use msdd_docs::pages::Page;
+
+fn page(text: &str) -> Page {
+    Page { file: "docs/src/a.md".into(), text: text.to_string() }
+}
+
+#[test]
+fn equations_become_mathml_and_code_and_prices_stay() {
+    let text = with_mathml(&page("The $a_1 * b_2$ of `$x$` for \\$5.\n\n    $y$\n\nEnd.\n")).unwrap();
+    assert!(
+        text.starts_with("The <math") && text.contains("</math> of `$x$` for \\$5.\n\n    $y$\n\nEnd.\n"),
+        "{text}"
+    );
+    assert!(text.contains("<msub>") && !text.contains("a_1") && !text.contains("> * <"), "{text}");
+}
+
+#[test]
+fn an_equation_on_its_own_lines_is_a_block_between_empty_lines() {
+    let text = with_mathml(&page(
+        "Before\n$$\n\\frac{a}{b}\n= \\begin{cases} 1 & x \\\\ 2 & y \\end{cases}\n$$\nafter.\n",
+    ))
+    .unwrap();
+    let (before, rest) = text.split_once("<div class=\"equation\">").unwrap();
+    let (block, after) = rest.split_once("</div>").unwrap();
+    assert!(before.ends_with("\n\n") && after.starts_with("\n\n"), "{text}");
+    assert!(
+        block.contains("display=\"block\"") && block.contains("<mfrac>") && !block.contains('\n'),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_does_not_parse_is_named_with_page_and_line() {
+    for (text, message) in [
+        ("a\n\nb $\\frac{1}$\n", "docs/src/a.md:3: the equation '\\frac{1}' does not parse"),
+        ("a\n\nb $\\nonsense$\n", "docs/src/a.md:3: the equation '\\nonsense' does not parse"),
+        ("a\n\nb $x\n", "docs/src/a.md:3: a $ that belongs to no equation"),
+    ] {
+        let wrong = found(with_mathml(&page(text)));
+        assert!(wrong.len() == 1 && wrong[0].starts_with(message), "{wrong:?}");
+    }
+}
+
+#[test]
+fn a_book_is_changed_in_all_its_chapters() {
+    let chapter = |name: &str, text: &str, inner: &str| {
+        format!(
+            r#"{{"Chapter": {{"name": "n", "content": "{text}", "source_path": "{name}", "sub_items": [{inner}]}}}}"#
+        )
+    };
+    let book = |text: &str| {
+        let inner = chapter("deep/b.md", text, "");
+        format!(r#"[{{"root": "."}}, {{"items": ["Separator", {}]}}]"#, chapter("a.md", "$x$", &inner))
+    };
+    let made = preprocess(&book("$y$")).unwrap();
+    assert_eq!(made.matches("</math>").count(), 2, "{made}");
+    assert!(made.starts_with('{') && made.contains("Separator"));
+    let wrong = found(preprocess(&book("a\\n\\n$\\\\nonsense$")));
+    assert!(wrong.len() == 1 && wrong[0].starts_with("docs/src/deep/b.md:3: "), "{wrong:?}");
+}
