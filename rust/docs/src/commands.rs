@@ -25,8 +25,9 @@ use std::process::Command;
 const END: &str = "END_OF_THE_BLOCK";
 /// Lines of output that are shown of a command that failed.
 const SHOWN: usize = 25;
-/// What every page's shell begins with: the first command that fails ends it, and says in which line of the page it stands.
-const BEGIN: &str = "unset BASH_ENV # of this shell, not of scripts that it calls\nset -eEo pipefail\ntrap 'echo \"@failed $LINENO $BASH_COMMAND\" >> \"$MSDD_DOCS_FAILED\"' ERR\n\
+/// What every page's shell begins with: the first command that fails ends it, and says in which line of the page it stands. Scripts
+/// that the page calls do not begin with it: bash would read BASH_ENV there, too.
+const BEGIN: &str = "unset BASH_ENV\nset -eEo pipefail\ntrap 'echo \"@failed $LINENO $BASH_COMMAND\" >> \"$MSDD_DOCS_FAILED\"' ERR\n\
                      . scripts/foam-env\n";
 
 /// What is done with a block.

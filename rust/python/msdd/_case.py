@@ -50,25 +50,27 @@ def read_probes(case: PathLike, field: str = "T", name: str = "probes") -> Probe
 
     case: folder of the case. field: "T" [K] or any that the probes list. Raises CaseError.
     """
-    times: list[Any] = []
-    values: list[Any] = []
-    positions = np.zeros((0, 3))
+    times, values, positions = np.zeros(0), None, np.zeros((0, 3))
     for start, file in _outputs(case, name, field):
         text = _text(file)
         found = re.findall(r"^# *Probe +\d+ *\(([^()]*)\)", text, re.MULTILINE)
         positions = _table(file, [where.split() for where in found], 3)
         rows = [line.replace("(", " ").replace(")", " ").split() for line in _rows(text)]
+        if not rows:
+            continue
         table = _table(file, rows, None)
-        if len(positions) == 0 or table.size and (table.shape[1] - 1) % len(positions):
+        if len(positions) == 0 or table.shape[1] == 1 or (table.shape[1] - 1) % len(positions):
             raise CaseError(f"{file}: {len(positions)} probes do not go with {table.shape[1] - 1} values a row")
-        kept = [at <= start for at in times]
-        times, values = _before(times, kept), _before(values, kept)
-        times += list(table[:, 0])
-        values += [row.reshape(len(positions), -1) for row in table[:, 1:]]
-    if not times:
-        return Probes(np.zeros(0), positions, np.zeros((0, len(positions))))
-    stacked = np.array(values)
-    return Probes(np.array(times), positions, stacked[:, :, 0] if stacked.shape[2] == 1 else stacked)
+        new = table[:, 1:].reshape(len(rows), len(positions), -1)
+        if values is None:
+            values = new[:0]
+        if values.shape[1:] != new.shape[1:]:
+            raise CaseError(f"{file}: other probes than before the restart")
+        kept = times <= start
+        times, values = np.append(times[kept], table[:, 0]), np.concatenate([values[kept], new])
+    if values is None:
+        values = np.zeros((0, len(positions), 1))
+    return Probes(times, positions, values[:, :, 0] if values.shape[2] == 1 else values)
 
 
 def read_table(case: PathLike, name: str) -> dict[str, Array]:
@@ -170,7 +172,3 @@ def _table(file: Path, rows: list[list[str]], width: Union[int, None]) -> Array:
         return np.array(rows, np.float64).reshape(len(rows), width)
     except ValueError as error:
         raise CaseError(f"{file}: {error}") from None
-
-
-def _before(items: list[Any], kept: list[bool]) -> list[Any]:
-    return [item for item, keep in zip(items, kept) if keep]

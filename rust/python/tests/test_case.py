@@ -147,6 +147,8 @@ class Outputs(WithCase):
         np.testing.assert_array_equal(msdd.read_probes(self.case, "U").values, [[[1, 2, 3], [4, 5, 6]]])
         store(folder / "0/p", PROBES.encode())
         self.assertEqual(msdd.read_probes(self.case, "p").values.shape, (0, 2))
+        store(folder / "1/U", (PROBES + "  1.5  1 4\n").encode())
+        self.refused("other probes than before", msdd.read_probes, self.case, "U")
         self.refused("no q in it", msdd.read_probes, self.case, "q")
         self.refused("no T in it", msdd.read_probes, self.case, "T", "others")
         for rows in ("0.5 1\n", "0.5 1 2\n1 2\n", "0.5 a 2\n"):

@@ -92,7 +92,7 @@ impl<'a> Scene<'a> {
     /// Walls that are below 0 K, or that do nothing.
     pub fn check_walls(&self, found: &mut Findings) {
         for (name, values) in &self.walls {
-            if let Some(value) = values.iter().find(|value| !(**value >= 0.0)) {
+            if let Some(value) = values.iter().find(|value| value.is_nan() || **value < 0.0) {
                 let place = format!("boundaryField/{name}");
                 found.error(
                     ["0/T", &place],

@@ -21,7 +21,8 @@ const OF_OPENFOAM: [(&str, &str); 6] = [
 ];
 
 /// Arguments of scripts that are not compared with a word there.
-const POSITIONAL: [(&str, &str); 4] = [
+const POSITIONAL: [(&str, &str); 5] = [
+    ("scripts/results SECTION …", "compared with a list"),
     ("scripts/compare-engines STATE", "the first argument, a path"),
     ("scripts/train-default DIR", "the first argument, a path"),
     ("scripts/foam-env build", "compared with a word by [, not by case"),
