@@ -102,8 +102,8 @@ fn read(field: &Expected, tokens: &[Token], mesh: &Mesh, found: &mut Findings) -
         ["uniform", rest @ ..] => (numbers_in(rest, field.components), true),
         ["nonuniform", _, count, rest @ ..] => {
             let numbers = numbers_in(rest, field.components);
-            let length = numbers.as_ref().map_or(0, Vec::len);
-            if let Some(cells) = mesh.cells
+            let length = numbers.as_ref().map(Vec::len);
+            if let (Some(length), Some(cells)) = (length, mesh.cells)
                 && length != cells
             {
                 let value = format!("a list of {count} values");
