@@ -43,6 +43,11 @@ fn made(change: impl Fn(&mut Scene)) -> Vec<File> {
     files(&scene, &packing, "bed", Path::new("/checkout")).unwrap()
 }
 
+/// A text as OpenFOAM would expand it: without the line that brings in the types of patches which are no walls.
+fn expanded(text: &str) -> String {
+    text.replace("    #includeEtc \"caseDicts/setConstraintTypes\"\n", "")
+}
+
 fn text<'a>(files: &'a [File], path: &str) -> &'a str {
     &files.iter().find(|file| file.path == path).unwrap().text
 }
@@ -60,7 +65,7 @@ fn every_place_of_every_template_is_filled_and_every_dictionary_is_read() {
             assert!(!regex::Regex::new("@[A-Za-z]+@").unwrap().is_match(text), "{path}: {text}");
             assert_eq!(*program, path.starts_with("All"));
             if path.contains('/') {
-                let dictionary = Dictionary::parse(Path::new(path), text).unwrap();
+                let dictionary = Dictionary::parse(Path::new(path), &expanded(text)).unwrap();
                 assert_eq!(
                     dictionary.dictionary_at("FoamFile").unwrap().text("object").unwrap(),
                     path.rsplit('/').next().unwrap()
@@ -79,15 +84,16 @@ fn every_place_of_every_template_is_filled_and_every_dictionary_is_read() {
 #[test]
 fn values_stand_where_the_solver_looks_for_them() {
     let files = made(|_| ());
-    let read = |path: &str| Dictionary::parse(Path::new(path), text(&files, path)).unwrap();
+    let read = |path: &str| Dictionary::parse(Path::new(path), &expanded(text(&files, path))).unwrap();
     assert_eq!(read("constant/granularProperties").number("youngModulus", |_| true, "").unwrap(), 193e9);
     assert_eq!(read("0/stress").text("internalField").unwrap(), "uniform ( -13000000 0 0 -7000000 0 0 )");
     let temperature = read("0/T");
     assert_eq!(temperature.uniform("internalField").unwrap(), 293.15);
-    let walls = crate::walls::heat_of_walls(&temperature);
-    let expected = ["350", "insulated", "0:293,60:350", "insulated"].map(|text| parse_wall(text).unwrap());
-    // The line that OpenFOAM expands stands among the patches.
-    assert!(walls.is_err() || walls.unwrap() == expected);
+    let walls = crate::walls::heat_of_walls(&temperature).unwrap();
+    assert_eq!(
+        walls,
+        ["350", "insulated", "0:293,60:350", "insulated"].map(|text| parse_wall(text).unwrap())
+    );
     assert!(text(&files, "Allrun").contains("MSDD=${MSDD:-/checkout}"));
     assert!(text(&files, "README.md").contains("| left wall | 350 K | `0/T` |\n| right wall | insulated |"));
 }

@@ -120,8 +120,9 @@ pub fn check(grains: &Grains, start: Start, compression: Compression) -> Result<
                 key: "pressure".to_string(),
                 value: format!("{} Pa", number(pressure)),
                 allowed: format!(
-                    "{} to {} Pa for these grains, which is what packings of a porosity from {most} to {least} have; it is \
-                     in proportion to youngModulus times meanRadius",
+                    "{} to {} Pa for these grains, which is what packings of a porosity from {most} to {least} have. Pressure is \
+                     in proportion to youngModulus times meanRadius, while conduction depends on the porosity alone: with a \
+                     smaller youngModulus, as is usual in discrete element simulations, there is less pressure",
                     rounded(low),
                     rounded(high)
                 ),
@@ -133,7 +134,7 @@ pub fn check(grains: &Grains, start: Start, compression: Compression) -> Result<
 
 /// Three digits.
 fn rounded(value: f64) -> String {
-    number(crate::scene::rounded(value, 3))
+    crate::folder::plain(crate::scene::rounded(value, 3))
 }
 
 /// Pressures [Pa] of the loosest and of the densest packing that are allowed, as the shipped model knows them.
@@ -329,7 +330,7 @@ mod tests {
         let refused = |start| check(&grains, start, Compression::Isotropic).unwrap_err().to_string();
         let error = refused(Start::Pressure(1e3));
         assert!(
-            error.starts_with("pressure = 1000 Pa, allowed: ") && error.contains("youngModulus"),
+            error.starts_with("pressure = 1000 Pa, allowed: 1.9") && error.contains("youngModulus"),
             "{error}"
         );
         assert!(refused(Start::Porosity(0.4)).starts_with("porosity = 0.4, allowed: 0.06 to 0.19"));

@@ -22,14 +22,21 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", requires = "cells")]
     field: Option<PathBuf>,
     /// Cells of the field along x and y; cells are square.
-    #[arg(long, value_delimiter = ',', num_args = 2, value_name = "NX,NY")]
-    cells: Vec<usize>,
+    #[arg(long, value_name = "NX,NY", value_parser = cells)]
+    cells: Option<[usize; 2]>,
     /// What the field is, with its unit.
     #[arg(long, default_value = "")]
     label: String,
     /// SVG to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
+}
+
+fn cells(text: &str) -> Result<[usize; 2], String> {
+    let numbers: Option<Vec<usize>> =
+        text.split(',').map(|n| n.trim().parse().ok().filter(|&n| n > 0)).collect();
+    let pair = numbers.and_then(|numbers| <[usize; 2]>::try_from(numbers).ok());
+    pair.ok_or_else(|| "expected two numbers of cells, for example 100,30".to_string())
 }
 
 /// Side of the box of grains and width of the field, and gap between them [px].
@@ -43,7 +50,7 @@ const FOOT: f64 = 44.0;
 const LINE: f64 = 1.4;
 const WIDEST: f64 = 7.0;
 /// Shades of the field.
-const SHADES: usize = 24;
+const SHADES: usize = 48;
 /// Blue over white to red, told apart by the colour-blind: ends and middle of the scale.
 const COLD: [f64; 3] = [33.0, 102.0, 172.0];
 const MIDDLE: [f64; 3] = [247.0, 247.0, 247.0];
@@ -52,18 +59,18 @@ const HOT: [f64; 3] = [178.0, 24.0, 43.0];
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let problem = |text: String| CliError::Message(format!("{}: {text}", arguments.state.display()));
     let simulation = state::from_json(&read_text(&arguments.state)?).map_err(|e| problem(e.to_string()))?;
-    let field = match &arguments.field {
-        Some(path) => {
-            let values = scalars(&read_text(path)?, &arguments.cells)
+    let field = match arguments.field.as_ref().zip(arguments.cells) {
+        Some((path, cells)) => {
+            let values = scalars(&read_text(path)?, cells)
                 .map_err(|text| CliError::Message(format!("{}: {text}", path.display())))?;
-            Some(values)
+            Some((values, cells[0]))
         }
         None => None,
     };
     let mut body = grains(&simulation);
     let mut width = BOX + 2.0;
-    if let Some(values) = &field {
-        body += &map(values, arguments.cells[0], &arguments.label);
+    if let Some((values, columns)) = &field {
+        body += &map(values, *columns, &arguments.label);
         width += GAP + FIELD + 20.0;
     }
     let height = HEAD + BOX + FOOT;
@@ -75,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 /// The values of a scalar field, if there are as many as `cells`.
-fn scalars(text: &str, cells: &[usize]) -> Result<Vec<f64>, String> {
+fn scalars(text: &str, cells: [usize; 2]) -> Result<Vec<f64>, String> {
     let values: Vec<f64> = nonuniform(text)?.iter().filter_map(|row| row.first().copied()).collect();
     let expected: usize = cells.iter().product();
     if values.len() == expected {
@@ -89,9 +96,11 @@ fn scalars(text: &str, cells: &[usize]) -> Result<Vec<f64>, String> {
 fn grains(simulation: &Simulation) -> String {
     let [x0, x1, y0, y1] = simulation.walls.position;
     let scale = BOX / (x1 - x0).max(y1 - y0);
+    let (width, height) = (scale * (x1 - x0), scale * (y1 - y0));
+    let top = HEAD + BOX - height;
     let at = |x: f64, y: f64| (1.0 + scale * (x - x0), HEAD + BOX - scale * (y - y0));
     let mut svg = format!(
-        "<clipPath id=\"box\"><rect x=\"1\" y=\"{HEAD}\" width=\"{BOX}\" height=\"{BOX}\"/></clipPath>\n\
+        "<clipPath id=\"box\"><rect x=\"1\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\"/></clipPath>\n\
          <text x=\"1\" y=\"20\">a box of {} grains, and the forces between them</text>\n<g clip-path=\"url(#box)\">\n",
         simulation.discs.len()
     );
@@ -110,11 +119,12 @@ fn grains(simulation: &Simulation) -> String {
     let mean = contacts.iter().map(|c| c.4).sum::<f64>() / contacts.len().max(1) as f64;
     for (x1, y1, x2, y2, force) in contacts {
         let ((x1, y1), (x2, y2)) = (at(x1, y1), at(x2, y2));
-        let line = (LINE * force / mean).min(WIDEST);
-        let _ = writeln!(svg, "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" stroke-width=\"{line:.2}\"/>");
+        let thickness = (LINE * force / mean).min(WIDEST);
+        let _ =
+            writeln!(svg, "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" stroke-width=\"{thickness:.2}\"/>");
     }
     svg + &format!(
-        "</g></g>\n<rect x=\"1\" y=\"{HEAD}\" width=\"{BOX}\" height=\"{BOX}\" fill=\"none\" stroke=\"black\"/>\n"
+        "</g></g>\n<rect x=\"1\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"none\" stroke=\"black\"/>\n"
     )
 }
 
@@ -201,7 +211,7 @@ mod tests {
     #[test]
     fn a_field_of_another_mesh_is_refused() {
         let text = "internalField nonuniform List<scalar>\n3\n(\n1\n2\n3\n)\n;";
-        assert_eq!(scalars(text, &[3, 1]).unwrap(), [1.0, 2.0, 3.0]);
-        assert_eq!(scalars(text, &[2, 2]).unwrap_err(), "3 values, expected 4 of 2 x 2 cells");
+        assert_eq!(scalars(text, [3, 1]).unwrap(), [1.0, 2.0, 3.0]);
+        assert_eq!(scalars(text, [2, 2]).unwrap_err(), "3 values, expected 4 of 2 x 2 cells");
     }
 }

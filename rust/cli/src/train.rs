@@ -7,9 +7,10 @@ use crate::score;
 use clap::Args;
 use msdd_files::{check_target, write};
 use msdd_rve::database::{Dataset, read_all};
+use msdd_surrogate::document::hash;
 use msdd_surrogate::state::training::StateOptions;
 use msdd_surrogate::state::variables::Variables;
-use msdd_surrogate::{DatabaseProvenance, document, models};
+use msdd_surrogate::{DatabaseProvenance, models};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -109,7 +110,7 @@ fn provenance(arguments: &Arguments, dataset: &Dataset) -> Result<DatabaseProven
     let rows = serde_json::to_string(&dataset.records)
         .map_err(|error| CliError::Message(format!("{}: {error}", arguments.database[0].display())))?;
     Ok(DatabaseProvenance {
-        rows_hash: Some(document::hash(&rows)),
+        rows_hash: Some(hash(&rows)),
         plan_hash: value("plan_hash")?.clone(),
         engine_version: value("engine_version")?.clone(),
         material: serde_json::from_str(value("material")?)

@@ -21,12 +21,13 @@ pub fn check(root: &Path, files: &[PathBuf]) -> Result<(), DocsError> {
     let listed = contents(root)?;
     for file in files {
         let page = Page::read(root, file)?;
+        let made = paths::made_by_the_reader(&page);
         for (event, range) in page.events() {
             let problem = match &event {
                 Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
                     link(root, &page, dest_url, &listed, &mut known)?
                 }
-                Event::Code(text) => paths::problem(root, file, text),
+                Event::Code(text) => paths::problem(root, file, text, &made),
                 _ => None,
             };
             if let Some(text) = problem {

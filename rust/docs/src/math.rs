@@ -75,11 +75,14 @@ fn first_line(text: &str) -> String {
 
 /// The same for a browser, and nothing that Markdown reads: in texts between the tags its characters become entities.
 fn sheltered(html: &str) -> String {
-    let (mut out, mut in_tag) = (String::new(), false);
+    let (mut out, mut in_tag, mut in_quotes) = (String::new(), false, false);
     for c in html.chars() {
         match c {
             '<' => in_tag = true,
             '>' => in_tag = false,
+            '"' if in_tag => in_quotes = !in_quotes,
+            // pulldown-latex leaves no blank between some attributes.
+            c if in_tag && !in_quotes && c.is_ascii_alphabetic() && out.ends_with('"') => out.push(' '),
             _ => {}
         }
         match c {

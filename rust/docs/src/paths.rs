@@ -1,5 +1,7 @@
 //! Paths of the repository that are named in backticks.
 
+use crate::pages::Page;
+use pulldown_cmark::{Event, Tag, TagEnd};
 use std::path::Path;
 
 /// Folders of the checkout whose paths are checked.
@@ -7,9 +9,24 @@ const FOLDERS: [&str; 7] = ["cases", "rust", "scripts", "tests", "docs", "openfo
 /// What runs leave behind below them: not in the repository.
 const MADE: [&str; 6] = ["postProcessing", "VTK", "polyMesh", "dynamicCode", "platforms", "lnInclude"];
 
+/// The blocks of code of a page: what its commands make is no path of the repository, but may be named.
+pub fn made_by_the_reader(page: &Page) -> String {
+    let (mut blocks, mut inside) = (String::new(), false);
+    for (event, _) in page.events() {
+        match event {
+            Event::Start(Tag::CodeBlock(_)) => inside = true,
+            Event::End(TagEnd::CodeBlock) => inside = false,
+            Event::Text(text) if inside => blocks.push_str(&text),
+            _ => {}
+        }
+    }
+    blocks
+}
+
 /// What is wrong with a piece of code in a line of the file `file`, if it begins with a path of this repository. Paths are
-/// those of the checkout or, as in READMEs of crates, of the file's own folder. `*` stands for any part of a name.
-pub fn problem(root: &Path, file: &Path, code: &str) -> Option<String> {
+/// those of the checkout or, as in READMEs of crates, of the file's own folder. `*` stands for any part of a name. Folders of
+/// cases that are named in `blocks`, the page's blocks of code, too, are the reader's own.
+pub fn problem(root: &Path, file: &Path, code: &str, blocks: &str) -> Option<String> {
     let path = code.split_whitespace().next()?.trim_end_matches(['/', ',', ';', ':', '.']);
     // A place in a file: path:line.
     let path = path.split(':').next()?;
@@ -18,7 +35,10 @@ pub fn problem(root: &Path, file: &Path, code: &str) -> Option<String> {
         return None;
     }
     let parts: Vec<&str> = path.split('/').collect();
-    if parts.iter().any(|part| made(part)) {
+    let own = first == "cases"
+        && blocks.contains(&format!("cases/{}", parts[1]))
+        && !root.join("cases").join(parts[1]).exists();
+    if own || parts.iter().any(|part| made(part)) {
         return None;
     }
     let here = file.parent().unwrap_or(Path::new(""));

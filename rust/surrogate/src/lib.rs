@@ -26,7 +26,7 @@
 //! | [`solid_fraction`] | sum-of-areas solid fraction from porosity |
 //! | [`predictor`], [`model`] | what of the paper's network answers; the trained model |
 //! | [`options`], [`report`] | how to train, and how that went |
-//! | [`model_file`], `document` | its file; what all model files share |
+//! | [`model_file`], [`document`] | its file; what all model files share |
 #![deny(unsafe_code)] // kernel/ alone may: vectors of the instruction sets and what calls them
 
 pub mod ablation;

@@ -102,8 +102,8 @@ fn read(field: &Expected, tokens: &[Token], mesh: &Mesh, found: &mut Findings) -
         ["uniform", rest @ ..] => (numbers_in(rest, field.components), true),
         ["nonuniform", _, count, rest @ ..] => {
             let numbers = numbers_in(rest, field.components);
-            let length = numbers.as_ref().map_or(0, Vec::len);
-            if let Some(cells) = mesh.cells
+            let length = numbers.as_ref().map(Vec::len);
+            if let (Some(length), Some(cells)) = (length, mesh.cells)
                 && length != cells
             {
                 let value = format!("a list of {count} values");
@@ -138,7 +138,10 @@ fn read(field: &Expected, tokens: &[Token], mesh: &Mesh, found: &mut Findings) -
 fn numbers_in(words: &[&str], components: usize) -> Option<Vec<Vec<f64>>> {
     let plain = words.iter().filter(|word| !["(", ")"].contains(word));
     let numbers: Vec<f64> = plain.map(|word| word.parse().ok()).collect::<Option<_>>()?;
-    (numbers.len() % components == 0).then(|| numbers.chunks(components).map(<[f64]>::to_vec).collect())
+    numbers
+        .len()
+        .is_multiple_of(components)
+        .then(|| numbers.chunks(components).map(<[f64]>::to_vec).collect())
 }
 
 /// Each patch of the mesh needs a condition: by name, by pattern, or by its type (empty).

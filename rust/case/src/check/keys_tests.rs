@@ -8,8 +8,11 @@ use std::path::Path;
 fn list_in(source: &str, dictionary: &str) -> Vec<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../openfoam").join(source);
     let text = std::fs::read_to_string(&path).unwrap();
-    let call =
-        Regex::new(&format!(r"checkKeys\s*\(\s*{}\s*,\s*\{{([^}}]*)\}}", regex::escape(dictionary))).unwrap();
+    let call = Regex::new(&format!(
+        r"checkKeys[ \n]*\([ \n]*{}[ \n]*,[ \n]*\{{([^}}]*)\}}",
+        regex::escape(dictionary)
+    ))
+    .unwrap();
     let inside =
         call.captures(&text).unwrap_or_else(|| panic!("{source}: no list for {dictionary}"))[1].to_string();
     Regex::new("\"([^\"]*)\"").unwrap().captures_iter(&inside).map(|word| word[1].to_string()).collect()

@@ -92,7 +92,7 @@ impl<'a> Scene<'a> {
     /// Walls that are below 0 K, or that do nothing.
     pub fn check_walls(&self, found: &mut Findings) {
         for (name, values) in &self.walls {
-            if let Some(value) = values.iter().find(|value| !(**value >= 0.0)) {
+            if let Some(value) = values.iter().find(|value| value.is_nan() || **value < 0.0) {
                 let place = format!("boundaryField/{name}");
                 found.error(
                     ["0/T", &place],
@@ -172,8 +172,17 @@ impl<'a> Scene<'a> {
                     number(rounded(temperature - initial, 3)),
                     number(rounded(strain, 3))
                 );
-                let advice = "The strain from the start to the hottest or coldest place is beyond what the model was trained with. \
-                              It is composed of small steps, and may still be right, but nobody has checked that";
+                let source = if rise == 0.0 {
+                    ""
+                } else {
+                    " (Estimated: what the heat source leads to at last, with the conductivity of the start; grains that swell \
+                     conduct better and get less hot.)"
+                };
+                let advice = format!(
+                    "The strain from the start to the hottest or coldest place is beyond what the model was trained with: it is \
+                     composed of small steps, but whether the result is right has not been measured{source}"
+                );
+                let advice = advice.as_str();
                 found.doubt(
                     [super::grains::FILE, "thermalExpansion"],
                     &value,

@@ -143,10 +143,9 @@ fn report_outside(
     } else {
         "0/stress".to_string()
     };
-    let value = format!(
-        "{cells} of {all} cells have {name} {side} the region of the model, by up to {}",
-        number(rounded(far, 3))
-    );
+    let who = if cells == all as f64 { "all cells".to_string() } else { format!("{cells} of {all} cells") };
+    let far = number(rounded(far, 3));
+    let value = format!("{who} have {name} {side} the region of the model, by up to {far}");
     match policy(file, name, side).as_str() {
         "error" => {
             let advice = format!(
@@ -172,11 +171,21 @@ fn report_outside(
     }
 }
 
-/// Whether porosities are so large that it was said.
+/// Porosities that packings do not have; whether those that are too large were said.
 fn check_loose(start: &Start, file: &Dictionary, found: &mut Findings) -> bool {
-    let [_, loosest] = crate::packing::POROSITIES;
-    let most = start.porosity.numbers.iter().map(|value| value[0]).fold(0.0, f64::max);
-    if most <= loosest || start.stress.is_some() {
+    let [densest, loosest] = crate::packing::POROSITIES;
+    let all = || start.porosity.numbers.iter().map(|value| value[0]);
+    let (least, most) = (all().fold(1.0, f64::min), all().fold(0.0, f64::max));
+    if start.stress.is_some() {
+        return false;
+    }
+    if least < densest {
+        let advice = "That is denser than all packings that the model was trained with, and no stress is given: it takes that of \
+                      the densest";
+        let value = format!("down to {}", number(rounded(least, 4)));
+        found.doubt(["0/porosity", "internalField"], &value, &format!("{densest} and above"), advice);
+    }
+    if most <= loosest {
         return false;
     }
     let given = file.dictionary_at("surrogate").and_then(|surrogate| surrogate.dictionary_at("outOfRegion"));

@@ -200,7 +200,7 @@ impl Wishes {
         ];
         let mut walls = vec![left];
         for (given, name, proposal) in others {
-            walls.push(asker.value(given.clone(), "(as above)", name, proposal, parse_wall)?);
+            walls.push(asker.value(given.clone(), "Likewise.", name, proposal, parse_wall)?);
         }
         walls.try_into().map_err(|_| CliError::Message("four walls".to_string()))
     }
@@ -260,6 +260,14 @@ impl Wishes {
     }
 }
 
+fn yes_or_no(text: &str) -> Result<bool, String> {
+    match text {
+        "yes" | "y" => Ok(true),
+        "no" | "n" => Ok(false),
+        _ => Err("yes, no".to_string()),
+    }
+}
+
 /// `0.125` or `3000 Pa`.
 fn parse_start(text: &str) -> Result<Start, String> {
     let allowed = || "a porosity such as 0.125, or a pressure with its unit such as '3000 Pa'".to_string();
@@ -278,7 +286,8 @@ impl GrainWishes {
                 let list: Vec<String> =
                     PRESETS.iter().map(|one| format!("  {:8} {}", one.name, one.about)).collect();
                 let help = format!("Material of the grains:\n{}", list.join("\n"));
-                let read = |text: &str| preset(text).map_err(|error| error.to_string());
+                let names: Vec<&str> = PRESETS.iter().map(|one| one.name).collect();
+                let read = |text: &str| preset(text).map_err(|_| names.join(", "));
                 asker.value(None, &help, "Material", PRESETS[0].name, read)?
             }
         };
@@ -290,7 +299,16 @@ impl GrainWishes {
             thermal_expansion: self.thermal_expansion.unwrap_or(base.grains.thermal_expansion),
             mean_radius: self.mean_radius.unwrap_or(base.grains.mean_radius),
         };
-        let asked = if asker.interactive { self.ask_values(asker, own)? } else { own };
+        let change = asker.interactive
+            && asker.value(
+                None,
+                "The material has a density, Young's modulus, thermal conductivity, heat capacity, thermal expansion and mean \
+                 radius of its own. Each may be changed.",
+                "Change some of them (yes or no)",
+                "no",
+                yes_or_no,
+            )?;
+        let asked = if change { self.ask_values(asker, own)? } else { own };
         asked.check()?;
         let material = if asked == base.grains {
             format!("{}: {}", base.name, base.about)
@@ -313,18 +331,22 @@ impl GrainWishes {
             self.mean_radius,
         ];
         let questions = [
-            ("rho, of a grain, not of the bed.", "Density [kg/m3]"),
+            ("The density of a grain, not that of the bed.", "Density [kg/m3]"),
             (
-                "E: how stiff contacts are. The pressure of the bed is in proportion to it.",
+                "How stiff contacts are: force is Young's modulus times mean radius times overlap. The pressure of the bed is in \
+                 proportion to it.",
                 "Young's modulus [Pa]",
             ),
-            ("k, of a grain: the bed conducts about a third of it.", "Thermal conductivity [W/(m K)]"),
-            ("c.", "Specific heat capacity [J/(kg K)]"),
             (
-                "alpha, linear. Times the change of temperature it should stay below 0.05.",
+                "The thermal conductivity of a grain; the bed conducts about a third of it.",
+                "Thermal conductivity [W/(m K)]",
+            ),
+            ("The specific heat capacity of a grain.", "Specific heat capacity [J/(kg K)]"),
+            (
+                "The linear thermal expansion coefficient. Times the change of temperature it should stay below 0.05.",
                 "Thermal expansion [1/K]",
             ),
-            ("Mean radius; radii are uniform between 0.6 and 1.4 of it.", "Mean radius [m]"),
+            ("The mean radius; radii are uniform between 0.6 and 1.4 of it.", "Mean radius [m]"),
         ];
         let mut values = from.named().map(|(_, value, _)| value);
         for ((value, given), (help, question)) in values.iter_mut().zip(given).zip(questions) {
@@ -355,7 +377,7 @@ pub fn summary(scene: &Scene) -> String {
         "box {width} x {height} m, {} x {} cells; {}; {} K at the start; {} s",
         scene.cells[0],
         scene.cells[1],
-        walls.join(", "),
+        walls.join("; "),
         plain(scene.initial_temperature),
         plain(scene.end_time)
     )

@@ -51,7 +51,7 @@ pub struct GenerateArguments {
     /// Part of the plan, as 3/16; `merge` joins the parts.
     #[arg(long, value_name = "NUMBER/COUNT", default_value_t)]
     shard: Shard,
-    /// Commit of this program, for the provenance; default: MSDD_COMMIT when the program was built.
+    /// Commit of this program, for the provenance; default: the one it was built from.
     #[arg(long, value_name = "TEXT")]
     commit: Option<String>,
     /// JSON to write: where the time went.
@@ -159,7 +159,7 @@ fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
     arguments.timing.iter().try_for_each(|timing| check_target(timing))?;
     let plan = Plan::parse(&read_text(&arguments.plan)?, &arguments.plan.display().to_string())?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let built = option_env!("MSDD_COMMIT").unwrap_or("unknown");
+    let built = env!("MSDD_COMMIT");
     let run = Run {
         shard: arguments.shard,
         threads: arguments.threads.map_or(cores, |threads| threads as usize),

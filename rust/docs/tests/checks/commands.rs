@@ -7,7 +7,7 @@ use std::process::Command;
 
 const GOOD: &str = "# A\n\n<!-- file: folder/a.txt -->\n```text\none\n$two\n```\n\n<!-- run -->\n```sh\ncd folder\nword=three\n```\n\n\
                     <!-- append: a.txt -->\n```text\nmore\n```\n\n<!-- run -->\n```sh\ntest \"$(cat a.txt)\" = 'one\n$two\nmore'\n\
-                    echo $word > result\n```\n\n<!-- no run: it would delete all -->\n```sh\nfalse\n```\n\n<!-- run: slow -->\n\
+                    echo $word > result\nbash -c 'false; true'\n```\n\n<!-- no run: it would delete all -->\n```sh\nfalse\n```\n\n<!-- run: slow -->\n\
                     ```sh\ntouch slow\nfalse\n```\n\n```text\nnothing is said about text\n```\n";
 
 /// Runs the commands of one page in a checkout of git; what was found.
@@ -28,7 +28,7 @@ fn a_page_is_one_shell_and_its_files_are_written() {
 #[test]
 fn slow_blocks_run_when_they_are_asked_for() {
     let wrong = commands("slow", GOOD, true);
-    assert!(wrong.len() == 1 && wrong[0].starts_with("docs/src/a.md:36: 'false' failed"), "{wrong:?}");
+    assert!(wrong.len() == 1 && wrong[0].starts_with("docs/src/a.md:37: 'false' failed"), "{wrong:?}");
 }
 
 #[test]

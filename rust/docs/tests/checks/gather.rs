@@ -49,7 +49,8 @@ fn cases_stand_beside_discs_and_the_paper() {
     assert_eq!([value("cases.H.paper.T_P1"), value("cases.H.discs.T_P3")], ["70.0", "34.5 ± 0.2"]);
     assert_eq!([value("cases.H.paper.seconds"), value("cases.H.paper.pressure")], ["12", "2.98"]);
     let first = results.table("first").unwrap();
-    assert_eq!((first.columns.len(), first.rows.len()), (7, 4));
+    assert_eq!((first.columns.len(), first.rows.len()), (4, 4));
+    assert_eq!(results.table("errors").unwrap().columns.len(), 7);
     assert_eq!(
         [&first.rows[0][1], &first.rows[2][1], &first.rows[3][3]],
         ["4.5 % in 12 s", "± 0.3 %", "6.5 % in 40 s"]

@@ -29,7 +29,7 @@ fn good_links_anchors_and_paths_pass() {
     let text = "# Two\n\n[a](../one.md) [b](../one.md#a-heading-code-a) [c](#two) [d](../one.md#twice-1) [e](../one.md#mark) \
                 [f](https://example.org/none) [g](../rustdoc/msdd_dem/index.html) [h](../msdd.h.html)\n\n`rust/dem/src/law.rs`, \
                 `rust/dem/src/*.rs`, `rust/dem/`, `rust/dem/src/law.rs:12`, `rust/dem --flag`, `cases/<case>/none`, `cases/H/postProcessing/0`, \
-                `other/none`\n\n```\nrust/none\n```\n";
+                `other/none`, `cases/mine/0/T`\n\n```\nrust/none\ncp -r cases/H cases/mine\n```\n";
     assert_eq!(with("good", text), [""; 0]);
 }
 

@@ -15,6 +15,8 @@ fn equations_become_mathml_and_code_and_prices_stay() {
         text.starts_with("The <math") && text.contains("</math> of `$x$` for \\$5.\n\n    $y$\n\nEnd.\n"),
         "{text}"
     );
+    let large = with_mathml(&page("$\\Bigl( x \\Bigr)$")).unwrap();
+    assert!(large.contains("stretchy=\"true\" minsize="), "{large}");
     assert!(text.contains("<msub>") && !text.contains("a_1") && !text.contains("> * <"), "{text}");
 }
 

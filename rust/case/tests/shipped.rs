@@ -1,0 +1,152 @@
+//! The check on the cases of this project, which are sound, and on the bad input that the solver's tests have.
+//! Needs OpenFOAM's foamDictionary, as scripts/setup installs it.
+
+use msdd_case::check::{Findings, check};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn checkout() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+fn lines(found: &Findings) -> Vec<String> {
+    found.0.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn shipped_cases_have_no_errors() {
+    let cases = checkout().join("cases");
+    let mut count = 0;
+    for name in names(&cases).iter().filter(|name| cases.join(name).join("system/controlDict").exists()) {
+        let found = check(&cases.join(name));
+        println!("{name}: {:#?}", lines(&found));
+        assert_eq!(found.counts()[0], 0, "{name}: {:#?}", lines(&found));
+        count += 1;
+    }
+    assert_eq!(count, 10);
+}
+
+/// Copies the case that the solver's tests start from, with its includes spelled out; text is appended to one of its files.
+fn changed(work: &Path, file: &str, text: &str) {
+    let checkout = checkout();
+    let small = checkout.join("tests/openfoam/small");
+    for folder in ["0", "constant", "system"] {
+        fs::create_dir_all(work.join(folder)).unwrap();
+        for name in names(&small.join(folder)).iter().filter(|name| small.join(folder).join(name).is_file()) {
+            let whole = fs::read_to_string(small.join(folder).join(name)).unwrap();
+            let whole = whole.replace("../../../../cases", checkout.join("cases").to_str().unwrap());
+            let more = if format!("{folder}/{name}") == file { text } else { "" };
+            fs::write(work.join(folder).join(name), whole + more).unwrap();
+        }
+    }
+    fs::write(work.join("system/damaged.json"), "{\"schema\": \"msdd-state-model-1\", ").unwrap();
+}
+
+fn found_in(name: &str, file: &str, text: &str) -> Vec<String> {
+    let work = std::env::temp_dir().join(format!("msdd-check-{}-{name}", std::process::id()));
+    changed(&work, file, text);
+    let found = check(&work);
+    fs::remove_dir_all(&work).unwrap();
+    lines(&found)
+}
+
+#[test]
+fn what_the_solver_refuses_is_found_before_the_run() {
+    assert_eq!(found_in("good", "none", ""), Vec::<String>::new());
+    let bad = checkout().join("tests/openfoam/bad");
+    let mut missed = Vec::new();
+    for name in names(&bad) {
+        let text = fs::read_to_string(bad.join(&name)).unwrap();
+        let file = text.lines().find_map(|line| line.strip_prefix("// file: "));
+        let file = file.unwrap_or("constant/granularProperties");
+        let found = found_in(&name, file, &text);
+        println!("{name}: {found:#?}");
+        if !found.iter().any(|line| line.starts_with(&format!("error: {file}: "))) {
+            missed.push(format!("{name}: {found:?}"));
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+#[test]
+fn what_is_doubtful_or_missing_is_said() {
+    let properties = "constant/granularProperties";
+    for (name, file, text, wanted) in [
+        (
+            "typo",
+            properties,
+            "surrogate { modle builtin; }",
+            "doubt: constant/granularProperties: surrogate/modle",
+        ),
+        ("loose", "0/porosity", "internalField uniform 0.2;", "doubt: 0/porosity: internalField = up to 0.2"),
+        (
+            "apart",
+            "0/porosity",
+            "internalField uniform 0.25;",
+            "error: 0/porosity: internalField = up to 0.25",
+        ),
+        (
+            "dense",
+            "0/porosity",
+            "internalField uniform 0.02;",
+            "doubt: 0/porosity: internalField = down to 0.02",
+        ),
+        ("percent", "0/porosity", "internalField uniform 12.5;", "error: 0/porosity: internalField = 12.5"),
+        (
+            "strain",
+            properties,
+            "thermalExpansion 5e-3;",
+            "doubt: constant/granularProperties: thermalExpansion = 0.005",
+        ),
+        ("grains", properties, "meanRadius 0.05;", "doubt: system/blockMeshDict: blocks = "),
+        (
+            "wall",
+            "0/T",
+            "boundaryField { right { type fixedValue; value uniform -300; } }",
+            "error: 0/T: boundaryField/right = -300 K",
+        ),
+        ("patch", "0/T", "boundaryField { rigth { type zeroGradient; } }", "doubt: 0/T: boundaryField/rigth"),
+        (
+            "short",
+            "system/controlDict",
+            "endTime 1e-3; deltaT 1e-4;",
+            "doubt: system/controlDict: endTime = 0.001 s",
+        ),
+        ("long", "system/controlDict", "endTime 1e6;", "doubt: system/controlDict: endTime = 1000000 s"),
+        ("coarse", "system/controlDict", "endTime 20; deltaT 5;", "doubt: system/controlDict: deltaT = 5 s"),
+        ("control", "system/controlDict", "adjustTimestep yes;", "doubt: system/controlDict: adjustTimestep"),
+        (
+            "code",
+            "system/controlDict",
+            "libs (\"libmine.so\");",
+            "doubt: system/controlDict: libs = libmine.so",
+        ),
+        (
+            "quiet",
+            properties,
+            "equilibriumCoeffs {}",
+            "doubt: constant/granularProperties: equilibriumCoeffs",
+        ),
+        ("open", "system/fvSolution", "msddFoam {", "error: system/fvSolution: "),
+    ] {
+        let found = found_in(name, file, text);
+        println!("{name}: {found:#?}");
+        assert!(found.iter().any(|line| line.starts_with(wanted)), "{name}: {wanted}\n{found:#?}");
+    }
+    let empty = std::env::temp_dir().join(format!("msdd-check-{}-empty", std::process::id()));
+    fs::create_dir_all(&empty).unwrap();
+    let found = lines(&check(&empty));
+    fs::remove_dir_all(&empty).unwrap();
+    for file in ["system/controlDict", "0/T", "constant/granularProperties", "system/blockMeshDict"] {
+        assert!(found.iter().any(|line| line.starts_with(&format!("error: {file}: missing"))), "{found:#?}");
+    }
+    assert!(lines(&check(Path::new("no-such-folder")))[0].contains("no such folder"));
+}
