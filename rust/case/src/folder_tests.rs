@@ -5,7 +5,8 @@ use crate::Case;
 use crate::dictionary::Dictionary;
 use crate::grains::PRESETS;
 use crate::packing::Start;
-use crate::scene::{parse_wall, proposed_cells, proposed_probes};
+use crate::scene::{Mechanics, parse_wall, proposed_cells, proposed_probes};
+use msdd_rve::Compression;
 
 fn spread(mean: f64) -> Spread {
     Spread { mean, deviation: 0.01 * mean }
