@@ -55,6 +55,7 @@ fn text<'a>(files: &'a [File], path: &str) -> &'a str {
 
 #[test]
 fn every_place_of_every_template_is_filled_and_every_dictionary_is_read() {
+    let place = regex::Regex::new("@[A-Za-z]+@").unwrap();
     for mechanics in [Mechanics::None, Mechanics::Equilibrium] {
         let files = made(|scene| {
             scene.mechanics = mechanics;
@@ -62,7 +63,6 @@ fn every_place_of_every_template_is_filled_and_every_dictionary_is_read() {
             scene.tolerance = Some(0.05);
         });
         assert_eq!(files.len(), 15);
-        let place = regex::Regex::new("@[A-Za-z]+@").unwrap();
         for File { path, text, program } in &files {
             assert!(!place.is_match(text), "{path}: {text}");
             assert_eq!(*program, path.starts_with("All"));
