@@ -40,8 +40,8 @@ Foam::wallConditions::positions(const scalar time) const
             {
                 for (label k = 0; k < 2; ++k)
                 {
-                    // At a corner, a wall whose friction acts along a component
-                    // that the other wall holds has no effect there
+                    // At a corner, a component that one wall holds follows that
+                    // wall; a wall that only rubs along it has no weight
                     const bool holds =
                         k == w.axis || w.type == kind::displacement;
                     const scalar weight = holds ? 1 : 1e-9;
