@@ -99,7 +99,7 @@ public:
 
 // * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
 
-// Here, where boxFile is known
+// Defined here because the destructor needs the definition of boxFile
 Foam::granularModels::onlineRve::~onlineRve()
 {}
 

@@ -83,7 +83,8 @@ Foam::regionPolicy::regionPolicy
     actions_.resize(names_.size());
     warned_.resize(names_.size());
 
-    // Columns that other models have are known, too: a case may change models
+    // Columns that only other models have are accepted, so that a case can
+    // change its model without changing the policy
     wordList allowed
     ({
         "maxFraction", "porosity", "fabricIndex", "reducedPressure",
@@ -210,7 +211,8 @@ void Foam::regionPolicy::judgeStart
     {
         return;
     }
-    // The case's writePrecision would print more digits than were given
+    // Not with the case's writePrecision, which prints more digits than the
+    // porosity was given with
     std::ostringstream text;
     text<< gMax(porosity);
     const std::string most(text.str());
