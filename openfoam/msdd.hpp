@@ -127,7 +127,8 @@ inline std::string version()
     return msdd_version();
 }
 
-/** Initial data of this number of cells, with its struct_size filled in and all columns NULL; set the columns by name. */
+/** Initial data of this number of cells, with its struct_size filled in and all columns NULL; set the columns by name.
+ */
 inline msdd_initial initial(std::size_t cells) noexcept
 {
     msdd_initial result = msdd_initial();
@@ -151,8 +152,8 @@ public:
         handle_.reset(handle);
     }
 
-    /** The same model with another kind of conductivity, "affine" (Eq. 9) or "network" (resistor network of the contacts);
-     *  describe lists the kinds that it was trained for. Throws Error for any other. */
+    /** The same model with another kind of conductivity, "affine" (Eq. 9) or "network" (resistor network of the
+     *  contacts); describe lists the kinds that it was trained for. Throws Error for any other. */
     Surrogate withConductivity(const std::string& kind) const
     {
         const detail::MaskedTraps masked;
@@ -182,8 +183,8 @@ public:
         detail::check(msdd_surrogate_initial_state(handle_.get(), &material, &initial, state));
     }
 
-    /** Steps 1 and 2 of the paper's Algorithm 1 for every cell of the batch; fills its outputs. Throws Error, and then has
-     *  written nothing. */
+    /** Steps 1 and 2 of the paper's Algorithm 1 for every cell of the batch; fills its outputs. Throws Error, and then
+     *  has written nothing. */
     void advance(const msdd_material& material, msdd_batch& batch) const
     {
         const detail::MaskedTraps masked;
@@ -307,17 +308,17 @@ private:
 class Database
 {
 public:
-    /** Called after every finished packing with the numbers done, total and failed; returning false stops the generation.
-     *  May throw. Floating-point traps are masked while it runs. */
+    /** Called after every finished packing with the numbers done, total and failed; returning false stops the
+     *  generation. May throw. Floating-point traps are masked while it runs. */
     typedef std::function<bool(std::uint64_t, std::uint64_t, std::uint64_t)> Progress;
 
     explicit Database(const std::string& path) : path_(path) {}
 
     const std::string& path() const noexcept { return path_; }
 
-    /** Computes the packings of a plan (the text of a TOML file) that the file does not hold yet, on this number of threads.
-     *  Throws Error, with the status MSDD_CANCELLED when `progress` stopped it, and what `progress` throws; finished
-     *  packings are kept. */
+    /** Computes the packings of a plan (the text of a TOML file) that the file does not hold yet, on this number of
+     *  threads. Throws Error, with the status MSDD_CANCELLED when `progress` stopped it, and what `progress` throws;
+     *  finished packings are kept. */
     void generate(const std::string& plan, std::uint32_t threads = 1, Progress progress = Progress()) const
     {
         const detail::MaskedTraps masked;

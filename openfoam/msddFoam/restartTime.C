@@ -27,7 +27,7 @@ License
 namespace Foam
 {
 
-//- The size of the last step, for which Time has no function
+//- Gives access to Time's size of the last step, which has no public function
 struct lastStep
 :
     public Time
@@ -58,7 +58,7 @@ Foam::restartTime::restartTime(const argList& args)
     IFstream is(control);
     if (!is.good())
     {
-        return;     // Time says so
+        return;     // Time reports the missing file
     }
     const dictionary dict(is);
     const word from(dict.lookupOrDefault<word>("startFrom", "latestTime"));
@@ -239,7 +239,7 @@ void Foam::restartTime::takeLatest() const
             {
                 setAside(newer);
             }
-            // No process may go on before all have renamed theirs
+            // Wait until all processes have renamed their folders
             returnReduce(true, andOp<bool>());
             return;
         }
@@ -277,7 +277,7 @@ void Foam::restartTime::checkStart(const scalar startTime) const
     );
     if (!returnReduce(!name.empty(), andOp<bool>()))
     {
-        return;     // the first field that is missing says so
+        return;     // reading the first missing field reports the error
     }
     string reason;
     if (judge(name, reason) != verdict::good)
@@ -307,7 +307,8 @@ void Foam::restartTime::setValue(Time& runTime)
     {
         runTime.value() = value;
 
-        // Time knows the next step's size of an adaptive run, not the last one's
+        // In an adaptive run Time stores the size of the next step, not that
+        // of the last one
         const scalar last =
             folder.record().lookupOrDefault<scalar>("lastDeltaT", 0);
         if (last > 0)

@@ -20,7 +20,7 @@ License
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-//- A number with three digits, whatever the writePrecision of the case
+//- Text of a number with three digits, whatever the case's writePrecision
 static std::string brief(const double value)
 {
     std::ostringstream text;

@@ -38,7 +38,7 @@ Foam::stepWatch::stepWatch(const double limit)
     {
         return;
     }
-    // Signals are for the thread that solves
+    // Block all signals in this thread: the solver's thread handles them
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
