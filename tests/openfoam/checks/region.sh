@@ -1,6 +1,6 @@
-# Outside of the region that the model was trained for.
+# Cells outside of the range that the model was trained for (its region).
 
-hot() { # folder, policy: grains that swell by a fifth
+hot() { # folder, policy: a case whose grains swell by a fifth
     changed "$1"
     shift
     sed -i 's/uniform 100/uniform 800/' 0/T

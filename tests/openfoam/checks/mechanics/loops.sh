@@ -1,6 +1,7 @@
-# Strains that go round in loops are said, bends are not. Sourced by mechanics.sh: needs equilibrium, uniform_temperature.
+# Strain paths with closed loops must cause a warning, curved paths without loops must not. Sourced by mechanics.sh: needs
+# equilibrium, uniform_temperature.
 
-circles() { # folder, porosity, circles of 0.5 % strain in xx and yy, in steps of a fortieth; a negative number turns back
+circles() { # folder, porosity, number of circles of 0.5 % strain in the plane of xx and yy, 40 steps each; negative: clockwise
     local table
     changed "$1"
     uniform_temperature
