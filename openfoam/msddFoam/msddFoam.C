@@ -120,9 +120,9 @@ int main(int argc, char *argv[])
     (
         "accept",
         "names",
-        "Go on from a time that was computed with other settings, for example"
-        " '(model thermalExpansion)'; files: from one whose files are missing"
-        " or changed"
+        "Continue from a time that was computed with other settings, for"
+        " example '(model thermalExpansion)'; the name files accepts a time"
+        " with missing or changed files"
     );
 
     const clockTime wallClock;

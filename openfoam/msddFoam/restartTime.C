@@ -74,9 +74,9 @@ Foam::restartTime::restartTime(const argList& args)
     if (dict.lookupOrDefault<label>("purgeWrite", 0) == 1)
     {
         WarningInFunction
-            << "Entry 'purgeWrite' in " << control << " is 1: the last whole"
+            << "Entry 'purgeWrite' in " << control << " is 1: the last complete"
             << " time is deleted a moment before the next is complete. With 2"
-            << " there is always one to go on from" << endl;
+            << " there is always one from which a run can continue" << endl;
     }
 }
 
@@ -246,11 +246,11 @@ void Foam::restartTime::takeLatest() const
         if (what == verdict::refused)
         {
             FatalErrorInFunction
-                << "Time " << name << " in " << path_
-                << " cannot be gone on from: " << reason.c_str()
+                << "A run cannot continue from time " << name << " in " << path_
+                << ": " << reason.c_str()
                 << ". Allowed: another startTime; or msddFoam -accept files, to"
                 << " take it as it is; files that are missing are then replaced"
-                << " by values of a start" << exit(FatalError);
+                << " by initial values" << exit(FatalError);
         }
         Info<< "Time " << name << " is skipped: " << reason.c_str()
             << ". It is renamed to " << name << ".incomplete" << nl << endl;
@@ -259,7 +259,7 @@ void Foam::restartTime::takeLatest() const
     if (times.size())
     {
         FatalErrorInFunction
-            << "No time in " << path_ << " is whole; " << times[0] << ": "
+            << "No time in " << path_ << " is complete; " << times[0] << ": "
             << reason.c_str() << exit(FatalError);
     }
 }
@@ -284,10 +284,10 @@ void Foam::restartTime::checkStart(const scalar startTime) const
     {
         FatalErrorInFunction
             << "Time " << name << " in " << path_
-            << ", the startTime of controlDict, is not whole: "
+            << ", the startTime of controlDict, is not complete: "
             << reason.c_str() << ". Allowed: an earlier startTime; latestTime,"
-            << " which takes the newest whole time; or msddFoam -accept files,"
-            << " to take it as it is" << exit(FatalError);
+            << " which takes the newest complete time; or msddFoam -accept"
+            << " files, to take it as it is" << exit(FatalError);
     }
 }
 

@@ -93,8 +93,8 @@ void Foam::stepWatch::say(const double waited) const
     (
         stderr,
         "msddFoam: process %d of %d has not finished a step for %g s; it is at"
-        " %s. Either that takes long, or it waits for another process: one"
-        " that says nothing here, or that is at something else.\n",
+        " %s. Either this takes long, or it waits for another process: look for"
+        " one that prints no such message, or names something else.\n",
         int(Pstream::myProcNo()),
         int(Pstream::nProcs()),
         waited,

@@ -117,10 +117,10 @@ void Foam::granularMechanicsModels::equilibrium::warnOfLoops()
         loopsSaid_ = true;
         WarningInFunction
             << "At time " << mesh_.time().timeName() << ' ' << cells
-            << " cells have been strained in loops, to and fro on different"
-            << " ways, around an area of more than " << leastArea
-            << " in the plane of strains. From here on their stress is not to"
-            << " be trusted: loops change it, but hardly that of discs. Ten"
+            << " cells have been strained along closed loops, there and back on"
+            << " different paths, around an area of more than " << leastArea
+            << " in a plane of strains. From here on their stress is not to be"
+            << " trusted: loops change it, but hardly change that of discs. Ten"
             << " circles of 0.5 % strain, an area of 8e-4, were measured to"
             << " change the pressure by 1 % at porosity 0.12, by 5 % at 0.16"
             << " and by 19 % at 0.18" << endl;
@@ -134,18 +134,18 @@ Foam::stringList Foam::granularMechanicsModels::equilibrium::warnings() const
     if (!everMoved_ && largest_ > roundOff*scale_)
     {
         OStringStream text;
-        text<< "Nothing was ever solved: at most " << largest_ << " Pa were out"
-            << " of balance, and below the entry residual of equilibriumCoeffs,"
-            << " " << tolerance_ << " Pa, no solution is sought. All grains"
-            << " have kept their place in this run, as with mechanics none";
+        text<< "The grains were never moved: at most " << largest_ << " Pa were"
+            << " out of balance, which is below the entry residual of"
+            << " equilibriumCoeffs, " << tolerance_ << " Pa. This run has the"
+            << " result of one with mechanics none";
         all.append(text.str());
     }
     const label cells = loopedCells();
     if (cells)
     {
         OStringStream text;
-        text<< cells << " cells have been strained in loops, around an area of"
-            << " more than " << leastArea << " in the plane of strains: their"
+        text<< cells << " cells were strained along closed loops, around an area"
+            << " of more than " << leastArea << " in a plane of strains: their"
             << " stress is not to be trusted";
         all.append(text.str());
     }

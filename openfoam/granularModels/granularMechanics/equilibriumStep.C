@@ -340,7 +340,8 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
         }
         parts *= 2;
         Info<< "Equilibrium at time " << mesh_.time().timeName() << ": "
-            << failure().c_str() << "; again in " << parts << " parts" << nl;
+            << failure().c_str() << "; the load of the step is applied in "
+            << parts << " parts" << nl;
     }
 
     ++steps_;

@@ -85,8 +85,8 @@ void Foam::quadMesh::findQuads()
     if (returnReduce(found != mesh_.nCells(), orOp<bool>()))
     {
         FatalErrorInFunction
-            << "The mesh has not one empty face at the lower z for each cell,"
-            << " as mechanics equilibrium needs" << exit(FatalError);
+            << "The mesh does not have exactly one empty face at the lower z for"
+            << " each cell, as mechanics equilibrium needs" << exit(FatalError);
     }
 
     front_ = front;

@@ -106,7 +106,7 @@ void Foam::wallConditions::read
     {
         FatalErrorInFunction
             << "Patch " << patch.name() << " is of type " << patch.type()
-            << ", which mechanics equilibrium has not"
+            << ", which mechanics equilibrium does not support"
             << exit(FatalError);
     }
     if (empty || symmetric)

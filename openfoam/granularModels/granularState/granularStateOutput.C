@@ -190,7 +190,8 @@ void Foam::granularState::writeReport() const
         << string(model_->hash()) << ", library "
         << string(granularModel::libraryVersion()) << nl
         << "Queries: " << queries_ << nl
-        << "Cell-steps asked: " << asked() << " of " << cellSteps() << nl
+        << "Cells evaluated: " << asked() << " of " << cellSteps()
+        << " (cells times steps)" << nl
         << "Clamped cell-queries: " << clampedQueries() << nl;
     for (const auto& item : modelCounts())
     {
@@ -198,7 +199,7 @@ void Foam::granularState::writeReport() const
     }
     if (bound_ > 0)
     {
-        Info<< "Strain not asked for yet, the last step included: at most "
+        Info<< "Strain not given to the model yet, with the last step: at most "
             << gMax(mag(waiting)()) << ", bound " << bound_ << nl;
     }
     policy_.write();

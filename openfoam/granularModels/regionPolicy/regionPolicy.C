@@ -171,7 +171,7 @@ void Foam::regionPolicy::act
     {
         Info<< when.c_str() << ' ' << cells << " cells have " << name << ' '
             << sides[side] << " the region of the model, by up to " << farthest
-            << ": the region's end is used" << nl << endl;
+            << ": the nearest value in the region is used" << nl << endl;
     }
     if (actions_[column][side] == action::warn && !warned_[column][side])
     {
@@ -179,7 +179,7 @@ void Foam::regionPolicy::act
         Warning
             << when.c_str() << ' ' << cells << " cells have " << name << ' '
             << sides[side] << " the region of the model, by up to " << farthest
-            << ": the region's end is used" << endl;
+            << ": the nearest value in the region is used" << endl;
     }
 }
 
@@ -226,7 +226,7 @@ void Foam::regionPolicy::judgeStart
             << cells_.size() << " cells, up to " << most.c_str()
             << ", allowed: at most " << unjammed << ", beyond which no grains"
             << " touch: the model would answer as for packings of about "
-            << loosest << ", which conduct and bear a load. To have that, give"
+            << loosest << ", which conduct and bear a load. To run anyway, give"
             << " porosity { above clamp; } in outOfRegion of"
             << " constant/granularProperties" << exit(FatalIOError);
     }

@@ -77,7 +77,7 @@ named_start() { # restarts with startTime instead of latestTime
     controls 'startFrom startTime; startTime 0.5;'
     rm 0.5/porosity
     check "startTime of a time that is not whole: refused" \
-        refused "Time 0.5 in \"$PWD\", the startTime of controlDict, is not whole: missing: porosity"
+        refused "Time 0.5 in \"$PWD\", the startTime of controlDict, is not complete: missing: porosity"
     controls 'startFrom latestTime;'
 }
 

@@ -100,7 +100,8 @@ static std::string damaged(generator& random, std::string s)
 }
 
 
-//- Run without floating-point traps: OpenFOAM's reader of numbers traps on 1e400
+//- Trap overflow, as in the solver; the trap is off while OpenFOAM reads the
+//- dictionary, since its reader of numbers traps on 1e400
 static void trapOverflow()
 {
     feclearexcept(FE_ALL_EXCEPT);

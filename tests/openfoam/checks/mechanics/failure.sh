@@ -13,7 +13,7 @@ summary_of() { sed -n "s/.*\"$1\": \([0-9.e+-]*\)[,}].*/\1/p" postProcessing/msd
 parts() {
     jump parts
     logged msddFoam
-    check "a step too large is taken in parts" grep -q 'again in 2 parts' log
+    check "a step too large is taken in parts" grep -q 'the load of the step is applied in 2 parts' log
     check "parts: the run gets through" test "$(summary_of cut_steps)" = 1 -a "$(summary_of unconverged_steps)" = 0
     local e
     e=$(field 0.05/D | awk '{ x = ((NR - 1) % 12 + 0.5)/12; e = $1/(-0.48*x) - 1; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR == 72 ? w + 0 : "nan") }')

@@ -13,7 +13,7 @@ circles() { # folder, porosity, number of circles of 0.5 % strain in the plane o
     mesh_is '3 2 1'
     logged msddFoam
 }
-said() { grep -c 'have been strained in loops, to and fro' "${1:-log}"; }
+said() { grep -c 'have been strained along closed loops' "${1:-log}"; }
 looped() { sed -n 's/.*"looped_cells": \([0-9]*\).*/\1/p' postProcessing/msddFoam/summary.json; }
 
 circles two-circles 0.16 2

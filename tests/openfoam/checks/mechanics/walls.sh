@@ -15,7 +15,8 @@ uniaxial() { # folder, entries of the right wall: the box of the case small with
     logged msddFoam
 }
 
-# A wall that moves by d, or presses by dp more, strains by log(1 + d/L) or -dp/c11; syy follows with c12
+# Expected strain: log(1 + d/L) for a wall that moves by d, -dp/c11 for a pressure increased by dp; syy changes by c12 times the
+# strain
 prescribed_walls() {
     local e sxx syy c11 c12
     changed uniaxial-start
