@@ -1,5 +1,6 @@
-/** C++11 face of msdd.h: handles that free themselves, exceptions instead of status codes, and floating-point traps
- *  masked during every call. Header-only; needs msdd.h on the include path and libmsdd.a (-lpthread -ldl -lm).
+/** C++11 interface to the C library msdd.h: handles that free themselves, exceptions instead of status codes, and
+ *  floating-point traps masked during every call. Header-only; needs msdd.h on the include path and libmsdd.a
+ *  (-lpthread -ldl -lm).
  *
  *  SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -36,8 +37,9 @@ private:
 namespace detail
 {
 
-/** Masks floating-point traps while it lives and restores them, and the flags, at its end. Rust takes IEEE defaults for
- *  granted, while OpenFOAM traps division by zero, invalid and overflow: a harmless flag would kill the run. */
+/** Masks floating-point traps during its lifetime; its destructor restores the traps and flags. Rust assumes the IEEE
+ *  default environment, while OpenFOAM traps division by zero, invalid operations and overflow, so that a harmless
+ *  exception inside the library would end the run. */
 class MaskedTraps
 {
 public:
@@ -50,7 +52,7 @@ private:
     std::fenv_t saved_;
 };
 
-/** Throws what the last call on this thread reported. */
+/** Throws Error with the message of the last call on this thread unless the status is MSDD_OK. */
 inline void check(std::int32_t status)
 {
     if (status != MSDD_OK)
@@ -59,7 +61,7 @@ inline void check(std::int32_t status)
     }
 }
 
-/** Throws when the library is of another interface than the header. */
+/** Throws Error when library and header have different versions of the interface. */
 inline void checkVersion()
 {
     const std::uint32_t found = msdd_abi_version();
@@ -95,7 +97,7 @@ struct Free
 
 } // namespace detail
 
-/** A material with its size filled in.
+/** A material with its struct_size filled in.
  *  @param thermalConductivity k of the grains [W/(m K)]
  *  @param youngModulus E of the grains [Pa]
  *  @param meanRadius mean grain radius in the initial state [m] */
@@ -109,7 +111,7 @@ inline msdd_material material(double thermalConductivity, double youngModulus, d
     return result;
 }
 
-/** An empty batch of so many cells with its size filled in; set the columns by name. */
+/** A batch for this number of cells, with its struct_size filled in and all columns NULL; set the columns by name. */
 inline msdd_batch batch(std::size_t cells) noexcept
 {
     msdd_batch result = msdd_batch();
@@ -125,7 +127,8 @@ inline std::string version()
     return msdd_version();
 }
 
-/** What is known of so many cells at the start, with its size filled in; set the columns by name. */
+/** Initial data of this number of cells, with its struct_size filled in and all columns NULL; set the columns by name.
+ */
 inline msdd_initial initial(std::size_t cells) noexcept
 {
     msdd_initial result = msdd_initial();
@@ -149,8 +152,8 @@ public:
         handle_.reset(handle);
     }
 
-    /** The same model that answers with conductivities of a kind, "affine" or "network"; see describe for those that it was
-     *  trained for. Throws Error for any other. */
+    /** The same model with another kind of conductivity, "affine" (Eq. 9) or "network" (resistor network of the
+     *  contacts); describe lists the kinds that it was trained for. Throws Error for any other. */
     Surrogate withConductivity(const std::string& kind) const
     {
         const detail::MaskedTraps masked;
@@ -173,15 +176,15 @@ public:
         return text(msdd_surrogate_state_name(handle_.get(), column));
     }
 
-    /** State columns of cells at the start. Throws Error. */
+    /** Fills the state columns of cells at the start. Throws Error. */
     void initialState(const msdd_material& material, const msdd_initial& initial, double* const* state) const
     {
         const detail::MaskedTraps masked;
         detail::check(msdd_surrogate_initial_state(handle_.get(), &material, &initial, state));
     }
 
-    /** Algorithm 1, steps 1 and 2, for every cell of the batch; fills its outputs. Throws Error, and then has written
-     *  nothing. */
+    /** Steps 1 and 2 of the paper's Algorithm 1 for every cell of the batch; fills its outputs. Throws Error, and then
+     *  has written nothing. */
     void advance(const msdd_material& material, msdd_batch& batch) const
     {
         const detail::MaskedTraps masked;
@@ -195,15 +198,16 @@ public:
         return msdd_surrogate_has_tangent(handle_.get()) != 0;
     }
 
-    /** Friction mobilised at a wall after the slip s [m]: limit s/(s + slip). False, and nothing set, when the model has
-     *  none. */
+    /** Constants of the friction coefficient mobilised at a wall after the slip s [m], which is limit s/(s + slip).
+     *  Returns false and sets nothing when the model has none. */
     bool wallFriction(const msdd_material& material, double& limit, double& slip) const
     {
         const detail::MaskedTraps masked;
         return msdd_surrogate_wall_friction(handle_.get(), &material, &limit, &slip) == MSDD_OK;
     }
 
-    /** Solid fractions, overlaps counted twice [-], of initial states of the given porosities. Throws Error. */
+    /** Solid fractions (sum of grain areas over area, overlaps counted twice) [-] of initial states with the given
+     *  porosities. Throws Error. */
     void solidFraction(std::size_t cells, const double* porosity, double* solidFraction) const
     {
         const detail::MaskedTraps masked;
@@ -300,20 +304,21 @@ private:
     std::unique_ptr<msdd_rve, detail::Free> handle_;
 };
 
-/** A file of results of simulated RVEs; made by a plan, and the ground of a model's training. */
+/** A database: the file of results of RVEs simulated by a plan, from which models are trained. */
 class Database
 {
 public:
-    /** Hears of every finished packing: done, total, failed; false stops the generation. May throw. Floating-point
-     *  traps are masked while it runs. */
+    /** Called after every finished packing with the numbers done, total and failed; returning false stops the
+     *  generation. May throw. Floating-point traps are masked while it runs. */
     typedef std::function<bool(std::uint64_t, std::uint64_t, std::uint64_t)> Progress;
 
     explicit Database(const std::string& path) : path_(path) {}
 
     const std::string& path() const noexcept { return path_; }
 
-    /** Makes what is still missing of a plan (the text of a TOML file), on so many threads. Throws Error, with the status
-     *  MSDD_CANCELLED when `progress` stopped it, and what `progress` throws; what was made until then is kept. */
+    /** Computes the packings of a plan (the text of a TOML file) that the file does not hold yet, on this number of
+     *  threads. Throws Error, with the status MSDD_CANCELLED when `progress` stopped it, and what `progress` throws;
+     *  finished packings are kept. */
     void generate(const std::string& plan, std::uint32_t threads = 1, Progress progress = Progress()) const
     {
         const detail::MaskedTraps masked;
@@ -346,7 +351,7 @@ private:
         Progress progress;
         std::exception_ptr thrown;
 
-        /** An exception may not pass through the library: it waits outside. */
+        /** An exception must not pass through the library: it is stored, and generate throws it again. */
         static std::int32_t hear(void* user, std::uint64_t done, std::uint64_t total, std::uint64_t failed)
         {
             Listener& self = *static_cast<Listener*>(user);

@@ -25,8 +25,8 @@ License
 namespace Foam
 {
 
-//- Sine of the angle below which a face counts as aligned: points are read with
-//- ten digits
+//- Sine of the angle to an axis below which a face counts as aligned: mesh
+//- points are given with about ten digits
 static const scalar alignedSine = 1e-7;
 
 //- Non-orthogonality above which the user is warned, as by checkMesh [degrees]
@@ -69,8 +69,9 @@ Foam::heatEquation::heatEquation
     patchHeat_(mesh_.boundary().size(), Zero),
     sourceHeat_(0)
 {
-    // The matrix has set walls that follow the time to that of the start, and
-    // marked them: without this they would stay there for the first step
+    // Making the matrix has updated time-dependent walls to the start time and
+    // marked them as up to date; without this call they would keep that value
+    // during the first step
     T_.correctBoundaryConditions();
 
     if (aligned_)
@@ -128,8 +129,9 @@ bool Foam::heatEquation::isAligned(const granularModel& model) const
         const vectorField d(patch.delta());
         forAll(patch, facei)
         {
-            // The gradient at a wall is taken along its normal: where the
-            // centre lies does not matter but between cells
+            // The gradient at a wall is taken along its normal, so that the
+            // position of the cell's centre matters only for faces between
+            // cells
             const vector& S = Sf.boundaryField()[patchi][facei];
             check(S, patch.coupled() ? d[facei] : S);
         }
@@ -148,7 +150,7 @@ void Foam::heatEquation::findAreas()
         scalarField& y
     )
     {
-        // Rounded, so that a face takes one component alone
+        // Rounded, so that only one component of K enters at a face
         x = magSf*neg(mag(Sf.component(vector::Y)) - 0.5*magSf);
         y = magSf - x;
     };
@@ -233,8 +235,8 @@ void Foam::heatEquation::setStorage(const scalarField& Tstar, const scalar tau)
 
 void Foam::heatEquation::exchange(const granularState::conductivityColumns& K)
 {
-    // Once for all patches: every process must exchange equally often,
-    // however many neighbours it has
+    // Exchanged once for all patches and not in a loop over patches: every
+    // process must take part equally often, however many neighbours it has
     bool any = false;
     for (const fvPatch& patch : mesh_.boundary())
     {
@@ -346,8 +348,8 @@ void Foam::heatEquation::addTensor(const granularState::conductivityColumns& K)
     }
     K_().correctBoundaryConditions();
 
-    // The explicit gradients below look at T beside the cells: at walls and in
-    // the cells of other processes it is the T of the cells before
+    // The explicit gradients below read T at walls and in cells of other
+    // processes, where it is still the one before the last solution
     T_.correctBoundaryConditions();
 
     fvScalarMatrix conduction(fvm::laplacian(K_(), T_, "laplacian(K,T)"));

@@ -73,7 +73,8 @@ static const char* const cheapestConfigurations =
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
-//- OpenFOAM takes blanks out of paths, or ends without saying why
+//- Refuse a case path with blanks or quotation marks: OpenFOAM removes them
+//- from the path, or ends without an explanation
 static void checkPaths(const int argc, char* argv[])
 {
     char here[4096] = "";
@@ -119,9 +120,9 @@ int main(int argc, char *argv[])
     (
         "accept",
         "names",
-        "Go on from a time that was computed with other settings, for example"
-        " '(model thermalExpansion)'; files: from one whose files are missing"
-        " or changed"
+        "Continue from a time that was computed with other settings, for"
+        " example '(model thermalExpansion)'; the name files accepts a time"
+        " with missing or changed files"
     );
 
     const clockTime wallClock;
@@ -155,7 +156,7 @@ int main(int argc, char *argv[])
 
     restart.setValue(runTime);
 
-    // The log is for people: writePrecision is for the fields
+    // Six digits in the log, whatever the writePrecision of the fields
     Sout.precision(6);
 
     #include "createMesh.H"

@@ -27,7 +27,7 @@ License
 namespace Foam
 {
 
-//- The size of the last step, for which Time has no function
+//- Gives access to Time's size of the last step, which has no public function
 struct lastStep
 :
     public Time
@@ -58,7 +58,7 @@ Foam::restartTime::restartTime(const argList& args)
     IFstream is(control);
     if (!is.good())
     {
-        return;     // Time says so
+        return;     // Time reports the missing file
     }
     const dictionary dict(is);
     const word from(dict.lookupOrDefault<word>("startFrom", "latestTime"));
@@ -74,9 +74,9 @@ Foam::restartTime::restartTime(const argList& args)
     if (dict.lookupOrDefault<label>("purgeWrite", 0) == 1)
     {
         WarningInFunction
-            << "Entry 'purgeWrite' in " << control << " is 1: the last whole"
+            << "Entry 'purgeWrite' in " << control << " is 1: the last complete"
             << " time is deleted a moment before the next is complete. With 2"
-            << " there is always one to go on from" << endl;
+            << " there is always one from which a run can continue" << endl;
     }
 }
 
@@ -239,18 +239,18 @@ void Foam::restartTime::takeLatest() const
             {
                 setAside(newer);
             }
-            // No process may go on before all have renamed theirs
+            // Wait until all processes have renamed their folders
             returnReduce(true, andOp<bool>());
             return;
         }
         if (what == verdict::refused)
         {
             FatalErrorInFunction
-                << "Time " << name << " in " << path_
-                << " cannot be gone on from: " << reason.c_str()
+                << "A run cannot continue from time " << name << " in " << path_
+                << ": " << reason.c_str()
                 << ". Allowed: another startTime; or msddFoam -accept files, to"
                 << " take it as it is; files that are missing are then replaced"
-                << " by values of a start" << exit(FatalError);
+                << " by initial values" << exit(FatalError);
         }
         Info<< "Time " << name << " is skipped: " << reason.c_str()
             << ". It is renamed to " << name << ".incomplete" << nl << endl;
@@ -259,7 +259,7 @@ void Foam::restartTime::takeLatest() const
     if (times.size())
     {
         FatalErrorInFunction
-            << "No time in " << path_ << " is whole; " << times[0] << ": "
+            << "No time in " << path_ << " is complete; " << times[0] << ": "
             << reason.c_str() << exit(FatalError);
     }
 }
@@ -277,17 +277,17 @@ void Foam::restartTime::checkStart(const scalar startTime) const
     );
     if (!returnReduce(!name.empty(), andOp<bool>()))
     {
-        return;     // the first field that is missing says so
+        return;     // reading the first missing field reports the error
     }
     string reason;
     if (judge(name, reason) != verdict::good)
     {
         FatalErrorInFunction
             << "Time " << name << " in " << path_
-            << ", the startTime of controlDict, is not whole: "
+            << ", the startTime of controlDict, is not complete: "
             << reason.c_str() << ". Allowed: an earlier startTime; latestTime,"
-            << " which takes the newest whole time; or msddFoam -accept files,"
-            << " to take it as it is" << exit(FatalError);
+            << " which takes the newest complete time; or msddFoam -accept"
+            << " files, to take it as it is" << exit(FatalError);
     }
 }
 
@@ -307,7 +307,8 @@ void Foam::restartTime::setValue(Time& runTime)
     {
         runTime.value() = value;
 
-        // Time knows the next step's size of an adaptive run, not the last one's
+        // In an adaptive run Time stores the size of the next step, not that
+        // of the last one
         const scalar last =
             folder.record().lookupOrDefault<scalar>("lastDeltaT", 0);
         if (last > 0)

@@ -20,7 +20,7 @@ License
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-//- A number with three digits, whatever the writePrecision of the case
+//- Text of a number with three digits, whatever the case's writePrecision
 static std::string brief(const double value)
 {
     std::ostringstream text;
@@ -60,9 +60,9 @@ Foam::string Foam::runSummary::range() const
     return
         "Range: " + brief(share) + " % of the states that the model was asked"
         " about lay outside the range that it was made for, and were answered"
-        " as if they lay at its edge; so do "
+        " as if they lay at its edge. At the end "
       + Foam::name(grains_.cellsOutside()) + " of " + Foam::name(cells)
-      + " cells now (field inRegion is 0 there). The farthest are listed in"
+      + " cells are outside (field inRegion is 0 there). The cells are listed in"
         " postProcessing/msddFoam/offenders.json.";
 }
 
@@ -89,10 +89,10 @@ Foam::string Foam::runSummary::balance(const heatBalance& heat) const
         return "Heat: none went into the bed or out of it.";
     }
     return
-        "Heat: since the bed's start " + brief(heat.patches) + " J came in"
+        "Heat: since the start " + brief(heat.patches) + " J came in"
         " through the boundary and " + brief(heat.sources) + " J from sources;"
-        " the grains hold " + brief(heat.stored) + " J more. What is missing is"
-        " " + brief(heat.difference()) + " of all heat that was exchanged.";
+        " the grains hold " + brief(heat.stored) + " J more. Heat received and"
+        " heat held differ by " + brief(heat.difference()) + " of all heat that was exchanged.";
 }
 
 
@@ -102,9 +102,9 @@ Foam::string Foam::runSummary::motion() const
     {
         return
             "Grains: they stay in their cells (mechanics none), as in the"
-            " paper. Where one part of the bed is heated more than another,"
-            " they move in truth: mechanics equilibrium in"
-            " constant/granularProperties lets them.";
+            " paper. Real grains move where one part of the bed is heated more"
+            " than another; mechanics equilibrium in"
+            " constant/granularProperties computes that.";
     }
     const granularMechanics::counters moved(mechanics_.count());
     return

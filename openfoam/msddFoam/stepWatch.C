@@ -38,7 +38,7 @@ Foam::stepWatch::stepWatch(const double limit)
     {
         return;
     }
-    // Signals are for the thread that solves
+    // Block all signals in this thread: the solver's thread handles them
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -93,8 +93,8 @@ void Foam::stepWatch::say(const double waited) const
     (
         stderr,
         "msddFoam: process %d of %d has not finished a step for %g s; it is at"
-        " %s. Either that takes long, or it waits for another process: one"
-        " that says nothing here, or that is at something else.\n",
+        " %s. Either this takes long, or it waits for another process: look for"
+        " one that prints no such message, or names something else.\n",
         int(Pstream::myProcNo()),
         int(Pstream::nProcs()),
         waited,

@@ -1,4 +1,4 @@
-/* Evaluates a trained model file through the C interface: a jammed state, contracted, as it is, and expanded. */
+/* Evaluates a trained model file through the C interface: one jammed state under contraction, no strain, and expansion. */
 
 #include "msdd.h"
 

@@ -1,4 +1,4 @@
-/* msdd.h as a C program sees it: compiles as C99; loads, advances one cell, packs an RVE, reports errors, frees. */
+/* Tests msdd.h in a C99 program: loads a model, advances one cell, packs an RVE, provokes errors, frees everything. */
 #include "msdd.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// msdd.hpp in a program that traps floating-point exceptions, as OpenFOAM does.
+// Tests msdd.hpp in a program that traps floating-point exceptions, as OpenFOAM does.
 
 #include "msdd.hpp"
 
@@ -31,7 +31,7 @@ int failures = 0;
         }                                                                               \
     } while (false)
 
-/// Status and text of the Error that an action throws; status 0 when it throws none.
+/// Status and message of the Error that an action throws; status 0 if it throws none.
 template<class Action> std::pair<int, std::string> thrown(const Action& action)
 {
     try
@@ -99,13 +99,13 @@ struct Cells
         const msdd_material grains = msdd::material(100, youngModulus, 5e-3);
         std::feclearexcept(FE_ALL_EXCEPT);
         surrogate.advance(grains, batch);
-        // Without the guard, the flag of an inexact result would be up, at least.
+        // Without the guard at least the flag of an inexact result would be set here.
         EXPECT(std::fetestexcept(FE_ALL_EXCEPT) == 0);
         return batch.clamped_cells;
     }
 };
 
-/// Whether an invalid operation would kill this process now: a forked copy tries.
+/// Whether an invalid operation would kill this process now; tried in a forked copy.
 bool invalidTraps()
 {
     const pid_t child = fork();
@@ -127,7 +127,7 @@ void guardMasksAndRestores()
     {
         const msdd::detail::MaskedTraps masked;
         EXPECT(!invalidTraps());
-        // Raised here, it would end the process without the guard; nor may it show up after the guard's end.
+        // Without the guard this division would end the process; its flag must not be set after the guard's end either.
         volatile double zero = 0;
         volatile double result = zero / zero;
         static_cast<void>(result);
@@ -238,7 +238,7 @@ void rveSwellsUnderTraps()
     EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "xy"));
 }
 
-/// The affine estimate lies above the network's; the state is the same.
+/// The affine conductivity must be above that of the resistor network; the state must be the same.
 void conductivityIsChosen(const msdd::Surrogate& surrogate)
 {
     const msdd::Surrogate affine = surrogate.withConductivity("affine");
@@ -252,7 +252,7 @@ void conductivityIsChosen(const msdd::Surrogate& surrogate)
     EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "kind = exact, allowed: "));
 }
 
-/// Whatever leaves the call-back, the next run goes on from there.
+/// Whether the call-back returns false or throws, the next run must continue with the packings that are missing.
 void databaseIsMadeInSeveralGoes(const std::string& path)
 {
     const std::string plan =

@@ -14,7 +14,7 @@ import math
 import sys
 
 TIME_STEP = 2e-4  # s
-DEPTH = 0.02  # m, of the periodic slab; LAMMPS needs one
+DEPTH = 0.02  # m, thickness of the periodic box in z, which LAMMPS needs
 
 
 def main(state_file, folder, block, blocks, rate):
@@ -47,11 +47,11 @@ def commands(material, box, radii, folder, block, blocks, rate):
         damping,
         math.tan(material["friction_angle"]),
     )
-    # sphere 1: radii may change.
+    # The 1 after sphere lets radii change during the run.
     style = "atom_style sphere 1" if rate != 0.0 else "atom_style sphere"
     yield from ("units si", "dimension 2", style, "atom_modify map array", "boundary f f p", "newton off")
     yield from ("comm_modify vel yes", "read_data %s/data" % folder)
-    # Area times density is the mass of a cylinder of 1 m.
+    # Mass of a disc: area times density times a depth of 1 m.
     yield "set type 1 density/disc %.10g" % material["density"]
     yield from ("pair_style gran/hooke/history " + law, "pair_coeff * *")
     yield "neighbor %.6g bin" % (0.25 * mean)

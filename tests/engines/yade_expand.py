@@ -1,4 +1,4 @@
-"""Straining of a packed state in YADE, an independent engine with our pair law (see yade_state.py).
+"""Strains a packed state in YADE, an independent engine with our contact law (see yade_state.py).
 
     yade -n -x -j1 tests/engines/yade_expand.py STATE OUT_PREFIX STOP [STOP ...]
 
@@ -20,16 +20,16 @@ from yade import utils
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 import yade_state
 
-RATE = 0.02  # 1/s; sliding walls: of 2 u/height, u the way of each
+RATE = 0.02  # strain rate, 1/s; for sliding walls that of 2 u/height, where u is the displacement of each wall
 TIME_STEP = 2e-4  # s; the bound is 0.8e-3 or more for radii of 3 to 7 mm and E = 10 MPa
-UNBALANCED_LIMIT = 1e-5  # mean resultant over mean normal force; msdd stops at 1e-4
+UNBALANCED_LIMIT = 1e-5  # mean resultant force over mean normal force at rest; msdd stops at 1e-4
 LOOK_EVERY = 500
 STEP_CAP = 200000
 
 
 class Ramp:
-    """Grows the radii from strain `start` to `stop` in equal steps; an engine of the loop, so that YADE steps on its
-    own (to call O.run for each step costs 40 ms every time)."""
+    """Grows the radii from strain `start` to `stop` in equal steps. It is an engine of YADE's own loop, because calling
+    O.run for each step takes 40 ms every time."""
 
     def __init__(self, start, stop):
         self.start, self.stop, self.strain, self.done = start, stop, start, 0
@@ -45,14 +45,14 @@ class Ramp:
         if self.done < self.steps:
             self.done += 1
             strain = self.start + (self.stop - self.start) * self.done / self.steps
-            # Multiplies kn and ks of the contacts there are as well; contacts to come see the new radii.
+            # This also multiplies kn and ks of existing contacts; new contacts are made with the new radii.
             utils.growParticles((1.0 + strain) / (1.0 + self.strain), updateMass=False, dynamicOnly=True)
             self.strain = strain
 
 
 class WallRamp:
-    """Moves walls at constant speed, both by half of (stop - start) times `length`, apart when that is positive. `walls`
-    are the bodies that move to lower and to higher x."""
+    """Moves two walls at constant speed, each by half of (stop - start) times `length`, apart if that is positive. `walls`
+    are the bodies that then move to lower and to higher x."""
 
     def __init__(self, walls, length, start, stop):
         self.walls = walls
@@ -88,7 +88,7 @@ def make_ramp(state, ids, before, after):
 
 
 def calm_rattlers():
-    """Discs without force would fly for ever: no damping reaches them."""
+    """Slows discs without contact, which would keep their velocity for ever: the damping is proportional to the force."""
     for body in O.bodies:
         if body.dynamic and O.forces.f(body.id).norm() == 0.0:
             body.state.vel *= 0.5
@@ -96,7 +96,7 @@ def calm_rattlers():
 
 
 def relax():
-    """Steps until the forces balance; returns their number and what is left out of balance."""
+    """Steps until the forces are in balance; returns the number of steps and the remaining imbalance."""
     unbalanced, steps = math.inf, 0
     while unbalanced >= UNBALANCED_LIMIT:
         if steps >= STEP_CAP:
@@ -119,7 +119,7 @@ def main(state_file, prefix, *stops):
         state = json.load(file)
     ids = yade_state.load(state)
     runners = PyRunner(command="ramp.step()", iterPeriod=1), PyRunner(command="calm_rattlers()", iterPeriod=50)
-    # Bounding boxes follow the radii at every step.
+    # Update bounding boxes at every step, since the radii change.
     yade_state.set_engines(TIME_STEP, *runners, verletDist=0)
     yade_state.set_contacts(state, ids)
     reached = ""

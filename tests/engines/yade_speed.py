@@ -1,4 +1,4 @@
-"""Speed of YADE on a state, for scripts/compare-engines.
+"""Measures the speed of YADE on a packed state, for scripts/compare-engines.
 
     yade -n -x -j1 tests/engines/yade_speed.py STATE BLOCK BLOCKS RATE
 
@@ -30,11 +30,11 @@ def main(state_file, block, blocks):
     with open(state_file) as file:
         state = json.load(file)
     ids = yade_state.load(state)
-    # Inside the loop, because O.run looks only every 40 ms whether it has come to its end.
+    # Timed inside YADE's loop, because O.run notices the end of a run only every 40 ms.
     runners = [PyRunner(command="stamps.append(time.process_time())", iterPeriod=block)]
     if RATE != 0.0:
         runners.insert(0, PyRunner(command="grow()", iterPeriod=1))
-    # YADE's own choice of bounding boxes, half the smallest radius wider than the discs: wide enough for the growth too.
+    # YADE's own choice of bounding boxes, half the smallest radius wider than the discs; wide enough for growing discs, too.
     yade_state.set_engines(TIME_STEP, *runners)
     yade_state.set_contacts(state, ids)
     O.run(block * blocks + 1, True)

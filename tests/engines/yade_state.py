@@ -1,4 +1,4 @@
-"""States of msdd in YADE: reading, writing, and the engines that make YADE's law ours.
+"""States of msdd in YADE: reading and writing them, and the YADE engines that together have our contact law.
 
 How a sphere becomes a disc: centres in z = 0, motion blocked but for x, y and spin; mass as given, I = m r^2/2.
 How YADE's law becomes that of `rust/dem/src/law.rs`, beside its kn = 2 E r1 r2/(r1+r2), ks = nu kn:
@@ -14,14 +14,14 @@ from yade import *
 from yade import utils
 
 DAMPING = 0.1
-# Axis, and side on which the grains are.
+# For each wall: axis of its normal, and the side (+1 or -1) on which the grains are.
 WALLS = {-1: (0, 1), -2: (0, -1), -3: (1, 1), -4: (1, -1)}
-# Modulus of a wall over that of the grains that stands for infinity.
+# Modulus of a wall over that of the grains where it should be infinite.
 RIGID = 1e12
 
 
 def load(state):
-    """Puts the bodies into the scene. Returns their ids by the state's numbers, walls -1 to -4 among them."""
+    """Adds the bodies of a state to YADE's scene. Returns a map from the state's numbers (walls: -1 to -4) to ids."""
     material, box, grains = state["material"], state["box"], state["particles"]
     grain = O.materials.append(frict_material(material, 1.0))
     wall = O.materials.append(frict_material(material, material["wall_stiffness_factor"]))
@@ -44,7 +44,7 @@ def load(state):
 
 
 def frict_material(material, wall_factor):
-    """The modulus E_w with which YADE's mean of both, 2 E E_w r/(E + E_w), becomes wall_factor E r."""
+    """The modulus E_w of walls for which YADE's stiffness of a wall contact, 2 E E_w r/(E + E_w), is wall_factor E r."""
     if wall_factor > 2.0:
         sys.exit("wall_stiffness_factor = %g, allowed here: at most 2" % wall_factor)
     ratio = wall_factor / (2.0 - wall_factor) if wall_factor < 2.0 else RIGID
@@ -73,8 +73,8 @@ def set_engines(time_step, *runners, **collider):
 
 
 def set_contacts(state, ids):
-    """Contacts with their friction history. YADE's shear force acts on its second body; f_t t is the same for either
-    order of the two."""
+    """Adds the contacts with their friction history. YADE's shear force acts on the contact's second body; our f_t t is the
+    same whichever body comes first."""
     columns = state["contacts"]
     for i, j, force in zip(columns["i"], columns["j"], columns["tangential_force"]):
         contact = utils.createInteraction(ids[i], ids[j])
@@ -92,7 +92,7 @@ def real_contacts():
 
 
 def check_stiffness(state, ids):
-    """kn and ks of every contact against our law: guards against another growParticles in another YADE."""
+    """Compares kn and ks of every contact with our law, in case another version of YADE has another growParticles."""
     material = state["material"]
     factor, modulus, ratio = (material[k] for k in ("wall_stiffness_factor", "young_modulus", "stiffness_ratio"))
     walls = [ids[key] for key in WALLS]
@@ -108,7 +108,7 @@ def check_stiffness(state, ids):
 
 
 def written(state, ids):
-    """The present state in our schema, at rest. Ten digits place the discs to 3e-11 m, forces to 2e-6 N."""
+    """The present state in our schema, with zero velocities. Ten digits give positions to 3e-11 m and forces to 2e-6 N."""
     names = {body: key for key, body in ids.items()}
     grains = [O.bodies[ids[k]] for k in range(len(state["particles"]["x"]))]
     rows = []
@@ -125,7 +125,7 @@ def written(state, ids):
     }
     contacts = dict(zip(("i", "j", "tangential_force"), map(list, zip(*rows)))) if rows else {}
     head = {key: state[key] for key in ("schema", "material")}
-    # Along the normal, so that walls that slid are where they were.
+    # The position along the normal only: walls that slid along themselves have not moved in our sense.
     sides = {-1: "x_min", -2: "x_max", -3: "y_min", -4: "y_max"}
     box = {side: rounded(O.bodies[ids[key]].state.pos[WALLS[key][0]]) for key, side in sides.items()}
     return {**head, "box": box, "particles": columns, **({"contacts": contacts} if contacts else {})}

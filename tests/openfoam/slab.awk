@@ -1,5 +1,5 @@
-# Largest error of T in the slab, over the step of 50 K at its wall; arguments: files of T, conductivity (xx, one line),
-# bulkDensity (one line), each printed by fields.awk, and -v heat_capacity, length, time.
+# Prints the largest error of T in the slab, relative to the 50 K step at its wall; arguments: files of T, conductivity (xx,
+# one line), bulkDensity (one line), each printed by fields.awk, and -v heat_capacity, length, time.
 #
 # Slab of length L at 50 K, x = 0 held at 100 K, x = L insulated:
 #   (T - 50)/50 = 1 - sum_n 4/((2n+1) pi) sin(m_n x) exp(-m_n^2 K t/(rho_b c)),  m_n = (2n+1) pi/(2 L)

@@ -64,7 +64,7 @@ Foam::functionObjects::granularFunctionObject::record()
     {
         return mesh_.lookupObject<runRecord>("msddFoam");
     }
-    // Without the solver: what it left at this time
+    // Run by postProcess: the record that the solver wrote at this time
     read_.reset(new runRecord(mesh_, false));
     return read_();
 }

@@ -66,7 +66,7 @@ bool Foam::functionObjects::massAudit::write()
     const tmp<volScalarField> tporosity(present<scalar>("porosity"));
     const tmp<volScalarField> tstrain(present<scalar>("thermalStrain"));
     const granularProperties grains(time_);
-    // Area of the cells over that at the start, if they move
+    // Area of the cells over their initial area, if they move
     const scalarField ratio(cellsOf("areaRatio", 1));
     const scalarField& V = mesh_.V();
     const scalarField& bulk = tbulk();

@@ -104,7 +104,8 @@ bool Foam::functionObjects::spaceProbes::write()
     forAll(points_, i)
     {
         point X(points_[i]);
-        // The displacement changes by some per cent of the way: a contraction
+        // Solve X = x - D(X) by fixed-point iteration, which converges since
+        // the strains, the gradient of D, are some per cent
         for (label iteration = 0; D.valid() && iteration < 10; ++iteration)
         {
             X = points_[i] - at(D(), X);

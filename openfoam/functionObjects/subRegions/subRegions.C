@@ -130,7 +130,7 @@ bool Foam::functionObjects::subRegions::write()
             os  << tab << window % windows_[0] << tab << window/windows_[0];
             for (const scalarField& mean : means)
             {
-                // An empty window has no mean
+                // A window without cells gives 0
                 os  << tab << mean[window]/max(volume[window], VSMALL);
             }
             os  << endl;

@@ -72,7 +72,7 @@ bool Foam::functionObjects::wallPressure::write()
 
     const scalar mean = tpressure().weightedAverage(mesh_.V()).value();
 
-    // Of each wall: area, pressure and normal stress times area
+    // For each wall: area, pressure times area, normal stress times area
     List<vector> sums;
     for (const fvPatch& patch : mesh_.boundary())
     {

@@ -25,13 +25,15 @@ License
 namespace Foam
 {
 
-//- Sums that do not wait for one another, and fill the processor's registers
+//- Number of independent partial sums of a scalar product, so that additions do
+//- not wait for one another and wide registers are filled
 static const label sums = 16;
 
-//- For processors with wide registers, too; the same bits on all
+//- Compile a function for AVX2 and for any x86-64, chosen when the program
+//- starts; the order of additions, and so every bit, is the same in both
 #define FOR_ALL_WIDTHS __attribute__((target_clones("avx2", "default")))
 
-//- Scalar product of so many values
+//- Scalar product of 'count' values
 static inline float product(const float* a, const float* b, const label count)
 {
     float s[sums] = {};
@@ -102,8 +104,8 @@ FOR_ALL_WIDTHS static void backward
 }
 
 
-//- Scalar product from first to before last, in four sums that do not wait for
-//- one another
+//- Scalar product over the indices first to last - 1, in four independent
+//- partial sums
 static inline scalar product
 (
     const scalar* a,
@@ -158,7 +160,8 @@ Foam::bandSolver::bandSolver(const quadMesh& mesh)
     {
         neighbours[i] = near[i];
     }
-    // By levels, or along either axis, whichever band is the narrowest
+    // Number the nodes by levels of their distance from one node, along x, or
+    // along y, whichever gives the narrowest band
     const List<vector2D>& points = mesh.points();
     const scalar span = boundBox(mesh.mesh().points(), false).mag();
     const auto along = [&points, span](const label axis)
@@ -169,7 +172,8 @@ Foam::bandSolver::bandSolver(const quadMesh& mesh)
             order.begin(), order.end(),
             [&points, axis, span](const label a, const label b)
             {
-                // Rounded: points of a column differ by their last digits
+                // Rounded: coordinates of one column of nodes differ in their
+                // last digits
                 const scalar xa = std::round(points[a][axis]/span*1e9);
                 const scalar xb = std::round(points[b][axis]/span*1e9);
                 return
@@ -230,7 +234,7 @@ void Foam::bandSolver::factorise()
             }
             else
             {
-                // A free rigid motion leaves a zero
+                // If a rigid motion is free, its last pivot is zero
                 Li[i] = value > SMALL*mag(Li[i]) ? std::sqrt(value) : GREAT;
             }
         }
@@ -253,7 +257,7 @@ void Foam::bandSolver::factorise()
 
 void Foam::bandSolver::solve(List<vector2D>& values) const
 {
-    // Single precision has little room for small numbers
+    // Scaled to a largest value of 1, since single precision has a small range
     scalar most = 0;
     forAll(values, i)
     {

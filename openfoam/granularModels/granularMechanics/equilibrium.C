@@ -206,7 +206,8 @@ void Foam::granularMechanicsModels::equilibrium::setStart()
     }
     quads_.sum(area);
 
-    // Out of balance at the start, which stays
+    // Imbalance of the initial fields: it is the reference for all later steps
+    // and so is never relaxed
     granularState::stressColumns initial
     {
         initialStress_.primitiveField().component(symmTensor::XX),

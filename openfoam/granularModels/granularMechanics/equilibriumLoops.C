@@ -24,24 +24,28 @@ License
 namespace Foam
 {
 
-//- Areas in the plane of strains from which on a loop is too large. Ten circles
-//- of 0.5 % strain, 8e-4, were measured to change the pressure by 1 % at
-//- porosity 0.12, 5 % at 0.16 and 19 % at 0.18; that of discs hardly changes.
-//- The first is two and a half such circles, where they are all that the strain
-//- has done. The second is for loops on a long way: bent ways without a loop
-//- have up to 5e-4 in the cases H, C and HC.
+//- Areas enclosed by the strain path of a cell, in a plane of two components
+//- of the strain, above which the model's stress is not to be trusted.
+//- Measured: ten circles of 0.5 % strain, with an area of 8e-4 together, change
+//- the model's pressure by 1 % at porosity 0.12, by 5 % at 0.16 and by 19 % at
+//- 0.18, while the pressure of discs hardly changes. The first area, that of
+//- two and a half such circles, holds for paths that consist of loops alone.
+//- The second holds for loops within a longer path: curved paths without any
+//- loop have an area of up to 5e-4 in the cases H, C and HC.
 static const scalar leastArea = 2e-4;
 static const scalar largestArea = 1e-3;
 
-//- Area over the square of the largest strain beyond which a way is a loop and
-//- not a bend: two and a half circles; H, C and HC have up to 1
+//- Ratio of the area to the square of the largest strain above which a path
+//- counts as loops and not as a curved line: two and a half circles; the paths
+//- in H, C and HC have ratios of up to 1
 static const scalar mostBent = 2;
 
-//- Imbalance over E r/l that rounding alone can leave
+//- Imbalance, divided by E r/l, that rounding errors alone can cause
 static const scalar roundOff = 1e-9;
 
-//- Strain of a cell from the gradient of its positions, as a vector whose
-//- square is the sum of the squares of the tensor: deviator, volume, shear
+//- Strain of a cell from its deformation gradient, as a vector (deviator,
+//- volume, shear) whose squared length is the sum of the squares of the strain
+//- tensor's components
 static vector strainOf(const FixedList<scalar, 4>& F)
 {
     const scalar half = 1/std::sqrt(2.0);
@@ -49,7 +53,7 @@ static vector strainOf(const FixedList<scalar, 4>& F)
 }
 
 
-//- Whether the strain of a cell has gone round too much
+//- Whether the loops of a cell's strain path enclose too large an area
 static bool looped(const vector& loops)
 {
     const scalar area = max(mag(loops.x()), mag(loops.y()));
@@ -75,7 +79,8 @@ void Foam::granularMechanicsModels::equilibrium::move(const nodeField& du)
     vectorField& loops = strainLoops_.primitiveFieldRef();
     forAll(before, celli)
     {
-        // Triangles from the start: a way there and back has no area
+        // Area of the triangle between the initial strain, the strain before
+        // and the strain after the step: a path there and back encloses none
         const vector& a = before[celli];
         const vector b(strainOf(gradient(celli)));
         vector& all = loops[celli];
@@ -100,7 +105,8 @@ Foam::label Foam::granularMechanicsModels::equilibrium::loopedCells() const
 
 void Foam::granularMechanicsModels::equilibrium::warnOfLoops()
 {
-    // Few steps change what is said; those that write are enough to see it
+    // The count changes slowly, so that it is enough to look in every 16th
+    // step and whenever fields are written
     if (loopsSaid_ || !(steps_ % 16 == 0 || mesh_.time().writeTime()))
     {
         return;
@@ -111,10 +117,10 @@ void Foam::granularMechanicsModels::equilibrium::warnOfLoops()
         loopsSaid_ = true;
         WarningInFunction
             << "At time " << mesh_.time().timeName() << ' ' << cells
-            << " cells have been strained in loops, to and fro on different"
-            << " ways, around an area of more than " << leastArea
-            << " in the plane of strains. From here on their stress is not to"
-            << " be trusted: loops change it, but hardly that of discs. Ten"
+            << " cells have been strained along closed loops, there and back on"
+            << " different paths, around an area of more than " << leastArea
+            << " in a plane of strains. From here on their stress is not to be"
+            << " trusted: loops change it, but hardly change that of discs. Ten"
             << " circles of 0.5 % strain, an area of 8e-4, were measured to"
             << " change the pressure by 1 % at porosity 0.12, by 5 % at 0.16"
             << " and by 19 % at 0.18" << endl;
@@ -128,18 +134,18 @@ Foam::stringList Foam::granularMechanicsModels::equilibrium::warnings() const
     if (!everMoved_ && largest_ > roundOff*scale_)
     {
         OStringStream text;
-        text<< "Nothing was ever solved: at most " << largest_ << " Pa were out"
-            << " of balance, and below the entry residual of equilibriumCoeffs,"
-            << " " << tolerance_ << " Pa, no solution is sought. All grains"
-            << " have kept their place in this run, as with mechanics none";
+        text<< "The grains were never moved: at most " << largest_ << " Pa were"
+            << " out of balance, which is below the entry residual of"
+            << " equilibriumCoeffs, " << tolerance_ << " Pa. This run has the"
+            << " result of one with mechanics none";
         all.append(text.str());
     }
     const label cells = loopedCells();
     if (cells)
     {
         OStringStream text;
-        text<< cells << " cells have been strained in loops, around an area of"
-            << " more than " << leastArea << " in the plane of strains: their"
+        text<< cells << " cells were strained along closed loops, around an area"
+            << " of more than " << leastArea << " in a plane of strains: their"
             << " stress is not to be trusted";
         all.append(text.str());
     }

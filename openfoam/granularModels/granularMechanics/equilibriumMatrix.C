@@ -23,12 +23,14 @@ License
 namespace Foam
 {
 
-//- Of the uniform medium: c11, c12 and pressure over E r/l of packed grains
+//- Uniform medium for the preconditioner: c11, c12 and pressure, divided by
+//- E r/l, with values of densely packed grains
 static const scalar uniformC11 = 0.65;
 static const scalar uniformC12 = 0.3;
 static const scalar uniformPressure = 0.05;
 
-//- Linear equations are solved to this share of the imbalance
+//- The linear equations of a Newton iteration are solved until their residual
+//- is this share of the imbalance
 static const scalar linearTolerance = 0.1;
 static const label maxLinear = 500;
 
@@ -48,7 +50,8 @@ void Foam::granularMechanicsModels::equilibrium::findTangent()
         const scalar mean = 0.5*(c11 + c22);
         shearModulus_[celli] = 0.5*shearFactor_*(mean - c12);
 
-        // The deviator's part scaled, as strain() does; made symmetric
+        // Deviatoric part scaled by shearFactor, as strain() does, and the
+        // matrix made symmetric for conjugate gradients
         const scalar more = 0.5*(shearFactor_ - 1)*(mean - c12);
         c11 += more;
         c22 += more;
@@ -98,7 +101,8 @@ void Foam::granularMechanicsModels::equilibrium::setUniform()
             }
         }
     }
-    // What other processes add to a node's diagonal; held components
+    // Contributions of other processes to a node's diagonal; components held
+    // by walls
     forAll(local, i)
     {
         for (label k = 0; k < 2; ++k)
@@ -245,7 +249,7 @@ void Foam::granularMechanicsModels::equilibrium::conjugateGradients
         const scalar pAp = quads_.dot(p, Ap);
         if (!(pAp > 0))
         {
-            break;      // rounding is all that is left
+            break;      // what remains is rounding error
         }
         const scalar alpha = rz/pAp;
         forAll(d, n)

@@ -50,7 +50,8 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
 
 Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
 {
-    // The cell that cannot be, or one at the node that is out of balance most
+    // The invalid cell if there is one, else a cell at the node with the
+    // largest imbalance
     label celli = broken_, worst = 0;
     scalar most = 0;
     forAll(r_, i)

@@ -24,7 +24,7 @@ License
 namespace Foam
 {
 
-//- How often a solution of the linear equations is halved
+//- Number of step lengths that the line search tries: 1, 1/2, 1/4, 1/8
 static const label mostCuts = 4;
 
 } // End namespace Foam
@@ -50,7 +50,9 @@ Foam::granularMechanicsModels::equilibrium::at
 
 bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
 {
-    // Strains of the middle are of second order
+    // The strain of the displacement du is computed from gradients on the
+    // geometry half-way, at u + du/2: as a midpoint rule this is accurate to
+    // second order in du, while the geometry at u or u + du gives first order
     broken_ = quads_.shapes(at(du, 0.5), shapes_);
     if (broken_ >= 0)
     {
@@ -68,7 +70,8 @@ bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
             yy += s.c[a]*v.y();
             xy += s.c[a]*v.x() + s.b[a]*v.y();
         }
-        // A medium stiffer in shear by shearFactor, as stiff in volume
+        // The deviator of the strain times shearFactor, with the same change
+        // of area: scales c11 - c12 and leaves c11 + c12
         const scalar more = 0.5*(shearFactor_ - 1)*(xx - yy);
         strainXX_[celli] = xx + more;
         strainYY_[celli] = yy - more;
@@ -337,7 +340,8 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
         }
         parts *= 2;
         Info<< "Equilibrium at time " << mesh_.time().timeName() << ": "
-            << failure().c_str() << "; again in " << parts << " parts" << nl;
+            << failure().c_str() << "; the load of the step is applied in "
+            << parts << " parts" << nl;
     }
 
     ++steps_;
@@ -349,7 +353,7 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
     largest_ = max(largest_, before_);
     warnOfLoops();
 
-    // As the line of the linear solver of T
+    // Printed if and only if the line of the linear solver of T is
     if (solverPerformance::debug)
     {
         Info<< "Equilibrium: out of balance " << before_ << " Pa, after "

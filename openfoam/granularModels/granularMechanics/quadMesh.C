@@ -67,7 +67,8 @@ void Foam::quadMesh::findQuads()
                     << " mechanics equilibrium: 4" << exit(FatalError);
             }
             quad& q = quads_[patch.faceCells()[i]];
-            // Seen from outside, below, the points turn the other way
+            // The face is at the lower z and its normal points outwards, down:
+            // seen from above its points go clockwise, here they are reversed
             forAll(f, a)
             {
                 label& node = nodeOfPoint[f[3 - a]];
@@ -84,8 +85,8 @@ void Foam::quadMesh::findQuads()
     if (returnReduce(found != mesh_.nCells(), orOp<bool>()))
     {
         FatalErrorInFunction
-            << "The mesh has not one empty face at the lower z for each cell,"
-            << " as mechanics equilibrium needs" << exit(FatalError);
+            << "The mesh does not have exactly one empty face at the lower z for"
+            << " each cell, as mechanics equilibrium needs" << exit(FatalError);
     }
 
     front_ = front;
@@ -199,7 +200,8 @@ void Foam::quadMesh::sum(List<vector2D>& values) const
 {
     if (Pstream::parRun())
     {
-        // OpenFOAM can turn vectors of three components alone
+        // OpenFOAM's exchange between processes handles vectors of three
+        // components only (it may rotate them between periodic patches)
         List<vector> all(values.size());
         forAll(all, i)
         {

@@ -106,12 +106,12 @@ void Foam::wallConditions::read
     {
         FatalErrorInFunction
             << "Patch " << patch.name() << " is of type " << patch.type()
-            << ", which mechanics equilibrium has not"
+            << ", which mechanics equilibrium does not support"
             << exit(FatalError);
     }
     if (empty || symmetric)
     {
-        // In one-dimensional meshes, empty in y
+        // Sides of one-dimensional meshes, which are empty in y
         w.type = kind::symmetry;
         findAxis(patchi, walls);
         return;
@@ -160,7 +160,8 @@ void Foam::wallConditions::read
 
 void Foam::wallConditions::findSides()
 {
-    // The patches that are not between processes come first, on all of them
+    // Patches that are not between processes come first, in the same order on
+    // all processes
     sides_ = List<vector>(mesh_.mesh().boundaryMesh().nNonProcessor(), Zero);
     const List<vector2D>& points = mesh_.points();
 
@@ -212,8 +213,8 @@ void Foam::wallConditions::findAxis(const label patchi, const dictionary& dict)
 
 void Foam::wallConditions::findFree()
 {
-    // Marks of other processes count: a process may have a wall's node without
-    // having an edge of the wall
+    // Add the marks of all processes: a process may have a node of a wall
+    // without having an edge of that wall
     List<vector2D> held(mesh_.size(), vector2D(Zero));
     List<vector2D> pressed(held), slip(held), count(held);
 

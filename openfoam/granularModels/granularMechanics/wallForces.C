@@ -40,7 +40,8 @@ Foam::wallConditions::positions(const scalar time) const
             {
                 for (label k = 0; k < 2; ++k)
                 {
-                    // Where another wall holds a node, this one rubs in vain
+                    // At a corner, a component that one wall holds follows that
+                    // wall; a wall that only rubs along it has no weight
                     const bool holds =
                         k == w.axis || w.type == kind::displacement;
                     const scalar weight = holds ? 1 : 1e-9;
@@ -124,7 +125,7 @@ void Foam::wallConditions::addPressure
         for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
         {
             const vector2D t(at[e.second] - at[e.first]);
-            // Into the grains, which lie on the side away from the normal
+            // The pressure acts on the grains, against the outward normal
             vector2D n(t.y(), -t.x());
             n *= n[w.axis]*w.outwards < 0 ? -1 : 1;
             force[e.first] -= 0.5*p*n;

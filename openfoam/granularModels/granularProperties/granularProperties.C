@@ -147,7 +147,8 @@ Foam::scalar Foam::granularProperties::ranged
 
     if (!(value >= low && value <= high))
     {
-        // Streams of OpenFOAM would print limits to the case's writePrecision
+        // OpenFOAM's streams would print the limits with all digits of the
+        // case's writePrecision
         std::ostringstream limits;
         limits << low << " to " << high;
         FatalIOErrorInFunction(dict)

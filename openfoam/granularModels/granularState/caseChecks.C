@@ -23,20 +23,20 @@ License
 namespace Foam
 {
 
-//- Share of the largest temperature by which T of a run may undershoot 0 K
+//- T may fall below 0 K during a run by this share of the largest temperature
 static const scalar undershoot = 0.01;
 
-//- The same at a start, where only rounding may
+//- The same share at the start, where only rounding errors are accepted
 static const scalar roundOff = 1e-9;
 
-//- The lowest temperature that is taken
+//- The lowest temperature that is accepted [K]
 static scalar lowest(const volScalarField& T, const scalar share)
 {
     return -share*max(gMax(T.primitiveField()), scalar(0));
 }
 
 
-//- In words where T is below a bound on this process; empty if nowhere
+//- Text that says where T is below a bound on this process; empty if nowhere
 static string whereBelowHere(const volScalarField& T, const scalar bound)
 {
     std::ostringstream text;
@@ -52,7 +52,7 @@ static string whereBelowHere(const volScalarField& T, const scalar bound)
     }
     for (const fvPatchScalarField& patch : T.boundaryField())
     {
-        // Walls that give a gradient follow from the cells
+        // Only walls with a given temperature: others follow from the cells
         forAll(patch, facei)
         {
             if (patch.fixesValue() && patch[facei] < bound)
@@ -67,7 +67,7 @@ static string whereBelowHere(const volScalarField& T, const scalar bound)
 }
 
 
-//- The same on all processes, for all of them
+//- The same text, of any process, returned on all processes
 static string whereBelow(const volScalarField& T, const scalar bound)
 {
     stringList texts(Pstream::nProcs());
@@ -101,7 +101,7 @@ void Foam::checkTimeStep(const Time& runTime)
             << "Entry 'deltaT' is " << deltaT << ", allowed: > 0 [s]"
             << exit(FatalIOError);
     }
-    // A restart may find that nothing is left to do
+    // At a restart it is no error if no time is left
     if (runTime.timeIndex() == 0 && !(left > 0.5*deltaT))
     {
         FatalIOErrorInFunction(control)

@@ -23,8 +23,9 @@ License
 namespace Foam
 {
 
-//- Errors of a state column are relative to its largest magnitude, and to this
-//- where that is smaller: a fabric near zero needs no digits of its own
+//- Errors of a state column are relative to its largest magnitude over the
+//- cells, or to this value if that is larger: otherwise a fabric index close to
+//- zero everywhere would demand very small steps
 static const scalar smallestScale = 0.02;
 
 } // End namespace Foam
@@ -131,7 +132,8 @@ bool Foam::granularState::judge
         return false;
     }
 
-    // Once more for how far; models whose cells can be outside remember nothing
+    // A second query gives the distances from the range. It repeats the first
+    // without side effects: models with such a range keep no history
     ask(before_, to, strain_, false, true);
     forAll(rows_, row)
     {
@@ -159,7 +161,8 @@ Foam::scalar Foam::granularState::extrapolate()
     ask(before_, half_, halfStrain_, false);
     ask(half_, half_, halfStrain_, false);
 
-    // The error of one strain is quadratic, and halved by two halves
+    // The error of one strain is quadratic in the strain, and that of two half
+    // strains is half as large: twice the one minus the other cancels both
     scalar error = 0;
     forAll(state_, i)
     {
@@ -177,7 +180,8 @@ Foam::scalar Foam::granularState::extrapolate()
         error = max(error, 100*difference/largest);
     }
 
-    // A state that grains can have, its conductivity and stress
+    // A query with zero strain brings the extrapolated state back into its
+    // admissible range and gives the conductivity and stress that belong to it
     ask(after_, after_, zero_, false);
     return returnReduce(error, maxOp<scalar>());
 }
@@ -204,8 +208,8 @@ void Foam::granularState::scatterConductivity(conductivityColumns& K) const
 
 void Foam::granularState::strain(const scalarField& from, const scalarField& to)
 {
-    // The factor beta = 1/(1 + alpha (T^n - T^0)) refers the strain to the
-    // radius at step n, which is what the model's strain is relative to
+    // The factor beta = 1/(1 + alpha (T^n - T^0)) makes the strain relative to
+    // the radius at step n, as models expect it
     const scalar alpha = properties_.thermalExpansion().value();
     const scalarField& total = thermalStrain_.primitiveField();
     const scalarField& waiting = thermalStrainIncrement_.primitiveField();

@@ -146,7 +146,8 @@ void Foam::granularState::deform
     }
     if (limited)
     {
-        // Once more without strain, for conductivity and stress
+        // Another query with zero strain, for the conductivity and stress of
+        // the limited state
         granularModel::query after(deformation());
         after.state = deformed_.pointers.cdata();
         model_->advance(after);

@@ -24,8 +24,9 @@ License
 
 void Foam::granularState::findReaders()
 {
-    // A function object that names its fields, none of which follows from the
-    // state, cannot see the others; those of this project refresh them
+    // Fields that are computed only on output. A function object that lists
+    // its fields, and lists none of these, needs no update in every step; the
+    // function objects of this project call refresh() themselves
     const wordHashSet following
     ({
         "conductivity", "stress", "pressure", "particleDensity", "inRegion",
@@ -80,7 +81,7 @@ void Foam::granularState::refresh()
         K[celli].xx() = K_.xx[celli];
         K[celli].yy() = K_.yy[celli];
 
-        // The one place where compression positive becomes tension positive
+        // The only place where compression positive becomes tension positive
         sigma[celli].xx() = -stressXX_[celli];
         sigma[celli].yy() = -stressYY_[celli];
         sigma[celli].xy() = stressXY_[celli];
@@ -90,7 +91,7 @@ void Foam::granularState::refresh()
     {
         K[celli].xy() = K_.xy[celli];
     }
-    // A cell keeps its mass: where it grows, its bulk density falls
+    // The mass of a cell is constant: if its area grows, the bulk density falls
     particleDensity_.primitiveFieldRef() =
         bulkDensity_.primitiveField()/(1 - porosity().primitiveField());
     if (areaRatio_.size())
@@ -189,7 +190,8 @@ void Foam::granularState::writeReport() const
         << string(model_->hash()) << ", library "
         << string(granularModel::libraryVersion()) << nl
         << "Queries: " << queries_ << nl
-        << "Cell-steps asked: " << asked() << " of " << cellSteps() << nl
+        << "Cells evaluated: " << asked() << " of " << cellSteps()
+        << " (cells times steps)" << nl
         << "Clamped cell-queries: " << clampedQueries() << nl;
     for (const auto& item : modelCounts())
     {
@@ -197,7 +199,7 @@ void Foam::granularState::writeReport() const
     }
     if (bound_ > 0)
     {
-        Info<< "Strain not asked for yet, the last step included: at most "
+        Info<< "Strain not given to the model yet, with the last step: at most "
             << gMax(mag(waiting)()) << ", bound " << bound_ << nl;
     }
     policy_.write();

@@ -25,7 +25,7 @@ License
 namespace Foam
 {
 
-//- Length from which on a text is cut; OpenFOAM reads none of above 1024
+//- Texts longer than this are shortened: OpenFOAM reads at most 1024 characters
 static const size_t longest = 600;
 
 static string shown(const scalar value)
@@ -37,8 +37,8 @@ static string shown(const scalar value)
 }
 
 
-//- The entries of a dictionary in one line, but for some, and for those of
-//- other types
+//- The entries of a dictionary in one line, without those named in 'but' and
+//- without sub-dictionaries <type>Coeffs; a long text ends with a checksum
 static string shown(const dictionary& dict, const wordHashSet& but)
 {
     OStringStream os;
@@ -93,7 +93,7 @@ Foam::dictionary Foam::granularState::settings() const
         add(value.name(), shown(value.value()));
     };
 
-    // Of the model what it answers, whatever its file is called
+    // The hash identifies the model whatever the name of its file
     add("model", type + (model_->hash().empty() ? "" : " " + model_->hash()));
     add
     (

@@ -25,7 +25,8 @@ License
 namespace Foam
 {
 
-//- FatalIOError if any value is no number or outside the open range
+//- FatalError unless all values are numbers between the limits, which are
+//- themselves excluded
 static void checkField
 (
     const volScalarField& field,
@@ -178,8 +179,8 @@ Foam::granularState::granularState
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-// extrapolatedCalculated, above, gives boundary faces the value of their cell:
-// a wall conducts as the grains beside it do
+// The patch type extrapolatedCalculated, used above, gives boundary faces the
+// value of their cell: the conductivity at a wall is that of the cell beside it
 
 Foam::IOobject Foam::granularState::io
 (
@@ -262,7 +263,8 @@ void Foam::granularState::readState()
     checkField(state_[0], dimless, 0, 1);
     checkField(state_[1], dimless, -1, 1);
 
-    // Models whose state is all there after a restart need no more
+    // If all columns of the state were read (a restart), or if the model has
+    // only porosity and fabric index, no other field is needed
     if (missing || names.size() == 2)
     {
         const auto fabric(given<scalar>("fabricConductivity", dimless));
@@ -375,7 +377,7 @@ void Foam::granularState::findExtremes()
     checkField(leastStrain_(), dimless, -1, GREAT);
     checkField(mostStrain_(), dimless, -1, GREAT);
 
-    // The start is in the range
+    // The present strain lies between the least and the largest strain
     scalarField& least = leastStrain_().primitiveFieldRef();
     scalarField& most = mostStrain_().primitiveFieldRef();
     least = min(least, scalar(0));
@@ -385,8 +387,8 @@ void Foam::granularState::findExtremes()
 
 void Foam::granularState::setInitialBulkDensity()
 {
-    // The paper's rho (1 - porosity) takes overlaps from the grains' mass; the
-    // mass-consistent density counts every grain in full.
+    // The paper's rho (1 - porosity) counts the overlaps of grains once and so
+    // loses their mass; the mass-consistent density counts every grain in full
     scalarField& density = bulkDensity_.primitiveFieldRef();
 
     if
@@ -420,8 +422,9 @@ void Foam::granularState::askStart()
         policy_.refuseCut();
     }
 
-    // What the cells wait for after a restart is not part of this question,
-    // and the temperature has it already
+    // This query is without strain. After a restart, strain accumulated in
+    // thermalStrainIncrement is left for the first step, and the total strain
+    // given here already contains it
     const memory before(remember());
     commit();
     thermalStrainIncrement_.primitiveFieldRef() = before.increment;
@@ -431,7 +434,8 @@ void Foam::granularState::askStart()
         mostStrain_().primitiveFieldRef() = before.most;
     }
 
-    // What the cells were last asked for is not known after a restart
+    // The strain of the last query is not known after a restart; any value
+    // but 0 makes the next query include all cells
     lastStrain_ = restarted ? 1 : 0;
 }
 

@@ -99,7 +99,7 @@ public:
 
 // * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
 
-// Here, where boxFile is known
+// Defined here because the destructor needs the definition of boxFile
 Foam::granularModels::onlineRve::~onlineRve()
 {}
 
@@ -165,8 +165,8 @@ bool Foam::granularModels::onlineRve::read()
     if (!found)
     {
         FatalErrorInFunction
-            << "File " << path << " is missing: the boxes of grains that the"
-            << " run goes on with. Allowed: as many processes as wrote them"
+            << "File " << path << " is missing, with the boxes of grains from"
+            << " which the run continues. Allowed: as many processes as wrote it"
             << exit(FatalError);
     }
 

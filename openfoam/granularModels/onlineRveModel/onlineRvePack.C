@@ -46,7 +46,7 @@ std::string Foam::granularModels::onlineRve::specification
     const label seed
 ) const
 {
-    // Radii uniform over 0.6 to 1.4 of the mean, as the paper's 3 to 7 mm
+    // Radii uniform from 0.6 to 1.4 of the mean, like the paper's 3 to 7 mm
     const scalar radius = properties_.meanRadius().value();
 
     OStringStream os;
@@ -95,8 +95,9 @@ void Foam::granularModels::onlineRve::pack(const known& cells)
     std::map<std::pair<label, label>, label> roots;
     for (label celli = 0; celli < cells.size; ++celli)
     {
-        // A tolerance t puts values into bins of width t. The seed follows
-        // from the bins, so that it does not depend on the processes.
+        // A tolerance t sorts values into bins of width t. The seed of a
+        // packing is computed from its bins, so that it does not depend on how
+        // the cells are distributed over processes.
         const label i = label(std::lround(cells.porosity[celli]/dPorosity));
         const label j = label(std::lround(cells.fabricIndex[celli]/dFabric));
         const std::pair<label, label> bin(i, j);

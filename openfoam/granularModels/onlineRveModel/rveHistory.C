@@ -24,8 +24,8 @@ License
 namespace Foam
 {
 
-//- Part of the tolerance below which a remainder asks for no child: round-off
-//- about a box must not have boxes made that nobody needs
+//- Share of the tolerance below which a remainder counts as zero, so that
+//- rounding errors do not create boxes
 static const scalar nothing = 0.01;
 
 } // End namespace Foam
@@ -100,7 +100,8 @@ Foam::granularModels::rveHistory::at(const place& where)
     const scalar part = std::abs(where.remainder)/tolerance_;
     const scalar weight = std::max(scalar(0), (part - nothing)/(1 - nothing));
 
-    // Made first: it may move the nodes in memory
+    // The child is made before references are taken: making it may move all
+    // nodes in memory
     const label to =
         weight > 0 ? child(where.box, where.remainder > 0) : where.box;
 

@@ -43,7 +43,7 @@ namespace Foam
 static const char* const allowPlugins = "MSDD_ALLOW_PLUGINS";
 
 
-//- The file behind links and relative parts; empty when there is none
+//- Path of a file without links and relative parts; empty if there is no file
 static fileName realPath(const std::string& path)
 {
     char* found = ::realpath(path.c_str(), nullptr);
@@ -53,7 +53,7 @@ static fileName realPath(const std::string& path)
 }
 
 
-//- Whether a list of paths, with colons between them, names the file
+//- Whether a list of paths, separated by colons, names the file
 static bool names(const std::string& list, const fileName& file)
 {
     std::istringstream paths(list);
@@ -84,7 +84,7 @@ Foam::fileName Foam::granularModels::plugin::admitted
 
     if (file.empty())
     {
-        // Loading it says so
+        // There is no such file; loading the model reports it
         return library;
     }
     if (!dynamicCode::allowSystemOperations)

@@ -83,7 +83,8 @@ Foam::regionPolicy::regionPolicy
     actions_.resize(names_.size());
     warned_.resize(names_.size());
 
-    // Columns that other models have are known, too: a case may change models
+    // Columns that only other models have are accepted, so that a case can
+    // change its model without changing the policy
     wordList allowed
     ({
         "maxFraction", "porosity", "fabricIndex", "reducedPressure",
@@ -170,7 +171,7 @@ void Foam::regionPolicy::act
     {
         Info<< when.c_str() << ' ' << cells << " cells have " << name << ' '
             << sides[side] << " the region of the model, by up to " << farthest
-            << ": the region's end is used" << nl << endl;
+            << ": the nearest value in the region is used" << nl << endl;
     }
     if (actions_[column][side] == action::warn && !warned_[column][side])
     {
@@ -178,7 +179,7 @@ void Foam::regionPolicy::act
         Warning
             << when.c_str() << ' ' << cells << " cells have " << name << ' '
             << sides[side] << " the region of the model, by up to " << farthest
-            << ": the region's end is used" << endl;
+            << ": the nearest value in the region is used" << endl;
     }
 }
 
@@ -210,7 +211,8 @@ void Foam::regionPolicy::judgeStart
     {
         return;
     }
-    // The case's writePrecision would print more digits than were given
+    // Not with the case's writePrecision, which prints more digits than the
+    // porosity was given with
     std::ostringstream text;
     text<< gMax(porosity);
     const std::string most(text.str());
@@ -224,7 +226,7 @@ void Foam::regionPolicy::judgeStart
             << cells_.size() << " cells, up to " << most.c_str()
             << ", allowed: at most " << unjammed << ", beyond which no grains"
             << " touch: the model would answer as for packings of about "
-            << loosest << ", which conduct and bear a load. To have that, give"
+            << loosest << ", which conduct and bear a load. To run anyway, give"
             << " porosity { above clamp; } in outOfRegion of"
             << " constant/granularProperties" << exit(FatalIOError);
     }

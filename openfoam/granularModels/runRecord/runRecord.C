@@ -73,8 +73,8 @@ void Foam::runRecord::read(const timeFolder& folder)
     scheme = dict.lookupOrDefault<word>("timeScheme", word::null);
     settings_ = dict.subOrEmptyDict("settings");
 
-    // Sums of the process that wrote them; to other processes, those over all
-    // go to the master
+    // Each process continues with the sums that it wrote. If the number of
+    // processes has changed, the master continues with the sums over all
     bool others = folder.redistributed() && dict.found("allHeat");
     reduce(others, orOp<bool>());
     if (others && !Pstream::master())
@@ -86,7 +86,7 @@ void Foam::runRecord::read(const timeFolder& folder)
     const dictionary& patches = dict.subDict(others ? "allHeat" : "heat");
     forAll(heat, patchi)
     {
-        // Nothing comes in between processes
+        // Patches between processes exchange no heat with the outside
         patches.readIfPresent(mesh_.boundary()[patchi].name(), heat[patchi]);
     }
 }
@@ -167,8 +167,8 @@ void Foam::runRecord::writeLast()
     os.writeEntry("sourceHeat", sourceHeat);
     os.writeEntry("exchanged", exchanged);
 
-    // The same over all processes, which have the patches that are not between
-    // processes in common, in one order
+    // The same sums over all processes. Patches that are not between processes
+    // exist on all of them, in the same order
     const label patches = mesh_.boundaryMesh().nNonProcessor();
     scalarList all(patches + 2);
     for (label patchi = 0; patchi < patches; ++patchi)

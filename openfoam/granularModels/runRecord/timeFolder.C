@@ -33,7 +33,7 @@ static const char* const recordName = "uniform/msddFoam";
 static const std::string lastLine = "checksum \"";
 static const std::string lastEnd = "\";\n";
 
-//- Ends of files as OpenFOAM writes them, and of those in JSON
+//- Last characters of complete files written by OpenFOAM, and of JSON files
 static const std::string endOfFile = "* //\n";
 static const std::string endOfJson = "}\n";
 
@@ -62,7 +62,8 @@ static string listedNames(const fileNameList& names)
 }
 
 
-//- Version 0.1 wrote no list and no checksum
+//- Whether the record was written by version 0.1, which wrote no list of files
+//- and no checksum
 static bool isOfOlderVersion(const std::string& record)
 {
     const auto has = [&](const char* word)
@@ -73,8 +74,8 @@ static bool isOfOlderVersion(const std::string& record)
 }
 
 
-//- Whether a file that was just written came to its end. Of a compressed one
-//- only its absence tells.
+//- Whether a file that was just written is complete. Of a compressed file it
+//- is only known whether it exists.
 static bool isComplete(const fileName& file, const std::string& text)
 {
     return

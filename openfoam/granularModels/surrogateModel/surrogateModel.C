@@ -41,7 +41,7 @@ static word fieldName(const std::string& column)
 }
 
 
-//- Fields and folders that the solver has itself, beside the model's columns
+//- Names of the solver's own fields and folders, which no column may have
 static const wordList& ownNames()
 {
     static const wordList names
@@ -57,7 +57,7 @@ static const wordList& ownNames()
 }
 
 
-//- The inputs are not finite: nothing to go on with
+//- End the run: the library failed, for example on inputs that are not finite
 static void failed(const char* what, const std::exception& error)
 {
     FatalErrorInFunction

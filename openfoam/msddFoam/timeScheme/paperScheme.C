@@ -64,7 +64,8 @@ void Foam::timeSchemes::paper::step()
     grains_.extrapolateTemperature(T_.primitiveFieldRef());
 
     stepWatch::doing("the model");
-    // Steps 1 to 3: grains from n to n + 1, strained by what T did last
+    // Steps 1 to 3: state of the grains from n to n + 1, with the thermal
+    // strain of the last change of T
     scalar error;
     if (grains_.propose(false, false, error))
     {
@@ -73,7 +74,7 @@ void Foam::timeSchemes::paper::step()
     grains_.commit();
 
     stepWatch::doing("the mechanics");
-    // Equilibrium of the stress that this leaves
+    // Equilibrium of the resulting stress
     mechanics_.solve(true);
 
     stepWatch::doing("the heat equation");

@@ -38,19 +38,21 @@ namespace Foam
 
 static const scalar gamma2 = 1 - 1/std::sqrt(2.0);
 
-//- The estimates are of second order in dt
+//- Step-size control: the estimates are proportional to the square of the step,
+//- so the next step is safety/sqrt(error over tolerance) times the last one,
+//- limited to these factors
 static const scalar safety = 0.9;
 static const scalar largestGrowth = 3;
 static const scalar largestCut = 0.1;
 
-//- Tolerance of T over the range of T seen so far, over the largest T where
-//- there is no range to speak of (the linear solver leaves less than that), and
-//- smallest step over the end time, unless they are given
+//- Defaults: the tolerance of T is toleranceShare of the range of T seen so
+//- far, but at least noiseShare of the largest T, which is above the error of
+//- the linear solver; the smallest step is smallestShare of the end time
 static const scalar toleranceShare = 1e-3;
 static const scalar noiseShare = 1e-6;
 static const scalar smallestShare = 5e-11;
 
-//- How often a step is halved for the sake of the mechanics
+//- How often a step is halved because there is no equilibrium of the stress
 static const label mostHalvings = 10;
 
 } // End namespace Foam
@@ -137,8 +139,8 @@ Foam::scalar Foam::timeSchemes::secondOrder::tolerance() const
     {
         return temperatureTolerance_;
     }
-    // With what the step would do: a scene that starts at one temperature has
-    // no range before
+    // The range includes the result of this step: a case that starts at a
+    // uniform temperature has no range before its first step
     const runRecord& record = grains_.record();
     const scalar least = min(record.leastT, gMin(T_.primitiveField()));
     const scalar most = max(record.mostT, gMax(T_.primitiveField()));
@@ -167,8 +169,8 @@ Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
     {
         const scalar interval =
             time_.controlDict().get<scalar>("writeInterval");
-        // Counted from where the first run began, if this one writes at the
-        // same times: a restart then lands on the same bits
+        // Write times are counted from the start of the first run, if this run
+        // writes at the same times: then a restart has exactly the same times
         scalar begin = grains_.record().startTime;
         const scalar since = (time_.startTime().value() - begin)/interval;
         if (mag(since - std::round(since)) > 1e-6)
@@ -187,7 +189,7 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     scalarField& T = T_.primitiveFieldRef();
     const scalar start = time_.value();
 
-    // Boundary values are those of the stage's time
+    // Boundary values are evaluated at the time of the stage
     time_.value() = start + gamma2*deltaT;
     heat_.solve
     (
@@ -271,7 +273,7 @@ bool Foam::timeSchemes::secondOrder::settle
     grains_.commitStrain();
     grains_.commit();
 
-    // Walls move, and are pressed, at the step's end
+    // Displacements and pressures of walls are evaluated at the step's end
     const scalar start = time_.value();
     time_.value() = start + deltaT;
     const bool found = mechanics_.solve(false);
@@ -360,7 +362,7 @@ void Foam::timeSchemes::secondOrder::step()
     {
         const scalar factor = safety/std::sqrt(max(error, SMALL));
         record.nextDeltaT = deltaT*min(largestGrowth, factor);
-        // What the run is over by is judged by half of this
+        // Time::run() stops within half of this size of the end time
         time_.setDeltaT(landing(min(maxDeltaT_, record.nextDeltaT)), false);
     }
 }

@@ -109,7 +109,7 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
     runRecord& record = grains.record();
     if (!record.scheme.empty() && record.scheme != type)
     {
-        Info<< "The time that this run goes on from was computed with"
+        Info<< "The time from which this run continues was computed with"
             << " timeScheme " << record.scheme << nl;
     }
     record.scheme = type;

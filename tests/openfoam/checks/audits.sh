@@ -32,7 +32,7 @@ check "subRegions: mean of windows = mean porosity" below "$(
     awk '$1 == 1 { s += $5; n++ } END { print s/n }' postProcessing/subRegions/0/subRegions.dat |
         awk -v mean="$(field 1/porosity | awk '{ s += $1 } END { print s/NR }')" '{ print ($1/mean - 1)^2 }')" 1e-10
 
-changed audit-tensor # the tensor laplacian counts its heat, too
+changed audit-tensor # the heat balance must close with the tensor laplacian, too
 controls 'functions { #include "'"$here"'/audits" }'
 grains 'surrogate { type constant; constantCoeffs { conductivity (34 8 0 26 0 0); } }'
 mesh_is '12 6 1'
@@ -40,7 +40,7 @@ logged msddFoam
 e=$(worst heatAudit 6)
 check "tensor laplacian: heat balance closes to $e <= 1e-10" below "$e" 1e-10
 
-rm -rf "${work:?}/breeder" # the case that is heated from inside, as shipped
+rm -rf "${work:?}/breeder" # the shipped case with a volumetric heat source
 cp -r "$checkout/cases/breeder" "$work/breeder"
 cd "$work/breeder"
 sed -i "s#\.\./\.\./common#$checkout/cases/common#" 0/* constant/granularProperties system/*
@@ -50,13 +50,13 @@ top=$(field 60/T | awk '$1 > top { top = $1 } END { print top }')
 check "breeder: the middle ends at $top, 85 to 89 K" below "$(awk "BEGIN { print ($top - 87)^2 }")" 4
 check "breeder: heat balance closes to $(worst heatAudit 6) <= 1e-10" below "$(worst heatAudit 6)" 1e-10
 
-# Largest difference from the windows of 40 mm at the probes, in % of the range [K]
+# Prints the largest differences of T at the probes from the discs' means over windows of 40 mm, in % of the range [K]
 (cd "$checkout" && cargo build --release --quiet ${MSDD_PACKAGES:---package msdd-cli})
 msdd=$(cd "$checkout" && realpath -m "${CARGO_TARGET_DIR:-target}")/release/msdd
 against_discs() { # reference, range
     "$msdd" reference compare --case . --discs "$checkout/cases/reference/results/$1.json" --range "$2" | awk '$1 == "largest" { print $2 }'
 }
-# Cases that nothing was chosen on, as shipped, grains that move: half of the walls hot; other grains
+# The shipped cases corner (half of the walls hot) and material (other grains), for which no parameter was chosen; grains move
 for case in "corner corner_seed11 50" "material material_seed12 100"; do
     set -- $case
     rm -rf "${work:?}/$1"
@@ -69,7 +69,8 @@ for case in "corner corner_seed11 50" "material material_seed12 100"; do
     check "$1: T against 15 000 discs $e <= 1 % of the range" below "$e" 1
 done
 
-# Ten cycles: what grains do in virgin strains is done in the first; they remember it in a restart, too
+# The shipped case cycle, ten thermal cycles: grains slide only in the first cycle, when they are strained further than before;
+# a restart must keep the largest and least strains
 rm -rf "${work:?}/cycle"
 cp -r "$checkout/cases/cycle" "$work/cycle"
 cd "$work/cycle"

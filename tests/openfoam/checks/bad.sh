@@ -1,5 +1,5 @@
-# Bad input. Each file of bad/ is appended to constant/granularProperties of a good case, or to the file that its second
-# line names; its first line says what must be answered, with the file's name.
+# Invalid input. Each file of bad/ is appended to constant/granularProperties of a valid case, or to the file that its second
+# line names; its first line has the message with which the solver must refuse it, naming the file.
 
 bad_dictionaries() {
     local file wanted target
@@ -70,7 +70,7 @@ inside_out() {
     check "refused: mesh turned inside out" refused 'constant/polyMesh has 72 cells of 72 with a volume of zero or below'
 }
 
-# A sink that cools below 0 K, and a wall that does
+# A heat sink, and a wall, that cool cells below 0 K
 too_cold() {
     changed bad-sink
     sed -i 's/fixedValue;/zeroGradient;/; /value /d' 0/T
@@ -87,7 +87,7 @@ too_cold() {
     check "refused: a wall that is cooled below 0 K" refused 'K at patch left, face 0, allowed: 0 K and above'
 }
 
-# What a discretisation may undershoot by is no bad input of the restart
+# Temperatures slightly below 0 K, which a run may have from its discretisation, must be accepted by a restart
 undershoot() {
     changed undershoot
     mesh_is '12 6 1'

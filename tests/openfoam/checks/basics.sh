@@ -1,6 +1,6 @@
-# Closed form, formulas between written fields, restart, two processes.
+# A closed-form solution, relations between written fields, a restart, and two processes.
 
-slab() { # against the closed form; a conductivity or heat capacity wrong by 0.5 % breaks the bound
+slab() { # compared with the closed form; a conductivity or heat capacity that is wrong by 0.5 % exceeds the bound
     fresh slab slab
     logged msddFoam
     local error
@@ -12,7 +12,7 @@ slab() { # against the closed form; a conductivity or heat capacity wrong by 0.5
     check "slab: no expansion, so one query" grep -q '"queries": 1,' postProcessing/msddFoam/summary.json
 }
 
-formulas() { # what the written fields must satisfy among themselves, after 20 steps with expansion
+formulas() { # relations that the written fields must satisfy after 20 steps with expansion
     fresh small serial
     logged msddFoam
     columns 1/{T,thermalStrain,thermalStrainIncrement,porosity,particleDensity,pressure,stress} 0.95/{T,porosity}
@@ -35,7 +35,7 @@ formulas() { # what the written fields must satisfy among themselves, after 20 s
     check "a query a step" grep -q '"queries": 20,' postProcessing/msddFoam/summary.json
 }
 
-restarted() { # ten steps and ten more, against twenty
+restarted() { # ten steps, a restart and ten more must give the result of twenty steps
     fresh small restart
     logged foamDictionary -entry endTime -set 0.5 system/controlDict
     logged msddFoam
@@ -56,7 +56,7 @@ parallel() {
     check "two processes: difference $e <= 1e-9" below "$e" 1e-9
 }
 
-bulk_density() { # the paper's option is 1 - porosity; grains that overlap weigh more
+bulk_density() { # the paper's option is density x (1 - porosity); the mass-consistent one counts overlaps twice and is larger
     fresh small paper
     echo 'bulkDensity paper;' >> constant/granularProperties
     logged foamDictionary -entry endTime -set 0.05 system/controlDict

@@ -1,6 +1,7 @@
-# constant/granularProperties in damaged forms: taken or refused by a message, never a crash, a trap or a hang. --full tries 10^6.
+# Reads constant/granularProperties with random damage: it must be accepted or refused with a message, without a crash, a
+# floating-point trap or an endless loop. --full tries 10^6 damaged texts.
 
-build_fuzz() { # outside of the sources
+build_fuzz() { # builds in a folder outside of the sources
     rm -rf "$work/fuzz-build"
     cp -r "$here/fuzz" "$work/fuzz-build"
     (

@@ -1,13 +1,13 @@
-# Runs that write every step are killed (-9) at random moments, on one process and on three, and go on from the newest whole
-# time to the same bytes as a run that nobody killed: fields, boxes of grains, record and all but what function objects keep for
-# themselves, which OpenFOAM writes when a run ends. Six ways of running; of each one
-# kill, --full nine (108 in all, serial and parallel). MSDD_SEED sets the moments.
+# Runs that write every step are killed (-9) at random moments, on one process and on three. Continued from the newest complete
+# time they must give the same bytes as a run that was not killed: fields, boxes of grains and the run's record; the state that
+# function objects keep is excepted, since OpenFOAM writes it only when a run ends. Six kinds of runs, each killed once, with
+# --full nine times (108 kills in all, serial and parallel). MSDD_SEED sets the random moments.
 
 RANDOM=${MSDD_SEED:-$(date +%s)}
 echo "        moments of the kills: MSDD_SEED=${MSDD_SEED:-of the clock}"
 kills=$([ $full = yes ] && echo 9 || echo 1)
 
-every_step() { # folder, fixed or adaptive: small, 20 steps or so, all written
+every_step() { # folder, fixed or adaptive: the case small with about 20 steps, all of which are written
     changed "$1"
     controls 'writeInterval 1; timePrecision 10;'
     [ "$2" = fixed ] || {
@@ -15,21 +15,21 @@ every_step() { # folder, fixed or adaptive: small, 20 steps or so, all written
         scheme 'timeScheme secondOrder; temperatureTolerance 0.3;'
     }
 }
-start() { # processes: the solver, in the background, as $solver
+start() { # processes: starts the solver in the background; $solver is its process id
     local command=(msddFoam -case "$PWD")
     [ "$1" = 1 ] || command=(mpirun --oversubscribe -np "$1" "${command[@]}" -parallel)
     (timeout 120 "${command[@]}"; exit $?) >> log 2>&1 &
     solver=$!
 }
-kill_all() { # as a power cut: no process sees the others die
+kill_all() { # kills all processes at once, as a power cut would: none sees another one end
     pkill -9 -f -- "-case $PWD" || true
     wait "$solver" 2> /dev/null || true
 }
-killed_and_restarted() { # processes: this case, once
+killed_and_restarted() { # processes: runs this case, kills it once and restarts it
     local times folder=. after
     [ "$1" = 1 ] || folder=processor$(($1 - 1))
     start "$1"
-    # In the middle of the step after one of those that the whole run wrote
+    # The kill falls into the step after a random one of the times that the undisturbed run wrote
     times=($(sed -n 's/^Time = //p' "$whole/log"))
     after=${times[$((RANDOM % (${#times[@]} - 2)))]}
     while [ ! -e "$folder/$after/uniform/time" ] && kill -0 "$solver" 2> /dev/null; do sleep 0.002; done
@@ -37,7 +37,7 @@ killed_and_restarted() { # processes: this case, once
     kill_all
     goes_on "$1"
 }
-goes_on() { # processes: this case, to the bytes of the whole run
+goes_on() { # processes: after a kill this case must end with the bytes of the undisturbed run
     local last
     start "$1"
     wait "$solver" || { tail -n 15 log >&2; return 1; }
@@ -50,7 +50,7 @@ copy_of_whole() {
     cp -r "$whole" "$work/killed"
     cd "$work/killed"
 }
-same_bytes() { # what: the case here on one process and on three
+same_bytes() { # name of the check: for this case on one process and on three
     local what=$1 name=${PWD##*/} processes i same whole
     for processes in 1 3; do
         whole=$work/$name-$processes

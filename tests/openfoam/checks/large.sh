@@ -1,4 +1,4 @@
-# A million cells (--full).
+# A mesh of a million cells (only with --full).
 
 changed large
 controls 'endTime 0.15; writeInterval 3; writeFormat binary;'

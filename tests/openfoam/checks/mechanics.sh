@@ -1,11 +1,12 @@
-# Equilibrium of the stress: patch test, temperature step, friction, restart, two processes, rotation; none as default.
+# Equilibrium of the stress: patch test, a step of temperature, wall friction, restart, two processes, a rotated case; and that
+# mechanics none is the default.
 
-uniform_temperature() { # the grains of small at 50 K, insulated, without expansion
+uniform_temperature() { # the case small at 50 K everywhere, insulated, without expansion
     sed -i 's/fixedValue;/zeroGradient;/; /value /d' 0/T
     grains 'thermalExpansion 0;'
 }
 equilibrium() { grains "mechanics equilibrium; equilibriumCoeffs { $* }"; }
-skewed_mesh() { # the unit square in four blocks that meet off the middle: no cell is a rectangle
+skewed_mesh() { # the unit square in four blocks that meet outside of its centre, so that no cell is a rectangle
     local vertices='' z
     for z in 0 0.1; do
         vertices+="(0 0 $z) (0.5 0 $z) (1 0 $z) (0 0.5 $z) (0.58 0.41 $z) (1 0.5 $z) (0 1 $z) (0.5 1 $z) (1 1 $z) "
@@ -33,7 +34,7 @@ skewed_mesh() { # the unit square in four blocks that meet off the middle: no ce
     logged blockMesh
 }
 
-patch_test() { # walls move: strains 0.01 and -0.005 everywhere
+patch_test() { # walls move so that the strains must be 0.01 and -0.005 in all cells
     changed patch
     uniform_temperature
     equilibrium 'residual 1e-6; walls { ".*" { type frictionless; displacement constant (0 0 0); }
@@ -49,7 +50,7 @@ patch_test() { # walls move: strains 0.01 and -0.005 everywhere
         | awk '{ e = $1 - 0.01*$4; f = $2 + 0.005*$5; if (e < 0) e = -e; if (f < 0) f = -f; if (!(e <= w)) w = e; if (!(f <= w)) w = f }
             END { print (NR == 98 ? w + 0 : "nan") }')
     check "patch test: nodes move linearly to $e <= 1e-10 m" below "$e" 1e-10
-    # Against the tangent of the model file, at the state before
+    # Expected stress: from the tangent that the model file gives for the state before the strain
     law=$(tr -d ' \n' < "$checkout/rust/surrogate/models/state.json" | sed 's/.*"mechanics":{"c11":\[\([^]]*\)\],"c12":\[\([^]]*\)\].*/\1,\2/')
     e=$(paste -d ' ' <(field 0.05/stress | head -1) <(field ../before/0.05/reducedPressure | head -1) <(field ../before/0.05/reducedDeviator | head -1) \
             <(field ../before/0.05/stress | head -1) \
@@ -58,7 +59,7 @@ patch_test() { # walls move: strains 0.01 and -0.005 everywhere
     check "patch test: stress by the model's tangent to $e <= 0.005" below "$e" 0.005
 }
 
-step_of_temperature() { # left half strained by 0.01, no conduction: both halves end at one stress
+step_of_temperature() { # left half strained by 0.01, no conduction: both halves must end with the same stress
     local m e
     for m in none equilibrium; do
         changed "step-$m"
@@ -86,9 +87,9 @@ step_of_temperature() { # left half strained by 0.01, no conduction: both halves
     check "temperature step: displacement against the closed form $e <= 0.03" below "$e" 0.03
 }
 
-# A column of height H pressed at its left end by s0 more than at the start, walls fully slipping with friction mu:
-# H ds/dx = -2 mu (sigma_yy at the start + k s), k = c12/c11, from s0 down to zero and no further (Janssen); s0 is small against
-# the pressure, with which the tangent changes
+# A column of height H is pressed at its left end by s0 more than at the start, and slips along both walls with friction mu. The
+# added stress s follows Janssen's equation H ds/dx = -2 mu (sigma_yy at the start + k s), k = c12/c11, from s0 down to zero,
+# and is zero beyond. s0 is small compared with the pressure, because the tangent depends on the pressure.
 friction_column() {
     local push=150 e # [Pa]
     changed column
@@ -110,7 +111,7 @@ friction_column() {
     check "friction column against the closed form: $e <= 0.03 of the push" below "$e" 0.03
 }
 
-both_ways() { # folder: small with equilibrium
+both_ways() { # folder: the case small with mechanics equilibrium
     changed "$1"
     equilibrium 'residual 1e-3;'
 }
@@ -140,7 +141,7 @@ restart_and_processes() {
     check "equilibrium: two processes: difference $e <= 1e-6" below "$e" 1e-6
 }
 
-turned() { # by 90 degrees: x' = H - y, y' = x
+turned() { # the case rotated by 90 degrees, x' = H - y, y' = x, must give the rotated result
     both_ways moved-turned
     sed -i 's/left/A/; s/right/B/; s/bottom/C/; s/top/D/' 0/T
     sed -i 's/^    A$/    bottom/; s/^    B$/    top/; s/^    C$/    right/; s/^    D$/    left/' 0/T

@@ -1,8 +1,8 @@
-# Models by run-time selection, economy of queries.
+# All models by run-time selection, and the number of cells for which they are evaluated.
 
 number() { sed -n "s/.*\"$1\": \([0-9.e+-]*\).*/\1/p" postProcessing/msddFoam/summary.json | head -n 1; }
 
-changed constant # the mean of the model
+changed constant # takes the conductivity of the builtin model at the mean initial state
 grains 'surrogate { type constant; }'
 mesh_is '12 6 1'
 logged msddFoam
@@ -16,14 +16,14 @@ mesh_is '12 6 1'
 logged msddFoam
 check "network: the paper's has no state beside porosity and fabric" test ! -e 1/reducedPressure
 
-changed affine # the upper bound conducts better, and the rest is the same
+changed affine # the affine upper bound must conduct better, and everything else be the same
 grains 'surrogate { conductivity affine; }'
 mesh_is '12 6 1'
 logged msddFoam
 check "network: affine conductivity is above the network's" awk '{ if (!($1 > $2 && $1 < 1.1*$2)) bad = 1 } END { exit bad || NR == 0 }' \
     <(paste <(field 0.05/conductivity | awk '{ print $1 }') <(field "$work/serial/0.05/conductivity" | awk '{ print $1 }'))
 
-changed plug-in # the worked example in C, by a path relative to the case
+changed plug-in # the example of a plug-in in C, given by a path relative to the case
 compiled() { # library, source in the checkout, macros
     cc -std=c99 -O2 -shared -fPIC -I"$checkout/rust/capi/include" "${@:3}" "$checkout/$2" -lm -o "$1"
 }
@@ -31,7 +31,7 @@ compiled medium.so rust/capi/examples/effective_medium.c
 grains 'surrogate { type plugin; pluginCoeffs { library medium.so; } }'
 mesh_is '12 6 1'
 library=$(pwd -P)/medium.so
-if [ "$(id -u)" = 0 ]; then # its code runs as root by name only
+if [ "$(id -u)" = 0 ]; then # as root a plug-in is loaded only if the environment names it
     check "plugin: refused as root" refused "export MSDD_ALLOW_PLUGINS=\"$library\""
     compiled other.so rust/capi/examples/effective_medium.c
     MSDD_ALLOW_PLUGINS=$PWD/other.so:medium check "plugin: refused as root when another is named" refused "export MSDD_ALLOW_PLUGINS=\"$library\""
@@ -47,7 +47,7 @@ check "plugin: hotter cells are denser than 0.125, colder ones looser" awk '
     { if (($1 > 50) != ($2 < 0.125)) bad = 1 } END { exit bad || NR != 72 }' <(paste <(field 1/T) <(field 1/porosity))
 check "plugin: the summary names it" grep -q 'medium.so' postProcessing/msddFoam/summary.json
 
-foul() { # what, message, macros: a plug-in that has to be refused
+foul() { # name of the check, message, macros: a defective plug-in that must be refused
     compiled medium.so rust/plugin/tests/plain.c -DHAS_ALL "${@:3}"
     rm -rf 0.* 1 # from the start
     check "plugin: refused: $1" refused "$2"
@@ -61,7 +61,7 @@ done
 cp log.bad ..
 unset MSDD_ALLOW_PLUGINS
 
-changed own-fields # all that the solver writes is among the names that a plug-in's columns may not have
+changed own-fields # every field that the solver writes must be among the names that columns of a plug-in may not have
 grains 'mechanics equilibrium; surrogate { type network; }'
 mesh_is '12 6 1'
 logged msddFoam
@@ -73,7 +73,7 @@ own_fields() {
 }
 check "plugin: its columns may have no name of $(ls 1 | wc -l) that the solver writes" own_fields
 
-online() { # folder, further keys: two cells that heat, boxes of 60 grains
+online() { # folder, further keys: two cells that are heated, with boxes of 60 grains
     changed "$1"
     shift
     grains "surrogate { type onlineRve; onlineRveCoeffs { discs 60; $1 } $2 }"
@@ -96,7 +96,7 @@ logged msddFoam
 check "onlineRve: asked less with smallestStrain" \
     test "$(number cell_queries)" -lt "$(cd "$work/online-cell" && number cell_queries)"
 
-changed waits # increments are summed, not lost
+changed waits # strains below smallestStrain must be accumulated, not lost
 grains 'surrogate { smallestStrain 1e-3; }'
 mesh_is '12 6 1'
 logged msddFoam
@@ -105,7 +105,7 @@ check "economy: asked $(number cell_queries) of $(number cell_steps) cell-steps"
 e=$(paste -d ' ' <(field "$work/serial/1/T") <(field 1/T) | awk '{ e = $1 - $2; if (e < 0) e = -e; if (e > w) w = e } END { print w }')
 check "economy: T within 0.2 K of all asked: $e" below "$e" 0.2
 
-changed still # no expansion: asked once
+changed still # without expansion the model must be evaluated only once
 grains 'thermalExpansion 0;'
 mesh_is '12 6 1'
 logged msddFoam

@@ -1,7 +1,7 @@
-# Any number of processes gives the answer of one: 2, 3 and 4 in a row, 2 x 2 and 2 x 3, with every feature. With three in a
-# row the middle process has two neighbours and the others one, which an exchange inside a loop over patches does not survive.
+# Any number of processes must give the result of one: 2, 3 and 4 in a row, 2 x 2 and 2 x 3, with every feature. With three in a
+# row the middle process has two neighbours and the others one, so that an exchange inside a loop over patches would hang.
 
-same_answer() { # what, bound: every decomposition of the case here against this case in one piece
+same_answer() { # name of the check, bound: compares every decomposition of this case with this case on one process
     local what=$1 bound=$2 name=${PWD##*/} parts e
     logged msddFoam
     for parts in "${decompositions[@]}"; do
@@ -17,7 +17,7 @@ same_answer() { # what, bound: every decomposition of the case here against this
         cd "$work/$name"
     done
 }
-several() { # folder: small with 0.5 written, too
+several() { # folder: the case small, which writes the time 0.5, too
     changed "$1"
     controls 'writeInterval 10;'
 }
@@ -25,7 +25,7 @@ sheared_vertices() {
     sed -i 's,^blocks.*,vertices ((0 0 0) (2150 0 0) (2350 645 0) (200 645 0) (0 0 10) (2150 0 10) (2350 645 10) (200 645 10));\n&,' system/blockMeshDict
 }
 every_function_object() { controls "functions { #include \"$here/audits\" }"; }
-function_objects_agree() { # their last lines on six processes and one
+function_objects_agree() { # compares the last lines of their files on six processes and on one
     local file e
     for file in postProcessing/*/0/*.dat; do
         e=$(lines_differ "$file" "$work/parts/$file")
@@ -82,7 +82,7 @@ for per in cell history; do
     same_answer "online RVEs per $per" 1e-10
 done
 
-stopped_process() { # one of three is stopped for a while: the others say that they wait, and then go on
+stopped_process() { # one of three processes is stopped for a while: the others must print that they wait, and then continue
     local waiting
     several rows-stopped
     controls 'deltaT 0.001;'

@@ -1,6 +1,6 @@
-# Outside of the region that the model was trained for.
+# Cells outside of the range that the model was trained for (its region).
 
-hot() { # folder, policy: grains that swell by a fifth
+hot() { # folder, policy: a case whose grains swell by a fifth
     changed "$1"
     shift
     sed -i 's/uniform 100/uniform 800/' 0/T
@@ -19,7 +19,7 @@ check "clamp: goes on, and inRegion shows the cells" \
     test "$(field 1/inRegion | awk '$1 == 0 { out++ } $1 == 1 { in_++ } END { print (out > 0 && in_ > 0) }')" = 1
 check "clamp: counted" grep -q '"clamped_queries": [1-9]' postProcessing/msddFoam/summary.json
 check "clamp: the end of the run says how many states were outside, and how many cells are" grep -q -- \
-    "- Range: .* % of the states .* lay outside .* so do $(field 1/inRegion | grep -cx 0) of 72 cells now" log
+    "- Range: .* % of the states .* lay outside .* At the end $(field 1/inRegion | grep -cx 0) of 72 cells are outside" log
 check "clamp: no warning" test "$(grep -c 'FOAM Warning' log)" = 0
 
 hot region-warn 'porosity { below warn; } reducedPressure { above warn; } thermalStrain { above clamp; }'

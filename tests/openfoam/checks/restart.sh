@@ -1,26 +1,26 @@
-# What a restart goes on from: the newest time that is whole, computed with the same settings; whatever is lost, changed or
-# of another number of processes is said, never replaced in silence.
+# A restart must continue from the newest complete time that was computed with the same settings. If files are missing or
+# changed, or were written by another number of processes, the log must say so; nothing may be replaced silently.
 
-halfway() { # folder: small with 0.5 written, run to 0.5
+halfway() { # folder: the case small, run to the time 0.5, which is written
     changed "$1"
     controls 'writeInterval 5; endTime 0.5;'
 }
-skipped() { # reason: the run goes back to 0.25 and says why
+skipped() { # reason: the run must continue from 0.25 and print why
     msddFoam > log.bad 2>&1 && grep -qF "Time 0.5 is skipped: $1. It is renamed to 0.5.incomplete" log.bad \
         && grep -q '^Create mesh for time = 0.25' log.bad && [ -e 0.5.incomplete ] && [ -e 0.5/uniform/msddFoam ]
 }
 again() { rm -rf 0.5 0.5.incomplete; cp -r "$whole" 0.5; }
-flip() { # file: one bit in the middle
+flip() { # file: flips one bit in its middle
     local at=$(($(stat -c %s "$1")/2)) byte
     byte=$(od -An -tu1 -j $at -N 1 "$1")
     printf "\\x$(printf %x $((byte ^ 1)))" | dd of="$1" bs=1 seek=$at conv=notrunc status=none
 }
 
-every_file() { # what: of the time 0.5 of this case, each lost in turn, then each with one flipped bit
+every_file() { # name of the check: removes each file of the time 0.5 in turn, then flips one bit in each
     local what=$1 whole=$PWD/0.5.whole file files lost=0 changed=0 unharmed
     logged msddFoam
     mv 0.5 "$whole"
-    # No restart reads spread; what function objects know of themselves OpenFOAM writes after the time
+    # Not checked: spread, which no restart reads, and the state of function objects, which OpenFOAM writes after the time
     files=($(cd "$whole" && find . -type f ! -name spread ! -name msddFoam ! -path '*/functionObjects/*' | sed 's,^\./,,'))
     for file in "${files[@]}"; do
         again
@@ -49,7 +49,7 @@ every_file() { # what: of the time 0.5 of this case, each lost in turn, then eac
         test "$(cd 0.5 && find . -type f -exec sha1sum {} + | sha1sum)" = "$unharmed"
 }
 
-other_settings() { # refused with both values; accepted by name
+other_settings() { # a restart with another setting must be refused with both values, and accepted with -accept and its name
     local before=$PWD/constant/granularProperties.before key
     cp constant/granularProperties "$before"
     setting() { # name of the setting, both values, entry
@@ -73,15 +73,15 @@ other_settings() { # refused with both values; accepted by name
     logged foamDictionary -entry endTime -set 0.5 system/controlDict
 }
 
-named_start() { # startTime instead of latestTime
+named_start() { # restarts with startTime instead of latestTime
     controls 'startFrom startTime; startTime 0.5;'
     rm 0.5/porosity
     check "startTime of a time that is not whole: refused" \
-        refused "Time 0.5 in \"$PWD\", the startTime of controlDict, is not whole: missing: porosity"
+        refused "Time 0.5 in \"$PWD\", the startTime of controlDict, is not complete: missing: porosity"
     controls 'startFrom latestTime;'
 }
 
-older_version() { # a record without a list
+older_version() { # a record of version 0.1, without a list of files
     again
     sed -i '/^files/,$d; /^program/d' 0.5/uniform/msddFoam
     check "record of a version that kept no list: refused" refused 'it was written by a version that kept no list of files'
@@ -96,7 +96,7 @@ nothing_whole() {
     check "no time that is whole: refused" refused 'No time in'
 }
 
-full_disk() { # files end after 2 KiB, as on a full disk; then there is room again
+full_disk() { # all files end after 2 KiB, as on a full disk; the next run has no such limit
     local e
     changed full
     controls 'writeInterval 5; endTime 0.5;'
@@ -108,7 +108,7 @@ full_disk() { # files end after 2 KiB, as on a full disk; then there is room aga
     check "full disk: once there is room the run starts anew and ends as it should: difference $e" test "$e" = 0
 }
 
-other_processes() { # 1, then 3, then 1 again, then 2 x 2, against 1 throughout; the heat that came in is that of all
+other_processes() { # on 1, 3, 1 and 2 x 2 processes in turn, compared with 1 throughout; the sums of heat must be kept
     local e way end=0.5
     changed moved-on-whole
     controls "writeInterval 2; functions { #include \"$here/audits\" }"
@@ -138,7 +138,7 @@ other_processes() { # 1, then 3, then 1 again, then 2 x 2, against 1 throughout;
     done
 }
 
-binary_and_compressed() { # these formats go on to the same bytes, too
+binary_and_compressed() { # restarts with these formats must give the same bytes, too
     local format
     for format in 'writeFormat binary;' 'writeCompression on;'; do
         changed formats

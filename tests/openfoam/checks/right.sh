@@ -1,7 +1,7 @@
-# Conduction: manufactured solution, maximum principle, rotation, symmetry.
+# Heat conduction: a manufactured solution, the maximum principle, a rotated case, symmetry planes.
 
 # T = 50 + 20 exp(p.x) cos(3 y), with p such that div(K grad T) = 0 for K = (34 8; 8 26); on n x n cells of the unit square
-# sheared by s, all walls at the exact T. Prints the rms error over the cells once it is steady.
+# sheared by s, with the exact T at all walls. Prints the rms error over the cells in the steady state.
 exact='function T(x, y) { p = 3*sqrt(26/(34 - 64/26)); return 50 + 20*exp(p*(x - 8/26*y))*cos(3*y)/exp(p) }'
 manufactured() { # n, shear
     local n=$1 s=$2 side
@@ -36,7 +36,7 @@ for shear in 0 0.4; do
         awk "BEGIN { exit !($order >= 1.8) }"
 done
 
-maximum_principle() { # Euler, diagonal K: no new extremes from a checkerboard, whatever the step
+maximum_principle() { # implicit Euler with diagonal K: no new extremes from a checkerboard of T with any time step
     local step
     for step in 0.05 50; do
         changed maximum
@@ -52,7 +52,7 @@ maximum_principle() { # Euler, diagonal K: no new extremes from a checkerboard, 
     done
 }
 
-rotated() { # by 90 degrees: x' = H - y, y' = x
+rotated() { # the case rotated by 90 degrees, x' = H - y, y' = x, must give the rotated result
     changed rotated
     sed -i 's/left/A/; s/right/B/; s/bottom/C/; s/top/D/' 0/T
     sed -i 's/^    A$/    bottom/; s/^    B$/    top/; s/^    C$/    right/; s/^    D$/    left/' 0/T
@@ -78,7 +78,7 @@ upright_vertices() { # the vertices again, since the included file has expanded 
 	END
 }
 
-quarter() { # of case H with symmetry planes, against the whole
+quarter() { # a quarter of case H with symmetry planes must give the result of the whole
     changed whole
     sed -i 's/uniform 70/uniform 100/; s/uniform 0;/uniform 100;/; s/zeroGradient;/fixedValue; value uniform 100;/' 0/T
     mesh_is '12 6 1'

@@ -1,5 +1,6 @@
-# Grains of any size give the same answer: box, mesh and displacement in radii, stress over E r, times by the square of the
-# size. What is absolute in Pa or m shows here. Loops of strain, whose stress is not to be trusted, are said.
+# Grains of any size must give the same result if lengths are measured in grain radii, stresses in E r, and times in units
+# proportional to the square of the size. A constant in the solver that is absolute in Pa or m would break this. Loops of
+# strain, whose stress is not to be trusted, must cause a warning.
 
 scaled() { # folder, mean radius over 5 mm, entries of fvSolution's msddFoam (then adaptive steps), of granularProperties
     local name=$1 size=$2
@@ -14,7 +15,7 @@ scaled() { # folder, mean radius over 5 mm, entries of fvSolution's msddFoam (th
     mesh_is '12 6 1'
 }
 latest() { foamListTimes -latestTime 2> /dev/null | tail -n 1; }
-against() { # result, result at 5 mm, size: largest difference of each field over the largest value of the field
+against() { # result, result at 5 mm, size: largest difference of each field, relative to the field's largest value
     local name power
     for name in T porosity fabricIndex conductivity stress nodeDisplacement; do
         [ -e "$1/$name" ] || continue
@@ -44,7 +45,7 @@ check "scale-equilibrium: $(solves) steps solved" test "$(solves)" -gt 0
 any_size scale-adaptive 1e-9 'timeScheme secondOrder; temperatureTolerance 0.5;' ''
 any_size scale-adaptive-equilibrium 1e-6 'timeScheme secondOrder; temperatureTolerance 0.5;' 'mechanics equilibrium;'
 
-# What function objects write: columns after the time, of one line or of all windows
+# The columns, without the time, that function objects write: of one line, or of the lines of all windows
 looked_at() { # folder, size
     scaled "$1" $2 '' 'mechanics equilibrium;'
     controls "functions {
@@ -60,7 +61,7 @@ function_objects() {
     looked_at scale-objects-1 1
     looked_at scale-objects 0.002
     for object in spaceProbes subRegions wallPressure; do
-        # Pressures, the last columns of windows and all of walls, are in proportion to the size
+        # Pressures (the last columns of windows, and all columns of walls) are proportional to the size
         e=$(paste -d ' ' <(grep -v '^#' postProcessing/$object/0/$object.dat) <(grep -v '^#' ../scale-objects-1/postProcessing/$object/0/$object.dat) \
             | awk -v object=$object '{ n = NF/2; for (i = 2; i <= n; i++) { a = $i; b = $(i + n)
                   if (object == "wallPressure" || (object == "subRegions" && i > 8)) b *= 0.002
@@ -71,7 +72,7 @@ function_objects() {
 }
 function_objects
 
-# Boxes of grains in the cells: four times the size to some power multiplies all by powers of two
+# The model onlineRve: with four times the size, all quantities are multiplied by powers of two, without rounding
 boxes_in_cells() {
     local size
     for size in 1 0.00390625; do
@@ -87,7 +88,7 @@ boxes_in_cells() {
 }
 boxes_in_cells
 
-# What the default residual leaves, against one a hundredth of it
+# The error of the default residual, from a comparison with a residual a hundred times smaller
 exact_enough() {
     local size e residual
     for size in 0.002 0.02; do
@@ -103,8 +104,8 @@ exact_enough() {
 exact_enough
 scaled residual-large 0.002 '' 'mechanics equilibrium; equilibriumCoeffs { residual 5; maxResidual 100; }'
 logged msddFoam
-check "nothing was ever solved: said" grep -q 'Nothing was ever solved: at most .* Pa were out of balance' log
-check "nothing was ever solved: in summary.json" grep -q '"warnings": \["Nothing was ever solved' postProcessing/msddFoam/summary.json
+check "nothing was ever solved: said" grep -q 'The grains were never moved: at most .* Pa were out of balance' log
+check "nothing was ever solved: in summary.json" grep -q '"warnings": \["The grains were never moved' postProcessing/msddFoam/summary.json
 changed residual-still
 grains 'thermalExpansion 0; mechanics equilibrium;'
 controls 'endTime 0.1;'

@@ -1,4 +1,5 @@
-# Online RVEs that cells of like history share (rvePer history), against a box for every cell; both on two processes.
+# The model onlineRve with boxes shared by cells of the same strain history (rvePer history), compared with a box for every
+# cell; both also on two processes.
 
 counted() { sed -n "s/.*\"$1\": \([0-9.e+-]*\).*/\1/p" postProcessing/msddFoam/summary.json | head -n 1; }
 
@@ -19,14 +20,14 @@ two_porosities() { # left, right: of the columns of cells
     } > porosity.new
     mv porosity.new 0/porosity
 }
-apart() { # field, two times: largest difference of the first component over cells, relative to the largest value
+apart() { # field, two time folders: largest difference of the first component, relative to its largest value
     paste <(field "$2/$1" | awk '{ print $1 }') <(field "$3/$1" | awk '{ print $1 }') | awk '
         { e = $1 - $2; if (e < 0) e = -e; if (!(e <= w)) w = e; a = $1 < 0 ? -$1 : $1; if (a > s) s = a; n++ }
         END { print (n > 1 && s > 0 ? w/s : "nan") }'
 }
 history() { echo "rvePer history; strainTolerance $1;"; }
 
-dial() { # the answers of a box a cell are met as the tolerance falls
+dial() { # the results must approach those of a box for every cell as strainTolerance falls
     local tolerance name error=() strained
     boxed own ''
     logged msddFoam
@@ -45,7 +46,7 @@ dial() { # the answers of a box a cell are met as the tolerance falls
     check "tolerance 1e-3: T apart $name <= 2e-4" below "$name" 2e-4
 }
 
-cycled() { # folder, keys: all walls down by 60 K and back
+cycled() { # folder, keys: all walls are cooled by 60 K and heated again
     changed "$1"
     grains "thermalExpansion 1e-3; surrogate { type onlineRve; smallestStrain 0; onlineRveCoeffs { discs 60; compression horizontal; $2 } }"
     sed -i '/^boundaryField/,$d; s/uniform 50/uniform 110/' 0/T
@@ -54,7 +55,7 @@ cycled() { # folder, keys: all walls down by 60 K and back
     controls 'endTime 24; deltaT 0.2;'
     mesh_is '4 3 1'
 }
-reversal() { # grains that were released and pressed are not those of the start, though T is back
+reversal() { # grains that were unloaded and loaded again differ from those of the start, although T is the same
     local start back after e
     cycled cycle-own ''
     logged msddFoam
@@ -71,7 +72,7 @@ reversal() { # grains that were released and pressed are not those of the start,
         test "$(counted boxes_held)" -lt "$(counted boxes_strained)"
 }
 
-halved() { # folder: go on from the middle, fields and boxes bit for bit
+halved() { # folder: a restart from the middle must give the same fields and boxes bit for bit
     local name same=yes
     rm -rf "$work/$1-half"
     cp -r "$work/$1" "$work/$1-half"
@@ -103,7 +104,7 @@ restarts() {
     controls 'adjustTimeStep yes; deltaT 0.01; writeControl runTime; writeInterval 0.5;'
     logged msddFoam
     halved halves-second
-    # The dial does not see the step: what is left is the error of the paper's steps
+    # The difference from the run with fixed steps is the error of the paper's scheme in time, not that of sharing boxes
     local e
     e=$(apart T "$work/halves/1" 1)
     check "adaptive, second order: T apart from fixed steps $e <= 0.03" below "$e" 0.03
@@ -111,7 +112,7 @@ restarts() {
     check "adaptive, second order: questions ahead make no box twice: $e strained" test "$e" -lt 72
 }
 
-processes() { # the serial answer, and a restart in the folders of the processes
+processes() { # two processes must give the serial result, also with a restart from the processes' folders
     local kind e
     for kind in own shared; do
         boxed "serial-$kind" "$([ $kind = own ] || history 2e-3)"
@@ -134,7 +135,7 @@ processes() { # the serial answer, and a restart in the folders of the processes
     check "refused: a serial run that goes on from two processes" refused 'missing: onlineRve.json'
 }
 
-reordered() { # the block turned by half a turn: the last cell is the first
+reordered() { # the block of the mesh rotated by 180 degrees, so that the order of the cells is reversed
     local name e
     boxed turned "$(history 2e-3)"
     sed -i 's/hex (0 1 2 3 4 5 6 7)/hex (2 3 0 1 6 7 4 5)/' system/blockMeshDict

@@ -1,12 +1,12 @@
-# Second order and adaptive steps: restart bit for bit, two processes, written times, tolerance.
+# The second-order scheme with adaptive steps: restart bit for bit, two processes, write times, effect of the tolerance.
 
-adaptive() { # folder, tolerance: small with adaptive steps, on its mesh
+adaptive() { # folder, tolerance: the case small with adaptive steps, meshed
     changed "$1"
     controls 'adjustTimeStep yes; deltaT 1e-3; writeControl runTime; writeInterval 0.5;'
     scheme "timeScheme secondOrder; temperatureTolerance $2; stateTolerance 1;"
     mesh_is '12 6 1'
 }
-same_bits() { # two times of two runs
+same_bits() { # compares two time folders
     local name
     for name in T porosity fabricIndex reducedPressure conductivity stress thermalStrain; do
         cmp -s <(field "$1/$name") <(field "$2/$name") || { echo "        $name differs" >&2; return 1; }
@@ -35,7 +35,7 @@ adaptive_restart() {
     check "adaptive: two processes: difference $e <= 1e-9" below "$e" 1e-9
 }
 
-tolerance_counts() { # a tenth of the tolerance, less than a third of the error
+tolerance_counts() { # a tenth of the tolerance must give less than a third of the error
     local tolerance e
     adaptive fine 0.001
     logged msddFoam
@@ -49,7 +49,7 @@ tolerance_counts() { # a tenth of the tolerance, less than a third of the error
     done
 }
 
-default_tolerance() { # is a share of the range of T: a hundredth of all temperatures, a hundred times the expansion, the same steps
+default_tolerance() { # it is a share of the range of T: with T/100 and 100 times the expansion the steps must be the same
     local scale e
     for scale in 1 100; do
         changed "range-$scale"
@@ -79,7 +79,7 @@ fixed_restart() {
     check "second order: restart bit for bit" same_bits "$work/second/1" 1
 }
 
-changed rejected # a first step far too large
+changed rejected # the first step is far too large and must be rejected
 controls 'adjustTimeStep yes; deltaT 1; writeControl runTime; writeInterval 1;'
 scheme 'timeScheme secondOrder; temperatureTolerance 0.1;'
 mesh_is '12 6 1'

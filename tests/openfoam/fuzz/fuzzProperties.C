@@ -46,7 +46,7 @@ static size_t below(generator& random, const size_t end)
 }
 
 
-//- Begin and length of a word or number of the text
+//- Position and length of a random word or number of the text
 static std::pair<size_t, size_t> wordOf
 (
     generator& random,
@@ -100,7 +100,8 @@ static std::string damaged(generator& random, std::string s)
 }
 
 
-//- As it is outside of OpenFOAM's reader of numbers, which traps on 1e400
+//- Trap overflow, as in the solver; the trap is off while OpenFOAM reads the
+//- dictionary, since its reader of numbers traps on 1e400
 static void trapOverflow()
 {
     feclearexcept(FE_ALL_EXCEPT);
@@ -108,7 +109,7 @@ static void trapOverflow()
 }
 
 
-//- Make all of the solver that reads the dictionary
+//- Make all parts of the solver that read the dictionary
 static void ask(const granularProperties& properties, volScalarField& T)
 {
     granularState grains(properties, T);
@@ -142,12 +143,12 @@ int main(int argc, char *argv[])
         std::ifstream is(file);
         good.assign(std::istreambuf_iterator<char>(is), {});
     }
-    // OpenFOAM's own reader of the header FoamFile traps on a version of 1e20
+    // FoamFile is left out: OpenFOAM's reader of it traps on a version of 1e20
     const size_t body = good.find('}') + 1;
     FatalError.throwExceptions();
     FatalIOError.throwExceptions();
     messageStream::level = 0;
-    // Else OpenFOAM ends at a quoted name of a sub-dictionary with a blank
+    // Without this OpenFOAM ends at a sub-dictionary with a blank in its name
     fileName::debug = 0;
 
     label taken = 0, asked = 0, refused = 0;

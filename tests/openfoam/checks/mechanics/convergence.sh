@@ -1,8 +1,9 @@
-# Order in the size of the cells: a displacement that is known. Sourced by mechanics.sh: needs law, equilibrium.
+# Order of convergence in the size of the cells, for a manufactured displacement. Sourced by mechanics.sh: needs law,
+# equilibrium.
 
-# u = A sin(pi x/L) sin(pi y/H), v = A/2 sin(2 pi x/L) sin(pi y/H) in grains that are held at the walls. The body force that
-# makes it comes from initialStress, whose imbalance the solver takes for that of the start: the stress at rest and C grad u.
-manufactured() { # cells along x: prints the rms error of u and of v over their amplitude
+# The displacement is u = A sin(pi x/L) sin(pi y/H), v = A/2 sin(2 pi x/L) sin(pi y/H), zero at the walls. Its body force is given
+# by the field initialStress, the stress at rest plus C grad u: the solver keeps the imbalance of that field.
+manufactured() { # cells along x: prints the rms errors of u and v, relative to their amplitudes
     local nx=$1 ny=$(($1/2))
     changed "manufactured-$nx"
     uniform_temperature

@@ -1,4 +1,4 @@
-# Steps that do not converge, unjamming, audits. Sourced by mechanics.sh.
+# Steps that do not converge, loss of contacts, and heat balances with moving grains. Sourced by mechanics.sh.
 
 jump() { # folder: the right wall of the box of small closes by 0.48 m, a strain of 0.22, in one step of 0.05 s
     changed "$1"
@@ -13,7 +13,7 @@ summary_of() { sed -n "s/.*\"$1\": \([0-9.e+-]*\)[,}].*/\1/p" postProcessing/msd
 parts() {
     jump parts
     logged msddFoam
-    check "a step too large is taken in parts" grep -q 'again in 2 parts' log
+    check "a step too large is taken in parts" grep -q 'the load of the step is applied in 2 parts' log
     check "parts: the run gets through" test "$(summary_of cut_steps)" = 1 -a "$(summary_of unconverged_steps)" = 0
     local e
     e=$(field 0.05/D | awk '{ x = ((NR - 1) % 12 + 0.5)/12; e = $1/(-0.48*x) - 1; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR == 72 ? w + 0 : "nan") }')
@@ -25,7 +25,7 @@ parts() {
     check "particleDensity = bulkDensity/areaRatio/(1 - porosity) to $e <= 1e-12" below "$e" 1e-12
 }
 
-halved() { # the same with adaptive steps: repeated until the step's share is small enough
+halved() { # the same with adaptive steps: the step must be repeated until the motion of the wall in it is small enough
     jump halved
     controls 'adjustTimeStep yes; deltaT 0.05; writeControl runTime; writeInterval 0.05; writePrecision 17;'
     scheme 'timeScheme secondOrder;'
@@ -37,7 +37,7 @@ halved() { # the same with adaptive steps: repeated until the step's share is sm
     check "adaptive: displacement is linear to $e <= 1e-6" below "$e" 1e-6
 }
 
-hopeless() { # one iteration for a residual that needs several
+hopeless() { # a single iteration is allowed for a residual that needs several: the run must end with a message
     both_ways hopeless
     equilibrium 'residual 1e-6; maxResidual 1e-6; maxIterations 1;'
     mesh_is '12 6 1'
@@ -59,7 +59,7 @@ hopeless() { # one iteration for a residual that needs several
     check "walls that meet are refused" refused 'is torn, turned inside out or strained'
 }
 
-# A long column, cold at one end: there the grains lose contact, at the other the friction of the walls holds them
+# A long column, cold at one end, where the grains lose their contacts; at the other end the friction of the walls holds them
 unjammed() {
     local e
     both_ways unjam
@@ -88,7 +88,7 @@ unjammed() {
     check "unjamming: restart bit for bit" same_mechanics "$work/unjam/8" 8
 }
 
-audited_mechanics() { # what is conducted is stored, whatever the cells do
+audited_mechanics() { # the balance of heat must close however the cells move
     local kind e
     for kind in paper secondOrder; do
         both_ways "audit-moved-$kind"

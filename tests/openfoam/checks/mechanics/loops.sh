@@ -1,6 +1,7 @@
-# Strains that go round in loops are said, bends are not. Sourced by mechanics.sh: needs equilibrium, uniform_temperature.
+# Strain paths with closed loops must cause a warning, curved paths without loops must not. Sourced by mechanics.sh: needs
+# equilibrium, uniform_temperature.
 
-circles() { # folder, porosity, circles of 0.5 % strain in xx and yy, in steps of a fortieth; a negative number turns back
+circles() { # folder, porosity, number of circles of 0.5 % strain in the plane of xx and yy, 40 steps each; negative: clockwise
     local table
     changed "$1"
     uniform_temperature
@@ -12,7 +13,7 @@ circles() { # folder, porosity, circles of 0.5 % strain in xx and yy, in steps o
     mesh_is '3 2 1'
     logged msddFoam
 }
-said() { grep -c 'have been strained in loops, to and fro' "${1:-log}"; }
+said() { grep -c 'have been strained along closed loops' "${1:-log}"; }
 looped() { sed -n 's/.*"looped_cells": \([0-9]*\).*/\1/p' postProcessing/msddFoam/summary.json; }
 
 circles two-circles 0.16 2

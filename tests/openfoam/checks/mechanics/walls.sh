@@ -1,11 +1,12 @@
-# Kinds of walls against closed forms, symmetry, one dimension, energy. Sourced by mechanics.sh: needs law, equilibrium.
+# The types of walls compared with closed forms; symmetry planes, one-dimensional meshes, balance of work. Sourced by
+# mechanics.sh: needs law, equilibrium.
 
-state_before() { # of the uniform grains at rest: sxx syy [Pa, compression] c11 c12 [Pa]
+state_before() { # prints for the uniform grains at rest: sxx syy [Pa, compression positive] c11 c12 [Pa]
     paste -d ' ' <(field ../before/0.05/stress | head -1) <(field ../before/0.05/reducedPressure | head -1) <(field ../before/0.05/reducedDeviator | head -1) \
         | awk -v law="$law" '{ split(law, c, ","); r = sqrt($7); E = 1e7*5e-3
             printf "%.12g %.12g %.12g %.12g\n", -$1, -$4, E*(c[1] + c[2]*r + c[3]*$8/$7), E*(c[4] + c[5]*r) }'
 }
-uniaxial() { # folder, wall at the right: the box of small, smooth walls, one step
+uniaxial() { # folder, entries of the right wall: the box of the case small with frictionless walls, one step
     changed "$1"
     uniform_temperature
     mesh_is '12 6 1'
@@ -14,7 +15,8 @@ uniaxial() { # folder, wall at the right: the box of small, smooth walls, one st
     logged msddFoam
 }
 
-# A wall that moves by d, or presses by dp more, strains by log(1 + d/L) or -dp/c11; syy follows with c12
+# Expected strain: log(1 + d/L) for a wall that moves by d, -dp/c11 for a pressure increased by dp; syy changes by c12 times the
+# strain
 prescribed_walls() {
     local e sxx syy c11 c12
     changed uniaxial-start
@@ -32,7 +34,7 @@ prescribed_walls() {
     check "prescribed displacement: stress against the closed form $e <= 0.001" below "$e" 0.001
 }
 
-symmetric_quarter() { # all walls at 100 K: a quarter with symmetry planes against the whole
+symmetric_quarter() { # all walls at 100 K: a quarter with symmetry planes must give the result of the whole
     both_ways moved-whole
     sed -i 's/uniform 70/uniform 100/; s/uniform 0;/uniform 100;/; s/zeroGradient;/fixedValue; value uniform 100;/' 0/T
     mesh_is '12 6 1'
@@ -65,7 +67,7 @@ symmetric_quarter() { # all walls at 100 K: a quarter with symmetry planes again
     check "equilibrium: the quarter's grains moved" test "$e" = 1
 }
 
-one_dimension() { # empty along y, against three cells along y between smooth insulated walls
+one_dimension() { # a mesh that is empty along y must give the result of three cells along y between smooth insulated walls
     local cells name e
     for cells in 1 3; do
         changed "line-$cells"
@@ -97,8 +99,9 @@ one_dimension() { # empty along y, against three cells along y between smooth in
     check "equilibrium: the line's grains moved" test "$e" = 1
 }
 
-# A small push by a pressed wall, rubbing walls that hardly slip: all linear, so that the mean of the forces before and
-# after times the way is the work. That of the wall is what the cells store and what the friction of the walls takes.
+# A wall with a pressure moves a little, and the grains hardly slip along the walls with friction. Then everything is linear,
+# and work is the mean of the forces before and after times the displacement. The work of the moved wall must be equal to the
+# work stored in the cells plus the work done against friction.
 energy() {
     local e sxx syy c11 c12
     changed energy-start
@@ -136,7 +139,7 @@ symmetric_quarter
 one_dimension
 energy
 
-# OpenFOAM's own ways to write a function of time: the entry and its coefficients beside, or one dictionary
+# Both of OpenFOAM's forms of a function of time: an entry with a separate dictionary of coefficients, or one dictionary
 functions_of_time() {
     local name of
     local -A forms=(
