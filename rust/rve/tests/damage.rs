@@ -200,14 +200,14 @@ fn what_is_no_table_of_ours_is_not_read() {
     let endless = "CREATE VIEW states AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT x AS packing \
                    FROM c;";
     for (statement, problem) in [
-        (format!("DROP TABLE states; {endless}"), "view states is none of a database"),
+        (format!("DROP TABLE states; {endless}"), "view states does not belong to a database"),
         (
             "CREATE TRIGGER t AFTER INSERT ON states BEGIN DELETE FROM states; END".to_string(),
             "trigger t is none",
         ),
         (
             "ALTER TABLE states ADD COLUMN more REAL".to_string(),
-            "table states is none of a database or not as it",
+            "table states does not belong to a database or was",
         ),
         ("DROP TABLE columns".to_string(), "is missing"),
     ] {
