@@ -11,6 +11,7 @@
 //! | [`scene`] | what a new case is about |
 //! | [`packing`] | the packing that it starts with |
 //! | [`folder`] | the files of a new case |
+//! | [`values`] | what stands in them |
 //! | [`check`](mod@check) | what is missing, out of range or doubtful before a run |
 #![forbid(unsafe_code)]
 
@@ -23,6 +24,7 @@ pub mod grains;
 pub mod mesh;
 pub mod packing;
 pub mod scene;
+pub mod values;
 pub mod walls;
 
 pub use case::Case;
