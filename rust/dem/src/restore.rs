@@ -15,7 +15,7 @@ pub struct RunState {
     /// ε [-] and dε/dt [1/s], relative to the reference radii.
     pub strain: f64,
     pub strain_rate: f64,
-    /// Radii at ε = 0 [m], one a disc.
+    /// Radii at ε = 0 [m], one per disc.
     pub reference_radius: Vec<f64>,
 }
 

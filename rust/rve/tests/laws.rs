@@ -69,7 +69,7 @@ fn quarter_turn_permutes_the_averages() {
         close("network K_xy", b.conductivity_network_xy, -a.conductivity_network_xy, 1.0);
         let mut expected = a;
         (expected.porosity, expected.overlap_fraction) = (b.porosity, b.overlap_fraction);
-        // These result from the solution of a linear system, so they agree only to its tolerance.
+        // These result from the solution of a linear system, so they agree only to its round-off.
         expected.conductivity_network_xx = b.conductivity_network_xx;
         expected.conductivity_network_yy = b.conductivity_network_yy;
         expected.conductivity_network_xy = b.conductivity_network_xy;
