@@ -1,15 +1,15 @@
-//! What the engine's parts cost: `cargo bench -p msdd-dem [-- FILTER]`. Throughput is in contacts or discs a second.
+//! Cost of the engine's parts: `cargo bench -p msdd-dem [-- FILTER]`. Throughput is in contacts or discs per second.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use msdd_dem::{Disc, Material, Simd, Simulation, Stage, Thermal, WallHeat, Walls};
 use std::time::{Duration, Instant};
 
-/// An assembly as dense as an RVE and one of many slabs.
+/// An assembly as small as an RVE, and one that is divided into several slabs.
 const SIZES: [usize; 2] = [500, 15_000];
-/// Steps from the dense state before it is taken again: at most 2 % strain.
+/// Steps after which a run starts again from the dense state; at 0.1 1/s they are at most 2 % strain.
 const BLOCK: u64 = 500;
 
-/// About `count` discs of unequal size on a jittered lattice, squeezed until there are four to five contacts a disc, and
+/// About `count` discs of unequal size on a jittered lattice, squeezed until they have four to five contacts each, and
 /// growing at 0.1 1/s.
 fn dense(count: usize) -> Simulation {
     let material = Material::default();
@@ -43,7 +43,7 @@ fn contacts(simulation: &Simulation) -> u64 {
     count
 }
 
-/// Time of `steps` steps from `start`, or of their part `stage` alone.
+/// Time of `steps` steps from `start`, or of their stage `stage` alone.
 fn time_of(start: &Simulation, steps: u64, stage: Option<Stage>) -> Duration {
     let (mut total, mut done) = (Duration::ZERO, 0);
     while done < steps {
@@ -76,7 +76,7 @@ fn time_in_stage(simulation: &mut Simulation, stage: Stage) -> Duration {
     found
 }
 
-/// Pair forces alone, by instruction set; a contact is one that bears force.
+/// Pair forces alone, by instruction set; only force-bearing contacts count in the throughput.
 fn pair_kernel(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("pair forces, per contact");
     let mut start = dense(SIZES[0]);
@@ -101,7 +101,7 @@ fn motion_kernel(criterion: &mut Criterion) {
     }
 }
 
-/// Whole steps on one thread, rebuilds of the neighbours included.
+/// Whole steps on one thread, including rebuilds of the neighbour list.
 fn step(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("step, per disc");
     for size in SIZES {
@@ -124,7 +124,7 @@ fn neighbours(criterion: &mut Criterion) {
     }
 }
 
-/// One sub-step through pipes that are there already, left wall hot.
+/// One heat sub-step through existing pipes, with the left wall hot.
 fn heat(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("heat sub-step, per contact");
     for size in SIZES {

@@ -1,11 +1,13 @@
-//! Energy audit: where the work done on the grains goes.
+//! Energy audit of a run: where the work done on the grains goes.
 //!
-//! Stored: elastic, Σ ½ s_n δ² + ½ f_t²/s_t, and kinetic with spin, Σ ½ m v² + ¼ m r² ω². Between two states,
-//! stored energy grows by the work of walls and of growing radii, less damping, drag and friction.
+//! The grains store elastic energy, Σ ½ s_n δ² + ½ f_t²/s_t over the contacts, and kinetic energy including that of
+//! spin, Σ ½ m v² + ¼ m r² ω² over the discs. Between two states the stored energy grows by the work of the walls and
+//! of the growing radii, less what damping, drag and friction take away.
 //!
-//! The terms of one step of symplectic Euler, from (x, v, f_t, r) at its start to (x', v', f_t', r') at its end, with
-//! the contact forces of that step, which are taken at x, r' and the moved walls. u is the slip over the step, Δ a
-//! change over the step; an overline is the mean of start and end, of forces that of the last step and this one:
+//! The table lists the terms of one step of symplectic Euler, from (x, v, f_t, r) at its start to (x', v', f_t', r') at
+//! its end. The contact forces of a step are those at x, r' and the moved walls. u is the slip over the step and Δ a
+//! change over the step. An overline is a mean: of velocities that of start and end, of forces that of the previous
+//! step and this one:
 //!
 //! | term | one step |
 //! |---|---|
@@ -15,16 +17,18 @@
 //! | walls | mean force of each wall on the grains times its velocity Δt, normal and along the wall |
 //! | growth | ḡ Δr of each disc, g = Σ f_n + ½ (δ² − f_t²/(s_n s_t)) ∂s_n/∂r; and ¼ m ω² Δ(r²) of its spin |
 //!
-//! Why means of two steps: a force acts along v̄, but contacts deform by v in the step before and by v' in this one;
-//! only so do the terms add up (summation by parts; with the forces of one step alone the error of a jammed heap is 2 to
-//! 6 times as large). Kinetic energy is accounted for exactly, and what is stored is taken with
-//! positions, velocities and friction springs at one time (`Simulation::synchronised_energy`). What is left is second
-//! order in Δt: contacts that open, close or turn within a step, so that a gas of colliding discs closes less well than a
-//! packing. A change of Δt on the way adds half of the change times the power of the contact forces: choose the step
-//! before [`EnergyAudit::new`].
+//! Why the forces of two steps are averaged: the work of a force is taken along v̄, but the contacts are deformed by v
+//! in the previous step and by v' in this one. Only with the mean of both forces do the terms add up (summation by
+//! parts); with the forces of one step alone, the error of a jammed heap is 2 to 6 times as large. Kinetic energy is
+//! accounted for exactly. The stored energy is evaluated from positions, velocities and friction springs at the same
+//! time (`Simulation::synchronised_energy`). The error that remains is of second order in Δt and comes from contacts
+//! that open, close or turn within a step; it is therefore larger for a gas of colliding discs than for a packing. A
+//! change of Δt during an audit adds an error of half that change times the power of the contact forces: choose the
+//! step before [`EnergyAudit::new`].
 //!
-//! Affine motion ([`Simulation::affine`]) does work that is not counted here: the audit does not close with it, and a
-//! periodic box, which always moves so, has none.
+//! The work of affine motion ([`Simulation::affine`]: the grains are carried along with the deformation of the box) is
+//! not counted here, so the audit does not close with it. A periodic box always moves its grains this way and cannot be
+//! audited.
 
 use crate::contacts::{PairList, WallContacts};
 use crate::disc::Disc;
@@ -58,7 +62,7 @@ struct BoundaryForces {
     walls: [[f64; 2]; 4],
 }
 
-/// What a step forgets.
+/// The part of the state at the start of a step that the step overwrites.
 struct Start {
     discs: Vec<Disc>,
     pairs: PairList,
@@ -95,7 +99,8 @@ impl Strained {
         normal + 0.5 * tangential * tangential / (stiffness_ratio * self.stiffness)
     }
 
-    /// P_n − P_t [W], see `Simulation::synchronised_energy`.
+    /// P_n − P_t [W], the difference of the powers of normal and tangential force, see
+    /// `Simulation::synchronised_energy`.
     fn power(&self) -> f64 {
         let [along_n, along_t] = self.speed;
         self.stiffness * self.overlap.max(0.0) * along_n - self.tangential[1] * along_t
@@ -108,7 +113,7 @@ impl Strained {
         if mean == 0.0 {
             return 0.0;
         }
-        // An open contact has lost its f_t without slip that counts.
+        // A contact that opened has lost its f_t; its slip in this step does no work.
         let slip = if self.overlap > 0.0 { self.slip } else { 0.0 };
         -mean * (slip + (after - before) / (stiffness_ratio * self.stiffness))
     }
@@ -142,8 +147,10 @@ impl BoundaryForces {
 }
 
 impl EnergyAudit {
+    /// Starts the audit at the present state.
+    ///
     /// # Panics
-    /// In a periodic box, the work of whose deformation is not counted.
+    /// For a periodic box: the work of its deformation is not counted.
     pub fn new(simulation: &Simulation) -> Self {
         assert!(simulation.periodic.is_none(), "no energy audit of periodic boxes");
         let stored = simulation.synchronised_energy();
@@ -153,8 +160,8 @@ impl EnergyAudit {
         Self { damping: 0.0, drag: 0.0, friction: 0.0, walls: 0.0, growth: 0.0, stored, forces }
     }
 
-    /// Work done on the grains, less all losses, less what is stored more than at the beginning [J]: 0 up to the
-    /// error of the time integration.
+    /// Work done on the grains, less all losses, less the increase of the stored energy since the start [J]: 0 up to
+    /// the error of the time integration.
     pub fn residual(&self, simulation: &Simulation) -> f64 {
         let gained = simulation.synchronised_energy() - self.stored;
         self.walls + self.growth - self.damping - self.drag - self.friction - gained
@@ -167,7 +174,8 @@ impl EnergyAudit {
         self.residual(simulation).abs() / if work > 0.0 { work } else { self.stored }
     }
 
-    /// Losses of one disc, and the work on its spin, which turns on with the inertia of the new radius.
+    /// Adds the losses of one disc, and the work on its spin: its moment of inertia in this step is that of the new
+    /// radius.
     fn add_motion(&mut self, before: &Disc, after: &Disc, force: [f64; 2], damping: f64, dt: f64) {
         let grown = Disc { radius: after.radius, ..*before };
         self.growth += kinetic_energy(&grown) - kinetic_energy(before);
@@ -181,7 +189,8 @@ impl EnergyAudit {
         }
     }
 
-    /// Work of growth and walls against the mean of the last forces and `forces`, which become the last.
+    /// Adds the work of growth and walls, taken with the mean of the forces of the previous step and `forces`, which
+    /// are then kept for the next step.
     fn add_boundaries(&mut self, start: &Start, simulation: &Simulation, forces: BoundaryForces) {
         for (k, (before, after)) in start.discs.iter().zip(&simulation.discs).enumerate() {
             let mean = 0.5 * (self.forces.growth[k] + forces.growth[k]);
@@ -209,8 +218,8 @@ impl Simulation {
         self.discs.iter().map(kinetic_energy).sum()
     }
 
-    /// Σ ½ s_n δ² + ½ f_t²/s_t [J]. A contact that opened in the last motion keeps its f_t until the next step, in a
-    /// periodic box not.
+    /// Σ ½ s_n δ² + ½ f_t²/s_t [J]. Between walls, a contact that opened in the last motion keeps its f_t, and is
+    /// counted, until the next step; in a periodic box it is not.
     pub fn elastic_energy(&self) -> f64 {
         let mut sum = 0.0;
         let ratio = self.material.stiffness_ratio;
@@ -224,16 +233,18 @@ impl Simulation {
 
     /// Elastic and kinetic energy at one and the same time [J].
     ///
-    /// Symplectic Euler is the leapfrog scheme: v belongs to half a step before x, and f_t, which adds up v Δt, to a step
-    /// before x. With the powers P_n = f_n n·v and P_t = f_t t·v of the contact forces, kinetic energy at x is ½ Δt
-    /// (P_n + P_t) more, and ½ f_t²/s_t at x is Δt P_t less than what the state holds: ½ Δt (P_n − P_t) in all.
+    /// Symplectic Euler is the leapfrog scheme: v is the velocity half a step before x, and f_t, the sum of v Δt, lags
+    /// one step behind x. With the powers P_n = f_n n·v and P_t = f_t t·v of the contact forces, the kinetic energy at
+    /// the time of x is larger by ½ Δt (P_n + P_t) than that of the stored velocities, and ½ f_t²/s_t is smaller by Δt
+    /// P_t: a correction of ½ Δt (P_n − P_t) in all.
     fn synchronised_energy(&self) -> f64 {
         let mut power = 0.0;
         self.for_each_strained(&self.start(), |contact| power += contact.power());
         self.elastic_energy() + self.kinetic_energy() + 0.5 * self.time_step * power
     }
 
-    /// [`Simulation::step`], bit for bit, with its energies added to `audit`. Several times as expensive.
+    /// Takes the same step as [`Simulation::step`], bit for bit, and adds its energies to `audit`. Takes several times
+    /// as long.
     pub fn step_audited(&mut self, audit: &mut EnergyAudit) {
         let start = self.start();
         self.step();
@@ -257,7 +268,7 @@ impl Simulation {
         }
     }
 
-    /// Calls `visit` with every candidate contact as the step saw it that began at `start` and ended at `self`:
+    /// Calls `visit` with every candidate contact as seen by the step that began at `start` and ended at `self`:
     /// centres and velocities of the start, radii and walls of the end.
     fn for_each_strained(&self, start: &Start, mut visit: impl FnMut(Strained)) {
         let (young_modulus, dt) = (self.material.young_modulus, self.time_step);

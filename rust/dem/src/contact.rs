@@ -1,4 +1,4 @@
-//! One force-bearing contact, as averages and audits want to see it, and the way through all contacts of a box.
+//! One force-bearing contact in the form that averages and audits use, and the iteration over all contacts of a box.
 
 use crate::disc::Disc;
 use crate::law::{pair_stiffness, wall_stiffness};
@@ -54,13 +54,13 @@ impl Contact {
     }
 }
 
-/// Discs in a box at one moment: what their contacts follow from.
+/// The discs of a box at one moment, from which their contacts are computed.
 #[derive(Clone, Copy)]
 pub(crate) struct Touching<'a> {
     pub material: &'a Material,
     pub discs: &'a [Disc],
     pub walls: &'a Walls,
-    /// Of a periodic box.
+    /// The cell of a periodic box; none between walls.
     pub cell: Option<Cell>,
     pub neighbours: &'a Neighbours,
 }
@@ -89,7 +89,7 @@ impl Touching<'_> {
         }
     }
 
-    /// What a number in the pair list stands for: a disc, or an image of one.
+    /// The disc, or the image of a disc, that an index in the pair list stands for.
     pub fn image_of(&self, index: u32) -> Image {
         match (index as usize).checked_sub(self.discs.len()) {
             None => Image { owner: index, shift: [0, 0] },

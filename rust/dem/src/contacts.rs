@@ -1,14 +1,16 @@
-//! Candidate contacts in rows, with the friction history of each.
+//! Lists of candidate contacts (pairs near enough to touch soon), one row per disc, with the tangential force of each
+//! as its friction history.
 
 use std::ops::Range;
 
 /// Pairs within the search distance, ordered by i, then j; i < j.
 ///
-/// The order makes sums over contacts independent of when the list was last rebuilt: a candidate that bears no force
-/// adds nothing. Every index is below [`PairList::discs`], checked when the list is built: the kernels rely on it.
+/// The order makes sums over contacts independent of when the list was last rebuilt, because a candidate that does not
+/// touch adds nothing. Every index is below [`PairList::discs`]. This is checked when the list is built, and the
+/// kernels rely on it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairList {
-    /// Discs, ghosts included.
+    /// Number of discs, ghosts (images across a periodic border) included.
     discs: usize,
     /// Row i is `start[i]..start[i + 1]`.
     start: Vec<u32>,
@@ -16,30 +18,30 @@ pub struct PairList {
     j: Vec<u32>,
     /// f_t [N] of the last step, on j along t; 0 when the contact is open.
     pub(crate) tangential: Vec<f64>,
-    /// k A/|d| [W/K] at the forces of the last step; 0 when the contact is open. Empty without heat.
+    /// k A/|d| [W/K] in the geometry of the last step; 0 when the contact is open. Empty without heat.
     pub(crate) conductance: Vec<f64>,
     slabs: Vec<Slab>,
 }
 
-/// Consecutive rows that one thread works through. Slabs, and with them all results, depend on the number of discs and not
-/// on that of threads.
+/// Consecutive rows that one thread works through. The division into slabs depends on the number of discs and not on
+/// the number of threads, so results do not depend on the number of threads.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slab {
     pub rows: Range<usize>,
     pub pairs: Range<usize>,
-    /// All discs of its pairs are in `rows.start..reach`; at least `rows.end`.
+    /// All discs of the slab's pairs are in `rows.start..reach`; `reach` is at least `rows.end`.
     pub reach: usize,
-    /// Rows below this one are reached by pairs of earlier slabs, too.
+    /// Pairs of earlier slabs may refer to rows below this one.
     pub shared: usize,
     pub blocks: Vec<Block>,
 }
 
-/// Rows that are worked on while they are in the cache.
+/// Consecutive rows that are worked through together because their discs fit into the cache.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Block {
     pub rows: Range<usize>,
     pub pairs: Range<usize>,
-    /// All discs of its pairs, and its rows, are in `rows.start..reach`.
+    /// The rows of the block and all discs of its pairs are in `rows.start..reach`.
     pub reach: usize,
 }
 
@@ -51,19 +53,19 @@ fn slab_count(discs: usize) -> usize {
 /// Rows of a block: its discs, loads and pairs stay in the caches next to the core.
 const BLOCK_ROWS: usize = 256;
 
-/// Pairs that are worked through in one go.
+/// A run of consecutive pairs that the kernels work through in one call.
 pub(crate) struct Pairs<'a> {
     pub i: &'a [u32],
     pub j: &'a [u32],
     pub tangential: &'a mut [f64],
-    /// One a pair, or none.
+    /// One value per pair, or empty without heat.
     pub conductance: &'a mut [f64],
-    /// All indices are in `first..reach`.
+    /// All indices of the pairs are in `first..reach`.
     pub first: usize,
     pub reach: usize,
 }
 
-/// What one thread has of a list: a slab and its history.
+/// The part of a pair list that one thread works on: a slab and the friction history of its pairs.
 pub(crate) struct SlabPairs<'a> {
     pub slab: &'a Slab,
     i: &'a [u32],
@@ -98,8 +100,8 @@ impl PairList {
         Self::build_over(discs, discs, (slab_count(discs), BLOCK_ROWS), partners)
     }
 
-    /// As [`PairList::build`], with a row for each of the first `rows` of `discs` discs, in a given number of
-    /// slabs with blocks of so many rows.
+    /// As [`PairList::build`], with a row for each of the first `rows` of `discs` discs, divided into a given number of
+    /// slabs with blocks of `block_rows` rows.
     pub(crate) fn build_over(
         rows: usize,
         discs: usize,
@@ -148,7 +150,8 @@ impl PairList {
         &self.slabs
     }
 
-    /// The list in its slabs, to be worked on side by side; with room for conductances when heat is on.
+    /// The list divided into its slabs, which threads may work on in parallel; with room for conductances when heat is
+    /// on.
     pub(crate) fn parts(&mut self, heat: bool) -> Vec<SlabPairs<'_>> {
         self.conductance.resize(if heat { self.j.len() } else { 0 }, 0.0);
         let mut rest = self.tangential.as_mut_slice();
@@ -166,7 +169,7 @@ impl PairList {
         parts
     }
 
-    /// Takes over the friction history of the pairs that are in `old` too.
+    /// Copies the friction history of the pairs that are in `old` too.
     pub(crate) fn inherit(&mut self, old: &Self) {
         if old.discs == self.discs {
             for k in 0..self.len() {
@@ -175,7 +178,7 @@ impl PairList {
         }
     }
 
-    /// Number of rows; discs behind them are ghosts.
+    /// Number of rows; the discs after them are ghosts.
     pub(crate) fn rows(&self) -> usize {
         self.start.len().saturating_sub(1)
     }
@@ -185,7 +188,7 @@ impl PairList {
         self.discs
     }
 
-    /// Number of candidates.
+    /// Number of candidate pairs.
     pub fn len(&self) -> usize {
         self.j.len()
     }
@@ -202,12 +205,12 @@ impl PairList {
         &self.j
     }
 
-    /// The candidates of the rows `rows`.
+    /// The range of candidates that belong to the rows `rows`.
     pub fn of_rows(&self, rows: Range<usize>) -> Range<usize> {
         self.start[rows.start] as usize..self.start[rows.end] as usize
     }
 
-    /// f_t of the pair (i, j), i < j, or 0 if it is no candidate.
+    /// f_t of the pair (i, j), i < j; 0 if the pair is not in the list.
     pub fn tangential_of(&self, i: usize, j: u32) -> f64 {
         let row = self.of_rows(i..i + 1);
         match self.j[row.clone()].binary_search(&j) {
@@ -218,7 +221,7 @@ impl PairList {
 }
 
 impl PairList {
-    /// Sets f_t of the pair (i, j), i < j. Returns false if it is no candidate.
+    /// Sets f_t of the pair (i, j), i < j. Returns false if the pair is not in the list.
     pub(crate) fn set_tangential(&mut self, i: usize, j: u32, force: f64) -> bool {
         let row = self.of_rows(i..i + 1);
         let found = self.j[row.clone()].binary_search(&j);
@@ -226,7 +229,7 @@ impl PairList {
     }
 }
 
-/// Discs within the search distance of one wall, in growing order.
+/// Discs within the search distance of one wall, by increasing number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WallContacts {
     pub(crate) disc: Vec<u32>,
@@ -234,14 +237,14 @@ pub struct WallContacts {
     pub(crate) tangential: Vec<f64>,
 }
 
-/// Contacts of one wall that are still to be worked through.
+/// The contacts of one wall that the sweep over the discs has not reached yet.
 pub(crate) struct WallPart<'a> {
     pub disc: &'a [u32],
     pub tangential: &'a mut [f64],
 }
 
 impl<'a> WallPart<'a> {
-    /// Takes the contacts of discs below `end` off the front.
+    /// Removes the contacts of discs below `end` from the front and returns them.
     pub fn take_below(&mut self, end: usize) -> WallPart<'a> {
         let count = self.disc.iter().take_while(|&&disc| (disc as usize) < end).count();
         let (disc, later) = self.disc.split_at(count);
@@ -252,12 +255,12 @@ impl<'a> WallPart<'a> {
 }
 
 impl WallContacts {
-    /// Sets f_t of the disc. Returns false if it is no candidate.
+    /// Sets f_t of the disc. Returns false if the disc is not in the list.
     pub(crate) fn set_tangential(&mut self, disc: u32, force: f64) -> bool {
         self.disc.binary_search(&disc).map(|k| self.tangential[k] = force).is_ok()
     }
 
-    /// The contacts of each slab's rows.
+    /// The contacts divided by slabs: those of the discs of each slab's rows.
     pub(crate) fn parts(&mut self, slabs: &[Slab]) -> Vec<WallPart<'_>> {
         let (mut discs, mut histories) = (self.disc.as_slice(), self.tangential.as_mut_slice());
         let mut parts = Vec::with_capacity(slabs.len());
@@ -271,7 +274,7 @@ impl WallContacts {
         parts
     }
 
-    /// f_t of the disc, or 0 if it is no candidate.
+    /// f_t of the disc; 0 if the disc is not in the list.
     pub fn tangential_of(&self, disc: u32) -> f64 {
         self.disc.binary_search(&disc).map_or(0.0, |k| self.tangential[k])
     }

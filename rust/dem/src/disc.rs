@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-/// A disc (cylinder of 1 m length), one cache line: everything the contact loop reads of a partner comes in one load.
+/// A disc (cylinder of 1 m length). It fills one cache line, so that the contact loop reads all it needs of a partner
+/// in one load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Disc {

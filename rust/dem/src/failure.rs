@@ -1,14 +1,14 @@
-//! Why a run ends before its time.
+//! Reasons for which a run ends early.
 
 use crate::periodic::SmallCell;
 
-/// Largest overlap over the mean of the two radii before a run counts as blown up: beyond, a small disc is swallowed and
-/// the contact law means nothing. Packings of 6 % porosity come near it.
+/// A run counts as blown up when an overlap exceeds this times the mean of the two radii: beyond, the smaller disc lies
+/// inside the other one and the contact law has no meaning. Packings of 6 % porosity come near this value.
 pub const LARGEST_OVERLAP: f64 = 1.0;
-/// Largest way of a disc in one step over its radius.
+/// Largest distance that a disc may move in one step, over its radius.
 pub(crate) const LARGEST_STRIDE: f64 = 0.5;
 
-/// Why a run ended before its time. `time` [s] is that of the look that found it.
+/// Why a run ended early. `time` [s] is that of the check that found the failure.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error("t = {time} s: disc {disc} has a non-finite position or velocity")]

@@ -12,7 +12,7 @@ pub struct Load {
     pub fx: f64,
     pub fy: f64,
     pub torque: f64,
-    /// Fills the vector that the kernels write; no meaning.
+    /// Padding, so that a load fills the vector that the kernels write; has no meaning.
     pub(crate) spare: f64,
 }
 

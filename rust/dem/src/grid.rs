@@ -1,4 +1,4 @@
-//! Pairs of discs that are near each other, found through a grid of cells.
+//! Search for pairs of discs that are near each other, by sorting the discs into a grid of square cells.
 
 use crate::contacts::PairList;
 use crate::disc::Disc;
@@ -21,7 +21,7 @@ impl Grid {
             low = [low[0].min(d.x), low[1].min(d.y)];
             high = [high[0].max(d.x), high[1].max(d.y)];
         }
-        // A disc that has flown away must not blow up the grid: at most a few cells per disc.
+        // Limits the grid to a few cells per disc: a single disc far away from the others must not make it huge.
         let extent = (high[0] - low[0]).max(high[1] - low[1]);
         let cell = cell.max(extent / (4.0 * discs.len() as f64).sqrt().max(1.0) / 4.0);
         let count = |k: usize| ((high[k] - low[k]) / cell) as usize + 1;
@@ -64,12 +64,12 @@ impl Grid {
         self.first = first;
     }
 
-    /// Calls `visit` with every disc in the 3 × 3 cells around `disc`.
+    /// Calls `visit` with every disc in the 3 × 3 grid cells around `disc`.
     fn around(&self, disc: &Disc, mut visit: impl FnMut(u32)) {
         let (column, line) = self.column_and_line(disc);
         let columns = column.saturating_sub(1)..=(column + 1).min(self.columns - 1);
         for l in line.saturating_sub(1)..=(line + 1).min(self.lines - 1) {
-            // Cells of one line are adjacent in memory.
+            // The cells of one grid line are adjacent in memory, so the three neighbours are one range.
             let from = self.first[l * self.columns + columns.start()] as usize;
             let to = self.first[l * self.columns + columns.end() + 1] as usize;
             self.disc[from..to].iter().for_each(|&j| visit(j));
@@ -97,7 +97,8 @@ pub(crate) fn pairs_within(discs: &[Disc], skin: f64) -> PairList {
     })
 }
 
-/// All pairs closer than `skin`, images included, and the ghosts in it, numbered after the discs.
+/// All pairs closer than `skin` [m], images across the periodic border included; and these images (ghosts), which are
+/// numbered after the discs.
 pub(crate) fn pairs_within_cell(discs: &[Disc], skin: f64, cell: &Cell) -> (PairList, Vec<Image>) {
     let largest = discs.iter().fold(0.0f64, |r, d| r.max(d.radius));
     let images = cell.images(discs, 2.0 * largest + skin);
@@ -134,7 +135,7 @@ mod tests {
 
     #[test]
     fn grid_finds_what_brute_force_finds() {
-        // A scatter without structure: fractional parts of multiples of irrational numbers.
+        // Points without regular structure: fractional parts of multiples of irrational numbers.
         let discs: Vec<Disc> = (1..=300)
             .map(|k| {
                 let u = |a: f64| (a * f64::from(k)).fract();

@@ -1,8 +1,8 @@
 //! Heat through the contacts: thermal pipes between discs and to walls (Eq. 5 and Table 1, last row).
 //!
-//! Conductances are taken once a mechanical step from the geometry; within it, temperatures advance by explicit Euler
-//! in as many sub-steps as stability asks for. The thermal limit is the smaller one in dense assemblies: a single
-//! squeezed small disc sets it.
+//! The conductances are taken once per mechanical step from the geometry. Within the step, the temperatures advance by
+//! explicit Euler in as many sub-steps as stability requires. In dense assemblies the thermal stability limit is
+//! smaller than the mechanical step, because a single small disc that is squeezed between others determines it.
 
 use crate::contact::{Contact, Touching};
 use crate::disc::Disc;
@@ -35,59 +35,62 @@ pub enum WallHeat {
     Insulated,
     /// Fixed temperature [K].
     Temperature(f64),
-    /// Heat into the grains [W] in all, shared among the touching discs in proportion to their conductances. With no disc
-    /// touching none flows.
+    /// Total heat flow into the grains [W], shared among the discs that touch the wall in proportion to their
+    /// conductances. When no disc touches the wall, no heat flows.
     Flux(f64),
 }
 
-/// Sub-steps are at most this times the stability limit 2/λ_max: the power iteration approaches λ_max from below, and the
-/// network changes until the next estimate. The stiffest modes die out within a few sub-steps all the same.
+/// Largest sub-step over the stability limit 2/λ_max. Less than 1, because the power iteration approaches λ_max from
+/// below and the network changes until the next estimate. The fastest modes decay within a few sub-steps all the same.
 pub const SAFETY: f64 = 0.7;
-/// Power iterations an estimate; the vector is kept, so they add up as the network changes slowly.
+/// Power iterations per estimate of λ_max. The vector is kept from estimate to estimate, so that the iteration
+/// continues where it stood: the network changes slowly.
 const POWER_ITERATIONS: usize = 3;
-/// Mechanical steps that follow each other on one estimate: the network changes by a few per cent, and [`SAFETY`] covers
-/// 40.
+/// Mechanical steps that use the same estimate. Meanwhile λ_max changes by a few per cent; [`SAFETY`] leaves room for
+/// 40 %.
 const STEPS_AN_ESTIMATE: u32 = 20;
 
-/// The pipes of one assembly, and what has flowed.
+/// The thermal pipes of one assembly, and the heat that has flowed through the walls.
 #[derive(Clone, Debug)]
 pub struct HeatPipes {
     pub thermal: Thermal,
     pub walls: [WallHeat; 4],
     /// T at which each disc has its reference radius [K].
     pub(crate) reference_temperature: Vec<f64>,
-    /// Heat that came in through each wall so far [J].
+    /// Heat that has come in through each wall since heat was turned on [J].
     pub wall_heat: [f64; 4],
-    /// Sub-steps taken so far, for the cost report.
+    /// Sub-steps taken so far, to report what they cost.
     pub substeps: u64,
     /// Pipes between discs.
     network: Network,
-    /// The neighbour search whose candidates are the pipes, if they are.
+    /// Count of neighbour searches at which the pipes were taken from the candidate pairs; none when they were taken
+    /// otherwise.
     of_rebuild: Option<u64>,
-    /// Per wall: disc, conductance [W/K].
+    /// The contacts of each wall: disc number and conductance [W/K].
     at_wall: [Vec<(u32, f64)>; 4],
     /// 1/(m c) of each disc [K/J].
     per_capacity: Vec<f64>,
     /// T of each disc [K] and net heat flow into it [W].
     temperature: Vec<f64>,
     flow: Vec<f64>,
-    /// Estimate of the stiffest mode.
+    /// Estimate of the fastest mode of temperature (eigenvector of λ_max).
     mode: Vec<f64>,
     largest_rate: f64,
     /// Steps since the estimate of `largest_rate`.
     since_estimate: u32,
 }
 
-/// What has to be kept of [`HeatPipes`], beside temperatures and radii, so that a run continues bit for bit.
+/// The part of [`HeatPipes`] that must be stored, besides temperatures and radii, so that a run continues bit for bit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeatState {
     /// T at which each disc has its reference radius [K].
     pub reference_temperature: Vec<f64>,
-    /// Heat that came in through each wall so far [J].
+    /// Heat that has come in through each wall since heat was turned on [J].
     pub wall_heat: [f64; 4],
     pub substeps: u64,
-    /// Estimate of the stiffest mode, one value a disc, its rate λ_max [1/s], and the steps since.
+    /// Estimate of the fastest mode, one value per disc, its rate λ_max [1/s], and the number of steps since that
+    /// estimate.
     pub mode: Vec<f64>,
     pub largest_rate: f64,
     pub since_estimate: u32,
@@ -127,14 +130,14 @@ impl HeatPipes {
             per_capacity: discs.iter().map(|d| 1.0 / (d.mass * thermal.heat_capacity)).collect(),
             temperature: Vec::new(),
             flow: vec![0.0; discs.len()],
-            // No disc may be missing from the first guess of the stiffest mode; signs alternate as the mode's do.
+            // The first guess of the fastest mode must contain every disc. Its signs alternate as those of the mode do.
             mode: (0..discs.len()).map(|k| if k % 2 == 0 { 1.0 } else { -0.9 }).collect(),
             largest_rate: 0.0,
             since_estimate: 0,
         }
     }
 
-    /// What a checkpoint has to hold.
+    /// The values that a checkpoint must store.
     pub fn state(&self) -> HeatState {
         HeatState {
             reference_temperature: self.reference_temperature.clone(),
@@ -155,7 +158,7 @@ impl HeatPipes {
         self.since_estimate = state.since_estimate;
     }
 
-    /// Takes pipes and conductances from the present geometry.
+    /// Sets up the pipes and their conductances from the present contacts.
     pub(crate) fn connect(&mut self, touching: &Touching) {
         let (mut ends, mut values) = (Vec::new(), Vec::new());
         let conductivity = self.thermal.conductivity;
@@ -172,8 +175,8 @@ impl HeatPipes {
         self.estimate_largest_rate();
     }
 
-    /// Takes the conductances of pairs that the step just taken has found beside its forces, and those of walls from
-    /// the present geometry; side by side when `parallel`.
+    /// Updates the conductances: of pairs, those that the step just taken has computed along with its forces; of walls,
+    /// those of the present geometry. In parallel when `parallel`.
     pub(crate) fn follow(&mut self, touching: &Touching, parallel: bool) {
         let Neighbours { pairs, rebuilds, .. } = touching.neighbours;
         if self.of_rebuild != Some(*rebuilds) {
@@ -202,7 +205,8 @@ impl HeatPipes {
 
     /// λ_max of C⁻¹ L [1/s] by power iteration, C the heat capacities and L the conductance matrix.
     ///
-    /// The Rayleigh quotient is a lower bound; it is raised to the largest diagonal entry, which is one too.
+    /// The Rayleigh quotient is a lower bound of λ_max, and so is the largest diagonal entry: the larger of the two is
+    /// taken.
     fn estimate_largest_rate(&mut self) {
         let mut to_walls = vec![0.0; self.mode.len()];
         for (wall, contacts) in self.walls.iter().zip(&self.at_wall) {
@@ -231,7 +235,8 @@ impl HeatPipes {
                 break;
             }
             rate = rate.max(over / under);
-            // A little of the old vector stays, so that a disc without contact can come back into the mode.
+            // A small part of the old vector is kept, so that a disc whose contacts were all open can become part of
+            // the mode again.
             for (mode, image) in mode.iter_mut().zip(&image) {
                 *mode = image / largest + 1e-3 * *mode;
             }
@@ -240,12 +245,12 @@ impl HeatPipes {
         self.since_estimate = 0;
     }
 
-    /// Stability limit of explicit Euler, 2/λ_max [s], at the last connection.
+    /// Stability limit of explicit Euler, 2/λ_max [s], by the last estimate.
     pub fn stable_step(&self) -> f64 {
         2.0 / self.largest_rate
     }
 
-    /// Conducts over `dt` [s] through the connected pipes; side by side when `parallel`.
+    /// Conducts heat over `dt` [s] through the connected pipes; in parallel when `parallel`.
     pub(crate) fn conduct(&mut self, parallel: bool, discs: &mut [Disc], dt: f64) {
         let count = (dt / (SAFETY * self.stable_step())).ceil().max(1.0);
         self.take_substeps(parallel, discs, count as u64, dt / count);
@@ -273,7 +278,7 @@ impl HeatPipes {
         self.substeps += count;
     }
 
-    /// Adds the flow from one wall and returns its sum [W].
+    /// Adds the heat flow from one wall into its discs and returns the total [W].
     fn add_wall_flow(&mut self, side: Side) -> f64 {
         let contacts = &self.at_wall[side as usize];
         let mut inflow = 0.0;

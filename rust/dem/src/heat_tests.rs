@@ -1,4 +1,4 @@
-//! Heat against closed forms.
+//! Heat conduction compared with closed forms.
 
 use super::*;
 use crate::{Material, Simulation, Walls};
@@ -6,7 +6,7 @@ use crate::{Material, Simulation, Walls};
 const R: f64 = 5e-3;
 const OVERLAP: f64 = 2e-4;
 
-/// A row of `count` discs along x, pressed together by the same overlap, frozen.
+/// A row of `count` discs along x, pressed together so that all overlaps are equal, and held in place.
 fn chain(count: usize, walls: [WallHeat; 4]) -> Simulation {
     let spacing = 2.0 * R - OVERLAP;
     let discs = (0..count).map(|k| Disc::at_rest(spacing * k as f64, 0.0, R, 3000.0)).collect();
@@ -40,7 +40,8 @@ fn two_discs_equalise_exponentially() {
     assert!((difference / expected - 1.0).abs() < 1e-4, "{difference} {expected}");
 }
 
-/// Between walls of fixed temperature the chain ends at the series resistance, and takes in m c ΔT to round-off.
+/// Between walls of fixed temperature the chain reaches the linear profile of resistances in series, and the heat that
+/// came in through the walls is m c ΔT to round-off.
 #[test]
 fn chain_between_two_temperatures() {
     let count = 8;
@@ -49,7 +50,8 @@ fn chain_between_two_temperatures() {
     let mut simulation = chain(count, walls);
     (0..4000).for_each(|_| simulation.conduct(0.01));
     let pair = pair_conductance();
-    // The wall's chord equals the pair's (wall in the plane of symmetry) at half the length.
+    // A wall's conductance is twice that of a pair: the wall lies in the plane of symmetry, so the chord is the same
+    // and the length is half.
     let wall = 2.0 * pair;
     let flow = 80.0 / ((count - 1) as f64 / pair + 2.0 / wall);
     for (k, disc) in simulation.discs.iter().enumerate() {
@@ -94,7 +96,7 @@ fn stable_step_of_a_chain_is_exact() {
     assert!((step * largest / 2.0 - 1.0).abs() < 1e-3, "{step} {}", 2.0 / largest);
 }
 
-/// Heated discs grow by r_ref α ΔT, and the sub-steps hold however long the mechanical step is.
+/// Heated discs grow by r_ref α ΔT, and the sub-steps remain stable however long the mechanical step is.
 #[test]
 fn long_steps_stay_bounded_and_discs_grow() {
     let mut walls = INSULATED;

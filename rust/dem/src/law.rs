@@ -17,7 +17,7 @@ pub fn wall_stiffness(young_modulus: f64, factor: f64, radius: f64) -> f64 {
     factor * young_modulus * radius
 }
 
-/// Material numbers as the contact loops want them.
+/// Material parameters in the form that the contact loops use.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PairLaw {
     pub young_modulus: f64,
@@ -28,9 +28,9 @@ pub(crate) struct PairLaw {
     pub wall_factor: f64,
     /// Δt [s].
     pub dt: f64,
-    /// ∂u_x/∂x, ∂u_y/∂y, ∂u_x/∂y [1/s] of the motion that carries the grains along, see [`crate::walls::Flow`].
+    /// ∂u_x/∂x, ∂u_y/∂y, ∂u_x/∂y [1/s] of the affine motion that carries the grains along, see [`crate::walls::Flow`].
     pub gradient: [f64; 3],
-    /// k [W/(m K)] of the grains, when heat is on.
+    /// k [W/(m K)] of the grains when heat is on, else none.
     pub conductivity: Option<f64>,
 }
 
@@ -48,7 +48,7 @@ impl PairLaw {
     }
 }
 
-/// Force of a group of pairs: zero in lanes that do not touch.
+/// Forces of a group of pairs, one pair per lane; zero in lanes whose discs do not touch.
 pub(crate) struct PairForce<V> {
     /// (fx, fy) on j [N].
     pub on_j: [V; 2],
@@ -60,15 +60,15 @@ pub(crate) struct PairForce<V> {
     pub conductance: V,
 }
 
-/// f_t after the slip `slip` [m] of j relative to i along t: elastic step, then Coulomb's limit. The clipped value is
-/// what is stored, so a sliding contact keeps no memory of the excess.
+/// f_t after the slip `slip` [m] of j relative to i along t: an elastic step, limited to Coulomb's friction. The
+/// limited value is stored, so a contact that has slid does not remember the excess.
 #[inline(always)]
 pub(crate) fn tangential_force<V: Vector>(previous: V, stiffness: V, slip: V, limit: V) -> V {
     let elastic = previous - stiffness * slip;
     elastic.max(limit.like(0.0) - limit).min(limit)
 }
 
-/// Force of pairs of discs, and with `HEAT` their conductance; None when no lane touches.
+/// Forces of a group of pairs, and with `HEAT` their conductances; None when no pair of the group touches.
 #[inline(always)]
 pub(crate) fn pair_force<V: Vector, const HEAT: bool>(
     law: &PairLaw,
@@ -101,7 +101,7 @@ pub(crate) fn pair_force<V: Vector, const HEAT: bool>(
     let speed = vy * nx - vx * ny - (arm_a * aw + arm_b * bw);
     let stiffness = all(2.0 * law.young_modulus) * (ar * br) * (quotient * distance);
     let normal = stiffness * overlap;
-    // A lane that does not touch has the limit 0, which also clears its history.
+    // In a lane whose discs do not touch the limit is 0, which also clears its friction history.
     let tangential = tangential_force(
         previous,
         all(law.stiffness_ratio) * stiffness,
@@ -124,8 +124,8 @@ pub(crate) fn pair_force<V: Vector, const HEAT: bool>(
     })
 }
 
-/// Square of the speed [m²/s²] from which on a disc counts as at rest. Drag lets free discs slow down without end, and the
-/// damping force over a speed whose square underflows is not finite.
+/// Square of the speed [m²/s²] below which a disc counts as at rest. Drag slows free discs down without end, and the
+/// factor μ |f_c|/|v| would be infinite when |v|² underflows to 0.
 const REST: f64 = 1e-200;
 
 /// |f_d|/|v| of the damping force f_d = −μ |f_c| v/|v| [kg/s], from the squares of force and speed. Zero at rest.

@@ -8,29 +8,29 @@
 //! | module | what |
 //! |---|---|
 //! | `vector` | arithmetic on one or several discs at a time |
-//! | `team`, `pace` | threads that share a step, and whether they pay at the moment |
+//! | `team`, `pace` | threads that share the work of a step, and whether sharing is faster at the moment |
 //! | `stage` | the parts of a step, for timing |
 //! | [`material`] | grain parameters (Table 2) |
 //! | [`disc`] | one grain, packed in one cache line |
-//! | [`walls`] | the box: four flat walls with prescribed velocities |
+//! | [`walls`] | the box: four flat walls with prescribed velocities, and the affine motion between them |
 //! | [`periodic`] | periodic boxes: the cell and the images of discs |
 //! | [`law`] | contact law as pure functions (Table 1) |
-//! | [`contacts`] | pairs that may touch, in rows, with friction history |
+//! | [`contacts`] | lists of pairs that may touch, with friction history |
 //! | `grid` | the search for pairs that are near each other |
-//! | `neighbours` | when to search again; histories that outlive it |
-//! | [`contact`] | one contact, and the way through all of them |
+//! | `neighbours` | when to search again; the friction history is carried over |
+//! | [`contact`] | one force-bearing contact, and the iteration over all of them |
 //! | `forces` | contact forces of walls |
 //! | `kernel` | vector kernels of the hot loops: contact forces and motion |
-//! | `slabs` | the sweep: forces and motion block by block |
-//! | `network` | the pipes as a sparse matrix |
-//! | [`heat`] | thermal pipes, sub-stepped (Eq. 5) |
+//! | `slabs` | the sweep: forces and motion block by block, in one pass through memory |
+//! | `network` | the conductance matrix of the thermal pipes |
+//! | [`heat`] | heat through the contacts (thermal pipes), in sub-steps (Eq. 5) |
 //! | [`time_step`] | bound on the stable step |
 //! | [`simulation`] | the state, and `step()` |
-//! | [`failure`] | why a run ends before its time |
-//! | [`run`] | many steps, watched |
+//! | [`failure`] | reasons for which a run ends early |
+//! | [`run`] | many steps, with regular checks of the state |
 //! | `relax` | fast relaxation (FIRE) |
-//! | [`audit`] | where the energy goes |
-//! | [`restore`] | what a state file holds beside the discs |
+//! | [`audit`] | energy audit: work, losses, stored energy |
+//! | [`restore`] | the part of a state file besides discs, walls and friction history |
 #![deny(unsafe_code)]
 
 pub mod audit;

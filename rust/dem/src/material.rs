@@ -14,8 +14,8 @@ pub struct Material {
     pub stiffness_ratio: f64,
     /// φ [rad]: contacts slide at |f_t| = f_n tan φ.
     pub friction_angle: f64,
-    /// Wall stiffness is this times E r [-]. Paper silent; 1 as in the authors' public code (2 is the flat limit
-    /// r₂ → ∞ of the pair law).
+    /// Wall stiffness over E r [-]. The paper gives no value; 1 is that of the authors' public code (2 would be the
+    /// limit r₂ → ∞ of the law for pairs).
     pub wall_stiffness_factor: f64,
     /// μ [-]: damping force −μ |f_c| v/|v|.
     pub damping: f64,
@@ -47,7 +47,7 @@ pub struct MaterialError {
 impl Material {
     /// Refuses values for which the contact law has no meaning; names the first such key.
     pub fn check(&self) -> Result<(), MaterialError> {
-        // Products of several such numbers stay numbers.
+        // Within these bounds products of several parameters stay finite.
         let positive = |v: f64| (1e-30..=1e30).contains(&v);
         let quarter_turn = |v: f64| (0.0..std::f64::consts::FRAC_PI_2).contains(&v);
         let table: [(&'static str, f64, bool, &'static str); 6] = [

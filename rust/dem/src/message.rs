@@ -1,6 +1,6 @@
-//! Numbers in messages: short, whatever they are.
+//! Formatting of numbers in messages: always short.
 
-/// A number for a message: 0.12, but 1e300 instead of three hundred digits. Reads back exactly.
+/// A number for a message: 0.12, but 1e300 instead of three hundred digits. Parsing the text gives the same number.
 pub fn number(value: f64) -> String {
     let plain = value.to_string();
     if plain.len() > 20 { format!("{value:e}") } else { plain }

@@ -8,25 +8,26 @@ use crate::periodic::{Cell, Image, index_of};
 use crate::vector::larger;
 use crate::walls::{Side, Walls};
 
-/// The skin over the mean radius. With a wider one each step looks at more pairs that do not touch, with a narrower one the
-/// search runs more often; this is where a run is fastest.
+/// The skin over the mean radius. A wider skin makes each step look at more pairs that do not touch; a narrower one
+/// makes the search run more often. Runs are fastest at this value.
 const SKIN_OVER_MEAN_RADIUS: f64 = 0.25;
 
-/// Rows of candidates, and how far things have moved since they were found.
+/// Rows of candidates, and a bound on how far the discs have moved since the search.
 #[derive(Clone, Debug, Default)]
 pub struct Neighbours {
     pub pairs: PairList,
     pub walls: [WallContacts; 4],
-    /// Images among the pairs of a periodic box, by owner and shift; numbered after the discs.
+    /// Images (owner and shift) that occur in the pairs of a periodic box; numbered after the discs.
     pub ghosts: Vec<Image>,
     skin: f64,
     /// Upper bound on how much nearer the surfaces of any two discs have come since the last rebuild [m].
     closed: f64,
-    /// The part of it that is due to growing radii and moving walls [m].
+    /// The part of `closed` that is due to growing radii and moving walls [m].
     closed_by_boundaries: f64,
-    /// Largest distance at which a pair was taken [m].
+    /// Largest centre distance of a pair in the list [m].
     reach: f64,
-    /// Centres at the last rebuild; in a periodic box as fractions of the cell, which the flow keeps.
+    /// Centres at the last rebuild [m]; in a periodic box as fractions of the cell, which the affine flow does not
+    /// change.
     built_at: Vec<[f64; 2]>,
     /// Rebuilds so far.
     pub rebuilds: u64,
@@ -35,29 +36,30 @@ pub struct Neighbours {
 impl Neighbours {
     /// True when a pair that is no candidate may touch now, so that the search has to run.
     ///
-    /// A bound from the speeds, which costs nothing, is asked first. When it has used up the skin, the distances that the
-    /// discs have really moved are measured and replace it: discs that vibrate about a place are fast but get nowhere, and
-    /// cause no new search.
+    /// The bound from the largest speeds costs nothing and is tested first. Once it has used up the skin, the actual
+    /// displacements of the discs are measured and replace it: discs that vibrate about a place have high speeds but
+    /// small displacements, and cause no new search.
     pub fn stale(&mut self, discs: &[Disc], cell: Option<&Cell>) -> bool {
         if self.closed < self.skin {
             return false;
         }
         self.closed = self.closed_by_boundaries + self.closed_by_motion(discs, cell);
-        // Measuring costs about as much as a step: when less than a fifth of the skin is left, a search now is cheaper than
-        // another measurement soon. When a velocity is not a number nothing is known of the gaps, so the search has to run.
+        // Measuring costs about as much as a step. When less than a fifth of the skin is left, a search now is cheaper
+        // than measuring again soon. When a velocity is NaN, no bound on the gaps is known, so the search has to run.
         self.closed.is_nan() || self.closed > 0.8 * self.skin
     }
 
-    /// Counts motion: `speed` [m/s] bounds that of every disc, `wall_speed` that of every wall, and `growth` [m/s]
-    /// that of every radius.
+    /// Adds the motion of one step of `dt` [s] to the bound: `speed` [m/s] is at least that of every disc, `wall_speed`
+    /// that of every wall, and `growth` [m/s] that of every radius.
     pub fn record_motion(&mut self, speed: f64, wall_speed: f64, growth: f64, dt: f64) {
         let boundaries = (2.0 * growth + wall_speed) * dt;
         self.closed_by_boundaries += boundaries;
         self.closed += 2.0 * speed * dt + boundaries;
     }
 
-    /// Counts the deformation of a periodic cell: `rate` [1/s] bounds the velocity gradient. A pair that is no candidate
-    /// is farther than its reach, and no part of its way counts before it has come that near.
+    /// Adds the deformation of a periodic cell during `dt` [s] to the bound: `rate` [1/s] is at least the velocity
+    /// gradient. Two discs at most `reach` apart approach each other at no more than `rate` · `reach`; while they are
+    /// farther apart they cannot touch, so that motion does not count.
     pub fn record_flow(&mut self, rate: f64, dt: f64) {
         self.closed += rate * self.reach * dt;
         self.closed_by_boundaries += rate * self.reach * dt;
@@ -82,7 +84,7 @@ impl Neighbours {
         self.skin = SKIN_OVER_MEAN_RADIUS * mean_radius;
         self.closed = 0.0;
         self.closed_by_boundaries = 0.0;
-        // Radii grow by less than the skin until the next rebuild.
+        // Twice the skin, because the radii may grow until the next rebuild, by less than the skin.
         self.reach = discs.iter().fold(0.0f64, |r, d| r.max(2.0 * d.radius)) + 2.0 * self.skin;
         let place = |d: &Disc| cell.map_or([d.x, d.y], |cell| cell.fraction(d.x, d.y));
         self.built_at = discs.iter().map(place).collect();

@@ -1,32 +1,35 @@
-//! The conductance matrix of a network of pipes, by rows: every pipe stands in the rows of both its ends, so the sum of a
-//! row stays in a register. Eight rows in turn have the same length, the longest of theirs (SELL, Kreutzer et al., SIAM J.
-//! Sci. Comput. 36, C401, 2014): a loop whose length changed from row to row would be predicted wrongly in each.
+//! The conductance matrix of a network of thermal pipes, stored by rows. Every pipe stands in the rows of both its
+//! ends, so that the sum over a row can stay in a register. Eight consecutive rows form a slice and are padded to the
+//! length of the longest of them (SELL format, Kreutzer et al., SIAM J. Sci. Comput. 36, C401, 2014): if the length
+//! changed from row to row, the processor would mispredict the end of nearly every row.
 //!
-//! (Adding each pipe's flow to both its ends, or gathering eight rows at once, was measured to take twice as long.)
+//! (Two alternatives take twice as long, as measured: adding each pipe's flow to both its ends, and gathering eight
+//! rows at once.)
 
 use crate::team;
 
 /// Rows of a slice.
 const ROWS: usize = 8;
-/// Parts that threads share, of as many rows each. More parts than threads: one that is held up leaves its work to others.
+/// Number of equal parts that the threads share. There are more parts than threads, so that when one thread is held up,
+/// the others take over its remaining parts.
 const PARTS: usize = 8;
 
-/// Pipes between nodes. Rows are in the order of the other ends, so sums do not depend on pipes of conductance 0.
+/// Pipes between nodes. A row is ordered by the node at the other end, so pipes of conductance 0 do not change its sum.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Network {
-    /// Row r is `ROWS` rows a slice, each as long as the slice's: `start[s]..start[s + 1]` in all.
+    /// Slice s has the entries `start[s]..start[s + 1]`: `ROWS` rows of equal length, one after the other.
     start: Vec<u32>,
-    /// The other end; the row's own number where the row has no pipe left.
+    /// Node at the other end of each entry's pipe; the row's own number in entries that only pad the row.
     other: Vec<u32>,
-    /// The pipe; any where the row has none left.
+    /// Number of each entry's pipe; arbitrary in entries that only pad the row.
     pipe: Vec<u32>,
-    /// [W/K]
+    /// Conductance of each entry's pipe [W/K].
     conductance: Vec<f64>,
 }
 
 impl Network {
-    /// A network of the pipes `ends`, (i, j) with i < j, in the order of i, then j, which gives them their numbers.
-    /// Conductances are still to be set.
+    /// A network of the pipes `ends`, pairs (i, j) with i < j ordered by i, then j; a pipe's number is its position
+    /// there. The conductances are set by [`Network::set`].
     pub fn new(nodes: usize, ends: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
         let mut degree = vec![0usize; nodes];
         for (i, j) in ends.clone() {
@@ -50,7 +53,8 @@ impl Network {
             free[row as usize] += 1;
             (network.other[entry], network.pipe[entry]) = (other, pipe);
         };
-        // Lower numbers first, then higher ones: both in order when the pipes are.
+        // For each row, the lower-numbered ends are entered first, then the higher ones: both come in order because the
+        // pipes do.
         for (pipe, (i, j)) in (0u32..).zip(ends.clone()) {
             place(j, i, pipe);
         }
@@ -60,7 +64,7 @@ impl Network {
         network
     }
 
-    /// Sets the conductances of all pipes [W/K]; side by side when `parallel`.
+    /// Sets the conductances of all pipes [W/K]; in parallel when `parallel`.
     pub fn set(&mut self, parallel: bool, conductance: &[f64]) {
         let part = part_length(parallel, self.pipe.len());
         let parts = self.conductance.chunks_mut(part).zip(self.pipe.chunks(part));
@@ -71,14 +75,14 @@ impl Network {
         });
     }
 
-    /// Net flow into each node, Σ_pipes h (x_other − x_own); side by side when `parallel`.
+    /// Net flow into each node, Σ_pipes h (x_other − x_own); in parallel when `parallel`.
     pub fn inflow(&self, parallel: bool, x: &[f64], flow: &mut [f64]) {
         let slices = part_length(parallel, self.start.len() - 1);
         let parts = flow.chunks_mut(slices * ROWS).zip((0..).step_by(slices));
         shared(parallel, parts, |(flow, first)| self.part_of_inflow(x, first, flow));
     }
 
-    /// As [`Network::inflow`], into the nodes of the slices from `first` on.
+    /// As [`Network::inflow`], for the nodes of the slices from `first` on.
     fn part_of_inflow(&self, x: &[f64], first: usize, flow: &mut [f64]) {
         let own = &x[first * ROWS..];
         for (slice, (flow, own)) in (first..).zip(flow.chunks_mut(ROWS).zip(own.chunks(ROWS))) {
@@ -91,7 +95,7 @@ impl Network {
                 (others, conductances) = (later_others, later_conductances);
                 let mut sum = 0.0;
                 for (&other, conductance) in other.iter().zip(conductance) {
-                    // Where no pipe is left the difference is 0.
+                    // In an entry that only pads the row, `other` is the row itself and the difference is 0.
                     sum += conductance * (x[other as usize] - own);
                 }
                 *flow = sum;
@@ -115,12 +119,12 @@ impl Network {
     }
 }
 
-/// Length of a part of so many items.
+/// Number of items of one part, for `items` items in all.
 fn part_length(parallel: bool, items: usize) -> usize {
     items.div_ceil(if parallel { PARTS } else { 1 }).max(1)
 }
 
-/// `work` on each part.
+/// Does `work` on each part; in parallel when `parallel`.
 fn shared<T: Send>(parallel: bool, parts: impl Iterator<Item = T>, work: impl Fn(T) + Sync) {
     if parallel {
         team::share(parts.collect(), work);
@@ -154,7 +158,7 @@ mod tests {
         network.set(false, &conductance);
         let mut flow = vec![f64::NAN; nodes];
         network.inflow(false, &x, &mut flow);
-        // Small integers: sums are exact.
+        // The values are small integers, so the sums are exact and can be compared with ==.
         assert_eq!(flow, expected);
         flow.fill(f64::NAN);
         network.set(true, &conductance);

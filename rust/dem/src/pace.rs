@@ -1,20 +1,21 @@
-//! Whether sharing the steps among threads pays at the moment.
+//! Measures whether sharing the steps among several threads is faster at the moment than one thread.
 //!
-//! When another job holds a core, the thread on that core is put off in the middle of its share, and all others wait for
-//! it: two threads are then slower than one. Both ways give the same bits, so the choice may follow the clock.
+//! When another job holds a core, the thread on that core is suspended in the middle of its share and all others wait
+//! for it: two threads are then slower than one. Shared steps and those of one thread give the same bits, so results do
+//! not depend on the choice, which follows the clock.
 
 use std::time::Duration;
 
-/// Steps between two trials of the way that is not in use, and steps of a trial.
+/// Steps between two trials of the mode (shared or alone) that is not in use; below, the steps of one trial.
 const STRETCH: u64 = 256;
 const TRIAL: u64 = 12;
-/// Weight of the newest measurement.
+/// Weight of the newest measurement in the running mean.
 const NEWEST: f64 = 0.5;
 
-/// Measured time a step, alone and shared.
+/// Measured time per step, alone (one thread) and shared.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pace {
-    /// Seconds a step: \[alone, shared\].
+    /// Seconds per step: \[alone, shared\].
     seconds: [Option<f64>; 2],
     since_trial: u64,
 }
@@ -34,7 +35,7 @@ impl Pace {
         }
     }
 
-    /// What `steps` steps taken as [`Pace::next`] said have cost.
+    /// Records that `steps` steps, taken as [`Pace::next`] said, have cost the time `elapsed`.
     pub fn record(&mut self, shared: bool, steps: u64, elapsed: Duration) {
         let trial = self.since_trial >= STRETCH;
         self.since_trial = if trial { 0 } else { self.since_trial + steps };
@@ -48,7 +49,8 @@ impl Pace {
 mod tests {
     use super::*;
 
-    /// Steps taken shared, of 10 000, when a shared step costs `shared` and one alone costs 1.
+    /// Number of the 10 000 steps that are taken shared when a shared step takes the time `shared` and one alone takes
+    /// 10.
     fn shared_steps(shared: u64) -> u64 {
         let (mut pace, mut taken, mut left) = (Pace::default(), 0, 10_000);
         while left > 0 {

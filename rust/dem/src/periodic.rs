@@ -1,14 +1,16 @@
-//! Fully periodic boxes: no walls, the cell repeats itself in x and in a second direction that shear may tilt.
+//! Fully periodic boxes without walls: the cell repeats itself along x and along a second direction, which shear may
+//! tilt.
 //!
-//! The cell is the box of [`crate::walls::Walls`] between its positions; the image of a disc by the shift (a, b) is the
-//! disc moved by a (W, 0) + b (s, H), W and H the width and height of the box and s the shear offset. The cell deforms
-//! by `walls.normal_velocity` and the shear rate, and always carries the grains along: velocities of discs are relative
-//! to [`crate::walls::Flow`]. Positions are never wrapped, so that the shift between two discs stays what it is.
+//! The cell is the box between the positions of [`crate::walls::Walls`]. The image of a disc by the shift (a, b) is the
+//! disc moved by a (W, 0) + b (s, H), with the width W and height H of the box and the shear offset s. The cell deforms
+//! by `walls.normal_velocity` and the shear rate and always carries the grains along: velocities of discs are relative
+//! to [`crate::walls::Flow`]. Positions are never wrapped back into the cell, so that the shift between two discs stays
+//! the same.
 //!
-//! A pair across the border is a pair of the list like any other, with a ghost as its second disc: an image of a disc
-//! that is placed anew in each step behind the real discs. The first disc is the one from which the shift is positive
-//! (b with a = 0, else a), so each pair occurs once. Ghosts are numbered by owner and shift, hence the order of all sums
-//! does not depend on when the list was rebuilt.
+//! A pair across the border is an ordinary pair of the list whose second disc is a ghost: an image of a disc, stored
+//! behind the real discs and moved to its place in each step. The first disc of the pair is the one from which the
+//! shift is positive (a > 0, or a = 0 and b > 0), so each pair occurs once. Ghosts are numbered by owner and shift,
+//! hence the order of all sums does not depend on when the list was rebuilt.
 
 use crate::disc::Disc;
 use crate::walls::Walls;
@@ -73,13 +75,13 @@ impl Cell {
         [a * self.width + b * self.shear_offset, b * self.height]
     }
 
-    /// The disc, moved by a shift.
+    /// The image of the disc by a shift.
     pub fn image(&self, disc: &Disc, shift: Shift) -> Disc {
         let [dx, dy] = self.displacement(shift);
         Disc { x: disc.x + dx, y: disc.y + dy, ..*disc }
     }
 
-    /// Coordinates of a point along the cell vectors; 0 to 1 in the cell.
+    /// Coordinates of a point along the cell vectors; from 0 to 1 inside the cell.
     pub fn fraction(&self, x: f64, y: f64) -> [f64; 2] {
         let up = (y - self.origin[1]) / self.height;
         [(x - self.origin[0] - up * self.shear_offset) / self.width, up]
@@ -90,15 +92,16 @@ impl Cell {
         [self.origin[0] + along * self.width + up * self.shear_offset, self.origin[1] + up * self.height]
     }
 
-    /// The shift that brings a point into the rectangle W × H, which holds each disc once as the cell itself does.
+    /// The shift that brings a point into the rectangle W × H; the rectangle, like the cell, contains exactly one image
+    /// of each disc.
     fn home(&self, x: f64, y: f64) -> Shift {
         let b = -((y - self.origin[1]) / self.height).floor();
         let a = -((x + b * self.shear_offset - self.origin[0]) / self.width).floor();
         [a as i32, b as i32]
     }
 
-    /// All images with their centre in the rectangle W × H grown by `margin` < H on each side: that of each disc in the
-    /// rectangle first, in the order of the discs.
+    /// All images whose centres lie in the rectangle W × H enlarged by `margin` < H on each side. The images inside the
+    /// rectangle itself come first, in the order of the discs.
     pub fn images(&self, discs: &[Disc], margin: f64) -> Vec<Image> {
         let discs = (0u32..).zip(discs);
         let homes: Vec<Image> =
@@ -122,19 +125,21 @@ impl Cell {
 }
 
 impl Periodic {
-    /// Shears for the time `dt` [s]; `walls` are those of the beginning. The cell vector (s, H) moves with the flow.
+    /// Shears the box for the time `dt` [s]; `walls` are those at the beginning of the step. The cell vector (s, H)
+    /// moves with the flow.
     pub(crate) fn advance(&mut self, walls: &Walls, dt: f64) {
         let stretching = walls.flow().gradient[0];
         self.shear_offset += dt * (stretching * self.shear_offset + self.shear_rate * walls.height());
     }
 }
 
-/// The orientation of a pair in which its shift is positive: whether (i, j, shift) has it.
+/// Whether (i, j, shift) is the orientation of a pair in which its shift is positive.
 pub(crate) fn forward(i: u32, j: u32, shift: Shift) -> bool {
     if shift == [0, 0] { i < j } else { shift > [0, 0] }
 }
 
-/// Number of an image in a list over `count` discs and `ghosts`.
+/// The number by which the pair list refers to an image: below `count` for the disc itself, else by its place in
+/// `ghosts`; none when the image is not in `ghosts`.
 pub(crate) fn index_of(image: &Image, count: usize, ghosts: &[Image]) -> Option<u32> {
     if image.shift == [0, 0] {
         return Some(image.owner);
@@ -142,7 +147,7 @@ pub(crate) fn index_of(image: &Image, count: usize, ghosts: &[Image]) -> Option<
     ghosts.binary_search(image).ok().map(|k| (count + k) as u32)
 }
 
-/// Refuses cells in which a disc of radius `largest` could meet two images of another.
+/// Checks that no disc of radius `largest` can touch two images of the same disc.
 pub(crate) fn check_size(walls: &Walls, largest: f64) -> Result<(), SmallCell> {
     for (side, length) in [("width", walls.width()), ("height", walls.height())] {
         if length <= SMALLEST_CELL * largest {

@@ -1,8 +1,9 @@
 //! Fast relaxation: FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006) on the contact forces.
 //!
-//! The way to equilibrium is not that of the grains: masses are replaced by ones that give all discs the same fastest
-//! frequency, velocities turn towards the forces, and stop when they point uphill. Friction keeps its incremental
-//! springs, so where a sliding contact ends depends a little on the way.
+//! The discs do not move as grains would on their way to equilibrium. Masses are replaced by ones that give all discs
+//! about the same highest frequency, velocities are turned towards the forces, and all discs are stopped when the power
+//! of the forces is negative. Friction keeps its incremental springs, so the force in which a sliding contact ends
+//! depends slightly on the path.
 
 use crate::disc::Disc;
 use crate::failure::Failure;
@@ -11,17 +12,17 @@ use crate::simulation::Simulation;
 use crate::time_step::{StepChoice, contact_stiffness};
 use crate::vector::larger;
 
-/// Steps downhill before the step grows; growth and cut of the step; start and decay of the turning. Values of the
-/// paper.
+/// Parameters of FIRE with the values of the paper: steps of positive power before the time step grows, factors by
+/// which it grows and shrinks, initial value and decay of the turning coefficient.
 const PATIENCE: u32 = 5;
 const GROW: f64 = 1.1;
 const CUT: f64 = 0.5;
 const TURN: f64 = 0.1;
 const TURN_DECAY: f64 = 0.99;
-/// First and largest step over the stability bound.
+/// First and largest time step over the stability bound.
 const FIRST_STEP: f64 = 0.2;
 const LARGEST_STEP: f64 = 0.7;
-/// Steps between two looks at the state.
+/// Steps between two checks of the state.
 const LOOK_EVERY: u64 = 20;
 
 /// How far a relaxation has come.
@@ -33,7 +34,7 @@ struct Descent {
     downhill: u32,
 }
 
-/// Power, squares of speed and force in mass-weighted coordinates.
+/// Power of the forces, and squares of speed and force in mass-weighted coordinates.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     power: f64,
@@ -42,8 +43,9 @@ struct Sums {
 }
 
 impl Simulation {
-    /// Relaxes for at most `steps` steps, or until `balanced` says so at a look, in fixed walls and with fixed radii. The
-    /// discs are at rest afterwards, time has not passed, and steps are counted. Returns whether it is balanced.
+    /// Relaxes in fixed walls and with fixed radii for at most `steps` steps, or until `balanced` returns true at a
+    /// check. Afterwards the discs are at rest; the steps are counted, but the time is unchanged. Returns whether
+    /// `balanced` was reached.
     ///
     /// # Errors
     /// As [`Simulation::run`].
@@ -89,7 +91,8 @@ impl Simulation {
         Ok(false)
     }
 
-    /// Masses in proportion to the stiffness that a disc feels, so that all have the same bound on the step.
+    /// Replaces the masses by ones proportional to the stiffness of each disc's contacts, so that all discs have the
+    /// same bound on the time step.
     fn even_out_masses(&mut self) {
         let stiffness = contact_stiffness(&self.touching());
         for (disc, stiffness) in self.discs.iter_mut().zip(stiffness) {
@@ -97,14 +100,14 @@ impl Simulation {
         }
     }
 
-    /// Turns the velocities towards the forces of the step just taken, or stops them.
+    /// Turns the velocities towards the forces of the step just taken, or sets them to zero when the power is negative.
     fn turn(&mut self, descent: &mut Descent) {
         let mut sums = Sums::default();
         for (disc, load) in self.discs.iter().zip(self.loads.iter(&self.neighbours)) {
             sums.add(disc, load);
         }
-        // The forces were taken before the velocities changed by them: half of that change is taken back, so that power and
-        // forces are those of one time.
+        // The step took the forces before it changed the velocities by them. Half of that change is subtracted here, so
+        // that the power is that of forces and velocities at the same time.
         if sums.power <= 0.5 * self.time_step * sums.force2 {
             self.discs.iter_mut().for_each(Disc::stop);
             self.largest_speed = 0.0;

@@ -1,10 +1,10 @@
-//! What a state file has to hold beside discs, walls and friction history so that a run continues bit for bit.
+//! The part of a state file besides discs, walls and friction history that a run needs to continue bit for bit.
 
 use crate::periodic::{Image, Shift, forward, index_of};
 use crate::simulation::Simulation;
 use crate::walls::Side;
 
-/// Where a run stands.
+/// Time, strain and radii at which a run continues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunState {
     /// t [s].
@@ -15,7 +15,7 @@ pub struct RunState {
     /// ε [-] and dε/dt [1/s], relative to the reference radii.
     pub strain: f64,
     pub strain_rate: f64,
-    /// Radii at ε = 0 [m], one a disc.
+    /// Radii at ε = 0 [m], one per disc.
     pub reference_radius: Vec<f64>,
 }
 
@@ -31,10 +31,10 @@ impl Simulation {
         }
     }
 
-    /// Puts the run where `state` says.
+    /// Sets time, strain and radii to those of `state`.
     ///
     /// # Panics
-    /// When there is not one reference radius a disc.
+    /// When the number of reference radii is not that of the discs.
     pub fn set_run_state(&mut self, state: RunState) {
         assert_eq!(state.reference_radius.len(), self.discs.len(), "one reference radius a disc");
         self.time = state.time;
@@ -45,8 +45,9 @@ impl Simulation {
         self.set_reference_radii(state.reference_radius);
     }
 
-    /// Sets the stored tangential force of a contact [N]: `i` a disc or a wall, `j` a disc; on j along t, which is the
-    /// same number whichever of two discs is called i. Returns false when the two are not near each other.
+    /// Sets the stored tangential force of a contact [N]: `i` a disc or a wall, `j` a disc. It is the force on j along
+    /// t, which is the same number whichever of two discs is called i. Returns false when the two are not near each
+    /// other.
     pub fn set_tangential_force(&mut self, i: Result<usize, Side>, j: usize, force: f64) -> bool {
         match i {
             Ok(i) => self.set_tangential_force_across(i, j, [0, 0], force),
@@ -54,7 +55,7 @@ impl Simulation {
         }
     }
 
-    /// As [`Simulation::set_tangential_force`], of disc i and the image of j by `shift` in a periodic box.
+    /// As [`Simulation::set_tangential_force`], for disc i and the image of j by `shift` in a periodic box.
     pub fn set_tangential_force_across(&mut self, i: usize, j: usize, shift: Shift, force: f64) -> bool {
         let (i, j) = (i as u32, j as u32);
         let [a, b] = shift;

@@ -1,19 +1,21 @@
-//! Many steps in a row, watched: the time step follows the contacts, and a state that has gone wrong ends the run.
+//! Many steps in a row with regular checks: the time step is adapted to the contacts, and a state that has gone wrong
+//! ends the run.
 
 use crate::failure::{Failure, LARGEST_OVERLAP, LARGEST_STRIDE};
 use crate::periodic::check_size;
 use crate::simulation::{LastGood, Simulation};
 use crate::time_step::{self, Excess, StepChoice};
 
-/// Steps after which the state is checked and the time step is chosen again. That costs about one step.
+/// Steps between two checks, at which the time step is chosen again. A check costs about as much as a step.
 const LOOK_EVERY: u64 = 50;
 
 impl Simulation {
-    /// Takes `steps` steps. The time step is looked after every 50 of them, as chosen by
-    /// [`Simulation::choose_time_step`].
+    /// Takes `steps` steps. The state is checked and the time step is set, as chosen by
+    /// [`Simulation::choose_time_step`], after every 50 of them.
     ///
     /// # Errors
-    /// The first [`Failure`] found; the state is the failed one, see [`Simulation::keep_last_good`].
+    /// The first [`Failure`] found. The simulation is then left in the failed state; for an earlier one see
+    /// [`Simulation::keep_last_good`].
     pub fn run(&mut self, steps: u64) -> Result<(), Failure> {
         let end = self.steps + steps;
         while self.steps < end {
@@ -26,21 +28,22 @@ impl Simulation {
         Ok(())
     }
 
-    /// Makes [`Simulation::run`] keep a copy of the state: the present one, then that of the first good look at least
-    /// `every` steps after the last copy. A copy costs about as much as a step.
+    /// Makes [`Simulation::run`] keep a copy of the last good state: first the present one, then at each successful
+    /// check that is at least `every` steps after the last copy a new one. A copy costs about as much as a step.
     pub fn keep_last_good(&mut self, every: u64) {
         self.last_good = None;
         let state = Box::new(self.clone());
         self.last_good = Some(LastGood { every, state });
     }
 
-    /// Hands the last copy over and stops keeping copies.
+    /// Returns the last copy and stops keeping copies.
     pub fn take_last_good(&mut self) -> Option<Simulation> {
         self.last_good.take().map(|kept| *kept.state)
     }
 
-    /// Whether the centres of all discs are between the walls. A run goes on when they are not, as in packings of 6 %
-    /// porosity, but readers of state files refuse such a state, so it is not kept as the last good one.
+    /// Whether the centres of all discs are between the walls. A run continues when they are not, which occurs in
+    /// packings of 6 % porosity. But readers of state files refuse such a state, so it is not kept as the last good
+    /// one.
     fn centres_are_inside(&self) -> bool {
         let mut inside = true;
         self.for_each_contact(|contact| {
@@ -58,8 +61,9 @@ impl Simulation {
         }
     }
 
-    /// Refuses what only a run that has gone wrong leads to: positions or velocities that are not finite, a disc that moves
-    /// too far in one step, two that overlap too much, a periodic box that is too small for its discs.
+    /// Returns an error for states that only a failed run can reach: positions or velocities that are not finite, a
+    /// disc that moves too far in one step, two discs that overlap too much, a periodic box that is too small for its
+    /// discs.
     pub fn check(&self) -> Result<(), Failure> {
         let time = self.time;
         if self.periodic.is_some() {
@@ -90,7 +94,8 @@ impl Simulation {
     /// Chooses how [`Simulation::run`] sets the time step.
     ///
     /// # Errors
-    /// A fixed step above the present bound, when it is to be refused.
+    /// A fixed step above the present stability bound, when the choice is
+    /// [`Excess::Refuse`](crate::time_step::Excess::Refuse).
     pub fn choose_time_step(&mut self, choice: StepChoice) -> Result<(), Failure> {
         self.step_choice = choice;
         self.watch_time_step()

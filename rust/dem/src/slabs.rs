@@ -1,12 +1,14 @@
-//! The sweep of a step: radii, contact forces and motion of the discs, in one pass through memory.
+//! The sweep of a step: radii, contact forces and motion of the discs in one pass through memory.
 //!
-//! A row of the pair list holds the partners above its disc only. So once the rows of a block of discs are summed up,
-//! their loads are complete, no later row reads these discs, and they can move while they are in the cache.
+//! Row i of the pair list holds the partners j > i of disc i only. So once the rows of a block of discs have been
+//! summed up, the loads of these discs are complete and no later row reads them: they can be moved while they are still
+//! in the cache.
 //!
-//! Assemblies of thousands of discs are cut into slabs, which threads sweep side by side. A slab leaves the discs at its
-//! beginning, which the slab before it reaches, in place; they move at the end, when the loads from both are known.
-//! Slabs depend on the number of discs alone, so results do not depend on the number of threads. Threads
-//! steal work from each other: when another job holds a core, the threads that do run take over what is left.
+//! Assemblies of thousands of discs are divided into slabs (consecutive rows), which threads sweep in parallel. The
+//! first discs of a slab also belong to pairs of the slab before it; they are moved at the end, when their loads from
+//! both slabs are known. The slabs depend on the number of discs alone, so results do not depend on the number of
+//! threads. Threads take over work from each other: when another job holds a core, the threads that do run do the
+//! remaining work.
 
 use crate::contacts::{SlabPairs, WallPart};
 use crate::disc::Disc;
@@ -21,7 +23,7 @@ use crate::vector::larger;
 use crate::walls::{Flow, Side, Walls};
 use std::ops::Range;
 
-/// What is to be done to every disc.
+/// The work to be done on every disc.
 #[derive(Clone, Copy)]
 pub(crate) struct Sweep<'a> {
     pub simd: Simd,
@@ -31,14 +33,14 @@ pub(crate) struct Sweep<'a> {
     /// Whether the walls shrink and stretch with the flow.
     pub affine_walls: bool,
     pub motion: Motion,
-    /// New radii are this times the reference radii [m]; None: they stay.
+    /// Factor and reference radii [m]: new radii are their product. None: the radii stay.
     pub radii: Option<(f64, &'a [f64])>,
 }
 
-/// What came of a sweep.
+/// Results of a sweep.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Swept {
-    /// Square of the largest speed [m²/s²]; NaN when one is.
+    /// Square of the largest speed [m²/s²]; NaN when any speed is NaN.
     pub fastest2: f64,
     pub wall_force: [[f64; 2]; 4],
 }
@@ -52,7 +54,8 @@ impl Swept {
     }
 }
 
-/// Loads of the last sweep: of each slab, its own rows and those of later slabs that it reaches.
+/// Loads of the last sweep: for each slab those of its own rows, and those of the rows of later slabs that its pairs
+/// refer to.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SlabLoads(Vec<Vec<Load>>);
 
@@ -63,8 +66,8 @@ impl SlabLoads {
         slabs.zip(&self.0).flat_map(|(slab, loads)| &loads[..slab.rows.len()])
     }
 
-    /// Sweeps over all discs, side by side when `parallel`; `mark` is called as the stages end, not when `parallel`. In a
-    /// periodic box the ghosts come behind the discs, in place and with their radii; they do not move.
+    /// Sweeps over all discs, in parallel when `parallel`. `mark` is called as the stages end, but not when `parallel`.
+    /// In a periodic box the ghosts stand behind the discs, in place and with their radii; they are not moved.
     pub fn sweep(
         &mut self,
         parallel: bool,
@@ -105,7 +108,7 @@ impl SlabLoads {
         result
     }
 
-    /// The loads of `rows`, which begin a slab, with what earlier slabs have for them.
+    /// The loads of `rows`, the first of a slab, with the contributions of earlier slabs added.
     fn complete(&mut self, number: usize, rows: Range<usize>, slabs: &[crate::contacts::Slab]) -> &[Load] {
         let (earlier, later) = self.0.split_at_mut(number);
         let own = &mut later[0][..rows.len()];
@@ -136,7 +139,8 @@ struct Task<'a> {
     pairs: SlabPairs<'a>,
     discs: SharedDiscs<'a>,
     walls: [WallPart<'a>; 4],
-    /// Of a periodic box, which is one block: images behind the discs, whose loads are their owners'.
+    /// Ghosts of a periodic box (which is always one block): images behind the discs, whose loads are added to those of
+    /// their owners.
     ghosts: &'a [Image],
     loads: &'a mut Vec<Load>,
 }
@@ -147,7 +151,7 @@ impl Task<'_> {
         let first = slab.rows.start;
         self.loads.resize(slab.reach - first, Load::default());
         let mut swept = Swept::default();
-        // Discs below have their new radius and cleared loads.
+        // Discs below `ready` have their new radius, and loads that were set to zero.
         let mut ready = first;
         for (number, block) in slab.blocks.iter().enumerate() {
             let (from, to) = (ready, block.reach.max(ready));

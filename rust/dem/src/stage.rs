@@ -1,6 +1,6 @@
-//! The parts of a step, by which its time is measured.
+//! The stages of a step, for measuring where its time goes.
 
-/// Parts of a step, in order.
+/// Stages of a step, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Radii and walls.

@@ -1,15 +1,15 @@
 //! Threads that work on one step together.
 //!
-//! A step is a few hundred microseconds, in which a thread that went to sleep costs a tenth: so the threads of the pool
-//! stay awake for a stretch of steps, and give way to other jobs of the machine whenever they find nothing to do.
+//! A step takes a few hundred microseconds, and waking a sleeping thread would cost a tenth of that. So the threads of
+//! the pool stay awake for many steps and yield to other jobs of the machine whenever they find nothing to do.
 
 use rayon::{ThreadPool, Yield};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Rounds of looking for work before another job may have the core.
+/// Number of times a thread looks for work before it yields its core to other jobs.
 const ROUNDS: u32 = 100;
 
-/// Runs `work` on a thread of the pool while the others stay awake to help with what it shares.
+/// Runs `work` on a thread of the pool while the other threads stay awake to help with the tasks it shares.
 pub(crate) fn together(pool: &ThreadPool, work: impl FnOnce() + Send) {
     let over = AtomicBool::new(false);
     pool.scope(|scope| {
@@ -20,13 +20,13 @@ pub(crate) fn together(pool: &ThreadPool, work: impl FnOnce() + Send) {
                 help_until(|| over.load(Ordering::Acquire));
             }
         });
-        // Set on a panic, too: the others would wait for ever.
+        // `Ended` is set on drop, so also on a panic: otherwise the other threads would wait for ever.
         let _end = Ended(over);
         work();
     });
 }
 
-/// `work` on each task, on whatever threads of the pool are awake; results in the order of the tasks.
+/// Does `work` on each task, on whatever threads of the pool are awake. Returns the results in the order of the tasks.
 pub(crate) fn share<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     let left = AtomicUsize::new(tasks.len());
     let mut results: Vec<Option<R>> = tasks.iter().map(|_| None).collect();
@@ -34,7 +34,7 @@ pub(crate) fn share<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Syn
         for (task, result) in tasks.into_iter().zip(&mut results) {
             let (left, work) = (&left, &work);
             scope.spawn(move |_| {
-                // Counted on a panic, too, which the scope then passes on.
+                // `Counted` counts on drop, so also on a panic, which the scope then passes on.
                 let _done = Counted(left);
                 *result = Some(work(task));
             });
@@ -44,7 +44,7 @@ pub(crate) fn share<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Syn
     results.into_iter().flatten().collect()
 }
 
-/// Does other threads' work as long as there is any.
+/// Does work that other threads have shared until `over` returns true.
 fn help_until(over: impl Fn() -> bool) {
     let mut idle = 0;
     while !over() {

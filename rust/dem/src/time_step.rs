@@ -1,14 +1,15 @@
-//! The mechanical time step: its bound and its choice. (Heat has sub-steps of its own, see [`crate::heat`].)
+//! The mechanical time step: its stability bound and its choice. (Heat has its own sub-steps, see [`crate::heat`].)
 
 use crate::contact::Touching;
 
-/// Default step over the bound. Explosion was measured at the bound itself; 0.4 keeps the contact period resolved.
+/// Default step over the bound. Runs were measured to blow up at the bound itself; 0.4 resolves the period of a
+/// contact.
 pub const SAFETY: f64 = 0.4;
 
 /// How the mechanical time step is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepChoice {
-    /// `safety` times the bound, followed as the contacts change.
+    /// `safety` times the stability bound, adapted as the contacts change.
     Adaptive { safety: f64 },
     /// A fixed step [s].
     Fixed { step: f64, on_excess: Excess },
@@ -23,7 +24,8 @@ pub enum Excess {
     Cut,
 }
 
-/// Contacts that a disc is counted with at least, so that a step chosen in a loose state survives jamming.
+/// Least number of contacts that a disc is assumed to have, so that a step chosen in a loose state stays stable when
+/// the assembly jams.
 const FEWEST_CONTACTS: f64 = 4.0;
 
 /// Δt_max = 2 / √(2 max_i Σ_c s_n / m_i) [s], the sum over the contacts of disc i (Gershgorin's circle for the
@@ -34,7 +36,7 @@ pub(crate) fn stable_step(touching: &Touching) -> f64 {
     2.0 / (2.0 * ratios.fold(0.0, f64::max)).sqrt()
 }
 
-/// Σ_c s_n [N/m] over the contacts of each disc, at least that of a disc with a few.
+/// Σ_c s_n [N/m] over the contacts of each disc; at least that of [`FEWEST_CONTACTS`] contacts.
 pub(crate) fn contact_stiffness(touching: &Touching) -> Vec<f64> {
     let least = FEWEST_CONTACTS * touching.material.young_modulus;
     let mut stiffness = vec![0.0; touching.discs.len()];

@@ -1,11 +1,12 @@
-//! Arithmetic on one or several discs at a time: what laws are written with, and the case of one number.
+//! Arithmetic on one or several discs at a time: the trait in which the contact laws are written, and its
+//! implementation for a single number.
 
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Columns of a group of discs: one vector a field, in the order of [`Disc`].
+/// Fields of a group of discs: one vector per field, one lane per disc, in the order of [`Disc`].
 pub(crate) type Columns<V> = [V; 8];
 
-/// Arithmetic on vectors of f64: IEEE, lane by lane, never fused.
+/// Arithmetic on vectors of f64: IEEE operations lane by lane, never fused.
 pub(crate) trait Vector:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -13,7 +14,8 @@ pub(crate) trait Vector:
     /// The same value in all lanes.
     fn like(self, value: f64) -> Self;
     fn sqrt(self) -> Self;
-    /// The larger one; `other` when they are equal or one is NaN (as x86's maxpd): [`larger`] keeps NaN.
+    /// The larger one; `other` when they are equal or one is NaN (as x86's maxpd). See [`larger`] for one that keeps
+    /// NaN.
     fn max(self, other: Self) -> Self;
     fn min(self, other: Self) -> Self;
     fn greater(self, other: Self) -> Self::Mask;
@@ -55,8 +57,8 @@ impl Vector for f64 {
     }
 }
 
-/// The larger of two numbers; NaN when either is: [`f64::max`] drops it, and a bound on a motion that is not known would
-/// hold.
+/// The larger of two numbers; NaN when either is NaN. [`f64::max`] ignores NaN, which would turn an unknown motion into
+/// a valid bound.
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }

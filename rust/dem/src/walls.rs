@@ -34,8 +34,8 @@ pub struct Walls {
     pub tangential_velocity: [f64; 4],
 }
 
-/// The motion u(x) that carries the grains along with walls that close or open: linear between the walls, so that a
-/// large box is compressed everywhere at once instead of from its rim.
+/// The affine motion u(x) that carries the grains along with walls that close or open: linear between the walls, so
+/// that a large box is compressed everywhere at once instead of from its rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
     /// ∂u_x/∂x, ∂u_y/∂y, ∂u_x/∂y [1/s].
@@ -45,10 +45,11 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// Grains that no flow carries.
+    /// No affine motion.
     pub const NONE: Self = Self { gradient: [0.0; 3], at_origin: [0.0; 2] };
 
-    /// The part normal to a wall: what a wall that is carried along itself leaves as slip.
+    /// The part normal to a wall. A wall that itself shrinks and stretches with the flow causes no slip along it, so
+    /// only this part remains.
     pub fn normal_to(self, side: Side) -> Self {
         let normal = side.normal().map(f64::abs);
         let [xx, yy, xy] = self.gradient;
@@ -78,7 +79,7 @@ impl Walls {
         Flow { gradient: [xx, yy, 0.0], at_origin: [x0, y0] }
     }
 
-    /// The flow of a periodic box: it shears besides, and the lower border keeps its x.
+    /// The flow of a periodic box: it also shears at `shear_rate` [1/s], and the lower border keeps its x.
     pub fn sheared_flow(&self, shear_rate: f64) -> Flow {
         let Flow { gradient: [xx, yy, _], at_origin: [x0, y0] } = self.flow();
         let bottom = self.position[Side::Bottom as usize];

@@ -1,4 +1,4 @@
-//! The energy audit closes.
+//! The terms of the energy audit add up to zero.
 
 use msdd_dem::audit::EnergyAudit;
 use msdd_dem::{Disc, Material, Simulation, StepChoice, Walls, time_step};
@@ -22,7 +22,7 @@ fn heap() -> Simulation {
     simulation
 }
 
-/// Runs to `time` at `fraction` of the default step.
+/// Runs to `time` [s] at `fraction` of the default time step.
 fn audited(simulation: &mut Simulation, time: f64, fraction: f64) -> EnergyAudit {
     let step = StepChoice::Adaptive { safety: fraction * time_step::SAFETY };
     simulation.choose_time_step(step).unwrap();
@@ -35,22 +35,23 @@ fn audited(simulation: &mut Simulation, time: f64, fraction: f64) -> EnergyAudit
     audit
 }
 
-/// From loose to a pressure that no packing has: 2800 steps. Measured: 1.9e-4.
+/// From a loose state to a pressure that no real packing has, in 2800 steps. Measured imbalance: 1.9e-4.
 #[test]
 fn heap_closes_at_the_default_step() {
     let mut simulation = heap();
     let audit = audited(&mut simulation, 1.3, 1.0);
     let imbalance = audit.imbalance(&simulation);
     assert!(imbalance < 1e-3, "{imbalance} {audit:?}");
-    // No term is idle, so none may be forgotten: each is well above what is left over.
+    // Each term is well above the residual, so that leaving any of them out would be noticed.
     let left = audit.residual(&simulation).abs();
     for term in [audit.damping, audit.drag, audit.friction, audit.walls, audit.growth] {
         assert!(term > 10.0 * left, "{left} {audit:?}");
     }
 }
 
-/// The imbalance falls with the square of the step, measured 3.6 to 3.9 times at half the step, also where it is largest:
-/// in runs that end just at jamming, full of collisions (t = 0.8 to 1.1), whose contacts begin and end within a step.
+/// The imbalance falls with the square of the time step; at half the step, 3.6 to 3.9 times smaller values were
+/// measured. This is tested where the imbalance is largest, too: in runs that end just at jamming (t = 0.8 to 1.1),
+/// with many collisions whose contacts begin and end within a step.
 #[test]
 fn imbalance_is_of_second_order() {
     for end in [0.8, 1.0, 1.3] {
@@ -64,7 +65,7 @@ fn imbalance_is_of_second_order() {
     }
 }
 
-/// The jammed heap, compressed further: contacts that stay close far better. Measured: 1.4e-5.
+/// The jammed heap, compressed further: with contacts that stay closed the imbalance is far smaller. Measured: 1.4e-5.
 #[test]
 fn jammed_heap_closes_to_a_few_parts_in_a_hundred_thousand() {
     let mut start = heap();
@@ -94,8 +95,8 @@ fn far_walls() -> Walls {
     Walls { position: [-1.0, 1.0, -1.0, 1.0], ..Walls::around(1.0, 1.0) }
 }
 
-/// Two smooth, undamped discs collide off centre: at closest approach a part of the energy is elastic, and after the
-/// bounce all is kinetic again, as much as before up to the second order of the step.
+/// Two smooth, undamped discs collide off centre. At closest approach a part of the energy is elastic. After the bounce
+/// all of it is kinetic again, as much as before up to the second order of the time step.
 #[test]
 fn smooth_undamped_discs_conserve_energy() {
     let collide = |fraction: f64| {
@@ -132,10 +133,11 @@ fn heavy_disc(overlap: f64) -> Simulation {
     simulation
 }
 
-/// What the one step in which sliding begins may leave open [J]: its slip is part elastic, ½ s_t (v Δt/2)².
+/// Largest residual of the one step in which sliding begins [J]: a part of its slip is elastic, ½ s_t (v Δt/2)².
 const OPEN: f64 = 0.125 * 0.8 * 1e7 * R * 1e-7 * 1e-7;
 
-/// Dragged by v for t, it loses f_n tan φ (v t − u_e), where u_e = f_n tan φ/s_t is the elastic part of the way.
+/// A disc dragged by v for t loses f_n tan φ (v t − u_e), where u_e = f_n tan φ/s_t is the elastic part of its
+/// displacement.
 #[test]
 fn dragged_disc_loses_the_coulomb_force_times_the_slip() {
     let mut simulation = heavy_disc(1e-5);
@@ -147,14 +149,14 @@ fn dragged_disc_loses_the_coulomb_force_times_the_slip() {
     let sticking = (elastic_way / 1e-7) as u64;
     (0..sticking).for_each(|_| simulation.step_audited(&mut audit));
     assert!(audit.friction.abs() < 1e-12 * force * elastic_way, "{}", audit.friction);
-    // One step in which it begins to slide, then a thousand.
+    // One step in which the disc begins to slide, then a thousand more.
     simulation.step_audited(&mut audit);
     (0..1000).for_each(|_| simulation.step_audited(&mut audit));
     let slip = 1e-7 * (sticking + 1001) as f64 - elastic_way;
     assert!((audit.friction - force * slip).abs() < 1.01 * OPEN, "{} {}", audit.friction, force * slip);
 }
 
-/// The same with the disc at rest and the wall moving: the wall's work is friction plus ½ f_t²/s_t.
+/// The same with the disc at rest and the wall moving: the wall's work is the friction loss plus ½ f_t²/s_t.
 #[test]
 fn dragging_wall_works_against_friction() {
     let mut simulation = heavy_disc(1e-5);
@@ -169,8 +171,8 @@ fn dragging_wall_works_against_friction() {
     assert!(audit.imbalance(&simulation) < 1e-9);
 }
 
-/// A disc that has stuck to the wall grows: its overlap stores ½ E r δ², and the friction spring, whose force stays while
-/// it stiffens, gives energy back. Both against the closed forms.
+/// A disc that sticks to the wall grows. Its overlap stores ½ E r δ²; its friction spring becomes stiffer at constant
+/// force and gives energy back. Both are compared with the closed forms.
 #[test]
 fn growth_stores_and_releases() {
     let mut simulation = heavy_disc(1e-4);

@@ -1,4 +1,4 @@
-//! Heat, and heat with motion, against closed forms.
+//! Heat conduction, alone and with motion, compared with closed forms.
 
 use msdd_dem::{Disc, Material, Side, Simulation, Thermal, WallHeat, Walls};
 use std::f64::consts::PI;
@@ -23,16 +23,17 @@ fn hot_ends(temperature: f64) -> [WallHeat; 4] {
     [wall, wall, WallHeat::Insulated, WallHeat::Insulated]
 }
 
-/// h/(m c) of a pair of the chain [1/s]; a wall's conductance is twice that: the same chord at half the length.
+/// h/(m c) of a pair of the chain [1/s]. A wall's conductance is twice that of a pair: the same chord at half the
+/// length.
 fn pair_rate(overlap: f64) -> f64 {
     let length = 2.0 * R - overlap;
     let chord = 2.0 * (R * R - 0.25 * length * length).sqrt();
     100.0 * chord / length / (3000.0 * PI * R * R)
 }
 
-/// Walls that turn hot heat a resting chain as T_k = T_w (1 − Σ_p b_p sin(pπ(k+½)/n) exp(−λ_p t)), with
-/// λ_p = 2h/(mc) (1 − cos(pπ/n)) and b_p from the uniform start. Explicit Euler puts (1 − λ_p Δt)^N for exp(−λ_p t),
-/// and with that it must be met to round-off.
+/// Walls that turn hot heat a resting chain as T_k = T_w (1 − Σ_p b_p sin(pπ(k+½)/n) exp(−λ_p t)), with λ_p = 2h/(mc)
+/// (1 − cos(pπ/n)) and b_p from the uniform start. Explicit Euler replaces exp(−λ_p t) by (1 − λ_p Δt)^N; with that
+/// factor the temperatures must agree to round-off.
 #[test]
 fn chain_heats_up_as_its_eigenmodes_say() {
     let overlap = 2e-4;
@@ -60,12 +61,12 @@ fn chain_heats_up_as_its_eigenmodes_say() {
         assert!((disc.temperature - euler).abs() < 1e-9, "{k}: {} {euler}", disc.temperature);
         assert!((disc.temperature - exact).abs() < 0.05, "{k}: {} {exact}", disc.temperature);
     }
-    // It is on its way: the ends are warm, the middle is not.
+    // The chain is in the middle of its heating: the ends are warm, the middle is not.
     assert!(simulation.discs[0].temperature > 80.0 && simulation.discs[COUNT / 2].temperature < 70.0);
 }
 
-/// A chain heated to T through its walls expands into itself: 2 n r' − L = F ((n−1)/s_n + 2/s_w), r' = r (1 + α T),
-/// s_n = E r', s_w = a E r' with the wall factor a; so F = E r' (2 n r' − L)/(n − 1 + 2/a).
+/// A chain heated to T through its walls cannot expand and is compressed: 2 n r' − L = F ((n−1)/s_n + 2/s_w), r' = r (1
+/// + α T), s_n = E r', s_w = a E r' with the wall factor a; so F = E r' (2 n r' − L)/(n − 1 + 2/a).
 #[test]
 fn heated_chain_presses_on_its_walls() {
     for factor in [1.0, 2.0] {
@@ -85,8 +86,8 @@ fn heated_chain_presses_on_its_walls() {
     }
 }
 
-/// In a heap that moves, slides, expands and makes and breaks contacts, what came in through the walls is what the
-/// discs hold, to round-off.
+/// In a heap that moves, slides, expands and makes and breaks contacts, the heat that came in through the walls equals
+/// the heat stored in the discs to round-off.
 #[test]
 fn wall_heat_is_stored_in_a_moving_heap() {
     let material = Material::default();
@@ -119,7 +120,7 @@ fn wall_heat_is_stored_in_a_moving_heap() {
     }
     let [left, right, bottom, top] = simulation.heat().unwrap().wall_heat;
     assert!(left > 1.0 && right < -1.0 && top == 0.0, "{left} {right}");
-    // The flux flows whenever a disc touches the bottom.
+    // The prescribed flux enters only while a disc touches the bottom.
     let most = 5.0 * simulation.time;
     assert!(bottom > 0.5 * most && bottom < most * (1.0 + 1e-9), "{bottom} {most}");
     assert!(simulation.rebuilds() > rebuilds);

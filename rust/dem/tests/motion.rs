@@ -1,4 +1,4 @@
-//! Motion of one and two discs against closed forms.
+//! Motion of one and two discs compared with closed forms.
 
 use msdd_dem::{Disc, Material, Simulation, Walls};
 
@@ -18,7 +18,7 @@ fn pinched(overlap: f64) -> Simulation {
     Simulation::new(material, vec![disc], walls)
 }
 
-/// Steps in which `value` swings `swings` times back and forth.
+/// Number of steps, interpolated, in which `value` makes `swings` full oscillations.
 fn steps_of(simulation: &mut Simulation, swings: u32, value: impl Fn(&Disc) -> f64) -> f64 {
     let mut crossings = 0;
     let mut last = value(&simulation.discs[0]);
@@ -27,7 +27,7 @@ fn steps_of(simulation: &mut Simulation, swings: u32, value: impl Fn(&Disc) -> f
         simulation.step();
         let next = value(&simulation.discs[0]);
         if last < 0.0 && next >= 0.0 {
-            // Where the straight line between the two crosses zero.
+            // Linear interpolation of the zero crossing.
             let at = simulation.steps as f64 - next / (next - last);
             let start = *first.get_or_insert(at);
             if crossings == swings {
@@ -40,8 +40,9 @@ fn steps_of(simulation: &mut Simulation, swings: u32, value: impl Fn(&Disc) -> f
     }
 }
 
-/// Between two walls a disc swings across with ω² = 2 s_n/m, along with 2 s_t/m, and about itself with 2 s_t a²/I, where
-/// a = r − δ and I = m r²/2. Symplectic Euler shortens the period as sin(ω' Δt/2) = ω Δt/2; with that it is exact.
+/// Pressed between two walls, a disc oscillates normal to them with ω² = 2 s_n/m, parallel to them with 2 s_t/m, and in
+/// rotation with 2 s_t a²/I, where a = r − δ and I = m r²/2. Symplectic Euler shortens the period by sin(ω' Δt/2) = ω
+/// Δt/2; with that correction the formulas are exact.
 #[test]
 fn pinched_disc_has_its_three_frequencies() {
     let overlap = 1e-4;
@@ -68,7 +69,7 @@ fn pinched_disc_has_its_three_frequencies() {
     }
 }
 
-/// A disc thrown at a wall leaves it after half a period, π √(m/s_n), as fast as it came.
+/// A disc thrown at a wall leaves it after half a period, π √(m/s_n), with the speed at which it came.
 #[test]
 fn disc_bounces_off_a_wall_in_half_a_period() {
     for factor in [1.0, 2.0] {
@@ -105,8 +106,8 @@ fn heavy_pair(overlap: f64) -> Simulation {
     simulation
 }
 
-/// A spinning disc drags its neighbour: both feel a torque of the same sense, −(r − δ/2) f_n tan φ each, so the spins
-/// fall linearly, and the neighbour is carried along the common tangent.
+/// A spinning disc drags its neighbour. Both feel a torque of the same sense, −(r − δ/2) f_n tan φ each, so the spin of
+/// the first falls linearly, and the neighbour is accelerated along the common tangent.
 #[test]
 fn sliding_discs_exchange_torque() {
     let overlap = 1e-4;
@@ -127,7 +128,8 @@ fn sliding_discs_exchange_torque() {
     assert!((b.fy / tangential - 1.0).abs() < 1e-4 && (a.fy + b.fy).abs() < 1e-9, "{a:?} {b:?}");
 }
 
-/// Rolling is no slip: neither as gears, ω₁ a₁ = −ω₂ a₂, nor when one disc rolls around the other.
+/// Rolling without slip causes no friction: neither as two gears, ω₁ a₁ = −ω₂ a₂, nor when one disc rolls around the
+/// other.
 #[test]
 fn rolling_discs_feel_no_friction() {
     let overlap = 1e-4;

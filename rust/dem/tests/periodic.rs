@@ -1,4 +1,4 @@
-//! Periodic boxes: the border is a place like any other.
+//! Periodic boxes: what happens across the border is what happens anywhere else in the cell.
 
 use msdd_dem::{Disc, Material, Periodic, Simd, Simulation, Thermal, WallHeat, Walls};
 
@@ -14,7 +14,8 @@ fn sheared_box(discs: Vec<Disc>, material: Material, shear_rate: f64) -> Simulat
     simulation
 }
 
-/// Two discs that collide, rub, spin, and exchange heat, about a point; the second one moved by a shift.
+/// Two discs that collide, rub, spin, and exchange heat, near the point `middle`; the second one is replaced by its
+/// image by `shift`.
 fn collision(middle: [f64; 2], shift: [i32; 2]) -> Simulation {
     let disc = |x: f64, y: f64, radius: f64| Disc::at_rest(middle[0] + x, middle[1] + y, radius, 3000.0);
     let mut a = Disc { vx: 0.05, vy: 0.08, angular_velocity: 3.0, ..disc(-0.004, -0.003, 4e-3) };
@@ -106,7 +107,8 @@ fn all_instruction_sets_give_the_same_bits() {
     }
 }
 
-/// The search for neighbours goes on beside a disc that is nowhere, and the run ends with an error.
+/// With a disc whose velocity is NaN, infinite or absurdly large the neighbour search still terminates, and the run ends
+/// with an error.
 #[test]
 fn a_disc_without_a_velocity_ends_the_run() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
@@ -117,7 +119,7 @@ fn a_disc_without_a_velocity_ends_the_run() {
     }
 }
 
-/// A pair stuck across the border, beside a disc that flies about or not.
+/// A sticking pair across the border, beside a disc that flies about when `fast` is not 0 and so causes rebuilds.
 fn stuck(fast: f64) -> Simulation {
     let disc = |x: f64, y: f64| Disc::at_rest(x, y, 5e-3, 3000.0);
     let third = Disc { vx: 0.2 * fast, vy: fast, ..disc(0.025, 0.02) };
@@ -134,7 +136,7 @@ fn friction_history_survives_rebuilds() {
     let mut simulations = [stuck(0.0), stuck(4.0)];
     let mut friction = [0.0; 2];
     for (simulation, friction) in simulations.iter_mut().zip(&mut friction) {
-        // Fixed, because the fast disc must not change it; the stuck pair lets go after about 2 ms.
+        // Fixed, because the fast disc must not change the time step; the sticking pair separates after about 2 ms.
         simulation.time_step = 1e-5;
         simulation.take_steps(80);
         simulation.for_each_contact(|contact| {
@@ -148,7 +150,7 @@ fn friction_history_survives_rebuilds() {
     assert_eq!(simulations[1].discs[..2], simulations[0].discs[..2]);
 }
 
-/// Pairs that the neighbour search must not lose while the cell deforms and is rebuilt rarely.
+/// The neighbour search must not lose any pair while the cell deforms and the list is rebuilt rarely.
 #[test]
 fn contacts_are_those_of_brute_force() {
     let mut simulation = sheared_box(crowd(0.01, 0.05), Material::default(), 2.0);

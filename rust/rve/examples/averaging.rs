@@ -1,8 +1,9 @@
 //! Which averaging region makes RVEs agree with windows of a large assembly?
 //!
 //! `cargo run --release -p msdd-rve --example averaging -- SEEDS LARGE.json...` packs RVEs of 500 discs by horizontal
-//! compression, expands and contracts them and the large assemblies by 1 %, fits the averages of the RVEs linearly in the
-//! state for each kind of region, and holds the fits against windows of 43 mean radii (215 mm) of the large ones.
+//! compression, and expands and contracts them and the large assemblies by 1 %. For each kind of region it fits the
+//! averages of the RVEs linearly in the state, and compares the fits with windows of 43 mean radii (215 mm) of the
+//! large assemblies.
 
 use msdd_rve::region::{Polygon, region};
 use msdd_rve::{
@@ -27,7 +28,7 @@ const REGIONS: [Region; 6] = [
     ("inset 4 r, clip", |s| homogenise_in(s, &inset(s, 4.0), Cut::Clip)),
 ];
 
-/// What is compared: name, value, and the scale that errors are relative to.
+/// A quantity that is compared: name, value, and the scale to which its errors are relative.
 type Quantity = (&'static str, fn(&Averages) -> f64, fn(&Averages) -> f64);
 
 const QUANTITIES: [Quantity; 7] = [
@@ -54,7 +55,7 @@ fn inset(simulation: &Simulation, radii: f64) -> Polygon {
     Polygon::rectangle([left + d, bottom + d], [right - d, top - d])
 }
 
-/// The state at each of STRAINS, reached from the given one.
+/// The assembly at each of STRAINS, reached from the given state.
 fn strained(start: &Simulation) -> Vec<Simulation> {
     let reached = STRAINS.map(|strain| {
         let mut simulation = start.clone();
@@ -67,7 +68,7 @@ fn strained(start: &Simulation) -> Vec<Simulation> {
     reached.into()
 }
 
-/// Windows that fill the inside of the box, none at a wall.
+/// Windows that fill the inner part of the box; none touches a wall.
 fn inner_windows(simulation: &Simulation) -> Vec<Averages> {
     let size = WINDOW * simulation.mean_radius();
     let walls = &simulation.walls;
@@ -84,7 +85,7 @@ fn rve(seed: u64, porosity: f64) -> Vec<Simulation> {
     strained(&pack(&spec, &Material::default()).expect("RVE packs").simulation)
 }
 
-/// The state that a quantity is a function of: K of (η, f, √p), stress and coordination of (η, f).
+/// The variables in which a quantity is fitted: K in (η, f, √p), stress and coordination in (η, f).
 fn features(name: &str, a: &Averages) -> Vec<f64> {
     let mut features = vec![1.0, a.porosity, a.fabric_index];
     if name.starts_with('K') {
@@ -106,7 +107,7 @@ fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
     (mean, square.sqrt())
 }
 
-/// Fit over truth less one [%] of each sample, by a fit for each strain.
+/// Fitted over true value less one [%] for each sample, with one fit per strain.
 fn errors(quantity: Quantity, from: &[Vec<Averages>], at: &[Vec<Averages>]) -> Vec<f64> {
     let (name, value, scale) = quantity;
     let mut list = Vec::new();
@@ -131,7 +132,7 @@ fn wall_pressure(simulation: &Simulation) -> f64 {
     sum
 }
 
-/// Scatter of the change of porosity about its linear fit in the state before [% of the mean change].
+/// Scatter of the change of porosity about its linear fit in the state before the strain [% of the mean change].
 fn increment_noise(before: &[Averages], after: &[Averages]) -> f64 {
     let change: Vec<f64> = before.iter().zip(after).map(|(a, b)| b.porosity - a.porosity).collect();
     let rows: Vec<Vec<f64>> = before.iter().map(|a| features("K", a)).collect();

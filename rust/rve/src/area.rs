@@ -1,18 +1,19 @@
-//! Exact area of a union of discs inside a convex polygon, hence porosity with overlaps counted once.
+//! Exact area of a union of discs inside a convex polygon, and from it the porosity with overlaps counted once.
 //!
 //! The border of (union ∩ polygon) consists of the arcs of discs that lie in no other disc and inside the polygon,
 //! and of the parts of the polygon's edges that lie in a disc. Green's theorem, ½ ∮ (x dy − y dx), sums them in
 //! closed form: exact for any number of overlaps, and for discs that stick out of the walls.
 //!
-//! Packing stops by this porosity, so it uses no function of the platform's mathematical library (see `libm`).
+//! The packing procedure stops at a porosity that is computed here, so this module uses no function of the platform's
+//! mathematical library, whose last digits differ between platforms (`libm` instead).
 
 use crate::region::{Polygon, whole_box};
 use libm::{acos, atan2, cos, sin};
 use msdd_dem::{Cell, Disc, Simulation};
 use std::f64::consts::{PI, TAU};
 
-/// Porosity of the region [-], overlaps counted once: 1 − area(union ∩ region) / area(region). Of a periodic box it is
-/// always that of the whole cell.
+/// Porosity of the region [-], overlaps counted once: 1 − area(union ∩ region) / area(region). For a periodic box it is
+/// always the porosity of the whole cell, whatever the region.
 pub fn porosity(simulation: &Simulation, region: &Polygon) -> f64 {
     if let Some(cell) = simulation.cell() {
         return 1.0 - covered_cell(simulation, &cell) / simulation.walls.area();
@@ -25,7 +26,8 @@ pub fn porosity_of_box(simulation: &Simulation) -> f64 {
     porosity(simulation, &whole_box(simulation))
 }
 
-/// Area of the union of all discs and their images in the cell [m²]: that of the images in the rectangle W × H.
+/// Area of the union of all discs and their images in the cell [m²], computed over the rectangle W × H with all images
+/// that reach into it.
 fn covered_cell(simulation: &Simulation, cell: &Cell) -> f64 {
     let discs = &simulation.discs;
     let images = cell.images(discs, discs.iter().map(|d| d.radius).fold(0.0, f64::max));
@@ -38,7 +40,7 @@ fn covered_cell(simulation: &Simulation, cell: &Cell) -> f64 {
         let Ok(i) = contact.i else { return };
         for &p in &of_owner[i] {
             let touched = [0, 1].map(|k| images[p].shift[k] + contact.shift[k]);
-            // Images that are not near the rectangle hide nothing in it.
+            // Images outside of `images` are too far from the rectangle to cover a part of it.
             if let Some(&q) = of_owner[contact.j].iter().find(|&&q| images[q].shift == touched) {
                 partners[p].push(q);
                 partners[q].push(p);
@@ -50,7 +52,7 @@ fn covered_cell(simulation: &Simulation, cell: &Cell) -> f64 {
     union_area(&placed, &partners, &whole_box(simulation))
 }
 
-/// The discs that overlap each disc.
+/// For each disc the numbers of the discs that overlap it.
 fn overlapping(simulation: &Simulation) -> Vec<Vec<usize>> {
     let mut partners = vec![Vec::new(); simulation.discs.len()];
     simulation.for_each_contact(|contact| {
@@ -71,12 +73,12 @@ pub fn union_area(discs: &[Disc], partners: &[Vec<usize>], region: &Polygon) -> 
     arcs + edges
 }
 
-/// Σ area(disc ∩ region) [m²], overlaps counted as often as they are covered.
+/// Σ area(disc ∩ region) [m²]: an area that n discs cover counts n times.
 pub fn sum_of_areas(discs: &[Disc], region: &Polygon) -> f64 {
     discs.iter().map(|disc| union_area(std::slice::from_ref(disc), &[Vec::new()], region)).sum()
 }
 
-/// ½ ∮ over the arcs of disc `i` that lie in no partner and inside the region.
+/// ½ ∮ over the arcs of disc `i` that lie in none of its partners and inside the region.
 fn free_arcs(i: usize, discs: &[Disc], partners: &[usize], region: &Polygon, origin: [f64; 2]) -> f64 {
     let disc = &discs[i];
     let mut hidden = Vec::new();
@@ -132,7 +134,7 @@ fn hide(hidden: &mut Vec<(f64, f64)>, middle: f64, half: f64) {
     }
 }
 
-/// What the intervals leave uncovered of [low, high].
+/// The parts of [low, high] that no interval covers.
 fn gaps(intervals: &mut [(f64, f64)], low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> + '_ {
     intervals.sort_by(|a, b| a.0.total_cmp(&b.0));
     let end = std::iter::once((high, high));
@@ -202,7 +204,7 @@ mod tests {
         assert!((sum_of_areas(&d, &region) - 2.0 * PI).abs() < 1e-14);
     }
 
-    /// Three discs with a common part, cut by a triangle, against counting points.
+    /// Three discs with a common part, cut by a triangle, compared with counting the points of a fine grid.
     #[test]
     fn triple_overlap_in_a_triangle_agrees_with_counting() {
         let d = [disc(0.0, 0.0, 1.0), disc(0.8, 0.1, 0.7), disc(0.3, 0.7, 0.6), disc(-0.2, 0.1, 0.2)];

@@ -1,4 +1,4 @@
-//! Straining a packed RVE: radii grow or shrink in fixed walls, with stops (section 2.4); or walls move as well.
+//! Straining of a packed RVE: radii grow or shrink in fixed walls, with stops (section 2.4); or the walls move, too.
 
 use crate::homogenise::{Averages, homogenise};
 use crate::pack::Packed;
@@ -8,19 +8,20 @@ use crate::settle::{KEEP_EVERY, Relaxation, Settled, UNBALANCED_LIMIT, settle_to
 use crate::stopwatch::{self, Stage};
 use crate::{RveError, Simulation};
 
-/// How a path is followed: the rate of the strain that changes most [1/s], when contacts close and when they open, and
-/// what brings the forces into balance at the stops.
+/// How a path of strains is followed: the rate of the strain that changes most [1/s], separately for paths that close
+/// contacts and paths that open them, and how forces are brought into balance at the stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protocol {
     pub expansion_rate: f64,
     pub contraction_rate: f64,
     pub relaxation: Relaxation,
-    /// At the stops: mean |resultant| over mean contact force [-].
+    /// Limit of the force balance at the stops: mean |resultant| over mean contact force [-].
     pub unbalanced_limit: f64,
 }
 
 impl Default for Protocol {
-    /// For the paper's grains. Expansion hardly feels the rate; near unjamming, contraction does (−2 % at 2 /s: σ 12 % low).
+    /// Values for the paper's grains. Expansion hardly depends on the rate; near unjamming, contraction does (to −2 %
+    /// at 2 /s: σ 12 % low).
     fn default() -> Self {
         Self {
             expansion_rate: 0.1,
@@ -32,7 +33,8 @@ impl Default for Protocol {
 }
 
 impl Protocol {
-    /// The default for these grains: as fast, by the measure of their own motion, as the default is for the paper's.
+    /// The default for the grains of `simulation`: scaled so that the path is as fast, relative to the motion of the
+    /// grains, as the default is for the paper's grains.
     pub fn usual(simulation: &Simulation) -> Self {
         let usual = Self::default();
         let factor = rate_factor(&simulation.material, simulation.mean_radius());
@@ -44,7 +46,7 @@ impl Protocol {
     }
 }
 
-/// Largest step count between two looks at the stable time step.
+/// Largest number of steps between two updates of the time step.
 const RUN: u64 = 50;
 
 /// Strains relative to the start of a path [-].
@@ -52,11 +54,11 @@ const RUN: u64 = 50;
 pub struct Strains {
     /// ε of the radii.
     pub thermal: f64,
-    /// Extension of the box along x and y: both walls (borders) move by half of it.
+    /// Extension of the box along x and y, positive: longer. Both walls (or borders) move by half of it.
     pub xx: f64,
     pub yy: f64,
-    /// γ_xy of a periodic box: way of the upper border along x over the height at the start. A box sheared already is
-    /// deformed as it is: s becomes (1 + xx) s + xy H.
+    /// γ_xy of a periodic box: displacement of the upper border along x over the height at the start of the path. If
+    /// the box is sheared already, its shear offset s becomes (1 + xx) s + xy H.
     pub xy: f64,
 }
 
@@ -74,19 +76,19 @@ pub struct Stop {
     pub averages: Averages,
 }
 
-/// A ramp as far as it went.
+/// The states of a ramp, as far as it could be followed.
 #[derive(Clone, Debug)]
 pub struct Ramp {
     pub stops: Vec<Stop>,
-    /// Why it ended before the last stop asked for.
+    /// Why the ramp ended before its last stop; none when it did not.
     pub failure: Option<RveError>,
 }
 
-/// One monotone ramp from the packed state through `stops`: strains relative to the packed state, all of one sign,
-/// growing in magnitude. The RVE relaxes at each stop before it is averaged.
+/// One monotone ramp of thermal strain from the packed state through `stops`: strains relative to the packed state, all
+/// of one sign, growing in magnitude. The RVE relaxes at each stop before it is averaged.
 ///
 /// # Errors
-/// [`RveError::Parameter`] for unusable stops. What goes wrong on the way is in [`Ramp::failure`].
+/// [`RveError::Parameter`] for stops that are not allowed. A failure during the ramp is in [`Ramp::failure`].
 pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
     check_monotone(stops)?;
     let path: Vec<Strains> = stops.iter().copied().map(Strains::thermal).collect();
@@ -94,11 +96,13 @@ pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
     follow(&mut packed.simulation.clone(), &path, protocol, |_, _| ())
 }
 
-/// Follows a path of thermal strain and wall strain from stop to stop, straight in between. The simulation ends at the
-/// last stop reached; `visit` sees it at each. After a failure, [`Simulation::take_last_good`] has the last good state.
+/// Follows a path of thermal strain and wall strain from stop to stop, with straight lines in between. The simulation
+/// ends at the last stop reached; `visit` is called with it at each stop. After a failure,
+/// [`Simulation::take_last_good`] returns the last good state.
 ///
 /// # Errors
-/// [`RveError::Parameter`] for unusable strains or rates. What goes wrong on the way is in [`Ramp::failure`].
+/// [`RveError::Parameter`] for strains or rates that are not allowed. A failure during the path is in
+/// [`Ramp::failure`].
 pub fn follow(
     simulation: &mut Simulation,
     path: &[Strains],
@@ -130,7 +134,7 @@ pub fn follow(
     Ok(ramp)
 }
 
-/// `factor`: of the rates that suit the grains, over those that suit the paper's.
+/// `factor`: ratio of the rates suitable for these grains to those for the paper's grains.
 fn check(path: &[Strains], protocol: Protocol, factor: f64) -> Result<(), RveError> {
     for (key, rate) in
         [("expansion rate", protocol.expansion_rate), ("contraction rate", protocol.contraction_rate)]
@@ -184,7 +188,7 @@ impl Start {
         }
     }
 
-    /// What width, height and shear offset are short of `target` [m].
+    /// Differences of width, height and shear offset from their values at `target` [m].
     fn missing(&self, simulation: &Simulation, target: Strains) -> [f64; 3] {
         let now = Self::of(simulation);
         let sheared = self.shear_offset * (1.0 + target.xx) + target.xy * self.height;
@@ -209,13 +213,13 @@ fn set_box_velocity(simulation: &mut Simulation, [dx, dy, ds]: [f64; 3], time: f
     simulation.walls.normal_velocity = [-vx, vx, -vy, vy];
     let (width, height) = (simulation.walls.width(), simulation.walls.height());
     if let Some(periodic) = &mut simulation.periodic {
-        // The flow stretches the offset with the width.
+        // The affine flow stretches the shear offset along with the width.
         let stretched = periodic.shear_offset * dx / width;
         periodic.shear_rate = (ds - stretched) / time / height;
     }
 }
 
-/// Straight on to `target`, then at rest until the forces balance.
+/// Strains in a straight line to `target`, then relaxes until the forces balance.
 fn advance_to(
     simulation: &mut Simulation,
     target: Strains,
@@ -227,7 +231,7 @@ fn advance_to(
     rest(simulation, target, protocol, since)
 }
 
-/// Relaxes in resting walls and averages.
+/// Relaxes with walls at rest and averages.
 pub(crate) fn rest(
     simulation: &mut Simulation,
     strains: Strains,
@@ -255,14 +259,14 @@ fn strain_to(
         let [dx, dy, ds] = missing;
         let (width, height) = (start.width, start.height);
         let largest = thermal.abs().max(dx.abs() / width).max(dy.abs() / height).max(ds.abs() / height);
-        // Contacts open when radii shrink or walls recede.
+        // Whether contacts rather open: radii shrink or walls recede.
         let loosening = 2.0 * thermal < dx / width + dy / height;
         let rate = if loosening { protocol.contraction_rate } else { protocol.expansion_rate };
         let steps = (largest / (rate * simulation.time_step)).ceil();
         if steps < 1.0 || largest < 1e-12 {
             return Ok(());
         }
-        // Equal steps that end at the stop, or the first of them.
+        // Equal steps that end exactly at the stop, or the first `RUN` of them.
         let time = steps * simulation.time_step;
         simulation.set_strain_rate(thermal / time);
         set_box_velocity(simulation, missing, time);

@@ -1,4 +1,4 @@
-//! Check on heat itself: flux through the whole frozen network of an assembly, beside its homogenised conductivity.
+//! Check of the homogenised conductivity: compared with the heat flux through the whole assembly between two walls.
 
 use crate::Simulation;
 use crate::network::{Link, Network, sorted_along};
@@ -7,9 +7,10 @@ use msdd_dem::Side;
 use msdd_dem::heat::conductance;
 use serde::{Deserialize, Serialize};
 
-/// Share of the length that is left out at each end: there contacts with the wall resist, and grains stand in rows.
+/// Share of the length that is left out at each end, where contacts with the wall add resistance and grains are ordered
+/// by the wall.
 const END: f64 = 0.15;
-/// Windows are about squares of this many mean radii: 215 mm of the paper's grains, about 500 discs.
+/// Side of the windows, which are about square, in mean radii: 215 mm for the paper's grains, about 500 discs.
 const WINDOW: f64 = 43.0;
 
 /// Direction of the temperature difference.
@@ -26,22 +27,23 @@ pub struct HeatCheck {
     pub axis: Axis,
     /// Flux over the temperature gradient in the inner part.
     pub k_measured: f64,
-    /// Mean over windows of the inner part, Eq. 9.
+    /// Mean over windows of the inner part, affine estimate (Eq. 9).
     pub k_affine: f64,
-    /// Mean over the same windows, network solved.
+    /// Mean over the same windows, with the network of contacts solved.
     pub k_network: f64,
     pub affine_over_measured: f64,
     pub network_over_measured: f64,
-    /// Mean gradient in the inner part over temperature difference per length of the box: 1 without wall resistance.
+    /// Mean gradient in the inner part over (temperature difference / length of the box): 1 without wall resistance.
     pub inner_gradient: f64,
     pub windows: usize,
 }
 
-/// Imposes a temperature difference between the two walls of an axis, the other two insulated, and compares the steady
-/// flux with the conductivity homogenised in windows between the ends. A box without a path for heat measures 0.
+/// Imposes a temperature difference between the two walls of an axis, with the other two walls insulated. Compares the
+/// steady flux with the conductivity homogenised in windows between the ends. For a box in which no chain of contacts
+/// conducts heat, the measured value is 0.
 pub fn heat_check(simulation: &Simulation, axis: Axis) -> HeatCheck {
     let (flux, gradient) = flux_and_gradient(simulation, axis);
-    // Grains that hang on one wall alone take its temperature: neither flux nor gradient, but for round-off.
+    // Grains connected to one wall only take its temperature: flux and gradient are then 0 up to round-off.
     let k_measured = if gradient.abs() > 1e-9 { flux / gradient } else { 0.0 };
     let ([k_affine, k_network], windows) = inner_windows(simulation, axis);
     let ratio = |k: f64| if k_measured > 0.0 { k / k_measured } else { 0.0 };
@@ -57,7 +59,7 @@ pub fn heat_check(simulation: &Simulation, axis: Axis) -> HeatCheck {
     }
 }
 
-/// Number of the axis, its two walls, its ends and the inner part of it [m].
+/// Index of the axis, its two walls, and the intervals of the box and of its inner part along it [m].
 fn ends(simulation: &Simulation, axis: Axis) -> (usize, [Side; 2], [f64; 2]) {
     let (along, sides) = match axis {
         Axis::X => (0, [Side::Left, Side::Right]),
@@ -68,13 +70,13 @@ fn ends(simulation: &Simulation, axis: Axis) -> (usize, [Side; 2], [f64; 2]) {
     (along, sides, [low + cut, high - cut])
 }
 
-/// Flux over k for a unit difference per length of the box, and gradient in the inner part.
+/// Flux over k for a temperature difference of 1 over the length of the box, and the gradient in the inner part.
 fn flux_and_gradient(simulation: &Simulation, axis: Axis) -> (f64, f64) {
     let (along, sides, [low, high]) = ends(simulation, axis);
     let count = simulation.discs.len();
     let mut links = Vec::new();
     simulation.for_each_contact(|contact| {
-        // The two walls are further nodes, at the affine temperature.
+        // The two walls are additional nodes of the network, at the affine temperature.
         let i = match contact.i {
             Ok(i) => i,
             Err(side) if side == sides[0] => count,
@@ -93,7 +95,7 @@ fn flux_and_gradient(simulation: &Simulation, axis: Axis) -> (f64, f64) {
         / (simulation.walls.position[sides[1] as usize] - simulation.walls.position[sides[0] as usize]);
     let at = |k: usize| [simulation.discs[k].x, simulation.discs[k].y][along];
     let mean_fluctuation = |section: f64| {
-        // Where the section crosses a contact, T′ lies between those of its discs.
+        // Where the cross-section cuts a contact, T′ is interpolated between its two discs.
         let crossings = network.links.iter().filter(|link| link.i < count).filter_map(|link| {
             let part = (section - at(link.i)) / link.branch[along];
             let [i, j] = [fluctuation(link.i)[along], fluctuation(link.j)[along]];
@@ -105,8 +107,9 @@ fn flux_and_gradient(simulation: &Simulation, axis: Axis) -> (f64, f64) {
     (flow / across, 1.0 + (mean_fluctuation(high) - mean_fluctuation(low)) / (high - low))
 }
 
-/// Affine and network conductivity along the axis, and the number of windows. They fill the inner part from one insulated
-/// wall to the other; those beside each other conduct in parallel (mean), those behind each other in series (harmonic mean).
+/// Affine and network conductivity along the axis, and the number of windows. The windows fill the inner part from one
+/// insulated wall to the other. Windows beside each other conduct in parallel (mean), those behind each other in series
+/// (harmonic mean).
 fn inner_windows(simulation: &Simulation, axis: Axis) -> ([f64; 2], usize) {
     let (along, _, inner) = ends(simulation, axis);
     let [left, right, bottom, top] = simulation.walls.position;
@@ -140,7 +143,8 @@ mod tests {
     use crate::{Compression, Material, PackingSpec, pack};
     use msdd_dem::{Disc, Walls};
 
-    /// A square lattice that leans on its walls: every row is a chain, so affine, network and measurement agree.
+    /// A square lattice that touches its walls: every row is a chain, so affine estimate, network and measurement
+    /// agree.
     #[test]
     fn lattice_between_walls_is_exact() {
         let (n, r, d) = (16, 5e-3, 9.8e-3);
@@ -151,7 +155,8 @@ mod tests {
         for axis in [Axis::X, Axis::Y] {
             let check = heat_check(&lattice, axis);
             assert!((check.network_over_measured - 1.0).abs() < 1e-12, "{check:?}");
-            // Windows that end at the insulated walls cut through no contact there: n − 1 or n rows all the same.
+            // Windows that end at the insulated walls cut no contact there: with n − 1 or n rows the result is the
+            // same.
             assert!((check.affine_over_measured - 1.0).abs() < 1e-12, "{check:?}");
         }
     }
@@ -174,7 +179,7 @@ mod tests {
         assert!(x.k_measured > 1.05 * y.k_measured, "{x:?} {y:?}");
     }
 
-    /// A chain that reaches one wall alone, along the whole box but for its last grain.
+    /// A chain that starts at one wall and ends one grain short of the other.
     #[test]
     fn dead_ends_conduct_nothing() {
         let d = 9.8e-3;

@@ -12,10 +12,10 @@ use serde::{Deserialize, Serialize};
 pub struct Averages {
     /// η [-], overlaps counted once, of the region.
     pub porosity: f64,
-    /// 1 − Σ π r² / box area [-], of the whole box: obeys 1−η = (1−η₀)(1+ε)² exactly in fixed walls.
+    /// 1 − Σ π r² / box area [-], for the whole box: obeys 1−η = (1−η₀)(1+ε)² exactly in fixed walls.
     pub porosity_sum_of_areas: f64,
-    /// Part of the region that is covered more than once [-], counted once per extra cover: 1 − η + this is the solid
-    /// fraction that carries the mass of the grains.
+    /// Part of the region that is covered more than once [-], counted once for each additional cover. 1 − η + this is
+    /// the solid fraction by the mass of the grains.
     pub overlap_fraction: f64,
     /// f = F_xx − F_yy [-], each contact counting 1 (Eq. 8).
     pub fabric_index: f64,
@@ -24,11 +24,12 @@ pub struct Averages {
     pub fabric_yy: f64,
     /// f_K = (K_xx − K_yy)/(K_xx + K_yy) [-].
     pub fabric_conductivity: f64,
-    /// K/k [-], affine estimate (Eq. 9).
+    /// K/k [-], affine estimate (Eq. 9: all temperatures linear in the position).
     pub conductivity_xx: f64,
     pub conductivity_yy: f64,
     pub conductivity_xy: f64,
-    /// K/k [-], the network of contacts solved for a unit gradient ([`crate::network`]); Eq. 9 overestimates it.
+    /// K/k [-] from the network of contacts solved for a unit gradient ([`crate::network`]); the affine estimate is
+    /// higher.
     pub conductivity_network_xx: f64,
     pub conductivity_network_yy: f64,
     pub conductivity_network_xy: f64,
@@ -43,7 +44,7 @@ pub struct Averages {
     pub coordination: f64,
     /// Discs without force-bearing contact, in the whole box.
     pub rattlers: u64,
-    /// Pair contacts that were counted, wholly or in part.
+    /// Number of pair contacts that were counted, wholly or in part.
     pub contacts: u64,
     /// r̄ [m], current.
     pub mean_radius: f64,
@@ -60,18 +61,19 @@ struct Sums {
 }
 
 impl Sums {
-    /// Adds a pair contact of which the share `weight` of the branch lies inside. `radii` are those of i and j [m].
+    /// Adds a pair contact; `weight` is the share of its branch that lies inside the region. `radii` are those of i and
+    /// j [m].
     fn add(&mut self, contact: &Contact, radii: [f64; 2], weight: f64) {
         let ([nx, ny], [dx, dy]) = (contact.normal, contact.branch);
         self.contacts += 1;
         self.fabric += nx * nx - ny * ny;
         self.fabric_squares[0] += nx * nx;
         self.fabric_squares[1] += ny * ny;
-        // k A |d| n⊗n with k = 1, A the chord of the two circles times 1 m.
+        // k A |d| n⊗n with k = 1, where A is the common chord of the two circles times 1 m.
         let strength = weight * chord(radii, dx.hypot(dy)) * dx.hypot(dy);
         self.conductance[0] += strength * nx * nx;
         self.conductance[1] += strength * ny * ny;
-        // Brackets: the same bits, up to the sign, after a quarter turn.
+        // The brackets make the result the same, bit for bit up to the sign, after a quarter turn of the assembly.
         self.conductance[2] += strength * (nx * ny);
         let [fx, fy] = contact.force();
         for (sum, moment) in self.stress.iter_mut().zip([dx * fx, dy * fy, dx * fy, dy * fx]) {
@@ -85,7 +87,7 @@ pub fn homogenise(simulation: &Simulation, kind: RegionKind) -> Averages {
     homogenise_in(simulation, &region(simulation, kind), Cut::Clip)
 }
 
-/// Averages over a given region; of a periodic box that must be the cell, see [`region`].
+/// Averages over a given region; for a periodic box the region must be its cell, see [`region`].
 pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Averages {
     let [xx, yy, xy] = Network::of_region(simulation, region, cut).conductivity(region.area());
     Averages {
@@ -96,8 +98,8 @@ pub fn homogenise_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Ave
     }
 }
 
-/// As [`homogenise_in`] without solving the network, which costs the more, the larger the region: its conductivities are
-/// NaN.
+/// As [`homogenise_in`], but without solving the network, which takes the longer, the larger the region. The network
+/// conductivities are NaN.
 pub fn homogenise_affine_in(simulation: &Simulation, region: &Polygon, cut: Cut) -> Averages {
     let mut sums = Sums::default();
     let mut degree = vec![0u32; simulation.discs.len()];

@@ -1,4 +1,4 @@
-//! Lattices, for which Eqs. 8–10 are sums one can write down.
+//! Lattices, for which the sums of Eqs. 8–10 have closed forms.
 
 use super::*;
 use msdd_dem::{Disc, Material, Walls};
@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 const R: f64 = 5e-3;
 const SPACING: f64 = 1.96 * R;
 
-/// 12 × 12 discs at a·k + b·l, far from any wall, after one step has settled nothing: all overlaps are equal.
+/// 12 × 12 discs at a·k + b·l, far from any wall, after a single step that computes the forces: all overlaps are equal.
 fn lattice(a: [f64; 2], b: [f64; 2]) -> Simulation {
     let discs = (0..12)
         .flat_map(|k| (0..12).map(move |l| (f64::from(k), f64::from(l))))
@@ -25,7 +25,7 @@ fn close(value: f64, expected: f64) {
 fn square_lattice_is_exact() {
     let d = SPACING;
     let simulation = lattice([d, 0.0], [0.0, d]);
-    // A region that cuts contacts: 4 × 4 cells, shifted by a third.
+    // A region whose border cuts contacts: 4 × 4 lattice cells, shifted by a third.
     let region = Polygon::rectangle([3.3 * d, 3.3 * d], [7.3 * d, 7.3 * d]);
     let averages = homogenise_in(&simulation, &region, Cut::Clip);
     let chord = 2.0 * (R * R - 0.25 * d * d).sqrt();

@@ -1,14 +1,14 @@
-//! What is left of a run that failed: its last good state, beside the file that it was to write.
+//! The last good state of a run that failed, written beside the file that the run should have written.
 
 use crate::Simulation;
 use crate::state::{StateError, to_file};
 use std::path::{Path, PathBuf};
 
-/// Writes `state` to `<out>.last-good.json` and returns that path. It is a state file like any other: it can be averaged,
-/// looked at, and run on.
+/// Writes `state` to `<out>.last-good.json` and returns that path. It is an ordinary state file: it can be averaged,
+/// drawn, and continued.
 ///
 /// # Errors
-/// [`LastGoodError`] when the state has no text or the file cannot be written.
+/// [`LastGoodError`] when the state cannot be converted to text or the file cannot be written.
 pub fn write(out: &Path, state: &Simulation) -> Result<PathBuf, LastGoodError> {
     let mut name = out.as_os_str().to_os_string();
     name.push(".last-good.json");
@@ -17,7 +17,7 @@ pub fn write(out: &Path, state: &Simulation) -> Result<PathBuf, LastGoodError> {
     Ok(file)
 }
 
-/// Why there is no last good state.
+/// Reasons why the last good state could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum LastGoodError {
     #[error(transparent)]

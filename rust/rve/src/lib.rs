@@ -2,22 +2,22 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`pack`](mod@pack) | random discs, walls close to a target porosity, relax |
+//! | [`pack`](mod@pack) | random discs; walls close until a target porosity; relaxation |
 //! | [`expand`](mod@expand) | ramps of thermal strain and wall strain, with stops |
-//! | [`place`] | seeded random numbers, loose starts |
-//! | [`settle`] | relaxation to static equilibrium, with its outcome |
+//! | [`place`] | seeded random numbers, random loose discs to start from |
+//! | [`settle`] | relaxation to static equilibrium, and how it ended |
 //! | [`region`] | the averaging region: a convex polygon |
 //! | [`area`] | exact area of a union of discs inside a polygon |
 //! | [`homogenise`](mod@homogenise) | porosity, fabric, conductivity, stress (Eqs. 8–11) |
-//! | [`heat_check`](mod@heat_check) | flux through a whole assembly beside its homogenised conductivity |
+//! | [`heat_check`](mod@heat_check) | flux through a whole assembly compared with its homogenised conductivity |
 //! | [`network`] | conductivity from the solved network of contacts |
 //! | [`slide`](mod@slide) | long walls slip along the grains: mobilised wall friction |
 //! | [`state`] | state files: one assembly as JSON |
 //! | [`window`](mod@window) | averages over rectangles of a large assembly |
-//! | [`last_good`] | what is left of a run that failed |
-//! | [`message`] | values in messages: short, whatever they are |
+//! | [`last_good`] | writing the last good state of a run that failed |
+//! | [`message`] | shortening of long values in messages |
 //! | [`vtk`] | ParaView files |
-//! | [`stopwatch`] | where the time goes |
+//! | [`stopwatch`] | time spent in each part of the work |
 //! | [`database`] | plan, generation, storage, export |
 #![forbid(unsafe_code)]
 
@@ -53,14 +53,16 @@ pub use settle::{Outcome, Relaxation, Settled, unbalanced_force};
 pub use slide::slide;
 pub use window::{Window, window, window_around, windows};
 
-/// What can be wrong with an RVE's specification, or go wrong while it is made.
+/// Errors in an RVE's specification or during its making.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RveError {
     #[error(transparent)]
     Material(#[from] msdd_dem::MaterialError),
     #[error("{key} = {value}, allowed: {allowed}", value = message::value(value))]
     Parameter { key: &'static str, value: String, allowed: &'static str },
-    #[error("{placed} of {wanted} discs found a free place; a looser start or fewer discs would fit")]
+    #[error(
+        "only {placed} of {wanted} discs could be placed without overlap: choose a looser start or fewer discs"
+    )]
     NoRoom { placed: usize, wanted: usize },
     #[error("packing stopped at porosity {reached:.4} after {steps} steps, target {target:.4}")]
     TargetNotReached { reached: f64, target: f64, steps: u64 },

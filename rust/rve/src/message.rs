@@ -1,11 +1,11 @@
-//! Values in messages: short, whatever they are.
+//! Shortening of long texts and numbers in messages.
 
 pub use msdd_dem::message::number;
 
-/// Longest text that stands whole in a message.
+/// Longest text that a message shows whole [characters].
 const LONGEST: usize = 300;
 
-/// A text for a message: a long one keeps its beginning and its end.
+/// A text for a message; of a long one only the beginning and the end.
 pub fn shortened(text: &str) -> String {
     let count = text.chars().count();
     if count <= LONGEST {

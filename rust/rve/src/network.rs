@@ -1,9 +1,10 @@
 //! Conductivity of a region from the network of its contacts, solved for a unit gradient along x and along y.
 //!
-//! Temperatures are T = G·x + T′. The affine estimate (Eq. 9) sets T′ = 0 everywhere, which no balance of heat holds to,
-//! and so is an upper bound. Here T′ balances the heat of every disc in the region and is 0 outside of it. That border
-//! shows little: windows of 500 discs solved with a margin of 8 mean radii give the same within 0.1 %. Only branches
-//! enter, no positions: contacts through the border of a periodic cell are like any other.
+//! Temperatures are T = G·x + T′, with the imposed gradient G. The affine estimate (Eq. 9) sets T′ = 0 everywhere;
+//! since the heat of the discs is then not in balance, it is an upper bound. Here T′ is such that the heat of every
+//! disc in the region is in balance, and T′ = 0 outside of it. This boundary condition has little influence: windows of
+//! 500 discs solved with a margin of 8 mean radii give the same within 0.1 %. The equations contain only branch vectors
+//! and no positions, so contacts across the border of a periodic cell need no special treatment.
 
 use crate::region::{Cut, Polygon, contact_share};
 use crate::resistors::Resistors;
@@ -17,24 +18,26 @@ pub struct Link {
     pub j: usize,
     /// From i to j [m].
     pub branch: [f64; 2],
-    /// A/|d|: conductance over k, on 1 m depth [-].
+    /// A/|d|: conductance over k, for 1 m depth [-].
     pub conductance: f64,
-    /// Share of the branch that counts in the average, 0 to 1.
+    /// Share of the branch that counts in the average over the region, 0 to 1.
     pub share: f64,
 }
 
-/// Discs and their contacts. Discs in `free` balance their heat; the others follow the affine temperature.
+/// Discs and their contacts. The heat of the discs in `free` is in balance; the other discs keep the affine
+/// temperature.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
     pub links: Vec<Link>,
-    /// The discs whose temperature is unknown, in the order of elimination; neighbours should come close together.
+    /// The discs whose T′ is unknown, in the order of elimination; neighbours should be close together in it.
     pub free: Vec<usize>,
 }
 
 impl Network {
-    /// The network of a region: discs with their centre inside that touch no wall are free. Discs at a wall must not be,
-    /// or the wall would insulate where the gradient is imposed (up to 7 % low). Wall contacts are left out of the average.
-    /// In a periodic box all discs are free: it has no border.
+    /// The network of a region. Discs with their centre inside that touch no wall are free. Discs at a wall must not be
+    /// free: the wall is no part of the network and would act as an insulator where the gradient is imposed (results up
+    /// to 7 % low). Wall contacts are left out of the average. In a periodic box all discs are free, as it has no
+    /// border.
     pub fn of_region(simulation: &Simulation, region: &Polygon, cut: Cut) -> Self {
         let cell = simulation.periodic.is_some();
         let mut free: Vec<bool> =
@@ -56,8 +59,9 @@ impl Network {
         Self { links, free: sorted_along(simulation, 0, |k| free[k]) }
     }
 
-    /// K/k [-] as xx, yy, xy: Σ share · flow · branch / area, the mean flux for a unit gradient, with the weights of Eq. 9.
-    /// The two mixed terms differ by what the border cuts; xy is their mean. `area` is that of the region [m²].
+    /// K/k [-] as xx, yy, xy: Σ share · flow · branch / area, the mean flux for a unit gradient, with the weights of
+    /// Eq. 9. The two mixed components K_xy and K_yx differ because the border cuts contacts; xy is their mean. `area`
+    /// is that of the region [m²].
     pub fn conductivity(&self, area: f64) -> [f64; 3] {
         let fluctuation = self.fluctuations();
         let mut sums = [[0.0; 2]; 2];
@@ -87,7 +91,7 @@ impl Network {
                 _ => resistors.links.push((i, j, link.conductance)),
             }
             for (axis, along) in link.branch.into_iter().enumerate() {
-                // What the affine temperatures alone let flow from j to i.
+                // Heat flow from j to i at the affine temperatures.
                 let flow = link.conductance * along;
                 if i != KNOWN {
                     resistors.heat[(i, axis)] += flow;
@@ -106,7 +110,7 @@ impl Network {
     }
 }
 
-/// The chosen discs in the order of x (`axis` 0) or y (1), which keeps the fill-in of the factorisation small.
+/// The chosen discs sorted along x (`axis` 0) or y (1), which keeps the fill-in of the factorisation small.
 pub(crate) fn sorted_along(
     simulation: &Simulation,
     axis: usize,
@@ -114,7 +118,8 @@ pub(crate) fn sorted_along(
 ) -> Vec<usize> {
     let at = |k: usize| {
         let Disc { x, y, .. } = simulation.discs[k];
-        // Folded, so that discs on both sides of a periodic border come close together.
+        // The periodic cell is folded about its middle, so that discs on both sides of its border come close together
+        // in the order.
         simulation.cell().map_or([x, y], |cell| cell.fraction(x, y).map(|f| (f - f.floor() - 0.5).abs()))
             [axis]
     };

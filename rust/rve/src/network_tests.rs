@@ -1,4 +1,4 @@
-//! Networks that can be solved by hand, and laws that every solution obeys.
+//! Small networks solved by hand, and laws that every solution obeys.
 
 use super::*;
 use crate::region::{RegionKind, region};
@@ -28,14 +28,15 @@ fn series_and_parallel() {
         );
     }
     let network = Network { links, free: vec![1, 2, 5, 6] };
-    // Length 0.3, height 0.2: K = L/H Σ g of the chains.
+    // Length 0.3, height 0.2: K = L/H Σ g, with g the conductance of each chain.
     let series = |g: [f64; 3]| 1.0 / g.iter().map(|g| 1.0 / g).sum::<f64>();
     let [xx, yy, xy] = network.conductivity(0.3 * 0.2);
     close(xx, 0.3 / 0.2 * conductances.map(series).iter().sum::<f64>());
     assert_eq!((yy, xy), (0.0, 0.0));
 }
 
-/// Two discs in a periodic cell: unequal resistors along x, contacts with their own images along y. Nothing is fixed.
+/// Two discs in a periodic cell: unequal resistors along x, contacts with their own images along y. No temperature is
+/// fixed.
 #[test]
 fn periodic_cell() {
     let (d, g) = (0.1, [1.0, 3.0]);
@@ -51,7 +52,7 @@ fn periodic_cell() {
     close(xy, 0.0);
 }
 
-/// 12 × 12 discs on a lattice; the square one leans on its walls when `walls` says so.
+/// 12 × 12 discs on a lattice; with `walls` the square one touches its walls.
 fn lattice(a: [f64; 2], b: [f64; 2], walls: bool) -> Simulation {
     let places = (0..144).map(|k| (f64::from(k / 12) + 0.5, f64::from(k % 12) + 0.5));
     let discs = places.map(|(k, l)| Disc::at_rest(k * a[0] + l * b[0], k * a[1] + l * b[1], R, 3000.0));
@@ -68,7 +69,7 @@ fn assert_network_is_affine(a: &Averages) {
     close(a.conductivity_network_xy, a.conductivity_xy);
 }
 
-/// In a lattice every disc is balanced by symmetry: T′ = 0.
+/// In a lattice the heat of every disc is in balance by symmetry: T′ = 0.
 #[test]
 fn lattices_are_affine() {
     let d = SPACING;
@@ -99,7 +100,7 @@ fn defect_in_a_lattice() {
     let (a, b) = (chord([R, large], d) / d, chord([R, R], d) / d);
     let fluctuation = d * (b - a) / (a + 3.0 * b);
     assert!(fluctuation.abs() > 1e-2 * d);
-    // Half of each branch lies inside.
+    // Half of each branch lies inside the region.
     close(averages.conductivity_network_xx, 0.5 * (a * (d + fluctuation) + b * (d - fluctuation)) / d);
     close(averages.conductivity_network_yy, b);
     close(averages.conductivity_network_xy, 0.0);
@@ -128,8 +129,8 @@ fn packings_conduct_less_than_affine() {
     }
 }
 
-/// Heat is balanced at every free disc, and with every branch counted whole the mean flux does the work of the mean
-/// gradient: Σ g (d + ΔT′)² = Σ g (d + ΔT′) d, which makes K symmetric.
+/// The heat of every free disc is in balance. When every branch counts whole, the work of the mean flux on the mean
+/// gradient equals the sum over the contacts: Σ g (d + ΔT′)² = Σ g (d + ΔT′) d, which makes K symmetric.
 #[test]
 fn balance_and_work() {
     let state = packed(Compression::Horizontal, 2);
@@ -159,7 +160,8 @@ fn balance_and_work() {
     }
 }
 
-/// A lone disc, a floating pair and a box without contacts: finite, and the pair alone carries nothing.
+/// A lone disc, an isolated pair and a box without contacts: all results are finite, and the isolated pair conducts
+/// nothing.
 #[test]
 fn loose_discs_carry_nothing() {
     let walls = Walls::around(1.0, 1.0);
@@ -173,7 +175,7 @@ fn loose_discs_carry_nothing() {
     for value in at(&[(0.2, 0.2), (0.2 + SPACING, 0.21), (0.7, 0.7)]) {
         assert!(value.abs() < 1e-15, "{value}");
     }
-    // Contracted until unjammed, a packing conducts less than jammed, and no number is lost.
+    // A packing contracted until it is unjammed conducts less than before, and no result is NaN.
     let jammed = packed(Compression::Isotropic, 1);
     let mut loose = jammed.discs.clone();
     loose.iter_mut().for_each(|disc| disc.radius *= 0.9);

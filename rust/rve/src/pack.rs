@@ -1,4 +1,5 @@
-//! Packing: walls, or the borders of a periodic box, close on randomly placed discs until a target porosity, then the assembly relaxes (section 2.4).
+//! Packing: walls, or the borders of a periodic box, close on randomly placed discs until a target porosity is reached;
+//! then the assembly relaxes (section 2.4).
 
 use crate::area::porosity_of_box;
 use crate::place::{Random, radii, scatter, scatter_periodic};
@@ -10,34 +11,35 @@ use msdd_dem::{Periodic, Side, Walls};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Area fraction of the discs at the start: well below the 0.55 at which random addition stops finding places.
+/// Area fraction of the discs at the start: well below 0.55, at which random sequential addition finds no more places.
 const START_DENSITY: f64 = 0.42;
-/// Usual speed of each wall [m/s] around the paper's grains; others are packed as fast by their own measure. At most 0.05 is
-/// quasi-static for 500 discs; slower changes no statistics.
+/// Default speed of each wall [m/s] for the paper's grains; for others it is scaled with the speed of motion in them
+/// (see `scale`). Up to 0.05 the packing of 500 discs is quasi-static; a slower speed does not change the statistics.
 pub const WALL_SPEED: f64 = 0.03;
-/// Drag on contact-free discs while an RVE is made [1/s], for the paper's grains: the paper's damping leaves them flying
-/// for ever.
+/// Drag on discs without contact while an RVE is made [1/s], for the paper's grains. The paper's damping acts on discs
+/// with contacts only, so without drag free discs would never come to rest.
 pub const FREE_DRAG: f64 = 20.0;
-/// Compression is given up after this many times the steps that the way of the walls needs.
+/// The compression fails after this many times the number of steps in which the x walls would meet.
 const STEP_CAP_FACTOR: f64 = 1.5;
 
 /// In which directions the walls close.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Compression {
-    /// Both directions by the same strain: fabric index near 0.
+    /// Both directions by the same strain: fabric index near 0 on average.
     #[default]
     Isotropic,
     /// x only: positive fabric index.
     Horizontal,
     /// The x walls close twice as fast as the y walls: between the two.
     Intermediate,
-    /// The x walls close while the y walls open, an eighth as fast: most fabric and deviator.
+    /// The x walls close while the y walls open, an eighth as fast: largest fabric index and stress deviator.
     Sheared,
 }
 
 impl Compression {
-    /// Speed of the x walls and of the y walls over [`WALL_SPEED`], for an end shape of the given width over height.
+    /// Speed of the x walls and of the y walls over [`WALL_SPEED`], such that the box ends with the given width over
+    /// height.
     fn speeds(self, aspect: f64) -> [f64; 2] {
         let [x, y] = match self {
             Self::Isotropic => [aspect, 1.0],
@@ -50,14 +52,14 @@ impl Compression {
     }
 }
 
-/// What is around the box.
+/// Boundary of the box.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Boundary {
     /// Four rigid walls, as in the paper.
     #[default]
     Walls,
-    /// Nothing: the box repeats itself, and carries the grains along as it deforms.
+    /// No walls: the box repeats itself periodically, and carries the grains along as it deforms.
     Periodic,
 }
 
@@ -67,13 +69,14 @@ impl Boundary {
     }
 }
 
-/// What to pack.
+/// Specification of a packing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackingSpec {
     pub discs: usize,
     pub seed: u64,
-    /// Target for the whole box, overlaps counted once [-]; reached before the relaxation, which changes it little.
+    /// Target porosity of the whole box, overlaps counted once [-]. It is reached before the relaxation, which changes
+    /// it little.
     pub porosity: f64,
     pub compression: Compression,
     /// Radii are uniform between these [m].
@@ -101,16 +104,16 @@ impl Default for PackingSpec {
     }
 }
 
-/// How to pack, where it is not as usual.
+/// Details of the packing procedure, with the usual values as default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preparation {
-    /// Friction angle of the grains while the walls close [rad]; none: the material's. The material's own is back before
-    /// the last relaxation, so that every packed state is at rest by the same law. Less friction packs denser at equal
-    /// pressure.
+    /// Friction angle of the grains while the walls close [rad]; none: that of the material. Before the final
+    /// relaxation the material's own angle is restored, so that all packed states are in equilibrium under the same
+    /// contact law. Less friction gives denser packings at equal pressure.
     pub friction_angle: Option<f64>,
     /// Width over height of the box at the target porosity [-].
     pub aspect: f64,
-    /// Speed of the faster walls while they close [m/s]; none: [`WALL_SPEED`], by the measure of the grains.
+    /// Speed of the faster walls while they close [m/s]; none: [`WALL_SPEED`], scaled for the grains.
     pub wall_speed: Option<f64>,
 }
 
@@ -122,7 +125,7 @@ impl Default for Preparation {
 }
 
 impl Preparation {
-    /// `factor`: of speeds that suit the grains, over those that suit the paper's.
+    /// `factor`: ratio of the speeds suitable for these grains to those for the paper's grains.
     fn check(&self, factor: f64) -> Result<(), RveError> {
         if !(0.1..=10.0).contains(&self.aspect) {
             let value = self.aspect.to_string();
@@ -138,24 +141,24 @@ impl Preparation {
     }
 }
 
-/// A packed assembly at rest in resting walls, at zero strain.
+/// A packed assembly in equilibrium, walls at rest, at zero strain.
 #[derive(Clone, Debug)]
 pub struct Packed {
     pub simulation: Simulation,
     pub settled: Settled,
 }
 
-/// Why a packing went wrong, and what is left of it.
+/// Why a packing failed, and its last good state.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{error}")]
 pub struct Stopped {
     pub error: RveError,
-    /// Absent when it failed before the first step.
+    /// Absent when the packing failed before the first step.
     pub last_good: Option<Box<Simulation>>,
 }
 
 impl PackingSpec {
-    /// Refuses what cannot be packed; names key, value and range.
+    /// Checks the specification; the error names key, value and allowed range.
     pub fn check(&self) -> Result<(), RveError> {
         let parameter = |key, value: String, allowed| Err(RveError::Parameter { key, value, allowed });
         if !(10..=1_000_000).contains(&self.discs) {
@@ -174,7 +177,7 @@ impl PackingSpec {
     }
 }
 
-/// Packs one RVE. The box ends about square.
+/// Packs one RVE. The final box is about square.
 ///
 /// # Errors
 /// [`RveError::Parameter`] or [`RveError::Material`] for bad input; [`RveError::NoRoom`],
@@ -183,7 +186,7 @@ pub fn pack(spec: &PackingSpec, material: &Material) -> Result<Packed, RveError>
     pack_as(spec, &Preparation::default(), material)
 }
 
-/// As [`pack`], prepared in another way.
+/// As [`pack`], with details of the procedure given by `preparation`.
 ///
 /// # Errors
 /// As [`pack`].
@@ -195,7 +198,7 @@ pub fn pack_as(
     pack_watched(spec, preparation, material).map_err(|stopped| stopped.error)
 }
 
-/// As [`pack_as`]; a packing that goes wrong comes with its last good state.
+/// As [`pack_as`], but the error of a failed packing contains its last good state.
 ///
 /// # Errors
 /// Those of [`pack`].
@@ -263,13 +266,13 @@ fn loose_start(spec: &PackingSpec, aspect: f64, material: &Material) -> Result<S
     Ok(simulation)
 }
 
-/// [`FREE_DRAG`] by the measure of the grains [1/s].
+/// [`FREE_DRAG`] scaled for the grains of `simulation` [1/s].
 pub(crate) fn free_drag(simulation: &Simulation) -> f64 {
     FREE_DRAG * rate_factor(&simulation.material, simulation.mean_radius())
 }
 
-/// Width and height [m] of the loose box around discs of total area `area` [m²], such that it has the wanted aspect when
-/// the walls have closed to the target.
+/// Width and height [m] of the loose box for discs of total area `area` [m²], such that it has the wanted aspect ratio
+/// when the walls have closed to the target porosity.
 fn start_box(spec: &PackingSpec, aspect: f64, area: f64) -> (f64, f64) {
     let loose = area / START_DENSITY;
     let dense = area / (1.0 - spec.porosity);
@@ -280,7 +283,7 @@ fn start_box(spec: &PackingSpec, aspect: f64, area: f64) -> (f64, f64) {
             (loose / height, height)
         }
         Compression::Intermediate | Compression::Sheared => {
-            // (w + a vx)(h + a vy) = loose, for the way a of the faster walls.
+            // Solves (w + a vx)(h + a vy) = loose for the distance a that the faster walls move.
             let ([vx, vy], [w, h]) =
                 (spec.compression.speeds(aspect), [(dense * aspect).sqrt(), (dense / aspect).sqrt()]);
             let half = 0.5 * (w * vy + h * vx);
@@ -315,7 +318,8 @@ fn compress(
     }
 }
 
-/// Steps in which the walls close about half of the way to the target: looks get closer as the target nears.
+/// Steps in which the walls close about half of the remaining distance, so that the porosity is computed more often as
+/// the target comes near.
 fn steps_to_halve(simulation: &Simulation, excess: f64) -> u64 {
     let walls = &simulation.walls;
     let [left, right, bottom, top] = Side::ALL.map(|side| walls.normal_velocity[side as usize]);
@@ -349,8 +353,8 @@ mod tests {
                 let walls =
                     pack_as(&spec(compression), &preparation, &Material::default()).unwrap().simulation.walls;
                 let off = walls.width() / walls.height() / aspect - 1.0;
-                // Overlaps, which the start cannot know, are packed away by the moving walls.
-                // While y opens, the same loss of area takes 1.125/0.875 of the change of shape.
+                // The start box does not account for overlaps, so the moving walls overshoot its shape a little. With
+                // `Sheared`, where y opens, the same change of area needs 1.125/0.875 times the change of shape.
                 let bound = if compression == Compression::Sheared { 0.06 * 1.125 / 0.875 } else { 0.06 };
                 assert!(off.abs() < bound, "{compression:?} {aspect}: {off}");
             }

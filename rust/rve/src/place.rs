@@ -1,14 +1,15 @@
-//! A loose start: discs of random radii at random places without overlap (random sequential addition).
+//! Loose random discs to start from: random radii at random places without overlap (random sequential addition).
 
 use crate::RveError;
 use msdd_dem::Disc;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Attempts per disc before giving up; at the density of `pack` the last disc needs about ten.
+/// Attempts per disc before giving up; at the density used in `pack` the last disc needs about ten.
 const ATTEMPTS: u32 = 100_000;
 
-/// Seeded stream of uniform numbers. ChaCha8's output is fixed by its definition, so seeds keep their meaning.
+/// Seeded stream of uniform random numbers. The output of ChaCha8 is fixed by its definition, so the same seed gives
+/// the same numbers in every version of this program.
 pub struct Random(ChaCha8Rng);
 
 impl Random {
@@ -28,8 +29,8 @@ pub fn radii(random: &mut Random, count: usize, low: f64, high: f64) -> Vec<f64>
     (0..count).map(|_| random.uniform(low, high)).collect()
 }
 
-/// Places discs of the given radii in [0, width] × [0, height] without overlap, the largest first, and returns them
-/// ordered by place (lines of cells), so that neighbours lie near in memory.
+/// Places discs of the given radii in [0, width] × [0, height] without overlap, the largest first. They are returned in
+/// the order of their places (grid cells, line by line), so that neighbours are near each other in memory.
 pub fn scatter(
     random: &mut Random,
     mut radii: Vec<f64>,
@@ -64,7 +65,7 @@ fn overlap(disc: &Disc, x: f64, y: f64, radius: f64) -> bool {
     dx * dx + dy * dy < reach * reach
 }
 
-/// As [`scatter`], in a periodic box: discs may lie across its border, and clash with images.
+/// As [`scatter`], in a periodic box: discs may lie across its border and must not overlap images of others.
 pub(crate) fn scatter_periodic(
     random: &mut Random,
     mut radii: Vec<f64>,
@@ -75,7 +76,7 @@ pub(crate) fn scatter_periodic(
     let wanted = radii.len();
     radii.sort_by(|a, b| b.total_cmp(a));
     let size = 2.0 * radii.first().copied().unwrap_or(1.0);
-    // Whole cells, so that neighbours are in the next ones around the border too.
+    // The box is a whole number of grid cells, so that neighbours across the border are in adjacent cells, too.
     let [columns, lines] = [width, height].map(|length| ((length / size) as usize).max(1));
     let index = |x: f64, length: f64, count: usize| ((x / length * count as f64) as usize).min(count - 1);
     let nearest = |d: f64, length: f64| d - length * (d / length).round();

@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RegionKind {
-    /// Convex hull of the centres of the discs that bear force and touch no wall (paper, section 2.4; force-bearing,
-    /// because a rattler would drag the hull along as it drifts).
+    /// Convex hull of the centres of the discs that bear force and touch no wall (paper, section 2.4). Only
+    /// force-bearing discs count, because a drifting rattler would move the hull.
     Hull,
-    /// The box inset by 0.8 r̄ from the walls (authors' later code): as close to windows of a large assembly as the hull,
-    /// and quieter on ramps, see this crate's README.
+    /// The box inset by 0.8 r̄ from the walls (authors' later code). It agrees with windows of a large assembly as well
+    /// as the hull does, and varies more smoothly along ramps, see this crate's README.
     #[default]
     Inset,
-    /// The whole box, wall contacts left out. A periodic box has no rim, and is always averaged over its whole cell.
+    /// The whole box, wall contacts left out. A periodic box is always averaged over its whole cell.
     Cell,
 }
 
@@ -29,19 +29,19 @@ impl RegionKind {
     }
 }
 
-/// How contacts that the region's border crosses count in K and σ.
+/// How contacts that cross the border of the region count in K and σ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Cut {
-    /// With the share of the branch that lies inside.
+    /// Weighted by the share of the branch that lies inside.
     #[default]
     Clip,
-    /// Wholly (paper, section 2.4): overestimates by 3–6 % with 500 discs.
+    /// With their whole branch (paper, section 2.4): overestimates by 3–6 % with 500 discs.
     Whole,
 }
 
-/// Share with which the contact between two discs counts in the averages over a region; in those of a periodic box, which
-/// are over its cell, every contact counts once with its whole branch.
+/// Share with which the contact between discs i and j counts in the averages over a region. In a periodic box, whose
+/// averages are over its cell, every contact counts once with its whole branch.
 pub(crate) fn contact_share(simulation: &Simulation, region: &Polygon, cut: Cut, [i, j]: [usize; 2]) -> f64 {
     if simulation.periodic.is_some() {
         return 1.0;
@@ -85,8 +85,8 @@ impl Polygon {
         self.corners.iter().zip(next).map(|(&a, &b)| (a, b))
     }
 
-    /// Area [m²]. Triangles from the middle of the bounding box, summed by size: the same to the last bit whichever corner
-    /// comes first, and after a quarter turn.
+    /// Area [m²]. The triangles from the middle of the bounding box are summed in the order of their size, so that the
+    /// result is the same to the last bit whichever corner comes first, and after a quarter turn.
     pub fn area(&self) -> f64 {
         let Some(&first) = self.corners.first() else { return 0.0 };
         let (low, high) = self.corners.iter().fold((first, first), |(low, high), c| {
@@ -133,13 +133,14 @@ fn half_hull<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Vec<[f64; 2]> {
     chain
 }
 
-/// The whole box; of a periodic box the rectangle that holds each point of the cell once.
+/// The whole box; for a periodic box the rectangle W × H, which contains each point of the cell once.
 pub fn whole_box(simulation: &Simulation) -> Polygon {
     let [left, right, bottom, top] = simulation.walls.position;
     Polygon::rectangle([left, bottom], [right, top])
 }
 
-/// The averaging region of an RVE; the cell, whatever the kind, when it is periodic. Falls back to the inset box when fewer than three discs span the hull.
+/// The averaging region of an RVE; for a periodic box always its cell. When fewer than three discs span the hull, the
+/// inset box is used instead.
 pub fn region(simulation: &Simulation, kind: RegionKind) -> Polygon {
     let inset = || {
         let [left, right, bottom, top] = simulation.walls.position;

@@ -1,19 +1,20 @@
 //! Steady temperatures of a network of resistors, by sparse Cholesky factorisation.
 //!
-//! nalgebra-sparse rather than a library with run-time dispatch to fused operations: the same bits on every machine.
-//! It reduces no fill-in, so unknowns must come in an order of small bandwidth: sorted along one axis.
+//! The solver is nalgebra-sparse, because libraries that choose fused operations at run time would not give the same
+//! bits on every machine. It does not reorder the unknowns to reduce fill-in, so they must be given in an order of
+//! small bandwidth: sorted along one axis.
 
 use nalgebra::DMatrix;
 use nalgebra_sparse::factorization::CscCholesky;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 
-/// Nodes of unknown temperature, what connects them, and what heats them.
+/// A network with nodes of unknown temperature, the conductances between them, and the heat sources.
 pub(crate) struct Resistors {
     /// Pairs of unknown nodes and the conductance between them.
     pub links: Vec<(usize, usize, f64)>,
-    /// Of each unknown node, the conductance to where the temperature is known to be 0.
+    /// For each unknown node, its conductance to nodes whose temperature is 0.
     pub ground: Vec<f64>,
-    /// Heat into each unknown node, one column a load case.
+    /// Heat into each unknown node, one column per load case.
     pub heat: DMatrix<f64>,
 }
 
@@ -23,9 +24,9 @@ impl Resistors {
         Self { links: Vec::new(), ground: vec![0.0; count], heat: DMatrix::zeros(count, cases) }
     }
 
-    /// Temperatures, a row a node, a column a load case. A cluster without connection to a known temperature is
-    /// determined up to a constant (its heat must sum to 0): one node of it stays at 0, and so do lone nodes.
-    /// None when a number is not finite.
+    /// Temperatures, one row per node, one column per load case. A cluster without connection to a known temperature is
+    /// determined up to a constant (its heat must sum to 0): the temperature of one of its nodes is set to 0. None when
+    /// a number is not finite.
     pub fn temperatures(mut self) -> Option<DMatrix<f64>> {
         if self.ground.is_empty() {
             return Some(self.heat);
@@ -41,13 +42,15 @@ impl Resistors {
             matrix.push(j, i, -conductance);
         }
         diagonal.iter().enumerate().for_each(|(i, &sum)| matrix.push(i, i, sum));
-        // Positive definite by construction, so only a number that is not finite can stop it.
+        // The matrix is positive definite by construction, so the factorisation fails only for numbers that are not
+        // finite.
         let factor = CscCholesky::factor(&CscMatrix::from(&matrix)).ok()?;
         factor.solve_mut(&mut self.heat);
         Some(self.heat)
     }
 
-    /// Grounds one node of each cluster that nothing grounds. No heat flows there, since the cluster's heat sums to 0.
+    /// Grounds one node of each cluster without connection to ground. No heat flows there, since the heat of the
+    /// cluster sums to 0.
     fn pin_floating_clusters(&mut self) {
         let mut parent: Vec<usize> = (0..self.ground.len()).collect();
         for &(i, j, _) in &self.links {

@@ -1,12 +1,14 @@
-//! How fast walls close and strains grow for grains of any size: as fast as the paper's, measured by the grains' own motion.
+//! Scaling of wall speeds and strain rates from the paper's grains to grains of any size, such that they are equally
+//! slow relative to the grains' own motion.
 //!
-//! A contact swings with the period √(ρ r/E) and carries a push at the speed √(E r/ρ), both up to factors that are the same
-//! for all. A speed or a rate given for the grains of the paper is therefore multiplied by the ratio of these to the
-//! paper's: at 0.03 m/s grains of 10 µm are thrown together rather than pressed.
+//! A contact oscillates with the period √(ρ r/E), and a disturbance travels through the grains at the speed √(E r/ρ),
+//! both up to the same factors for all grains. A speed or rate that is given for the paper's grains is therefore
+//! multiplied by the ratio of these quantities to those of the paper's grains. Without this, walls at 0.03 m/s would
+//! throw grains of 10 µm together rather than press them.
 
 use crate::Material;
 
-/// The grains for which speeds and rates are given [m].
+/// Mean radius of the paper's grains, for which speeds and rates are given [m].
 const RADIUS: f64 = 5e-3;
 
 /// Factor of speeds [-] for grains of the mean radius `radius` [m].
@@ -23,8 +25,9 @@ pub(crate) fn rate_factor(material: &Material, radius: f64) -> f64 {
     root_as_power_of_two(squared(material, radius) / squared(&paper, RADIUS))
 }
 
-/// The power of two next to √`square`. What is slow enough has room for a factor of √2, and powers of two keep every bit:
-/// those of grains about as large as the paper's, and those of an assembly that is four times as large.
+/// The power of two nearest to √`square`. Rounding the factor by up to √2 is harmless, since the rates are slow enough.
+/// Powers of two change no digit: grains about as large as the paper's keep the factor 1, and an assembly four times as
+/// large gives exactly scaled results.
 fn root_as_power_of_two(square: f64) -> f64 {
     let exponent = (0.5 * libm::log2(square)).round();
     libm::exp2(exponent)

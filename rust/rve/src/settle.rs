@@ -4,19 +4,20 @@ use crate::RveError;
 use msdd_dem::Simulation;
 use serde::{Deserialize, Serialize};
 
-/// Steps between two copies of the last good state at least: they cost a thousandth of a run.
+/// Least number of steps between two copies of the last good state; the copies then take a thousandth of the run time.
 pub(crate) const KEEP_EVERY: u64 = 1000;
 
-/// Settled when mean |resultant| < this times the mean contact force. Paper: "static equilibrium", no number; 1e-4
-/// leaves pressure within 1e-3 of its limit.
+/// An assembly is in equilibrium ("settled") when mean |resultant| < this times the mean contact force. The paper says
+/// "static equilibrium" without a number; 1e-4 leaves the pressure within 1e-3 of its limit.
 pub const UNBALANCED_LIMIT: f64 = 1e-4;
-/// Added to the mean contact force, over E r̄² / 1 m · 1 m: lets a state without force chains count as settled.
+/// Added to the mean contact force, in units of E r̄² / 1 m · 1 m, so that a state without force chains can count as
+/// settled.
 const FORCE_FLOOR: f64 = 1e-5;
-/// Below this p̃ = p ℓ / (E r̄) the grains bear no load: unjammed (jammed packings have 0.01 to 0.3).
+/// Below this p̃ = p ℓ / (E r̄) the grains count as bearing no load, "unjammed" (jammed packings have 0.01 to 0.3).
 pub const UNJAMMED_PRESSURE: f64 = 2e-4;
-/// Steps at most; typical is 1 000 to 5 000.
+/// Largest number of steps of a relaxation; typical are 1 000 to 5 000.
 const STEP_CAP: u64 = 60_000;
-/// Steps between two looks at the balance.
+/// Steps between two checks of the balance.
 const LOOK_EVERY: u64 = 50;
 
 /// How forces are brought into balance.
@@ -26,7 +27,7 @@ pub enum Relaxation {
     /// The grains' own motion, with the paper's damping.
     #[default]
     Damped,
-    /// FIRE: several times as fast, on a way of its own, see [`Simulation::relax`].
+    /// FIRE: several times as fast, but not along the path of the grains' own motion, see [`Simulation::relax`].
     Fire,
 }
 
@@ -34,11 +35,11 @@ pub enum Relaxation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
-    /// Force balance reached, load-bearing.
+    /// Forces in balance, and the grains bear load.
     Settled,
-    /// Step cap reached first.
+    /// The largest number of steps was reached before the balance.
     Capped,
-    /// Force balance reached (or capped) without load-bearing contacts.
+    /// The grains bear no load, whether the forces came into balance or not.
     Unjammed,
 }
 
@@ -62,12 +63,12 @@ pub struct Settled {
     pub unbalanced: f64,
 }
 
-/// Steps until the forces balance. `since` is the step count at which the present load stage began.
+/// Runs until the forces balance. `since` is the step count at which the present load stage began.
 pub fn settle(simulation: &mut Simulation, relaxation: Relaxation, since: u64) -> Result<Settled, RveError> {
     settle_to(simulation, relaxation, UNBALANCED_LIMIT, since)
 }
 
-/// As [`settle`], to a balance of `limit` [-] instead of [`UNBALANCED_LIMIT`].
+/// As [`settle`], with `limit` [-] instead of [`UNBALANCED_LIMIT`].
 pub fn settle_to(
     simulation: &mut Simulation,
     relaxation: Relaxation,
@@ -100,7 +101,8 @@ pub fn settle_to(
     Ok(Settled { outcome, steps: simulation.steps - since, unbalanced })
 }
 
-/// mean |resultant of contact forces| over the discs / (mean normal contact force + floor) [-].
+/// Measure of the force balance: mean |resultant of contact forces| over the discs / (mean normal contact force +
+/// floor) [-].
 pub fn unbalanced_force(simulation: &Simulation) -> f64 {
     let mut resultant = vec![[0.0f64; 2]; simulation.discs.len()];
     let (mut sum, mut count) = (0.0, 0.0f64);
@@ -121,7 +123,7 @@ pub fn unbalanced_force(simulation: &Simulation) -> f64 {
     mean / (sum / count.max(1.0) + floor)
 }
 
-/// p̃ = p ℓ / (E r̄) [-] of the whole box, from the normal forces alone.
+/// p̃ = p ℓ / (E r̄) [-] of the whole box, from the normal forces only.
 fn mean_pressure(simulation: &Simulation) -> f64 {
     let mut sum = 0.0;
     simulation.for_each_contact(|contact| {

@@ -1,4 +1,4 @@
-//! Long walls that slip along the grains: how much of the wall friction a given slip mobilises.
+//! Wall friction: long walls slip along the grains, and the mobilised friction is measured at given slips.
 
 use crate::expand::{Protocol, Ramp, Stop, Strains, rest};
 use crate::scale::speed_factor;
@@ -8,16 +8,16 @@ use crate::{RveError, Simulation};
 use msdd_dem::Side;
 use serde::{Deserialize, Serialize};
 
-/// Speed of the walls [m/s] along the paper's grains: that of packing, and the grains come to rest at each stop.
+/// Speed of the walls [m/s] for the paper's grains; as in packing. The grains come to rest at each stop.
 const SLIP_SPEED: f64 = 0.03;
-/// Slip over the mean radius that is none [-].
+/// Slip over the mean radius that counts as zero [-].
 const NO_SLIP: f64 = 2e-10;
 /// Largest slip over the mean radius [-].
 const LARGEST_SLIP: f64 = 200.0;
-/// Largest step count between two looks at the stable time step.
+/// Largest number of steps between two updates of the time step.
 const RUN: u64 = 50;
 
-/// Which way bottom and top move.
+/// Directions in which bottom and top move.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Slide {
@@ -38,21 +38,21 @@ impl Slide {
     }
 }
 
-/// What a wall meets, mean of bottom and top.
+/// Friction and slip of the sliding walls, mean of bottom and top.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sliding {
     /// Mobilised friction: tangential over normal force of the wall, positive against the motion [-].
     pub friction: f64,
-    /// Way of the wall less that of the grains that touch it, which give way as the assembly behind them does; weighted by their
-    /// normal forces [m].
+    /// Slip: displacement of the wall less that of the grains that touch it (which move because the assembly behind
+    /// them deforms), weighted by their normal forces [m].
     pub slip: f64,
 }
 
-/// Moves bottom and top along x by the given ways [m] from here, growing. The assembly relaxes at each stop; `visit` sees it
-/// there with what the walls meet.
+/// Moves bottom and top along x by the given displacements [m], counted from the present state and growing. The
+/// assembly relaxes at each stop; `visit` is called there with friction and slip.
 ///
 /// # Errors
-/// [`RveError::Parameter`] for unusable slips. What goes wrong on the way is in [`Ramp::failure`].
+/// [`RveError::Parameter`] for displacements that are not allowed. A failure on the way is in [`Ramp::failure`].
 pub fn slide(
     simulation: &mut Simulation,
     slips: &[f64],
@@ -110,7 +110,8 @@ fn slip_by(
     rest(simulation, Strains::default(), Protocol { relaxation, ..Protocol::default() }, since)
 }
 
-/// After a way [m] of the walls; `start` has x of the discs [m] before it. All 0 where a wall has no normal force.
+/// Friction and slip after a displacement `way` [m] of the walls; `start` has x of the discs [m] before it. All values
+/// are 0 when a wall has no normal force.
 fn sliding(simulation: &Simulation, slide: Slide, way: f64, start: &[f64]) -> Sliding {
     let mut mean = Sliding::default();
     for (side, direction) in [Side::Bottom, Side::Top].into_iter().zip(slide.directions()) {
@@ -118,7 +119,7 @@ fn sliding(simulation: &Simulation, slide: Slide, way: f64, start: &[f64]) -> Sl
         simulation.for_each_contact(|contact| {
             if contact.i == Err(side) {
                 let [x, y] = contact.force();
-                // On the disc: normal inwards, tangential along the motion of the wall that drags it.
+                // Force on the disc: normal inwards, tangential along the motion of the wall that drags it.
                 let inwards = side.normal()[1] * y;
                 normal += inwards;
                 tangential += direction * x;
@@ -133,7 +134,7 @@ fn sliding(simulation: &Simulation, slide: Slide, way: f64, start: &[f64]) -> Sl
     mean
 }
 
-/// What walls that have not moved meet: the friction that packing left.
+/// Friction at walls that have not moved: what the packing procedure left.
 pub fn at_rest(simulation: &Simulation, slide: Slide) -> Sliding {
     let start: Vec<f64> = simulation.discs.iter().map(|disc| disc.x).collect();
     sliding(simulation, slide, 0.0, &start)

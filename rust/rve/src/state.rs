@@ -1,13 +1,15 @@
-//! State files: one assembly as JSON, SI units. What is written and read back continues bit for bit; states from
-//! elsewhere (contacts given, velocities absent) are accepted, nonsense is refused with particle and value.
+//! State files: one assembly as JSON, SI units. A state that is written and read back continues bit for bit. States
+//! from other programs (contacts given, velocities absent) are accepted; values that make no sense are refused with an
+//! error that names particle and value.
 //!
-//! Walls are −1 left, −2 right, −3 bottom, −4 top, always as i of a contact. n points from i to j (from the wall
-//! inwards), t = (−n_y, n_x), the force on j is f_n n + f_t t.
+//! As i of a contact, the walls are −1 left, −2 right, −3 bottom, −4 top. n points from i to j (from the wall inwards),
+//! t = (−n_y, n_x), the force on j is f_n n + f_t t.
 //!
-//! A periodic box says so, with its shear offset s; it has no wall contacts, particles may lie outside of it, and a
-//! contact is that of i with the image of j moved by shift_x (W, 0) + shift_y (s, H); no shifts: all zero.
+//! A periodic box has `periodic = true` and its shear offset s. It has no wall contacts, particles may lie outside of
+//! it, and a contact is that of i with the image of j moved by shift_x (W, 0) + shift_y (s, H); absent shifts are zero.
 //!
-//! A file of ours has a checksum over its values, in any layout; one without is accepted, one with a wrong checksum is not.
+//! Files written by this program have a checksum over their values, which does not depend on the layout of the text. A
+//! file without checksum is accepted, one with a wrong checksum is refused.
 
 use crate::message::{number, shortened};
 use msdd_dem::failure::LARGEST_OVERLAP;
@@ -15,9 +17,9 @@ use msdd_dem::{Disc, Material, MaterialError, Periodic, RunState, Side, Simulati
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// How far a disc of a periodic box may be from it, in box lengths: beyond, its place has lost digits.
+/// Largest distance of a disc from its periodic box, in box lengths: farther away, its position would have lost digits.
 const FARTHEST_CELL: f64 = 1000.0;
-/// Largest and smallest magnitude of a state's numbers: products of several stay numbers.
+/// Largest magnitude of a state's numbers, and its inverse the smallest: products of several stay finite.
 const LARGEST: f64 = 1e30;
 const SMALLEST: f64 = 1e-30;
 /// Name of the schema.
@@ -59,16 +61,16 @@ struct File {
     particles: Particles,
     #[serde(default)]
     contacts: Contacts,
-    /// Absent in states from elsewhere: at rest, at zero strain.
+    /// Absent in states from other programs: the assembly is then at rest and at zero strain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     run: Option<Run>,
-    /// Absent in states from elsewhere and from older programs.
+    /// Absent in states from other and from older programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
 
 impl File {
-    /// SHA-256 of the values, whatever their layout in the file; hexadecimal.
+    /// SHA-256 of the values, independent of the layout of the file; hexadecimal.
     fn digest(&self) -> Result<String, StateError> {
         debug_assert!(self.checksum.is_none(), "the checksum is of all else");
         let text = serde_json::to_string(self)?;
@@ -144,7 +146,7 @@ pub fn to_json(simulation: &Simulation) -> Result<String, StateError> {
     Ok(serde_json::to_string(&file(simulation))?)
 }
 
-/// The same for a file, with a checksum over its values.
+/// As [`to_json`], with a checksum over the values, for a file.
 ///
 /// # Errors
 /// [`StateError::Json`].
@@ -212,8 +214,8 @@ fn contacts(simulation: &Simulation) -> Contacts {
     columns
 }
 
-/// Reads a state. Without a `run` block the assembly is at zero strain, its walls rest, and contact-free discs are
-/// dragged as while an RVE is made.
+/// Reads a state. Without a `run` block the assembly is at zero strain, its walls are at rest, and discs without
+/// contact feel the same drag as while an RVE is made.
 ///
 /// # Errors
 /// [`StateError`] names what is wrong, the particle or contact, and the value.
@@ -313,7 +315,7 @@ fn periodic(bounds: Bounds) -> Result<Option<Periodic>, StateError> {
     Ok(bounds.periodic.then_some(Periodic { shear_offset, shear_rate: 0.0 }))
 }
 
-/// Discs of a periodic box drift, but not far.
+/// Discs of a periodic box may drift out of it, but not far.
 fn check_near(discs: &[Disc], walls: &Walls) -> Result<(), StateError> {
     let [left, right, bottom, top] = walls.position;
     let reach = FARTHEST_CELL * walls.width().max(walls.height());
@@ -396,7 +398,7 @@ fn set_contacts(simulation: &mut Simulation, columns: &Contacts) -> Result<(), S
     Ok(())
 }
 
-/// Shift of j's image of each contact.
+/// Shift of j's image for each contact.
 fn shifts(columns: &Contacts, periodic: bool) -> Result<Vec<[i32; 2]>, StateError> {
     let expected = columns.i.len();
     let mut shifts = vec![[0, 0]; expected];

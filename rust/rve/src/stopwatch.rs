@@ -1,4 +1,4 @@
-//! Where the time goes: seconds a thread has spent in each part of the work. No result depends on it.
+//! Measures the time that each thread spends in each part of the work. No result depends on it.
 
 use std::cell::Cell;
 use std::time::Instant;
@@ -8,7 +8,7 @@ use std::time::Instant;
 pub enum Stage {
     /// Walls close on the loose discs.
     Packing,
-    /// Relaxation after it.
+    /// Relaxation after packing.
     PackingSettle,
     /// Strain or wall slip from stop to stop.
     Strain,
@@ -40,7 +40,7 @@ thread_local! {
     static SPENT: Cell<Seconds> = const { Cell::new([0.0; 5]) };
 }
 
-/// Does `work` and adds its time to the stage.
+/// Does `work` and adds the time it took to the stage.
 pub(crate) fn time<T>(stage: Stage, work: impl FnOnce() -> T) -> T {
     let begin = Instant::now();
     let result = work();
@@ -50,7 +50,7 @@ pub(crate) fn time<T>(stage: Stage, work: impl FnOnce() -> T) -> T {
     result
 }
 
-/// What this thread has spent since it last asked.
+/// Seconds that this thread has spent in each stage since the last call.
 pub fn take() -> Seconds {
     SPENT.replace([0.0; 5])
 }

@@ -27,7 +27,7 @@ pub fn contacts(simulation: &Simulation) -> String {
     simulation.for_each_contact(|contact| {
         let [dx, dy] = contact.branch;
         points.push(match contact.i {
-            // Across a periodic border: from i to where it meets the image of j.
+            // Contacts across a periodic border are drawn from i to the place of the image of j.
             Ok(i) if contact.shift != [0, 0] => {
                 let disc = &simulation.discs[i];
                 format!("{} {} 0 {} {} 0", disc.x, disc.y, disc.x + dx, disc.y + dy)

@@ -5,8 +5,8 @@ use crate::homogenise::{Averages, homogenise_in};
 use crate::region::{Cut, Polygon};
 use msdd_dem::{Disc, Side};
 
-/// A rectangle of an assembly and its averages. Those that an RVE counts in its whole box (sum-of-areas porosity,
-/// coordination, rattlers, mean radius) are of the discs in the window here.
+/// A rectangle of an assembly and its averages. Averages that an RVE has for its whole box (sum-of-areas porosity,
+/// coordination, rattlers, mean radius) are here those of the discs in the window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Window {
     /// Lower left and upper right corner [m].
@@ -18,7 +18,7 @@ pub struct Window {
 /// The box cut into `nx` × `ny` equal windows, x fastest. Contacts are clipped.
 ///
 /// # Panics
-/// Without windows along x or y.
+/// When `nx` or `ny` is 0.
 pub fn windows(simulation: &Simulation, nx: usize, ny: usize) -> Vec<Window> {
     assert!(nx > 0 && ny > 0, "{nx} x {ny} windows");
     let [left, right, bottom, top] = simulation.walls.position;
@@ -26,7 +26,7 @@ pub fn windows(simulation: &Simulation, nx: usize, ny: usize) -> Vec<Window> {
     let mut list = Vec::new();
     for l in 0..ny {
         let (low, high) = (cut(bottom, top, l, ny), cut(bottom, top, l + 1, ny));
-        // One row of windows at a time, so that each crop passes over few discs.
+        // The box is cropped to one row of windows at a time, so that cropping to each window passes over few discs.
         let row = crop(simulation, [left, low], [right, high]);
         for k in 0..nx {
             list.push(window(&row, [cut(left, right, k, nx), low], [cut(left, right, k + 1, nx), high]));
@@ -35,8 +35,9 @@ pub fn windows(simulation: &Simulation, nx: usize, ny: usize) -> Vec<Window> {
     list
 }
 
-/// The square window of side `size` [m] around a point, shifted inside at the walls to keep `margin` [m] off them; of a
-/// smaller box it is all that the margins leave along that axis. Contacts are clipped.
+/// The square window of side `size` [m] around a point, moved inwards where needed to keep the distance `margin` [m]
+/// from the walls. Along an axis on which the box is too short for that, the window spans all but the margins. Contacts
+/// are clipped.
 pub fn window_around(simulation: &Simulation, centre: [f64; 2], size: f64, margin: f64) -> Window {
     let [left, right, bottom, top] = simulation.walls.position;
     let span = |at: f64, low: f64, high: f64| {
@@ -70,14 +71,15 @@ pub fn window(simulation: &Simulation, low: [f64; 2], high: [f64; 2]) -> Window 
     Window { low, high, averages }
 }
 
-/// The discs in or near a rectangle with their contacts, in the same walls: all that averages over it depend on.
+/// The discs in or near a rectangle with their contacts, in the same walls: everything that averages over the rectangle
+/// depend on.
 pub fn crop(simulation: &Simulation, low: [f64; 2], high: [f64; 2]) -> Simulation {
     const GONE: usize = usize::MAX;
     let largest = simulation.discs.iter().map(|d| d.radius).fold(0.0, f64::max);
     let mut number = vec![GONE; simulation.discs.len()];
     let mut discs = Vec::new();
     for (k, disc) in simulation.discs.iter().enumerate() {
-        // Partners of discs that reach into the rectangle.
+        // Large enough to include the partners of all discs that reach into the rectangle.
         if near(disc, low, high, 3.0 * largest) {
             number[k] = discs.len();
             discs.push(*disc);
@@ -94,7 +96,7 @@ pub fn crop(simulation: &Simulation, low: [f64; 2], high: [f64; 2]) -> Simulatio
     part
 }
 
-/// Whether the centre lies in the rectangle grown by `margin` on all sides.
+/// Whether the centre lies in the rectangle enlarged by `margin` on all sides.
 fn near(disc: &Disc, low: [f64; 2], high: [f64; 2], margin: f64) -> bool {
     let within = |at: f64, low: f64, high: f64| (low - margin..=high + margin).contains(&at);
     within(disc.x, low[0], high[0]) && within(disc.y, low[1], high[1])

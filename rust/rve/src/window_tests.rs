@@ -1,4 +1,4 @@
-//! Windows beside averages over the same region of the whole assembly.
+//! Windows compared with averages over the same region of the whole assembly.
 
 use super::*;
 use crate::{Compression, Material, PackingSpec, pack};
@@ -14,7 +14,7 @@ fn packed() -> Simulation {
     pack(&spec, &Material::default()).unwrap().simulation
 }
 
-/// What only depends on the region is the same with and without the crop.
+/// Averages that depend only on the region are the same with and without cropping the assembly.
 #[test]
 fn a_window_is_a_region() {
     let state = packed();
@@ -37,7 +37,7 @@ fn a_window_is_a_region() {
     assert_eq!(a.contacts, b.contacts);
 }
 
-/// Windows that tile the box share out its pores, its conductivity and its stress.
+/// Pores, conductivity and stress of windows that tile the box add up to those of the box.
 #[test]
 fn windows_tile_the_box() {
     let state = packed();

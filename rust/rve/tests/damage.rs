@@ -1,5 +1,5 @@
-//! Damaged databases and CSVs: what is flipped, cut or replaced is found, or changes nothing that is read. MSDD_FLIPS sets
-//! the number of flips.
+//! Damaged databases and CSVs: a flipped, cut or replaced part is either detected or changes nothing that is read.
+//! MSDD_FLIPS sets the number of flips.
 
 use msdd_rve::database::{
     Dataset, Plan, Run, check, export_csv, generate, inspect, merge, read, read_all, seal,
@@ -29,7 +29,7 @@ fn database() -> &'static [u8] {
     })
 }
 
-/// Bytes of one whose pages are full of rows.
+/// Bytes of a database whose pages are full of rows.
 fn full_database() -> &'static [u8] {
     static MADE: OnceLock<Vec<u8>> = OnceLock::new();
     MADE.get_or_init(|| {
@@ -41,7 +41,7 @@ fn full_database() -> &'static [u8] {
     })
 }
 
-/// That database in a file, and what is in it.
+/// Writes that database to a file, and returns the file with the rows and provenance in it.
 fn copy(name: &str) -> (PathBuf, Dataset) {
     let file = folder(name).join("a.msdd");
     std::fs::write(&file, database()).unwrap();
@@ -66,7 +66,8 @@ fn random(state: &mut u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Flips single bits of the bytes and puts them into `file`: each is found by all readers, or what is read is the same.
+/// Flips single bits of the bytes and writes them to `file`: either all readers detect the flip, or what is read is the
+/// same.
 fn flips(name: &str, file: &Path, sound: &[u8], dataset: &Dataset) {
     let count = std::env::var("MSDD_FLIPS").ok().and_then(|text| text.parse().ok()).unwrap_or(200);
     let (mut state, mut found, mut same) = (11, 0, 0);
@@ -135,7 +136,7 @@ fn every_flipped_bit_of_a_csv_or_its_provenance_is_found_or_changes_nothing() {
     }
 }
 
-/// Text that is no UTF-8 ended the program.
+/// Text that is not UTF-8, or a value of the wrong kind, gives an error that names table, row and column.
 #[test]
 fn text_that_is_no_text_is_named_by_table_row_and_column() {
     for (statement, place) in [
@@ -170,7 +171,7 @@ fn text_that_is_no_text_is_named_by_table_row_and_column() {
     }
 }
 
-/// Runs of garbage, mostly in the pages of the rows: 480 files, none of which ends the program.
+/// Runs of random bytes, mostly in the pages of the rows: 480 files, none of which may cause a panic.
 #[test]
 fn garbage_is_an_error() {
     let file = folder("garbage").join("a.msdd");
@@ -200,14 +201,14 @@ fn what_is_no_table_of_ours_is_not_read() {
     let endless = "CREATE VIEW states AS WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT x AS packing \
                    FROM c;";
     for (statement, problem) in [
-        (format!("DROP TABLE states; {endless}"), "view states is none of a database"),
+        (format!("DROP TABLE states; {endless}"), "view states does not belong to a database"),
         (
             "CREATE TRIGGER t AFTER INSERT ON states BEGIN DELETE FROM states; END".to_string(),
             "trigger t is none",
         ),
         (
             "ALTER TABLE states ADD COLUMN more REAL".to_string(),
-            "table states is none of a database or not as it",
+            "table states does not belong to a database or was",
         ),
         ("DROP TABLE columns".to_string(), "is missing"),
     ] {
@@ -226,7 +227,7 @@ fn what_breaks_a_law_is_not_trained_on_and_older_files_can_be_sealed() {
     let (file, dataset) = copy("laws");
     execute(&file, "UPDATE states SET strain = 0.0101 WHERE rowid = 2");
     assert!(message(&file).contains("is damaged: its rows are not what was written"));
-    // As an older program would have written it.
+    // The same file without checksums, as an older program would have written it.
     execute(&file, "DELETE FROM provenance WHERE key LIKE '%_sha256'");
     assert!(!read(&file).unwrap().has_checksum());
     let error = read_all(std::slice::from_ref(&file)).unwrap_err().to_string();
@@ -239,7 +240,7 @@ fn what_breaks_a_law_is_not_trained_on_and_older_files_can_be_sealed() {
     assert_eq!(seal(&file).unwrap(), 6);
     assert_eq!((read(&file).unwrap(), std::fs::read(&file).unwrap().as_slice()), (dataset, database()));
     let csv = file.with_file_name("a.csv");
-    // Few digits need more room in the laws.
+    // Exports with few digits need a larger tolerance in the laws.
     export_csv(&file, &csv, Some(6)).unwrap();
     let rounded = read(&csv).unwrap();
     assert_eq!(rounded.provenance["digits"], "6");
@@ -300,7 +301,7 @@ fn a_csv_needs_every_column_and_its_order_of_rows_plays_no_part() {
     refused("a,b\n1,2\n", "column 'a' is unknown");
 }
 
-/// Rows of an older engine may lack a column, once somebody has said so.
+/// Rows of an older engine may lack a column, once the file has been sealed without it.
 #[test]
 fn an_older_csv_without_a_column_can_be_sealed() {
     let (file, _) = copy("older");
@@ -369,7 +370,7 @@ fn a_second_generator_ends_before_it_makes_anything() {
     assert_eq!(std::fs::read_dir(file.parent().unwrap()).unwrap().count(), 1, "nothing is left beside it");
 }
 
-/// A small file that unpacks to a huge one.
+/// A small compressed file that unpacks to a huge one.
 #[test]
 fn a_bomb_is_refused() {
     use std::io::Write;

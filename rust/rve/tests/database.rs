@@ -1,4 +1,4 @@
-//! Generation, storage, resume, shards and export of small databases.
+//! Generation, storage, continuation, shards and export of small databases.
 
 use msdd_rve::database::{
     DatabaseError, Kind, Plan, RampName, Run, export_csv, generate, merge, read, record::COLUMNS,
@@ -56,7 +56,7 @@ fn rows_do_not_depend_on_threads_and_csv_reads_back() {
     assert_eq!((records[6].ramp, records[6].stop), (RampName::UpDown, 2));
     assert_eq!(records[1].initial_porosity, records[0].porosity);
     assert!(records.iter().all(|r| r.failure.is_none() && r.porosity.is_some()));
-    // Friction makes the way back another one, not far off.
+    // Because of friction the way back passes through other states, but not very different ones.
     let (there, back) = (records[1].pressure.unwrap(), records[5].pressure.unwrap());
     assert!(there != back && (back / there - 1.0).abs() < 0.3, "{there} {back}");
 }
@@ -110,7 +110,7 @@ fn a_stopped_run_resumes_to_the_same_bytes_and_another_plan_is_refused() {
     let (whole, halved) = (folder.join("whole.msdd"), folder.join("halved.msdd"));
     make(&plan(), &whole, 2);
     let run = Run { threads: 2, ..Run::default() };
-    // What a killed run leaves: some packings in the order in which they were made, and no sign of completion.
+    // What a killed run leaves: some packings, in the order in which they were made, and no mark of completion.
     let third = |done: usize| if done < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
     generate(&plan(), &halved, &run, |progress| third(progress.done)).unwrap();
     assert!(read(&halved).unwrap().has_checksum());
@@ -158,7 +158,7 @@ fn shards_merge_to_the_bytes_of_one_process_and_gaps_and_duplicates_are_found() 
     execute(&shards[2], "DELETE FROM states WHERE packing = 5 AND ramp = 'wall_shear'");
     let damaged = error(&shards);
     assert!(damaged.contains("3-3.msdd: is damaged: its rows are not what was written"), "{damaged}");
-    // As an older program's file, without checksums.
+    // The same file without checksums, as an older program would have written it.
     execute(&shards[2], "DELETE FROM provenance WHERE key LIKE '%_sha256'");
     let hole = error(&shards);
     assert!(hole.contains("3-3.msdd: packing 5 has not the rows of the plan"), "{hole}");
@@ -168,7 +168,7 @@ fn shards_merge_to_the_bytes_of_one_process_and_gaps_and_duplicates_are_found() 
 #[test]
 fn failures_are_rows() {
     let folder = folder("failed");
-    // To fill 99 % of a small box, and to expand by 10 % then, discs have to overlap beyond all sense.
+    // To fill 99 % of a small box, and then to expand by 10 %, discs must overlap more than any run allows.
     let text = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\
         [[thermal]]\ndiscs = 20\nporosities = [0.01]\ncompressions = [\"isotropic\", \"horizontal\"]\nrepeats = 4\n\
         ramps = [\"up\", \"up_down\"]\nstops = [0.01, 0.2]\n";
@@ -179,7 +179,7 @@ fn failures_are_rows() {
     let failed: Vec<_> = records.iter().filter(|r| r.outcome == "failed").collect();
     let sound = |reason: &Option<String>| reason.as_ref().is_some_and(|text| text.contains("overlap"));
     assert!(failed.iter().all(|r| sound(&r.failure) && r.porosity.is_none()), "{failed:?}");
-    // The way back cannot be made without the way there.
+    // The way back (`up_down`) cannot be made when the ramp `up` has failed.
     let back = failed.iter().find(|r| r.ramp == RampName::UpDown).expect("some ramp has failed");
     assert!(
         records.iter().any(|r| r.packing == back.packing && r.ramp == RampName::Up && r.failure.is_some())

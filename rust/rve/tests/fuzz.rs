@@ -1,4 +1,5 @@
-//! Readers of states, plans, databases, CSV and offenders under mutations: no panic, and what is accepted is sound.
+//! Readers of states, plans, databases, CSV and offenders are given mutated input: they must not panic, and what they
+//! accept must be valid.
 
 #[path = "common/mutations.rs"]
 mod mutations;
@@ -26,7 +27,8 @@ fn text(bytes: &[u8]) -> Option<&str> {
     std::str::from_utf8(bytes).ok()
 }
 
-/// A database, sealed and as an older program's, in a folder of its own.
+/// Two databases in a folder of their own: one with checksums, and one without them, as an older program would have
+/// written it.
 fn databases(name: &str) -> [PathBuf; 2] {
     let folder = folder().join(name);
     let _ = std::fs::remove_dir_all(&folder);
@@ -43,7 +45,7 @@ fn bytes(files: &[PathBuf]) -> Vec<Vec<u8>> {
     files.iter().map(|file| std::fs::read(file).unwrap()).collect()
 }
 
-/// An accepted state's own text is the same state.
+/// A mutated state that is accepted, written and read again must be the same state.
 #[test]
 fn states() {
     let spec = PackingSpec { discs: 12, porosity: 0.16, ..PackingSpec::default() };
@@ -76,7 +78,8 @@ fn plans() {
     assert!(accepted > 10);
 }
 
-/// Of a sealed database only what was written is accepted; of an older one numbers, whose laws can be looked at.
+/// A database with checksums may only be accepted when it contains what was written. One of an older program, without
+/// checksums, may be accepted with other numbers, which the laws can check.
 #[test]
 fn sqlite_files() {
     let files = databases("fuzz-sqlite");

@@ -1,5 +1,5 @@
-//! The bytes that the engine makes, held against stored hashes: on every instruction set, on any number of threads, and on
-//! every platform the same.
+//! Hashes of the states that the engine computes, compared with stored ones: the states must be the same on every
+//! instruction set, any number of threads, and every platform.
 
 use msdd_dem::{Disc, Simd, Thermal, WallHeat, Walls};
 use msdd_rve::state::to_json;
@@ -29,7 +29,8 @@ fn available() -> impl Iterator<Item = Simd> {
     Simd::ALL.into_iter().filter(|simd| simd.available())
 }
 
-/// Left wall 20 K above the grains, 2 % of expansion; right wall cold, bottom insulated, 100 W through the top.
+/// The left wall is 20 K above the grains, the radii grow by 2 %; the right wall is cold, the bottom insulated, and 100
+/// W come in through the top.
 fn heat(simulation: &mut Simulation, steps: u64) {
     let walls =
         [WallHeat::Temperature(20.0), WallHeat::Temperature(0.0), WallHeat::Insulated, WallHeat::Flux(100.0)];
@@ -54,7 +55,7 @@ fn a_small_rve_has_the_stored_bytes() {
     }
 }
 
-/// Enough discs for slabs. A jittered lattice, jammed: five contacts a disc.
+/// A jammed, jittered lattice with five contacts per disc, large enough to be divided into slabs.
 fn large() -> Simulation {
     let material = Material::default();
     let discs = (0..4200)

@@ -1,4 +1,4 @@
-//! Guards the engine version: whoever changes what a plan gives, has to raise it.
+//! Guards the engine version: a change of the results of a plan requires that it be raised.
 
 use msdd_rve::database::{ENGINE_VERSION, Plan, Run, generate, read};
 use std::ops::ControlFlow;
@@ -13,7 +13,7 @@ const PLAN: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 11\n\
     repeats = 1\nramps = [\"xy\"]\nstops = [0.01]\n\
     [[wall_shear]]\ndiscs = 40\nporosities = [0.12]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.001]\n";
 
-/// Version, and pressure, conductivity and steps of each row as that version gives them.
+/// Engine version, and pressure, conductivity and steps of each row of the plan with that version.
 const GOLDEN: (i64, &str) = (
     4,
     "\

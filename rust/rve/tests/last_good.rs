@@ -1,4 +1,4 @@
-//! A run that fails leaves its last good state.
+//! A run that fails leaves its last good state, which can be read and continued.
 
 use msdd_dem::{Excess, StepChoice};
 use msdd_rve::state::{from_json, to_file, to_json};
@@ -16,8 +16,8 @@ fn packed(porosity: f64) -> Simulation {
     pack(&spec(porosity), &Material::default()).unwrap().simulation
 }
 
-/// Walls that close on the grains until one is swallowed (or pressed out, after which no copy is taken): run on from the
-/// file of the copy, it fails in the same way, to the last bit.
+/// Walls close on the grains until one disc is swallowed by another (or pushed out of the box, after which no copy is
+/// made). Continued from the copy of the last good state, the run fails in the same way, to the last bit.
 #[test]
 fn the_last_good_state_fails_again_in_the_same_way() {
     let mut simulation = packed(0.13);
@@ -59,7 +59,7 @@ fn a_path_that_ends_well_keeps_nothing() {
 
 #[test]
 fn a_packing_that_fails_comes_with_its_last_good_state() {
-    // Small discs among large ones are swallowed long before the target.
+    // Small discs are swallowed by large ones long before the target porosity is reached.
     let uneven = PackingSpec { discs: 200, radius_min: 1e-3, radius_max: 1e-2, ..spec(0.01) };
     let stopped = pack_watched(&uneven, &Preparation::default(), &Material::default()).unwrap_err();
     let kept = stopped.last_good.unwrap();
@@ -80,7 +80,7 @@ fn it_is_written_beside_the_file_that_was_to_be_written() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// A state with a disc beyond a wall could not be read back: it is not kept, the one before is.
+/// A state with a disc beyond a wall could not be read back: such a state is not kept, and the copy before it remains.
 #[test]
 fn a_state_with_a_disc_beyond_a_wall_is_not_kept() {
     let mut simulation = packed(0.13);
@@ -90,7 +90,7 @@ fn a_state_with_a_disc_beyond_a_wall_is_not_kept() {
     let left = simulation.walls.position[0];
     let disc = simulation.discs.iter().position(|d| d.x < left + d.radius).unwrap();
     simulation.walls.position[0] = simulation.discs[disc].x + 1e-5;
-    // So heavy that it stays there.
+    // The discs are so heavy that the disc beyond the wall stays there.
     simulation.discs.iter_mut().for_each(|d| d.mass *= 1e6);
     let step = StepChoice::Fixed { step: simulation.time_step, on_excess: Excess::Refuse };
     simulation.choose_time_step(step).unwrap();

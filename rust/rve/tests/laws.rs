@@ -15,7 +15,7 @@ fn packed(compression: Compression, material: &Material) -> Packed {
     packed
 }
 
-/// The same state seen through a map of discs, walls and sides; friction forces times `force`.
+/// The same state after a map of discs, walls and sides; friction forces are multiplied by `force`.
 fn mapped(
     simulation: &Simulation,
     material: Material,
@@ -52,9 +52,9 @@ fn close(name: &str, value: f64, expected: f64, scale: f64) {
     assert!((value - expected).abs() <= 1e-12 * scale, "{name}: {value} {expected}");
 }
 
-/// A quarter turn permutes the averages, to the last bit: contacts keep their order, and the area of the region does not
-/// depend on which of its corners comes first. Porosity alone agrees to round-off: the free arcs of a disc are angles that
-/// count from the x axis, and what is near 0 in one frame is near 3π/2 in the other.
+/// A quarter turn permutes the averages, to the last bit: contacts keep their order, and the area of the region does
+/// not depend on which of its corners comes first. Porosity agrees only to round-off: the free arcs of a disc are given
+/// by angles from the x axis, so an angle near 0 becomes one near 3π/2.
 #[test]
 fn quarter_turn_permutes_the_averages() {
     let state = packed(Compression::Horizontal, &Material::default()).simulation;
@@ -69,7 +69,7 @@ fn quarter_turn_permutes_the_averages() {
         close("network K_xy", b.conductivity_network_xy, -a.conductivity_network_xy, 1.0);
         let mut expected = a;
         (expected.porosity, expected.overlap_fraction) = (b.porosity, b.overlap_fraction);
-        // An iteration gives these, so they agree to its tolerance only.
+        // These result from the solution of a linear system, so they agree only to its round-off.
         expected.conductivity_network_xx = b.conductivity_network_xx;
         expected.conductivity_network_yy = b.conductivity_network_yy;
         expected.conductivity_network_xy = b.conductivity_network_xy;
@@ -98,8 +98,8 @@ fn four_quarter_turns_are_none() {
     assert_eq!(contacts(&image), contacts(&state));
 }
 
-/// `size` times as large, at `density` times the density. Stiffnesses grow with `size`, forces with its square, masses with
-/// density · size², so times with √(density · size) and strain rates with its inverse.
+/// The assembly enlarged by `size` and with `density` times the density. Stiffnesses grow with `size`, forces with its
+/// square, masses with density · size², so times grow with √(density · size) and strain rates with its inverse.
 fn scaled(simulation: &Simulation, size: f64, density: f64) -> Simulation {
     let material = Material { density: density * simulation.material.density, ..simulation.material.clone() };
     let time = (density * size).sqrt();
@@ -125,12 +125,13 @@ fn scaled(simulation: &Simulation, size: f64, density: f64) -> Simulation {
     image
 }
 
-/// Twice the size at half the density: the time step stays, and every number of a run is multiplied by a power of two.
+/// Twice the size at half the density: the time step stays the same, and every number of a run is multiplied by a power
+/// of two.
 fn doubled(simulation: &Simulation) -> Simulation {
     scaled(simulation, 2.0, 0.5)
 }
 
-/// What [`Averages`] become at `size` times the size: K/k, η and f stay, σ/E and r̄ grow with it.
+/// [`Averages`] of an assembly enlarged by `size`: K/k, η and f stay the same, σ/E and r̄ grow in proportion.
 fn enlarged(averages: &Averages, size: f64) -> Averages {
     let mut large = *averages;
     for stress in [
@@ -146,7 +147,7 @@ fn enlarged(averages: &Averages, size: f64) -> Averages {
     large
 }
 
-/// K/k, η and f stay and σ/E doubles, to the last bit.
+/// K/k, η and f stay the same and σ/E doubles, to the last bit.
 fn assert_doubled(small: &Averages, large: &Averages) {
     assert_eq!(*large, enlarged(small, 2.0));
 }
@@ -165,7 +166,8 @@ fn stops_at(start: &Simulation, strains: [f64; 2], rate: f64) -> Vec<Averages> {
     ramp.stops.iter().map(|stop| stop.averages).collect()
 }
 
-/// Four times the size at equal density: times double, rates halve, and all is powers of two again: exact.
+/// Four times the size at equal density: times double and rates halve, so all factors are powers of two again and the
+/// agreement is exact.
 #[test]
 fn four_times_the_size_at_equal_density_is_exact() {
     let small = packed(Compression::Horizontal, &Material::default()).simulation;
@@ -176,8 +178,9 @@ fn four_times_the_size_at_equal_density_is_exact() {
     }
 }
 
-/// Twice the size at equal density: times grow by √2, which rounds. Measured differences are below 2e-14; 1e-9 leaves room
-/// for what sliding and opening contacts make of round-off, and is far below what one contact more or less would do.
+/// Twice the size at equal density: times grow by √2, which causes round-off. Measured differences are below 2e-14. The
+/// tolerance 1e-9 leaves room for the growth of round-off in sliding and opening contacts, and is far below the effect
+/// of a single additional contact.
 #[test]
 fn twice_the_size_at_equal_density_doubles_stress_alone() {
     let small = packed(Compression::Horizontal, &Material::default()).simulation;
@@ -202,7 +205,7 @@ fn twice_the_size_at_equal_density_doubles_stress_alone() {
     }
 }
 
-/// Compression from loose to jammed and relaxation, by hand: the walls of [`pack`] have a speed of their own.
+/// Compression from loose to jammed and relaxation, with explicit wall speeds, because [`pack`] chooses its own.
 fn compressed(mut simulation: Simulation) -> Simulation {
     for _ in 0..60 {
         simulation.run(50).unwrap();
@@ -264,8 +267,9 @@ fn love(simulation: &Simulation) -> [f64; 2] {
     sum
 }
 
-/// What the walls say of it: forces of opposite walls times their distance, less the moment of the friction along the
-/// other two about the middle of the box. Equal to Love's when every disc is in balance, for Σ x_i F_i = 0.
+/// The same from the wall forces: forces of opposite walls times their distance, less the moment of the friction on the
+/// other two walls about the middle of the box. Equal to Love's when every disc is in equilibrium, since then Σ x_i F_i
+/// = 0.
 fn from_walls(simulation: &Simulation) -> [f64; 2] {
     let [left, right, bottom, top] = simulation.walls.position;
     let middle = [0.5 * (left + right), 0.5 * (bottom + top)];
@@ -284,8 +288,8 @@ fn from_walls(simulation: &Simulation) -> [f64; 2] {
     sum
 }
 
-/// A tenth of Σ |x_i| |F_i|, the most that the forces which are still out of balance can do: they point anywhere.
-/// It is 6e-5 of the stress; measured are 2e-5 at most.
+/// A tenth of Σ |x_i| |F_i|, the largest possible effect of the remaining unbalanced forces, which point in random
+/// directions. It is 6e-5 of the stress; measured differences are 2e-5 at most.
 fn tolerance(simulation: &Simulation) -> f64 {
     let reach = 0.5 * simulation.walls.width().max(simulation.walls.height());
     0.1 * reach * simulation.loads().iter().map(|load| load.fx.hypot(load.fy)).sum::<f64>()
@@ -304,7 +308,7 @@ fn love_stress_agrees_with_wall_forces() {
     }
 }
 
-/// Without friction it is force times width alone.
+/// Without friction, Love's stress times the area is wall force times width alone.
 #[test]
 fn love_stress_of_smooth_discs_is_wall_force_times_width() {
     let state =

@@ -9,14 +9,15 @@ use msdd_rve::{
 use std::f64::consts::PI;
 
 const RADIUS: f64 = 5e-3;
-/// Spacing of the lattices: overlap 1 % of it.
+/// Spacing of the lattices: the overlap is 1 % of it.
 const SPACING: f64 = 2.0 * RADIUS / 1.01;
 
 fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found}, expected {expected}");
 }
 
-/// `lines` lines of `columns` discs each, `rise` apart, each line `slip` to the right of the one below.
+/// `lines` lines of `columns` discs each; the distance between lines is `rise`, and each is displaced by `slip` to the
+/// right of the one below.
 fn lattice(columns: u32, lines: u32, rise: f64, slip: f64) -> Simulation {
     let discs = (0..columns * lines)
         .map(|k| {
@@ -29,8 +30,8 @@ fn lattice(columns: u32, lines: u32, rise: f64, slip: f64) -> Simulation {
     Simulation::new_periodic(Material::default(), discs, walls, periodic).unwrap()
 }
 
-/// Normal force of two discs at the spacing `a` [N], chord [m], and the part of the area of a disc that one of its
-/// contacts hides.
+/// For two discs at the distance `a`: normal force [N], chord [m], and the part of the area of a disc that one of its
+/// contacts covers.
 fn contact(a: f64) -> (f64, f64, f64) {
     let stiffness = Material::default().young_modulus * RADIUS;
     let chord = (4.0 * RADIUS * RADIUS - a * a).sqrt();
@@ -57,7 +58,7 @@ fn square_lattice_in_closed_form() {
     close("overlap", averages.overlap_fraction, 4.0 * hidden / (SPACING * SPACING), 1e-12);
 }
 
-/// An odd number of lines closes on itself only through the shear offset.
+/// An odd number of lines is periodic only with the shear offset.
 #[test]
 fn hexagonal_lattice_in_an_oblique_cell_in_closed_form() {
     let (force, chord, hidden) = contact(SPACING);
@@ -79,7 +80,7 @@ fn hexagonal_lattice_in_an_oblique_cell_in_closed_form() {
     }
 }
 
-/// Only horizontal contacts bear along x: σ_xx = s_n δ_x / a_y, and f = 0 as long as all four touch.
+/// Only horizontal contacts carry σ_xx = s_n δ_x / a_y, and f = 0 as long as all four neighbours touch.
 #[test]
 fn stretched_square_lattice_in_closed_form() {
     let mut simulation = lattice(5, 4, SPACING, 0.0);
@@ -93,8 +94,8 @@ fn stretched_square_lattice_in_closed_form() {
     close("f", averages.fabric_index, 0.0, 1e-9);
 }
 
-/// Grains of a sheared square lattice turn by −γ/2, so horizontal and vertical contacts slip by ±γ a/2 and
-/// σ_xy = −s_t γ/2; the normal force in the tilted vertical branches adds p γ.
+/// Grains of a sheared square lattice rotate by −γ/2, so horizontal and vertical contacts slip by ±γ a/2 and σ_xy =
+/// −s_t γ/2; the normal force in the tilted vertical branches adds p γ.
 #[test]
 fn sheared_square_lattice_in_closed_form() {
     let mut simulation = lattice(5, 4, SPACING, 0.0);
@@ -140,7 +141,8 @@ fn sheared(simulation: &Simulation, xy: f64) -> Simulation {
     simulation
 }
 
-/// The same assembly, moved by parts of the cell; every disc is then wrapped, so nearly all shifts change.
+/// The same assembly, displaced by fractions of the cell. Every disc is then wrapped into the cell, so nearly all
+/// shifts change.
 fn moved(simulation: &Simulation, fraction: [f64; 2]) -> Simulation {
     let cell = simulation.cell().unwrap();
     let mut discs = simulation.discs.clone();
@@ -180,7 +182,7 @@ fn averages_do_not_depend_on_where_the_cell_begins() {
     }
 }
 
-/// Nor does what happens then: the same history in another place.
+/// Expansion does not depend on where the cell begins either: the same history at another place.
 #[test]
 fn expansion_does_not_depend_on_where_the_cell_begins() {
     let start = packed(120);
@@ -207,7 +209,8 @@ fn expansion_does_not_depend_on_where_the_cell_begins() {
     close("K", averages.conductivity_xx, reference.conductivity_xx, 1e-6);
 }
 
-/// Radii grown by 1 + ε in a fixed cell and a cell shrunk by it are the same up to size, which p̃ = p/(E r̄) is free of.
+/// Radii grown by 1 + ε in a fixed cell and a cell shrunk by the same factor are equal up to size, on which p̃ = p/(E
+/// r̄) does not depend.
 #[test]
 fn isotropic_cell_strain_is_thermal_strain() {
     let start = packed(200);
@@ -229,7 +232,7 @@ fn isotropic_cell_strain_is_thermal_strain() {
     }
 }
 
-/// A cell sheared, and sheared back through an old offset, ends where it was asked to end.
+/// A cell that is sheared, then strained and sheared back, reaches exactly the shape that was asked for.
 #[test]
 fn straining_ends_at_the_cell_asked_for() {
     let start = packed(60);

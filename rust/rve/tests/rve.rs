@@ -1,4 +1,4 @@
-//! Packing and expansion of small RVEs, held against exact laws.
+//! Packing and expansion of small RVEs, compared with exact laws.
 
 use msdd_rve::{
     Averages, Compression, Material, Outcome, PackingSpec, Protocol, RegionKind, Relaxation, Strains, expand,
@@ -66,9 +66,9 @@ fn bad_input_names_key_value_and_range() {
     assert!(expand(&packed, &[0.02, 0.01]).unwrap_err().to_string().starts_with("strains = [0.02, 0.01]"));
 }
 
-/// Walls that close along x by 1 % raise σ_xx more than σ_yy; the box follows the path exactly; and a uniform thermal
-/// strain raises p/(E r̄) as much as closing all walls by the same strain does when the walls shrink with the grains. Walls that
-/// do not are slid along, which costs a fifth of it here.
+/// Walls that close along x by 1 % raise σ_xx more than σ_yy, and the box follows its path exactly. A uniform thermal
+/// strain raises p/(E r̄) as much as closing all walls by the same strain, provided that the walls shrink with the
+/// grains. Along walls that do not, grains slip, which lowers the rise by a fifth here.
 #[test]
 fn wall_strain_follows_its_path() {
     let packed = pack(&spec(Compression::Isotropic), &Material::default()).unwrap();
@@ -91,8 +91,8 @@ fn wall_strain_follows_its_path() {
     assert!((0.7..0.95).contains(&(sliding / heated)), "{sliding} {heated}");
 }
 
-/// FIRE takes another way to the same place: the difference is that of friction, which remembers ways. Measured with 500
-/// discs, 18 packings: p 3e-5 rms at ±0.25 %, 7e-4 at +2 %, 4e-3 at −2 %.
+/// FIRE reaches the same equilibrium along another path. The difference is due to friction, which depends on the path.
+/// Measured with 500 discs, 18 packings: p 3e-5 rms at ±0.25 %, 7e-4 at +2 %, 4e-3 at −2 %.
 #[test]
 fn fast_relaxation_ends_where_the_damped_one_does() {
     let packed = pack(&spec(Compression::Horizontal), &Material::default()).unwrap();

@@ -1,4 +1,4 @@
-//! State files: exact continuation, foreign states, refused nonsense.
+//! State files: exact continuation, states of other programs, refusal of values that make no sense.
 
 use msdd_rve::state::{from_json, to_file, to_json};
 use msdd_rve::{Compression, Material, PackingSpec, RegionKind, Simulation, homogenise, pack};
@@ -76,7 +76,7 @@ fn nonsense_is_refused_with_particle_and_value() {
     assert!(message(&|j| j["material"]["density"] = 0.0.into()).contains("density = 0"));
 }
 
-/// A flipped digit is found, a file without checksum is as good as before, and layout plays no part.
+/// A changed digit is detected, a file without checksum is accepted, and the layout of the file does not matter.
 #[test]
 fn a_wrong_checksum_is_refused_and_none_is_allowed() {
     let packed = packed();

@@ -1,17 +1,19 @@
-//! YADE as witness, walls moving: one packed state, its walls closed along x or slid, in both engines.
+//! Comparison with YADE with moving walls: the same packed state, its walls closed along x or slid along the grains, in
+//! both engines.
 //!
-//! States of YADE are in tests/engines/reference, or in the folder MSDD_YADE_STATES; tests/engines/make-reference makes
-//! them, at the rate that is used here. tests/engines/run compares expansions.
+//! States computed by YADE are in tests/engines/reference, or in the folder MSDD_YADE_STATES.
+//! tests/engines/make-reference makes them, at the strain rate that is used here. tests/engines/run compares
+//! expansions.
 
 use msdd_dem::Side;
 use msdd_rve::state::from_json;
 use msdd_rve::{Protocol, RegionKind, Simulation, Strains, follow, homogenise, unbalanced_force};
 use std::path::PathBuf;
 
-/// Of both engines [1/s].
+/// Strain rate in both engines [1/s].
 const RATE: f64 = 0.02;
-/// Relative difference of stresses (to the pressure), of wall forces (to the mean normal one); of the fabric index.
-/// Measured: 1e-4 with closing walls, 2.1e-4 with sliding ones (the forces along the walls).
+/// Largest relative difference of stresses (to the pressure), of wall forces (to the mean normal one), and of the
+/// fabric index. Measured: 1e-4 with closing walls, 2.1e-4 with sliding ones (the forces along the walls).
 const ALLOWED: f64 = 5e-4;
 
 fn read(folder: &str, name: &str) -> Simulation {
@@ -81,7 +83,7 @@ fn walls_closing_along_x_agree_with_yade() {
     assert_eq!(names.next(), None);
 }
 
-/// Slides top and bottom by ± `way` [m] along x, and lets the forces balance.
+/// Slides top and bottom by ± `way` [m] along x, then lets the forces balance.
 fn slide(simulation: &mut Simulation, way: f64) {
     let speed = 0.5 * RATE * simulation.walls.height();
     let mut left = way;
@@ -99,7 +101,7 @@ fn slide(simulation: &mut Simulation, way: f64) {
     }
 }
 
-/// Top and bottom slide by ±2 mm, four tenths of a mean radius: friction on all walls.
+/// Top and bottom slide by ±2 mm, four tenths of a mean radius: friction acts on all walls.
 #[test]
 fn sliding_walls_agree_with_yade() {
     let mut simulation = read(REFERENCE, "state.json");

@@ -1,6 +1,7 @@
-//! What each input is worth (the paper's Table 3), and what a split by sample instead of by packing flatters.
+//! Ablation study: how much each input contributes (the paper's Table 3), and how much a random split of samples
+//! overestimates R² compared with a split of packings.
 //!
-//! An input is taken away by making it a constant in training and test alike.
+//! An input is removed by setting it to a constant, both in training and in testing.
 
 use crate::SurrogateError;
 use crate::dataset::{self, Sample, StateRow};
@@ -17,21 +18,22 @@ use serde::Serialize;
 
 /// Inputs of the paper's network.
 pub const PAPER_INPUTS: [&str; INPUTS] = ["porosity", "fabric_index", "thermal_strain"];
-/// Even inputs of the state model's networks; its odd ones are left out with their variables.
+/// Even inputs of the state model's networks. Its odd inputs are state variables as well and are left out together with
+/// them.
 pub const STATE_INPUTS: [&str; 4] = ["porosity", "pressure", "deviator or fabric squared", "thermal_strain"];
 
 /// R² of a network without one of its inputs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line<T> {
-    /// The input taken away; none: all are there.
+    /// The input that was removed; none for the model with all inputs.
     pub without: Option<&'static str>,
-    /// Whether samples, not packings, were split at random.
+    /// Whether the samples were split at random instead of the packings.
     pub random_split: bool,
-    /// On what the fit did not see.
+    /// Scores on the part that the fit did not see.
     pub scores: T,
 }
 
-/// The paper's network: all inputs with either split, then without each.
+/// Scores of the paper's network: all inputs with either split, then without each input.
 ///
 /// # Errors
 /// [`SurrogateError::Data`] for unusable rows.
@@ -69,7 +71,7 @@ fn line(
     Ok(Line { without: blind.map(|input| PAPER_INPUTS[input]), random_split, scores })
 }
 
-/// All samples dealt anew; a sample goes with its mirror image.
+/// All samples divided anew at random; a sample and its mirror image stay together.
 fn shuffled(samples: &Parts<Vec<Sample>>, seed: u64) -> Parts<Vec<Sample>> {
     let all = [&samples.training[..], &samples.validation, &samples.test].concat();
     let mut pairs: Vec<&[Sample]> = all.chunks(2).collect();
@@ -80,7 +82,7 @@ fn shuffled(samples: &Parts<Vec<Sample>>, seed: u64) -> Parts<Vec<Sample>> {
     Parts { training: training.concat(), validation: validation.concat(), test: test.concat() }
 }
 
-/// The state model, fitted to single steps: all inputs, then without each even one, on held-out packings.
+/// Scores of the state model fitted to single steps, on held-out packings: all inputs, then without each even input.
 ///
 /// # Errors
 /// [`SurrogateError::Data`] for unusable rows.
@@ -110,7 +112,7 @@ mod tests {
         };
         let all = find(None, false);
         assert!(all.delta_porosity > 0.99 && find(None, true).delta_porosity > 0.99, "{lines:?}");
-        // Paper: the strain alone is essential for the porosity increment; conductivity needs the porosity.
+        // As in the paper, the porosity increment needs the strain and the conductivity needs the porosity.
         assert!(find(Some("thermal_strain"), false).delta_porosity < 0.5, "{lines:?}");
         assert!(find(Some("porosity"), false).conductivity < all.conductivity - 0.05, "{lines:?}");
 

@@ -1,4 +1,4 @@
-//! What a solver meets: a strain applied in many increments, and the errors that are left.
+//! Composition: a strain applied in many increments, as a solver does, and the errors at its end.
 
 use crate::dataset::{Ramp, StateRow, strain_between};
 use crate::kernel::{LANES, Lanes};
@@ -6,13 +6,13 @@ use crate::surrogate::{Answer, Known, MAX_STATE, StateLanes, Surrogate};
 use serde::{Deserialize, Serialize};
 
 /// Strain of increment `k` of `count`, relative to the radii before it. The radii grow by equal amounts, so that the
-/// increments compose to `total` exactly, without a logarithm.
+/// increments compose exactly to `total`.
 #[inline]
 pub fn increment(total: f64, k: u32, count: u32) -> f64 {
     total / (f64::from(count) + total * f64::from(k))
 }
 
-/// Answer after `total` strain in `count` equal increments.
+/// The model's answer after the strain `total`, applied in `count` equal increments of the radii.
 pub fn composed(
     block: impl Fn(&StateLanes, &Lanes) -> Answer,
     start: &StateLanes,
@@ -26,12 +26,12 @@ pub fn composed(
     answer
 }
 
-/// K_xx/k, K_yy/k of a row in the model's kind; zero when the row lacks it.
+/// K_xx/k, K_yy/k of a row, of the kind that the model answers with; zero when the row lacks it.
 pub fn conductivity(model: &dyn Surrogate, row: &StateRow) -> [f64; 2] {
     model.conductivity_kind().of(row).unwrap_or_default()
 }
 
-/// The model's state of a row of the database, all quantities known.
+/// The model's state for a row of the database, in which all quantities are known.
 pub fn state_of(model: &dyn Surrogate, row: &StateRow) -> [f64; MAX_STATE] {
     let [kxx, kyy] = conductivity(model, row);
     model.initial_state(&Known {
@@ -42,14 +42,14 @@ pub fn state_of(model: &dyn Surrogate, row: &StateRow) -> [f64; MAX_STATE] {
     })
 }
 
-/// The states of up to eight rows as a block, the last one repeated.
+/// The states of up to [`LANES`] rows as one block; the last row fills the remaining lanes.
 pub fn states_of(model: &dyn Surrogate, rows: &[&StateRow]) -> StateLanes {
     let states: Vec<_> = rows.iter().map(|row| state_of(model, row)).collect();
     std::array::from_fn(|k| std::array::from_fn(|lane| states[lane.min(states.len() - 1)][k]))
 }
 
-/// Errors at one strain in one number of increments, from the packed states of ramps. Relative errors are root mean
-/// squares over the root mean square of the data; xx and yy together.
+/// Errors after one strain, from the packed states of ramps, applied in a given number of increments. Relative errors
+/// are root mean squares over the root mean square of the data, for xx and yy together.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Composed {
@@ -59,23 +59,24 @@ pub struct Composed {
     pub conductivity: f64,
     pub stress: f64,
     pub pressure: f64,
-    /// Absolute.
+    /// Absolute error.
     pub porosity: f64,
-    /// Absolute.
+    /// Absolute error.
     pub fabric_index: f64,
-    /// Of the mean over groups of [`GROUP`] packings: what a field average sees. Largest of the groups, relative.
+    /// Relative error of the mean over groups of [`GROUP`] packings, which is what matters for an average over a field.
+    /// The largest of the groups.
     pub mean_conductivity: f64,
     pub mean_pressure: f64,
 }
 
-/// Packings in a mean.
+/// Packings in a group.
 pub const GROUP: usize = 30;
 
-/// A start and an end on a ramp, both load bearing.
+/// Two stops of a ramp, start and end, both load bearing.
 pub struct Path<'a> {
     pub from: &'a StateRow,
     pub to: &'a StateRow,
-    /// Share of its strain that is new to the grains.
+    /// Share of its strain that is virgin, which means that the grains have not been strained that far before.
     pub virgin: f64,
 }
 
@@ -95,7 +96,7 @@ pub fn paths(ramps: &[Ramp], strain: f64) -> Vec<Path<'_>> {
         .collect()
 }
 
-/// Paths along the whole of the ramps of this name.
+/// Paths along the whole length of the ramps with this name.
 pub fn whole_paths<'a>(ramps: &'a [Ramp], name: &str) -> Vec<Path<'a>> {
     let ends = |ramp: &'a Ramp| Some((ramp.states.first()?, ramp.states.last()?, ramp.virgin_share()));
     let found = ramps.iter().filter(|ramp| ramp.name == name).filter_map(ends);
@@ -103,7 +104,7 @@ pub fn whole_paths<'a>(ramps: &'a [Ramp], name: &str) -> Vec<Path<'a>> {
     loaded.map(|(from, to, virgin)| Path { from, to, virgin }).collect()
 }
 
-/// K_xx, K_yy, σ_xx, σ_yy, p, η, f at the end of a path, composed or of the data.
+/// K_xx, K_yy, σ_xx, σ_yy, p, η, f at the end of a path, either from the data or from the model.
 pub type Quantities = [f64; 7];
 
 fn quantities(answer: &Answer, lane: usize) -> Quantities {
@@ -112,7 +113,7 @@ fn quantities(answer: &Answer, lane: usize) -> Quantities {
     [kxx[lane], kyy[lane], sxx, syy, 0.5 * (sxx + syy), answer.state[0][lane], answer.state[1][lane]]
 }
 
-/// Data and prediction at the end of paths that are composed of increments.
+/// Quantities of data and model at the ends of paths that are composed of increments.
 pub fn ends(model: &dyn Surrogate, paths: &[Path], increments: u32) -> Vec<[Quantities; 2]> {
     let mut pairs = Vec::with_capacity(paths.len());
     for chunk in paths.chunks(LANES) {

@@ -1,4 +1,4 @@
-//! The trivial surrogate: nothing changes. What a simulation without microscale would assume.
+//! The trivial surrogate, in which nothing changes: what a simulation without a microscale would assume.
 
 use crate::SurrogateError;
 use crate::dataset::StateRow;
@@ -9,10 +9,10 @@ use crate::solid_fraction::SolidFraction;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
 use serde::{Deserialize, Serialize};
 
-/// Raise the number when a reader of the old schema would misread the new.
+/// Name of the schema. Its number is increased when a reader of the old schema would misread the new one.
 pub const SCHEMA: &str = "msdd-constant-model-1";
 
-/// Isotropic means of the packed states.
+/// Mean conductivity and pressure of the packed states, without anisotropy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstantModel {
     file: File,
@@ -32,7 +32,7 @@ struct File {
     training: TrainingOptions,
 }
 
-/// Means over the packed states (stop 0).
+/// Takes the means over the packed states (stop 0).
 ///
 /// # Errors
 /// [`SurrogateError::Data`] without packed states.

@@ -7,7 +7,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// One state of one packing on one ramp. The packed state is stop 0 of both ramps.
+/// One state of one packing on one ramp. The packed state is stop 0 of the ramps that start from it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateRow {
     /// Index of the packing in the plan.
@@ -26,7 +26,8 @@ pub struct StateRow {
     pub conductivity_xx: f64,
     /// K_yy / k [-].
     pub conductivity_yy: f64,
-    /// The same with the contact network solved for the disc temperatures, when the database has it.
+    /// K_xx/k, K_yy/k with the contact network solved for the disc temperatures; none when the database does not have
+    /// it.
     pub conductivity_network: Option<[f64; 2]>,
     /// σ_xx ℓ / (E r̄) [-], ℓ = 1 m, r̄ the current mean radius, compression positive.
     pub stress_xx: f64,
@@ -34,7 +35,7 @@ pub struct StateRow {
     pub stress_yy: f64,
     /// 1 − sum of grain areas over area [-].
     pub porosity_sum_of_areas: f64,
-    /// False after unjamming: without force chains the fabric index is noise.
+    /// False after unjamming: without force chains the fabric index is only noise.
     pub load_bearing: bool,
 }
 
@@ -64,9 +65,9 @@ impl StateRow {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ConductivityKind {
-    /// All discs on the mean gradient: Eq. 9, an upper bound.
+    /// Temperatures of all discs from the mean gradient: Eq. 9, an upper bound.
     Affine,
-    /// Disc temperatures solved for on the contact network.
+    /// Temperatures of the discs solved for on the contact network.
     Network,
 }
 
@@ -88,7 +89,7 @@ impl ConductivityKind {
     }
 }
 
-/// The states of one ramp, outward from the packed state.
+/// The states of one ramp, in the order of its stops.
 #[derive(Clone, Debug)]
 pub struct Ramp {
     pub packing: i64,
@@ -97,7 +98,8 @@ pub struct Ramp {
 }
 
 impl Ramp {
-    /// Share of its strains that is new to the grains: none on the way back of "up_down" and "down_up".
+    /// Share of the ramp's strains that is virgin, which means that the grains have not been strained that far before:
+    /// 0 for the way back of "up_down" and "down_up", else 1.
     pub fn virgin_share(&self) -> f64 {
         if matches!(self.name.as_str(), "up_down" | "down_up") { 0.0 } else { 1.0 }
     }
@@ -130,14 +132,14 @@ pub fn strain_between(from: &StateRow, to: &StateRow) -> f64 {
     (1.0 + to.strain) / (1.0 + from.strain) - 1.0
 }
 
-/// One evaluation of Φ as the database knows it.
+/// One evaluation of Φ with the result that the database gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// η, f of the state before; ε.
     pub inputs: [f64; INPUTS],
     /// Δη, Δf; K_xx, K_yy (over k), σ_xx, σ_yy (dimensionless) of the state after.
     pub outputs: [f64; OUTPUTS],
-    /// Whether Δf means something: both states bear load.
+    /// Whether Δf is meaningful: both states bear load.
     pub fabric_known: bool,
 }
 
@@ -166,7 +168,8 @@ impl Sample {
 }
 
 impl Ramp {
-    /// Every pair of stops outward, each stop with itself (zero strain) included, and the mirror image of each.
+    /// Every pair of stops in outward order, including each stop with itself (zero strain), and the mirror image of
+    /// each pair.
     pub fn samples(&self) -> impl Iterator<Item = Sample> + '_ {
         let pairs = self.states.iter().enumerate();
         let pairs = pairs.flat_map(|(i, from)| self.states[i..].iter().map(move |to| (from, to)));
@@ -174,12 +177,12 @@ impl Ramp {
     }
 }
 
-/// Number of packings of some ramps.
+/// Number of packings among the ramps.
 pub fn packings(ramps: &[Ramp]) -> usize {
     ramps.iter().map(|ramp| ramp.packing).collect::<BTreeSet<_>>().len()
 }
 
-/// Ramps for training, for stopping the training, and for judging it.
+/// Ramps for training, for validation (they decide when the training stops), and for testing.
 #[derive(Clone, Debug)]
 pub struct Split {
     pub training: Vec<Ramp>,
@@ -199,7 +202,8 @@ pub(crate) fn shuffle<T>(items: &mut [T], seed: u64) {
     }
 }
 
-/// Splits by packing, not by sample: samples of one packing resemble each other, and a random split flatters.
+/// Splits by packing, not by sample: samples of one packing resemble each other, so a random split of samples would
+/// give too good scores.
 ///
 /// # Errors
 /// [`SurrogateError::Data`] for fewer than three packings.

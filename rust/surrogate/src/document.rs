@@ -1,10 +1,10 @@
-//! Model files of all kinds: JSON with a schema, known by its SHA-256; errors name the key.
+//! What model files of all kinds share: JSON with a schema, identified by its SHA-256; errors name the key.
 
 use crate::SurrogateError;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// Writing plain data of finite numbers and string keys to memory cannot fail.
+/// Cannot fail for plain data of finite numbers and string keys.
 pub(crate) fn json<T: Serialize>(value: &T) -> String {
     serde_json::to_string_pretty(value).unwrap_or_else(|error| unreachable!("{error}"))
 }
@@ -24,7 +24,7 @@ pub(crate) fn schema(text: &str) -> Result<String, SurrogateError> {
     head.map(|head| head.schema).map_err(|error| SurrogateError::Damaged(error.to_string()))
 }
 
-/// Refuses the value of a key.
+/// The error that refuses the value of a key.
 pub(crate) fn field<T>(key: &str, value: impl ToString, allowed: &'static str) -> Result<T, SurrogateError> {
     Err(SurrogateError::Field { key: key.to_string(), value: value.to_string(), allowed })
 }

@@ -1,29 +1,29 @@
-//! Drift: error of the state after composed increments, as a macroscale solver composes them.
+//! Drift of the paper's network: error of the state after many composed increments, as in a macroscale solver.
 
 use crate::composition::increment;
 use crate::dataset::{Ramp, strain_between};
 use crate::predictor::Predictor;
 use serde::{Deserialize, Serialize};
 
-/// Error at the end of the held-out packings' ramps, from their packed states.
+/// Errors at the ends of ramps of held-out packings, starting from their packed states.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drift {
     /// Mean strain of the ramps' last stops [-].
     pub strain: f64,
-    /// Increments in which the strain was applied.
+    /// Number of increments in which the strain was applied.
     pub increments: u32,
-    /// Ramps in the mean.
+    /// Number of ramps in the mean.
     pub ramps: usize,
     /// Root mean square error of Kxx and Kyy over their root mean square [-].
     pub conductivity: f64,
-    /// The same of σxx and σyy [-].
+    /// Root mean square error of σxx and σyy over their root mean square [-].
     pub stress: f64,
     /// Root mean square error of η [-].
     pub porosity: f64,
 }
 
-/// One step, and as many as a macroscale run takes through the front of a heat wave.
+/// A single step, and as many as a macroscale run takes while the front of a heat wave passes.
 const INCREMENTS: [u32; 2] = [1, 500];
 
 /// Drift of expansion, then of contraction; a direction without ramps has no entry.

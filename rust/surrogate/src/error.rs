@@ -1,4 +1,4 @@
-/// What can go wrong in training or with a model file.
+/// Errors of training and of model files.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SurrogateError {
     /// A training row or the set of rows is unusable.
@@ -7,13 +7,13 @@ pub enum SurrogateError {
     /// A training option is out of range.
     #[error("training option {key} = {value}, allowed: {allowed}", value = short(value))]
     Option { key: &'static str, value: String, allowed: &'static str },
-    /// The text is no model: not JSON, cut short, or with missing or unknown keys.
+    /// The text is not a model file: not JSON, cut short, or with missing or unknown keys.
     #[error("model file is damaged: {0}")]
     Damaged(String),
     /// A model of another schema.
     #[error("model file has schema \"{found}\", this library reads \"{expected}\"")]
     Schema { found: String, expected: &'static str },
-    /// A value that no trained model has.
+    /// A value that no trained model can have.
     #[error("model file: {key} = {value}, allowed: {allowed}", value = short(value))]
     Field { key: String, value: String, allowed: &'static str },
 }

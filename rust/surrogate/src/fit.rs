@@ -1,4 +1,5 @@
-//! The network's fit to samples as a least-squares problem. JᵀJ grows batch by batch; J as a whole never exists.
+//! The fit of the network to samples as a least-squares problem. JᵀJ is summed up batch by batch; the whole Jacobian J
+//! is never stored.
 
 use crate::dataset::Sample;
 use crate::kernel::{LANES, Lanes, add_outer_products};
@@ -7,7 +8,7 @@ use crate::network::{HIDDEN, HIDDEN_WEIGHTS, INPUTS, Network, OUTPUTS, WEIGHTS, 
 use crate::scaling::{OutputScales, TrainedRange};
 use nalgebra::{DMatrix, DVector};
 
-/// Samples of a block, scaled. Weight 0 marks padding.
+/// Scaled samples of a block. Weight 0 marks lanes that only fill the block.
 struct Block {
     inputs: [Lanes; INPUTS],
     targets: [Lanes; OUTPUTS],
@@ -21,9 +22,10 @@ pub struct NetworkFit {
     threads: usize,
 }
 
-/// Sums are formed per part and added in order, so that the thread count does not change the bits.
+/// Sums are formed separately for this many parts and added in order, so that the number of threads does not change the
+/// bits.
 const PARTS: usize = 8;
-/// Blocks whose rows of J are held at a time.
+/// Number of blocks whose rows of J are stored at a time.
 const BATCH: usize = 2;
 
 impl NetworkFit {
@@ -48,7 +50,7 @@ impl NetworkFit {
         }
     }
 
-    /// The parts' results, in order.
+    /// Does `work` on each part; returns the results in order.
     fn by_part<T: Send>(&self, work: impl Fn(&[Block]) -> T + Sync) -> Vec<T> {
         let length = self.blocks.len().div_ceil(PARTS).max(1);
         let parts: Vec<&[Block]> = self.blocks.chunks(length).collect();
@@ -94,12 +96,12 @@ impl Block {
     }
 }
 
-/// Weights of an output neuron, bias included.
+/// Number of weights of an output neuron, bias included.
 const OWN: usize = HIDDEN + 1;
-/// Width of a row: derivatives by the hidden layers' weights and by the output's own, which are all that are not zero; the
-/// residual; padding for the kernel.
+/// Width of a row of J for one output: the derivatives that are not zero, which are those with respect to the hidden
+/// layers' weights and to the output's own weights; then the residual; then padding for the kernel.
 const WIDTH: usize = (HIDDEN_WEIGHTS + OWN + 1).next_multiple_of(LANES);
-/// Place of the residual.
+/// Position of the residual in a row.
 const RESIDUAL: usize = HIDDEN_WEIGHTS + OWN;
 
 /// JᵀJ and Jᵀr of some blocks.

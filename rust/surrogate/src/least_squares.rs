@@ -1,14 +1,17 @@
-//! Linear least squares of a few unknowns, in one fixed order of operations: the same bits on every machine.
+//! Linear least squares with a few unknowns, in one fixed order of operations, so that every machine gives the same
+//! bits.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-/// Added to the unit diagonal of the scaled normal equations: features that are combinations of each other share.
+/// Added to the diagonal of the normal equations, which is scaled to 1. When features are linearly dependent, the
+/// coefficients are then shared between them.
 const RIDGE: f64 = 1e-10;
 
-/// Refinements of the solution, which take the addition out again where the features are independent.
+/// Number of iterative refinements of the solution, which remove the effect of the addition where the features are
+/// independent.
 const REFINEMENTS: usize = 4;
 
-/// Coefficients c that minimise Σ w (c·x − y)², from (x, y, w); zero when no sample has weight.
+/// Coefficients c that minimise Σ w (c·x − y)², from samples (x, y, w); all zero when no sample has weight.
 pub fn fit<const N: usize>(samples: impl Iterator<Item = ([f64; N], f64, f64)>) -> [f64; N] {
     let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
     for (x, y, weight) in samples {

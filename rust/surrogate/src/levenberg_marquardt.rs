@@ -5,7 +5,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// A sum of squared residuals, mean over the residuals: ½ is left out, so the gradient is 2 Jᵀr / n.
+/// A mean of squared residuals to be minimised; without a factor ½, so its gradient is 2 Jᵀr / n.
 pub trait LeastSquares {
     /// rᵀr / n at `parameters`.
     fn mean_square(&self, parameters: &DVector<f64>) -> f64;
@@ -23,7 +23,7 @@ pub struct NormalEquations {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stopping {
-    /// The watcher asked for it: no better validation error for the given number of epochs.
+    /// The `watch` function ended it: no better validation error for the given number of epochs.
     ValidationStalled,
     /// The given number of epochs was reached.
     MaxEpochs,
@@ -33,15 +33,15 @@ pub enum Stopping {
     DampingLimit,
 }
 
-/// When to stop.
+/// Conditions under which the minimisation ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     pub max_epochs: u32,
-    /// On the largest component of Jᵀr / n.
+    /// Limit for the largest component of Jᵀr / n.
     pub gradient: f64,
 }
 
-/// Outcome of a minimisation.
+/// Result of a minimisation.
 pub struct Minimum {
     pub parameters: DVector<f64>,
     pub mean_square: f64,
@@ -49,16 +49,16 @@ pub struct Minimum {
     pub stopping: Stopping,
 }
 
-/// μ at the start, over n as the equations are; paper: "learning rate 10⁻⁴".
+/// μ at the start; like the equations it is divided by n. Paper: "learning rate 10⁻⁴".
 const DAMPING_START: f64 = 1e-4;
 const DAMPING_UP: f64 = 10.0;
 const DAMPING_DOWN: f64 = 0.1;
-/// Below this, rounding in JᵀJ rules.
+/// For a smaller μ, rounding errors in JᵀJ dominate.
 const DAMPING_MIN: f64 = 1e-15;
 const DAMPING_MAX: f64 = 1e10;
 
-/// Minimises from `start`. After each epoch (a step taken) `watch` gets the epoch's number, the parameters and
-/// their mean square, and may end the work.
+/// Minimises from `start`. After each epoch (one step taken) `watch` is called with the number of the epoch, the
+/// parameters and their mean square; it may end the minimisation.
 pub fn minimise<P: LeastSquares>(
     problem: &P,
     start: DVector<f64>,
@@ -103,7 +103,7 @@ fn descent<P: LeastSquares>(
         for i in 0..matrix.nrows() {
             matrix[(i, i)] += *damping;
         }
-        // Not positive definite to rounding: more damping cures it.
+        // When rounding errors make the matrix not positive definite, more damping is tried.
         if let Some(factors) = Cholesky::new(matrix) {
             let parameters = from - factors.solve(&equations.gradient);
             let reached = problem.mean_square(&parameters);

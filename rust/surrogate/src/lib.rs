@@ -10,23 +10,23 @@
 //! | [`kernel`] | the network's arithmetic, vectorised |
 //! | [`surrogate`] | the trait that all models implement; batches of cells |
 //! | [`models`] | the kinds of models by name, and those compiled in |
-//! | [`state`] | the default model: all state variables advance with the strain |
-//! | [`paper`], [`constant`] | the paper's network and the trivial model behind the trait |
+//! | [`state`] | the default model, in which all state variables advance with the strain |
+//! | [`paper`], [`constant`] | the paper's network and the trivial model as implementations of the trait |
 //! | [`perceptron`] | small tanh networks of any shape, of which the state model is made |
 //! | [`network`] | the paper's 3-16-16-6 network and its gradient |
 //! | [`levenberg_marquardt`] | the minimiser |
-//! | [`fit`] | the network's fit to samples as a least-squares problem |
-//! | [`training`] | the whole training |
+//! | [`fit`] | the fit of the paper's network to samples as a least-squares problem |
+//! | [`training`] | the complete training of the paper's network |
 //! | [`scores`] | R² (Eq. 12) |
-//! | [`score`], [`composition`], [`noise`] | a model on packings that it never saw; composed increments; noise floor |
-//! | [`ablation`] | what each input is worth |
+//! | [`score`], [`composition`], [`noise`] | errors of a model on held-out packings; composed increments; noise floor |
+//! | [`ablation`] | how much each input contributes |
 //! | [`drift`] | error of composed increments of the paper's network |
 //! | [`region`] | where the training states lie, and how much packings of equal state differ |
 //! | [`mechanics`], [`wall_friction`] | mechanical tangent and wall friction |
 //! | [`solid_fraction`] | sum-of-areas solid fraction from porosity |
-//! | [`predictor`], [`model`] | what of the paper's network answers; the trained model |
-//! | [`options`], [`report`] | how to train, and how that went |
-//! | [`model_file`], [`document`] | its file; what all model files share |
+//! | [`predictor`], [`model`] | the part of the paper's network that answers queries; the trained model |
+//! | [`options`], [`report`] | training options and training report |
+//! | [`model_file`], [`document`] | the file of the paper's network; what all model files share |
 #![deny(unsafe_code)] // kernel/ alone may: vectors of the instruction sets and what calls them
 
 pub mod ablation;

@@ -1,16 +1,17 @@
-//! Mechanical tangent of a jammed state: what wall strain does, linear and the same in extension and compression.
+//! Mechanical tangent of a jammed state: the linear response of stress, porosity and fabric to wall strain, the same in
+//! extension and compression.
 
 use crate::least_squares;
 use serde::{Deserialize, Serialize};
 
-/// Two neighbouring stops of a wall-strain ramp, differences and middle state. Strains extension positive; stresses
-/// reduced, σ ℓ/(E r̄), compression positive.
+/// Two neighbouring stops of a wall-strain ramp: their differences, and the state half way between them. Strains are
+/// positive in extension; stresses are reduced, σ ℓ/(E r̄), and positive in compression.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallStrain {
     pub packing: i64,
     /// Δe_xx, Δe_yy [-].
     pub strain: [f64; 2],
-    /// p̃, q̃/p̃ and η in the middle.
+    /// p̃, q̃/p̃ and η half way between the stops.
     pub pressure: f64,
     pub stress_ratio: f64,
     pub porosity: f64,
@@ -21,19 +22,19 @@ pub struct WallStrain {
     pub delta_fabric_conductivity: f64,
 }
 
-/// Linear laws over (1, √p̃, q̃/p̃), (1, √p̃) and (1, √p̃, η), and their scatter.
+/// Linear laws in (1, √p̃, q̃/p̃), (1, √p̃) and (1, √p̃, η), and the scatter of the data about them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mechanics {
-    /// c11 = −dσ̃_xx/de_xx over 1, √p̃, q̃/p̃; that of y has −q̃/p̃.
+    /// c11 = −dσ̃_xx/de_xx: coefficients of 1, √p̃, q̃/p̃; for y the sign of q̃/p̃ changes.
     pub c11: [f64; 3],
-    /// c12 = −dσ̃_xx/de_yy over 1, √p̃.
+    /// c12 = −dσ̃_xx/de_yy: coefficients of 1, √p̃.
     pub c12: [f64; 2],
-    /// dη/d(e_xx + e_yy) over 1, √p̃, η.
+    /// dη/d(e_xx + e_yy): coefficients of 1, √p̃, η.
     pub porosity: [f64; 3],
-    /// df/d(e_xx − e_yy) over 1, √p̃.
+    /// df/d(e_xx − e_yy): coefficients of 1, √p̃.
     pub fabric_index: [f64; 2],
-    /// df_K/d(e_xx − e_yy) over 1, √p̃.
+    /// df_K/d(e_xx − e_yy): coefficients of 1, √p̃.
     pub fabric_conductivity: [f64; 2],
     pub samples: usize,
     pub packings: usize,
@@ -61,18 +62,19 @@ pub struct Tangent {
     pub fabric_conductivity: f64,
 }
 
-/// Largest strain from the packed state at which the laws are fitted: further on grains slide, and the tangent is no longer that of
-/// small strains (shear modulus at 3 %, p̃ 0.05: two thirds).
+/// Largest strain from the packed state at which the laws are fitted. At larger strains grains slide, and the tangent
+/// is softer than that of small strains (shear modulus at 3 %, p̃ 0.05: two thirds).
 pub const LINEAR_STRAIN: f64 = 0.01;
-/// Fewer samples do not fix the laws.
+/// Least number of samples that determine the laws.
 const LEAST_SAMPLES: usize = 20;
-/// Least c11 − c12 and c22 − c12, twice a shear modulus, over E r̄/ℓ: a sixth of what packed grains have.
+/// Least value of c11 − c12 and c22 − c12, which are twice a shear modulus, over E r̄/ℓ: a sixth of that of packed
+/// grains.
 const LEAST_SHEAR: f64 = 0.05;
-/// Reduced pressure below which packings lose contacts; packed grains have 0.05.
+/// Reduced pressure below which packings lose contacts; that of packed grains is 0.05.
 const SLIGHT_PRESSURE: f64 = 1e-3;
-/// Porosities between which packings unjam.
+/// Porosities between which packings unjam (stop bearing load).
 const UNJAMMING: [f64; 2] = [0.18, 0.20];
-/// Share of the stiffness that is left without contacts, so that a loose region has a solution.
+/// Share of the stiffness that remains without contacts, so that the displacements of a loose region are determined.
 const LOOSE: f64 = 0.01;
 
 impl Mechanics {
@@ -81,8 +83,9 @@ impl Mechanics {
         if samples.len() < LEAST_SAMPLES {
             return None;
         }
-        // Between the error of the stress and that of the tangent: a rearrangement of a few grains changes the stress by
-        // as much in a small step as in a large one, and would rule the fit if slopes counted alike.
+        // A weight between fitting stress increments (weight 1) and fitting slopes (1/strain²). A rearrangement of a
+        // few grains changes the stress by about the same amount in a small step as in a large one, so with equal
+        // weights of the slopes the small steps would dominate the fit.
         let weight = |s: &WallStrain| 1.0 / s.strain[0].hypot(s.strain[1]);
         let stress = samples.iter().flat_map(|s| {
             let ([ex, ey], root) = (s.strain, s.pressure.sqrt());
@@ -121,9 +124,9 @@ impl Mechanics {
         Some(mechanics)
     }
 
-    /// Tangent at a reduced pressure, stress ratio q̃/p̃ and porosity. Where the laws are extrapolated, it stays one that a
-    /// medium can have: c11, c22 ≥ c12 + [`LEAST_SHEAR`], and all three vanish smoothly, to [`LOOSE`] of the laws, where
-    /// there is no pressure left and the porosity says that grains do not touch.
+    /// Tangent at a reduced pressure, stress ratio q̃/p̃ and porosity. Where the laws are extrapolated, the result
+    /// remains one of a stable medium: c11, c22 ≥ c12 + [`LEAST_SHEAR`]. All three moduli decrease smoothly to
+    /// [`LOOSE`] times the laws where there is no pressure and the porosity is so large that grains do not touch.
     pub fn tangent(&self, pressure: f64, stress_ratio: f64, porosity: f64) -> Tangent {
         let law = self.laws(pressure, stress_ratio, porosity);
         let unpressed = (-pressure.max(0.0) / SLIGHT_PRESSURE).exp();
@@ -140,7 +143,7 @@ impl Mechanics {
         }
     }
 
-    /// The laws themselves.
+    /// The laws without these limits.
     fn laws(&self, pressure: f64, stress_ratio: f64, porosity: f64) -> Tangent {
         let root = pressure.max(0.0).sqrt();
         let line = |c: [f64; 2]| c[0] + c[1] * root;
@@ -155,7 +158,7 @@ impl Mechanics {
         }
     }
 
-    /// Scatter of samples about the laws.
+    /// Scatter of the samples about the laws.
     pub fn scatter(&self, samples: &[WallStrain]) -> Scatter {
         let relative = |pair: &dyn Fn(&WallStrain, Tangent) -> [[f64; 2]; 2]| {
             let (mut error, mut value) = (0.0, 0.0);
@@ -191,8 +194,8 @@ impl Mechanics {
 mod tests {
     use super::*;
 
-    /// With the shipped model's laws: as they are where grains are packed; elsewhere positive definite, continuous, and
-    /// nearly nothing where grains do not touch.
+    /// With the shipped model's laws: the tangent equals the laws where grains are packed; elsewhere it is positive
+    /// definite, continuous, and nearly zero where grains do not touch.
     #[test]
     fn tangent_is_a_mediums_everywhere_and_vanishes_at_unjamming() {
         let model = crate::models::builtin("builtin").expect("shipped");
@@ -202,7 +205,7 @@ mod tests {
         let mut last = [0.0; 3];
         for step in 0..=4000 {
             let along = f64::from(step) / 4000.0;
-            // Down to no pressure, then apart.
+            // The path first lowers the pressure to zero, then increases the porosity.
             let (pressure, porosity) = (0.05 * (1.0 - 2.0 * along).max(0.0), 0.13 + 0.1 * along);
             for ratio in [-1.0, -0.35, 0.0, 0.35, 1.0] {
                 let t = law.tangent(pressure, ratio, porosity);

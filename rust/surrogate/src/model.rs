@@ -7,7 +7,7 @@ use crate::predictor::{Block, Prediction, Predictor};
 use crate::report::Provenance;
 use crate::solid_fraction::SolidFraction;
 
-/// A trained surrogate; immutable.
+/// A trained surrogate Φ (the paper's network); immutable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub name: String,
@@ -45,7 +45,7 @@ impl Model {
         self.predictor.evaluate(porosity, fabric_index, thermal_strain)
     }
 
-    /// Solid fraction with overlaps counted twice [-] of an initial state of this porosity.
+    /// Solid fraction by the sum of disc areas [-] (overlaps count twice) of an initial state of this porosity.
     pub fn solid_fraction(&self, porosity: f64) -> f64 {
         self.solid_fraction.at(porosity)
     }

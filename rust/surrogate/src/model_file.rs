@@ -1,4 +1,4 @@
-//! The model file: JSON, versioned, exact to the last bit of every number.
+//! The file of the paper's network: JSON with a version; every number is kept to the last bit.
 
 use crate::document::{field, hash, json, schema};
 use crate::network::{Network, WEIGHT_LIMIT, WEIGHTS};
@@ -9,7 +9,7 @@ use crate::solid_fraction::SolidFraction;
 use crate::{Model, SurrogateError};
 use serde::{Deserialize, Serialize};
 
-/// Raise the number when a reader of the old schema would misread the new.
+/// Name of the schema. Its number is increased when a reader of the old schema would misread the new one.
 pub const SCHEMA: &str = "msdd-model-1";
 
 #[derive(Serialize, Deserialize)]
@@ -38,7 +38,7 @@ impl Model {
     /// The model compiled into the library.
     ///
     /// # Errors
-    /// Those of [`Model::from_json`]; a test guards against them.
+    /// Those of [`Model::from_json`]; a test checks that there are none.
     pub fn builtin() -> Result<Self, SurrogateError> {
         Self::from_json(include_str!("../models/paper.json"))
     }
@@ -56,7 +56,7 @@ impl Model {
         text(self)
     }
 
-    /// All about the model but its weights, as one JSON object.
+    /// Everything about the model except its weights, as one JSON object.
     pub fn description(&self) -> String {
         description(self)
     }

@@ -1,4 +1,4 @@
-//! The kinds of models, by name. A new kind is a file beside this one and a line in [`MODELS`].
+//! The kinds of models by name. To add a kind, write a file beside this one and a line in [`MODELS`].
 
 use crate::dataset::StateRow;
 use crate::document::schema;
@@ -7,7 +7,7 @@ use crate::state::training::Mechanical;
 use crate::surrogate::Surrogate;
 use crate::{Model, SurrogateError, constant, state, training};
 
-/// What a database holds for training.
+/// Rows of a database for training.
 #[derive(Clone, Debug, Default)]
 pub struct TrainingData {
     pub rows: Vec<StateRow>,
@@ -24,10 +24,10 @@ pub struct Kind {
     read: fn(&str) -> Trained,
 }
 
-/// A model, or why there is none.
+/// A trained model, or the error.
 pub type Trained = Result<Box<dyn Surrogate>, SurrogateError>;
 
-/// Kind that is trained when none is named.
+/// Kind of model that is trained when none is named.
 pub const DEFAULT: &str = "state";
 
 pub const MODELS: [Kind; 3] = [
@@ -57,7 +57,7 @@ pub const MODELS: [Kind; 3] = [
 /// The kind of this name.
 ///
 /// # Errors
-/// [`SurrogateError::Option`] that lists the names there are.
+/// [`SurrogateError::Option`], which lists the existing names.
 pub fn kind(name: &str) -> Result<&'static Kind, SurrogateError> {
     MODELS.iter().find(|kind| kind.name == name).ok_or_else(|| SurrogateError::Option {
         key: "model",
@@ -66,17 +66,17 @@ pub fn kind(name: &str) -> Result<&'static Kind, SurrogateError> {
     })
 }
 
-/// Name of the default model compiled into the library; the others follow a colon.
+/// Name of the default model compiled into the library; the names of others are appended after a colon.
 pub const BUILTIN: &str = "builtin";
 
-/// Texts of the models compiled into the library, the default first.
+/// Models compiled into the library: name and text of the file, the default first.
 const SHIPPED: [(&str, &str); 2] =
     [("state", include_str!("../models/state.json")), ("paper", include_str!("../models/paper.json"))];
 
 /// A model compiled into the library: `builtin`, `builtin:state` or `builtin:paper`.
 ///
 /// # Errors
-/// [`SurrogateError::Option`] that lists the names there are.
+/// [`SurrogateError::Option`], which lists the existing names.
 pub fn builtin(name: &str) -> Trained {
     let wanted = name.strip_prefix(BUILTIN).map(|rest| rest.strip_prefix(':').unwrap_or(rest));
     let shipped = match wanted {
@@ -93,7 +93,7 @@ pub fn builtin(name: &str) -> Trained {
     }
 }
 
-/// Reads the text of a model file of any kind; its schema tells which.
+/// Reads the text of a model file of any kind; the schema says which kind it is.
 ///
 /// # Errors
 /// [`SurrogateError::Damaged`], [`SurrogateError::Schema`] or [`SurrogateError::Field`].

@@ -11,11 +11,12 @@ pub const INPUTS: usize = 3;
 pub const HIDDEN: usize = 16;
 /// Increments of porosity and fabric index, Kxx, Kyy, σxx, σyy.
 pub const OUTPUTS: usize = 6;
-/// Weights of the hidden layers, biases included; they come first.
+/// Number of weights of the hidden layers, biases included; these weights come first.
 pub const HIDDEN_WEIGHTS: usize = HIDDEN * (INPUTS + 1) + HIDDEN * (HIDDEN + 1);
-/// All weights and biases: 438.
+/// Number of all weights and biases: 438.
 pub const WEIGHTS: usize = HIDDEN_WEIGHTS + OUTPUTS * (HIDDEN + 1);
-/// Magnitude that no sound weight reaches; keeps every sum far from overflow.
+/// Upper limit for the magnitude of weights, far above those of any trained network; it keeps every sum far from
+/// overflow.
 pub const WEIGHT_LIMIT: f64 = 1e9;
 
 /// Values of all neurons of the paper's network for a block of cells.
@@ -25,20 +26,20 @@ pub struct Activations {
     pub outputs: [Lanes; OUTPUTS],
 }
 
-/// Weights layer by layer, neuron by neuron: the neuron's weights, then its bias.
+/// Weights layer by layer and neuron by neuron: the weights of a neuron, then its bias.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
     pub weights: Box<[f64; WEIGHTS]>,
 }
 
 impl Network {
-    /// Starting point of a training (Nguyen and Widrow 1990): directions random, lengths such that the neurons' active
-    /// zones tile the input range.
+    /// Random starting weights of a training (Nguyen and Widrow 1990): directions are random, and lengths such that the
+    /// intervals in which the neurons are not saturated cover the input range.
     pub fn initial(seed: u64, restart: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(restart + 1); // stream 0 belongs to the split
         let mut weights = Vec::with_capacity(WEIGHTS);
-        // 0.7 neurons^(1/inputs), written out: powers differ in the last bit between mathematical libraries.
+        // 0.7 neurons^(1/inputs) as numbers, because powers differ in the last bit between mathematical libraries.
         for (inputs, neurons, length) in [(INPUTS, HIDDEN, 1.763_889_4), (HIDDEN, HIDDEN, 0.832_444_8)] {
             for _ in 0..neurons {
                 let direction: Vec<f64> = (0..inputs).map(|_| symmetric_unit(&mut random)).collect();
@@ -59,7 +60,7 @@ impl Network {
         network
     }
 
-    /// All neurons for a block of scaled inputs.
+    /// Values of all neurons for a block of scaled inputs.
     pub fn activations(&self, inputs: &[Lanes; INPUTS]) -> Activations {
         let zero = [0.0; LANES];
         let mut all =
@@ -68,8 +69,9 @@ impl Network {
         all
     }
 
-    /// ∂(output)/∂(weights) of one lane: the derivative by the hidden layers' weights goes to `column`. That by the
-    /// output's own weights is (hidden_2, 1); by the other outputs' weights zero.
+    /// ∂(output)/∂(weights) of one lane. The derivatives with respect to the hidden layers' weights are written to
+    /// `column`. Those with respect to the output's own weights are (hidden_2, 1), and those with respect to the other
+    /// outputs' weights are zero.
     pub fn gradient(
         &self,
         inputs: &[Lanes; INPUTS],
@@ -116,7 +118,7 @@ impl Task for Activate<'_> {
     }
 }
 
-/// Derivatives by a neuron's weights (delta · input), then by its bias (delta).
+/// Derivatives with respect to a neuron's weights (delta · input), then to its bias (delta).
 fn fill(part: &mut [f64], delta: f64, input: impl Fn(usize) -> f64) {
     let bias = part.len() - 1;
     for (k, derivative) in part[..bias].iter_mut().enumerate() {
@@ -130,7 +132,8 @@ fn symmetric_unit(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// A block of lanes from `count` values, at least one; the rest repeats the last, so that no lane holds nonsense.
+/// A block of lanes from `count` values, at least one. The last value fills the remaining lanes, so that all lanes hold
+/// valid numbers.
 pub fn padded(count: usize, value: impl Fn(usize) -> f64) -> Lanes {
     std::array::from_fn(|lane| value(lane.min(count.clamp(1, LANES) - 1)))
 }

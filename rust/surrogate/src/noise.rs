@@ -1,15 +1,16 @@
-//! Noise floor: how much packings of equal state differ in what follows. No function of that state does better.
+//! Noise floor: the scatter of an output between packings of equal state, which is the least error of any function of
+//! that state.
 
-/// Neighbours of the Gamma test.
+/// Number of nearest neighbours in the Gamma test.
 const NEIGHBOURS: usize = 8;
 
-/// Group, x and y.
+/// Group (packing), inputs x and output y.
 pub type Sample = (i64, Vec<f64>, f64);
 
-/// Standard deviation of the part of y that is no smooth function of x, from (group, x, y): the Gamma test (Stefánsson,
-/// Končar and Jones 1997). Half the mean squared difference of y between k-th nearest neighbours is regressed on their
-/// mean squared distance; the intercept is the variance of the noise. Neighbours are of other groups, since states of
-/// one packing share its noise. `None` with too few samples.
+/// Standard deviation of the part of y that is not a smooth function of x: the Gamma test (Stefánsson, Končar and Jones
+/// 1997). Half the mean squared difference of y between k-th nearest neighbours is fitted linearly in their mean
+/// squared distance in x; the intercept is the variance of the noise. Neighbours are taken from other groups, since
+/// states of one packing share its noise. `None` with too few samples.
 pub fn deviation(samples: &[Sample]) -> Option<f64> {
     let mut gamma = [0.0; NEIGHBOURS];
     let mut delta = [0.0; NEIGHBOURS];

@@ -1,15 +1,16 @@
-//! How to train, and on which database.
+//! Options of a training, and the database that it uses.
 
 use crate::SurrogateError;
 use serde::{Deserialize, Serialize};
 
-/// Where the training data came from.
+/// The database from which the training data came.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DatabaseProvenance {
     /// SHA-256 of the plan's text.
     pub plan_hash: String,
-    /// SHA-256 of the rows as JSON, in order; a plan run by another engine gives other rows. Older files lack it.
+    /// SHA-256 of the rows as JSON, in order. It differs when another engine has run the same plan. Absent in older
+    /// files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rows_hash: Option<String>,
     /// Version of the program that made the database.
@@ -21,23 +22,23 @@ pub struct DatabaseProvenance {
     pub radius_max: f64,
 }
 
-/// How to train.
+/// Options of a training.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrainingOptions {
     /// Name of the model.
     pub name: String,
-    /// Fixes the split and the starting weights.
+    /// Determines the split into training and test packings and the starting weights.
     pub seed: u64,
-    /// Starts from other weights; the one with the best validation error is kept.
+    /// Number of starts from different weights; the one with the lowest validation error is kept.
     pub restarts: u32,
-    /// Epochs at most, per start.
+    /// Largest number of epochs per start.
     pub max_epochs: u32,
-    /// Epochs without a better validation error after which training stops (paper: 20).
+    /// Training stops after this many epochs without a lower validation error (paper: 20).
     pub patience: u32,
-    /// Where the rows came from.
+    /// Provenance of the rows.
     pub database: DatabaseProvenance,
-    /// Threads, 0 = one a core. Does not change the result and is not in the model file.
+    /// Number of threads, 0 = one per core. It does not change the result and is not in the model file.
     #[serde(skip)]
     pub threads: usize,
 }

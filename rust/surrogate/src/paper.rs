@@ -1,4 +1,4 @@
-//! The paper's network as a [`Surrogate`]: the state is (η, f), K and σ are outputs of each step.
+//! The paper's network as a [`Surrogate`]: its state is (η, f), and K and σ are outputs of each step.
 
 use crate::kernel::{LANES, Lanes};
 use crate::model::Model;
@@ -39,7 +39,7 @@ impl Surrogate for Model {
         let block = Model::block(self, &[state[0], state[1], *strain]);
         let mut answer = Answer {
             state: *state,
-            // The network's own lower limit is zero, which is no conductivity for a heat equation.
+            // The network's own lower limit is zero, but the heat equation needs a positive conductivity.
             conductivity: [block.conductivity_xx, block.conductivity_yy]
                 .map(|lanes| lanes.map(|value| value.max(CONDUCTIVITY_FLOOR))),
             stress: [block.stress_xx, block.stress_yy],

@@ -1,5 +1,5 @@
-//! A small tanh network of any shape within [`WIDTH`]: one or two hidden layers, linear outputs. The state model is
-//! made of these.
+//! A small tanh network of any shape up to [`WIDTH`]: one or two hidden layers, linear outputs. The networks of the
+//! state model are of this type.
 
 use crate::kernel::{self, LANES, LayerValues};
 use rand_chacha::ChaCha8Rng;
@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 pub use crate::kernel::{MAX_LAYERS, WIDTH};
 
-/// Layer sizes and weights: layer by layer, neuron by neuron, the neuron's weights and then its bias.
+/// Layer sizes and weights. The weights stand layer by layer and neuron by neuron: the weights of a neuron, then its
+/// bias.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Perceptron {
@@ -40,8 +41,9 @@ pub fn weight_count(sizes: &[usize]) -> usize {
 }
 
 impl Perceptron {
-    /// Random start: directions uniform, lengths such that the neurons' active zones tile the inputs, which lie in
-    /// [-1, 1] (after Nguyen and Widrow 1990); outputs start small.
+    /// Random starting weights: directions are uniform, and lengths such that the intervals in which the neurons are
+    /// not saturated cover the inputs, which lie in [-1, 1] (after Nguyen and Widrow 1990). Outputs are small at the
+    /// start.
     ///
     /// # Panics
     /// When the shape exceeds [`WIDTH`] or [`MAX_LAYERS`].
@@ -74,13 +76,15 @@ impl Perceptron {
         self.sizes[self.sizes.len() - 1]
     }
 
-    /// Evaluates a block whose inputs stand in `neurons.layers[0]`; returns the index of the layer of outputs.
+    /// Evaluates a block whose inputs are in `neurons.layers[0]`; returns the index of the layer that holds the
+    /// outputs.
     pub fn run(&self, neurons: &mut Neurons) -> usize {
         kernel::forward(&self.sizes, &self.weights, &mut neurons.layers);
         self.sizes.len() - 1
     }
 
-    /// Gradient by the weights of Σ_o c_o y_o of one lane, for `neurons` as [`Perceptron::run`] left them.
+    /// Gradient with respect to the weights of Σ_o c_o y_o of one lane; `neurons` must be as [`Perceptron::run`] left
+    /// them.
     pub fn gradient(&self, neurons: &Neurons, lane: usize, c: &[f64], gradient: &mut [f64]) {
         let mut delta = [0.0; WIDTH];
         delta[..c.len()].copy_from_slice(c);

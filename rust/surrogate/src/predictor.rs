@@ -1,10 +1,10 @@
-//! What of the paper's network answers queries.
+//! The part of the paper's network that answers queries.
 
 use crate::kernel::{LANES, Lanes};
 use crate::network::{INPUTS, Network};
 use crate::scaling::{OutputScales, TrainedRange};
 
-/// The part of a model that answers queries.
+/// The part of a model that answers queries: network, trained range and scales.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Predictor {
     pub network: Network,
@@ -12,7 +12,7 @@ pub struct Predictor {
     pub scales: OutputScales,
 }
 
-/// Answers for a block of cells; see [`Prediction`] for the fields.
+/// Answers for a block of cells; [`Prediction`] describes the fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
     pub delta_porosity: Lanes,
@@ -44,8 +44,9 @@ pub struct Prediction {
 }
 
 impl Predictor {
-    /// Evaluates a block of cells: porosity η^n [-], fabric index f^n [-], thermal strain ε^n [-] (radial, relative to the
-    /// current radii). Finite inputs give finite answers. A lane's answer depends on that lane alone.
+    /// Evaluates a block of cells with the inputs porosity η^n [-], fabric index f^n [-], and thermal strain ε^n [-]
+    /// (radial, relative to the current radii). Finite inputs give finite answers. The answer of a lane depends on that
+    /// lane alone.
     pub fn block(&self, inputs: &[Lanes; INPUTS]) -> Block {
         let (inputs, clamped) = self.range.clamp(inputs);
         let outputs = self.network.activations(&self.range.scaled(&inputs)).outputs;
@@ -62,7 +63,7 @@ impl Predictor {
         }
     }
 
-    /// Evaluates one cell; inputs as in [`Predictor::block`], the same bits.
+    /// Evaluates one cell with inputs as in [`Predictor::block`]; gives the same bits.
     pub fn evaluate(&self, porosity: f64, fabric_index: f64, thermal_strain: f64) -> Prediction {
         let block = self.block(&[[porosity; LANES], [fabric_index; LANES], [thermal_strain; LANES]]);
         Prediction {

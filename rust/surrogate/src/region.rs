@@ -1,31 +1,34 @@
-//! Where a model's training states lie, and how much packings of equal state differ.
+//! The region of a model's training states, and the scatter between packings of equal state.
 
 use crate::scaling::Range;
 use crate::surrogate::MAX_STATE;
 use serde::{Deserialize, Serialize};
 
-/// Coordinates of a state, each scaled to [-1, 1] over the training; unused ones are zero.
+/// Coordinates of a state, each scaled to [-1, 1] over the training data; unused ones are zero.
 pub type Coordinates = [f64; MAX_STATE];
 
-/// Region of the training states in scaled coordinates, closed under the turn by 90°.
+/// Region of the training states in scaled coordinates; it is unchanged by a turn by 90°.
 ///
-/// The convex hull of some thousand points in five dimensions has a six-digit number of facets. Kept is its tightest
-/// cover by half-spaces whose normals have up to three components of ±1: it contains the hull and touches it in every
+/// The convex hull of some thousand points in five dimensions would have a six-digit number of facets. Stored instead
+/// is the smallest region around it bounded by half-spaces whose normals have up to three components of ±1: it contains
+/// the hull and touches it in each of these directions. Gaps inside the region are detected by the distance to the
+/// nearest of a set of training states.
 /// such direction. Holes inside are known from the distance to the nearest of a set of training states.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Region {
-    /// Coordinates in use.
+    /// Number of coordinates in use.
     pub dimensions: usize,
-    /// Largest n·z/|n| over the training, for the normals in the order of [`normals`].
+    /// Largest n·z/|n| over the training states z, for the normals n in the order of [`normals`].
     pub support: Vec<f64>,
-    /// Training states that cover all others (farthest-point sampling; Gonzalez 1985).
+    /// Some of the training states, such that every other one is near one of them (farthest-point sampling; Gonzalez
+    /// 1985).
     pub states: Vec<Coordinates>,
     /// Largest distance of a training state from the nearest of `states`.
     pub spacing: f64,
 }
 
-/// Training states kept; with them the spacing is about a tenth of the range.
+/// Number of training states that are stored; `spacing` is then about a tenth of the range.
 const KEPT_STATES: usize = 256;
 
 /// Normals with one to three components of ±1, unit length.
@@ -56,10 +59,10 @@ fn square_distance(a: &Coordinates, b: &Coordinates) -> f64 {
 }
 
 impl Region {
-    /// Region of these points.
+    /// The region of these points.
     ///
     /// # Panics
-    /// Without points.
+    /// When there are no points.
     pub fn of(points: &[Coordinates], dimensions: usize) -> Self {
         let highest = |normal: &Coordinates| points.iter().map(|p| dot(normal, p)).fold(f64::MIN, f64::max);
         let support = normals(dimensions).iter().map(highest).collect();
@@ -88,28 +91,29 @@ impl Region {
         if dimensions <= MAX_STATE { normals(dimensions).len() } else { 0 }
     }
 
-    /// How far beyond the nearest half-space; 0 inside.
+    /// Distance by which a point lies outside of the region, measured to the half-space that it violates most; 0
+    /// inside.
     pub fn beyond_hull(&self, point: &Coordinates) -> f64 {
         let normals = normals(self.dimensions);
         let beyond = normals.iter().zip(&self.support).map(|(normal, support)| dot(normal, point) - support);
         beyond.fold(0.0, f64::max)
     }
 
-    /// Distance to the nearest kept state over their spacing: above 1 there was no training state.
+    /// Distance to the nearest stored state over `spacing`: above 1, there was no training state near the point.
     pub fn distance(&self, point: &Coordinates) -> f64 {
         let nearest = self.states.iter().map(|state| square_distance(state, point)).fold(f64::MAX, f64::min);
         nearest.sqrt() / self.spacing
     }
 }
 
-/// Standard deviations between packings of equal state, over the reduced pressure.
+/// Standard deviations between packings of equal state, as functions of the reduced pressure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spread {
     pub pressure: Range,
-    /// Relative, of K; bins of equal width in √p̃.
+    /// Relative standard deviation of K, in bins of equal width in √p̃.
     pub conductivity: Vec<f64>,
-    /// Of dp̃/dε [-].
+    /// Standard deviation of dp̃/dε [-], in the same bins.
     pub pressure_rate: Vec<f64>,
 }
 
@@ -119,7 +123,7 @@ impl Spread {
     /// Number of bins.
     pub const BINS: usize = BINS;
 
-    /// From residuals of a fit at states of known p̃: (p̃, relative error of K) and (p̃, error of dp̃/dε).
+    /// Computed from the residuals of a fit at states of known p̃: (p̃, relative error of K) and (p̃, error of dp̃/dε).
     pub fn of(pressure: Range, conductivity: &[(f64, f64)], rate: &[(f64, f64)]) -> Self {
         let mut spread = Self { pressure, conductivity: vec![0.0; BINS], pressure_rate: vec![0.0; BINS] };
         let deviation = |errors: &[(f64, f64)]| {
@@ -137,14 +141,14 @@ impl Spread {
         spread
     }
 
-    /// Bin of a pressure, and how far to the middle of the next.
+    /// Bin of a pressure, and the fraction of the way to the middle of the next bin, for interpolation.
     fn bin(&self, pressure: f64) -> (usize, f64) {
         let share = (self.pressure.clamp(pressure) / self.pressure.max).sqrt() * BINS as f64;
         let bin = (share as usize).min(BINS - 1);
         (bin, share - bin as f64 - 0.5)
     }
 
-    /// Spread of K (relative) and of dp̃/dε at a reduced pressure.
+    /// Standard deviation of K (relative) and of dp̃/dε at a reduced pressure.
     pub fn at(&self, pressure: f64) -> [f64; 2] {
         let (bin, beyond) = self.bin(pressure);
         let other = if beyond < 0.0 { bin.saturating_sub(1) } else { (bin + 1).min(BINS - 1) };

@@ -1,4 +1,4 @@
-//! How a training of the paper's network went.
+//! Report of a training of the paper's network.
 
 use crate::dataset::{Ramp, Split};
 use crate::drift::Drift;
@@ -7,13 +7,13 @@ use crate::options::TrainingOptions;
 use crate::scores::Scores;
 use serde::{Deserialize, Serialize};
 
-/// One value for each part of the split.
+/// One value for each part of the split into training, validation and test.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parts<T> {
     pub training: T,
     pub validation: T,
-    /// Packings that the training never saw.
+    /// Packings that the training did not use.
     pub test: T,
 }
 
@@ -28,16 +28,16 @@ impl<T> Parts<T> {
     }
 }
 
-/// Outcome of a training.
+/// Results of a training.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Report {
     pub packings: Parts<usize>,
-    /// Mirror images included.
+    /// Numbers of samples, mirror images included.
     pub samples: Parts<usize>,
-    /// The start that was kept, from 0.
+    /// Number of the start that was kept, from 0.
     pub restart: u32,
-    /// Epochs of that start, and the one whose weights were kept.
+    /// Number of epochs of that start, and the epoch whose weights were kept.
     pub epochs: u32,
     pub best_epoch: u32,
     pub stopping: Stopping,
@@ -45,11 +45,11 @@ pub struct Report {
     pub training_error: f64,
     pub validation_error: f64,
     pub scores: Parts<Scores>,
-    /// On the test packings.
+    /// Errors on the test packings.
     pub drift: Vec<Drift>,
 }
 
-/// How the model came to be.
+/// How the model was made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {

@@ -1,4 +1,4 @@
-//! Trained range and scales.
+//! Trained range of the inputs, and scales of inputs and outputs.
 
 use crate::SurrogateError;
 use crate::dataset::Sample;
@@ -29,8 +29,8 @@ impl Range {
         (self.min..=self.max).contains(&value)
     }
 
-    /// The nearest value inside. Written with comparisons, which are one instruction each; max and min, which look after
-    /// NaN, are three.
+    /// The nearest value inside. Written with comparisons, which are one instruction each; max and min are three,
+    /// because they treat NaN separately.
     #[inline(always)]
     pub fn clamp(&self, value: f64) -> f64 {
         let value = if value > self.min { value } else { self.min };
@@ -38,8 +38,8 @@ impl Range {
     }
 }
 
-/// Range of the training inputs: inputs outside are clamped to it. The paper asks for the convex hull of the inputs;
-/// the box is the hull's simplest cover.
+/// Range of the training inputs; inputs outside are clamped to it. The paper uses the convex hull of the inputs; the
+/// box used here is the simplest region that contains that hull.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrainedRange {
@@ -54,7 +54,7 @@ impl TrainedRange {
         [self.porosity, self.fabric_index, self.thermal_strain]
     }
 
-    /// The inputs clamped to the range, and whether any of a lane's was outside.
+    /// The inputs clamped to the range, and for each lane whether any of its inputs was outside.
     pub fn clamp(&self, inputs: &[Lanes; INPUTS]) -> ([Lanes; INPUTS], [bool; LANES]) {
         let (mut clamped, mut outside) = (*inputs, [false; LANES]);
         for (values, range) in clamped.iter_mut().zip(self.inputs()) {
@@ -67,7 +67,7 @@ impl TrainedRange {
         (clamped, outside)
     }
 
-    /// Clamped inputs on [-1, 1].
+    /// The clamped inputs scaled to [-1, 1].
     pub fn scaled(&self, inputs: &[Lanes; INPUTS]) -> [Lanes; INPUTS] {
         let ranges = self.inputs();
         std::array::from_fn(|k| {
@@ -87,13 +87,14 @@ pub struct OutputScales {
     pub delta_fabric_index_per_strain: f64,
     /// K/k at y = 0 and y = 1.
     pub conductivity: Range,
-    /// σ ℓ/(E r̄) at y = 0 and y = 1. Starts at 0: dry grains bear no tension.
+    /// σ ℓ/(E r̄) at y = 0 and y = 1. The range starts at 0, since dry grains bear no tension.
     pub stress: Range,
 }
 
 impl OutputScales {
-    /// Δη, Δf, K, σ from the network's outputs. K and σ end at the bottom of their ranges: a composed state beyond the
-    /// data must not give a negative conductivity or tension. Zero strain gives exactly zero increments.
+    /// Δη, Δf, K, σ from the network's outputs. K and σ are limited below by the ends of their ranges, because a
+    /// composed state outside the data must not give a negative conductivity or tension. Zero strain gives exactly zero
+    /// increments.
     pub fn physical(&self, strain: &Lanes, outputs: &[Lanes; OUTPUTS]) -> [Lanes; OUTPUTS] {
         let increments = [self.delta_porosity_per_strain, self.delta_fabric_index_per_strain];
         let ranges = [self.conductivity, self.conductivity, self.stress, self.stress];
@@ -110,9 +111,10 @@ impl OutputScales {
         let strain = sample.inputs[2];
         let increment = |delta: f64, scale: f64| match strain {
             0.0 => (0.0, 0.0), // exact by construction
-            // Weight √|ε|: |ε| would fit Δ, whose large strains rule, though small steps live on the rate; 1 would fit the
-            // rate Δ/ε, where the noise of small strains rules. Paper silent (its network fits Δ); all three drift alike
-            // within the scatter, but 1 once ended with a useless Δf.
+            // Weight √|ε|, a compromise. With the weight |ε| the increments Δ would be fitted and large strains would
+            // dominate, although solvers take small steps, for which the rate matters. With the weight 1 the rates Δ/ε
+            // would be fitted and the noise of small strains would dominate. The paper does not say (its network fits
+            // Δ). All three drift alike within the scatter, but one training with the weight 1 gave a useless Δf.
             _ => (delta / (strain * scale), (strain.abs() / largest_strain).sqrt()),
         };
         let state = |value: f64, range: Range| ((value - range.min) / range.width(), 1.0);

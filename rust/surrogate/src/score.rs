@@ -1,4 +1,4 @@
-//! Everything that a model is judged by, on packings that it never saw.
+//! Scores: all errors by which a model is judged, on packings that its training did not use.
 
 use crate::SurrogateError;
 use crate::composition::{self, Composed, Path, composed, state_of, states_of};
@@ -9,20 +9,21 @@ use crate::scores::r_squared;
 use crate::surrogate::{Answer, Surrogate};
 use serde::Serialize;
 
-/// R² (Eq. 12) of one query over pairs of jammed stops, mirror images included.
+/// R² (Eq. 12) of single queries over pairs of jammed stops, mirror images included.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OneStep {
     pub packings: usize,
     pub samples: usize,
     pub delta_porosity: f64,
     pub delta_fabric_index: f64,
-    /// When the state has it.
+    /// None when the state does not contain f_K.
     pub delta_fabric_conductivity: Option<f64>,
     pub conductivity: f64,
     pub stress: f64,
 }
 
-/// A strain and back in as many increments: what is left, relative (porosity: absolute), of the start's.
+/// Differences from the start after a strain and its return in as many increments each, relative to the start
+/// (porosity: absolute).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ThereAndBack {
     pub strain: f64,
@@ -32,18 +33,19 @@ pub struct ThereAndBack {
     pub porosity: f64,
 }
 
-/// The database's way back from a ramp's end to the packed state's radii, in 500 increments.
+/// Errors after the database's return from the end of a ramp to the radii of the packed state, in 500 increments.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WayBack {
     /// "up_down" from +5 %, "down_up" from -5 %.
     pub ramp: String,
     pub errors: Composed,
-    /// Of a model that takes the way back for virgin strain.
+    /// Errors when the model treats the return as virgin strain, which means strain that the grains have not
+    /// experienced before.
     pub taken_for_virgin: Composed,
 }
 
-/// What no function of the model's state at the start can know of the end: relative to the data's root mean square, as
-/// in [`Composed`]. `None` when there are too few packings to tell.
+/// Noise floor: the part of the end state that no function of the model's state at the start can predict, relative to
+/// the root mean square of the data as in [`Composed`]. `None` when there are too few packings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Floor {
     pub strain: f64,
@@ -54,13 +56,14 @@ pub struct Floor {
     pub fabric_index: Option<f64>,
 }
 
-/// The whole verdict.
+/// All scores of a model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Score {
     pub kind: String,
     pub name: String,
     pub hash: String,
-    /// Held out, or all, when the database is not the one of the training.
+    /// Whether the packings were held out of the training. If not, the database is not that of the training, and all
+    /// its packings are used.
     pub held_out: bool,
     pub training: Option<OneStep>,
     pub unseen: OneStep,
@@ -71,18 +74,19 @@ pub struct Score {
     pub noise_floor: Vec<Floor>,
 }
 
-/// Strains of the composed errors.
+/// Strains after which composed errors are computed.
 pub const STRAINS: [f64; 8] = [0.005, 0.01, 0.02, 0.05, -0.005, -0.01, -0.02, -0.05];
-/// Numbers of increments.
+/// Numbers of increments in which the strains are applied.
 pub const INCREMENTS: [u32; 5] = [1, 5, 50, 500, 5000];
 
-/// Ramps that the model saw in training or validation, and those that it did not.
+/// Ramps that were used for training or validation, and those that were not.
 pub struct Ramps {
     pub seen: Vec<Ramp>,
     pub unseen: Vec<Ramp>,
 }
 
-/// Splits as the model's training did, when it was trained on the database of this plan; else nothing was seen.
+/// Splits as the model's training did when it was trained on the database of this plan; for another database all ramps
+/// are unseen.
 ///
 /// # Errors
 /// [`SurrogateError::Data`] for unusable rows.
@@ -131,7 +135,7 @@ fn way_back(model: &dyn Surrogate, ramps: &[Ramp], name: &str) -> Option<WayBack
     Some(WayBack { ramp: name.to_string(), errors, taken_for_virgin })
 }
 
-/// Data and prediction of one query for every pair of jammed stops, mirror images included: Δη, Δf, Δf_K, K, σ.
+/// Data and prediction of a single query for every pair of jammed stops, mirror images included: Δη, Δf, Δf_K, K, σ.
 pub fn one_step_pairs(model: &dyn Surrogate, ramps: &[Ramp]) -> [Vec<[f64; 2]>; 5] {
     let mut pairs: [Vec<[f64; 2]>; 5] = Default::default();
     let fabric = model.state_names().iter().position(|name| *name == "fabric_conductivity");
@@ -215,12 +219,12 @@ fn there_and_back(model: &dyn Surrogate, ramps: &[Ramp], strain: f64, increments
     ThereAndBack { strain, increments, pressure, conductivity, porosity }
 }
 
-/// Increments of the noise floor's residuals.
+/// Number of increments of the paths from whose errors the noise floor is computed.
 const FLOOR_INCREMENTS: u32 = 50;
 
-/// Noise of the model's errors over the start states: what is no smooth function of the start in them, none can learn.
-/// Errors serve better than the data itself, whose steep slopes would swamp the noise. Each path counts twice, once
-/// turned by 90°.
+/// Noise floor: the part of the model's errors that is not a smooth function of the start state, which no model of this
+/// state can predict. The errors are used instead of the data itself, because the steep slopes of the data would hide
+/// the noise. Each path counts twice, once turned by 90°.
 fn floor(model: &dyn Surrogate, ramps: &[Ramp], strain: f64) -> Floor {
     let columns = model.state_names();
     let paths = composition::paths(ramps, strain);
@@ -251,7 +255,7 @@ fn floor(model: &dyn Surrogate, ramps: &[Ramp], strain: f64) -> Floor {
     }
 }
 
-/// A state variable as a coordinate in which distance means something.
+/// A state variable transformed so that distances between states are comparable.
 fn coordinate(name: &str, value: f64, sign: f64, state: &[f64]) -> f64 {
     match name {
         "porosity" => value,
@@ -261,7 +265,7 @@ fn coordinate(name: &str, value: f64, sign: f64, state: &[f64]) -> f64 {
     }
 }
 
-/// Coordinates over their standard deviation.
+/// The coordinates divided by their standard deviation.
 fn scaled(samples: &[noise::Sample]) -> Vec<noise::Sample> {
     let Some((_, first, _)) = samples.first() else { return Vec::new() };
     let count = samples.len() as f64;

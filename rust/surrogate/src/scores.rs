@@ -11,15 +11,15 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Scores {
     pub delta_porosity: f64,
-    /// Of samples whose states bear load.
+    /// Over samples whose states bear load.
     pub delta_fabric_index: f64,
     pub conductivity_xx: f64,
     pub conductivity_yy: f64,
     pub stress_xx: f64,
     pub stress_yy: f64,
-    /// Both components together.
+    /// Both components (xx and yy) together.
     pub conductivity: f64,
-    /// Both components together.
+    /// Both components (xx and yy) together.
     pub stress: f64,
 }
 
@@ -31,7 +31,7 @@ pub fn r_squared(pairs: &[[f64; 2]]) -> f64 {
     if spread > 0.0 { 1.0 - error / spread } else { 0.0 }
 }
 
-/// Scores of the model as a user meets it: clamped inputs, zero increments for zero strain.
+/// Scores of the model in the form in which it is used: clamped inputs, zero increments for zero strain.
 pub fn scores(predictor: &Predictor, samples: &[Sample]) -> Scores {
     let mut pairs: [Vec<[f64; 2]>; OUTPUTS] = Default::default();
     for chunk in samples.chunks(LANES) {

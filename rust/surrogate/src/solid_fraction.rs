@@ -1,4 +1,4 @@
-//! Sum-of-areas solid fraction from the porosity of a packed state.
+//! Sum-of-areas solid fraction as a function of the porosity of a packed state.
 
 use crate::SurrogateError;
 use crate::dataset::StateRow;
@@ -8,14 +8,15 @@ use crate::network::WEIGHT_LIMIT;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
-/// Least-squares polynomial: solid fraction = Σ c_i η^i for packed states. Overlaps count twice in it, so that
-/// ρ · fraction is the true mass per area, where the paper's ρ (1 − η) loses the overlaps' mass.
+/// Least-squares polynomial: solid fraction = Σ c_i η^i for packed states. It is the sum of disc areas over the box
+/// area, in which overlaps count twice, so that ρ · fraction is the true mass per area. The paper's ρ (1 − η) loses the
+/// mass of the overlaps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SolidFraction {
     /// c_0, c_1, …
     pub coefficients: Vec<f64>,
-    /// Porosities of the fit; others are clamped to it.
+    /// Range of porosities of the fit; others are clamped to it.
     pub porosity: Range,
     /// Root mean square of the fit's residuals [-].
     pub residual: f64,
@@ -47,7 +48,7 @@ impl SolidFraction {
         Ok(Self { coefficients: coefficients.to_vec(), porosity, residual })
     }
 
-    /// Refuses what no fit gives.
+    /// Returns an error for values that no fit can give.
     pub(crate) fn check(&self) -> Result<(), SurrogateError> {
         let Range { min, max } = self.porosity;
         if !(0.0 <= min && min <= max && max <= 1.0) {
@@ -60,7 +61,7 @@ impl SolidFraction {
         }
     }
 
-    /// Solid fraction with overlaps counted twice [-] of a packed state of this porosity.
+    /// Sum-of-areas solid fraction [-] of a packed state of this porosity.
     pub fn at(&self, porosity: f64) -> f64 {
         let inside = self.porosity.clamp(porosity);
         self.coefficients.iter().rev().fold(0.0, |sum, c| sum * inside + c)

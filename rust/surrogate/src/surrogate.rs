@@ -1,4 +1,5 @@
-//! What every surrogate model can do. A model is immutable once made and may be asked from several threads.
+//! The trait that all surrogate models implement. A model is immutable once it is made, and several threads may query
+//! it at the same time.
 
 use crate::dataset::ConductivityKind;
 use crate::kernel::{LANES, Lanes};
@@ -6,13 +7,13 @@ use crate::mechanics::{Mechanics, Tangent};
 use crate::options::TrainingOptions;
 use crate::wall_friction::WallFriction;
 
-/// Most state variables of any model.
+/// Largest number of state variables of any model.
 pub const MAX_STATE: usize = 6;
 
 /// State columns of a block of cells; those beyond the model's [`Surrogate::state_names`] are zero.
 pub type StateLanes = [Lanes; MAX_STATE];
 
-/// Shares of strains that are new to the grains, all of them: see [`Surrogate::block_into`].
+/// All strains are virgin, which means that they lead beyond all earlier strains: see [`Surrogate::block_into`].
 pub const VIRGIN: Lanes = [1.0; LANES];
 
 /// What is known of a cell at the start. The stress is reduced: σ ℓ/(E r̄), ℓ = 1 m, compression positive.
@@ -31,19 +32,20 @@ pub struct Known {
 /// Answer for a block of cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Answer {
-    /// State after the strain; equal to the state before, bit for bit, for zero strain and a state the model allows.
+    /// State after the strain. For zero strain and a state that the model allows, it equals the state before, bit for
+    /// bit.
     pub state: StateLanes,
     /// K_xx/k, K_yy/k [-] of the state after; above zero.
     pub conductivity: [Lanes; 2],
     /// σ_xx ℓ/(E r̄), σ_yy ℓ/(E r̄) [-] of the state after, compression positive, never below zero.
     pub stress: [Lanes; 2],
-    /// Per state column, then for the strain: how far outside the trained range, in the column's own unit, negative
-    /// below and positive above; 0 inside. The model used the range's end instead.
+    /// For each state column, then for the strain: distance outside of the trained range, in the unit of the column,
+    /// negative below and positive above; 0 inside. The model has used the end of the range instead.
     pub outside: [Lanes; MAX_STATE + 1],
 }
 
 impl Answer {
-    /// Whether a lane's inputs all lay in the trained range.
+    /// Whether all inputs of a lane were in the trained range.
     pub fn inside(&self, lane: usize) -> bool {
         self.outside.iter().all(|column| column[lane] == 0.0)
     }
@@ -60,12 +62,13 @@ impl Answer {
     }
 }
 
-/// How far to believe the answer for a cell.
+/// Measures of how reliable the answer for a cell is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Doubt {
-    /// How far outside the convex region of the training states, in half widths of the trained range; 0 inside.
+    /// Distance outside of the convex region of the training states, in half widths of the trained range; 0 inside.
     pub beyond_hull: f64,
-    /// Distance to the nearest training states over the spacing that those have themselves; above 1 lie holes.
+    /// Distance to the nearest training state, over the spacing of the training states; above 1 there was none near the
+    /// cell.
     pub distance: f64,
     /// Relative standard deviation of K between packings of equal state [-].
     pub conductivity_spread: f64,
@@ -79,29 +82,29 @@ pub trait Surrogate: Send + Sync {
     fn kind(&self) -> &'static str;
     /// Name given at the training.
     fn name(&self) -> &str;
-    /// How it was trained: the seed tells which packings it never saw, the provenance of which database.
+    /// Options of the training: the seed determines which packings were held out, the provenance names the database.
     fn training(&self) -> &TrainingOptions;
-    /// The kind of conductivity that it answers with.
+    /// The kind of conductivity that the answers contain.
     fn conductivity_kind(&self) -> ConductivityKind {
         ConductivityKind::Affine
     }
-    /// The kinds that it can answer with.
+    /// The kinds of conductivity that the model can answer with.
     fn conductivity_kinds(&self) -> Vec<ConductivityKind> {
         vec![self.conductivity_kind()]
     }
-    /// The kind that the conductivity's anisotropy f_K of a state is of, whatever kind it answers with.
+    /// The kind of conductivity whose anisotropy f_K is in the state, whatever kind the model answers with.
     fn fabric_conductivity_kind(&self) -> ConductivityKind {
         self.conductivity_kind()
     }
-    /// The same model that answers with another kind; `None` when it was not trained for that.
+    /// The same model, answering with another kind of conductivity; `None` when it was not trained for that.
     fn answering_with(&self, _kind: ConductivityKind) -> Option<Box<dyn Surrogate>> {
         None
     }
-    /// Mechanical tangent, if the database had wall-strain ramps.
+    /// Mechanical tangent; none when the database had no wall-strain ramps.
     fn mechanics(&self) -> Option<&Mechanics> {
         None
     }
-    /// Wall friction, if the database had wall-shear runs.
+    /// Wall friction; none when the database had no wall-shear runs.
     fn wall_friction(&self) -> Option<&WallFriction> {
         None
     }
@@ -111,55 +114,58 @@ pub trait Surrogate: Send + Sync {
     fn to_json(&self) -> String;
     /// Names of the state columns, in order; at most [`MAX_STATE`]. The first two are porosity and fabric_index.
     fn state_names(&self) -> &[&'static str];
-    /// The state of a cell of which no more may be known than η and f: what is missing is the mean of the training's
-    /// packed states.
+    /// The state of a cell at the start. Of its quantities, at least η and f are known; those that are not known are
+    /// set to the mean of packed states.
     fn initial_state(&self, known: &Known) -> [f64; MAX_STATE];
-    /// Evaluates a block of cells: `strain` is the radial thermal strain relative to the current radii (above −1), all of
-    /// it virgin. Finite inputs give finite answers; a lane's answer depends on that lane alone.
+    /// Evaluates a block of cells: `strain` is the radial thermal strain relative to the current radii (above −1), and
+    /// all of it is treated as virgin (see [`Surrogate::block_into`]). Finite inputs give finite answers; the answer of
+    /// a lane depends on that lane alone.
     fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer;
-    /// As [`Surrogate::block`], into an answer that is there: a batch needs only one. `virgin`: share of the strain [0 to 1]
-    /// that leads beyond all that the grains have been strained to before; a model may not need it.
+    /// As [`Surrogate::block`], but writes into an existing answer, so that a batch needs only one. `virgin`: share of
+    /// the strain [0 to 1] that leads beyond all strains that the grains have experienced before; some models do not
+    /// use it.
     fn block_into(&self, state: &StateLanes, strain: &Lanes, _virgin: &Lanes, answer: &mut Answer) {
         *answer = self.block(state, strain);
     }
-    /// Doubt about one cell's answer; `None` when the model carries no such data. Slower than an evaluation.
+    /// Reliability of the answer for one cell; `None` when the model contains no data for it. Slower than an
+    /// evaluation.
     fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt>;
-    /// Mechanical tangent at a state, reduced as the stress is; `None` when the model has none.
+    /// Mechanical tangent at a state, for reduced stresses; `None` when the model has none.
     fn tangent(&self, _state: &[f64; MAX_STATE]) -> Option<Tangent> {
         None
     }
-    /// State after mechanical strains of the cells along x and y (extension positive), linear by the tangent; p̃ ≥ 0 and
-    /// |q̃| ≤ p̃ hold. Zero strain, or a model without tangent, leaves it as it is.
+    /// State after mechanical strains of the cells along x and y (extension positive), linear with the tangent, limited
+    /// to p̃ ≥ 0 and |q̃| ≤ p̃. With zero strain, or for a model without tangent, the state does not change.
     fn deformed(&self, state: &StateLanes, _strain: &[Lanes; 2]) -> StateLanes {
         *state
     }
     /// Sum-of-areas solid fraction [-] of a packed state of this porosity.
     fn solid_fraction(&self, porosity: f64) -> f64;
 
-    /// Evaluates one cell; same bits as in any block.
+    /// Evaluates one cell; gives the same bits as in any block.
     fn evaluate(&self, state: &[f64; MAX_STATE], strain: f64) -> Answer {
         self.block(&state.map(|value| [value; LANES]), &[strain; LANES])
     }
 }
 
-/// A batch of cells as columns. Optional outputs are written when given.
+/// Columns of a batch of cells. Optional outputs are written when they are given.
 pub struct Batch<'a> {
     /// Thermal strain of each cell [-].
     pub strain: &'a [f64],
-    /// A column for each of the model's state names.
+    /// One column for each of the model's state names.
     pub state: &'a [&'a [f64]],
-    /// Columns for the state after.
+    /// Columns to which the state after the strain is written.
     pub next_state: &'a mut [&'a mut [f64]],
     /// K_xx/k, K_yy/k.
     pub conductivity: Option<[&'a mut [f64]; 2]>,
     /// σ_xx, σ_yy, reduced.
     pub stress: Option<[&'a mut [f64]; 2]>,
-    /// Per state name and then for the strain: as [`Answer::outside`].
+    /// One column for each state name and then one for the strain: as [`Answer::outside`].
     pub outside: Option<&'a mut [&'a mut [f64]]>,
 }
 
-/// Evaluates a batch; returns the number of cells outside the trained range. A cell's answer depends neither on its
-/// place nor on the size of the batch.
+/// Evaluates a batch; returns the number of cells outside of the trained range. The answer for a cell depends neither
+/// on its place nor on the size of the batch.
 ///
 /// # Panics
 /// When columns are missing or differ in length from `strain`.
@@ -173,7 +179,7 @@ pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
         let here = first..cells.min(first + LANES);
         let read = |column: &[f64], lanes: &mut Lanes| match column[first..].first_chunk::<LANES>() {
             Some(full) => lanes.copy_from_slice(full),
-            // The last block may be short: its last cell fills it.
+            // The last block may be incomplete: its last cell fills the remaining lanes.
             None => *lanes = std::array::from_fn(|lane| column[(first + lane).min(cells - 1)]),
         };
         for (lanes, column) in state.iter_mut().zip(batch.state) {

@@ -1,8 +1,8 @@
-//! Made-up states that resemble granular ones, for tests alone. η and f follow a law without hidden state.
+//! Synthetic states that resemble granular ones, for tests only. η and f follow a law without hidden variables.
 
 use crate::StateRow;
 
-/// `packings` packings, each with an up and a down ramp of `stops` stops after the packed state.
+/// Rows of `packings` packings, each with an up and a down ramp of `stops` stops after the packed state.
 pub fn rows(packings: i64, stops: i64) -> Vec<StateRow> {
     let mut rows = Vec::new();
     for packing in 0..packings {
@@ -19,7 +19,7 @@ pub fn rows(packings: i64, stops: i64) -> Vec<StateRow> {
 }
 
 fn state(packing: i64, ramp: &str, stop: i64, strain: f64, start: f64, fabric: f64) -> StateRow {
-    // dη/dL = −2 (0.37 + 2.6 (η − 0.06)) and df/dL = −8 f with L = ln(1 + ε): strains compose exactly.
+    // The law is dη/dL = −2 (0.37 + 2.6 (η − 0.06)) and df/dL = −8 f with L = ln(1 + ε), so strains compose exactly.
     let logarithmic = strain.ln_1p();
     let rest = 0.06 - 0.37 / 2.6;
     let porosity = rest + (start - rest) * (-5.2 * logarithmic).exp();

@@ -15,12 +15,12 @@ use crate::{Model, SurrogateError};
 use nalgebra::DVector;
 use std::ops::ControlFlow;
 
-/// State of a training under way.
+/// Progress of a running training.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Which start, from 0.
+    /// Number of the start, from 0.
     pub restart: u32,
-    /// Epochs done, from 1.
+    /// Number of epochs done.
     pub epoch: u32,
     /// Mean squared residuals of the scaled outputs [-].
     pub training_error: f64,
@@ -63,17 +63,18 @@ pub fn train(
     Ok((Model::new(options.name.clone(), predictor, solid_fraction, provenance), report))
 }
 
-/// Samples at most: eight times the paper's, for 438 weights. More only cost time.
+/// Largest number of samples: eight times the paper's, for 438 weights. More would only take longer.
 const MOST_SAMPLES: usize = 40_000;
 
-/// Samples of some ramps: every second, third … pair of a sample and its mirror image.
+/// Samples of some ramps. When there are too many, only every second, third, … of them is taken, each with its mirror
+/// image.
 pub(crate) fn samples(ramps: &[Ramp]) -> Vec<Sample> {
     let samples: Vec<Sample> = ramps.iter().flat_map(Ramp::samples).collect();
     let every = samples.len().div_ceil(MOST_SAMPLES).max(1);
     samples.chunks(2).step_by(every).flatten().copied().collect()
 }
 
-/// Scores on the test samples of a network fitted to the others.
+/// Scores on the test samples for a network fitted to the other samples.
 pub(crate) fn scores_of_fit(
     samples: &Parts<Vec<Sample>>,
     range: &TrainedRange,
@@ -84,7 +85,7 @@ pub(crate) fn scores_of_fit(
     scores(&Predictor { network, range: *range, scales: *scales }, &samples.test)
 }
 
-/// What one start led to.
+/// Result of one start.
 struct Fitted {
     network: Network,
     restart: u32,
@@ -115,7 +116,7 @@ fn best_of_starts(
     best
 }
 
-/// Minimises the training error; keeps the weights with the best validation error.
+/// Minimises the training error, and keeps the weights with the lowest validation error.
 fn fit_from(
     restart: u32,
     training: &NetworkFit,
@@ -140,7 +141,8 @@ fn fit_from(
     Fitted { network, restart, epochs, best_epoch, stopping, training_error, validation_error }
 }
 
-/// On the largest component of the mean gradient; errors are of order 1e-3, so this is a minimum for all purposes.
+/// Limit for the largest component of the mean gradient. Errors are of order 1e-3, so below it the fit is at a minimum
+/// for all practical purposes.
 const GRADIENT_LIMIT: f64 = 1e-10;
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
-//! Friction that a wall mobilises when it slips along the grains.
+//! Wall friction: the part of the friction that is mobilised when a wall slips along the grains.
 
 use crate::levenberg_marquardt::{LeastSquares, Limits, NormalEquations, minimise};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Mobilised friction at a slip.
+/// A measured value: friction mobilised at a slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallSlip {
     /// Slip of the wall over the mean radius [-].
@@ -14,13 +14,13 @@ pub struct WallSlip {
     pub friction: f64,
 }
 
-/// μ(s) = μ_∞ s/(s + s_0), s in mean radii.
+/// Law μ(s) = μ_∞ s/(s + s_0), with the slip s in mean radii.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WallFriction {
-    /// μ_∞ [-], at large slip.
+    /// μ_∞ [-], the limit at large slip.
     pub limit: f64,
-    /// s_0 [mean radii]: half of the limit is mobilised there; μ_∞/s_0 is the stick stiffness.
+    /// s_0 [mean radii]: the slip at which half of the limit is mobilised; μ_∞/s_0 is the stiffness before sliding.
     pub slip: f64,
     pub samples: usize,
     /// Root mean square of the residuals [-].
@@ -30,7 +30,7 @@ pub struct WallFriction {
 struct Fit<'a>(&'a [WallSlip]);
 
 impl Fit<'_> {
-    /// Residual and its gradient by μ_∞ and s_0.
+    /// Residual and its derivatives with respect to μ_∞ and s_0.
     fn residual(p: &DVector<f64>, sample: &WallSlip) -> (f64, [f64; 2]) {
         let share = sample.slip / (sample.slip + p[1].abs());
         (p[0] * share - sample.friction, [share, -p[0] * share / (sample.slip + p[1].abs())])

@@ -1,4 +1,5 @@
-//! Vectors of f64 from and to memory, and the one-lane implementation.
+//! Loading and storing vectors of f64 (one number per lane, one lane per disc or pair), and the implementation with one
+//! lane.
 
 use crate::disc::Disc;
 use crate::forces::Load;
@@ -7,20 +8,21 @@ use crate::vector::{Columns, Vector};
 /// Vectors from and to memory.
 ///
 /// # Safety
-/// The methods may be called only on a machine with the instruction set: they are the only source of values, so a
-/// value proves that the set is there and arithmetic is safe. Pointers must be valid for the lanes.
+/// The methods may be called only on a machine with the instruction set. They are the only way to make a value of the
+/// type, so whoever has a value may use its arithmetic safely. Pointers must be valid for LANES elements.
 #[allow(clippy::missing_safety_doc)] // stated once, above
 pub(crate) trait Lanes: Vector {
     const LANES: usize;
     unsafe fn splat(value: f64) -> Self;
     unsafe fn read(from: *const f64) -> Self;
     unsafe fn write(self, to: *mut f64);
-    /// Fields of the discs `index[0..LANES]`. `discs` may lie outside of the array, `discs` + index may not.
+    /// Fields of the discs with numbers `index[0..LANES]`. The address `discs` may lie outside of the array; `discs` +
+    /// index must lie inside.
     unsafe fn gather(discs: *const Disc, index: *const u32) -> Columns<Self>;
-    /// Fields of LANES discs in a row, and back.
+    /// Reads or writes the fields of LANES consecutive discs.
     unsafe fn read_discs(discs: *const Disc) -> Columns<Self>;
     unsafe fn write_discs(columns: Columns<Self>, discs: *mut Disc);
-    /// Columns fx, fy, torque (and one of no meaning) of LANES loads in a row.
+    /// Columns fx, fy, torque and padding of LANES consecutive loads.
     unsafe fn read_loads(loads: *const Load) -> [Self; 4];
     /// Lane by lane, in order: loads[j] += (fx, fy, torque_j), then loads[i] −= (fx, fy, torque_i).
     unsafe fn scatter(loads: *mut Load, i: *const u32, j: *const u32, force: [Self; 2], torque: [Self; 2]);

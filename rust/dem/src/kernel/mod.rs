@@ -1,11 +1,12 @@
 //! Vector kernels of the two hot loops: contact forces and motion.
 //!
-//! One generic source per loop is compiled for one lane (scalar), four (AVX2) and eight (AVX-512). Every lane does the
-//! same IEEE operations in the same order, without fused multiply-add, and loads are added up disc by disc in row
-//! order, so all paths give the same bits.
+//! The source of each loop is generic over the number of lanes and is compiled for one lane (scalar), four (AVX2) and
+//! eight (AVX-512). Every lane does the same IEEE operations in the same order, without fused multiply-add, and the
+//! loads of each disc are added up in row order. So all instruction sets give the same bits.
 //!
-//! The crate's only unsafe code: vector intrinsics, and discs addressed through the rows without bounds checks. What
-//! makes that sound is stated at `Pairs`, whose indices are checked when the list is built, and at `SharedDiscs`.
+//! This module has the only unsafe code of the crate: vector intrinsics, and access to discs through the indices of the
+//! pair list without bounds checks. Why that is sound is explained at `Pairs`, whose indices are checked when the list
+//! is built, and at `SharedDiscs`.
 #![allow(unsafe_code)]
 #![allow(clippy::undocumented_unsafe_blocks)] // the reasons are stated once, where said above
 

@@ -1,4 +1,4 @@
-//! Damping and symplectic Euler (Eqs. 3 and 4) for discs in a row.
+//! Damping and symplectic Euler (Eqs. 3 and 4) for consecutive discs.
 
 use super::lanes::Lanes;
 use super::simd::Simd;
@@ -14,13 +14,14 @@ use crate::vector::{Columns, larger};
 pub(crate) struct Motion {
     /// μ of Table 1.
     pub damping: f64,
-    /// Factor on the velocities of discs without contact force; 1 leaves them undamped as Table 1 does.
+    /// Factor on the velocities of discs without contact force (drag); 1 leaves them undamped, as Table 1 does.
     pub keep_free: f64,
     /// Δt [s].
     pub dt: f64,
 }
 
-/// Velocities, then positions, over one step. Returns the square of the largest speed [m²/s²]; NaN when one is.
+/// Advances velocities, then positions, by one step. Returns the square of the largest speed [m²/s²]; NaN when any
+/// speed is NaN.
 pub(crate) fn advance(simd: Simd, motion: Motion, discs: &mut [Disc], loads: &[Load]) -> f64 {
     assert!(loads.len() == discs.len() && simd.available());
     let count = discs.len();
@@ -56,7 +57,7 @@ impl Motion {
     unsafe fn advance<V: Lanes>(self, discs: *mut Disc, loads: *const Load, count: usize) -> f64 {
         unsafe {
             let groups = count / V::LANES * V::LANES;
-            // The maximum of the lanes drops NaN, their sum keeps it.
+            // The maximum over the lanes ignores NaN but the sum keeps it, so both are taken.
             let (mut largest, mut sum) = (V::splat(0.0), V::splat(0.0));
             for k in (0..groups).step_by(V::LANES) {
                 let speed2 = self.advance_group::<V>(discs.add(k), loads.add(k));
@@ -85,7 +86,7 @@ impl Motion {
             let scale = damping_scale(V::splat(self.damping), force2, vx * vx + vy * vy);
             let touched = force2.greater(V::splat(0.0));
             let keep = V::select(touched, V::splat(1.0), V::splat(self.keep_free));
-            // I = m r²/2 with the current radius; one division for both.
+            // Moment of inertia I = m r²/2 with the current radius. One division serves both 1/m and 1/I.
             let radius2 = radius * radius;
             let half_per_inertia = dt / (mass * radius2);
             let per_mass = half_per_inertia * radius2;

@@ -13,7 +13,8 @@ use crate::vector::Columns;
 /// Adds the forces of `pairs` to `loads` and updates their friction history. The first elements of `discs` and `loads`
 /// belong to disc `pairs.first`.
 ///
-/// For each pair in order, the load of j is added to and then that of i: the sums do not depend on `simd`.
+/// For each pair in order, the force is added to the load of j and then to that of i: the result does not depend on
+/// `simd`.
 pub(crate) fn add_pairs(simd: Simd, law: PairLaw, discs: &[Disc], pairs: Pairs, loads: &mut [Load]) {
     let reached = pairs.reach - pairs.first;
     assert!(reached <= discs.len() && reached <= loads.len());
@@ -22,8 +23,8 @@ pub(crate) fn add_pairs(simd: Simd, law: PairLaw, discs: &[Disc], pairs: Pairs, 
     assert!(pairs.conductance.len() == if law.conductivity.is_some() { count } else { 0 });
     let all = Loop {
         law,
-        // Addressed by disc number; never dereferenced below pairs.first. Such a pointer lies outside of the array, so
-        // discs are reached from it by wrapping_add alone: add asks for a pointer inside.
+        // Pointer that is indexed by disc number and never dereferenced below pairs.first. It may point outside of the
+        // array, so discs are addressed with wrapping_add: `add` requires a pointer inside.
         discs: discs.as_ptr().wrapping_sub(pairs.first),
         loads: loads.as_mut_ptr().wrapping_sub(pairs.first),
         pairs,
@@ -71,8 +72,9 @@ impl Loop<'_> {
         }
     }
 
-    /// Forces of a block of pairs first, then their sums disc by disc: one loop would wait for each load that a pair
-    /// before it has just written (37 against 31.5 ns a disc and step, 500 discs, AVX-512).
+    /// Computes the forces of a whole block of pairs first and then adds them up disc by disc. A single loop would have
+    /// to wait for each load that the pair before has just written (37 instead of 31.5 ns per disc and step, 500 discs,
+    /// AVX-512).
     #[inline(always)]
     unsafe fn add<V: Lanes, const HEAT: bool>(mut self, count: usize, conductivity: f64) {
         let mut forces = Block([[0.0; BLOCK]; 4]);
@@ -135,7 +137,7 @@ impl Loop<'_> {
     }
 }
 
-/// Pairs in a block: its forces stay in the first-level cache.
+/// Pairs in a block: their forces fit into the first-level cache.
 const BLOCK: usize = 128;
 
 /// Columns fx, fy, torque on i, torque on j of a block of pairs.

@@ -1,4 +1,5 @@
-//! One array of discs under several threads: each writes its own rows and reads some of the others' that nobody writes.
+//! One array of discs used by several threads. Each thread writes the discs of its own rows, and also reads discs of
+//! other threads' rows that no thread writes.
 
 use crate::contacts::Slab;
 use crate::disc::Disc;
@@ -7,8 +8,8 @@ use std::ops::Range;
 
 /// The discs as one slab sees them.
 ///
-/// A slab writes the rows that no earlier slab reaches, and reads everything up to its own reach. Nobody reads what
-/// another slab writes: checked in [`SharedDiscs::divide`].
+/// A slab (consecutive rows, the work of one thread) writes the rows that no pair of an earlier slab refers to, and
+/// reads all discs up to its own reach. No slab reads what another slab writes; [`SharedDiscs::divide`] checks this.
 pub(crate) struct SharedDiscs<'a> {
     first: *mut Disc,
     read: Range<usize>,
@@ -16,11 +17,11 @@ pub(crate) struct SharedDiscs<'a> {
     discs: PhantomData<&'a mut [Disc]>,
 }
 
-// SAFETY: what one slab writes no other slab reads or writes, and a disc is plain data.
+// SAFETY: no slab reads or writes what another slab writes, and a disc is plain data.
 unsafe impl Send for SharedDiscs<'_> {}
 
 impl<'a> SharedDiscs<'a> {
-    /// One view a slab.
+    /// One view of the discs per slab.
     pub fn divide(discs: &'a mut [Disc], slabs: &[Slab]) -> Vec<Self> {
         let (first, count) = (discs.as_mut_ptr(), discs.len());
         let read = |slab: &Slab| slab.rows.start..slab.reach;

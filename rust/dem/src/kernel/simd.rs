@@ -15,17 +15,19 @@ pub enum Simd {
     Avx512,
 }
 
-/// Index in [`Simd::ALL`] of the set that was preferred; none yet: the widest.
+/// Index in [`Simd::ALL`] of the preferred set. The initial value is no such index and means the widest set of the
+/// machine.
 static PREFERRED: AtomicU8 = AtomicU8::new(u8::MAX);
 
 impl Simd {
     pub const ALL: [Self; 3] = [Self::Scalar, Self::Avx2, Self::Avx512];
 
-    /// Chooses the set of all simulations of this process that are made from now on. A matter of speed alone, for all
-    /// sets give the same bits; hence it need not pass through every function that makes a simulation.
+    /// Sets the instruction set of all simulations that this process makes from now on. All sets give the same bits, so
+    /// the choice affects speed only; that is why it is a global setting and not an argument of every function that
+    /// makes a simulation.
     ///
     /// # Panics
-    /// When the machine does not have it; ask [`Simd::available`].
+    /// When the machine does not have the set; see [`Simd::available`].
     pub fn prefer(self) {
         assert!(self.available(), "{self:?} is not available on this machine");
         PREFERRED.store(self as u8, Ordering::Relaxed);

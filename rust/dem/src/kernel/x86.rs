@@ -1,7 +1,7 @@
 //! AVX2 (four lanes) and AVX-512 (eight lanes).
 //!
-//! A disc is 64 bytes, so groups of discs are loaded line by line and transposed in registers; hardware gathers were
-//! measured to gain nothing over that.
+//! A disc is 64 bytes, one cache line. Groups of discs are loaded line by line and transposed in registers; gather
+//! instructions were measured to be no faster.
 
 use super::lanes::Lanes;
 use crate::disc::Disc;
@@ -9,7 +9,7 @@ use crate::forces::Load;
 use crate::vector::{Columns, Vector};
 use std::arch::x86_64::*;
 
-/// Rows a..d of four f64 to columns.
+/// Transposes rows a..d of four f64 each into columns.
 #[inline(always)]
 unsafe fn transpose4([a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
     unsafe {
@@ -24,7 +24,7 @@ unsafe fn transpose4([a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
     }
 }
 
-/// Eight rows of eight f64 to columns.
+/// Transposes eight rows of eight f64 each into columns.
 #[inline(always)]
 unsafe fn transpose8(r: [__m512d; 8]) -> [__m512d; 8] {
     unsafe {
@@ -52,7 +52,7 @@ unsafe fn transpose8(r: [__m512d; 8]) -> [__m512d; 8] {
     }
 }
 
-/// (fx, fy, torque_j, torque_i) of four lanes onto the loads of j and i.
+/// Adds (fx, fy, torque_j, torque_i) of four lanes to the loads of j and i.
 #[inline(always)]
 unsafe fn scatter4(loads: *mut Load, i: *const u32, j: *const u32, columns: [__m256d; 4]) {
     unsafe {
@@ -67,7 +67,8 @@ unsafe fn scatter4(loads: *mut Load, i: *const u32, j: *const u32, columns: [__m
     }
 }
 
-/// Arithmetic of a vector type. Safe: a value exists only where the instruction set does (see [`Lanes`]).
+/// Arithmetic of a vector type. It is safe to call, because a value can exist only where the instruction set does (see
+/// [`Lanes`]).
 macro_rules! arithmetic {
     ($vector:ident, $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $max:ident $min:ident $splat:ident) => {
         arithmetic!(@operator $vector Add add $add);
@@ -199,7 +200,7 @@ unsafe fn columns4(discs: [*const Disc; 4]) -> Columns<Avx2> {
     }
 }
 
-/// Fields of eight discs, one line each.
+/// Fields of eight discs, one cache line each.
 #[inline(always)]
 unsafe fn columns8(lines: [__m512d; 8]) -> Columns<Avx512> {
     unsafe {

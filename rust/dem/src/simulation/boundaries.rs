@@ -1,10 +1,10 @@
-//! What a step moves before it looks at forces: walls, the cell, radii, and the discs that are carried along.
+//! The first stage of a step, before the forces: motion of walls, cell and radii, and affine motion of the discs.
 
 use super::Simulation;
 use crate::walls::Flow;
 
 impl Simulation {
-    /// Radii and walls at the end of the step.
+    /// Moves walls and cell and sets the radii, to their values at the end of the step.
     pub(super) fn advance_boundaries(&mut self) {
         let dt = self.time_step;
         self.strain += self.strain_rate * dt;
@@ -20,12 +20,12 @@ impl Simulation {
         }
         self.walls.advance(dt);
         let wall_speed = self.walls.largest_speed();
-        // Carried discs move at most as fast as the walls.
+        // The affine motion moves discs at most as fast as the walls.
         let speed = self.largest_speed + if self.affine { wall_speed } else { 0.0 };
         self.neighbours.record_motion(speed, wall_speed, growth / dt, dt);
     }
 
-    /// The motion that carries the grains along in this step.
+    /// The affine motion that carries the grains along in this step.
     pub(crate) fn flow(&self) -> Flow {
         match &self.periodic {
             Some(periodic) => self.walls.sheared_flow(periodic.shear_rate),
@@ -62,7 +62,7 @@ impl Simulation {
                 }
                 growth
             }
-            // Set in the sweep, or when neighbours are sought.
+            // The sweep sets these radii, or the neighbour search when it runs.
             _ if self.strain_rate != 0.0 => {
                 (self.strain_rate * self.time_step * self.largest_reference_radius).max(0.0)
             }
@@ -70,7 +70,7 @@ impl Simulation {
         }
     }
 
-    /// Sets the radii when the strain rate alone does.
+    /// Sets the radii when they depend on the strain rate alone.
     pub(super) fn scale_radii(&mut self) {
         if let Some(factor) = self.radius_factor() {
             for (disc, radius) in self.discs.iter_mut().zip(&self.reference_radius) {
@@ -79,7 +79,7 @@ impl Simulation {
         }
     }
 
-    /// Radii over reference radii when the strain rate alone sets them.
+    /// Radii over reference radii when they depend on the strain rate alone; else none.
     pub(super) fn radius_factor(&self) -> Option<f64> {
         let by_heat = self.pipes.as_ref().is_some_and(|pipes| pipes.thermal.expansion != 0.0);
         (self.strain_rate != 0.0 && !by_heat).then_some(1.0 + self.strain)

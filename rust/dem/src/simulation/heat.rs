@@ -1,21 +1,22 @@
-//! Heat of a simulation: turned on, resumed, conducted.
+//! Heat of a simulation: turning it on, resuming it from a stored state, conducting it.
 
 use super::Simulation;
 use crate::contact::Touching;
 use crate::heat::{HeatPipes, HeatState, Thermal, WallHeat};
 
 impl Simulation {
-    /// Turns heat on: pipes between touching discs and to the walls; the present radii belong to the present
-    /// temperatures, and follow r = r_ref (1 + α (T − T_ref)) from now on (Eqs. 6 and 7, not compounded).
+    /// Turns heat on: pipes between touching discs and to the walls. The present radii become the reference radii of
+    /// the present temperatures; from now on r = r_ref (1 + α (T − T_ref)) (Eqs. 6 and 7, not compounded).
     pub fn enable_heat(&mut self, thermal: Thermal, walls: [WallHeat; 4]) {
         self.reset_strain();
         self.pipes = Some(Box::new(HeatPipes::new(thermal, walls, &self.discs)));
     }
 
-    /// Turns heat on where an earlier run stood; radii, reference radii and temperatures are those of its state.
+    /// Turns heat on with the state of an earlier run; radii, reference radii and temperatures must be those of that
+    /// run.
     ///
     /// # Panics
-    /// When `state` has not one value a disc.
+    /// When `state` does not have one value per disc.
     pub fn resume_heat(&mut self, thermal: Thermal, walls: [WallHeat; 4], state: HeatState) {
         let lengths = [state.reference_temperature.len(), state.mode.len()];
         assert_eq!(lengths, [self.discs.len(); 2], "one value a disc");
@@ -24,7 +25,7 @@ impl Simulation {
         self.pipes = Some(Box::new(pipes));
     }
 
-    /// What the walls do to heat from now on; nothing when heat is off.
+    /// Changes the thermal boundary conditions of the walls; does nothing when heat is off.
     pub fn set_wall_heat(&mut self, walls: [WallHeat; 4]) {
         if let Some(pipes) = &mut self.pipes {
             pipes.walls = walls;
@@ -36,13 +37,13 @@ impl Simulation {
         self.pipes.as_deref()
     }
 
-    /// Conducts heat over `dt` [s] on the present geometry, without motion; nothing when heat is off.
+    /// Conducts heat over `dt` [s] in the present geometry, without motion; does nothing when heat is off.
     pub fn conduct(&mut self, dt: f64) {
         self.conduct_through(dt, |pipes, touching, _| pipes.connect(touching));
     }
 
-    /// One explicit Euler step of heat, however long, through the pipes of the last [`Simulation::conduct`]: to find
-    /// out where it turns unstable.
+    /// Takes one explicit Euler step of heat of any length `dt` [s] through the pipes of the last
+    /// [`Simulation::conduct`]. Used to measure at which step the scheme turns unstable.
     pub fn conduct_once(&mut self, dt: f64) {
         if let Some(pipes) = &mut self.pipes {
             pipes.take_substeps(false, &mut self.discs, 1, dt);

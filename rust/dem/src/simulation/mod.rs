@@ -28,19 +28,20 @@ pub struct Simulation {
     pub material: Material,
     pub discs: Vec<Disc>,
     pub walls: Walls,
-    /// None between walls. In a periodic box `walls` are the borders of the cell; whether there is one is chosen by the
-    /// constructor and stays.
+    /// None between walls. For a periodic box, `walls` are the borders of the cell. The constructor decides which of
+    /// the two it is, and that stays so.
     pub periodic: Option<Periodic>,
-    /// Δt [s] of the next step; [`Simulation::run`] keeps it as chosen.
+    /// Δt [s] of the next step; [`Simulation::run`] sets it as chosen.
     pub time_step: f64,
     pub(crate) step_choice: StepChoice,
-    /// Drag on discs without contact force [1/s]; 0 (off) as in the paper, whose damping lets them fly for ever.
+    /// Drag on discs without contact force [1/s]. 0 (off) as in the paper, whose damping, proportional to the contact
+    /// force, does not slow down free discs.
     pub free_drag: f64,
-    /// Whether moving walls carry the grains along (affine motion); their own velocities are relative to that then. Off
-    /// as in the paper; a periodic box always does it.
+    /// Whether moving walls carry the grains along (affine motion). The velocities of the discs are then relative to
+    /// that motion. Off as in the paper; in a periodic box it is always on.
     pub affine: bool,
-    /// Whether walls shrink and stretch with the affine motion: carried grains do not slip along them then. Friction of
-    /// the long walls of a box would drag the grains to its ends otherwise.
+    /// Whether the walls shrink and stretch with the affine motion, so that grains carried along do not slip on them.
+    /// Otherwise the friction of the long walls of a box would drag the grains to its ends.
     pub affine_walls: bool,
     /// Steps taken.
     pub steps: u64,
@@ -59,33 +60,33 @@ pub struct Simulation {
     pub(crate) neighbours: Neighbours,
     pub(crate) loads: SlabLoads,
     pipes: Option<Box<HeatPipes>>,
-    /// Threads of large assemblies; none: the caller's alone.
+    /// Thread pool of a large assembly; none when all steps run on the caller's thread.
     pool: Option<Arc<rayon::ThreadPool>>,
     pace: Pace,
-    /// Whether the present step is shared among the pool's threads.
+    /// Whether the present step is shared among the threads of the pool.
     pub(crate) shared: bool,
     pub(crate) last_good: Option<LastGood>,
 }
 
-/// A copy of a state that was good.
+/// A copy of the state at the last successful check.
 #[derive(Clone, Debug)]
 pub(crate) struct LastGood {
-    /// Steps between two copies at least.
+    /// Least number of steps between two copies.
     pub every: u64,
     pub state: Box<Simulation>,
 }
 
 impl Simulation {
-    /// An assembly with given discs in given walls; the friction history is empty.
+    /// An assembly of the given discs in the given walls, without friction history.
     pub fn new(material: Material, discs: Vec<Disc>, walls: Walls) -> Self {
         Self::with_boundary(material, discs, walls, None)
     }
 
-    /// An assembly in a periodic box between the positions of `walls`; the friction history is empty. Discs may lie
+    /// An assembly in a periodic box between the positions of `walls`, without friction history. Discs may lie
     /// anywhere: their images fill the cell.
     ///
     /// # Errors
-    /// [`SmallCell`] when a disc could meet two images of another.
+    /// [`SmallCell`] when a disc could touch two images of the same disc.
     pub fn new_periodic(
         material: Material,
         discs: Vec<Disc>,
@@ -136,7 +137,7 @@ impl Simulation {
         self.step_marked(|_| ());
     }
 
-    /// `count` steps, without looking at the state in between; on the chosen threads.
+    /// Takes `count` steps on the chosen number of threads, without checking the state in between.
     pub fn take_steps(&mut self, count: u64) {
         match self.pool.clone() {
             Some(pool) => self.take_steps_on(&pool, count),
@@ -144,7 +145,7 @@ impl Simulation {
         }
     }
 
-    /// Steps shared among the threads of the pool whenever that is the faster way.
+    /// Takes steps that are shared among the threads of the pool whenever that is faster than one thread.
     fn take_steps_on(&mut self, pool: &rayon::ThreadPool, count: u64) {
         let mut left = count;
         while left > 0 {
@@ -162,11 +163,12 @@ impl Simulation {
         }
     }
 
-    /// Chooses the number of threads for [`Simulation::take_steps`] and [`Simulation::run`]. Results do not depend on it.
-    /// Periodic boxes and assemblies below a few thousand discs stay on one: their steps are too short to share.
+    /// Chooses the number of threads for [`Simulation::take_steps`] and [`Simulation::run`]. Results do not depend on
+    /// it. Periodic boxes and assemblies below a few thousand discs use one thread in any case: their steps are too
+    /// short to share.
     ///
     /// # Errors
-    /// What the system says when it has no more threads.
+    /// The error of the operating system when it cannot start the threads.
     pub fn set_threads(&mut self, threads: usize) -> std::io::Result<()> {
         let slabs = self.neighbours.pairs.slabs().len();
         let threads = threads.min(slabs);
@@ -178,8 +180,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// As [`Simulation::step`]; `mark` is called as each stage ends, for timing: pairs, walls and motion come block by
-    /// block of discs.
+    /// As [`Simulation::step`], and calls `mark` when each stage ends, for timing. Pairs, walls and motion are worked
+    /// through block by block of discs, so `mark` is called several times for each.
     pub fn step_marked(&mut self, mut mark: impl FnMut(Stage)) {
         self.advance_boundaries();
         mark(Stage::Boundaries);
@@ -202,7 +204,7 @@ impl Simulation {
     /// Chooses the instruction set.
     ///
     /// # Panics
-    /// When the machine does not have it; ask [`Simd::available`].
+    /// When the machine does not have the set; see [`Simd::available`].
     pub fn set_simd(&mut self, simd: Simd) {
         assert!(simd.available(), "{simd:?} is not available on this machine");
         self.simd = simd;
@@ -256,7 +258,7 @@ impl Simulation {
         self.periodic.as_ref().map(|periodic| Cell::new(&self.walls, periodic))
     }
 
-    /// Runs the neighbour search now, due or not. Results do not depend on when it runs.
+    /// Runs the neighbour search now, whether necessary or not. Results do not depend on when it runs.
     pub fn rebuild_neighbours(&mut self) {
         self.neighbours.rebuild(&self.discs, &self.walls, self.cell().as_ref());
     }
@@ -271,7 +273,7 @@ impl Simulation {
         self.neighbours.pairs.len()
     }
 
-    /// Resultants of the contact forces in the last step, one a disc.
+    /// Resultants of the contact forces in the last step, one load per disc.
     pub fn loads(&self) -> Vec<Load> {
         self.loads.iter(&self.neighbours).copied().collect()
     }
@@ -286,7 +288,7 @@ impl Simulation {
         self.rebuild_neighbours();
     }
 
-    /// Puts the ghosts behind the discs, at their present places.
+    /// Appends the ghosts to the discs, at their present places.
     fn place_ghosts(&mut self) {
         if let Some(cell) = self.cell() {
             for ghost in &self.neighbours.ghosts {

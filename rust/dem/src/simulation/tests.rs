@@ -1,4 +1,4 @@
-//! Closed forms that one step after the other has to meet.
+//! Single steps and short runs compared with closed forms.
 
 use super::*;
 use crate::heat::{Thermal, WallHeat};
@@ -22,7 +22,7 @@ fn two_discs(material: Material, overlap: f64) -> Simulation {
     Simulation::new(material, discs, far_walls())
 }
 
-/// Two equal discs pressed together part after a quarter period, π/2 √(m/2s_n), with speed δ₀ √(s_n/2m) each.
+/// Two equal discs pressed together separate after a quarter period, π/2 √(m/2s_n), with speed δ₀ √(s_n/2m) each.
 #[test]
 fn two_discs_part_with_the_closed_form_speed() {
     let material = undamped();
@@ -42,8 +42,8 @@ fn two_discs_part_with_the_closed_form_speed() {
     assert!((simulation.discs[0].vx + simulation.discs[1].vx).abs() < 1e-18);
 }
 
-/// A disc pressed on a resting wall and dragged along it: f_t grows as −ν s_n u, then stays at f_n tan φ, and the
-/// torque is that of f_t at the arm r − δ.
+/// A disc pressed on a wall at rest and dragged along it: f_t grows as −ν s_n u, then stays at f_n tan φ, and the
+/// torque is that of f_t with the lever arm r − δ.
 #[test]
 fn disc_on_wall_sticks_then_slides() {
     let material = undamped();
@@ -68,7 +68,7 @@ fn disc_on_wall_sticks_then_slides() {
     }
 }
 
-/// A wall that moves with the disc gives no slip.
+/// A wall that moves with the disc causes no slip.
 #[test]
 fn wall_motion_counts_in_slip() {
     let material = undamped();
@@ -81,7 +81,7 @@ fn wall_motion_counts_in_slip() {
     assert_eq!(simulation.wall_force[Side::Bottom as usize][1], 0.0);
 }
 
-/// An opened contact forgets its friction: after the touch, f_t starts from zero.
+/// An open contact forgets its friction history: when the discs touch again, f_t starts from zero.
 #[test]
 fn history_is_cleared_when_a_contact_opens() {
     let mut simulation = two_discs(undamped(), 1e-5);
@@ -96,8 +96,9 @@ fn history_is_cleared_when_a_contact_opens() {
     assert_eq!(simulation.neighbours.pairs.tangential, [0.0]);
 }
 
-/// Without walls and damping, linear and angular momentum stay. The force acts at the middle of the overlap and is
-/// central apart from f_t, whose arms add up to the distance: so both hold to round-off of the step.
+/// Without walls and damping, linear and angular momentum are conserved. The force acts at the middle of the overlap;
+/// f_n is central, and the two lever arms of f_t add up to the centre distance. So both hold to the round-off of a
+/// step.
 #[test]
 fn momentum_is_conserved() {
     let material = undamped();
@@ -140,7 +141,7 @@ fn radii_follow_the_strain_linearly() {
     assert_eq!(simulation.discs[0].mass, mass);
 }
 
-/// A trembling heap of discs of all sizes between closing walls: enough to pass through every branch of the kernels.
+/// An agitated heap of discs of all sizes between closing walls, so that every branch of the kernels is executed.
 fn heap() -> Simulation {
     let material = Material::default();
     let discs = (0..211)
@@ -184,7 +185,7 @@ fn instruction_sets_agree_bit_for_bit() {
     }
 }
 
-/// A speed that is no number is found by every instruction set wherever it stands, and no bound on the motion holds then.
+/// A speed that is NaN is detected by every instruction set in every lane, and makes the bound on the motion invalid.
 #[test]
 fn a_speed_that_is_no_number_is_no_small_speed() {
     for simd in Simd::ALL.into_iter().filter(|simd| simd.available()) {
@@ -202,14 +203,15 @@ fn a_speed_that_is_no_number_is_no_small_speed() {
         simulation.discs[3].vx = bad;
         simulation.step();
         assert!(!simulation.largest_speed.is_finite());
-        // After the next step the list of candidates counts as used up, whatever the other discs have done.
+        // After the next step the candidate list counts as stale, whatever the other discs have done.
         simulation.advance_boundaries();
         assert!(simulation.neighbours.stale(&simulation.discs, None), "{bad}");
         assert!(matches!(simulation.run(50), Err(crate::Failure::NonFinite { disc: 3, .. })), "{bad}");
     }
 }
 
-/// The neighbour list never misses a contact: after many steps, all overlaps found by brute force are candidates.
+/// The neighbour list never misses a contact: after many steps, all overlaps found by comparing all pairs are
+/// candidates.
 #[test]
 fn no_contact_is_missed() {
     let mut simulation = heap();
@@ -224,7 +226,7 @@ fn no_contact_is_missed() {
         };
         let found: usize =
             (0..discs.len()).map(|i| discs[i + 1..].iter().filter(|b| touch(&discs[i], b)).count()).sum();
-        // Contacts made by the last motion may be younger than the list by one step.
+        // A contact made by the last motion is found only in the next step.
         assert!(found.abs_diff(listed) <= 1, "{found} {listed}");
     }
     assert!(simulation.rebuilds() > 2);
@@ -263,8 +265,8 @@ fn threads_do_not_change_the_bits() {
     assert!(contacts > 4000, "{contacts}");
 }
 
-/// Carried along, grains keep their relative places in the box and feel no force as long as none touch; those that touch
-/// feel the slip of the flow: f_t = −ν s_n (u_t of j − u_t of i) Δt.
+/// With affine motion, grains keep their relative places in the box and feel no force as long as none touch. Grains
+/// that touch feel the slip of the affine motion: f_t = −ν s_n (u_t of j − u_t of i) Δt.
 #[test]
 fn affine_motion_carries_the_grains() {
     let material = undamped();

@@ -8,12 +8,12 @@ use serde::de::IntoDeserializer;
 use serde::de::value::Error;
 use serde::{Deserialize, Serialize};
 
-/// A type of a column.
+/// A type that a column of the database can have.
 pub(super) trait Cell: Sized {
-    /// What is stored; a float that is not finite is stored as absent.
+    /// The value as it is stored; a float that is not finite is stored as NULL.
     fn value(&self) -> Value;
 
-    /// Reads what was stored; the error says what stands there and what may.
+    /// Converts a stored value. The error names the value found and the allowed values.
     fn read(value: ValueRef) -> Result<Self, String>;
 }
 
@@ -78,7 +78,7 @@ impl Cell for String {
     }
 }
 
-/// A text; what is no UTF-8 is an error, not a panic.
+/// A text; bytes that are not UTF-8 give an error and no panic.
 fn text(value: ValueRef<'_>) -> Result<&str, String> {
     match value {
         ValueRef::Text(bytes) => std::str::from_utf8(bytes)
@@ -97,7 +97,7 @@ impl<T: Cell> Cell for Option<T> {
     }
 }
 
-/// Names of a list, as serde writes them.
+/// Implements [`Cell`] for enumerations, stored by the names that serde gives them.
 macro_rules! names {
     ($($type:ty)*) => {$(
         impl Cell for $type {

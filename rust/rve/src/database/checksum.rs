@@ -1,4 +1,5 @@
-//! Checksums over a database's content, kept in its provenance: no flipped bit of a number, a name or the plan goes unseen.
+//! Checksums over the rows, the provenance and the table of columns of a database, kept in its provenance: any changed
+//! bit of a number, a name or the plan is detected.
 
 use super::Dataset;
 use super::record::{COLUMNS, Record};
@@ -6,7 +7,7 @@ use rusqlite::types::Value;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// Keys in the provenance. A file has all of them, or is of an older program and has none.
+/// Keys of the checksums in the provenance. A file either has all of them, or none when an older program wrote it.
 const ROWS: &str = "rows_sha256";
 const DICTIONARY: &str = "columns_sha256";
 const PROVENANCE: &str = "provenance_sha256";
@@ -19,19 +20,19 @@ pub(super) fn is_sealed(provenance: &Provenance) -> bool {
     KEYS.iter().any(|key| provenance.contains_key(*key))
 }
 
-/// Takes the checksums away.
+/// Removes the checksums.
 pub(super) fn unseal(provenance: &mut Provenance) {
     KEYS.iter().for_each(|key| drop(provenance.remove(*key)));
 }
 
-/// Puts the checksums of these rows and of the rest of the provenance in, or in the place of older ones.
+/// Sets the checksums of these rows and of the rest of the provenance, replacing older ones.
 pub(super) fn seal(provenance: &mut Provenance, records: &[Record]) {
     provenance.insert(ROWS.to_string(), hex(&of_rows(records)));
     provenance.insert(DICTIONARY.to_string(), of_dictionary(COLUMNS.iter().map(|c| [c.0, c.2, c.3])));
     seal_provenance(provenance);
 }
 
-/// As if sealed with `records`, too; nothing without checksums.
+/// Extends the checksums to the additional rows `records`; does nothing when there are no checksums.
 pub(super) fn add(provenance: &mut Provenance, records: &[Record]) {
     let Some(sum) = provenance.get(ROWS).and_then(|text| from_hex(text)) else { return };
     let added = of_rows(records);
@@ -40,14 +41,14 @@ pub(super) fn add(provenance: &mut Provenance, records: &[Record]) {
     seal_provenance(provenance);
 }
 
-/// After a change of the provenance; nothing without checksums.
+/// Renews the checksum of the provenance after it has changed; does nothing when there are no checksums.
 pub(super) fn seal_provenance(provenance: &mut Provenance) {
     if is_sealed(provenance) {
         provenance.insert(PROVENANCE.to_string(), of_provenance(provenance));
     }
 }
 
-/// What differs from what was written; nothing when there are no checksums.
+/// Describes each part that differs from its checksum; empty when there are no checksums.
 pub(super) fn damage(dataset: &Dataset) -> Vec<String> {
     let provenance = &dataset.provenance;
     if !is_sealed(provenance) {
@@ -64,15 +65,16 @@ pub(super) fn damage(dataset: &Dataset) -> Vec<String> {
     expected.iter().filter_map(differs).collect()
 }
 
-/// What differs in the table of columns; nothing when there are no checksums.
+/// Describes the damage when the table of columns differs from its checksum; none when there is no checksum.
 pub(super) fn dictionary_damage(provenance: &Provenance, rows: &[[String; 3]]) -> Option<String> {
     let found = of_dictionary(rows.iter().map(|row| [row[0].as_str(), &row[1], &row[2]]));
     (is_sealed(provenance) && provenance.get(DICTIONARY) != Some(&found))
         .then(|| format!("its table of columns is not what was written: {DICTIONARY} does not agree"))
 }
 
-/// Sum (exclusive or) of the rows' hashes: their order plays no part, so it can grow from packing to packing, and shards
-/// have that of the whole. No two rows are alike, since each has its place.
+/// Exclusive or of the hashes of all rows. It does not depend on the order of rows, so it can be extended packing by
+/// packing, and shards combine to the checksum of the whole. No two rows are alike, because each has its own packing,
+/// ramp and stop.
 fn of_rows(records: &[Record]) -> [u8; 32] {
     let mut sum = [0; 32];
     let mut text = Vec::new();
@@ -91,7 +93,7 @@ fn append(text: &mut Vec<u8>, value: &Value) {
             text.push(1);
             text.extend(integer.to_le_bytes());
         }
-        // SQLite keeps -0 as 0.
+        // SQLite stores -0 as 0.
         Value::Real(real) => {
             text.push(2);
             text.extend((real + 0.0).to_bits().to_le_bytes());
@@ -107,7 +109,7 @@ fn append_text(text: &mut Vec<u8>, string: &str) {
     text.extend(string.as_bytes());
 }
 
-/// Of all but its own entry.
+/// Hash of all entries but its own.
 fn of_provenance(provenance: &Provenance) -> String {
     let mut text = Vec::new();
     for (key, value) in provenance.iter().filter(|(key, _)| *key != PROVENANCE) {
@@ -117,7 +119,7 @@ fn of_provenance(provenance: &Provenance) -> String {
     hex(&Sha256::digest(&text))
 }
 
-/// Name, unit and meaning of the columns.
+/// Hash of name, unit and meaning of the columns.
 fn of_dictionary<'a>(rows: impl Iterator<Item = [&'a str; 3]>) -> String {
     let mut text = Vec::new();
     rows.flatten().for_each(|string| append_text(&mut text, string));

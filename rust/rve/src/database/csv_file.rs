@@ -1,4 +1,4 @@
-//! Reading CSV: every column, every row once, and no more than was meant.
+//! Reading CSV: all columns, each row once, with limits on the size.
 
 use super::record::{COLUMNS, Record};
 use super::{DatabaseError, Dataset, checksum};
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Longest line [bytes]. A row has about 700.
 const LONGEST_LINE: u64 = 1 << 20;
 
-/// Provenance key of a file from before some columns were there: their names.
+/// Provenance key for files from before some columns existed: the names of these columns.
 pub(super) const ABSENT: &str = "absent_columns";
 
 /// Files that belong to a CSV, compressed or not: the column dictionary and the provenance.
@@ -25,12 +25,12 @@ pub(super) fn is_gzip_name(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "gz")
 }
 
-/// Rows and provenance, and what of them is not what was written.
+/// Rows and provenance, and a description of each part that differs from its checksum.
 pub(super) fn inspected(path: &Path) -> Result<(Dataset, Vec<String>), DatabaseError> {
     with_provenance(path, provenance(path)?)
 }
 
-/// The same with a given provenance.
+/// As [`inspected`], with a given provenance.
 pub(super) fn with_provenance(
     path: &Path,
     provenance: BTreeMap<String, String>,
@@ -48,19 +48,21 @@ pub(super) fn provenance(csv: &Path) -> Result<BTreeMap<String, String>, Databas
     let origin = beside(csv, "provenance.json");
     let text = match msdd_files::read_text(&origin) {
         Err(FileError::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
-            let problem =
-                format!("there is no {} beside it, which says where the rows come from", origin.display());
+            let problem = format!(
+                "there is no {} beside it, the file that says where the rows come from",
+                origin.display()
+            );
             return Err(DatabaseError::Format { path: csv.to_path_buf(), problem });
         }
         text => text?,
     };
     serde_json::from_str(&text).map_err(|error| {
-        let problem = format!("it is no provenance of a CSV: {}", shortened(&error.to_string()));
+        let problem = format!("it is not the provenance file of a CSV: {}", shortened(&error.to_string()));
         DatabaseError::Format { path: origin, problem }
     })
 }
 
-/// Columns that are not in the file.
+/// Names of columns that the file does not have.
 pub(super) fn missing(path: &Path) -> Result<Vec<&'static str>, DatabaseError> {
     let file =
         std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
@@ -70,11 +72,11 @@ pub(super) fn missing(path: &Path) -> Result<Vec<&'static str>, DatabaseError> {
     Ok(COLUMNS.iter().map(|column| column.0).filter(absent).collect())
 }
 
-/// Reads rows from a plain or compressed text; `path` names it in errors, `absent` the columns that need not be there.
+/// Reads rows from a plain or compressed text. `path` names the file in errors; the columns `absent` may be missing.
 ///
 /// # Errors
-/// [`DatabaseError::Format`] for columns that are missing or unknown, [`DatabaseError::Value`] for a value that is none of
-/// its column or a row that stands twice, [`DatabaseError::Csv`] for the rest.
+/// [`DatabaseError::Format`] for columns that are missing or unknown; [`DatabaseError::Value`] for a value of the wrong
+/// kind or a row that occurs twice; [`DatabaseError::Csv`] for other faults of the text.
 pub fn records(path: &Path, text: impl Read, absent: &[&str]) -> Result<Vec<Record>, DatabaseError> {
     let failed = csv_error(path);
     let mut reader = reader(path, text)?;
@@ -91,7 +93,7 @@ pub fn records(path: &Path, text: impl Read, absent: &[&str]) -> Result<Vec<Reco
         };
         let row = Record::from_cells(|k| cell(k, columns[k].and_then(|k| fields.get(k)).unwrap_or_default()))
             .map_err(value)?;
-        // A small file can unpack to the same row a million times.
+        // A small compressed file can unpack to the same row a million times, so duplicates end the reading at once.
         if !places.insert((row.packing, row.ramp, row.stop)) {
             return Err(value(("stop", format!("{} stands twice", row.name()))));
         }
@@ -120,7 +122,7 @@ fn reader<'a>(
     Ok(csv::Reader::from_reader(Bounded { text: plain, left: MOST_BYTES, line: 0 }))
 }
 
-/// Where each column stands.
+/// The position of each column in the file.
 fn columns(
     path: &Path,
     head: &csv::ByteRecord,
@@ -138,7 +140,7 @@ fn columns(
         match found.is_some() || absent.contains(&column.0) {
             true => Ok(found),
             false => Err(problem(format!(
-                "column {} is missing; every column is needed, unless the rows are of an older program and sealed without",
+                "column {} is missing; every column is needed, unless an older program wrote the rows and the file was sealed without it",
                 column.0
             ))),
         }
@@ -146,7 +148,7 @@ fn columns(
     COLUMNS.iter().map(place).collect()
 }
 
-/// A field as a value of the kind that its column has; an empty one is absent.
+/// Converts a field to a value of its column's type; an empty field is an absent value.
 fn cell(column: usize, field: &[u8]) -> Result<ValueRef<'_>, String> {
     let number = |allowed: &str| {
         let found = shortened(&String::from_utf8_lossy(field));
@@ -161,10 +163,10 @@ fn cell(column: usize, field: &[u8]) -> Result<ValueRef<'_>, String> {
     }
 }
 
-/// A text that ends in an error when it, or a line of it, is longer than any table is.
+/// A reader that returns an error when the text, or one line of it, is longer than any valid table.
 struct Bounded<R> {
     text: R,
-    /// Bytes that may still come.
+    /// Bytes that may still be read.
     left: u64,
     /// Bytes since the end of the last line.
     line: u64,

@@ -1,22 +1,23 @@
-//! Rows and where they come from.
+//! The rows of a database with their provenance (where they come from).
 
 use super::DatabaseError;
 use super::record::Record;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Provenance key of a rounded export: significant digits of its floats.
+/// Provenance key of a rounded export: number of significant digits of its floats.
 pub(super) const DIGITS: &str = "digits";
 
-/// Rows and where they come from.
+/// The rows of a database with their provenance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dataset {
-    /// In order of packing, ramp and stop, whatever their order in the file: what is trained on them does not depend on it.
+    /// In the order of packing, ramp and stop, whatever the order in the file, so that a model trained on them does not
+    /// depend on that.
     pub records: Vec<Record>,
     pub provenance: BTreeMap<String, String>,
 }
 
-/// The dataset, unless it is not what was written.
+/// Returns the dataset, or an error when `damage` says that it differs from its checksums.
 pub(super) fn undamaged(path: &Path, dataset: Dataset, damage: &[String]) -> Result<Dataset, DatabaseError> {
     match damage {
         [] => Ok(dataset),

@@ -1,4 +1,4 @@
-//! CSV with a column dictionary and the provenance beside it.
+//! Export as CSV, with a column dictionary and the provenance in files beside it.
 
 use super::csv_file::{beside, is_gzip_name};
 use super::dataset::DIGITS;
@@ -10,12 +10,13 @@ use msdd_files::{check_target, write};
 use std::io::Write;
 use std::path::Path;
 
-/// Digits from which on a float is taken as not rounded.
+/// A float with at least this many significant digits counts as not rounded.
 const ALL_DIGITS: usize = 15;
 
 /// Writes the database as CSV (first line: column names; floats in the shortest form that reads back exactly), with
 /// FILE.columns.csv (name, unit, meaning) and FILE.provenance.json beside it. A name that ends in .gz is compressed.
-/// With `digits`, floats are rounded to as many significant ones: a file to ship needs no noise. Returns the number of rows.
+/// With `digits`, floats are rounded to that many significant digits, which makes the file smaller. Returns the number
+/// of rows.
 ///
 /// # Errors
 /// Those of [`read`]; [`DatabaseError::File`] when a file cannot be written.
@@ -24,7 +25,7 @@ pub fn export_csv(database: &Path, csv: &Path, digits: Option<usize>) -> Result<
     let mut dataset = read(database)?;
     if let Some(digits) = digits {
         dataset.records.iter_mut().for_each(|record| *record = rounded(record, digits));
-        // What had fewer before has no more now.
+        // A database that was rounded before cannot regain digits.
         let before = dataset.provenance.get(DIGITS).and_then(|digits| digits.parse().ok());
         let digits = before.map_or(digits, |before: usize| before.min(digits));
         dataset.provenance.insert(DIGITS.to_string(), digits.to_string());
@@ -56,8 +57,8 @@ fn write_provenance(csv: &Path, dataset: &Dataset) -> Result<(), DatabaseError> 
     Ok(write(&beside(csv, "provenance.json"), text.as_bytes())?)
 }
 
-/// Gives a database or CSV of an older program its checksums, if all laws hold on its rows; of a CSV only the provenance
-/// beside it is written. Returns the number of rows.
+/// Adds checksums to a database or CSV that an older program wrote without them, if all laws hold on its rows. For a
+/// CSV only the provenance file beside it is written. Returns the number of rows.
 ///
 /// # Errors
 /// Those of [`read`]; [`DatabaseError::Unsound`]; [`DatabaseError::Format`] for a database that is not finished.
@@ -80,7 +81,7 @@ pub fn seal(path: &Path) -> Result<usize, DatabaseError> {
     Ok(dataset.records.len())
 }
 
-/// As [`read`], but columns may be missing that rows of an older engine have not.
+/// As [`read`], but columns that the rows of an older engine do not have may be missing.
 fn unsealed(path: &Path) -> Result<Dataset, DatabaseError> {
     if is_sqlite(path)? {
         return read(path);
@@ -96,7 +97,7 @@ fn unsealed(path: &Path) -> Result<Dataset, DatabaseError> {
     csv_file::with_provenance(path, provenance).map(|(dataset, _)| dataset)
 }
 
-/// Significant digits of the float that has most.
+/// The largest number of significant digits among all floats.
 fn digits_of(records: &[Record]) -> usize {
     let digits = |value: rusqlite::types::Value| match value {
         rusqlite::types::Value::Real(real) => {
@@ -120,7 +121,7 @@ fn rounded(record: &Record, digits: usize) -> Record {
     serde_json::from_value(fields).unwrap_or_else(|_| record.clone())
 }
 
-/// gzip without name or date: the same text gives the same bytes.
+/// gzip without name or date in its header, so that the same text gives the same bytes.
 fn compressed(text: &[u8]) -> std::io::Result<Vec<u8>> {
     let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
     encoder.write_all(text)?;

@@ -1,4 +1,4 @@
-//! Makes the rows of a plan on several threads; what is made depends on the plan alone.
+//! Makes the rows of a plan on several threads. The rows depend on the plan alone.
 
 use super::plan::{Job, Plan};
 use super::record::Record;
@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 
-/// One run of the program.
+/// Settings of one run of the generator.
 #[derive(Clone, Debug, Default)]
 pub struct Run {
     /// The part of the plan to make.
@@ -21,29 +21,29 @@ pub struct Run {
     pub commit: String,
 }
 
-/// How far a generation has come.
+/// Progress of a generation.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Progress {
-    /// Packings in the database, those of earlier runs included.
+    /// Packings stored in the database, those of earlier runs included.
     pub done: usize,
     pub total: usize,
-    /// Packings of this run with a stop that was not reached. They have all their rows, too.
+    /// Packings of this run with at least one stop that was not reached. They have all their rows, too.
     pub failed: usize,
     /// Rows made in this run.
     pub rows: usize,
-    /// Seconds of all threads of this run, by [`stopwatch::Stage`].
+    /// Seconds of all threads of this run, divided by [`stopwatch::Stage`].
     pub seconds: Seconds,
-    /// Seconds spent on the file.
+    /// Seconds spent writing the file.
     pub storing: f64,
 }
 
-/// Fills the database at `path` with what the shard of the plan still lacks. Each packing is stored whole in one
-/// transaction as soon as it is made: a killed run loses only what it was working on. The most expensive packings are
-/// made first, so that no thread is left alone with one at the end; the finished file has them in plan order.
-/// `progress` is called after each, and may end the run there.
+/// Adds to the database at `path` all packings of the shard that it does not contain yet. Each packing is stored in one
+/// transaction as soon as it is made, so a killed run loses only the packings that it was working on. The most
+/// expensive packings are made first, so that at the end no thread is left alone with one of them; the finished file
+/// has them in plan order. `progress` is called after each packing, and may end the run there.
 ///
 /// # Errors
-/// [`DatabaseError::File`] when another run is at work on the file, before anything is made;
+/// [`DatabaseError::File`] when another run is working on the file, before anything is made;
 /// [`DatabaseError::Mismatch`] when the file holds another plan or shard, or was made by another engine version;
 /// [`DatabaseError::Damaged`]; storage errors.
 pub fn generate(
@@ -57,7 +57,7 @@ pub fn generate(
         let failed = |source| msdd_files::FileError::Write { file: folder.to_path_buf(), source };
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
-    // Another run on the same file would do the same work and then find its rows there already.
+    // Two runs on the same file would make the same packings, and one would fail to store rows that are there already.
     let _lock = msdd_files::Lock::take(path)?;
     let mut store = Store::open_for(path, plan, run.shard, &run.commit)?;
     let stored = store.packings()?;
@@ -92,7 +92,8 @@ pub fn generate(
     Ok(state)
 }
 
-/// Makes the jobs, first come first served; `store` takes the rows of each as they come, with the time they took.
+/// Makes the jobs, each by the next free thread. `store` receives the rows of each job as it is finished, with the time
+/// they took.
 fn make(
     plan: &Plan,
     todo: &[Job],

@@ -1,4 +1,4 @@
-//! Shards of one plan become one file.
+//! Merges the shards of one plan into one file.
 
 use super::plan::Plan;
 use super::record::Record;
@@ -7,16 +7,15 @@ use super::{DatabaseError, Dataset, Shard};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// What must agree between shards; everything else follows from it.
+/// Provenance keys that must agree between shards; all other entries follow from these.
 const SAME: [&str; 3] = ["schema", "engine_version", "plan_hash"];
 
-/// Joins databases of one plan into `out`, which gets the bytes that one process would have written. Returns the number
-/// of rows.
+/// Joins databases of one plan into `out`, which becomes identical byte for byte to the file that one process would
+/// have written. Returns the number of rows.
 ///
 /// # Errors
 /// [`DatabaseError::Mismatch`] for another plan, schema or engine version; [`DatabaseError::Damaged`];
-/// [`DatabaseError::Merge`] when packings are
-/// missing or stand in two files; what reading and writing give.
+/// [`DatabaseError::Merge`] when packings are missing or occur in two files; errors of reading and writing.
 pub fn merge(shards: &[PathBuf], out: &Path) -> Result<usize, DatabaseError> {
     msdd_files::check_target(out)?;
     let mut packings: BTreeMap<i64, (&Path, Vec<Record>)> = BTreeMap::new();
@@ -62,7 +61,7 @@ fn agree(
     Ok(())
 }
 
-/// Every packing of the plan, with every row of it, and no other.
+/// Checks that there is every packing of the plan with all its rows, and no other.
 fn complete(
     plan: &Plan,
     packings: &BTreeMap<i64, (&Path, Vec<Record>)>,

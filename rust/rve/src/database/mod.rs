@@ -2,18 +2,18 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`plan`] | what to make, as a TOML file |
+//! | [`plan`] | the packings and ramps to make, as a TOML file |
 //! | `rows` | the rows of one packing |
 //! | [`record`] | one row: one state of one packing |
 //! | [`store`] | the SQLite file: schema, provenance, resume |
 //! | [`generate`](mod@generate) | makes the rows, on several threads |
 //! | [`merge`](mod@merge) | shards made on several machines become one file |
-//! | [`offenders`] | a plan from queries outside a model's range |
-//! | [`dataset`] | rows and where they come from |
-//! | [`read`](mod@read) | reading any form, one file or several as one |
+//! | [`offenders`] | a plan of new packings from a solver's queries outside a model's range |
+//! | [`dataset`] | rows with their provenance (where they come from) |
+//! | [`read`](mod@read) | reading a database or CSV, or several files as one dataset |
 //! | [`export`] | CSV with a column dictionary |
 //! | [`csv_file`] | reading CSV |
-//! | `schema` | what an SQLite file must be before it is read |
+//! | `schema` | checks of an SQLite file before it is read |
 //! | `cell` | one value of a row |
 //! | `checksum` | checksums over rows and provenance |
 //! | [`check`] | exact laws on every row, statistics, noise floor |
@@ -48,7 +48,8 @@ pub use store::Store;
 
 use std::path::PathBuf;
 
-/// Raised by one whenever the same plan and seed give other numbers. Databases of different versions do not mix.
+/// Increased by one whenever the same plan and seed give other numbers. Databases of different versions cannot be
+/// mixed.
 pub const ENGINE_VERSION: i64 = 4;
 
 /// What can go wrong with plans and databases.
@@ -66,16 +67,16 @@ pub enum DatabaseError {
     Format { path: PathBuf, problem: String },
     #[error("{path}: {table}, row {row}, column {column}: {problem}")]
     Value { path: PathBuf, table: &'static str, row: u64, column: &'static str, problem: String },
-    #[error("{path}: is damaged: {problem}; take it from where it was made, or make it again")]
+    #[error("{path}: is damaged: {problem}; copy the original file again, or generate it again")]
     Damaged { path: PathBuf, problem: String },
     #[error(
-        "{path}: {count} violations of exact laws, the first: {first}; nothing is made of such a file, and msdd database \
-         check says more"
+        "{path}: {count} violations of exact laws, the first: {first}; the file is not used, and msdd \
+         database check reports them all"
     )]
     Unsound { path: PathBuf, count: usize, first: String },
     #[error(
-        "{path}: packing {packing} is packing {other_packing} of {other}: the same grains would stand on both sides of the \
-         split into packings to train on and to judge by; give every database once, as itself or as its CSV"
+        "{path}: packing {packing} is packing {other_packing} of {other}: the same grains would be among the packings \
+         for training and among those held out for testing; give every database once, as itself or as its CSV"
     )]
     Twice { path: PathBuf, packing: i64, other: PathBuf, other_packing: i64 },
     #[error("{path}: {problem}")]

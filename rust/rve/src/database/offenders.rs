@@ -1,4 +1,5 @@
-//! From doubt to data: cells that a solver asked about outside a model's trained range become a plan of new RVEs.
+//! Active learning: states in which a solver asked a model outside of its trained range (offenders) become a plan of
+//! new RVEs.
 
 use super::{DatabaseError, Plan, plan::Block};
 use crate::{Boundary, Compression};
@@ -6,7 +7,7 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// Raise the number when a reader of the old schema would misread the new.
+/// Name of the schema. Its number is increased when a reader of the old schema would misread the new one.
 pub const SCHEMA: &str = "msdd-offenders-1";
 
 /// `offenders.json`, as `msddFoam` writes it.
@@ -14,7 +15,7 @@ pub const SCHEMA: &str = "msdd-offenders-1";
 #[serde(deny_unknown_fields)]
 pub struct Offenders {
     pub schema: String,
-    /// SHA-256 of the model that was asked.
+    /// SHA-256 of the model that the solver used.
     pub model_hash: String,
     /// Columns of `state`; "porosity" and "fabric_index" are among them.
     pub state_names: Vec<String>,
@@ -25,17 +26,17 @@ pub struct Offenders {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Offender {
-    /// State before the step, in the model's units.
+    /// State before the step, in the units of the model's inputs.
     pub state: Vec<f64>,
     /// Thermal strain of the step [-].
     pub strain: f64,
-    /// The input that lay outside: a name of the state, or "thermal_strain".
+    /// The input that lay outside of its range: a name of the state, or "thermal_strain".
     pub column: String,
-    /// "below" or "above" its range.
+    /// Whether it lay below or above its range.
     pub side: Side,
-    /// How far [the input's unit], above 0.
+    /// Distance from the range [unit of that input], above 0.
     pub distance: f64,
-    /// Cell and time [s] in the solver; for the record.
+    /// Cell and time [s] in the solver; for information only.
     #[serde(default)]
     pub cell: i64,
     #[serde(default)]
@@ -49,7 +50,7 @@ pub enum Side {
     Above,
 }
 
-/// How to plan.
+/// Size and number of the packings to plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Discs in a packing.
@@ -58,14 +59,13 @@ pub struct Effort {
     pub repeats: u32,
 }
 
-/// Width of a class of porosity: packings of one target scatter about as much.
+/// Width of the classes into which porosities are sorted: packings of one target porosity scatter about as much.
 const CLASS: f64 = 0.005;
-/// Porosities that packings can be made at.
+/// Least and largest porosity at which packings can be made.
 const TARGETS: [f64; 2] = [0.03, 0.2];
-/// |f| up to which a state counts as isotropic, and as intermediate: half way between the means of the kinds of packings in
-/// the full database, 0, 0.025 and 0.05.
+/// |f| up to which a state counts as isotropic, and as intermediate. The values lie half way between the mean |f| of isotropic, intermediate and horizontal packings in the full database: 0, 0.025 and 0.05.
 const FABRIC: [f64; 2] = [0.0125, 0.0375];
-/// Magnitudes of the strains of the ramps: from those of a solver's step to those of a whole history.
+/// Magnitudes of the strains at which the ramps stop: from those of a solver's step to those of a whole history.
 const STOPS: [f64; 8] = [0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.03, 0.05];
 
 impl Offenders {
@@ -111,16 +111,17 @@ impl Offenders {
         found.ok_or_else(|| format!("state_names: no {name:?}"))
     }
 
-    /// A plan of thermal ramps whose packings surround the offending states, with the grains and the boundary of `like`. A state that no
-    /// packing has, above the porosity of unjamming say, is approached by the nearest that one can.
+    /// A plan of thermal ramps whose packings lie around the offending states, with the grains and the boundary of
+    /// `like`. For a state that no packing can have, for example one above the porosity of unjamming, the nearest
+    /// possible packing is planned.
     ///
     /// # Errors
-    /// [`DatabaseError::Plan`] when the effort is none.
+    /// [`DatabaseError::Plan`] when `effort` asks for no discs or no packings.
     pub fn plan(&self, like: &Plan, effort: Effort) -> Result<Plan, DatabaseError> {
         let problem = |problem: String| DatabaseError::Plan { file: "offenders".to_string(), problem };
         let (porosity, fabric) =
             (self.column("porosity").map_err(problem)?, self.column("fabric_index").map_err(problem)?);
-        // Class of porosity and kind of compression: porosities of a kind share a block.
+        // Key: kind of compression; value: classes of porosity. All porosities of a kind go into one block.
         let mut wanted: BTreeMap<usize, Vec<i64>> = BTreeMap::new();
         for row in &self.rows {
             let class = (row.state[porosity].clamp(TARGETS[0], TARGETS[1]) / CLASS).round() as i64;
@@ -134,7 +135,8 @@ impl Offenders {
             classes.dedup();
             Block {
                 discs: effort.discs,
-                // Two hundred classes are a unit: the quotient prints shorter than a multiple of the width.
+                // A class times its width of 0.005, written as a division by 200 because its result prints without
+                // rounding digits.
                 porosities: classes.iter().map(|class| *class as f64 / (1.0 / CLASS).round()).collect(),
                 compressions: vec![kinds[kind]],
                 packing_friction_angles: Vec::new(),
@@ -158,7 +160,8 @@ impl Offenders {
         Plan::parse(&text, "offenders")
     }
 
-    /// Another seed than that of the database which the model was trained on, else the same packings came again.
+    /// A seed other than that of the database on which the model was trained: with the same seed the same packings
+    /// would be made again.
     fn seed(&self, other: u64) -> u64 {
         let digest = Sha256::digest(format!("{}{other}{:?}", self.model_hash, self.rows));
         digest.iter().take(4).fold(0, |value, &byte| value << 8 | u64::from(byte))

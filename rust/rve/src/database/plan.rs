@@ -1,4 +1,4 @@
-//! What to make: a TOML file with blocks `[[thermal]]`, `[[mechanics]]` and `[[wall_shear]]`.
+//! A plan of packings and ramps: a TOML file with blocks `[[thermal]]`, `[[mechanics]]` and `[[wall_shear]]`.
 
 use super::DatabaseError;
 use crate::slide::Slide;
@@ -18,22 +18,22 @@ pub struct Plan {
     pub radius_max: f64,
     /// Seed of the whole plan.
     pub seed: u64,
-    /// What brings forces into balance; default: the grains' own damped motion.
+    /// How forces are brought into balance; default: the grains' own damped motion.
     #[serde(default)]
     pub relaxation: Relaxation,
     /// Grain material.
     #[serde(default)]
     pub material: Material,
-    /// Radii grow and shrink in fixed walls.
+    /// Thermal ramps: radii grow and shrink in fixed walls.
     #[serde(default)]
     pub thermal: Vec<Block>,
-    /// Walls close and open in one direction.
+    /// Mechanical ramps: walls close and open in one direction.
     #[serde(default)]
     pub mechanics: Vec<Block>,
-    /// Bottom and top of a 2:1 box slip along the grains.
+    /// Bottom and top of a box twice as wide as high slip along the grains.
     #[serde(default)]
     pub wall_shear: Vec<Block>,
-    /// The text the plan was read from; what the hash is of.
+    /// The text that the plan was read from; [`Plan::hash`] is its hash.
     #[serde(skip)]
     pub text: String,
 }
@@ -47,29 +47,29 @@ pub struct Block {
     /// Target porosities of the packings, whole box, overlaps counted once [-].
     pub porosities: Vec<f64>,
     pub compressions: Vec<Compression>,
-    /// Friction angles while the walls close [rad]; default: the material's alone.
+    /// Friction angles of the grains while the walls close [rad]; default: the material's alone.
     #[serde(default)]
     pub packing_friction_angles: Vec<f64>,
     /// Packings for each porosity, compression and packing friction.
     pub repeats: u32,
-    /// Ramps of each packing; default: those of the block's kind that start from the packed state.
+    /// Ramps of each packing; default: `up` and `down`, or `xx` and `yy`, or `wall_shear`, by the kind of the block.
     #[serde(default)]
     pub ramps: Vec<RampName>,
     /// Magnitudes at which a ramp stops, growing: strain [-], or slip [m] of `wall_shear`.
     pub stops: Vec<f64>,
-    /// Magnitudes at which the way back of `up_down` and `down_up` stops, falling; 0 is the packed strain and negative
-    /// values lie beyond it. Default: the stops backwards, then 0.
+    /// Magnitudes at which the return of `up_down` and `down_up` stops, falling; 0 is the packed strain and negative
+    /// values lie beyond it. Default: the stops in reverse order, then 0.
     #[serde(default)]
     pub return_stops: Vec<f64>,
-    /// What is around the boxes; default: walls. Periodic boxes are averaged over their whole cell.
+    /// Boundary of the boxes; default: walls. Periodic boxes are averaged over their whole cell.
     #[serde(default)]
     pub boundary: Boundary,
-    /// Which way the walls of `wall_shear` move; default: same.
+    /// Directions in which the walls of `wall_shear` move; default: same.
     #[serde(default)]
     pub slide: Option<Slide>,
 }
 
-/// What a block, and each of its rows, is about.
+/// What is moved in the ramps of a block: radii, walls, or walls along the grains.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -79,7 +79,7 @@ pub enum Kind {
     WallShear,
 }
 
-/// A way through states of one packing.
+/// A ramp: a path through states of one packing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RampName {
@@ -96,7 +96,7 @@ pub enum RampName {
     DownUp,
     /// x walls close (stops −1, −2, …), and from the packed state again, open (1, 2, …).
     Xx,
-    /// The same with the y walls.
+    /// As `xx`, with the y walls.
     Yy,
     /// A periodic box is sheared along x, one way (stops −1, −2, …) and, from the packed state again, the other.
     Xy,
@@ -120,7 +120,7 @@ pub struct Job {
 }
 
 impl Kind {
-    /// Ramps of blocks that name none; then those that may be named, too.
+    /// The ramps of a block that names none; and the further ramps that a block of this kind may name.
     fn ramps(self) -> (&'static [RampName], &'static [RampName]) {
         match self {
             Self::Thermal => (&[RampName::Up, RampName::Down], &[RampName::UpDown, RampName::DownUp]),
@@ -173,7 +173,7 @@ impl Job {
     }
 }
 
-/// More is a slip of the hand: months of computing.
+/// A plan with more packings is taken as a typing error: it would compute for months.
 const MOST_PACKINGS: u64 = 1_000_000;
 
 impl Plan {
@@ -191,7 +191,7 @@ impl Plan {
         Sha256::digest(self.text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// Blocks with their kind and their number among those of that kind.
+    /// All blocks with their kind, and their number among the blocks of that kind.
     fn blocks(&self) -> impl Iterator<Item = (Kind, usize, &Block)> {
         let lists = [
             (Kind::Thermal, &self.thermal),
@@ -286,7 +286,7 @@ impl Plan {
 }
 
 impl Block {
-    /// How many it asks for.
+    /// Number of packings of the block.
     fn packings(&self) -> u64 {
         let frictions = self.packing_friction_angles.len().max(1);
         let factors = [self.porosities.len(), self.compressions.len(), frictions].map(|count| count as u64);
@@ -362,7 +362,7 @@ impl Block {
 }
 
 impl RampName {
-    /// The ramp from whose last stop this one starts; none: the packed state.
+    /// The ramp from whose last stop this one starts; none when it starts from the packed state.
     pub fn starts_from(self) -> Option<Self> {
         match self {
             Self::UpDown => Some(Self::Up),
@@ -387,8 +387,8 @@ impl RampName {
     }
 }
 
-/// Seed of one packing: depends on the plan's seed and the index only, not on order or threads. 53 bits, so that CSV
-/// readers which hold numbers as f64 keep it.
+/// Seed of one packing. It depends on the plan's seed and the index only, not on order or threads. It has 53 bits, so
+/// that CSV readers which hold numbers as f64 keep it exactly.
 fn packing_seed(plan_seed: u64, packing: u64) -> u64 {
     let mut bytes = plan_seed.to_le_bytes().to_vec();
     bytes.extend(packing.to_le_bytes());

@@ -1,4 +1,4 @@
-//! Reading rows and where they come from, from a database or its CSV, alone or together.
+//! Reading a database or its CSV with its provenance, one file or several together.
 
 use super::dataset::undamaged;
 use super::plan::RampName;
@@ -12,7 +12,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 impl Dataset {
-    /// Whether checksums say that it is what was written. Files of older programs have none.
+    /// Whether the dataset has checksums. Files of older programs have none.
     pub fn has_checksum(&self) -> bool {
         checksum::is_sealed(&self.provenance)
     }
@@ -39,7 +39,7 @@ pub fn read(path: &Path) -> Result<Dataset, DatabaseError> {
     undamaged(path, dataset, &damage)
 }
 
-/// As [`read`], but says what is not what was written, and gives it all the same: for a closer look.
+/// As [`read`], but returns the dataset even when it differs from its checksums, with a description of the differences.
 ///
 /// # Errors
 /// [`DatabaseError`] for what cannot be read.
@@ -52,14 +52,14 @@ pub fn inspect(path: &Path) -> Result<(Dataset, Vec<String>), DatabaseError> {
     Ok((dataset, damage))
 }
 
-/// Place of a row: stops of each ramp outward, those on the negative side first.
+/// Sorting key of a row: packing, ramp, then for each ramp the stops outward, those on the negative side first.
 fn place(record: &Record) -> (i64, RampName, bool, u64) {
     (record.packing, record.ramp, record.stop > 0, record.stop.unsigned_abs())
 }
 
 pub(super) fn is_sqlite(path: &Path) -> Result<bool, DatabaseError> {
     let failed = |source| FileError::Read { file: path.to_path_buf(), source };
-    // A pipe can be read once, and a device has no end.
+    // Only regular files: a pipe can be read only once, and a device has no end.
     if !std::fs::metadata(path).map_err(failed)?.is_file() {
         let problem = "it is no regular file".to_string();
         return Err(DatabaseError::Format { path: path.to_path_buf(), problem });
@@ -69,11 +69,12 @@ pub(super) fn is_sqlite(path: &Path) -> Result<bool, DatabaseError> {
     Ok(start == b"SQLite format 3\0")
 }
 
-/// What must be equal in databases that are read as one: rows of other grains or another engine do not mix.
+/// Provenance entries that must be equal in databases that are read as one: rows of other grains or of another engine
+/// cannot be mixed.
 const SHARED: [&str; 5] = ["engine_version", "material", "radius_distribution", "radius_min", "radius_max"];
 
-/// Reads several databases as one, all of them sound. Packings are numbered on from file to file; the plan's hash is then
-/// of all plans.
+/// Reads several databases as one dataset; all must obey the laws. The packings of each file are numbered after those
+/// of the files before it; `plan_hash` becomes a hash over the hashes of all plans.
 ///
 /// # Errors
 /// Those of [`read`]; [`DatabaseError::Unsound`] for what [`check::violations`] finds; [`DatabaseError::Mismatch`] for
@@ -107,32 +108,32 @@ pub fn read_all(paths: &[PathBuf]) -> Result<Dataset, DatabaseError> {
     if plans.len() > 1 {
         let hash = Sha256::digest(plans.concat()).iter().map(|byte| format!("{byte:02x}")).collect();
         all.provenance.insert("plan_hash".to_string(), hash);
-        // They were of the first file alone.
+        // These checksums are those of the first file alone.
         checksum::unseal(&mut all.provenance);
     }
     Ok(all)
 }
 
-/// What decides a packing together with the grains: seed, discs, compression, region (which tells the boundary).
+/// Together with the grains, these decide a packing: seed, discs, compression, region (which implies the boundary).
 type Key = (u64, u64, String, String);
 
-/// The packings of the files so far.
+/// The packings of the files read so far.
 #[derive(Default)]
 struct Known(BTreeMap<Key, Vec<Packing>>);
 
 struct Packing {
-    /// Target porosity and friction angle while packing, which exports round.
+    /// Target porosity and friction angle while packing; exports may have rounded them.
     made: [f64; 2],
     file: PathBuf,
     packing: i64,
 }
 
-/// Rounding to three digits moves a value by less.
+/// Largest relative change of a value by rounding to three digits.
 const ROUNDING: f64 = 0.006;
 
 impl Known {
-    /// Takes note of a file's packings: one that is there already would stand on both sides of the split into packings to
-    /// train on and packings to judge by.
+    /// Adds the packings of a file. A packing that is known already is an error: it would be in both the packings for
+    /// training and those held out for testing.
     fn add(&mut self, path: &Path, records: &[Record]) -> Result<(), DatabaseError> {
         for record in records.iter().filter(|record| record.ramp == RampName::Packed) {
             let key = (record.seed, record.discs, format!("{:?}", record.compression), record.region.clone());

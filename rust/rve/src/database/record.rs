@@ -7,14 +7,14 @@ use crate::{Averages, Boundary, Compression, Material, Outcome, RegionKind, Sett
 use rusqlite::types::{Value, ValueRef};
 use serde::{Deserialize, Serialize};
 
-/// A column: name, SQLite type, unit, meaning.
+/// A column of the database: name, SQLite type, unit, meaning.
 pub struct Column(pub &'static str, pub &'static str, pub &'static str, pub &'static str);
 
-/// Defines [`Record`] and [`COLUMNS`] from one list, so that they cannot differ.
+/// Defines [`Record`] and [`COLUMNS`] from one list, so that they always agree.
 macro_rules! record {
     ($($name:ident: $type:ty, $sql:literal, $unit:literal, $meaning:literal;)*) => {
-        /// One state at one stop of a ramp; every stop of the plan has its row. Averages are absent when the stop was not
-        /// reached. The meaning and unit of each field stand in [`COLUMNS`].
+        /// One state at one stop of a ramp; every stop of the plan has a row. Averages are absent when the stop was not
+        /// reached. Meaning and unit of each field are those of [`COLUMNS`].
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
         pub struct Record {
@@ -118,7 +118,7 @@ macro_rules! copy {
     };
 }
 
-/// Where on which ramp a row stands.
+/// The ramp and stop of a row, with the strains or slip there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub ramp: RampName,
@@ -128,7 +128,7 @@ pub(crate) struct Place {
     pub slip: f64,
 }
 
-/// What was found there.
+/// Results at one stop.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
     pub settled: Settled,
@@ -137,7 +137,8 @@ pub(crate) struct State {
 }
 
 impl Record {
-    /// The row of a state, or of the reason why it was not reached. `initial` is the packed state.
+    /// The row of a state, or of the reason why the stop was not reached. `initial` has the averages of the packed
+    /// state.
     pub(crate) fn new(
         job: &Job,
         material: &Material,
@@ -221,7 +222,7 @@ impl Record {
         self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
     }
 
-    /// How the row is called in messages.
+    /// The name of the row in messages.
     pub fn name(&self) -> String {
         format!("packing {}, ramp {}, stop {}", self.packing, self.ramp.as_str(), self.stop)
     }

@@ -9,7 +9,7 @@ use crate::{
 };
 use std::collections::BTreeMap;
 
-/// Makes a packing and takes it through its ramps. Stops that were not reached are rows, too.
+/// Makes a packing and takes it through its ramps. A stop that was not reached has a row, too, with the reason.
 pub(super) fn rows(plan: &Plan, job: &Job) -> Vec<Record> {
     let material = &plan.material;
     let packed = match pack_as(&job.spec, &job.preparation, material) {
@@ -36,7 +36,7 @@ fn unreached(plan: &Plan, job: &Job, reason: &str) -> Vec<Record> {
     places.map(|place| Record::new(job, &plan.material, place, Err(reason), None)).collect()
 }
 
-/// What a stop means: strains, or slip.
+/// The place of a stop: `value` as the strain or slip that the ramp varies.
 fn place(ramp: RampName, (stop, value): (i64, f64)) -> Place {
     let mut place = Place { ramp, stop, strains: Strains::default(), slip: 0.0 };
     match ramp {
@@ -56,7 +56,7 @@ struct Walk<'a> {
     job: &'a Job,
     packed: &'a Packed,
     initial: &'a Averages,
-    /// Where ramps ended from which others start; or why they did not reach their end.
+    /// Final states of the ramps from which other ramps start; or why a ramp did not reach its end.
     ends: BTreeMap<RampName, Result<Simulation, String>>,
 }
 
@@ -70,7 +70,7 @@ impl Walk<'_> {
         match self.job.kind {
             Kind::Thermal => self.thermal(ramp, &stops),
             Kind::Mechanics => {
-                // Closing and opening, and both ways of shear, start from the packed state each.
+                // Closing and opening each start from the packed state, and so do the two directions of shear.
                 let (closing, opening) = stops.split_at(stops.partition_point(|place| place.stop < 0));
                 [closing, opening].into_iter().flat_map(|branch| self.strain(branch)).collect()
             }
@@ -90,7 +90,7 @@ impl Walk<'_> {
                 None => return self.failed(stops, &format!("{} was not made", first.as_str())),
             },
         };
-        // Strains count from the state where the path starts.
+        // The strains of the path count from the state where it starts.
         let strain = |place: &Place| match ramp.starts_from() {
             None => place.strains,
             Some(_) => Strains::thermal((1.0 + place.strains.thermal) / (1.0 + turn) - 1.0),
@@ -123,7 +123,7 @@ impl Walk<'_> {
         self.records(stops, &ramp, &met)
     }
 
-    /// A row a stop: the states reached, then the failure that ended the ramp, for each stop after them.
+    /// One row per stop: the states reached, then for each further stop the failure that ended the ramp.
     fn records(&self, stops: &[Place], ramp: &Result<Ramp, RveError>, met: &[Sliding]) -> Vec<Record> {
         let (reached, failure): (&[Stop], Option<&RveError>) = match ramp {
             Ok(ramp) => (&ramp.stops, ramp.failure.as_ref()),

@@ -1,4 +1,5 @@
-//! What an SQLite file must be before anything of it is read: our tables and nothing else, and sound by SQLite's own check.
+//! Checks of an SQLite file before anything is read from it: it must have exactly our tables, and pass SQLite's own
+//! integrity check.
 
 use super::record::COLUMNS;
 use rusqlite::limits::Limit;
@@ -7,7 +8,7 @@ use rusqlite::{Connection, OpenFlags};
 use std::path::Path;
 use std::sync::OnceLock;
 
-/// Longest value [bytes]: far more than a plan has.
+/// Longest value that is read [bytes]: far longer than any plan.
 const LONGEST: i32 = 1 << 24;
 
 /// The statements that make the tables.
@@ -21,22 +22,23 @@ pub(super) fn tables() -> String {
     )
 }
 
-/// Opens a file. Names are names of files: `:memory:` and `file:x?mode=memory` mean nothing else to us.
+/// Opens a file. `path` is always taken as the name of a file: `:memory:` and `file:x?mode=memory` have no special
+/// meaning.
 pub(super) fn open(path: &Path, create: bool) -> rusqlite::Result<Connection> {
     let mut flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     if create {
         flags |= OpenFlags::SQLITE_OPEN_CREATE;
     }
-    // An absolute path has none of the beginnings that SQLite takes for something else.
+    // An absolute path cannot begin with `:` or `file:`, which SQLite would interpret.
     let path = std::path::absolute(path).map_err(|_| rusqlite::Error::InvalidPath(path.to_path_buf()))?;
     let connection = Connection::open_with_flags(path, flags)?;
     connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, LONGEST)?;
-    // Nothing that stands in a stranger's file is run.
+    // Code in the schema of an untrusted file (such as functions in views and triggers) must not be run.
     connection.execute_batch("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON;")?;
     Ok(connection)
 }
 
-/// A table, an index or what else a file declares: type, name, table and statement.
+/// An object that a file declares, such as a table or an index: its type, name, table and SQL statement.
 type Entry = [String; 4];
 
 fn entries(connection: &Connection) -> rusqlite::Result<Vec<Entry>> {
@@ -67,18 +69,18 @@ fn expected() -> rusqlite::Result<&'static [Entry]> {
     Ok(EXPECTED.get_or_init(|| made))
 }
 
-/// Whether nothing was ever stored there.
+/// Whether the file has no tables, so that nothing was ever stored in it.
 pub(super) fn is_empty(connection: &Connection) -> rusqlite::Result<bool> {
     Ok(entries(connection)?.is_empty())
 }
 
-/// What is wrong, if anything: tables are compared by their names and statements before one is read, so that a view that
-/// never ends is not begun.
+/// What is wrong with the file, if anything. All objects are compared by name and statement before anything is read, so
+/// that a malicious view, which could run for ever, is never evaluated.
 pub(super) fn problem(connection: &Connection) -> rusqlite::Result<Option<String>> {
     let (found, expected) = (entries(connection)?, expected()?);
     if let Some([kind, name, ..]) = found.iter().find(|entry| !expected.contains(entry)) {
         let name = crate::message::shortened(name);
-        return Ok(Some(format!("{kind} {name} is none of a database or not as it was made")));
+        return Ok(Some(format!("{kind} {name} does not belong to a database or was changed")));
     }
     if let Some([kind, name, ..]) = expected.iter().find(|entry| !found.contains(entry)) {
         return Ok(Some(format!("{kind} {name} is missing")));

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// Every `count`-th packing of a plan, beginning with the `number`-th; 1/1 is all of it.
+/// A part of a plan: every `count`-th packing, beginning with the `number`-th; 1/1 is the whole plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: i64,
@@ -17,7 +17,7 @@ impl Default for Shard {
 }
 
 impl Shard {
-    /// Whether the packing of this index belongs to it.
+    /// Whether the packing of this index belongs to the shard.
     pub fn holds(self, packing: i64) -> bool {
         packing.rem_euclid(self.count) == self.number - 1
     }

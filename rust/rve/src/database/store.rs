@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// Number of the schema; raised when a table changes.
 pub const SCHEMA: i64 = 2;
-/// Provenance key that only whole files have, whose rows stand in plan order.
+/// Provenance key that only finished files have; their rows stand in plan order.
 pub(super) const COMPLETE: &str = "complete";
 
 /// An open database.
@@ -23,12 +23,12 @@ pub struct Store {
 }
 
 impl Store {
-    /// Opens an existing database, whose tables are ours and sound. Work that a killed run has left half done is rolled
-    /// back.
+    /// Opens an existing database and checks that it has exactly our tables. A transaction that a killed run has left
+    /// unfinished is rolled back.
     ///
     /// # Errors
-    /// [`DatabaseError::Format`] for another file, [`DatabaseError::Damaged`] for one that SQLite finds unsound,
-    /// [`DatabaseError::Mismatch`] for another schema, [`DatabaseError::Sqlite`].
+    /// [`DatabaseError::Format`] for a file that is no database, [`DatabaseError::Damaged`] when SQLite's integrity
+    /// check fails, [`DatabaseError::Mismatch`] for another schema version, [`DatabaseError::Sqlite`].
     pub fn open(path: &Path) -> Result<Self, DatabaseError> {
         let connection = schema::open(path, false).map_err(|s| sqlite(path, s))?;
         let store = Self { connection, path: path.to_path_buf() };
@@ -43,7 +43,7 @@ impl Store {
         self.expect("schema", &SCHEMA.to_string())
     }
 
-    /// Opens the database of a plan's shard, or makes an empty one. What stands in it already must be what was written.
+    /// Opens the database of a plan's shard, or makes an empty one. Existing content must agree with its checksums.
     /// `commit` is that of the program.
     pub(crate) fn open_for(
         path: &Path,
@@ -65,8 +65,8 @@ impl Store {
         Ok(store)
     }
 
-    /// Writes a whole file beside `path`, then renames it: the same rows and provenance give the same bytes, in whatever
-    /// order, by however many runs and shards they were made.
+    /// Writes a whole file beside `path`, then renames it. The same rows and provenance give the same bytes, in
+    /// whatever order they were made and by however many runs and shards.
     pub(crate) fn write_whole(
         path: &Path,
         mut provenance: BTreeMap<String, String>,
@@ -76,7 +76,8 @@ impl Store {
         let part = Part::beside(path)?;
         let failed = |source| sqlite(path, source);
         let connection = schema::open(part.path(), false).map_err(failed)?;
-        // The part is on the disk before it gets its name, so SQLite's own way back to an older file is of no use.
+        // The temporary file is written to disk before it is renamed, so SQLite's journal for restoring older contents
+        // is not needed.
         connection.execute_batch("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;").map_err(failed)?;
         let mut store = Self { connection, path: part.path().to_path_buf() };
         store.create(provenance, records).map_err(failed)?;
@@ -84,7 +85,7 @@ impl Store {
         Ok(part.put()?)
     }
 
-    /// Puts the rows into plan order and the file into its last form, once.
+    /// Sorts the rows into plan order and writes the file in its final form, once.
     pub(crate) fn finish(self) -> Result<(), DatabaseError> {
         let Dataset { records, provenance } = self.dataset()?;
         if provenance.contains_key(COMPLETE) {
@@ -94,7 +95,8 @@ impl Store {
         Self::write_whole(&self.path, provenance, &records)
     }
 
-    /// Tables, sealed provenance and rows in one transaction, so that a killed start leaves nothing half made.
+    /// Writes tables, checksums, provenance and rows in one transaction, so that a run that is killed at its start
+    /// leaves no incomplete file.
     fn create(
         &mut self,
         mut provenance: BTreeMap<String, String>,
@@ -111,7 +113,7 @@ impl Store {
         transaction.commit()
     }
 
-    /// The commit of the program is recorded, not compared: of several, all are listed.
+    /// Records the commit of the program. It is not compared with earlier ones; if there are several, all are listed.
     fn add_commit(&mut self, commit: &str) -> Result<(), DatabaseError> {
         let mut provenance = self.provenance()?;
         let recorded = provenance.remove("commit").unwrap_or_default();
@@ -133,10 +135,10 @@ impl Store {
         }
     }
 
-    /// Keys and values that say where the rows come from.
+    /// The provenance: keys and values that say where the rows come from.
     ///
     /// # Errors
-    /// [`DatabaseError::Value`] for what is no text, [`DatabaseError::Sqlite`].
+    /// [`DatabaseError::Value`] for a value that is not text, [`DatabaseError::Sqlite`].
     pub fn provenance(&self) -> Result<BTreeMap<String, String>, DatabaseError> {
         let names = ["key", "value"];
         let pairs = self.rows("SELECT key, value FROM provenance", |row, number| {
@@ -146,7 +148,7 @@ impl Store {
         Ok(pairs.into_iter().collect())
     }
 
-    /// The packings stored.
+    /// Indices of the stored packings.
     ///
     /// # Errors
     /// [`DatabaseError::Sqlite`].
@@ -182,7 +184,7 @@ impl Store {
     /// All rows, in plan order.
     ///
     /// # Errors
-    /// [`DatabaseError::Value`] for what is not of its column's kind, [`DatabaseError::Sqlite`].
+    /// [`DatabaseError::Value`] for a value of the wrong kind for its column, [`DatabaseError::Sqlite`].
     pub fn records(&self) -> Result<Vec<Record>, DatabaseError> {
         let names: Vec<&str> = COLUMNS.iter().map(|c| c.0).collect();
         let query = format!("SELECT {} FROM states ORDER BY packing, rowid", names.join(", "));
@@ -193,12 +195,12 @@ impl Store {
         })
     }
 
-    /// Rows in plan order and provenance, and what of them is not what was written.
+    /// Rows in plan order and provenance, and a description of each part that differs from its checksum.
     ///
     /// # Errors
     /// Those of [`Store::records`].
     pub(super) fn inspected(&self) -> Result<(Dataset, Vec<String>), DatabaseError> {
-        // One transaction: a generator may be at work on the file.
+        // Everything is read in one transaction, because a generator may be writing to the file.
         let transaction = self.connection.unchecked_transaction().map_err(|s| sqlite(&self.path, s))?;
         let dataset = Dataset { records: self.records()?, provenance: self.provenance()? };
         let mut damage = checksum::damage(&dataset);
@@ -213,7 +215,7 @@ impl Store {
         Ok((dataset, damage))
     }
 
-    /// Rows in plan order and provenance, which are what was written.
+    /// Rows in plan order and provenance; an error when they differ from their checksums.
     ///
     /// # Errors
     /// [`DatabaseError::Damaged`]; those of [`Store::records`].
@@ -222,7 +224,7 @@ impl Store {
         undamaged(&self.path, dataset, &damage)
     }
 
-    /// The rows of a query, each by `read`, which gets its number from 1.
+    /// The rows of a query, each converted by `read`, which also gets the row's number, counted from 1.
     fn rows<T>(
         &self,
         query: &str,
@@ -248,7 +250,7 @@ impl Store {
     }
 }
 
-/// Table, row from 1, column.
+/// Table, row (counted from 1), column.
 type Place = (&'static str, u64, &'static str);
 
 pub(super) fn sqlite(path: &Path, source: rusqlite::Error) -> DatabaseError {
@@ -272,7 +274,7 @@ fn provenance(plan: &Plan, shard: Shard, commit: &str) -> BTreeMap<String, Strin
     pairs.into_iter().map(|(key, value)| (key.to_string(), value)).collect()
 }
 
-/// The different ones of several lists of commits, sorted.
+/// All different commits of several lists, sorted.
 pub(super) fn join_commits<'a>(lists: impl IntoIterator<Item = &'a str>) -> String {
     let all: BTreeSet<&str> = lists.into_iter().flat_map(|list| list.split(", ")).collect();
     all.into_iter().filter(|commit| !commit.is_empty()).collect::<Vec<_>>().join(", ")

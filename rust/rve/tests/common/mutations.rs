@@ -1,5 +1,5 @@
-//! Mutations of texts and files: the same in every run. MSDD_FUZZ sets their number a reader; a million takes minutes.
-//! Tests of other crates include this file, too.
+//! Random mutations of texts and files for fuzz tests; they are the same in every run. MSDD_FUZZ sets their number per
+//! reader; a million takes minutes. Tests of other crates include this file, too.
 #![allow(dead_code)] // each test uses a part
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -22,7 +22,8 @@ impl Random {
     }
 }
 
-/// What a number or a value may be replaced by: edges of types, of ranges, and of belief. None makes a long plan.
+/// Replacements for a number or a value: limits of number types, of allowed ranges, and implausible values. None of
+/// them makes a plan with so many packings that the test would take long.
 pub const TOKENS: [&str; 33] = [
     "0",
     "-0.0",
@@ -59,7 +60,7 @@ pub const TOKENS: [&str; 33] = [
     "",
 ];
 
-/// Start and end of a number of the text at or after a place of it.
+/// Start and end of the first number in the text at or after a position.
 fn number(text: &[u8], from: usize) -> Option<(usize, usize)> {
     let part = |byte: &u8| byte.is_ascii_digit() || b"+-.eE".contains(byte);
     let start = from + text.get(from..)?.iter().position(u8::is_ascii_digit)?;
@@ -67,7 +68,7 @@ fn number(text: &[u8], from: usize) -> Option<(usize, usize)> {
     Some((start, start + text[start..].iter().take_while(|byte| part(byte)).count()))
 }
 
-/// One to four changes: of a text mostly to its numbers, of other files to bits and runs of bytes.
+/// Makes one to four changes: in a text mostly to its numbers, in other files to bits and runs of bytes.
 pub fn mutated(bytes: &[u8], other: &[u8], is_text: bool, random: &mut Random) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for _ in 0..=random.below(4) {
@@ -97,13 +98,14 @@ pub fn mutated(bytes: &[u8], other: &[u8], is_text: bool, random: &mut Random) -
     bytes
 }
 
-/// How many mutations are tried of a reader that usually gets `usual`.
+/// Number of mutations to try on a reader: that of MSDD_FUZZ, or else `usual`.
 pub fn trials(usual: usize) -> usize {
     std::env::var("MSDD_FUZZ").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
-/// Tries a corpus and mutations of it; `check` says whether an input was accepted, or why it is a finding, as a panic is. The
-/// input of a finding is written to `folder`. Returns how many were accepted.
+/// Tries the inputs of a corpus and mutations of them. `check` returns whether an input was accepted, or an error when
+/// the reader behaved wrongly; a panic counts as wrong, too. An input that a reader handled wrongly is written to
+/// `folder`. Returns how many inputs were accepted.
 pub fn fuzz(
     (name, folder): (&str, &Path),
     corpus: &[Vec<u8>],

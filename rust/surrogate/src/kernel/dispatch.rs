@@ -1,23 +1,23 @@
-//! Work compiled once per instruction set; the widest that the machine has does it.
+//! Runs work in the variant compiled for the widest instruction set of the machine.
 
 use super::vector::{Portable, Vector};
 #[cfg(target_arch = "x86_64")]
 use super::x86;
 use std::sync::atomic::{AtomicU8, Ordering};
 
-/// Work on blocks of cells, written for any type of vector.
+/// Work on blocks of cells, written for any vector type.
 pub trait Task {
-    /// Does the work. To be marked `#[inline(always)]`, as all that it calls with `V`: what is not inlined is not compiled
-    /// for the instruction set.
+    /// Does the work. This method and all functions that it calls with `V` must be `#[inline(always)]`: a function that
+    /// is not inlined would not be compiled for the instruction set.
     fn run<V: Vector>(self);
 }
 
-/// Instruction sets by rank: what [`limit`] allows at most.
+/// Instruction sets in the order of their width.
 const SETS: [&str; 3] = ["scalar", "avx2", "avx512"];
 static ALLOWED: AtomicU8 = AtomicU8::new(SETS.len() as u8 - 1);
 
-/// Makes the kernels of this process use no wider set than this one ("scalar", "avx2", "avx512"): for measurements; the
-/// bits are the same. Unknown names change nothing.
+/// Makes the kernels of this process use no wider set than this one ("scalar", "avx2", "avx512"), for measurements;
+/// results are the same. Unknown names change nothing.
 pub fn limit(set: &str) {
     if let Some(rank) = SETS.iter().position(|known| *known == set) {
         ALLOWED.store(rank as u8, Ordering::Relaxed);
@@ -41,7 +41,7 @@ fn has_avx2() -> bool {
         && ALLOWED.load(Ordering::Relaxed) >= 1
 }
 
-/// Instruction set that the kernels take on this machine: "avx512", "avx2" or "scalar".
+/// Instruction set that the kernels use on this machine: "avx512", "avx2" or "scalar".
 pub fn simd() -> &'static str {
     #[cfg(target_arch = "x86_64")]
     {
@@ -55,7 +55,7 @@ pub fn simd() -> &'static str {
     "scalar"
 }
 
-/// Does the work with the widest vectors that the machine has. The bits are the same with all of them.
+/// Does the work with the widest vectors of the machine. All of them give the same bits.
 #[inline]
 pub fn dispatch<T: Task>(task: T) {
     #[cfg(target_arch = "x86_64")]

@@ -5,7 +5,7 @@ use super::vector::Vector;
 /// ln 2 in two parts; the high one has 21 trailing zero bits, so n · LN2_HIGH is exact for |n| < 2^20.
 const LN2_HIGH: f64 = f64::from_bits(0x3FE6_2E42_FEE0_0000);
 const LN2_LOW: f64 = f64::from_bits(0x3DEA_39EF_3579_3C76);
-/// 1.5 · 2^52: adding it rounds to an integer, which then stands in the low bits.
+/// 1.5 · 2^52: adding this number to another rounds the sum to an integer, which then stands in its low bits.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 /// 1/k! for k = 2 to 13. The next term is below 1.2e-17 of the sum for |r| <= ln 2 / 2.
 const INVERSE_FACTORIALS: [f64; 12] = [
@@ -23,7 +23,7 @@ const INVERSE_FACTORIALS: [f64; 12] = [
     1.0 / 6_227_020_800.0,
 ];
 
-/// Σ r^k / (k + 2)!, in Estrin's order: its short chains of dependent operations halve the time of Horner's.
+/// Σ r^k / (k + 2)! by Estrin's scheme, whose shorter chains of dependent operations take half the time of Horner's.
 #[inline(always)]
 fn series<V: Vector>(r: V) -> V {
     let r2 = r * r;
@@ -38,7 +38,7 @@ fn series<V: Vector>(r: V) -> V {
 /// e^{2|x|} − 1, without branches and without cancellation near zero.
 #[inline(always)]
 fn excess<V: Vector>(x: V) -> V {
-    // tanh rounds to 1 beyond 19.1; the limit keeps e^{2x} and the product of four of them small.
+    // tanh rounds to 1 beyond 19.1; the limit keeps e^{2x} small, and the product of four denominators as well.
     let magnitude = x.abs().at_most(V::all(20.0));
     let doubled = magnitude + magnitude;
     // e^doubled = 2^n e^r with |r| <= ln 2 / 2.
@@ -51,10 +51,10 @@ fn excess<V: Vector>(x: V) -> V {
     power.fused(small, power - V::all(1.0))
 }
 
-/// tanh x = (e^{2|x|} − 1) / (e^{2|x|} + 1) with the sign of x, of N neurons; 4 units in the last place off at most.
-/// Four neurons share one division by the product of their denominators, the division being the slowest of the operations;
-/// they are 8 units off at most. libm's tanh is not vectorised, differs between systems, and may raise floating-point
-/// exceptions.
+/// tanh x = (e^{2|x|} − 1) / (e^{2|x|} + 1) with the sign of x, for N neurons. Division is the slowest operation, so
+/// four neurons share one division by the product of their denominators. The error is at most 4 units in the last
+/// place, 8 with a shared division. libm's tanh is not used because it is not vectorised, differs between systems, and
+/// may raise floating-point exceptions.
 #[inline(always)]
 pub(super) fn tanh<V: Vector, const N: usize>(neurons: &mut [V; N]) {
     let mut numerators = *neurons;
@@ -103,7 +103,8 @@ mod tests {
         })
     }
 
-    /// Distance in half units in the last place of the largest number of the binade of `b`.
+    /// Distance in half units in the last place, for numbers as large as the largest between the same powers of two as
+    /// `b`.
     fn half_units(a: f64, b: f64) -> f64 {
         (a - b).abs() / (b.abs().max(f64::MIN_POSITIVE) * f64::EPSILON / 2.0)
     }
@@ -114,7 +115,7 @@ mod tests {
         for i in -40_000..=40_000 {
             for x in [f64::from(i) * 5.3e-4, f64::from(i) * 1e-12] {
                 alone = alone.max(half_units(of([x])[0], x.tanh()));
-                // Neurons of very different size share a division.
+                // Neurons of very different magnitude share a division.
                 let four = [x, 1.7 - x, 400.0 * x, 1e-9 - 0.3 * x];
                 let errors = four.iter().zip(of(four)).map(|(x, value)| half_units(value, x.tanh()));
                 shared = errors.fold(shared, f64::max);

@@ -5,9 +5,9 @@ use super::elementary;
 use super::vector::{Lanes, Vector};
 use std::mem::MaybeUninit;
 
-/// Most inputs, neurons of a hidden layer, or outputs.
+/// Largest number of inputs, neurons of a hidden layer, or outputs.
 pub const WIDTH: usize = 16;
-/// Inputs, two hidden layers, outputs.
+/// Largest number of layers: inputs, two hidden layers, outputs.
 pub const MAX_LAYERS: usize = 4;
 
 /// Values of all neurons of a block of cells, layer by layer; the inputs are layer 0.
@@ -26,12 +26,12 @@ impl Task for Forward<'_> {
     }
 }
 
-/// Runs a [`crate::perceptron::Perceptron`] on the inputs in layer 0; leaves all neurons' values.
+/// Runs a [`crate::perceptron::Perceptron`] on the inputs in layer 0; `layers` then holds the values of all neurons.
 pub fn forward(sizes: &[usize], weights: &[f64], layers: &mut LayerValues) {
     dispatch(Forward { sizes, weights, layers });
 }
 
-/// As [`forward`], for callers that are compiled per instruction set themselves.
+/// As [`forward`], for callers that are themselves compiled per instruction set.
 #[inline(always)]
 pub fn all_layers<V: Vector>(sizes: &[usize], weights: &[f64], layers: &mut LayerValues) {
     let mut rest = weights;
@@ -45,7 +45,8 @@ pub fn all_layers<V: Vector>(sizes: &[usize], weights: &[f64], layers: &mut Laye
     }
 }
 
-/// Room for the values of all layers but the inputs. Clearing it would cost as much as a layer, hence the type.
+/// Memory for the values of all layers except the inputs. It is uninitialised, because clearing it would cost as much
+/// as a layer.
 pub type Buffers = [[MaybeUninit<Lanes>; WIDTH]; MAX_LAYERS - 1];
 
 /// Buffers for [`outputs`].
@@ -54,7 +55,7 @@ pub fn buffers() -> Buffers {
     [[MaybeUninit::uninit(); WIDTH]; MAX_LAYERS - 1]
 }
 
-/// The outputs of a [`crate::perceptron::Perceptron`], for callers that are compiled per instruction set themselves.
+/// The outputs of a [`crate::perceptron::Perceptron`], for callers that are themselves compiled per instruction set.
 #[inline(always)]
 pub fn outputs<'a, V: Vector>(
     sizes: &[usize],
@@ -71,8 +72,9 @@ pub fn outputs<'a, V: Vector>(
     values
 }
 
-/// One layer; all of `values` is written. `weights`: per neuron those of the neurons before, then its bias. Four neurons at
-/// a time: their chains of additions and tanh overlap in the pipeline.
+/// Computes one layer and writes all of `values`. `weights` holds for each neuron the weights of the neurons of the
+/// layer before, then its bias. Four neurons are computed at a time, so that their chains of additions and tanh overlap
+/// in the pipeline.
 #[inline(always)]
 fn layer_of<'a, V: Vector>(
     weights: &[f64],
@@ -94,11 +96,12 @@ fn layer_of<'a, V: Vector>(
     if let [last] = last {
         neurons_of::<V, 1>(std::array::from_mut(last), last_row, before, hidden);
     }
-    // SAFETY: fours, twos and the last are all of them, and `neurons_of` wrote each; the layout is the same.
+    // SAFETY: groups of four, of two and the last neuron cover all of them, and `neurons_of` has written each; the
+    // layout is the same.
     unsafe { &*(std::ptr::from_ref(values) as *const [Lanes]) }
 }
 
-/// N neurons of one layer, which depend on each other in nothing; all of `values` is written.
+/// Computes N independent neurons of one layer and writes all of `values`.
 #[inline(always)]
 fn neurons_of<V: Vector, const N: usize>(
     values: &mut [MaybeUninit<Lanes>; N],
@@ -126,15 +129,15 @@ fn neurons_of<V: Vector, const N: usize>(
     }
 }
 
-/// One layer into values that are there already, for callers that are compiled per instruction set themselves.
+/// Computes one layer into initialised memory, for callers that are themselves compiled per instruction set.
 #[inline(always)]
 pub fn layer<V: Vector>(weights: &[f64], before: &[Lanes], values: &mut [Lanes], hidden: bool) {
     layer_of::<V>(weights, before, over(values), hidden);
 }
 
-/// Values that are there, as a place for new ones.
+/// Initialised values, viewed as memory for new ones.
 #[inline(always)]
 fn over(values: &mut [Lanes]) -> &mut [MaybeUninit<Lanes>] {
-    // SAFETY: the same layout, and in this module nothing but whole values is written to it.
+    // SAFETY: the layout is the same, and this module writes only whole values to it.
     unsafe { &mut *(std::ptr::from_mut(values) as *mut [MaybeUninit<Lanes>]) }
 }

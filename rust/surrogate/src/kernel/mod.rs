@@ -1,10 +1,10 @@
 //! The networks' arithmetic in blocks of cells, compiled once per instruction set.
 //!
-//! Every operation acts on each lane alone and in one fixed order, and a multiplication is fused with an addition exactly
-//! where it is written so: all instruction sets give the same bits, and a cell's answer does not depend on its neighbours.
-//! A processor without fused multiply-add (x86-64 before 2013) gets them from the mathematical library, slowly.
-//! No operation raises invalid, divide-by-zero or overflow for finite inputs and weights up to
-//! [`WEIGHT_LIMIT`](crate::network::WEIGHT_LIMIT).
+//! Every operation acts on each lane separately and in one fixed order, and multiplications are fused with additions
+//! exactly where the source says so. So all instruction sets give the same bits, and a cell's answer does not depend on
+//! the other cells of its block. On a processor without fused multiply-add (x86-64 before 2013) the mathematical
+//! library does it, slowly. No operation raises the floating-point exceptions invalid, divide-by-zero or overflow for
+//! finite inputs and weights up to [`WEIGHT_LIMIT`](crate::network::WEIGHT_LIMIT).
 #![allow(unsafe_code)] // calls of functions compiled for an instruction set, and buffers without values
 
 mod dispatch;

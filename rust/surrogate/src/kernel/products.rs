@@ -1,4 +1,4 @@
-//! Sums of outer products, of which normal equations are made.
+//! Sums of outer products, from which normal equations are formed.
 
 use super::dispatch::{Task, dispatch};
 use super::vector::{LANES, Vector};
@@ -16,13 +16,13 @@ impl Task for OuterProducts<'_> {
     }
 }
 
-/// Adds Σ_rows row ⊗ row to the lower triangle of `matrix`, `width` × `width`, row by row; `width` is a multiple of 16. Every
-/// sum runs in one fixed order: the same bits with every instruction set.
+/// Adds Σ_rows row ⊗ row to the lower triangle of `matrix`, `width` × `width`, stored by rows; `width` is a multiple of
+/// 16. Each sum runs in one fixed order and so has the same bits with every instruction set.
 pub fn add_outer_products(rows: &[f64], width: usize, matrix: &mut [f64]) {
     dispatch(OuterProducts { rows, width, matrix });
 }
 
-/// Rows of a register tile; its columns are one vector's.
+/// Rows of the part of the matrix that is kept in registers; it is one vector wide.
 const TILE: usize = 4;
 
 #[inline(always)]

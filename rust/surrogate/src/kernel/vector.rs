@@ -3,20 +3,21 @@
 use std::mem::MaybeUninit;
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Cells in a block: two AVX-512 registers of f64, whose chains of dependent operations overlap.
+/// Cells in a block. They fill two AVX-512 registers of f64, so that the chains of dependent operations of the two
+/// overlap.
 pub const LANES: usize = 16;
 
 /// One quantity of a block of cells.
 pub type Lanes = [f64; LANES];
 
-/// One quantity of a block of cells in registers. Every operation acts on each lane alone, rounds as IEEE 754 says, and gives
-/// the same bits in all implementations.
+/// One quantity of a block of cells in registers. Every operation acts on each lane separately, rounds as IEEE 754
+/// prescribes, and gives the same bits in all implementations.
 pub trait Vector:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     fn read(lanes: &Lanes) -> Self;
     fn write(self, lanes: &mut Lanes);
-    /// As [`Vector::write`], to a place without a value.
+    /// As [`Vector::write`], to uninitialised memory.
     fn write_new(self, lanes: &mut MaybeUninit<Lanes>);
     /// The same value in all lanes.
     fn all(value: f64) -> Self;
@@ -29,7 +30,7 @@ pub trait Vector:
     fn at_least(self, other: Self) -> Self;
     /// The smaller one; `other` when they are equal.
     fn at_most(self, other: Self) -> Self;
-    /// 2^n of an integer n in the low bits of the number's pattern.
+    /// 2^n, where the integer n stands in the low bits of the number's bit pattern.
     fn power_of_low_bits(self) -> Self;
     /// `this` where `self` > `than`, `other` elsewhere.
     fn where_greater(self, than: Self, this: Self, other: Self) -> Self;
@@ -39,14 +40,14 @@ pub trait Vector:
         Self::all(0.0)
     }
 
-    /// Within [low, high].
+    /// The value limited to [low, high].
     #[inline(always)]
     fn within(self, low: Self, high: Self) -> Self {
         self.at_least(low).at_most(high)
     }
 }
 
-/// Any machine's.
+/// The implementation for any machine.
 #[derive(Clone, Copy)]
 pub struct Portable(Lanes);
 

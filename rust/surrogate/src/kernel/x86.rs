@@ -1,7 +1,7 @@
 //! Sixteen lanes in x86-64 registers: two of AVX-512, four of AVX2.
 //!
-//! The types are this module's and [`super::dispatch`]'s alone, and named there only inside functions that are compiled for
-//! their instruction set and called where the machine has it: that is what makes the intrinsics below sound.
+//! Only this module and [`super::dispatch`] use these types, and `dispatch` only inside functions that are compiled for
+//! the instruction set and called on machines that have it. This makes the intrinsics below sound.
 #![allow(unsafe_code)]
 
 use super::vector::{LANES, Lanes, Vector};

@@ -1,7 +1,9 @@
-//! Fit of the rates to what they are judged by: composed increments along whole ramps, beside single large steps.
+//! Fit of the rates to composed increments along whole ramps, which is how a solver uses them, together with single
+//! large steps.
 //!
-//! Small steps from a packed state are the stiffest part of the data, and single steps alone would make them the rule
-//! for every small step: the composed deviator then drifts. So the residuals are of both kinds.
+//! With single steps alone, small steps would be learnt only from those near the packed states, where the response is
+//! stiffest, and the fit would apply that to every small step: the composed deviator then drifts. So residuals of both
+//! kinds are used.
 
 use super::fit::PerceptronFit;
 use super::pairs::{self, Track};
@@ -13,7 +15,7 @@ use crate::perceptron::{Neurons, Perceptron, WIDTH};
 use crate::surrogate::{MAX_STATE, StateLanes, VIRGIN};
 use nalgebra::DVector;
 
-/// Single steps and tracks together.
+/// The residuals of single steps and of tracks (whole ramps in increments) together.
 pub struct RatesFit<'a> {
     pub single: PerceptronFit,
     pub tracks: Vec<Track>,
@@ -22,7 +24,7 @@ pub struct RatesFit<'a> {
     pub rates: &'a Rates,
 }
 
-/// State perturbation of the forward differences; the state's variables are of order 0.1.
+/// Perturbation of the state for forward differences; the state's variables are of order 0.1.
 const PERTURBATION: f64 = 1e-7;
 
 impl RatesFit<'_> {
@@ -32,7 +34,8 @@ impl RatesFit<'_> {
         Rates { network, ..self.rates.clone() }
     }
 
-    /// Follows a track; `row` gets each residual, and its gradient by the weights when asked for.
+    /// Follows a track in increments; calls `row` with each residual and, when `gradient` is set, its gradient with
+    /// respect to the weights.
     fn follow(&self, rates: &Rates, track: &Track, gradient: bool, mut row: impl FnMut(f64, &[f64])) {
         let (names, weights) = (self.variables.names().len(), rates.network.weights.len());
         let mut sensitivity = vec![vec![0.0; if gradient { weights } else { 0 }]; names];
@@ -56,7 +59,7 @@ impl RatesFit<'_> {
         }
     }
 
-    /// One increment of one state, and of its sensitivity to the weights: S' = (∂x'/∂x) S + ∂x'/∂w.
+    /// Advances one state by one increment, and also its sensitivity S to the weights w: S' = (∂x'/∂x) S + ∂x'/∂w.
     fn step(
         &self,
         rates: &Rates,
@@ -65,11 +68,12 @@ impl RatesFit<'_> {
         neurons: &mut Neurons,
         sensitivity: Option<&mut Vec<Vec<f64>>>,
     ) -> [f64; MAX_STATE] {
-        // Lane 0 is the state itself; the others are perturbed in one variable each.
+        // Lane 0 holds the state itself; each other lane is perturbed in one variable.
         let lanes: StateLanes = std::array::from_fn(|column| {
             std::array::from_fn(|lane| state[column] + if lane == column + 1 { PERTURBATION } else { 0.0 })
         });
-        // Features of zero strain: the rate in the limit of many increments. The single steps teach the large ones.
+        // The features are those of zero strain: the rate in the limit of many increments. How large strains differ is
+        // learnt from the single steps.
         let features = &self.ranges.features(self.variables, &lanes, &[0.0; LANES]);
         let (variables, strain_lanes) = (self.variables, [strain; LANES]);
         let from = RateInputs { variables, state: &lanes, strain: &strain_lanes, virgin: &VIRGIN, features };
@@ -158,7 +162,7 @@ mod tests {
     fn gradient_along_tracks_is_that_of_the_mean_square() {
         let (variables, kind) = (Variables::ALL, ConductivityKind::Affine);
         let mut ramps = dataset::ramps(&synthetic::rows(8, 4)).expect("good rows");
-        // Away from unjamming, where the state has a kink.
+        // Only ramps away from unjamming, where the derivative of the state is discontinuous.
         ramps.retain(|ramp| ramp.states.iter().all(|row| row.stress_xx + row.stress_yy > 0.02));
         assert!(ramps.len() > 6);
         let pairs = pairs::pairs(variables, kind, &ramps);

@@ -1,4 +1,4 @@
-//! What of a state model answers queries: a block of cells at a time.
+//! The part of a state model that answers queries, a block of cells at a time.
 
 use super::rates::{RateInputs, Rates};
 use super::readout::Readout;
@@ -7,15 +7,15 @@ use crate::kernel::vector::Vector;
 use crate::kernel::{self, LANES, Lanes, Task, dispatch};
 use crate::surrogate::{Answer, StateLanes, VIRGIN};
 
-/// The part that answers queries.
+/// The part of a state model that answers queries: variables, rates and readouts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Core {
     pub variables: Variables,
     pub ranges: FeatureRanges,
     pub rates: Rates,
-    /// One for each kind of conductivity in the database; the first is the default.
+    /// One readout for each kind of conductivity in the database; the first is the default.
     pub readouts: Vec<Readout>,
-    /// Which of them answers.
+    /// Index of the readout that answers.
     pub active: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The file of a state model: JSON, versioned, exact to the last bit of every number.
+//! The file of a state model: JSON with a version; every number is kept to the last bit.
 
 use super::core::Core;
 use super::mean::MeanState;
@@ -18,7 +18,7 @@ use crate::solid_fraction::SolidFraction;
 use crate::wall_friction::WallFriction;
 use serde::{Deserialize, Serialize};
 
-/// Raise the number when a reader of the old schema would misread the new.
+/// Name of the schema. Its number is increased when a reader of the old schema would misread the new one.
 pub const SCHEMA: &str = "msdd-state-model-1";
 
 #[derive(Serialize, Deserialize)]
@@ -29,7 +29,7 @@ struct File {
     variables: Variables,
     ranges: FeatureRanges,
     rates: Rates,
-    /// The first answers.
+    /// The first is the one that answers.
     readouts: Vec<Readout>,
     mean_state: MeanState,
     region: Region,
@@ -159,7 +159,7 @@ impl File {
         self.check_laws()
     }
 
-    /// What is fitted beside the networks: sound numbers, so that they give sound answers.
+    /// Checks the laws that are fitted beside the networks: their numbers must be such that the answers are valid.
     fn check_laws(&self) -> Result<(), SurrogateError> {
         let (mean, spread) = (&self.mean_state, &self.spread);
         for (key, Range { min, max }) in

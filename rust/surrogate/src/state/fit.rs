@@ -1,37 +1,39 @@
-//! Fit of a network whose residuals are linear in its outputs. JᵀJ grows batch by batch; J as a whole never exists.
+//! Fit of a network whose residuals are linear in its outputs. JᵀJ is summed up batch by batch; the whole Jacobian J is
+//! never stored.
 
 use crate::kernel::{LANES, Lanes, add_outer_products};
 use crate::levenberg_marquardt::{LeastSquares, NormalEquations};
 use crate::perceptron::{Neurons, Perceptron, WIDTH};
 use nalgebra::{DMatrix, DVector};
 
-/// Coefficients of a residual at most.
+/// Largest number of coefficients of a residual.
 pub const TERMS: usize = 4;
 
-/// One residual: max(Σ c_o y_o, floor) − target, the o from `first` on. Weights are in c, floor and target.
+/// One residual: max(Σ c_o y_o, floor) − target, where o counts from `first`. Its weight is a factor in c, floor and
+/// target.
 #[derive(Clone, Copy, Debug)]
 pub struct Residual {
     pub first: usize,
     pub coefficients: [f64; TERMS],
-    /// Below it the prediction is cut off, as p̃ at zero.
+    /// Lower limit of the prediction, as p̃ has at zero.
     pub floor: f64,
     pub target: f64,
 }
 
-/// A sample's scaled inputs and its residuals.
+/// Scaled inputs of a sample, and its residuals.
 #[derive(Clone, Debug)]
 pub struct Sample {
     pub inputs: Vec<f64>,
     pub residuals: Vec<Residual>,
 }
 
-/// Samples of a block: scaled inputs, and residuals with their lanes.
+/// Samples of a block: scaled inputs, and the residuals with the lane each belongs to.
 struct Block {
     inputs: Vec<Lanes>,
     residuals: Vec<(usize, Residual)>,
 }
 
-/// The fit of one network to samples.
+/// The fit of one network to samples as a least-squares problem.
 pub struct PerceptronFit {
     sizes: Vec<usize>,
     blocks: Vec<Block>,
@@ -39,9 +41,10 @@ pub struct PerceptronFit {
     threads: usize,
 }
 
-/// Sums are formed per part and added in order, so that the thread count does not change the bits.
+/// Sums are formed separately for this many parts and added in order, so that the number of threads does not change the
+/// bits.
 const PARTS: usize = 8;
-/// Rows of J held at a time.
+/// Number of rows of J that are stored at a time.
 const BATCH: usize = 128;
 
 impl PerceptronFit {
@@ -62,7 +65,7 @@ impl PerceptronFit {
         Perceptron { sizes: self.sizes.clone(), weights: parameters.as_slice().to_vec() }
     }
 
-    /// Width of a row of J with its residual behind, padded for the kernel.
+    /// Width of a row of J followed by its residual, padded for the kernel.
     pub(super) fn width(weights: usize) -> usize {
         (weights + 1).next_multiple_of(LANES)
     }
@@ -82,7 +85,7 @@ impl PerceptronFit {
         sum
     }
 
-    /// Means over `count` residuals from the products.
+    /// Normal equations as means over `count` residuals, from the summed products.
     pub(super) fn equations(products: &[f64], weights: usize, count: f64) -> NormalEquations {
         let width = Self::width(weights);
         let entry = |i: usize, j: usize| products[i * width + j] / count;
@@ -138,7 +141,7 @@ impl PerceptronFit {
         matrix
     }
 
-    /// The parts' results, in order.
+    /// Does `work` on each part; returns the results in order.
     fn by_part<T: Send>(&self, work: impl Fn(&[Block]) -> T + Sync) -> Vec<T> {
         let length = self.blocks.len().div_ceil(PARTS).max(1);
         let parts: Vec<_> = self.blocks.chunks(length).collect();
@@ -178,7 +181,7 @@ impl LeastSquares for PerceptronFit {
     }
 }
 
-/// Residual of one output.
+/// A residual without a lower limit of the prediction.
 pub fn residual(first: usize, coefficients: [f64; TERMS], target: f64) -> Residual {
     Residual { first, coefficients, floor: f64::NEG_INFINITY, target }
 }

@@ -1,4 +1,5 @@
-//! The mean packed state of a porosity and fabric index: what is assumed when the stress at the start is not known.
+//! The mean packed state as a function of porosity and fabric index, which is assumed when the stress at the start is
+//! not known.
 
 use super::variables::{FABRIC_INDEX, POROSITY, PRESSURE, Point, stress_ratio};
 use crate::least_squares;
@@ -9,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeanState {
-    /// Porosities of the fit; others are clamped to it.
+    /// Range of porosities of the fit; others are clamped to it.
     pub porosity: Range,
     /// p̃ = Σ c_i η^i.
     pub pressure: [f64; 4],
@@ -25,7 +26,7 @@ pub struct MeanState {
     pub residuals: [f64; 3],
 }
 
-/// What is missing beside η and f.
+/// The quantities of the state besides η and f.
 pub struct Filled {
     pub pressure: f64,
     pub deviator: f64,
@@ -36,7 +37,7 @@ pub struct Filled {
 const RATIO_LIMIT: f64 = 0.5;
 
 impl MeanState {
-    /// Fit to packed states.
+    /// Fits the laws to packed states.
     pub fn fit(points: &[Point]) -> Self {
         let jammed: Vec<&Point> = points.iter().filter(|p| p.jammed).collect();
         let eta = |p: &Point| p.state[POROSITY];
@@ -73,7 +74,7 @@ impl MeanState {
         mean
     }
 
-    /// p̃, q̃ and f_K of a cell of which η and f are known, and perhaps f_K or the reduced stress (p̃, q̃).
+    /// p̃, q̃ and f_K of a cell from η and f, and from f_K or the reduced stress (p̃, q̃) where these are known.
     pub fn filled(&self, eta: f64, f: f64, fabric: Option<f64>, stress: Option<[f64; 2]>) -> Filled {
         let eta = self.porosity.clamp(eta);
         let [pressure, deviator] = stress.unwrap_or_else(|| {

@@ -1,25 +1,25 @@
 //! The default model: all variables of the state, the stress among them, advance as ε · g(state, ε); conductivity is
 //! read from the state.
 //!
-//! Under a turn by 90° the porosity η and the pressure p̃ keep their sign (even), while the fabric index f, the
-//! conductivity's f_K and the stress deviator q̃ change it (odd). A network that sees even features alone gives the
-//! rates of the even variables, and coefficients that multiply the odd ones to give the rates of the odd variables: so
-//! the symmetry is exact, to the bit.
+//! Under a turn by 90° the porosity η and the pressure p̃ do not change ("even" variables), while the fabric index f,
+//! the anisotropy f_K of the conductivity and the stress deviator q̃ change their sign ("odd" variables). The network
+//! gets only features that are even. Its outputs are the rates of the even variables, and coefficients by which the odd
+//! variables are multiplied to give the rates of the odd variables. So the symmetry holds exactly, to the last bit.
 //!
 //! | module | what |
 //! |---|---|
-//! | [`variables`] | which variables the state has, their features and scales |
+//! | [`variables`] | variables of the state, their features and scales |
 //! | [`rates`] | advance of the state |
-//! | [`readout`] | conductivity, and odd quantities that the state does not carry |
+//! | [`readout`] | conductivity from the state, and odd quantities that the state does not contain |
 //! | [`composed_fit`] | fit of the rates to composed increments |
-//! | [`pairs`] | pairs of stops and states as samples |
+//! | [`pairs`] | samples from pairs of stops and from single states |
 //! | [`fit`] | fit of a network as a least-squares problem |
-//! | [`mean`] | the mean state, when the stress at the start is not known |
-//! | [`core`](mod@core) | what of the trained model answers queries |
-//! | [`provenance`] | how it was trained, and how that went |
+//! | [`mean`] | the mean packed state, for a start at which the stress is not known |
+//! | [`core`](mod@core) | the part of the trained model that answers queries |
+//! | [`provenance`] | training options and report |
 //! | [`model`] | the trained model |
 //! | [`file`] | its file |
-//! | [`training`] | the whole training |
+//! | [`training`] | the complete training |
 
 pub mod composed_fit;
 pub mod core;

@@ -13,7 +13,7 @@ use crate::solid_fraction::SolidFraction;
 use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
 use crate::wall_friction::WallFriction;
 
-/// State model; see [`super`].
+/// A trained state model; the module [`super`] explains it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateModel {
     pub core: Core,
@@ -29,7 +29,7 @@ pub struct StateModel {
 }
 
 impl StateModel {
-    /// The same model that answers with another kind of conductivity; `None` when it was not trained.
+    /// The same model, answering with another kind of conductivity; `None` when it was not trained for that.
     pub fn with_conductivity(mut self, kind: ConductivityKind) -> Option<Self> {
         self.core.active = self.core.readouts.iter().position(|readout| readout.kind == kind)?;
         Some(self)
@@ -174,7 +174,7 @@ mod tests {
         train(&synthetic::rows(12, 4), &Mechanical::default(), &options).expect("good rows")
     }
 
-    /// Eight states: inside, at the edges, and far outside of what grains can have.
+    /// A block of states: inside the trained range, at its edges, and far outside of what grains can have.
     fn wild(random: &mut ChaCha8Rng) -> (StateLanes, Lanes) {
         let mut unit = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         let scale = [1.0, 10.0, 1e3, 1e12][(4.0 * unit()) as usize];
@@ -186,7 +186,7 @@ mod tests {
         let mut strain = signed(0.1 * scale.min(9.0));
         state[PRESSURE][0] = 0.0;
         state[PRESSURE][1] = f64::MIN_POSITIVE;
-        // Column 4 is the deviator.
+        // Column 4 of the state is the deviator.
         (state[PRESSURE][3], state[4][3]) = (-1e196, f64::MAX);
         strain[2] = 0.0;
         (state, strain)
@@ -209,12 +209,12 @@ mod tests {
         }
     }
 
-    /// Flags of invalid, divide-by-zero and overflow that the arithmetic since the last call has raised.
+    /// The floating-point flags invalid, divide-by-zero and overflow that were raised since the last call.
     #[cfg(target_arch = "x86_64")]
     #[allow(unsafe_code)]
     fn raised() -> u32 {
         let (mut flags, mut cleared) = (0u32, 0u32);
-        // SAFETY: stores and loads the thread's control register; of its bits only the sticky flags change.
+        // SAFETY: stores and loads the thread's control register; only its status flags change.
         unsafe {
             std::arch::asm!("stmxcsr [{}]", in(reg) &mut flags);
             cleared |= flags & !0b11_1111;
@@ -254,7 +254,7 @@ mod tests {
             let mut back = other.state;
             model.core.variables.odd().for_each(|k| back[k] = back[k].map(|v| -v));
             assert_eq!(back, answer.state);
-            // An allowed state stays as it is.
+            // A state that the model allows is not changed by zero strain.
             assert_eq!(model.block(&answer.state, &[0.0; LANES]).state, answer.state);
         }
     }
@@ -317,7 +317,7 @@ mod tests {
         assert!(again.stress[0][0] > 0.01 && again.conductivity[0][0] > 0.05, "{:?}", again.stress);
     }
 
-    /// Ten cycles of ±2 % as in case `cycle`: what virgin strains do is done in the first.
+    /// Ten cycles of ±2 % as in case `cycle`: changes that only virgin strains cause happen in the first cycle alone.
     #[test]
     fn cycles_leave_the_fabric_as_the_first_one_did() {
         let model = crate::models::builtin(crate::models::BUILTIN).expect("sound");

@@ -1,4 +1,5 @@
-//! Pairs of stops as samples of the rates' fit, states as samples of the readout's, and the composed error.
+//! Samples for the fits: pairs of stops for the rates, single states for the readout, and whole ramps for the composed
+//! error.
 
 use super::fit::{Residual, Sample, TERMS, residual};
 use super::rates::{self, EVEN_OUTPUTS, Rates, direction};
@@ -10,7 +11,7 @@ use crate::kernel::LANES;
 use crate::perceptron::Perceptron;
 use crate::surrogate::MAX_STATE;
 
-/// Two stops of a ramp, the later one after the strain.
+/// Two stops of a ramp, and the strain from the first to the second.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
     pub from: Point,
@@ -24,19 +25,19 @@ impl Pair {
     }
 }
 
-/// All states of some ramps.
+/// All states of the ramps in the variables of the model.
 pub fn points(variables: Variables, kind: ConductivityKind, ramps: &[Ramp]) -> Vec<Point> {
     let states = ramps.iter().flat_map(|ramp| &ramp.states);
     states.filter_map(|row| Point::new(variables, kind, row)).collect()
 }
 
-/// The packed states, each once.
+/// The packed states, each only once.
 pub fn packed_points(variables: Variables, kind: ConductivityKind, ramps: &[Ramp]) -> Vec<Point> {
     let packed = ramps.iter().filter(|ramp| ramp.name == "up").flat_map(|ramp| &ramp.states);
     packed.filter(|row| row.stop == 0).filter_map(|row| Point::new(variables, kind, row)).collect()
 }
 
-/// Every pair of stops in the order of the ramp whose strains differ.
+/// Every pair of stops of a ramp, in its order, whose strains differ.
 pub fn pairs(variables: Variables, kind: ConductivityKind, ramps: &[Ramp]) -> Vec<Pair> {
     let mut pairs = Vec::new();
     for ramp in ramps {
@@ -57,10 +58,11 @@ pub fn pairs(variables: Variables, kind: ConductivityKind, ramps: &[Ramp]) -> Ve
 /// Relative weights, or Δσ survives while p → 0.
 const WEIGHT_POROSITY: f64 = 10.0;
 const WEIGHT_FABRIC_INDEX: f64 = 0.5;
-/// Added to p̃ in relative errors: below it, the error counts absolutely. That of the loosest packings' p̃.
+/// Added to p̃ in relative errors, so that for much smaller pressures the error counts absolutely. It is about p̃ of
+/// the loosest packings.
 const PRESSURE_SCALE: f64 = 0.01;
 
-/// Rates without a trained network: scales from the data.
+/// Rates whose network is not trained yet, with scales from the data.
 pub fn blank_rates(variables: Variables, hidden: &[usize], pairs: &[Pair], ramps: &[Ramp]) -> Rates {
     let sizes = rates::sizes(variables, hidden);
     let network = Perceptron { weights: vec![0.0; crate::perceptron::weight_count(&sizes)], sizes };
@@ -68,7 +70,7 @@ pub fn blank_rates(variables: Variables, hidden: &[usize], pairs: &[Pair], ramps
     let jammed = || pairs.iter().filter(|pair| pair.jammed());
     for column in 0..variables.names().len() {
         let rate = |pair: &Pair| (pair.to.state[column] - pair.from.state[column]) / pair.strain;
-        // Weighted with the strain, since small strains are full of noise.
+        // Weighted with the strain, since small strains have much noise.
         let mean = |value: &dyn Fn(&Pair) -> f64| {
             let sum = jammed().map(|p| p.strain.abs() * value(p)).fold(0.0, |a, b| a + b);
             sum / jammed().map(|p| p.strain.abs()).fold(f64::MIN_POSITIVE, |a, b| a + b)
@@ -82,8 +84,8 @@ pub fn blank_rates(variables: Variables, hidden: &[usize], pairs: &[Pair], ramps
     Rates { network, offset, scale, unjamming_porosity: unjamming_porosity(ramps) }
 }
 
-/// Mean porosity at which contraction takes the last stress away, extrapolated from the last jammed stops; 1 when no
-/// ramp gets that far.
+/// Mean porosity at which contraction removes the last stress, extrapolated from the last jammed stops; 1 when no ramp
+/// reaches that.
 fn unjamming_porosity(ramps: &[Ramp]) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for ramp in ramps {
@@ -123,8 +125,8 @@ fn rate_sample(
     let features = ranges.features(variables, &state, &[pair.strain; LANES]);
     let inputs = features.even.map(|lanes| lanes[0]).to_vec();
     let delta = |column: usize| pair.to.state[column] - pair.from.state[column];
-    // The error per √|ε|: between the error of the increment, in which large strains rule, and that of the rate, in
-    // which the noise of small ones does.
+    // The error is divided by √|ε|: between the error of the increment, in which large strains would dominate, and the
+    // error of the rate, in which the noise of small strains would dominate.
     let share = (largest_strain / pair.strain.abs()).sqrt();
     let relative = share / (pair.to.state[PRESSURE] + PRESSURE_SCALE);
     let even = |output: usize, column: usize, weight: f64| {
@@ -154,10 +156,10 @@ fn rate_sample(
     Sample { inputs, residuals }
 }
 
-/// Offset and scale of the readout's h = √(K/(k √p̃)), which lies between 1 and 1.3.
+/// Offset and scale of h = √(K/(k √p̃)), the output of the readout, which lies between 1 and 1.3.
 pub const READOUT_SCALES: (f64, f64) = (1.1, 0.2);
 
-/// Samples of the readout's fit: jammed states, errors of K relative.
+/// Samples of the readout's fit: jammed states, with relative errors of K.
 pub fn readout_samples(
     variables: Variables,
     carried: bool,
@@ -188,21 +190,21 @@ fn readout_sample(variables: Variables, carried: bool, ranges: &FeatureRanges, p
     Sample { inputs, residuals }
 }
 
-/// A ramp as a solver meets it: a start, and stops one after the other.
+/// A ramp as a solver would follow it: a start, and stops one after the other.
 #[derive(Clone, Debug)]
 pub struct Track {
     pub start: [f64; MAX_STATE],
     pub stops: Vec<Stop>,
 }
 
-/// A stop of a track and the strain from the one before.
+/// A stop of a track and the strain from the stop before.
 #[derive(Clone, Copy, Debug)]
 pub struct Stop {
     pub to: Point,
     pub strain: f64,
 }
 
-/// Largest increment on a track: smaller ones do not change the composed error.
+/// Largest increment on a track; smaller ones would not change the composed error.
 const LARGEST_INCREMENT: f64 = 0.0025;
 
 impl Stop {
@@ -213,7 +215,7 @@ impl Stop {
     }
 }
 
-/// Each ramp from its start and from its middle, up to the first stop without stress.
+/// Tracks along each ramp, both from its start and from its middle, up to the first stop without stress.
 pub fn tracks(variables: Variables, kind: ConductivityKind, ramps: &[Ramp]) -> Vec<Track> {
     let track = |ramp: &Ramp, first: usize| {
         let start = Point::new(variables, kind, ramp.states.get(first)?)?;
@@ -231,7 +233,7 @@ pub fn tracks(variables: Variables, kind: ConductivityKind, ramps: &[Ramp]) -> V
     ramps.iter().flat_map(|ramp| firsts(ramp).into_iter().filter_map(move |f| track(ramp, f))).collect()
 }
 
-/// Weight of the error of a column at the end of a path.
+/// Weight of the error of a state column at the end of a path.
 pub fn end_weight(variables: Variables, column: usize, end: &Point) -> f64 {
     let relative = 1.0 / (end.state[PRESSURE] + PRESSURE_SCALE);
     match column {

@@ -1,4 +1,4 @@
-//! How a state model is trained, and how that went.
+//! Options of the training of a state model, and its report.
 
 use super::variables::Variables;
 use crate::SurrogateError;
@@ -9,15 +9,15 @@ use crate::perceptron::shape_is_sound;
 use crate::report::Parts;
 use serde::{Deserialize, Serialize};
 
-/// How to train a state model.
+/// Options of the training of a state model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StateOptions {
     pub common: TrainingOptions,
     pub variables: Variables,
-    /// Neurons of the hidden layers of the rates' network, one or two layers.
+    /// Neurons of the hidden layers of the rates' network, for one or two layers.
     pub hidden: Vec<usize>,
-    /// The same of the readout's.
+    /// The same for the readout's network.
     pub readout_hidden: Vec<usize>,
 }
 
@@ -33,7 +33,7 @@ impl Default for StateOptions {
 }
 
 impl StateOptions {
-    /// Threads of one fit, when the starts share them.
+    /// Number of threads of one fit, when several starts run at the same time.
     pub(super) fn fit_threads(&self) -> usize {
         let threads = self.common.threads_used();
         (threads / threads.min(self.common.restarts as usize).max(1)).max(1)
@@ -53,37 +53,37 @@ impl StateOptions {
     }
 }
 
-/// How one network's fit went.
+/// Report of one network's fit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FitReport {
     pub weights: usize,
-    /// The start that was kept, from 0.
+    /// Number of the start that was kept, from 0.
     pub restart: u32,
-    /// Epochs of that start, and the one whose weights were kept.
+    /// Number of epochs of that start, and the epoch whose weights were kept.
     pub epochs: u32,
     pub best_epoch: u32,
     pub stopping: Stopping,
     /// Mean squared weighted residual.
     pub training_error: f64,
-    /// The same on the validation packings; it chose the epoch and the start.
+    /// Mean squared weighted residual on the validation packings, by which the epoch and the start were chosen.
     pub validation_error: f64,
 }
 
-/// Outcome of a training.
+/// Results of a training.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StateReport {
     pub packings: Parts<usize>,
-    /// Pairs of stops.
+    /// Numbers of pairs of stops.
     pub samples: Parts<usize>,
     pub rates: FitReport,
     pub readouts: Vec<FitReport>,
-    /// On the held-out packings.
+    /// Errors on the held-out packings.
     pub composed: Vec<Composed>,
 }
 
-/// How the model came to be.
+/// How the model was made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {

@@ -1,4 +1,4 @@
-//! Advance of the state: Δx = ε · g(x, ε).
+//! Advance of the state with the strain: Δx = ε · g(x, ε).
 
 use super::variables::{FABRIC_INDEX, Features, MAX_ODD, POROSITY, PRESSURE, RATE_INPUTS, Variables};
 use crate::kernel::vector::Vector;
@@ -11,22 +11,22 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rates {
-    /// Even features in; outputs: rates of η and p̃, then for each odd variable its rate's coefficients of the odd
-    /// features, and one of its own feature times the strain's sign.
+    /// Its inputs are the even features. Its outputs are the rates of η and p̃; then for each odd variable the
+    /// coefficients of the odd features in its rate, and a coefficient of its own feature times the sign of the strain.
     pub network: Perceptron,
-    /// Rate dx/dε of each state column [-] at output 0: nonzero for the even ones.
+    /// Rate dx/dε of each state column [-] at output 0; not zero only for even variables.
     pub offset: [f64; MAX_STATE],
-    /// Rate dx/dε of each state column [-] for a unit of output.
+    /// Rate dx/dε of each state column [-] per unit of output.
     pub scale: [f64; MAX_STATE],
-    /// η above which a state without stress stays without, however it is strained [-].
+    /// η above which a state without stress remains without, whatever the strain [-].
     pub unjamming_porosity: f64,
 }
 
-/// |f|, |f_K| and η stay below these whatever is composed: no state of grains has more.
+/// Upper limit of |f|, |f_K| and η in composed states; no state of grains has larger values.
 const FABRIC_LIMIT: f64 = 0.9;
 const POROSITY_LIMIT: f64 = 0.99;
 
-/// Outputs of the network before the odd ones.
+/// Number of outputs of the network that belong to even variables; they come first.
 pub const EVEN_OUTPUTS: usize = 2;
 
 /// Layer sizes of the rates' network.
@@ -35,13 +35,13 @@ pub fn sizes(variables: Variables, hidden: &[usize]) -> Vec<usize> {
     [&[RATE_INPUTS], hidden, &[EVEN_OUTPUTS + odd * (odd + 1)]].concat()
 }
 
-/// What a step starts from.
+/// State and strain at the start of a step.
 pub struct RateInputs<'a> {
     pub variables: Variables,
     pub state: &'a StateLanes,
     /// Thermal strain [-].
     pub strain: &'a Lanes,
-    /// Share of it that is new to the grains [0 to 1], see [`direction`].
+    /// Share of the strain that is virgin [0 to 1], see [`direction`].
     pub virgin: &'a Lanes,
     pub features: &'a Features,
 }
@@ -65,12 +65,13 @@ impl Task for Advance<'_> {
 }
 
 impl Rates {
-    /// Advances a block of states: [`Rates::advanced`]; leaves all neurons' values.
+    /// Advances a block of states as [`Rates::advanced`] does; `neurons` then holds the values of all neurons.
     pub fn advance(&self, from: RateInputs<'_>, neurons: &mut Neurons, next: &mut StateLanes) {
         dispatch(Advance { rates: self, from, neurons, next });
     }
 
-    /// The state after a strain, in the model's columns of `next`; `outputs` are those of the network at the features.
+    /// The state after a strain, written to the model's columns of `next`; `outputs` are the network's outputs for the
+    /// features.
     #[inline(always)]
     pub fn advanced<V: Vector>(&self, from: &RateInputs, outputs: &[Lanes], next: &mut StateLanes) {
         let RateInputs { variables, state, features, .. } = *from;
@@ -96,7 +97,8 @@ impl Rates {
         self.limit::<V>(variables, state, next);
     }
 
-    /// Keeps the state one that grains can have: 0 ≤ η < 1, p̃ ≥ 0, no tension, and no stress before the grains touch.
+    /// Limits the state to values that grains can have: 0 ≤ η < 1, p̃ ≥ 0, no tension, and no stress before the grains
+    /// touch.
     #[inline(always)]
     fn limit<V: Vector>(&self, variables: Variables, state: &StateLanes, next: &mut StateLanes) {
         let zero = V::zero();
@@ -107,7 +109,7 @@ impl Rates {
         let pressure = V::read(&state[PRESSURE]).where_greater(zero, allowed, touching);
         pressure.write(&mut next[PRESSURE]);
         for column in std::iter::once(FABRIC_INDEX).chain(variables.fabric_conductivity()) {
-            // Without contacts there is no fabric to change.
+            // Without contacts the fabric does not change.
             let (new, old) = (V::read(&next[column]), V::read(&state[column]));
             let value = pressure.where_greater(zero, new, old);
             value.within(V::all(-FABRIC_LIMIT), V::all(FABRIC_LIMIT)).write(&mut next[column]);
@@ -118,12 +120,16 @@ impl Rates {
     }
 }
 
-/// Sign of the strain, 0 for none. Sliding contacts do not slide back: measured, the deviator fades on contraction much
-/// faster than it grows on expansion, whatever the size of the increments, so a rate that is smooth in ε cannot compose to
-/// both. η and p̃ do not see the sign: they are reversible, small to and fro does not let them creep. That holds for virgin
-/// strains. Strained back, and again as far as they have been, grains that slid have come to rest: without the sign the
-/// error of K on the database's ramps back from +5 % falls by a third (`msdd score`), and cycles do not drift. The fit takes all
-/// ramps for virgin: with the ways back as what they are it is no better (README).
+/// Sign of the strain, 0 for zero strain. It is needed because sliding contacts do not slide back: in the data, the
+/// deviator decreases on contraction much faster than it increases on expansion, whatever the size of the increments,
+/// and a rate that is smooth in ε cannot give both. The rates of η and p̃ do not contain the sign: they are reversible,
+/// and do not drift under small strains to and fro.
+///
+/// This holds for virgin strains, which lead beyond all strains that the grains have experienced before. When they are
+/// strained back, or again as far as before, the contacts that slid have come to rest. Without the sign on such
+/// strains, the error of K on the database's ramps back from +5 % is smaller by a third (`msdd score`), and cycles do
+/// not drift. The fit treats all ramps as virgin; treating the ways back as not virgin in the fit gives no better model
+/// (see the README).
 #[inline(always)]
 pub fn direction(strain: f64) -> f64 {
     if strain > 0.0 {
@@ -135,7 +141,7 @@ pub fn direction(strain: f64) -> f64 {
     }
 }
 
-/// Σ y_i b_i over the odd features.
+/// Σ y_i b_i over the odd features b_i.
 #[inline(always)]
 pub fn odd_sum<V: Vector>(coefficients: &[Lanes], odd: &[Lanes; MAX_ODD]) -> V {
     let mut sum = V::zero();

@@ -1,4 +1,4 @@
-//! What is read from the state: the conductivity, and odd quantities that the state does not carry.
+//! Quantities computed from the state: the conductivity, and odd quantities that the state does not contain.
 
 use super::rates::odd_sum;
 use super::variables::{Features, PRESSURE, READOUT_INPUTS, Variables};
@@ -9,23 +9,25 @@ use crate::perceptron::Perceptron;
 use crate::surrogate::Answer;
 use serde::{Deserialize, Serialize};
 
-/// Readout of one kind of conductivity.
+/// The readout for one kind of conductivity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
     pub kind: ConductivityKind,
-    /// Even features in; outputs: h, then the coefficients of f_K and of q̃/p̃ unless they are carried.
+    /// Its inputs are the even features. Its outputs are h, then the coefficients of f_K and of q̃/p̃ unless the state
+    /// contains these.
     pub network: Perceptron,
-    /// √(K/(k √p̃)) at output 0, and for a unit of output.
+    /// √(K/(k √p̃)) at output 0; below, per unit of output.
     pub offset: f64,
     pub scale: f64,
-    /// Whether f_K is the state's, because that is of this kind of conductivity.
+    /// Whether f_K is taken from the state, because the f_K in the state is of this kind of conductivity.
     pub carried: bool,
 }
 
-/// K/k of a state without stress: far below any jammed one (0.05 at least), above zero for the heat equation's sake.
+/// K/k of a state without stress: far below that of any jammed state (at least 0.05), but positive, as the heat
+/// equation needs.
 pub const CONDUCTIVITY_FLOOR: f64 = 1e-4;
-/// Largest |f_K| that is read out, and the largest |q̃/p̃|: both components stay positive.
+/// Largest |f_K| and |q̃/p̃| in an answer, so that both components of K and σ stay positive.
 const RATIO_LIMIT: f64 = 0.9;
 
 impl Readout {
@@ -35,9 +37,9 @@ impl Readout {
         [&[READOUT_INPUTS], hidden, &[1 + missing * variables.odd_count()]].concat()
     }
 
-    /// Conductivity and stress of the answer's state.
+    /// Conductivity and stress of the state in `answer`.
     ///
-    /// Mean K = floor + √p̃ h², so K tends to the floor with the stress and never falls below it.
+    /// The mean K is floor + √p̃ h², so that K tends to the floor as the stress vanishes, and never falls below it.
     #[inline(always)]
     pub fn answer<V: Vector>(
         &self,

@@ -28,14 +28,15 @@ use std::ops::ControlFlow;
 
 pub use super::provenance::StateOptions;
 
-/// What there is to train on beside the thermal ramps.
+/// Training data besides the thermal ramps.
 #[derive(Clone, Debug, Default)]
 pub struct Mechanical {
     pub wall_strains: Vec<WallStrain>,
     pub wall_slips: Vec<WallSlip>,
 }
 
-/// Trains a state model on thermal ramps; the mechanical parts of the model are there when their data is.
+/// Trains a state model on thermal ramps. Its mechanical tangent and wall friction are fitted when the data for them is
+/// there.
 ///
 /// # Errors
 /// [`SurrogateError::Data`] for unusable rows, [`SurrogateError::Option`] for unusable options.
@@ -47,8 +48,8 @@ pub fn train(
     train_blind(rows, mechanical, options, None)
 }
 
-/// As [`train`]; with `Some(blind)` a model fitted to single steps alone, for comparisons, whose networks do not see that
-/// even input.
+/// As [`train`]. With `Some(blind)` the model is fitted to single steps alone, for comparisons, and its networks do not
+/// get that even input.
 pub(crate) fn train_blind(
     rows: &[StateRow],
     mechanical: &Mechanical,
@@ -134,7 +135,7 @@ pub(crate) fn train_blind(
     Ok(model)
 }
 
-/// The samples with one input 0, the middle of its range.
+/// The samples with one scaled input set to 0, the middle of its range.
 fn without(blind: Option<usize>, mut samples: Vec<Sample>) -> Vec<Sample> {
     for input in samples.iter_mut().filter_map(|sample| sample.inputs.get_mut(blind?)) {
         *input = 0.0;
@@ -142,7 +143,7 @@ fn without(blind: Option<usize>, mut samples: Vec<Sample>) -> Vec<Sample> {
     samples
 }
 
-/// Kinds of conductivity that all rows have, the default one first.
+/// Kinds of conductivity that all rows contain, the default one first.
 pub fn kinds(rows: &[StateRow]) -> Vec<ConductivityKind> {
     match rows.iter().all(|row| row.conductivity_network.is_some()) {
         true => vec![ConductivityKind::Network, ConductivityKind::Affine],
@@ -168,7 +169,8 @@ fn region(core: &Core, points: &[Point]) -> Region {
     Region::of(&coordinates.collect::<Vec<_>>(), core.variables.names().len())
 }
 
-/// Errors on packings that the fit did not see; on all but the training ones, for want of more.
+/// Scatter of the errors on packings that the fit did not see: validation and test packings together, as each alone
+/// would be too few.
 fn spread(core: &Core, split: &Split, kind: ConductivityKind) -> Spread {
     let unseen: Vec<Ramp> = split.validation.iter().chain(&split.test).cloned().collect();
     let (mut conductivity, mut rate) = (Vec::new(), Vec::new());
@@ -186,7 +188,7 @@ fn spread(core: &Core, split: &Split, kind: ConductivityKind) -> Spread {
     Spread::of(core.ranges.pressure, &conductivity, &rate)
 }
 
-/// Strains and numbers of increments at which a model is judged.
+/// Strains and numbers of increments of the errors in the training report.
 const JUDGED: [(f64, u32); 6] =
     [(0.02, 1), (0.02, 500), (-0.02, 500), (0.05, 500), (-0.05, 500), (-0.05, 5000)];
 
@@ -198,11 +200,12 @@ fn held_out(model: &StateModel, ramps: &[Ramp]) -> Vec<Composed> {
     judged.into_iter().filter(|composed| composed.ramps > 0).collect()
 }
 
-/// On the largest component of the mean gradient; errors are of order 1e-3, so this is a minimum for all purposes.
+/// Limit for the largest component of the mean gradient. Errors are of order 1e-3, so below it the fit is at a minimum
+/// for all practical purposes.
 const GRADIENT_LIMIT: f64 = 1e-10;
 
-/// Fits a network from several starts and keeps the one with the lowest validation error. The starts run side by side;
-/// which is kept does not depend on how many do.
+/// Fits a network from several starts and keeps the one with the lowest validation error. The starts run in parallel;
+/// which one is kept does not depend on the number of threads.
 fn best_of_starts<P: LeastSquares + Sync>(
     training: &P,
     validation: &P,
@@ -232,7 +235,7 @@ fn best_of_starts<P: LeastSquares + Sync>(
     all.swap_remove(0)
 }
 
-/// Minimises the training error; keeps the weights with the best validation error.
+/// Minimises the training error, and keeps the weights with the lowest validation error.
 fn fit_from<P: LeastSquares>(
     training: &P,
     validation: &P,

@@ -1,4 +1,4 @@
-//! Variables of the state, and the features that the networks see.
+//! Variables of the state, and the features (inputs) of the networks.
 
 use crate::SurrogateError;
 pub use crate::dataset::ConductivityKind;
@@ -9,7 +9,7 @@ use crate::scaling::Range;
 use crate::surrogate::{MAX_STATE, StateLanes};
 use serde::{Deserialize, Serialize};
 
-/// Which optional variables the state carries. η, f and p̃ are always there.
+/// The optional variables that the state contains. η, f and p̃ are always in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variables {
@@ -24,7 +24,7 @@ pub const POROSITY: usize = 0;
 pub const FABRIC_INDEX: usize = 1;
 pub const PRESSURE: usize = 2;
 
-/// Odd variables at most: f, f_K, q̃.
+/// Largest number of odd variables: f, f_K, q̃.
 pub const MAX_ODD: usize = 3;
 
 impl Variables {
@@ -68,10 +68,10 @@ pub struct Point {
     pub state: [f64; MAX_STATE],
     /// (K_xx + K_yy)/2k.
     pub conductivity: f64,
-    /// f_K and r = q̃/p̃, whether carried or not.
+    /// f_K and r = q̃/p̃, also when the state does not contain them.
     pub fabric_conductivity: f64,
     pub stress_ratio: f64,
-    /// p̃ > 0: without force chains, f and the rest of the odd quantities are noise.
+    /// p̃ > 0. Without force chains, f and the other odd quantities are noise.
     pub jammed: bool,
 }
 
@@ -96,16 +96,17 @@ impl Point {
     }
 }
 
-/// Added to p̃ in the stress ratio, which so tends to zero at unjamming. A hundredth of p̃ of the loosest packings.
+/// Added to p̃ in the stress ratio, so that the ratio tends to zero at unjamming. A hundredth of p̃ of the loosest
+/// packings.
 const PRESSURE_FLOOR: f64 = 1e-4;
 
-/// q̃/p̃ [-], regular at zero.
+/// q̃/p̃ [-], finite at zero pressure.
 #[inline(always)]
 pub fn stress_ratio(deviator: f64, pressure: f64) -> f64 {
     deviator / (pressure + PRESSURE_FLOOR)
 }
 
-/// Trained ranges of the features; those of odd ones are symmetric.
+/// Trained ranges of the features; those of odd features are symmetric about 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FeatureRanges {
@@ -113,24 +114,24 @@ pub struct FeatureRanges {
     pub fabric_index: Range,
     pub pressure: Range,
     pub fabric_conductivity: Range,
-    /// Of q̃/p̃.
+    /// Range of q̃/p̃.
     pub stress_ratio: Range,
     pub thermal_strain: Range,
 }
 
-/// Even inputs of the readout: η, √p̃, the square of the last odd feature.
+/// Number of even inputs of the readout: η, √p̃, the square of the last odd feature.
 pub const READOUT_INPUTS: usize = 3;
-/// Those of the rates: also ε.
+/// Number of even inputs of the rates: the same and ε.
 pub const RATE_INPUTS: usize = 4;
 
 /// Features of a block of cells.
 #[derive(Clone, Debug, Default)]
 pub struct Features {
-    /// On [-1, 1]: η, √p̃, the square of the last odd feature, ε.
+    /// Scaled to [-1, 1]: η, √p̃, the square of the last odd feature, ε.
     pub even: [Lanes; RATE_INPUTS],
-    /// On [-1, 1]: f, f_K, q̃/p̃, as far as they are carried.
+    /// Scaled to [-1, 1]: f, f_K, q̃/p̃, as far as the state contains them.
     pub odd: [Lanes; MAX_ODD],
-    /// √p̃, clamped.
+    /// √p̃, clamped to its trained range.
     pub root_pressure: Lanes,
 }
 
@@ -153,7 +154,8 @@ impl FeatureRanges {
         }
     }
 
-    /// Features of a block of states. `ratio`: their q̃/p̃, see [`stress_ratios`]. Odd ones that are not carried are left.
+    /// Computes the features of a block of states. `ratio` is their q̃/p̃, see [`stress_ratios`]. Odd features that the
+    /// state does not contain are left unchanged.
     #[inline(always)]
     pub fn fill_features<V: Vector>(
         &self,
@@ -185,14 +187,14 @@ impl FeatureRanges {
         scaled(V::read(strain), self.thermal_strain).write(thermal_strain);
     }
 
-    /// Features of a block of states, for callers in no hurry.
+    /// As [`FeatureRanges::fill_features`], slower but simpler to call.
     pub fn features(&self, variables: Variables, state: &StateLanes, strain: &Lanes) -> Features {
         let (ratio, mut features) = (stress_ratios::<Portable>(variables, state), Features::default());
         self.fill_features::<Portable>(variables, state, &ratio, strain, &mut features);
         features
     }
 
-    /// As [`crate::surrogate::Answer::outside`]. The deviator is judged as q̃/p̃.
+    /// As [`crate::surrogate::Answer::outside`]. For the deviator the range of q̃/p̃ counts.
     #[inline(always)]
     pub fn outside<V: Vector>(
         &self,
@@ -216,16 +218,18 @@ impl FeatureRanges {
     }
 }
 
-/// Deviator that counts as the largest [-]: far above any, and far from overflow.
+/// Upper limit for the deviator [-]: far above any of grains, and far from overflow.
 const LARGEST_DEVIATOR: f64 = 1e150;
 
-/// q̃/p̃ of a block of states; 0 when the deviator is not carried. Tension counts as no pressure.
+/// q̃/p̃ of a block of states; 0 when the state does not contain the deviator. Negative pressure (tension) counts as
+/// zero.
 #[inline(always)]
 pub fn stress_ratios<V: Vector>(variables: Variables, state: &StateLanes) -> Lanes {
     let mut ratios = [0.0; LANES];
     if let Some(column) = variables.deviator() {
         let pressure = V::read(&state[PRESSURE]).at_least(V::zero());
-        // Within bounds that no grains reach, so that the ratio is a number: infinity times no pressure is none.
+        // The limits are far beyond any state of grains. They keep the ratio finite for any input: infinity over a
+        // pressure of zero would be NaN.
         let deviator = V::read(&state[column]).within(V::all(-LARGEST_DEVIATOR), V::all(LARGEST_DEVIATOR));
         (deviator / (pressure + V::all(PRESSURE_FLOOR))).write(&mut ratios);
     }
@@ -250,7 +254,7 @@ impl FeatureRanges {
         }
     }
 
-    /// A state as a point of the region: η, √p̃ and the odd features, scaled but not clamped.
+    /// A state as a point of the [`crate::region::Region`]: η, √p̃ and the odd features, scaled but not clamped.
     pub fn coordinates(&self, variables: Variables, state: &[f64; MAX_STATE]) -> [f64; MAX_STATE] {
         let on = |value: f64, range: Range| {
             (value - 0.5 * (range.min + range.max)) / (0.5 * range.width()).max(f64::MIN_POSITIVE)
@@ -276,14 +280,14 @@ fn clamped<V: Vector>(values: V, range: Range) -> V {
     values.within(V::all(range.min), V::all(range.max))
 }
 
-/// Clamped to the range and brought to [-1, 1].
+/// Clamped to the range and scaled to [-1, 1].
 #[inline(always)]
 fn scaled<V: Vector>(values: V, range: Range) -> V {
     let (middle, half) = (0.5 * (range.min + range.max), (0.5 * range.width()).max(f64::MIN_POSITIVE));
     (clamped(values, range) - V::all(middle)) * V::all(1.0 / half)
 }
 
-/// How far outside the range, negative below it.
+/// Distance outside of the range, negative below it; 0 inside.
 #[inline(always)]
 fn beyond<V: Vector>(values: &Lanes, range: Range) -> V {
     let values = V::read(values);

@@ -1,4 +1,4 @@
-//! What must hold on every row.
+//! Exact laws (definitions, bounds and conservation of mass) that every row of a database must obey.
 
 use crate::database::dataset::DIGITS;
 use crate::database::plan::RampName;
@@ -7,12 +7,12 @@ use crate::database::{Dataset, Plan, Record, Shard};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// Room for rounding, in exports to nine digits as well.
+/// Relative tolerance of the laws; it covers the rounding of exports to nine digits.
 const TOLERANCE: f64 = 1e-9;
-/// Digits up to which a rounded export needs more room.
+/// Exports with at most this many digits need a larger tolerance.
 const FEW_DIGITS: i32 = 8;
 
-/// Room for the rounding of this file: half a unit of the last digit, when it was exported with few.
+/// The tolerance for this file. When it was exported with few digits: half a unit of the last digit.
 fn tolerance(dataset: &Dataset) -> f64 {
     match dataset.provenance.get(DIGITS).and_then(|digits| digits.parse().ok()) {
         Some(digits @ 3..=FEW_DIGITS) => 0.5 * 10f64.powi(1 - digits),
@@ -20,10 +20,10 @@ fn tolerance(dataset: &Dataset) -> f64 {
     }
 }
 
-/// A law that does not hold.
+/// A law that a row does not obey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violation {
-    /// The row, or what else is meant.
+    /// Name of the row, or of the part of the file, that violates the law.
     pub row: String,
     pub law: &'static str,
     /// What was found.
@@ -36,7 +36,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// Every violated law of every row, and rows that the plan does not account for.
+/// All violated laws of all rows; rows of the plan that are missing; rows that the plan does not have.
 pub(super) fn violations(dataset: &Dataset) -> Vec<Violation> {
     let packed: BTreeMap<i64, &Record> =
         dataset.records.iter().filter(|r| r.ramp == RampName::Packed).map(|r| (r.packing, r)).collect();
@@ -79,12 +79,13 @@ fn row_laws(record: &Record, packed: Option<&Record>, tolerance: f64) -> Found {
     found
 }
 
-/// Also false for NaN.
+/// Whether |off| is at most the tolerance; false for NaN.
 fn within(off: f64, tolerance: f64) -> bool {
     off.abs() <= tolerance
 }
 
-/// Grains keep their mass: (1 − η_sum)(1 + ε_xx)(1 + ε_yy) = (1 − η_sum⁰)(1 + ε)².
+/// Conservation of the grains' mass: (1 − η_sum)(1 + ε_xx)(1 + ε_yy) = (1 − η_sum⁰)(1 + ε)², with η_sum the porosity
+/// from the sum of disc areas and ε the thermal strain.
 fn mass_law(
     record: &Record,
     [state, initial]: [&State; 2],
@@ -96,7 +97,7 @@ fn mass_law(
     (!within(off, tolerance)).then(|| ("mass", format!("off by {off:.3e}")))
 }
 
-/// The averages that the laws speak of.
+/// The averages that the laws use.
 struct State {
     porosity: f64,
     porosity_sum: f64,
@@ -131,7 +132,7 @@ impl State {
         let [kxx, kyy, kxy] = self.conductivity;
         let size = kxx.abs() + kyy.abs();
         let stress = self.stress[0].abs() + self.stress[1].abs();
-        // Without contacts there is no fabric.
+        // Without contacts the fabric tensor is zero.
         let trace = if fxx == 0.0 && fyy == 0.0 { 0.0 } else { fxx + fyy - 1.0 };
         let off = [
             ("trace of F is 1", trace, 1.0),
@@ -155,7 +156,7 @@ impl State {
     }
 }
 
-/// Rows and seeds are those of the plan that stands in the provenance, as far as the file's shard goes.
+/// Rows and seeds must be those of the plan in the provenance, as far as it belongs to the shard of this file.
 fn plan_laws(dataset: &Dataset) -> Vec<Violation> {
     let violation = |row: String, law, found: &str| Violation { row, law, found: found.to_string() };
     let text = dataset.provenance.get("plan").map_or("", String::as_str);

@@ -1,17 +1,18 @@
-//! Local linear regression in two inputs: what equal inputs give, and how much single values scatter about it.
+//! Local linear regression of an output in two inputs: its expected value at given inputs, and the scatter of single
+//! values about it.
 
-/// Neighbours of a local fit; three of them fix it.
+/// Number of nearest points of a local fit; three would determine the plane.
 pub const NEIGHBOURS: usize = 16;
 
-/// Known points: inputs and an output.
+/// Data points: inputs and one output.
 pub struct Points<'a> {
     pub inputs: &'a [[f64; 2]],
     pub output: &'a [f64],
 }
 
 impl Points<'_> {
-    /// Value at `at` of the plane through the nearest points, and the variance of single values about that plane. None
-    /// with fewer than [`NEIGHBOURS`] points, or when they lie on a line.
+    /// Value at `at` of the plane fitted to the nearest points, and the variance of single values about that plane.
+    /// None with fewer than [`NEIGHBOURS`] points, or when they lie on a line.
     pub fn fit(&self, at: [f64; 2]) -> Option<(f64, f64)> {
         if self.inputs.len() < NEIGHBOURS {
             return None;
@@ -47,7 +48,7 @@ impl Points<'_> {
     }
 }
 
-/// Standard deviation of each input; 1 for inputs that do not differ.
+/// Standard deviation of each input; 1 for inputs that are constant.
 fn scale(inputs: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|k| {
         let deviation = variance(&inputs.iter().map(|input| input[k]).collect::<Vec<f64>>()).sqrt();
@@ -55,7 +56,7 @@ fn scale(inputs: &[[f64; 2]]) -> [f64; 2] {
     })
 }
 
-/// Mean; 0 of nothing.
+/// Mean; 0 for an empty list.
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }
@@ -66,7 +67,7 @@ pub fn variance(values: &[f64]) -> f64 {
     values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len().saturating_sub(1).max(1) as f64
 }
 
-/// Gauss elimination with pivots of three equations, right-hand side in the last column.
+/// Gaussian elimination with pivoting for three equations; the last column is the right-hand side.
 fn solve(mut a: [[f64; 4]; 3]) -> Option<[f64; 3]> {
     let size = a.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
     for k in 0..3 {
@@ -88,7 +89,7 @@ fn solve(mut a: [[f64; 4]; 3]) -> Option<[f64; 3]> {
 mod tests {
     use super::*;
 
-    /// A plane plus alternating noise of known size is found, and the noise, too.
+    /// For a plane plus alternating noise of known size, both the plane and the size of the noise are found.
     #[test]
     fn plane_and_scatter_are_found() {
         let inputs: Vec<[f64; 2]> = (0..400).map(|k| [f64::from(k % 20), 0.1 * f64::from(k / 20)]).collect();

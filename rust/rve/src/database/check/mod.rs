@@ -1,8 +1,8 @@
-//! Whether a database is sound: exact laws on every row, symmetry of the protocol, and how much its outputs scatter.
+//! Checks of a database: exact laws on every row, mirror symmetry of the statistics, and the scatter of the outputs.
 //!
 //! | module | what |
 //! |---|---|
-//! | `laws` | what must hold on every row |
+//! | `laws` | exact laws that every row must obey |
 //! | `statistics` | mirror symmetry of isotropic packings; small packings against large ones |
 //! | `noise` | scatter of the outputs at equal inputs |
 //! | `local` | local linear regression |
@@ -18,31 +18,32 @@ pub use noise::Noise;
 pub use statistics::{Mean, SizeEffect};
 use std::path::Path;
 
-/// What a check has found.
+/// Results of a check.
 #[derive(Clone, Debug)]
 pub struct Report {
     pub rows: usize,
-    /// Laws that do not hold, with the row. A mirror symmetry off by more than four standard errors is one, too.
+    /// Violated laws, each with its row. A mean that should vanish by symmetry but is off by more than four standard
+    /// errors counts as one.
     pub violations: Vec<Violation>,
-    /// Means that vanish by symmetry, over the isotropic packings of one size.
+    /// Means over the isotropic packings of one size that vanish by symmetry.
     pub symmetry: Vec<Mean>,
-    /// Packed states of other sizes against those of the most frequent one.
+    /// Packed states of each other size compared with those of the most frequent size.
     pub sizes: Vec<SizeEffect>,
-    /// Scatter at equal inputs, by size.
+    /// Scatter of the outputs at equal inputs, by size.
     pub noise: Vec<Noise>,
 }
 
-/// Violations that a message names.
+/// Number of violations that an error message lists.
 const NAMED: usize = 3;
 
-/// Every law that does not hold.
+/// All violated laws of a dataset, those of symmetry included.
 pub fn violations(dataset: &Dataset) -> Vec<Violation> {
     let mut violations = laws::violations(dataset);
     violations.extend(statistics::symmetry(&dataset.records).iter().filter_map(Mean::violation));
     violations
 }
 
-/// Refuses a dataset on which a law does not hold; `path` names it.
+/// Returns an error when a law is violated; `path` is the file named in it.
 ///
 /// # Errors
 /// [`DatabaseError::Unsound`] with the first violations.

@@ -1,4 +1,4 @@
-//! Scatter of the outputs at equal inputs η₀, f₀, ε: what no surrogate of these inputs can get below.
+//! Scatter of the outputs at equal inputs η₀, f₀, ε: a lower bound for the error of any surrogate with these inputs.
 
 use super::local::{NEIGHBOURS, Points, variance};
 use crate::database::Record;
@@ -10,17 +10,18 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Noise {
     pub discs: u64,
     pub output: &'static str,
-    /// States that it is the mean of.
+    /// Number of states that the mean is taken over.
     pub states: usize,
-    /// Standard deviation of single values at equal η₀, f₀, ε.
+    /// Standard deviation of single values at equal η₀, f₀ and ε.
     pub deviation: f64,
-    /// Over that of all the states' values.
+    /// `deviation` over the standard deviation of all values of this output.
     pub share: f64,
 }
 
 type Output = (&'static str, fn(&Record) -> Option<f64>);
 
-/// The outputs of the paper's database, and what else the surrogate may learn. Stresses reduced.
+/// The outputs of the paper's database and further quantities that a surrogate may learn. Stresses are reduced (σ ℓ/(E
+/// r̄)).
 const OUTPUTS: [Output; 9] = [
     ("delta_porosity", |r| Some(r.porosity? - r.initial_porosity?)),
     ("delta_fabric_index", |r| Some(r.fabric_index? - r.initial_fabric_index?)),
@@ -33,8 +34,8 @@ const OUTPUTS: [Output; 9] = [
     ("stress_yy_reduced", |r| r.stress_yy_reduced),
 ];
 
-/// Thermal ramps from the packed state, states that bear load; by size, then output. Sizes with too few packings for a
-/// local fit are left out.
+/// Scatter by size, then output. Only thermal ramps from the packed state and states that bear load are used; sizes
+/// with too few packings for a local fit are left out.
 pub(super) fn noise(records: &[Record]) -> Vec<Noise> {
     let ramps = [RampName::Packed, RampName::Up, RampName::Down];
     let rows: Vec<&Record> = records
@@ -47,7 +48,8 @@ pub(super) fn noise(records: &[Record]) -> Vec<Noise> {
 }
 
 fn of_output(rows: &[&Record], discs: u64, (output, value): Output) -> Option<Noise> {
-    // States of equal ε; bits order non-negative and negative strains consistently, which is all that is needed.
+    // Groups of states with equal ε. The key is the bit pattern of ε; equal strains have equal bits, and the order of
+    // the groups does not matter.
     let mut strains: BTreeMap<u64, Vec<([f64; 2], f64)>> = BTreeMap::new();
     for record in rows.iter().filter(|r| r.discs == discs) {
         let inputs = [record.initial_porosity?, record.initial_fabric_index?];

@@ -1,4 +1,4 @@
-//! What holds on the average: mirror symmetry, and small packings against large ones.
+//! Statistical checks: mirror symmetry, and small packings compared with large ones.
 
 use super::Violation;
 use super::local::{Points, mean, variance};
@@ -7,10 +7,10 @@ use crate::database::Record;
 use crate::database::plan::{Kind, RampName};
 use std::collections::BTreeMap;
 
-/// Standard errors beyond which a mean counts as not zero.
+/// A mean that is more than this many standard errors off 0 counts as a violation.
 const LARGEST_DEVIATION: f64 = 4.0;
 
-/// Mean over packings, with its standard error.
+/// A mean over packings with its standard error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mean {
     pub discs: u64,
@@ -21,7 +21,7 @@ pub struct Mean {
 }
 
 impl Mean {
-    /// Off zero by more than chance explains.
+    /// A violation when the mean is farther off zero than chance explains.
     pub(super) fn violation(&self) -> Option<Violation> {
         let off = self.mean / self.standard_error;
         (off.abs() > LARGEST_DEVIATION).then(|| Violation {
@@ -45,7 +45,7 @@ fn packed(records: &[Record]) -> BTreeMap<u64, Vec<&Record>> {
     sizes
 }
 
-/// f, f_K and stress deviator of isotropic packings: zero on the average.
+/// Means of f, f_K and stress deviator over isotropic packings, which vanish by symmetry.
 pub(super) fn symmetry(records: &[Record]) -> Vec<Mean> {
     let quantities: [Quantity; 3] = [
         ("fabric_index", |r| r.fabric_index),
@@ -67,20 +67,20 @@ pub(super) fn symmetry(records: &[Record]) -> Vec<Mean> {
     means
 }
 
-/// How packed states of one size differ from those of the most frequent one at equal η and f.
+/// Relative difference between packed states of one size and those of the most frequent size at equal η and f.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeEffect {
     pub discs: u64,
-    /// The size compared with.
+    /// The most frequent size.
     pub base: u64,
     pub quantity: &'static str,
     pub packings: usize,
-    /// Mean of value / value of the base size at equal η and f − 1 [-].
+    /// Mean of (value / expected value of the base size at equal η and f) − 1 [-].
     pub relative: f64,
     pub standard_error: f64,
 }
 
-/// Size effects: walls order the grains beside them, so a small difference is physics.
+/// Size effects. Walls order the grains beside them, so a small difference is expected and no violation.
 pub(super) fn sizes(records: &[Record]) -> Vec<SizeEffect> {
     let quantities: [Quantity; 3] = [
         ("conductivity (mean of xx, yy)", |r| Some(0.5 * (r.conductivity_xx? + r.conductivity_yy?))),
