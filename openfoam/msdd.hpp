@@ -1,4 +1,4 @@
-/** C++11 face of msdd.h: handles that free themselves, exceptions instead of status codes, and floating-point traps
+/** C++11 wrapper of msdd.h: handles that free themselves, exceptions instead of status codes, and floating-point traps
  *  masked during every call. Header-only; needs msdd.h on the include path and libmsdd.a (-lpthread -ldl -lm).
  *
  *  SPDX-License-Identifier: GPL-3.0-or-later
@@ -36,8 +36,9 @@ private:
 namespace detail
 {
 
-/** Masks floating-point traps while it lives and restores them, and the flags, at its end. Rust takes IEEE defaults for
- *  granted, while OpenFOAM traps division by zero, invalid and overflow: a harmless flag would kill the run. */
+/** Masks floating-point traps as long as the object exists; its destructor restores the traps and the exception flags.
+ *  Rust expects the IEEE default, untrapped operations, while OpenFOAM traps division by zero, invalid operations and
+ *  overflow: without the mask a harmless exception inside of the library would end the run. */
 class MaskedTraps
 {
 public:
@@ -50,7 +51,7 @@ private:
     std::fenv_t saved_;
 };
 
-/** Throws what the last call on this thread reported. */
+/** Throws the error of the last call on this thread, if its status is one. */
 inline void check(std::int32_t status)
 {
     if (status != MSDD_OK)
@@ -59,7 +60,7 @@ inline void check(std::int32_t status)
     }
 }
 
-/** Throws when the library is of another interface than the header. */
+/** Throws when the library was built with another version of the interface than this header. */
 inline void checkVersion()
 {
     const std::uint32_t found = msdd_abi_version();
@@ -74,6 +75,7 @@ inline void checkVersion()
     }
 }
 
+/** Deleter of the handles and texts that the library hands out. */
 struct Free
 {
     void operator()(msdd_surrogate* surrogate) const noexcept
@@ -95,7 +97,7 @@ struct Free
 
 } // namespace detail
 
-/** A material with its size filled in.
+/** A material with struct_size filled in.
  *  @param thermalConductivity k of the grains [W/(m K)]
  *  @param youngModulus E of the grains [Pa]
  *  @param meanRadius mean grain radius in the initial state [m] */
@@ -109,7 +111,7 @@ inline msdd_material material(double thermalConductivity, double youngModulus, d
     return result;
 }
 
-/** An empty batch of so many cells with its size filled in; set the columns by name. */
+/** A batch for `cells` cells with struct_size filled in and all columns NULL; set those wanted by name. */
 inline msdd_batch batch(std::size_t cells) noexcept
 {
     msdd_batch result = msdd_batch();
@@ -125,7 +127,7 @@ inline std::string version()
     return msdd_version();
 }
 
-/** What is known of so many cells at the start, with its size filled in; set the columns by name. */
+/** The initial values of `cells` cells with struct_size filled in and all columns NULL; set those known by name. */
 inline msdd_initial initial(std::size_t cells) noexcept
 {
     msdd_initial result = msdd_initial();
@@ -149,8 +151,8 @@ public:
         handle_.reset(handle);
     }
 
-    /** The same model that answers with conductivities of a kind, "affine" or "network"; see describe for those that it was
-     *  trained for. Throws Error for any other. */
+    /** A copy of the model that computes another kind of conductivity, "affine" or "network" (see
+     *  msdd_surrogate_with_conductivity); describe() lists the kinds that it was trained for. Throws Error for others. */
     Surrogate withConductivity(const std::string& kind) const
     {
         const detail::MaskedTraps masked;
@@ -159,29 +161,29 @@ public:
         return Surrogate(handle);
     }
 
-    /** Number of state columns; 0 after a move. */
+    /** Number of state columns; 0 for an object that was moved from. */
     std::size_t stateSize() const
     {
         const detail::MaskedTraps masked;
         return msdd_surrogate_state_size(handle_.get());
     }
 
-    /** Name of a state column, for example "porosity"; empty beyond the last. */
+    /** Name of a state column, counted from 0, for example "porosity"; empty beyond the last. */
     std::string stateName(std::size_t column) const
     {
         const detail::MaskedTraps masked;
         return text(msdd_surrogate_state_name(handle_.get(), column));
     }
 
-    /** State columns of cells at the start. Throws Error. */
+    /** Computes the initial state of cells; `state` points to stateSize() writable columns. Throws Error. */
     void initialState(const msdd_material& material, const msdd_initial& initial, double* const* state) const
     {
         const detail::MaskedTraps masked;
         detail::check(msdd_surrogate_initial_state(handle_.get(), &material, &initial, state));
     }
 
-    /** Algorithm 1, steps 1 and 2, for every cell of the batch; fills its outputs. Throws Error, and then has written
-     *  nothing. */
+    /** Takes every cell of the batch through one step (steps 1 and 2 of Algorithm 1 of the paper) and fills the outputs.
+     *  Throws Error, and then has written nothing. */
     void advance(const msdd_material& material, msdd_batch& batch) const
     {
         const detail::MaskedTraps masked;
@@ -195,8 +197,8 @@ public:
         return msdd_surrogate_has_tangent(handle_.get()) != 0;
     }
 
-    /** Friction mobilised at a wall after the slip s [m]: limit s/(s + slip). False, and nothing set, when the model has
-     *  none. */
+    /** Parameters of the friction coefficient that a wall mobilises after the slip s [m] of the grains along it:
+     *  limit s/(s + slip). Returns false, and sets nothing, when the model does not know them. */
     bool wallFriction(const msdd_material& material, double& limit, double& slip) const
     {
         const detail::MaskedTraps masked;
@@ -210,14 +212,14 @@ public:
         detail::check(msdd_surrogate_solid_fraction(handle_.get(), cells, porosity, solidFraction));
     }
 
-    /** SHA-256 of the model file, 64 hexadecimal digits; empty after a move. */
+    /** SHA-256 of the model file, 64 hexadecimal digits; empty for an object that was moved from. */
     std::string hash() const
     {
         const detail::MaskedTraps masked;
         return text(msdd_surrogate_hash(handle_.get()));
     }
 
-    /** Description as one JSON object; empty after a move. */
+    /** Description as one JSON object, see msdd_surrogate_describe; empty for an object that was moved from. */
     std::string describe() const
     {
         const detail::MaskedTraps masked;
@@ -232,11 +234,12 @@ private:
     std::unique_ptr<msdd_surrogate, detail::Free> handle_;
 };
 
-/** A box of grains, simulated by discrete elements: movable, not copyable but by clone. One thread at a time. */
+/** A box of grains, simulated by discrete elements. It can be moved, and copied by clone() alone. Only one thread at a time
+ *  may use it. */
 class Rve
 {
 public:
-    /** Packs by a specification, a JSON object; see msdd_rve_pack. Throws Error. */
+    /** Packs a box from a specification, a JSON object; see msdd_rve_pack. Throws Error. */
     static Rve pack(const std::string& specification = "{}")
     {
         const detail::MaskedTraps masked;
@@ -266,6 +269,7 @@ public:
         return text;
     }
 
+    /** A copy. Throws Error. */
     Rve clone() const
     {
         const detail::MaskedTraps masked;
@@ -274,8 +278,8 @@ public:
         return Rve(handle);
     }
 
-    /** Strains relative to the present state and relaxes; returns one of enum msdd_outcome. Throws Error, and then the
-     *  box is as before. */
+    /** Strains the box relative to its present state and lets the grains move to equilibrium, see msdd_rve_strain; returns
+     *  one of enum msdd_outcome. Throws Error, and then the box is as before. */
     std::int32_t strain(double thermal, double xx = 0, double yy = 0, double xy = 0)
     {
         const detail::MaskedTraps masked;
@@ -284,7 +288,7 @@ public:
         return outcome;
     }
 
-    /** Averages over the averaging region. Throws Error. */
+    /** Averages over the averaging region, see msdd_rve_homogenise. Throws Error. */
     msdd_averages homogenise() const
     {
         const detail::MaskedTraps masked;
@@ -300,20 +304,22 @@ private:
     std::unique_ptr<msdd_rve, detail::Free> handle_;
 };
 
-/** A file of results of simulated RVEs; made by a plan, and the ground of a model's training. */
+/** A file with the results of simulated RVEs, generated from a plan. Models are trained with such databases. */
 class Database
 {
 public:
-    /** Hears of every finished packing: done, total, failed; false stops the generation. May throw. Floating-point
-     *  traps are masked while it runs. */
+    /** A function that is called after every finished packing with the numbers of packings done, wanted and failed; when it
+     *  returns false, the generation stops. It may throw. Floating-point traps are masked while it runs. */
     typedef std::function<bool(std::uint64_t, std::uint64_t, std::uint64_t)> Progress;
 
+    /** The database in the file `path`, which need not exist yet. */
     explicit Database(const std::string& path) : path_(path) {}
 
     const std::string& path() const noexcept { return path_; }
 
-    /** Makes what is still missing of a plan (the text of a TOML file), on so many threads. Throws Error, with the status
-     *  MSDD_CANCELLED when `progress` stopped it, and what `progress` throws; what was made until then is kept. */
+    /** Generates the packings of a plan (the text of a TOML file) that the file does not hold yet, on `threads` threads.
+     *  Throws Error, with the status MSDD_CANCELLED when `progress` stopped it, and whatever `progress` throws; the
+     *  packings finished until then are kept. */
     void generate(const std::string& plan, std::uint32_t threads = 1, Progress progress = Progress()) const
     {
         const detail::MaskedTraps masked;
@@ -346,7 +352,8 @@ private:
         Progress progress;
         std::exception_ptr thrown;
 
-        /** An exception may not pass through the library: it waits outside. */
+        /** The call-back for C. An exception must not pass through the library, so it is kept here, and generate()
+         *  throws it after the library has returned. */
         static std::int32_t hear(void* user, std::uint64_t done, std::uint64_t total, std::uint64_t failed)
         {
             Listener& self = *static_cast<Listener*>(user);

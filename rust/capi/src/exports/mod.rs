@@ -1,4 +1,4 @@
-//! Functions of `msdd.h`. Each turns pointers into references and calls safe code; none lets a panic out.
+//! Functions of `msdd.h`. Each turns pointers into references and calls safe code, and catches panics.
 
 mod database;
 mod rve;
