@@ -2,7 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`library`] | loads a library and gets its table of functions; checks file, version, sizes and pointers before a call |
+//! | [`library`] | loads a library and gets its table of functions; checks file, version and size |
 //! | [`names`] | checks the names of state columns, which become names of fields and files elsewhere |
 //! | [`plugin`] | calls the functions of the table |
 //! | [`columns`] | copies of the inputs for these calls, and space for the outputs |

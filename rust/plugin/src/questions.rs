@@ -45,6 +45,6 @@ pub struct Answer {
     pub conductivity: [Vec<f64>; 2],
     /// σ_xx, σ_yy, reduced, compression positive.
     pub stress: [Vec<f64>; 2],
-    /// Per state column, then for the thermal strain: how far outside the model's range, 0 inside.
+    /// One column per state column, and one for the thermal strain: signed distance from the model's range, 0 inside.
     pub outside: Vec<Vec<f64>>,
 }
