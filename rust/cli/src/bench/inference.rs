@@ -12,7 +12,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 #[derive(Args)]
-#[command(after_help = "A query is one step of one cell, with all outputs: state, conductivity, stress. One thread.")]
+#[command(
+    after_help = "A query is one step of one cell, with all outputs: state, conductivity, stress. One thread."
+)]
 pub struct Arguments {
     /// Model file; may be given several times.
     #[arg(long, value_name = "FILE", required = true)]
