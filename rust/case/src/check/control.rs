@@ -73,7 +73,7 @@ pub fn check(control: &Dictionary, solution: Option<&Dictionary>, found: &mut Fi
     }
     for key in control.keys().filter(|key| !OPENFOAM.contains(&key.text.as_str())) {
         if let Some(near) = keys::nearest(&key.text, &OPENFOAM) {
-            let advice = format!("OpenFOAM does not know this key and passes over it: is '{near}' meant?");
+            let advice = format!("OpenFOAM does not know this key and ignores it: is '{near}' meant?");
             found.doubt([CONTROL, &key.text], "", "", &advice);
         }
     }

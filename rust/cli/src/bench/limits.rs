@@ -96,7 +96,7 @@ fn packed(seed: u64, wall_speed: Option<f64>) -> Result<Packed, CliError> {
     Ok(pack_as(&spec, &preparation, &Material::default())?)
 }
 
-/// Strains a packing, and returns the averages at the end.
+/// Strains a copy of a packing, and returns its state in equilibrium.
 fn strained(packing: &Packed, strain: f64, protocol: Protocol) -> Result<Stop, CliError> {
     let mut simulation = packing.simulation.clone();
     let mut ramp = follow(&mut simulation, &[Strains::thermal(strain)], protocol, |_, _| ())?;

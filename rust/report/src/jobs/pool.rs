@@ -16,7 +16,7 @@ pub type Records = BTreeMap<String, Record>;
 pub struct Progress<'a> {
     pub done: usize,
     pub total: usize,
-    /// Estimated times of the jobs that are done and of all jobs [s], whatever the processor.
+    /// Estimated times of the jobs that have run and of all jobs that have to run [s].
     pub work: [f64; 2],
     /// Time that has passed since the first job was started [s].
     pub elapsed: f64,

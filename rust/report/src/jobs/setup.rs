@@ -109,8 +109,8 @@ fn write_fields(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(), R
     Ok(())
 }
 
-/// Commands, run in the case folder, that make the mesh and, where it is needed, compile the plug-in and set its permissions
-/// such that msddFoam loads it also as root.
+/// Commands, run in the case folder, that make the mesh and, if the job has a plug-in, compile it and name it in
+/// MSDD_ALLOW_PLUGINS, because msddFoam loads no other plug-ins when it runs as root.
 pub fn preparation(checkout: &Path, job: &SolverJob) -> String {
     let mut commands = "blockMesh > log.blockMesh 2>&1".to_string();
     if let Some(source) = &job.plugin {
@@ -146,7 +146,7 @@ mod tests {
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// When jobs run as root, too, msddFoam finds the plug-in by its name alone.
+    /// Jobs may run as root, where msddFoam loads a plug-in only if the environment names it.
     #[test]
     fn a_plugin_is_compiled_and_named() {
         let mut job = SolverJob::new("H", 1);

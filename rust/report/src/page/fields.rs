@@ -87,7 +87,7 @@ fn end_maps(made: &Made) -> Result<String, ReportError> {
             let dem = reference_sub_regions(reference, quantity, false);
             let mut named = vec![("discrete elements", averaged(&dem, scale))];
             let names = configurations(made);
-            // The paper's network has the affine conductivity, which is larger, so it is left out of this map.
+            // The paper's network has the affine conductivity, which is larger, so it is left out of these maps.
             for name in names.iter().take(2) {
                 if let Some(runs) = made.runs.get(&(reference.case.clone(), name.clone())) {
                     let values: Vec<Vec<f64>> = runs.iter().map(|run| sub_regions(run, quantity)).collect();
