@@ -44,6 +44,10 @@ impl Dictionary {
         let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
         let mut command = Command::new("foamDictionary");
         command.arg("-expand").arg(file);
+        // A PWD that is missing, or is not the folder of this process, makes OpenFOAM print a warning amid its output.
+        if let Ok(folder) = std::env::current_dir() {
+            command.env("PWD", folder);
+        }
         if std::env::var_os("WM_PROJECT_DIR").is_none() {
             command.env("WM_PROJECT_DIR", DEBIAN_PROJECT_DIR);
         }

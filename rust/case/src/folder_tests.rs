@@ -5,7 +5,8 @@ use crate::Case;
 use crate::dictionary::Dictionary;
 use crate::grains::PRESETS;
 use crate::packing::Start;
-use crate::scene::{parse_wall, proposed_cells, proposed_probes};
+use crate::scene::{Mechanics, parse_wall, proposed_cells, proposed_probes};
+use msdd_rve::Compression;
 
 fn spread(mean: f64) -> Spread {
     Spread { mean, deviation: 0.01 * mean }
@@ -54,6 +55,7 @@ fn text<'a>(files: &'a [File], path: &str) -> &'a str {
 
 #[test]
 fn every_place_of_every_template_is_filled_and_every_dictionary_is_read() {
+    let place = regex::Regex::new("@[A-Za-z]+@").unwrap();
     for mechanics in [Mechanics::None, Mechanics::Equilibrium] {
         let files = made(|scene| {
             scene.mechanics = mechanics;
@@ -62,7 +64,7 @@ fn every_place_of_every_template_is_filled_and_every_dictionary_is_read() {
         });
         assert_eq!(files.len(), 15);
         for File { path, text, program } in &files {
-            assert!(!regex::Regex::new("@[A-Za-z]+@").unwrap().is_match(text), "{path}: {text}");
+            assert!(!place.is_match(text), "{path}: {text}");
             assert_eq!(*program, path.starts_with("All"));
             if path.contains('/') {
                 let dictionary = Dictionary::parse(Path::new(path), &expanded(text)).unwrap();

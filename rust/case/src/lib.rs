@@ -11,6 +11,7 @@
 //! | [`scene`] | the parameters of a new case |
 //! | [`packing`] | the initial packing of a new case |
 //! | [`folder`] | the files of a new case |
+//! | [`values`] | values in these files, as text |
 //! | [`check`](mod@check) | what is missing, out of range or doubtful before a run |
 #![forbid(unsafe_code)]
 
@@ -23,6 +24,7 @@ pub mod grains;
 pub mod mesh;
 pub mod packing;
 pub mod scene;
+pub mod values;
 pub mod walls;
 
 pub use case::Case;

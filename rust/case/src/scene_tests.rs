@@ -25,7 +25,8 @@ fn scene() -> Scene {
 #[test]
 fn each_wish_out_of_range_is_refused_with_key_value_and_range() {
     assert!(scene().check().is_ok());
-    let wrong: [(fn(&mut Scene), &str); 10] = [
+    type Change = fn(&mut Scene);
+    let wrong: [(Change, &str); 10] = [
         (|s| s.size[0] = 0.01, "width of the box = 0.01, allowed: 0.04 to 1e6 m"),
         (|s| s.size[1] = f64::NAN, "height of the box = NaN"),
         (|s| s.cells = [0, 3], "cells = 0, allowed: 1 to 4000000"),

@@ -169,6 +169,9 @@ fn run_page(settings: &Settings, file: &Path, script: &str) -> Result<Option<Fin
     msdd_files::write(&begin, BEGIN.as_bytes())?;
     msdd_files::write(&page, script.as_bytes())?;
     let broken = |source| DocsError::Folder { folder: copy.clone(), source };
+    // The system's Python is the one that has the packages which the book tells to install.
+    fs::create_dir_all(place("bin")).map_err(broken)?;
+    std::os::unix::fs::symlink("/usr/bin/python3", place("bin").join("python3")).map_err(broken)?;
     let out = fs::File::create(&output).map_err(broken)?;
     let path = std::env::var("PATH").unwrap_or_default();
     let status = Command::new("timeout")
@@ -177,7 +180,7 @@ fn run_page(settings: &Settings, file: &Path, script: &str) -> Result<Option<Fin
         .current_dir(&copy)
         .env("BASH_ENV", &begin)
         .env("MSDD_DOCS_FAILED", &failed)
-        .env("PATH", format!("{}:{path}", settings.programs.display()))
+        .env("PATH", format!("{}:{}:{path}", settings.programs.display(), place("bin").display()))
         .env("PYTHONPATH", copy.join("rust/python"))
         .stderr(out.try_clone().map_err(broken)?)
         .stdout(out)

@@ -32,7 +32,7 @@ class Grains:
     wall_stiffness_factor: float = 1.0
     """stiffness of a contact with a wall over that of one between grains [-]"""
     damping: float = 0.1
-    """damping of contacts, a fraction of the critical one [-]"""
+    """damping factor mu: a grain is held back by mu times the resultant of its contact forces, against its velocity [-]"""
 
 
 @dataclass(frozen=True)

@@ -83,6 +83,8 @@ fn sqlite_files() {
     let whole = read(&files[0]).unwrap();
     let file = files[0].with_file_name("mutated.msdd");
     let accepted = mutations::fuzz(("databases", folder()), &bytes(&files), 500, |input| {
+        // A file that is written over waits for the disk.
+        let _ = std::fs::remove_file(&file);
         std::fs::write(&file, input).map_err(|error| error.to_string())?;
         let Ok(found) = read(&file) else { return Ok(false) };
         if found.has_checksum() && found != whole {

@@ -153,6 +153,8 @@ int main(int argc, char *argv[])
     label taken = 0, asked = 0, refused = 0;
     for (label round = 0; round < rounds; ++round)
     {
+        // A file that is written over waits for the disk
+        rm(file);
         {
             std::ofstream os(file, std::ios::trunc | std::ios::binary);
             os << good.substr(0, body) << damaged(random, good.substr(body));

@@ -6,9 +6,9 @@ use super::finding::Findings;
 use super::mesh::{BLOCKS, Mesh};
 use super::state::Bed;
 use crate::dictionary::{Dictionary, Entry, Token};
-use crate::folder::grains_in;
 use crate::grains::Grains;
 use crate::scene::rounded;
+use crate::values::grains_in;
 use msdd_rve::message::number;
 
 /// Path in the case folder.

@@ -2,6 +2,7 @@
 
 mod ask;
 mod check;
+mod grain_wishes;
 mod new;
 mod wishes;
 

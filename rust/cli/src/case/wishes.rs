@@ -1,14 +1,14 @@
 //! The user's choices for a new case: options, and questions about everything that is not given as an option.
 
 use super::ask::{Asker, number};
+use super::grain_wishes::GrainWishes;
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
-use msdd_case::folder::{describe, plain};
-use msdd_case::grains::{Grains, PRESETS, Preset, preset};
 use msdd_case::packing::{POROSITIES, Start};
 use msdd_case::scene::{
     Mechanics, Scene, cells_of, parse_pair, parse_point, parse_wall, proposed_cells, proposed_probes,
 };
+use msdd_case::values::{describe, plain};
 use msdd_case::walls::WallOverTime;
 use msdd_rve::Compression;
 
@@ -71,32 +71,6 @@ pub struct Wishes {
     /// the horizontal middle line.
     #[arg(long = "probe", value_name = "X,Y", value_parser = parse_point, help_heading = "Computation")]
     probes: Vec<[f64; 2]>,
-}
-
-#[derive(Args)]
-struct GrainWishes {
-    /// Material of the grains: paper, steel, glass or alumina (values and sources: `msdd case new --list-materials`). The
-    /// options below replace single values of it.
-    #[arg(long, value_name = "NAME", help_heading = "Grains")]
-    material: Option<String>,
-    /// Density of the grains [kg/m3].
-    #[arg(long, value_name = "KG/M3", help_heading = "Grains")]
-    density: Option<f64>,
-    /// Young's modulus of the grains [Pa].
-    #[arg(long, value_name = "PA", help_heading = "Grains")]
-    young_modulus: Option<f64>,
-    /// Thermal conductivity of the grains [W/(m K)].
-    #[arg(long, value_name = "W/(M K)", help_heading = "Grains")]
-    thermal_conductivity: Option<f64>,
-    /// Specific heat capacity of the grains [J/(kg K)].
-    #[arg(long, value_name = "J/(KG K)", help_heading = "Grains")]
-    heat_capacity: Option<f64>,
-    /// Linear thermal expansion coefficient of the grains [1/K].
-    #[arg(long, value_name = "1/K", help_heading = "Grains")]
-    thermal_expansion: Option<f64>,
-    /// Mean radius of the grains [m]; the radii are uniformly distributed between 0.6 and 1.4 times this value.
-    #[arg(long, value_name = "M", help_heading = "Grains")]
-    mean_radius: Option<f64>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -260,108 +234,12 @@ impl Wishes {
     }
 }
 
-fn yes_or_no(text: &str) -> Result<bool, String> {
-    match text {
-        "yes" | "y" => Ok(true),
-        "no" | "n" => Ok(false),
-        _ => Err("yes, no".to_string()),
-    }
-}
-
 /// `0.125` or `3000 Pa`.
 fn parse_start(text: &str) -> Result<Start, String> {
     let allowed = || "a porosity such as 0.125, or a pressure with its unit such as '3000 Pa'".to_string();
     match text.strip_suffix("Pa") {
         Some(pressure) => number(pressure.trim()).map(Start::Pressure).map_err(|_| allowed()),
         None => number(text).map(Start::Porosity).map_err(|_| allowed()),
-    }
-}
-
-impl GrainWishes {
-    /// The named material that was chosen first, the name of the material as changed by the user, and the grains.
-    fn ask(&self, asker: &Asker) -> Result<(&'static Preset, String, Grains), CliError> {
-        let base = match &self.material {
-            Some(name) => preset(name)?,
-            None => {
-                let list: Vec<String> =
-                    PRESETS.iter().map(|one| format!("  {:8} {}", one.name, one.about)).collect();
-                let help = format!("Material of the grains:\n{}", list.join("\n"));
-                let names: Vec<&str> = PRESETS.iter().map(|one| one.name).collect();
-                let read = |text: &str| preset(text).map_err(|_| names.join(", "));
-                asker.value(None, &help, "Material", PRESETS[0].name, read)?
-            }
-        };
-        let own = Grains {
-            density: self.density.unwrap_or(base.grains.density),
-            young_modulus: self.young_modulus.unwrap_or(base.grains.young_modulus),
-            thermal_conductivity: self.thermal_conductivity.unwrap_or(base.grains.thermal_conductivity),
-            heat_capacity: self.heat_capacity.unwrap_or(base.grains.heat_capacity),
-            thermal_expansion: self.thermal_expansion.unwrap_or(base.grains.thermal_expansion),
-            mean_radius: self.mean_radius.unwrap_or(base.grains.mean_radius),
-        };
-        let change = asker.interactive
-            && asker.value(
-                None,
-                "The material has a density, Young's modulus, thermal conductivity, heat capacity, thermal expansion and mean \
-                 radius of its own. Each may be changed.",
-                "Change some of them (yes or no)",
-                "no",
-                yes_or_no,
-            )?;
-        let asked = if change { self.ask_values(asker, own)? } else { own };
-        asked.check()?;
-        let material = if asked == base.grains {
-            format!("{}: {}", base.name, base.about)
-        } else {
-            let changed = asked.named().into_iter().zip(base.grains.named()).filter(|(a, b)| a.1 != b.1);
-            let names: Vec<&str> = changed.map(|(a, _)| a.0).collect();
-            format!("{} ({}), but {} as wished", base.name, base.about, names.join(", "))
-        };
-        Ok((base, material, asked))
-    }
-
-    /// Asks for the values of the material that are not given as options.
-    fn ask_values(&self, asker: &Asker, from: Grains) -> Result<Grains, CliError> {
-        let given = [
-            self.density,
-            self.young_modulus,
-            self.thermal_conductivity,
-            self.heat_capacity,
-            self.thermal_expansion,
-            self.mean_radius,
-        ];
-        let questions = [
-            ("The density of a grain, not that of the bed.", "Density [kg/m3]"),
-            (
-                "How stiff contacts are: force is Young's modulus times mean radius times overlap. The pressure of the bed is in \
-                 proportion to it.",
-                "Young's modulus [Pa]",
-            ),
-            (
-                "The thermal conductivity of a grain; the bed conducts about a third of it.",
-                "Thermal conductivity [W/(m K)]",
-            ),
-            ("The specific heat capacity of a grain.", "Specific heat capacity [J/(kg K)]"),
-            (
-                "The linear thermal expansion coefficient. Times the change of temperature it should stay below 0.05.",
-                "Thermal expansion [1/K]",
-            ),
-            ("The mean radius; radii are uniform between 0.6 and 1.4 of it.", "Mean radius [m]"),
-        ];
-        let mut values = from.named().map(|(_, value, _)| value);
-        for ((value, given), (help, question)) in values.iter_mut().zip(given).zip(questions) {
-            *value = asker.value(given, help, question, &plain(*value), number)?;
-        }
-        let [density, young_modulus, thermal_conductivity, heat_capacity, thermal_expansion, mean_radius] =
-            values;
-        Ok(Grains {
-            density,
-            young_modulus,
-            thermal_conductivity,
-            heat_capacity,
-            thermal_expansion,
-            mean_radius,
-        })
     }
 }
 

@@ -1,0 +1,231 @@
+//! Values in the files of a new case: numbers and names as text.
+
+use crate::CaseError;
+use crate::packing::{Packing, RADIUS_RANGE, Spread};
+use crate::scene::{Mechanics, Scene, WALLS, rounded};
+use crate::walls::WallOverTime;
+use msdd_dem::WallHeat;
+use msdd_rve::Compression;
+use std::f64::consts::PI;
+use std::path::Path;
+
+/// Number of times at which fields are written during the run, and number of rows in the probes' tables.
+const WRITES: f64 = 4.0;
+const PROBE_LINES: f64 = 200.0;
+/// Least number of time steps of a run, so that curves of T are smooth.
+const STEPS: f64 = 100.0;
+
+/// To estimate the duration of a discrete element simulation: time step over sqrt(density radius / Young's modulus), and time
+/// for one grain and step on one core [s]. From 20 s of case H with 15 000 grains and steps of 1 ms, 131 core-seconds.
+const DISCS_STEP: f64 = 0.8;
+const DISCS_COST: f64 = 4e-7;
+
+pub(crate) type Values = Vec<(&'static str, String)>;
+
+/// The values that replace `@key@` in the templates.
+pub(crate) fn values(
+    scene: &Scene,
+    packing: &Packing,
+    name: &str,
+    checkout: &Path,
+) -> Result<Values, CaseError> {
+    let end = scene.end_time;
+    let probe_interval = plain(rounded(end / PROBE_LINES, 2));
+    let depth = scene.cell()[0].min(scene.cell()[1]);
+    let mut values: Values = vec![
+        (
+            "spaceProbes",
+            match scene.mechanics {
+                Mechanics::Equilibrium => include_str!("../templates/spaceProbes").to_string(),
+                Mechanics::None => String::new(),
+            },
+        ),
+        ("checkout", checkout.display().to_string()),
+        ("name", name.to_string()),
+        ("mechanics", mechanics_name(scene.mechanics).to_string()),
+        ("endTime", plain(end)),
+        ("deltaT", plain(scene.first_step()?)),
+        ("maxDeltaT", plain(rounded(end / STEPS, 2))),
+        ("writeInterval", plain(end / WRITES)),
+        ("probeInterval", probe_interval),
+        ("depth", plain(rounded(depth, 3))),
+        ("probes", probes(scene, depth)),
+        ("initialTemperature", plain(scene.initial_temperature)),
+        ("walls", walls(scene)),
+        ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
+        (
+            "tolerance",
+            match scene.tolerance {
+                Some(value) => format!("temperatureTolerance    {};", plain(value)),
+                None => "// temperatureTolerance    0.05;".to_string(),
+            },
+        ),
+    ];
+    values.extend(scene.grains.named().map(|(key, value, _)| (key, plain(value))));
+    values.extend(mesh_values(scene, packing));
+    values.extend(readme_values(scene, packing));
+    Ok(values)
+}
+
+fn mesh_values(scene: &Scene, packing: &Packing) -> Values {
+    let [width, height] = scene.size;
+    let [cell_width, cell_height] = scene.cell();
+    let grains = |area| grains_in(area, packing.porosity.mean, scene.grains.mean_radius);
+    let (discs, in_cell) = (grains(width * height), grains(cell_width * cell_height));
+    vec![
+        ("width", plain(width)),
+        ("height", plain(height)),
+        ("nx", scene.cells[0].to_string()),
+        ("ny", scene.cells[1].to_string()),
+        ("cellWidth", plain(rounded(cell_width, 3))),
+        ("cellHeight", plain(rounded(cell_height, 3))),
+        ("grainsInCell", format!("{in_cell:.1}")),
+        ("discs", plain(rounded(discs, 2))),
+        ("discsTime", discs_time(scene, discs)),
+    ]
+}
+
+/// Number of grains on an area [m²] with this porosity, if overlaps are neglected.
+pub fn grains_in(area: f64, porosity: f64, mean_radius: f64) -> f64 {
+    let [low, high] = RADIUS_RANGE.map(|ratio| ratio * mean_radius);
+    // Mean of r² for radii that are uniformly distributed between the two.
+    area * (1.0 - porosity) / (PI * (low * low + low * high + high * high) / 3.0)
+}
+
+fn readme_values(scene: &Scene, packing: &Packing) -> Values {
+    let row = |(name, wall): (&str, &WallOverTime)| format!("| {name} wall | {} | `0/T` |\n", describe(wall));
+    vec![
+        ("wallRows", WALLS.into_iter().zip(&scene.walls).map(row).collect()),
+        ("material", scene.material.clone()),
+        ("compression", compression_name(packing.compression).to_string()),
+        ("boxes", packing.boxes.to_string()),
+        ("boxGrains", packing.grains.to_string()),
+        ("packing", table(packing)),
+        (
+            "sourceRow",
+            match scene.heat_source {
+                Some(value) => format!("{} W/m3", plain(value)),
+                None => "nothing (no such file)".to_string(),
+            },
+        ),
+        (
+            "noSource",
+            match scene.heat_source {
+                Some(_) => "; but msdd reference cannot simulate heat sources and leaves this one out, so its results are not those of this case".to_string(),
+                None => String::new(),
+            },
+        ),
+    ]
+}
+
+/// Estimated duration of a discrete element simulation of the case, as text; from measurements with the paper's grains.
+fn discs_time(scene: &Scene, discs: f64) -> String {
+    let grains = &scene.grains;
+    // Time step, in proportion to the period in which a grain oscillates on its contacts: 1 ms of 1.2 ms in the paper.
+    let step = DISCS_STEP * (grains.density * grains.mean_radius / grains.young_modulus).sqrt();
+    let seconds = scene.end_time / step * discs * DISCS_COST;
+    match seconds {
+        ..60.0 => "seconds".to_string(),
+        ..3600.0 => format!("{:.0} minutes", seconds / 60.0),
+        ..86400.0 => format!("{:.0} hours", seconds / 3600.0),
+        _ => format!("{} days: stiff grains need short steps", plain(rounded(seconds / 86400.0, 2))),
+    }
+}
+
+/// Thermal boundary condition of a wall, as text.
+pub fn describe(wall: &WallOverTime) -> String {
+    match wall {
+        WallOverTime::Steady(WallHeat::Temperature(value)) => format!("{} K", plain(*value)),
+        WallOverTime::Steady(_) => "insulated".to_string(),
+        WallOverTime::Table(rows) => {
+            let list: Vec<String> = rows
+                .iter()
+                .map(|[time, value]| format!("{} K at {} s", plain(*value), plain(*time)))
+                .collect();
+            list.join(", ")
+        }
+    }
+}
+
+/// Rows of the table of the initial state: quantity, mean, scatter.
+pub fn packing_rows(packing: &Packing) -> Vec<[String; 3]> {
+    let row = |what: &str, spread: Spread, digits: usize| {
+        [what.to_string(), format!("{:.digits$}", spread.mean), format!("{:.digits$}", spread.deviation)]
+    };
+    let pascal = |what: &str, spread: Spread| {
+        [what.to_string(), plain(rounded(spread.mean, 4)), plain(rounded(spread.deviation, 2))]
+    };
+    vec![
+        row("porosity (overlaps counted once)", packing.porosity, 4),
+        pascal("pressure [Pa]", packing.pressure),
+        pascal("stress along x [Pa], compression positive", packing.stress[0]),
+        pascal("stress along y [Pa]", packing.stress[1]),
+        row("fabric index F_xx - F_yy", packing.fabric_index, 4),
+        row("conductivity of the bed over that of the grains", packing.conductivity, 4),
+        row("its anisotropy (K_xx - K_yy)/(K_xx + K_yy)", packing.fabric_conductivity, 4),
+    ]
+}
+
+fn table(packing: &Packing) -> String {
+    let rows = packing_rows(packing)
+        .into_iter()
+        .map(|[what, mean, deviation]| format!("| {what} | {mean} | {deviation} |\n"));
+    let rows: String = rows.collect();
+    format!("| quantity | mean | scatter |\n|---|---|---|\n{}", rows.trim_end())
+}
+
+fn probes(scene: &Scene, depth: f64) -> String {
+    let z = plain(rounded(0.5 * depth, 3));
+    let line = |[x, y]: &[f64; 2]| format!("            ({} {} {z})", plain(*x), plain(*y));
+    scene.probes.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn walls(scene: &Scene) -> String {
+    let condition = |wall: &WallOverTime| match wall {
+        WallOverTime::Steady(WallHeat::Temperature(value)) => {
+            format!("type    fixedValue;\n        value   uniform {};", plain(*value))
+        }
+        WallOverTime::Steady(_) => "type    zeroGradient;".to_string(),
+        WallOverTime::Table(rows) => {
+            let list: String =
+                rows.iter().map(|[time, value]| format!(" ({} {})", plain(*time), plain(*value))).collect();
+            format!(
+                "type            uniformFixedValue;\n        uniformValue    table ({} );\n        value           uniform {};",
+                list,
+                plain(rows[0][1])
+            )
+        }
+    };
+    let block = |(name, wall): (&str, &WallOverTime)| {
+        format!("    {name}\n    {{\n        {}\n    }}\n", condition(wall))
+    };
+    WALLS.into_iter().zip(&scene.walls).map(block).collect()
+}
+
+/// Name of the mechanics in `constant/granularProperties`.
+pub fn mechanics_name(mechanics: Mechanics) -> &'static str {
+    match mechanics {
+        Mechanics::None => "none",
+        Mechanics::Equilibrium => "equilibrium",
+    }
+}
+
+pub fn compression_name(compression: Compression) -> &'static str {
+    match compression {
+        Compression::Isotropic => "isotropic",
+        Compression::Horizontal => "horizontal",
+        Compression::Intermediate => "intermediate",
+        Compression::Sheared => "sheared",
+    }
+}
+
+/// A number in its usual short form, such as 0.012 or 1.93e11, which gives exactly the same number when it is read.
+pub fn plain(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || (1e-4..1e5).contains(&size) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// Replaces every `@key@` by its value.
+pub(crate) fn fill(template: &str, values: &Values) -> String {
+    values.iter().fold(template.to_string(), |text, (key, value)| text.replace(&format!("@{key}@"), value))
+}
