@@ -16,8 +16,8 @@ use std::sync::Mutex;
 
 #[derive(Args)]
 #[command(
-    after_help = "On a terminal it asks for whatever is not given as an option, with a proposal for each; an empty answer takes it.
-Without a terminal, or with --yes, the proposals are taken.
+    after_help = "On a terminal the program asks for everything that is not given as an option, and proposes a value; an empty answer \
+takes the proposal. Without a terminal, or with --yes, all proposals are taken.
 
 Examples:
   msdd case new bed                                   asks
@@ -25,7 +25,7 @@ Examples:
   msdd case new bed --yes --material glass --box 0.05x0.02 --left 350 --pressure 2e6
   msdd case new bed --yes --box 0.5x0.2 --left insulated --right insulated --top 50 --bottom 50 --heat-source 3000
 
-Then: bed/Allrun. The folder stands for itself: it may lie anywhere and be copied."
+Then: bed/Allrun. The folder needs no files of other cases, so it may stand anywhere and be copied."
 )]
 pub struct Arguments {
     /// The new case folder; it must not exist yet, or be empty.

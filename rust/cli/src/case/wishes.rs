@@ -163,7 +163,7 @@ impl Wishes {
 
     fn ask_walls(&self, asker: &Asker, initial: f64) -> Result<[WallOverTime; 4], CliError> {
         let help = "Each wall is insulated, or has a temperature [K], or one that changes over time: 0:300,60:350 is 300 K at \
-                    0 s, 350 K at 60 s, and straight between.";
+                    0 s, 350 K at 60 s, and linear between them.";
         let hot = plain(initial + HOTTER);
         let cold = plain(initial);
         let left = asker.value(self.left.clone(), help, "Left wall", &hot, parse_wall)?;
@@ -174,7 +174,13 @@ impl Wishes {
         ];
         let mut walls = vec![left];
         for (given, name, proposal) in others {
-            walls.push(asker.value(given.clone(), "Likewise.", name, proposal, parse_wall)?);
+            walls.push(asker.value(
+                given.clone(),
+                "Values as for the left wall.",
+                name,
+                proposal,
+                parse_wall,
+            )?);
         }
         walls.try_into().map_err(|_| CliError::Message("four walls".to_string()))
     }
@@ -201,8 +207,8 @@ impl Wishes {
     fn ask_compression(&self, asker: &Asker) -> Result<Compression, CliError> {
         let name = asker.value(
             self.compression,
-            "How the grains were brought together: along x alone (horizontal), as 'msdd reference' does when it fills a box for \
-             comparison, or from all sides alike (isotropic).",
+            "How the grains were compressed: along x alone (horizontal), as 'msdd reference' does when it fills a box for \
+             comparison, or equally from all sides (isotropic).",
             "Compression",
             "horizontal",
             |text| CompressionName::from_str(text, true).map_err(|_| "horizontal, isotropic".to_string()),
