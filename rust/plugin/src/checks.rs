@@ -121,7 +121,7 @@ impl Question<'_> {
         for ((name, first, _), (_, second, _)) in first.iter().zip(second) {
             let differs = |cell: &usize| first[*cell].to_bits() != second[*cell].to_bits();
             if let Some(cell) = (0..first.len()).find(differs) {
-                let allowed = "what it answered to the same question a moment before";
+                let allowed = "the result of the call before, which had the same inputs";
                 return self.refused(name, cell, second[cell], allowed);
             }
         }

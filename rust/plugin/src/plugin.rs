@@ -334,7 +334,7 @@ impl Plugin {
         if status == 0 {
             return Ok(());
         }
-        let text = self.last_error.map_or(Err("it has no text for that".to_string()), |last_error| {
+        let text = self.last_error.map_or(Err("it gives no message".to_string()), |last_error| {
             // SAFETY: takes nothing, and returns null or a C string, by the header.
             unsafe { text("the text of its last_error", last_error()) }
         });

@@ -168,7 +168,7 @@ fn failures_come_with_the_text_of_the_plugin() {
     assert!(told.contains("plug-in \"plain\""), "{told}");
     assert!(told.contains("advance failed with status -3: the table of isotherms is empty"), "{told}");
     let told = message("mute", &["FAILS=1", "CHANGE=table.last_error=NULL"]);
-    assert!(told.contains("status 1: it has no text for that"), "{told}");
+    assert!(told.contains("status 1: it gives no message"), "{told}");
 }
 
 #[test]
@@ -206,7 +206,7 @@ fn answers_that_no_grains_have_are_named_by_column_and_cell() {
         (
             "calls",
             "ANSWERS=step->stress_xx[2]=calls",
-            "stress_xx[2] = 2, allowed: what it answered to the same",
+            "stress_xx[2] = 2, allowed: the result of the call before",
         ),
     ] {
         let plugin = Plugin::load(&compiled(&format!("answer-{name}"), &[macros])).expect("fit");
@@ -288,7 +288,7 @@ fn a_start_that_depends_on_the_number_of_calls_is_refused() {
     let start = Start { porosity: &[0.1], fabric_index: &[0.2], fabric_conductivity: None, stress: None };
     let message = plugin.initial_state(&start).expect_err("ages").to_string();
     assert!(
-        message.contains("initial_state answered state age[0] = 2, allowed: what it answered"),
+        message.contains("initial_state answered state age[0] = 2, allowed: the result of the call before"),
         "{message}"
     );
 }
