@@ -129,7 +129,7 @@ impl<'a> Scene<'a> {
                 let value = format!("{} grains in a cell", number(rounded(count, 2)));
                 let side = number(rounded(crate::scene::CELL_RADII * grains.mean_radius, 2));
                 let advice = format!(
-                    "A cell stands for the mean over its grains, which means little here, however smooth the result looks: make \
+                    "A cell describes the mean over its grains, which says little for so few, even if the result looks smooth: make \
                      cells of about {side} m (fewer of them), or check meanRadius, which is {} m",
                     number(grains.mean_radius)
                 );
@@ -176,12 +176,12 @@ impl<'a> Scene<'a> {
                 let source = if rise == 0.0 {
                     ""
                 } else {
-                    " (Estimated: what the heat source leads to at last, with the conductivity of the start; grains that swell \
-                     conduct better and get less hot.)"
+                    " (Estimated from the steady state with the heat source and the initial conductivity. Grains that expand \
+                     conduct better, so the bed gets less hot.)"
                 };
                 let advice = format!(
-                    "The strain from the start to the hottest or coldest place is beyond what the model was trained with: it is \
-                     composed of small steps, but whether the result is right has not been measured{source}"
+                    "The strain from the initial to the highest or lowest temperature is outside of what the model was trained with. The \
+                     solver adds it up in small steps, but the accuracy of the result has not been measured{source}"
                 );
                 let advice = advice.as_str();
                 found.doubt(
@@ -242,7 +242,7 @@ impl<'a> Scene<'a> {
             let crossed = side * side / bed.diffusivity;
             if !times.adaptive && times.step > crossed {
                 let advice = format!(
-                    "Heat crosses a cell in {} s: steps longer than that are stable but smear the beginning. Take shorter ones, or \
+                    "Heat crosses a cell in {} s. Longer steps are stable, but inaccurate at the beginning. Take shorter ones, or \
                      adaptive ones (adjustTimeStep yes, timeScheme secondOrder)",
                     number(rounded(crossed, 2))
                 );
