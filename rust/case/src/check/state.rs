@@ -251,22 +251,23 @@ pub fn walk(
         let answer = model.evaluate(&state, increment);
         let left = (0..names.len() - 1).find(|&column| {
             let beyond = answer.outside[column][0];
-            // A state that leaves the range because grains lose contact is not reported: the model can describe this.
+            // The fabric index is not reported: its range is narrow, and it leaves it when grains lose contact, which the model
+            // can describe.
             beyond != 0.0 && names[column] != "fabricIndex" && step > 0
         });
         if let Some(column) = left {
             let side = if answer.outside[column][0] > 0.0 { "above" } else { "below" };
             let value = format!("a strain of {} at {} K", number(rounded(strain, 3)), number(temperature));
             let advice = format!(
-                "Where grains that cannot move come to this temperature, {} runs {side} what the model was trained with, from a \
-                 strain of {} on. The run may end there; grains that move (mechanics equilibrium) help as long as others give way",
+                "Where grains that cannot move reach this temperature, {} gets {side} the range that the model was trained with, from a \
+                 strain of {} on. The run may end then. With 'mechanics equilibrium' the grains strain less, if the bed around them gives way",
                 names[column],
                 number(rounded(part(step + 1), 2))
             );
             found.doubt(
                 [FILE, "thermalExpansion"],
                 &value,
-                "strains that keep to the region of the model",
+                "strains for which the state stays in the range of the model",
                 &advice,
             );
             return;
