@@ -260,7 +260,7 @@ pub fn walk(
             let value = format!("a strain of {} at {} K", number(rounded(strain, 3)), number(temperature));
             let advice = format!(
                 "Where grains that cannot move reach this temperature, {} gets {side} the range that the model was trained with, from a \
-                 strain of {} on. The run may end then. With 'mechanics equilibrium' the grains strain less, if the bed around them gives way",
+                 strain of {} on. The run may end then. With 'mechanics equilibrium' the state changes less, as long as the bed around gives way",
                 names[column],
                 number(rounded(part(step + 1), 2))
             );
