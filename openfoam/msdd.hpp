@@ -76,6 +76,7 @@ inline void checkVersion()
     }
 }
 
+/** Deleter of the handles and texts that the library hands out. */
 struct Free
 {
     void operator()(msdd_surrogate* surrogate) const noexcept
@@ -162,14 +163,14 @@ public:
         return Surrogate(handle);
     }
 
-    /** Number of state columns; 0 after a move. */
+    /** Number of state columns; 0 for an object that was moved from. */
     std::size_t stateSize() const
     {
         const detail::MaskedTraps masked;
         return msdd_surrogate_state_size(handle_.get());
     }
 
-    /** Name of a state column, for example "porosity"; empty beyond the last. */
+    /** Name of a state column, counted from 0, for example "porosity"; empty beyond the last. */
     std::string stateName(std::size_t column) const
     {
         const detail::MaskedTraps masked;
@@ -214,14 +215,14 @@ public:
         detail::check(msdd_surrogate_solid_fraction(handle_.get(), cells, porosity, solidFraction));
     }
 
-    /** SHA-256 of the model file, 64 hexadecimal digits; empty after a move. */
+    /** SHA-256 of the model file, 64 hexadecimal digits; empty for an object that was moved from. */
     std::string hash() const
     {
         const detail::MaskedTraps masked;
         return text(msdd_surrogate_hash(handle_.get()));
     }
 
-    /** Description as one JSON object; empty after a move. */
+    /** Description as one JSON object, see msdd_surrogate_describe; empty for an object that was moved from. */
     std::string describe() const
     {
         const detail::MaskedTraps masked;
@@ -236,11 +237,12 @@ private:
     std::unique_ptr<msdd_surrogate, detail::Free> handle_;
 };
 
-/** A box of grains, simulated by discrete elements: movable, not copyable but by clone. One thread at a time. */
+/** A box of grains, simulated by discrete elements. It can be moved, and copied by clone() alone. Only one thread at a time
+ *  may use it. */
 class Rve
 {
 public:
-    /** Packs by a specification, a JSON object; see msdd_rve_pack. Throws Error. */
+    /** Packs a box from a specification, a JSON object; see msdd_rve_pack. Throws Error. */
     static Rve pack(const std::string& specification = "{}")
     {
         const detail::MaskedTraps masked;
@@ -270,6 +272,7 @@ public:
         return text;
     }
 
+    /** A copy. Throws Error. */
     Rve clone() const
     {
         const detail::MaskedTraps masked;
@@ -278,8 +281,8 @@ public:
         return Rve(handle);
     }
 
-    /** Strains relative to the present state and relaxes; returns one of enum msdd_outcome. Throws Error, and then the
-     *  box is as before. */
+    /** Strains the box relative to its present state and lets the grains move to equilibrium, see msdd_rve_strain; returns
+     *  one of enum msdd_outcome. Throws Error, and then the box is as before. */
     std::int32_t strain(double thermal, double xx = 0, double yy = 0, double xy = 0)
     {
         const detail::MaskedTraps masked;
@@ -288,7 +291,7 @@ public:
         return outcome;
     }
 
-    /** Averages over the averaging region. Throws Error. */
+    /** Averages over the averaging region, see msdd_rve_homogenise. Throws Error. */
     msdd_averages homogenise() const
     {
         const detail::MaskedTraps masked;
@@ -312,6 +315,7 @@ public:
      *  generation. May throw. Floating-point traps are masked while it runs. */
     typedef std::function<bool(std::uint64_t, std::uint64_t, std::uint64_t)> Progress;
 
+    /** The database in the file `path`, which need not exist yet. */
     explicit Database(const std::string& path) : path_(path) {}
 
     const std::string& path() const noexcept { return path_; }

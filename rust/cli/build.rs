@@ -13,7 +13,7 @@ fn main() {
     let commit = git(&["rev-parse", "--short", "HEAD"]).unwrap_or_else(|| "unknown".to_string());
     println!("cargo:rustc-env=MSDD_COMMIT={commit}");
     println!("cargo:rerun-if-changed=build.rs");
-    // Grows by a line with each commit, and with each change to another one.
+    // git adds a line to this log with every commit and every checkout of another one: then build again.
     if let Some(log) = git(&["rev-parse", "--path-format=absolute", "--git-path", "logs/HEAD"]) {
         println!("cargo:rerun-if-changed={log}");
     }

@@ -1,4 +1,4 @@
-// C++ side of the test bridge: msdd.hpp in types that cxx knows.
+// C++ side of the test bridge: calls msdd.hpp with types that cxx can pass between Rust and C++.
 #pragma once
 
 #include "msdd.hpp"

@@ -1,14 +1,14 @@
-//! Test only: `cargo test` drives the real C++ wrapper, `msdd.hpp`, through cxx. Nothing here is shipped: a panic under cxx
-//! ends the process, so the production boundary is `msdd.h`.
+//! For tests only: `cargo test` calls the C++ wrapper, `msdd.hpp`, through cxx. Nothing here is shipped: users call `msdd.h`,
+//! where panics are caught, whereas a panic under cxx ends the process.
 #![allow(unsafe_code)] // the bridge; what is behind it is C++
 
-// The wrapper calls the library's exports: link them.
+// The wrapper calls functions of the library: link it.
 use msdd as _;
 
 /// The C++ side, `bridge.hpp`.
 #[cxx::bridge(namespace = "bridge")]
 pub mod ffi {
-    /// Columns of cells; those of state one after another.
+    /// Columns (one value per cell); those of the state one after the other in one vector.
     #[derive(Clone, Debug, Default, PartialEq)]
     struct Cells {
         state: Vec<f64>,
@@ -28,16 +28,16 @@ pub mod ffi {
         fn load(source: &str) -> Result<UniquePtr<Model>>;
         fn state_size(self: &Model) -> usize;
         fn hash(self: &Model) -> String;
-        /// State columns of cells, one after another.
+        /// Initial state columns of cells, one after the other.
         fn initial_state(self: &Model, porosity: &[f64], fabric_index: &[f64]) -> Result<Vec<f64>>;
-        /// One step of grains of k = E = r = 1, in place.
+        /// One step of grains of k = E = r = 1; the results replace the inputs.
         fn advance(self: &Model, cells: &mut Cells) -> Result<()>;
-        /// The same through the C function itself, with a wrong struct_size.
+        /// Calls the C function itself, with a wrong struct_size.
         fn advance_with_wrong_size(self: &Model, cells: &mut Cells) -> Result<()>;
-        /// Limit [-] and slip [m] of half of it, of walls that grains of this mean radius [m] rub; empty when the model
-        /// has none.
+        /// Wall friction for grains of this mean radius [m]: limit [-], and the slip [m] at which half of the limit is
+        /// mobilised; empty when the model does not know them.
         fn wall_friction(self: &Model, mean_radius: f64) -> Result<Vec<f64>>;
-        /// Moves the wrapper out of `model` into another.
+        /// Moves the wrapper in `model` to a new object.
         fn moved(model: Pin<&mut Model>) -> UniquePtr<Model>;
         /// Moves the wrapper into itself.
         fn move_into_itself(model: Pin<&mut Model>);
@@ -47,7 +47,7 @@ pub mod ffi {
 
         /// Traps division by zero, invalid and overflow on this thread, and clears the flags.
         fn trap();
-        /// Whether all three are trapped on this thread and no flag is up.
+        /// Whether all three are trapped on this thread and no flag is set.
         fn trapped_and_clear() -> bool;
     }
 }

@@ -1,4 +1,5 @@
-//! `msdd.hpp` from Rust: the same bits as the Rust call, exceptions as errors, moves, threads, floating-point traps.
+//! Tests of `msdd.hpp` from Rust: the same bits as a call of the Rust function, exceptions, moves, threads, floating-point
+//! traps.
 
 use msdd_bridge::ffi::{self, Cells};
 use msdd_surrogate::surrogate::{Batch, Known, evaluate_batch};
@@ -6,7 +7,7 @@ use msdd_surrogate::{Surrogate, models};
 
 const COUNT: usize = 37;
 
-/// Cells in the initial state, and a strain a cell.
+/// Cells in the initial state, with a different strain in each.
 fn start(model: &ffi::Model) -> Cells {
     let column = |from: f64, step: f64| (0..COUNT).map(|i| from + step * i as f64).collect::<Vec<f64>>();
     let empty = vec![-7.0; COUNT];
@@ -21,7 +22,7 @@ fn start(model: &ffi::Model) -> Cells {
     }
 }
 
-/// The same step by the Rust call, for grains of k = E = r = 1: dimensionless answers are the SI ones.
+/// The same step by the Rust function, for grains of k = E = r = 1, for which dimensionless results equal those in SI units.
 fn in_rust(model: &dyn Surrogate, cells: &Cells) -> Cells {
     let mut after = cells.clone();
     let state: Vec<&[f64]> = cells.state.chunks(COUNT).collect();
@@ -68,7 +69,7 @@ fn the_wrapper_gives_the_bits_of_the_rust_call() {
     }
 }
 
-/// The slip is in mean radii in the model file, in metres here; the paper's network has no walls.
+/// The slip is given in mean radii in the model file and in metres here; the paper's network has no wall friction.
 #[test]
 fn wall_friction_is_the_models_in_metres() {
     let model = models::builtin("builtin").expect("good");
@@ -96,7 +97,7 @@ fn exceptions_arrive_with_the_librarys_text() {
     assert!(error.what().contains("batch.struct_size"), "{}", error.what());
 }
 
-/// A handle that was moved from is empty, says so, and frees nothing; the one moved to frees once.
+/// An object that was moved from has no model, throws when it is used, and frees nothing; the new one frees the model once.
 #[test]
 fn handles_move_and_are_freed_once() {
     let mut first = ffi::load("builtin").expect("good");
@@ -109,7 +110,7 @@ fn handles_move_and_are_freed_once() {
     assert_eq!(second.hash(), hash);
     let third = ffi::moved(second.pin_mut());
     drop((first, second));
-    // Memory that was freed twice or too early would be in other hands by now.
+    // Memory that was freed twice or too early would be overwritten by these models.
     let others: Vec<_> = (0..20).map(|_| ffi::load("builtin:paper").expect("good")).collect();
     let mut cells = start(&third);
     third.advance(&mut cells).expect("alive");
@@ -129,7 +130,7 @@ fn two_threads_share_a_model() {
         let both = [scope.spawn(chain), scope.spawn(chain)];
         both.into_iter().for_each(|thread| assert_eq!(thread.join().expect("no panic"), alone));
     });
-    // And an error on one thread is no error on the other.
+    // An error on one thread must not appear on another.
     let message = std::thread::scope(|scope| {
         scope
             .spawn(|| ffi::load("builtin:best").err().map(|e| e.what().to_string()))
@@ -139,7 +140,7 @@ fn two_threads_share_a_model() {
     assert!(message.is_some() && model.advance(&mut start(&model)).is_ok());
 }
 
-/// With traps on as in OpenFOAM, nothing that the library computes ends the process, and no flag is left behind.
+/// With floating-point traps on, as in OpenFOAM, no call of the library ends the process, and no exception flag is left set.
 #[test]
 fn traps_stay_on_and_do_not_fire() {
     ffi::trap();

@@ -1,4 +1,4 @@
-/* One cell in C: load a model (the built-in one, or that of the argument), warm the grains, print. */
+/* One cell in C: loads a model (the built-in one, or the one named by the argument), warms the grains and prints. */
 #include "msdd.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// The same in C++11 with msdd.hpp: handles free themselves, failures are exceptions, and floating-point traps may be on.
+// advance.c in C++11 with msdd.hpp: handles free themselves, failures are exceptions, and floating-point traps may be on.
 #include "msdd.hpp"
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-"""The same in Python, by the package in rust/python.
+"""advance.c in Python, by the package in rust/python.
 
     PYTHONPATH=rust/python python3 rust/capi/examples/advance.py [MODEL]
 """

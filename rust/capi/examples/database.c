@@ -1,5 +1,5 @@
-/* A tiny database in C: made by a plan, stopped and resumed, written as CSV; then a packing of the same kind is simulated
- * and the built-in model asked for the same step.  Usage: database FOLDER */
+/* A tiny database in C: generated from a plan, stopped and resumed, written as CSV. Then a packing of the same kind is
+ * strained by simulation, and its pressure is compared with that of the built-in model.  Usage: database FOLDER */
 #include "msdd.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* A surrogate without training, as a plug-in: the effective medium of equal discs whose centres stay where they are.
+/* A plug-in with a surrogate that needs no training: an effective medium of equal discs whose centres do not move.
  *
  *   cc -std=c99 -O2 -shared -fPIC -Irust/capi/include rust/capi/examples/effective_medium.c -lm -o effective_medium.so
  *   then load "plugin:effective_medium.so"
@@ -9,17 +9,19 @@
  *   overlap        x = B (E_J - e), 0 beyond unjamming at E_J                                                      [1]
  *   coordination   Z = Z_0 + Z_1 sqrt(x): contacts appear with the root of the compression (O'Hern et al., Phys.
  *                  Rev. E 68, 011306, 2003); rattlers count as discs                                               [1]
- *   solid fraction s = (1 - e)/(1 - Z (t - sin t cos t)/pi): lenses counted twice; each contact hides a segment
+ *   solid fraction s = (1 - e)/(1 - Z (t - sin t cos t)/pi): overlaps counted twice; each contact cuts a circular segment
+ *                  off the disc
  *   conductivity   K/k = s Z sin t cos t/pi: Eq. 9 of Rangel et al. with conductance k chord/distance, all directions
  *                  alike
  *   pressure       p l/(E r) = s Z x cos t/pi: Love's stress with the force E r 2 r x of equal discs (s_n = E r)
- *   porosity       de/de_thermal = -2 s (1 - Z t/pi): the perimeter that no contact hides moves outwards
+ *   porosity       de/de_thermal = -2 s (1 - Z t/pi): the part of the perimeter without contacts moves outwards
  *   anisotropy     K_xx, K_yy = K (1 +- C_K f), sigma_xx, sigma_yy = p (1 +- C_S f), df/de_thermal = -C_F f            [1]
  *
- * [1] B, E_J, Z_0, Z_1 are least squares over K and p of 14 666 settled states (thermal ramps of cases/database/full.csv.gz,
- * reduced pressure above 0.004), C_K, C_S over the same states, C_F between the growth of f in ramps of -5 and +5 %.
- * There, K is off by 10 % (rms), p by 0.010, and porosity after strains of -5, -2, 2, 5 % by 0.006, 0.002, 0.001, 0.002:
- * a baseline that trained models have to beat, and a start for laws of one's own. */
+ * [1] Fitted. B, E_J, Z_0, Z_1: least squares over K and p of 14 666 states in equilibrium (thermal ramps of
+ * cases/database/full.csv.gz, reduced pressure above 0.004); C_K, C_S: over the same states; C_F: between the growth of f
+ * in ramps of -5 and of +5 %. Over these states the error (root mean square) is 10 % of K, 0.010 of p, and 0.006, 0.002,
+ * 0.001, 0.002 of the porosity after strains of -5, -2, 2, 5 %. Use it as a baseline that trained models have to beat, or
+ * as a start for a law of your own. */
 #include "msdd.h"
 
 #include <math.h>
@@ -28,19 +30,19 @@ static const double B = 0.576, E_J = 0.209, Z_0 = 0.424, Z_1 = 14.68;
 static const double C_K = 2.46, C_S = 4.88, C_F = 22;
 static const double PI = 3.14159265358979323846;
 
-/* Ranges of the states of the fit; beyond, their ends are used. */
+/* Ranges of the states of the fit; a state outside is evaluated at the nearest end. */
 static const double POROSITY_MIN = 0.03, POROSITY_MAX = 0.20, FABRIC = 0.15, STRAIN = 0.10;
 /* Sine of the friction angle that the grains mobilise at most: limits both anisotropies. */
 static const double RATIO_LIMIT = 0.5;
-/* K/k without contacts: above zero, for the heat equation's sake. */
+/* K/k without contacts: above zero, because the heat equation cannot be solved with a conductivity of zero. */
 static const double FLOOR = 1e-4;
-/* Largest strain of a sub-step, of second order. */
+/* Largest strain of a sub-step of the midpoint rule, which is of second order. */
 static const double SUBSTEP = 0.005;
 
 static double clamp(double value, double low, double high) { return fmin(fmax(value, low), high); }
 static double outside(double value, double low, double high) { return value - clamp(value, low, high); }
 
-/** The packing at a porosity. */
+/** Contacts of the packing at a porosity, see the laws above. */
 typedef struct contacts {
     double x, t, coordination, solid_fraction;
 } contacts;
@@ -100,7 +102,7 @@ static int32_t advance(const msdd_plugin_step *step)
     return 0;
 }
 
-/* Stress and conductivity follow from the two: nothing more to know. */
+/* Porosity and fabric index determine stress and conductivity, so the other initial values are not used. */
 static int32_t initial_state(const msdd_plugin_start *start)
 {
     size_t i;

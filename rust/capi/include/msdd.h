@@ -6,11 +6,13 @@
  *  - Every function that can fail returns an int32_t status: MSDD_OK (0) or one of enum msdd_status.
  *    The text of the last failure on the calling thread is in msdd_last_error().
  *  - Outputs are written only on success.
- *  - Handles are opaque. A surrogate is immutable: any number of threads may use one at a time. An RVE changes: one
- *    thread at a time.
- *  - Structs start with struct_size; set it to sizeof the struct, and all that you do not use to 0.
- *  - SI units; strains without unit. Strain: extension positive. Stress: compression positive.
- *  - Nothing here prints or handles signals, and no threads start unless their number is an argument.
+ *  - Handles are opaque pointers. A surrogate never changes, so any number of threads may use the same one at the same
+ *    time. An RVE changes, so only one thread at a time may use it.
+ *  - Every struct starts with struct_size. Set it to sizeof the struct, and every member that you do not use to 0.
+ *  - A cell is a point of the heat problem with its own state, for example a cell of a finite volume mesh.
+ *  - A column is a contiguous array with one value per cell.
+ *  - SI units; strains have no unit. Strain: extension positive. Stress: compression positive.
+ *  - No function prints or handles signals, and none starts threads unless their number is one of its arguments.
  *  - Floating-point exceptions must be masked while a function runs (the IEEE default). A program that traps them
  *    (OpenFOAM does) masks them around each call; the C++ wrapper msdd.hpp does it for you.
  */
@@ -37,14 +39,15 @@ enum msdd_status {
     MSDD_MODEL = 3,
     /** An input column holds NaN or infinity; the text names column and index. */
     MSDD_NON_FINITE = 4,
-    /** An RVE could not be packed or strained (it blew up, found no room, did not reach its target), or a state or plan
-     *  is none. */
+    /** An RVE could not be packed or strained (the simulation diverged, the grains found no room, or the target was not
+     *  reached), or a text is not a valid state, specification or plan. */
     MSDD_RVE = 5,
-    /** The progress call-back asked to stop. What was made until then is kept. */
+    /** The progress call-back asked to stop. The packings finished until then are kept. */
     MSDD_CANCELLED = 6,
-    /** A plug-in is none, is of another version, failed, or gave an answer that no packing of grains has. */
+    /** A file is not a plug-in, or the plug-in has another interface version, failed, or returned a value that no packing
+     *  of grains can have. */
     MSDD_PLUGIN = 7,
-    /** A bug on our side (a caught panic). */
+    /** A bug in this library (a caught Rust panic). */
     MSDD_INTERNAL = 255
 };
 
@@ -65,7 +68,7 @@ void msdd_text_free(char *text);
 /** A loaded surrogate model: opaque, immutable. */
 typedef struct msdd_surrogate msdd_surrogate;
 
-/** Scales that turn the model's dimensionless answers into SI. */
+/** Scales that turn the model's dimensionless results into SI units. */
 typedef struct msdd_material {
     size_t struct_size;          /**< sizeof(msdd_material) */
     double thermal_conductivity; /**< k of the grains [W/(m K)], 1e-12 to 1e12 */
@@ -73,12 +76,14 @@ typedef struct msdd_material {
     double mean_radius;          /**< mean grain radius in the initial state, r [m], 1e-12 to 1e6 */
 } msdd_material;
 
-/** One batch of cells: columns of length `cells`, each contiguous. Algorithm 1, steps 1 and 2, of the paper.
+/** Inputs and outputs of one step of a batch of cells, in columns of length `cells`: steps 1 and 2 of Algorithm 1 of the
+ *  paper.
  *
  *  The state of a cell is what the model carries from step to step: msdd_surrogate_state_size columns without unit, named
- *  by msdd_surrogate_state_name; the first two are porosity (overlaps counted once) and fabric_index (F_xx - F_yy).
- *  A column may be input and output at once. Any finite state is answered: one that no packing has, as a porosity of 2,
- *  by the nearest end of the trained range, and it is flagged in `clamped` and `outside`. */
+ *  by msdd_surrogate_state_name. The first two are porosity (the overlap of two grains counted once) and fabric_index
+ *  (F_xx - F_yy, the difference of the diagonal components of the fabric tensor). The same column may be given as input
+ *  and as output. Any finite state is accepted. An input outside of the trained range, also one that no packing has, such
+ *  as a porosity of 2, is evaluated at the nearest end of that range, and is flagged in `clamped` and `outside`. */
 typedef struct msdd_batch {
     size_t struct_size;                 /**< sizeof(msdd_batch) */
     size_t cells;                       /**< length of every column */
@@ -88,57 +93,63 @@ typedef struct msdd_batch {
     const double *total_thermal_strain; /**< alpha (T - T0), this step included; NULL = 0 everywhere */
     const double *strain_xx;            /**< mechanical strain of the cell along x, after the thermal one; NULL = 0 */
     const double *strain_yy;            /**< the same along y; either needs a model that has a tangent */
-    const double *virgin_share;         /**< share of thermal_strain, 0 to 1, by which the total leads beyond all totals that
-                                             the cell has had before: grains slide in virgin strains, and hardly when
-                                             strained back and again as far. NULL = 1 everywhere, right as long as no cell
-                                             is strained back: over cycles the anisotropy then grows without end (K_xx/K_yy is
-                                             19 after 1 000 cycles of +-0.1 %, flagged by then). With the shares given, ten
-                                             cycles keep K to some percent; 1 000 of +-0.5 % at porosity 0.16 take 14 % of
-                                             K_xx, 100 of +-2 % at 0.12 take 9 % of K, and neither is flagged */
-    /* out; any of them may be NULL when not wanted, and so may single columns */
+    const double *virgin_share;         /**< share of thermal_strain, 0 to 1, that is "virgin": it takes the total thermal
+                                             strain beyond the range of totals that the cell has had before. Grains slide
+                                             in virgin strains, and hardly at all while they are strained back and return.
+                                             NULL = 1 everywhere, which is right as long as no cell is strained back. In
+                                             cycles, NULL lets the anisotropy grow without limit: K_xx/K_yy is 19 after
+                                             1 000 cycles of +-0.1 %, and is flagged by then. With the shares given, K
+                                             changes by a few percent in ten cycles; 1 000 cycles of +-0.5 % at porosity
+                                             0.16 lower K_xx by 14 %, 100 of +-2 % at porosity 0.12 lower K by 9 %, and
+                                             neither is flagged */
+    /* out; any of them may be NULL when not wanted, and so may single columns of next_state and outside */
     double *const *next_state;          /**< state columns after the step */
     double *conductivity_xx;            /**< K_xx after the step [W/(m K)] */
     double *conductivity_yy;            /**< K_yy after the step [W/(m K)] */
     double *stress_xx;                  /**< sigma_xx after the step [Pa] */
     double *stress_yy;                  /**< sigma_yy after the step [Pa] */
-    double *c11;                        /**< -d sigma_xx/d strain_xx after the step [Pa]; these need a tangent, too */
+    double *c11;                        /**< -d sigma_xx/d strain_xx after the step [Pa]; from here to fabric_index_rate:
+                                             the mechanical tangent, only for a model that has one */
     double *c22;                        /**< -d sigma_yy/d strain_yy [Pa] */
     double *c12;                        /**< -d sigma_xx/d strain_yy = -d sigma_yy/d strain_xx [Pa] */
     double *porosity_rate;              /**< d porosity/d (strain_xx + strain_yy) */
     double *fabric_index_rate;          /**< d fabric_index/d (strain_xx - strain_yy) */
     uint8_t *clamped;                   /**< 1 where an input lay outside the trained range, else 0 */
-    double *const *outside;             /**< state_size + 1 columns, the last for thermal_strain: how far outside, in the
-                                             input's own unit, negative below and positive above; 0 inside */
+    double *const *outside;             /**< state_size + 1 columns, the last for thermal_strain: distance of the input
+                                             from the trained range, in the input's own unit, negative below and positive
+                                             above; 0 inside */
     double *spread;                     /**< relative standard deviation of K between RVEs of equal state; NaN if the
-                                             model does not know. Costs more than the rest */
-    size_t clamped_cells;               /**< number of cells with an input outside */
+                                             model does not know it. Takes longer than all other outputs together */
+    size_t clamped_cells;               /**< number of cells with an input outside the trained range */
 } msdd_batch;
 
-/** What is known of the cells at the start; what is missing is the mean of the training's packed states. A value outside
- *  its range is refused with column and index: a start that no packing has is a mistake, unlike a state that a step has
- *  led out of the trained range. */
+/** What is known of the cells at the start. For a quantity that is not given, the mean of the packed states that the model
+ *  was trained with is used. A value outside its range is refused, with column and index in the message: an initial state
+ *  that no packing has is a mistake, whereas a state may leave the trained range in the course of a calculation. */
 typedef struct msdd_initial {
     size_t struct_size;                /**< sizeof(msdd_initial) */
     size_t cells;                      /**< length of every column */
     const double *porosity;            /**< overlaps counted once, 0 to 1 */
     const double *fabric_index;        /**< F_xx - F_yy, -1 to 1 */
-    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), -1 to 1, of the kind that the model's state
-                                            carries (describe: "fabric_conductivity"); NULL = not known */
+    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), -1 to 1, of the kind of conductivity that the
+                                            model's state carries ("fabric_conductivity" in the text of
+                                            msdd_surrogate_describe); NULL = not known */
     const double *stress_xx;           /**< [Pa], -1e30 to 1e30; NULL = not known; both or none */
     const double *stress_yy;           /**< [Pa] */
 } msdd_initial;
 
 /** Loads a model. `source`: NULL or "builtin" for the default model compiled into the library ("builtin:state";
  *  "builtin:paper" is the network of the paper); "plugin:" and the path of a shared library that defines
- *  msdd_plugin_v1_table, see the end of this header; else a path of a model file, which is data alone. On success *out
- *  owns the model; free it with msdd_surrogate_free.
+ *  msdd_plugin_v1_table, see the end of this header; else the path of a model file, which contains data and no code. On
+ *  success *out owns the model; free it with msdd_surrogate_free.
  *  Loading a plug-in runs its code, with all rights of this process: pass no `source` that a stranger chose. */
 int32_t msdd_surrogate_load(const char *source, msdd_surrogate **out);
 
-/** The same model that answers with conductivities of a kind: "affine" (Eq. 9 of the paper, an upper bound) or "network"
- *  (resistor network solved). Describe lists the kinds it was trained for as "conductivities"; any other fails with
- *  MSDD_INVALID_ARGUMENT. The state is the same, and so is the kind of its initial fabric_conductivity. On success *out owns
- *  the new handle; either may be freed first. */
+/** Makes a copy of a model that computes another kind of conductivity: "affine" (Eq. 9 of the paper, an upper bound) or
+ *  "network" (the resistor network of the contacts solved). msdd_surrogate_describe lists the kinds that the model was
+ *  trained for as "conductivities"; any other fails with MSDD_INVALID_ARGUMENT. The state columns, and the kind of
+ *  fabric_conductivity in msdd_initial, are those of the original. On success *out owns the new handle; either handle may
+ *  be freed first. */
 int32_t msdd_surrogate_with_conductivity(const msdd_surrogate *surrogate, const char *kind, msdd_surrogate **out);
 
 /** SHA-256 of the bytes of the model file or plug-in, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
@@ -151,28 +162,29 @@ const char *msdd_surrogate_describe(const msdd_surrogate *surrogate);
 /** Number of state columns, at least 2; 0 for a null handle. */
 size_t msdd_surrogate_state_size(const msdd_surrogate *surrogate);
 
-/** Name of a state column, for example "porosity". Owned by the model. NULL beyond the last. */
+/** Name of a state column, counted from 0, for example "porosity". Owned by the model. NULL beyond the last column. */
 const char *msdd_surrogate_state_name(const msdd_surrogate *surrogate, size_t column);
 
 /** 1 when the model has a mechanical tangent, else 0. */
 int32_t msdd_surrogate_has_tangent(const msdd_surrogate *surrogate);
 
-/** Wall friction mobilised after the slip s [m]: limit s/(s + slip), from the database's slipping walls. `limit` [-] and
- *  `slip` [m] may be NULL. Fails with MSDD_INVALID_ARGUMENT when the model has none. */
+/** Parameters of the friction coefficient that a wall mobilises after the slip s [m] of the grains along it,
+ *  limit s/(s + slip): fitted to simulated boxes with slipping walls in the model's database. `limit` [-] and `slip` [m]
+ *  may be NULL. Fails with MSDD_INVALID_ARGUMENT when the model has no such fit. */
 int32_t msdd_surrogate_wall_friction(const msdd_surrogate *surrogate, const msdd_material *material, double *limit,
                                      double *slip);
 
-/** State columns of cells at the start: state_size writable columns in `state`. */
+/** Computes the initial state of cells. `state` points to state_size writable columns. */
 int32_t msdd_surrogate_initial_state(const msdd_surrogate *surrogate, const msdd_material *material,
                                      const msdd_initial *initial, double *const *state);
 
-/** Takes every cell of the batch through one step. Cells are independent: a cell's answer does not depend on the
- *  batch it is in. Zero strain leaves the state as it is, bit for bit. */
+/** Takes every cell of the batch through one step. Cells are independent: the result of a cell does not depend on the
+ *  other cells of the batch. Zero strain leaves the state as it is, bit for bit. */
 int32_t msdd_surrogate_advance(const msdd_surrogate *surrogate, const msdd_material *material, msdd_batch *batch);
 
-/** Solid fraction with overlaps counted twice (sum of grain areas over area [-]) of an initial state with the given
- *  porosity (overlaps once; 0 to 1, else refused): a fit to the database. The bulk density that conserves mass is
- *  rho * solid_fraction. */
+/** Solid fraction with overlaps counted twice (sum of the grains' areas over the area of the region [-]) of an initial
+ *  state with the given porosity (overlaps counted once; 0 to 1, else refused), by a fit to the database. The bulk density
+ *  that conserves mass is rho * solid_fraction, with rho the density of the grains. */
 int32_t msdd_surrogate_solid_fraction(const msdd_surrogate *surrogate, size_t cells, const double *porosity,
                                       double *solid_fraction);
 
@@ -202,7 +214,7 @@ typedef struct msdd_averages {
     double stress_xy;
     double stress_yx;
     double pressure;                /**< (stress_xx + stress_yy)/2 [Pa] */
-    double coordination;            /**< contacts of a grain that has any [-] */
+    double coordination;            /**< mean number of contacts of a grain, over the grains that have any [-] */
     double mean_radius;             /**< current [m] */
     uint64_t rattlers;              /**< grains without contact */
     uint64_t contacts;              /**< between grains, in the region */
@@ -210,34 +222,37 @@ typedef struct msdd_averages {
 
 /** How a strain of an RVE ended. */
 enum msdd_outcome {
-    MSDD_SETTLED = 0,  /**< forces balance */
-    MSDD_CAPPED = 1,   /**< the step cap came first */
-    MSDD_UNJAMMED = 2  /**< bears no load */
+    MSDD_SETTLED = 0,  /**< equilibrium: the forces on the grains balance */
+    MSDD_CAPPED = 1,   /**< the largest number of time steps was reached before equilibrium */
+    MSDD_UNJAMMED = 2  /**< the packing bears no load any more */
 };
 
-/** Packs an RVE. `specification` is a JSON object; keys, any of which may be left out, with their defaults, also those
- *  of "material" one by one: "discs" 500, "seed" 1, "porosity" 0.12,
+/** Packs an RVE. `specification` is a JSON object. Any of its keys, and any key of "material", may be left out and then
+ *  has its default: "discs" 500, "seed" 1, "porosity" 0.12,
  *  "compression" "isotropic" (or "horizontal", "intermediate", "sheared"), "boundary" "walls" (or "periodic"), "radius_min" 3e-3,
  *  "radius_max" 7e-3 [m], "relaxation" "damped" (or "fire"), "material" {"density" 3000 [kg/m3], "young_modulus" 1e7 [Pa],
  *  "stiffness_ratio" 0.8, "friction_angle" 0.5 [rad], "wall_stiffness_factor" 1, "damping" 0.1}. NULL means "{}".
- *  Same specification, same bytes. On success *out owns the RVE; free it with msdd_rve_free. */
+ *  The same specification always gives the same RVE, bit for bit. On success *out owns the RVE; free it with
+ *  msdd_rve_free. */
 int32_t msdd_rve_pack(const char *specification, msdd_rve **out);
 
 /** Reads an RVE from the JSON text of a state file. */
 int32_t msdd_rve_from_json(const char *text, msdd_rve **out);
 
-/** The RVE as the JSON text of a state file, which continues bit for bit; free it with msdd_text_free. */
+/** Writes the RVE as the JSON text of a state file. An RVE read from this text behaves like the original, bit for bit.
+ *  Free the text with msdd_text_free. */
 int32_t msdd_rve_to_json(const msdd_rve *rve, char **out);
 
-/** A copy. */
+/** Copies an RVE. On success *out owns the copy; free it with msdd_rve_free. */
 int32_t msdd_rve_clone(const msdd_rve *rve, msdd_rve **out);
 
-/** Strains an RVE relative to its present state and relaxes it: `thermal` of the radii, `xx` and `yy` of the box along x
- *  and y, `xy` (way of the top along x over the height) of a periodic one; each from -0.2 to 0.2. *outcome (may be NULL)
- *  is one of enum msdd_outcome. After a failure the RVE is as before. */
+/** Strains an RVE relative to its present state and then lets the grains move to equilibrium. `thermal` is the strain of
+ *  the radii, `xx` and `yy` are those of the box along x and y, and `xy` shears a periodic box (displacement of its top
+ *  along x over its height); each from -0.2 to 0.2. *outcome (may be NULL) is one of enum msdd_outcome. After a failure the
+ *  RVE is as before. */
 int32_t msdd_rve_strain(msdd_rve *rve, double thermal, double xx, double yy, double xy, int32_t *outcome);
 
-/** Averages over the box less 0.8 mean radii at the walls; of a periodic box over the whole. */
+/** Averages over the box without a margin of 0.8 mean radii at each wall, or over the whole of a periodic box. */
 int32_t msdd_rve_homogenise(const msdd_rve *rve, msdd_averages *averages);
 
 /** Frees an RVE; NULL is allowed. */
@@ -245,45 +260,48 @@ void msdd_rve_free(msdd_rve *rve);
 
 /* ------------------------------------------------------------------------------------------------------ databases */
 
-/** Hears of every finished packing, on the thread that called; any value but 0 stops the generation. `user` is the
- *  caller's. It must not throw, or leave by longjmp. */
+/** A function that is called after every finished packing, on the thread that called msdd_database_generate, with the
+ *  numbers of packings that are done, wanted and failed. Any return value but 0 stops the generation. `user` is the pointer
+ *  that was given there. The function must not throw or leave by longjmp. */
 typedef int32_t (*msdd_progress)(void *user, uint64_t done, uint64_t total, uint64_t failed);
 
-/** Makes the database of a plan (the text of a TOML file as in cases/database), or goes on with one that was begun, on
- *  `threads` threads (0 = 1). `progress` may be NULL. */
+/** Generates the database of a plan (the text of a TOML file as in cases/database) in the file `path`, or continues one
+ *  that was begun there, on `threads` threads (0 is taken as 1). `progress` may be NULL. */
 int32_t msdd_database_generate(const char *plan, const char *path, uint32_t threads, msdd_progress progress,
                                void *user);
 
-/** Writes a database as CSV, with its column dictionary and provenance beside it; *rows (may be NULL) is their number.
- *  A name that ends in .gz is compressed. */
+/** Writes a database as the CSV file `csv`, and beside it a description of its columns and its provenance. *rows (may be
+ *  NULL) is set to the number of rows. If the name ends in .gz, the file is compressed. */
 int32_t msdd_database_export_csv(const char *database, const char *csv, uint64_t *rows);
 
 /* ------------------------------------------------------------------------------------------------------- plug-ins */
 
-/* A plug-in is a shared library with a surrogate of somebody else's: it includes this header, needs nothing of libmsdd,
- * and defines one function, msdd_plugin_v1_table. Worked example: rust/capi/examples/effective_medium.c.
+/* A plug-in is a shared library with a surrogate model made by somebody else. It includes this header, needs nothing of
+ * libmsdd, and defines one function, msdd_plugin_v1_table. Worked example: rust/capi/examples/effective_medium.c.
  *
- *  - Loading a plug-in runs its code, in this process and with all its rights: load none that you would not run.
- *  - No SI: a plug-in answers K/k and reduced stresses sigma l/(E r), l = 1 m, r the current mean radius, compression
- *    positive. The library alone knows the material and converts. Strain: extension positive.
- *  - Its functions return 0, or any other number for a failure, and may be called from several threads at once.
- *    Inputs are finite, and copies that end with the call; columns are never NULL, but where it says so. Outputs do not
- *    overlap inputs.
- *  - Cells are independent of each other. Zero strain leaves the state as it is, bit for bit. The same question has the
- *    same answer, whatever was asked before.
- *  - It is never unloaded. It must not throw, print, or leave by longjmp.
+ *  - Loading a plug-in runs its code in this process and with all its rights: load none that you would not run.
+ *  - No SI units: a plug-in computes K/k and reduced stresses sigma l/(E r), with l = 1 m and r the current mean radius,
+ *    compression positive. Only the library knows the material, and it converts. Strain: extension positive.
+ *  - The functions of a plug-in return 0, or any other number for a failure, and may be called from several threads at
+ *    once. Inputs are finite, and are copies that are valid only during the call. Columns are never NULL, except where
+ *    this header says so. Outputs do not overlap inputs.
+ *  - Cells are independent of each other. Zero strain leaves the state as it is, bit for bit. The same inputs give the
+ *    same outputs, whatever was called before.
+ *  - A plug-in is never unloaded. It must not throw, print, or leave by longjmp.
  *
- * Checked in every call, and refused with plug-in, column and cell (MSDD_PLUGIN; nothing is written):
- *  - every output is finite; K/k is from 1e-30 to 1e30, stresses from 0 (no tension) to 1e30, spreads not negative, solid
- *    fractions above 0, to 2;
- *  - porosity after a step is from 0 to 1 and fabric_index from -1 to 1, unless that of the cell was given outside;
- *    porosity and fabric_index of the start are those given;
- *  - c11 and c22 are from 1e-30 to 1e30, and c12^2 is below c11 c22: also where grains do not touch some stiffness is
- *    left (the built-in model keeps a hundredth);
+ * The library checks the following in every call. If a check fails, the call returns MSDD_PLUGIN, its message names the
+ * plug-in, column and cell, and nothing is written:
+ *  - every output is finite; K/k is from 1e-30 to 1e30, stresses from 0 (no tension) to 1e30, spreads are not negative,
+ *    solid fractions are above 0 and at most 2;
+ *  - porosity after a step is from 0 to 1 and fabric_index from -1 to 1, unless the cell's value before the step was
+ *    already outside; an initial state has the porosity and fabric_index that were given;
+ *  - c11 and c22 are from 1e-30 to 1e30, and c12^2 is below c11 c22: some stiffness has to be left also where grains do
+ *    not touch (the built-in model keeps a hundredth);
  *  - a strain of 0 keeps the state, unless the plug-in says in `outside` that the cell is outside of its range.
- * Checked once, in the first calls of initial_state and advance, which are made twice: the answers are the same bits.
- * Not checked: whether answers depend on other cells or, later on, on the number of calls; whether strains compose; whether
- * deform, tangent and stress agree; what else its code does. */
+ * The library makes the first calls of initial_state and advance twice, and checks that both give the same bits.
+ * It does not check whether results depend on other cells or, in later calls, on the number of calls; whether two strains
+ * one after the other give the same state as their sum; whether deform, tangent and stress agree; or what else the code
+ * does. */
 
 #define MSDD_PLUGIN_VERSION 1u
 
@@ -294,7 +312,7 @@ typedef struct msdd_plugin_start {
     const double *porosity;            /**< overlaps counted once */
     const double *fabric_index;        /**< F_xx - F_yy */
     const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy); NULL = not known */
-    const double *stress_xx;           /**< reduced, tension negative; NULL = not known; both or none */
+    const double *stress_xx;           /**< reduced, compression positive; NULL = not known; both or none */
     const double *stress_yy;
     double *const *state;              /**< out: state_size columns; the first two are the given porosity and
                                             fabric_index, which a plug-in may not change */
@@ -311,8 +329,8 @@ typedef struct msdd_plugin_step {
     double *conductivity_yy;
     double *stress_xx;            /**< out: reduced, after the step */
     double *stress_yy;
-    double *const *outside;       /**< out: state_size + 1 columns, as in msdd_batch; all 0 before the call, so that one
-                                       without limits leaves them */
+    double *const *outside;       /**< out: state_size + 1 columns, as in msdd_batch; all 0 before the call, so a plug-in
+                                       without limits need not write them */
     const double *virgin_share;   /**< in: as in msdd_batch; NULL = 1 everywhere */
 } msdd_plugin_step;
 
@@ -328,33 +346,36 @@ typedef struct msdd_plugin_tangent {
     double *fabric_index_rate;
 } msdd_plugin_tangent;
 
-/** All that a plug-in is. Its texts and the table itself last as long as the process. */
+/** Name, state columns and functions of a plug-in. The table and the texts that it points to have to stay valid as long as
+ *  the process runs. */
 typedef struct msdd_plugin_v1 {
     size_t struct_size;             /**< sizeof(msdd_plugin_v1) */
     uint32_t version;               /**< MSDD_PLUGIN_VERSION */
-    uint32_t network_conductivity;  /**< 1: K with the resistor network solved; 0: affine, Eq. 9 of the paper */
+    uint32_t network_conductivity;  /**< kind of K: 1: resistor network solved; 0: affine, Eq. 9 of the paper */
     const char *name;               /**< UTF-8 */
     size_t state_size;              /**< 2 to 64 */
-    const char *const *state_names; /**< state_size texts; the first two are "porosity" and "fabric_index". A letter, then
-                                         letters, digits and underscores, 64 in all at most; no two may differ in
-                                         underscores or capitals alone. msddFoam writes reduced_pressure as the field
-                                         reducedPressure, and refuses the names of its own fields */
-    /** State at the start. */
+    const char *const *state_names; /**< state_size texts; the first two are "porosity" and "fabric_index". A name is a
+                                         letter, then letters, digits and underscores, at most 64 characters in all. No two
+                                         may differ only in underscores or capitals, because msddFoam writes
+                                         reduced_pressure as the field reducedPressure; it refuses the names of its own
+                                         fields */
+    /** Initial state of cells. */
     int32_t (*initial_state)(const msdd_plugin_start *start);
     /** One step of all cells. */
     int32_t (*advance)(const msdd_plugin_step *step);
-    /** Solid fraction, overlaps counted twice, of an initial state of a porosity; above 0, to 2. NULL = has none. */
+    /** Solid fraction, overlaps counted twice, of an initial state with the given porosity; above 0 and at most 2.
+     *  NULL = not known. */
     int32_t (*solid_fraction)(size_t cells, const double *porosity, double *solid_fraction);
-    /** Mechanical tangent; NULL = has none. With it comes `deform`, or neither. */
+    /** Mechanical tangent; NULL = not known. A plug-in defines both `tangent` and `deform`, or neither. */
     int32_t (*tangent)(const msdd_plugin_tangent *tangent);
-    /** State after mechanical strains of the cells, linear by the tangent. */
+    /** State after mechanical strains of the cells, by linear extrapolation with the tangent. */
     int32_t (*deform)(size_t cells, const double *const *state, const double *strain_xx, const double *strain_yy,
                       double *const *next_state);
     /** Relative standard deviation of K between RVEs of equal state, not negative; NULL = not known. */
     int32_t (*spread)(size_t cells, const double *const *state, double *spread);
-    /** Text of the last failure on the calling thread, UTF-8, copied at once; NULL = has none. */
+    /** Text of the last failure on the calling thread, UTF-8; the library copies it at once. NULL = no such function. */
     const char *(*last_error)(void);
-    double wall_friction_limit;     /**< as in msdd_surrogate_wall_friction; 0 = has none */
+    double wall_friction_limit;     /**< as in msdd_surrogate_wall_friction; 0 = not known */
     double wall_friction_slip;      /**< [mean radii], > 0 */
 } msdd_plugin_v1;
 
@@ -364,7 +385,7 @@ typedef struct msdd_plugin_v1 {
 #define MSDD_PLUGIN_EXPORT
 #endif
 
-/** The table. A plug-in defines this function; libmsdd does not. */
+/** Returns the plug-in's table. A plug-in defines this function; libmsdd does not. */
 MSDD_PLUGIN_EXPORT const msdd_plugin_v1 *msdd_plugin_v1_table(void);
 
 #ifdef __cplusplus

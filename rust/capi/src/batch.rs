@@ -1,4 +1,5 @@
-//! One step of a batch: all checks first, then block by block straight into the caller's columns.
+//! One step of a batch: all inputs are checked first, then cells are evaluated block by block and written into the caller's
+//! columns.
 
 mod foreign;
 
@@ -25,17 +26,17 @@ pub(crate) struct Columns<'a> {
     /// c11, c22, c12; rates of porosity and fabric index.
     tangent: [Output<f64>; 5],
     clamped: Output<u8>,
-    /// None, or one a state column and one for the thermal strain.
+    /// Empty, or one for every state column and one for the thermal strain.
     outside: Vec<Output<f64>>,
     spread: Output<f64>,
 }
 
-/// Grains eleven times their size: no state that a model describes, and far from overflow.
+/// Largest thermal strain: grains of eleven times their size, which no model describes, and still far from overflow.
 const LARGEST_STRAIN: f64 = 10.0;
-/// Mechanical strain of one step at most: the tangent is a linear law.
+/// Largest mechanical strain of one step: the tangent is a linear law, so larger strains have to be divided into steps.
 const LARGEST_STEP: f64 = 0.2;
 
-/// A column has to fit into memory; else pointers to its end would wrap.
+/// Refuses numbers of cells whose columns cannot fit into memory: pointers to the end of a column would wrap around.
 pub(crate) fn check_length(cells: usize) -> Result<(), Failure> {
     match cells > isize::MAX as usize / size_of::<f64>() {
         true => Err(Failure::argument("cells", cells, "number of cells")),
@@ -72,15 +73,15 @@ impl<'a> Columns<'a> {
         }
         let optional = |name, start: *const f64| match start.is_null() {
             true => Ok(None),
-            // SAFETY: passed on to the caller.
+            // SAFETY: the caller guarantees it, by this function's contract.
             false => unsafe { Input::new(name, start, cells) }.map(Some),
         };
         let several = |name, columns: *const *mut f64, count| match columns.is_null() {
             true => Ok(Vec::new()),
-            // SAFETY: passed on to the caller.
+            // SAFETY: the caller guarantees it, by this function's contract.
             false => unsafe { outputs(name, columns, count, cells) },
         };
-        // SAFETY: passed on to the caller, for all columns.
+        // SAFETY: the caller guarantees it for all columns, by this function's contract.
         unsafe {
             let state =
                 names.iter().enumerate().map(|(k, name)| Input::new(name, batch.state.add(k).read(), cells));
@@ -117,7 +118,7 @@ impl<'a> Columns<'a> {
             .chain(self.strain.iter().flatten())
             .chain(&self.virgin_share)
             .try_for_each(Input::check_finite)?;
-        // The lower end does not belong to these.
+        // The lower end does not belong to these ranges.
         let range = |column: &Input, low: f64, high: f64, allowed: &str| {
             let Some(cell) = column.position(|value| value <= low || value > high) else { return Ok(()) };
             Err(Failure::number(format!("{}[{cell}]", column.name), column.at(cell), allowed))
@@ -143,10 +144,10 @@ impl<'a> Columns<'a> {
         self.strain.iter().any(Option::is_some)
     }
 
-    /// The block of cells from `first` on; returns how many of them had an input outside the trained range. `answer` is
-    /// room for the block's.
+    /// Evaluates the block of cells from `first` on; returns how many of them had an input outside the trained range.
+    /// `answer` is scratch space for the results of a block.
     fn fill(&self, model: &dyn Surrogate, si: &Si, first: usize, answer: &mut Answer) -> usize {
-        // All of a block's inputs are read before any output is written: a column may be both.
+        // All inputs of a block are read before any output is written, because the same column may be both.
         let lanes_or_zero =
             |column: &Option<Input>| column.map_or([0.0; LANES], |column| column.lanes(first));
         let mut state: StateLanes = [[0.0; LANES]; MAX_STATE];
@@ -176,8 +177,8 @@ impl<'a> Columns<'a> {
         outside: &[bool; LANES],
         total: &Lanes,
     ) {
-        // Of a state near the largest number, far outside of every trained range, what comes next and how far outside it lies
-        // would overflow; the largest number says as much.
+        // For a state near the largest floating-point number, far outside of every trained range, the next state and its
+        // distance from the range would overflow to infinity; they are limited to the largest number instead.
         let largest = |lanes: &Lanes| lanes.map(|value| value.clamp(f64::MIN, f64::MAX));
         for (column, lanes) in self.next_state.iter().zip(&answer.state) {
             column.write(first, &largest(lanes));

@@ -1,10 +1,11 @@
-//! A caller's columns. Raw pointers, not slices, because a caller may pass one column as input and output.
+//! Columns of the caller: arrays with one value per cell. They are raw pointers and not slices, because a caller may pass
+//! the same column as input and output.
 
 use crate::status::Failure;
 use msdd_surrogate::kernel::{LANES, Lanes};
 use msdd_surrogate::network::padded;
 
-/// A readable column of the caller's.
+/// A readable column of the caller.
 #[derive(Clone, Copy)]
 pub(crate) struct Input<'a> {
     pub name: &'a str,
@@ -12,7 +13,7 @@ pub(crate) struct Input<'a> {
     length: usize,
 }
 
-/// A writable column of the caller's, or none.
+/// A writable column of the caller, or NULL when the output is not wanted.
 #[derive(Clone, Copy)]
 pub(crate) struct Output<T> {
     start: *mut T,
@@ -63,7 +64,7 @@ impl<'a> Input<'a> {
         padded(self.length - first, |lane| self.at(first + lane))
     }
 
-    /// First cell whose value is so. Whole blocks are looked at without branches: mostly there is no such value.
+    /// First cell whose value satisfies `is`. Tests whole blocks without branches, since there usually is no such value.
     pub fn position(&self, is: impl Fn(f64) -> bool) -> Option<usize> {
         let hit = |first: &usize| self.lanes(*first).into_iter().fold(false, |hit, value| hit | is(value));
         let first = (0..self.length).step_by(LANES).find(hit)?;
@@ -141,7 +142,7 @@ impl<T: Copy> Output<T> {
 mod tests {
     use super::*;
 
-    /// Every length around a block, every place in it: also what Miri looks at.
+    /// Tries every length around that of a block, and every place in it. Miri runs this test, too.
     #[test]
     fn columns_read_and_write_their_cells_and_no_others() {
         for length in 0..20 {

@@ -1,4 +1,4 @@
-//! What the opaque handles of the header are.
+//! The Rust types behind the opaque handles of the header.
 
 use crate::model::BatchModel;
 use crate::status::c_string;
@@ -11,7 +11,7 @@ pub(crate) struct SurrogateHandle {
     pub hash: CString,
     pub description: CString,
     pub names: Vec<String>,
-    /// The same for C.
+    /// The same names as C strings.
     pub state_names: Vec<CString>,
 }
 

@@ -1,15 +1,16 @@
-//! C ABI of MSDD. `include/msdd.h` is the truth, `msdd-abi` is what bindgen makes of it, and this crate follows.
+//! C ABI of MSDD. The header `include/msdd.h` is written by hand, bindgen makes the crate `msdd-abi` from it, and this
+//! crate implements its functions.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`exports`] | the header's functions: pointers checked, then safe code |
-//! | `handles` | what the opaque handles are |
-//! | `model` | what the exports ask of a model, our own or a plug-in |
-//! | `columns` | a caller's columns |
+//! | `handles` | the types behind the opaque handles |
+//! | `model` | what the exports need of a model, our own or a plug-in |
+//! | `columns` | columns of the caller: arrays with one value per cell |
 //! | `batch` | checks and evaluation of a batch |
-//! | `si` | dimensionless answers to SI units |
-//! | `status` | errors to status codes and text |
-//! | `panics` | panics stop here |
+//! | `si` | conversion of dimensionless results to SI units |
+//! | `status` | conversion of errors to status codes and texts |
+//! | `panics` | panics are caught and become errors |
 #![allow(unsafe_code)] // the C boundary
 
 pub use msdd_abi as abi;

@@ -1,5 +1,5 @@
-//! What the exports ask of a model, whole batches at a time, and may fail: foreign code is among them. Our own models
-//! answer through [`Surrogate`], which does not fail.
+//! What the exported functions need of a model. The functions here work on whole batches and may fail, because the model
+//! may be a plug-in. Our own models are called through [`Surrogate`], which does not fail.
 
 use crate::batch::Columns;
 use crate::columns::{Input, Output};
@@ -18,19 +18,19 @@ pub(crate) trait BatchModel: Send + Sync {
     fn name(&self) -> &str;
     /// SHA-256 of its file.
     fn hash(&self) -> &str;
-    /// What a user would ask about it, as a JSON object.
+    /// Description of the model for users, as a JSON object.
     fn description(&self) -> Value;
     fn state_names(&self) -> Vec<String>;
-    /// Kind of conductivity that it answers with.
+    /// Kind of conductivity that it computes: "affine" or "network".
     fn conductivity(&self) -> &'static str;
-    /// The kinds that it could answer with.
+    /// The kinds that it was trained for.
     fn conductivities(&self) -> Vec<&'static str>;
-    /// The same model with another of them.
+    /// A copy of the model that computes another kind; `None` if it was not trained for this kind.
     fn with_conductivity(&self, kind: &str) -> Option<Arc<dyn BatchModel>>;
     fn has_tangent(&self) -> bool;
     /// Limit [-] and slip [mean radii].
     fn wall_friction(&self) -> Option<[f64; 2]>;
-    /// Writes the state of cells at the start; inputs are finite.
+    /// Writes the initial state of cells; inputs are finite.
     fn initial_state(&self, start: &Start, si: &Si, state: &[Output<f64>]) -> Result<(), Failure>;
     /// Takes all cells through a step; returns the number with an input outside the trained range.
     fn advance(&self, columns: &Columns, si: &Si) -> Result<usize, Failure>;
@@ -48,7 +48,7 @@ pub(crate) struct Start<'a> {
     pub stress: Option<[Input<'a>; 2]>,
 }
 
-/// A model of [`msdd_surrogate`].
+/// A model of the crate [`msdd_surrogate`].
 pub(crate) struct Own(pub Box<dyn Surrogate>);
 
 impl BatchModel for Own {
@@ -60,7 +60,7 @@ impl BatchModel for Own {
         self.0.hash()
     }
 
-    /// Of its file, what is not weights.
+    /// The content of the model file without the weights.
     fn description(&self) -> Value {
         let model = &*self.0;
         let file: Value = serde_json::from_str(&model.to_json()).unwrap_or_default();

@@ -1,10 +1,11 @@
-//! Panics stop here, and print nothing.
+//! Catches panics inside of exported functions, without printing.
 //!
-//! Rust's panic hook prints before anything is unwound, and there is no way to keep it from that for one call: the hook is
-//! one for the process. So ours is put around the one found, once, at the first call: it keeps the text of a panic that
-//! happens inside of a guarded call, and hands all others (of a Rust program that uses this library) to the hook found. No
-//! signal handler, no C-visible state, and nothing to restore: between calls it is as if it were not there. A program that
-//! sets a hook of its own later replaces ours, and then sees a line per panic; statuses and texts stay.
+//! Rust's panic hook prints a message before the stack is unwound. There is only one hook in a process, so it cannot be
+//! switched off for one call. Our own hook is therefore installed once, at the first call, around the hook found: it stores
+//! the text of a panic that happens inside of a guarded call (a call of an exported function), and passes all other panics
+//! (of a Rust program that uses this library) to the hook found. It needs no signal handler and has no state that C can
+//! see, and nothing has to be restored after a call. If a program later sets a hook of its own, that one replaces ours and
+//! prints a line per panic; the statuses and texts of the calls are the same.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -13,23 +14,23 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, Once};
 
 thread_local! {
-    /// Guarded calls on this thread, one inside the other.
+    /// Number of guarded calls on this thread that are inside of one another.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
-    /// Of the last panic in them.
+    /// Text of the last panic in them.
     static TEXT: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// Guarded calls on all threads.
+/// Number of guarded calls on all threads.
 static ACTIVE: AtomicUsize = AtomicUsize::new(0);
-/// Text of the last panic on a thread that a guarded call started: such threads have no name and no depth.
+/// Text of the last panic on a thread that a guarded call started. Such a thread has no name, and its `DEPTH` is 0.
 static WORKER: Mutex<Option<String>> = Mutex::new(None);
 
 /// Result of a call, or the text of its panic and the place where it happened.
 ///
-/// Unwind safety is the caller's to argue.
+/// The caller has to make sure that no broken state is left behind when `call` unwinds.
 pub(crate) fn caught<T>(call: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
-    // Called while a panic of the caller's unwinds, a hook may not be set; then the panic is reported with a line more.
+    // A hook must not be set while a panic of the caller unwinds; then a panic in here prints a line in addition.
     if !std::thread::panicking() {
         HOOK.call_once(put_hook);
     }
@@ -43,19 +44,19 @@ pub(crate) fn caught<T>(call: impl FnOnce() -> T) -> Result<T, String> {
     result.map_err(|payload| {
         let here = TEXT.take().unwrap_or_else(|| text(&*payload).to_string());
         let worker = WORKER.lock().ok().and_then(|mut text| text.take());
-        // Dropping a payload may panic in turn; a few leaked bytes are the safer choice.
+        // Dropping the payload could panic again; leaking a few bytes is safer.
         std::mem::forget(payload);
         worker.map_or(here.clone(), |worker| format!("{here}; before, on a thread of ours: {worker}"))
     })
 }
 
-/// A call of somebody else's code out of a guarded call: its panics are its own, and are printed.
+/// Calls somebody else's code from inside of a guarded call: its panics are printed as usual.
 pub(crate) fn foreign<T>(call: impl FnOnce() -> T) -> T {
     let _outside = Depth::set(0);
     call()
 }
 
-/// The depth before, put back at the end.
+/// Restores the value of `DEPTH` that it holds when it is dropped.
 struct Depth(usize);
 
 impl Depth {

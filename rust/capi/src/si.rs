@@ -1,4 +1,4 @@
-//! Dimensionless answers to SI units: the one place.
+//! Conversion of dimensionless results to SI units. No other file converts.
 
 use crate::abi::msdd_material;
 use crate::status::Failure;
@@ -12,11 +12,12 @@ pub(crate) struct Si {
 
 /// ℓ, the depth over which contact stiffnesses [N/m] become stresses [m].
 const DEPTH: f64 = 1.0;
-/// Stress given by a caller at most [Pa]: above any, and far from overflow.
+/// Largest stress that a caller may give [Pa]: above any real one, and far from overflow.
 pub(crate) const LARGEST_STRESS: f64 = 1e30;
 
 impl Si {
-    /// Of scales that a material can have. Within them K of any state, E r and stresses are numbers, above zero.
+    /// Checks the scales against the ranges that materials can have. Within these, K, E r and the stresses of any state
+    /// are finite and above zero.
     pub fn new(material: &msdd_material) -> Result<Self, Failure> {
         let &msdd_material { thermal_conductivity, young_modulus, mean_radius, .. } = material;
         let conductivity = (1e-12, 1e12, "1e-12 to 1e12 W/(m K)");
@@ -31,20 +32,20 @@ impl Si {
         dimensionless.map(|value| self.conductivity * value)
     }
 
-    /// σ̃ = σ ℓ/(E r), initial radius [-]; a number for |σ| up to [`LARGEST_STRESS`].
+    /// Reduced stress σ̃ = σ ℓ/(E r) with the initial radius r [-]; finite for |σ| up to [`LARGEST_STRESS`].
     pub fn reduced(&self, stress: f64) -> f64 {
         stress / self.stress
     }
 
-    /// σ = σ̃ E r̄ / ℓ [Pa] with the current mean radius r̄ = r (1 + α (T − T⁰)). A state near the largest number, far outside
-    /// of every trained range, gives the largest number, not infinity.
+    /// σ = σ̃ E r̄ / ℓ [Pa] with the current mean radius r̄ = r (1 + α (T − T⁰)). Limited to the largest floating-point
+    /// number, so that a state far outside of every trained range does not give infinity.
     pub fn stress(&self, dimensionless: Lanes, total_thermal_strain: &Lanes) -> Lanes {
         let stress = |lane: usize| dimensionless[lane] * (self.stress * (1.0 + total_thermal_strain[lane]));
         std::array::from_fn(|lane| stress(lane).min(f64::MAX))
     }
 }
 
-/// `allowed`: ends of the range, and its text.
+/// Refuses a scale outside of its range. `allowed`: the two ends of the range, and its text for the message.
 fn check_scale(name: &str, value: f64, allowed: (f64, f64, &str)) -> Result<(), Failure> {
     let (low, high, text) = allowed;
     if (low..=high).contains(&value) { Ok(()) } else { Err(Failure::number(name, value, text)) }

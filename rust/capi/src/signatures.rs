@@ -1,4 +1,4 @@
-//! The header's declarations and our functions have the same types, or this does not compile.
+//! Compares the types of our functions with those that the header declares: where they differ, this does not compile.
 
 use crate::{abi, exports};
 
@@ -44,7 +44,7 @@ same! {
     msdd_database_export_csv(*const c_char, *const c_char, *mut u64) -> i32;
 }
 
-/// Every function of the header is compared above.
+/// Checks that the list above contains every function of the header.
 #[test]
 fn no_function_of_the_header_is_left_out() {
     let header = include_str!("../include/msdd.h");

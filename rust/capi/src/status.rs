@@ -1,4 +1,4 @@
-//! Errors to status codes and text.
+//! Conversion of errors to status codes and texts.
 
 use crate::{abi, panics};
 use msdd_plugin::{PluginError, shown};
@@ -74,8 +74,8 @@ thread_local! {
 
 /// Runs the body of an export: the status of its result, its text kept for [`last_error`].
 ///
-/// Unwind safety: bodies write to the caller's memory last, after everything that may panic has been checked, and keep
-/// no state of their own; a batch left half-written by a bug is reported as [`INTERNAL`].
+/// Unwind safety: a body has no state of its own, and writes to the caller's memory last, after everything that may
+/// panic. If a bug leaves a batch half-written nevertheless, the status is [`INTERNAL`].
 pub(crate) fn status(body: impl FnOnce() -> Result<(), Failure>) -> i32 {
     match panics::caught(body) {
         Ok(Ok(())) => OK,

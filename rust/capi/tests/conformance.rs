@@ -1,5 +1,5 @@
-//! What every model has to keep to, whoever made it: one suite over the built-in network, a model from a file, the worked
-//! example of a C plug-in, and the built-in network exported as a plug-in.
+//! Requirements that every model has to meet, whoever made it. The same tests run over the built-in network, a model from a
+//! file, the worked example of a C plug-in, and the built-in network exported as a plug-in.
 #![allow(unsafe_code)] // the C interface is what is tested
 
 mod common;
@@ -220,7 +220,7 @@ fn only_wanted_columns_are_written_and_a_state_may_advance_in_place() {
     });
 }
 
-/// Eight threads ask one handle at once, for many steps.
+/// Eight threads use one handle at the same time, for many steps.
 #[test]
 fn eight_threads_answer_as_one() {
     each(|name, model| {
@@ -274,7 +274,7 @@ fn mechanical_strain_follows_the_tangent() {
     assert_eq!(count, 2, "the built-in model and its export have tangents");
 }
 
-/// A model answers with the kinds that it was trained for, and says so when it was not.
+/// A model computes the kinds of conductivity that it was trained for, and refuses all others with a message.
 #[test]
 fn conductivity_is_affine_or_network_by_choice() {
     let with = |model: &Model, kind: &std::ffi::CStr| {
@@ -325,7 +325,7 @@ fn conductivity_is_affine_or_network_by_choice() {
     }
 }
 
-/// What goes out through the table and comes back is the same model, to the bit.
+/// The built-in model gives the same bits when it is exported as a plug-in and loaded again.
 #[test]
 fn the_exported_model_is_the_built_in_one() {
     let (built_in, foreign) =
@@ -348,7 +348,7 @@ fn the_exported_model_is_the_built_in_one() {
     assert_eq!(friction(&built_in), friction(&foreign));
 }
 
-/// The worked example gives the numbers that its comment promises: those of the paper's box within some percent.
+/// The worked example gives the numbers that its comment states: those of the paper's box within a few percent.
 #[test]
 fn the_effective_medium_is_a_sensible_baseline() {
     let model = Model::load(&SUBJECTS[2].1).expect("good");
@@ -365,7 +365,7 @@ fn the_effective_medium_is_a_sensible_baseline() {
     assert!((rise - 3100.0).abs() < 600.0, "{rise} Pa at 5 %");
     assert!((cells.outputs[0][0] - 53.0).abs() < 4.0, "{}", cells.outputs[0][0]);
     assert!((cells.next[0][0] - 0.077).abs() < 0.004, "{}", cells.next[0][0]);
-    // A hundred small steps end where one does.
+    // A hundred small steps lead to the same state as one step of their sum.
     let once = cells.next[0][0];
     cells.thermal_strain[0] = 1.05f64.powf(0.01) - 1.0;
     for _ in 0..100 {
@@ -375,7 +375,7 @@ fn the_effective_medium_is_a_sensible_baseline() {
     assert!((cells.state[0][0] - once).abs() < 1e-5, "{} {once}", cells.state[0][0]);
 }
 
-/// Statuses tell a file that is not there from one that is no plug-in, and from one that fails.
+/// A missing file, a file that is not a plug-in, and a plug-in that fails have different statuses.
 #[test]
 fn plugin_failures_have_their_own_statuses() {
     let plugin_status = abi::MSDD_PLUGIN as i32;

@@ -1,4 +1,4 @@
-/* A plug-in that answers nonsense in cell 5, and fails on large strains. */
+/* A plug-in for tests that gives an invalid result in cell 5, and fails for large strains. */
 #include "msdd.h"
 
 static int32_t initial_state(const msdd_plugin_start *start)

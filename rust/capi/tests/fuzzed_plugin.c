@@ -1,4 +1,5 @@
-/* A plug-in whose table, and every answer, is good but for what a counter of calls breaks: see fuzz.rs. */
+/* A plug-in with a valid table and valid results, except for the values that are replaced by invalid ones at random; the
+ * random numbers depend on the number of calls. See fuzz/columns.rs. */
 #include "msdd.h"
 
 #include <math.h>
@@ -24,7 +25,7 @@ static double value(void)
     return k < sizeof values / sizeof values[0] ? values[k] : k % 2 ? NAN : INFINITY;
 }
 
-/* Breaks one value of a column, one time in `rarely`. */
+/* Replaces one value of a column by an invalid one, in one of `rarely` calls on average. */
 static void broken(double *column, size_t cells, size_t rarely)
 {
     if (below(rarely) == 0) {

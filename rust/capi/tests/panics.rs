@@ -1,4 +1,4 @@
-//! A bug of ours (a panic, made by the feature `inject-panic`) is status 255 with a text, and prints nothing.
+//! A bug in the library (a panic, made by the feature `inject-panic`) gives status 255 and a text, and prints nothing.
 #![allow(unsafe_code)] // the C interface is what is tested
 
 mod common;
@@ -41,8 +41,8 @@ fn so_does_one_on_a_thread_of_ours() {
     assert!(message.contains("a worker") && message.contains("injected into a thread"), "{message}");
 }
 
-/// All of the above in a child, without the test harness's capture: not a byte on its standard error; a panic of its
-/// own, after, is printed as ever.
+/// Runs all of the above in a child process, where the test harness does not capture output: nothing may appear on its
+/// standard error. A panic of its own afterwards is printed as usual.
 #[test]
 fn nothing_is_printed() {
     if std::env::var_os(CHILD).is_some() {

@@ -1,4 +1,4 @@
-//! A case folder as the reference sees it: the solver's own files, and no second copy of a parameter.
+//! Reads a case for the reference simulation from the solver's own files, so that every parameter stands in one place.
 
 use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
@@ -6,33 +6,33 @@ use crate::walls::{WallOverTime, heat_of_walls};
 use msdd_dem::{Material, Thermal};
 use std::path::{Path, PathBuf};
 
-/// Keys of `constant/granularProperties` that say something about the grains.
+/// Keys of `constant/granularProperties` for properties of the grains.
 const GRAIN_KEYS: [&str; 6] =
     ["density", "youngModulus", "thermalConductivity", "heatCapacity", "thermalExpansion", "meanRadius"];
 /// Keys there that concern the solver alone.
 const SOLVER_KEYS: [&str; 5] = ["FoamFile", "surrogate", "bulkDensity", "mechanics", "equilibriumCoeffs"];
-/// What a case folder says.
+/// Parameters of a case.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub folder: PathBuf,
     /// Name of the folder.
     pub name: String,
-    /// Density and E of the case; the parameters that the solver does not have are those of Table 2.
+    /// Material with the density and E of the case; parameters that the solver does not have are those of the paper's Table 2.
     pub material: Material,
     pub thermal: Thermal,
     /// r̄ of the grains [m].
     pub mean_radius: f64,
-    /// T of all grains at the start [K].
+    /// Initial temperature of all grains [K].
     pub initial_temperature: f64,
-    /// In the order of [`Side`].
+    /// Thermal boundary conditions, in the order of [`Side`].
     pub walls: [WallOverTime; 4],
     /// Lower left corner of the box in the case's coordinates [m].
     pub origin: [f64; 2],
     /// Width and height of the box [m].
     pub size: [f64; 2],
-    /// The simulation ends here [s].
+    /// End of the simulation [s].
     pub end_time: f64,
-    /// Where T is recorded [m]; the lower left corner of the box is the origin.
+    /// Points where T is recorded [m], relative to the lower left corner of the box.
     pub probes: Vec<[f64; 2]>,
 }
 
@@ -40,7 +40,8 @@ impl Case {
     /// Reads `0/T`, `constant/granularProperties`, `system/controlDict` and `system/blockMeshDict` of a folder.
     ///
     /// # Errors
-    /// [`CaseError`] names file, key, value and what is allowed: nothing is skipped that might matter.
+    /// [`CaseError`] with file, key, value and what is allowed, for everything that this reader does not understand; nothing
+    /// that could change the result is ignored.
     pub fn read(folder: &Path) -> Result<Self, CaseError> {
         let temperature = Dictionary::expanded(&folder.join("0/T"))?;
         let grains = Dictionary::expanded(&folder.join("constant/granularProperties"))?;
@@ -99,7 +100,7 @@ fn end_time(file: &Dictionary) -> Result<f64, CaseError> {
     file.number("endTime", |v| v > 0.0 && v.is_finite(), "> 0 s")
 }
 
-/// The places of the function object `probes`; none without it.
+/// The points of the function object `probes`; empty without it.
 fn probes(file: &Dictionary) -> Result<Vec<[f64; 2]>, CaseError> {
     let Some(Entry::Dictionary(functions)) = file.get("functions") else { return Ok(Vec::new()) };
     let Some(Entry::Dictionary(probes)) = functions.get("probes") else { return Ok(Vec::new()) };
@@ -131,7 +132,7 @@ pub(crate) fn bounds(file: &Dictionary) -> Result<([f64; 2], [f64; 2]), CaseErro
     Ok((low, high))
 }
 
-/// `( ( x y z ) ... )`, also with the number of points in front.
+/// Reads `( ( x y z ) ... )`, also with the number of points in front.
 fn points(tokens: &[Token]) -> Option<Vec<[f64; 3]>> {
     let inner = match tokens {
         [open, inner @ .., close] if open.text == "(" && close.text == ")" => inner,

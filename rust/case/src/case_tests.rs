@@ -1,4 +1,4 @@
-//! Patches and boxes: what is read, and what is refused with which message.
+//! Tests of reading patches and boxes: what is read, and what is refused with which message.
 
 use super::*;
 

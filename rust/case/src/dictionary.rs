@@ -1,12 +1,12 @@
-//! OpenFOAM dictionaries as `foamDictionary -expand` prints them: includes, macros and the order of entries are
-//! OpenFOAM's own business. What is left is keys, values and nested dictionaries.
+//! Reads OpenFOAM dictionaries as `foamDictionary -expand` prints them. OpenFOAM itself resolves includes, macros and entries
+//! that replace others, so only keys, values and nested dictionaries are left to be read.
 
 use crate::CaseError;
 use regex::Regex;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Where Debian's package has `etc/`, which OpenFOAM's programs need to be told.
+/// The folder with `etc/` in Debian's package; OpenFOAM's programs have to be told where it is.
 const DEBIAN_PROJECT_DIR: &str = "/usr/share/openfoam";
 
 /// One word, string or bracket.
@@ -90,12 +90,12 @@ impl Dictionary {
         self.entries.iter().find(|(name, _)| !name.quoted && name.text == key).map(|(_, entry)| entry)
     }
 
-    /// The entry whose key reads so, in quotes or not.
+    /// The entry with this key, which may stand in quotes.
     pub fn get_any(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|(name, _)| name.text == key).map(|(_, entry)| entry)
     }
 
-    /// The entry that OpenFOAM takes for a key: that of the key itself, else that of the last matching pattern.
+    /// The entry that OpenFOAM uses for a key: that of the key itself, else that of the last pattern that matches it.
     pub fn matching(&self, key: &str) -> Option<&Entry> {
         let pattern = || self.entries.iter().rev().find(|(name, _)| name.quoted && name.matches(key));
         self.get(key).or_else(|| pattern().map(|(_, entry)| entry))
@@ -141,7 +141,7 @@ impl Dictionary {
         self.number_in(key, tokens, good, allowed)
     }
 
-    /// `uniform <number>`.
+    /// The number of a value `uniform <number>`.
     ///
     /// # Errors
     /// [`CaseError::Key`] for anything else.
@@ -186,12 +186,12 @@ impl Dictionary {
         }
     }
 
-    /// A key of this dictionary with those of the enclosing ones in front, joined by '/'.
+    /// A key of this dictionary with the keys of the enclosing dictionaries in front, joined by '/'.
     pub fn path_of(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_string() } else { format!("{}/{key}", self.path) }
     }
 
-    /// The error that a key of this dictionary has a value which is not allowed.
+    /// The error for a key of this dictionary whose value is not allowed.
     pub fn refuse(&self, key: &str, value: &str, allowed: &str) -> CaseError {
         CaseError::Key {
             file: self.file.clone(),
@@ -272,7 +272,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Words, strings and brackets of a text; comments left out.
+/// Words, strings and brackets of a text, without comments.
 fn tokens(text: &str) -> Vec<Token> {
     let mut tokens = Vec::new();
     let (mut rest, mut line) = (text, 1);

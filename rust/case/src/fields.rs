@@ -1,8 +1,8 @@
-//! Texts of the solver's initial fields in `0`.
+//! Makes the text of the solver's initial fields in `0`.
 
 use std::fmt::Write;
 
-/// What a field holds.
+/// Kind of the values of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldKind {
     /// A number without unit.
@@ -12,7 +12,7 @@ pub enum FieldKind {
 }
 
 impl FieldKind {
-    /// Class of the field, type of its values, dimensions.
+    /// OpenFOAM's words for the class of the field, the type of its values, and their dimensions.
     fn words(self) -> [&'static str; 3] {
         match self {
             Self::Ratio => ["volScalarField", "scalar", "[0 0 0 0 0 0 0]"],
@@ -21,11 +21,11 @@ impl FieldKind {
     }
 }
 
-/// The boundary conditions of a field that has none of its own: walls take the value of the cell beside them.
+/// Boundary conditions of a field that needs none: a wall has the value of the cell beside it.
 const NO_WALLS: &str = "boundaryField\n{\n    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\"\n    {\n        \
                         type    zeroGradient;\n    }\n}\n";
 
-/// A field with a value for each cell, in the order of the mesh's cells; `note` says where they come from.
+/// A field with a value for each cell, in the order of the mesh's cells; `note` says where the values come from.
 pub fn list(name: &str, kind: FieldKind, note: &str, lines: impl ExactSizeIterator<Item = String>) -> String {
     let [class, values, dimensions] = kind.words();
     let mut text = format!(

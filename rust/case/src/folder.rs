@@ -1,4 +1,4 @@
-//! The files of a new case: complete and of its own, so that it runs from anywhere on the disk.
+//! Makes the files of a new case. The folder is complete and includes no files of other cases, so it can stand anywhere.
 
 use crate::CaseError;
 use crate::fields::{FieldKind, head, uniform};
@@ -15,7 +15,7 @@ macro_rules! template {
     };
 }
 
-/// One file of a case: path below the folder, text, whether it is a program.
+/// One file of a case: path below the folder, text, and whether it is executable.
 pub struct File {
     pub path: &'static str,
     pub text: String,
@@ -54,7 +54,7 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<PathBuf, CaseError> {
     }
 }
 
-/// The files of the case. `checkout`: where the solver was built; `name`: of the folder.
+/// The files of the case. `checkout`: folder of MSDD in which the solver was built; `name`: name of the case folder.
 ///
 /// # Errors
 /// [`CaseError::Model`].
@@ -95,7 +95,7 @@ pub fn write(folder: &Path, files: &[File]) -> Result<(), CaseError> {
         if file.program {
             let failed = |source| msdd_files::FileError::Write { file: path.clone(), source };
             let mode = fs::metadata(&path).map_err(failed)?.permissions().mode();
-            // Who may read it may run it.
+            // Executable for everybody who may read it.
             fs::set_permissions(&path, fs::Permissions::from_mode(mode | (mode & 0o444) >> 2))
                 .map_err(failed)?;
         }
@@ -103,7 +103,7 @@ pub fn write(folder: &Path, files: &[File]) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// porosity, fabricIndex, fabricConductivity and stress, the same in all cells.
+/// The fields porosity, fabricIndex, fabricConductivity and stress, with the same value in all cells.
 fn initial_fields(packing: &Packing) -> Vec<File> {
     let origin = format!(
         "Mean of {} periodic boxes of {} packed grains, {} compression: written by 'msdd case new'",

@@ -1,4 +1,4 @@
-//! What the files of a new case say, and which folders are refused.
+//! Tests of the files of a new case, and of the folders that are refused.
 
 use super::*;
 use crate::Case;
@@ -44,7 +44,7 @@ fn made(change: impl Fn(&mut Scene)) -> Vec<File> {
     files(&scene, &packing, "bed", Path::new("/checkout")).unwrap()
 }
 
-/// A text as OpenFOAM would expand it: without the line that brings in the types of patches which are no walls.
+/// A text as OpenFOAM would expand it: without the line that includes the types of patches which are not walls.
 fn expanded(text: &str) -> String {
     text.replace("    #includeEtc \"caseDicts/setConstraintTypes\"\n", "")
 }
@@ -100,7 +100,7 @@ fn values_stand_where_the_solver_looks_for_them() {
     assert!(text(&files, "README.md").contains("| left wall | 350 K | `0/T` |\n| right wall | insulated |"));
 }
 
-/// Through foamDictionary, which needs OpenFOAM.
+/// Needs OpenFOAM, because it reads the files through foamDictionary.
 #[test]
 fn the_reference_reads_what_is_written() {
     if std::process::Command::new("foamDictionary").arg("-help").output().is_err() {

@@ -1,37 +1,38 @@
-//! Grains of a new case: their material by name or by value.
+//! The grains of a new case: named materials, and materials given by their values.
 
 use crate::CaseError;
 use msdd_dem::{Material, Thermal};
 use msdd_rve::message::number;
 
-/// What the solver needs to know about the grains. All grains are of one material.
+/// Properties of the grains that the solver needs. All grains are of one material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grains {
-    /// ρ [kg/m³], of the grains, not of the bed.
+    /// Density ρ of a grain, not of the bed [kg/m³].
     pub density: f64,
-    /// E [Pa]. Contact forces are E r δ (r: harmonic mean of the two radii, δ: overlap), so it scales the pressure.
+    /// Young's modulus E [Pa]. Contact forces are E r δ (r: harmonic mean of the two radii, δ: overlap), so the pressure is
+    /// in proportion to E.
     pub young_modulus: f64,
-    /// k [W/(m K)].
+    /// Thermal conductivity k [W/(m K)].
     pub thermal_conductivity: f64,
-    /// c [J/(kg K)].
+    /// Specific heat capacity c [J/(kg K)].
     pub heat_capacity: f64,
-    /// α [1/K], linear.
+    /// Linear thermal expansion coefficient α [1/K].
     pub thermal_expansion: f64,
-    /// r̄ [m]; the radii are uniform between 0.6 and 1.4 of it.
+    /// Mean radius r̄ [m]; the radii are uniformly distributed between 0.6 r̄ and 1.4 r̄.
     pub mean_radius: f64,
 }
 
-/// A material that has a name.
+/// A named material.
 pub struct Preset {
     pub name: &'static str,
-    /// What it is, and where the numbers come from.
+    /// Description, and the source of the numbers.
     pub about: &'static str,
     pub grains: Grains,
-    /// Temperature at the start that suits it [K].
+    /// Proposed initial temperature [K].
     pub temperature: f64,
 }
 
-/// The first one is the default.
+/// The named materials; the first one is the default.
 pub const PRESETS: [Preset; 4] = [
     Preset {
         name: "paper",
@@ -117,13 +118,13 @@ impl Grains {
         ]
     }
 
-    /// Refuses what has no meaning; names the first such value.
+    /// Refuses values out of range; the error names the first of them.
     ///
     /// # Errors
     /// [`CaseError::Parameter`].
     pub fn check(&self) -> Result<(), CaseError> {
         for (key, value, unit) in self.named() {
-            // Far from where products of such numbers overflow.
+            // Ranges so narrow that products of such numbers cannot overflow.
             let (least, most) = if key == "thermalExpansion" { (0.0, 1.0) } else { (1e-12, 1e15) };
             if !(least..=most).contains(&value) {
                 let allowed = format!("{least:e} to {most:e} {unit}");
@@ -133,17 +134,18 @@ impl Grains {
         Ok(())
     }
 
-    /// For the engine; friction, stiffness ratio and damping are those of the paper, for which the shipped model was trained.
+    /// The material for the discrete element engine. Friction, stiffness ratio and damping are those of the paper, for which
+    /// the shipped model was trained.
     pub fn material(&self) -> Material {
         Material { density: self.density, young_modulus: self.young_modulus, ..Material::default() }
     }
 
-    /// E r̄/ℓ with ℓ = 1 m [Pa]: stresses of packings of equal structure are in proportion to it.
+    /// E r̄/ℓ with ℓ = 1 m [Pa]. The stresses of packings of equal structure are in proportion to this scale.
     pub fn stress_scale(&self) -> f64 {
         self.young_modulus * self.mean_radius
     }
 
-    /// From what a case folder says.
+    /// The grains of a case that was read.
     pub fn of(material: &Material, thermal: &Thermal, mean_radius: f64) -> Self {
         Self {
             density: material.density,

@@ -1,17 +1,17 @@
-//! Case folders of the solver `msddFoam`: read, begun and checked.
+//! Reads, makes and checks case folders of the solver `msddFoam`.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`dictionary`] | OpenFOAM dictionaries as `foamDictionary -expand` prints them |
 //! | [`case`] | material, temperatures, box and times of a case folder |
-//! | [`walls`] | what the walls of a case do to heat, over time |
+//! | [`walls`] | thermal boundary conditions of the walls over time |
 //! | [`mesh`] | cell centres of a case's mesh |
 //! | [`fields`] | texts of initial fields |
 //! | [`grains`] | materials of new cases |
-//! | [`scene`] | what a new case is about |
-//! | [`packing`] | the packing that it starts with |
+//! | [`scene`] | the parameters of a new case |
+//! | [`packing`] | the initial packing of a new case |
 //! | [`folder`] | the files of a new case |
-//! | [`values`] | what stands in them |
+//! | [`values`] | values in these files, as text |
 //! | [`check`](mod@check) | what is missing, out of range or doubtful before a run |
 #![forbid(unsafe_code)]
 
@@ -32,7 +32,7 @@ pub use case::Case;
 use msdd_rve::message::{shortened, value as value_text};
 use std::path::PathBuf;
 
-/// What can be wrong with a case folder, or with a wish for a new one.
+/// What can be wrong with a case folder, or with the parameters of a new case.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
     #[error("{file}: {key} = {value}, allowed: {allowed}", file = file.display(), value = value_text(value))]

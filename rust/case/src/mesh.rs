@@ -1,10 +1,10 @@
-//! Cell centres of a case's mesh, from `constant/polyMesh` as OpenFOAM works them out: the mean of its pyramids on the
-//! faces, by volume. Text files only.
+//! Cell centres of a case's mesh, from the text files in `constant/polyMesh`. They are computed as in OpenFOAM: a cell is
+//! divided into pyramids on its faces, and its centre is the mean of the pyramids' centres, weighted by volume.
 
 use crate::CaseError;
 use std::path::Path;
 
-/// Centres [m] of all cells in the plane of the grains.
+/// x and y of the centres of all cells [m].
 ///
 /// # Errors
 /// [`CaseError::Read`] when a file is missing, and [`CaseError::Key`] when it is not a list of text.
@@ -62,7 +62,7 @@ fn mean(points: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
 }
 
 impl Face {
-    /// Triangles around the mean of the corners.
+    /// Computed from the triangles between the mean of the corners and each edge.
     fn new(corners: &[usize], points: &[[f64; 3]]) -> Self {
         let middle = mean(corners.iter().map(|&k| points[k]));
         let (mut area, mut weighted, mut sum) = ([0.0; 3], [0.0; 3], 0.0);
@@ -80,7 +80,7 @@ impl Face {
     }
 }
 
-/// `sides` are pairs of face and cell.
+/// Centres of the cells. `sides` are pairs of a face and a cell that it bounds.
 fn centres(faces: &[Face], sides: &[(usize, usize)]) -> Vec<[f64; 2]> {
     let count = sides.iter().map(|side| side.1 + 1).max().unwrap_or(0);
     let mut middle = vec![([0.0; 3], 0.0f64); count];
@@ -92,7 +92,7 @@ fn centres(faces: &[Face], sides: &[(usize, usize)]) -> Vec<[f64; 2]> {
     let mut pyramids = vec![([0.0; 2], 0.0); count];
     for &(face, cell) in sides {
         let Face { centre, area } = &faces[face];
-        // Whichever side of the face the cell is on.
+        // The absolute value, because the area vector may point into the cell or out of it.
         let volume = dot(*area, minus(*centre, middle[cell])).abs();
         for k in 0..2 {
             pyramids[cell].0[k] += volume * (0.75 * centre[k] + 0.25 * middle[cell][k]);
@@ -108,7 +108,7 @@ fn content(file: &Path) -> Result<String, CaseError> {
     let bytes = std::fs::read(file).map_err(|error| failed(format!("{error} (blockMesh makes the mesh)")))?;
     let text =
         String::from_utf8(bytes).map_err(|_| failed("binary; allowed: writeFormat ascii".to_string()))?;
-    // The head ends with its brace.
+    // The head of the file ends with the first closing brace.
     let body = text.find('}').map_or(text.as_str(), |end| &text[end + 1..]);
     let (open, close) = (body.find('('), body.rfind(')'));
     match (open, close) {
@@ -139,7 +139,7 @@ fn labels(file: &Path) -> Result<Vec<usize>, CaseError> {
     parsed(file, &content(file)?)
 }
 
-/// `4(0 1 2 3)` line by line.
+/// Reads a list with one entry such as `4(0 1 2 3)` on each line.
 fn lists(file: &Path) -> Result<Vec<Vec<usize>>, CaseError> {
     let text = content(file)?;
     let inner = text.split(')').filter_map(|part| Some(part.split_once('(')?.1));
@@ -150,7 +150,7 @@ fn lists(file: &Path) -> Result<Vec<Vec<usize>>, CaseError> {
 mod tests {
     use super::*;
 
-    /// A wedge-shaped prism: its centre is that of the triangle, not the mean of its corners' box.
+    /// The centre of a prism on a triangle is that of the triangle, not that of the box around its corners.
     #[test]
     fn centre_of_a_prism() {
         let points = [

@@ -1,4 +1,4 @@
-//! The state that a case begins with: means over small periodic boxes of its grains, packed by discrete elements.
+//! The initial state of a new case: means over small periodic boxes of its grains, packed by discrete elements.
 
 use crate::CaseError;
 use crate::grains::Grains;
@@ -10,21 +10,22 @@ use msdd_surrogate::Surrogate;
 use msdd_surrogate::surrogate::Known;
 use rayon::prelude::*;
 
-/// Smallest and largest radius over the mean: 3 and 7 mm of 5 in the paper.
+/// Smallest and largest radius over the mean radius; in the paper 3, 7 and 5 mm.
 pub const RADIUS_RANGE: [f64; 2] = [0.6, 1.4];
-/// tan φ while a box is packed. Paper silent. Friction raises the porosity at which the grains jam and the fabric index:
-/// 0.3 ends near η, f = 12.4 %, 0.036; the material's own 0.546 jams at 12.9–13.1 %.
+/// Friction coefficient tan φ while a box is packed, which the paper does not give. Friction raises the porosity η at which
+/// the grains jam, and the fabric index f: 0.3 leads to about η = 12.4 % and f = 0.036; with the material's own 0.546 the
+/// grains jam at 12.9–13.1 %.
 pub const PACKING_FRICTION: f64 = 0.42;
-/// Porosities at the start that are allowed [-]: those of the packings which the shipped model was trained with.
+/// Least and largest initial porosity that is allowed [-]: those of the packings that the shipped model was trained with.
 pub const POROSITIES: [f64; 2] = [0.06, 0.19];
-/// Grains in each box.
+/// Number of grains in each box.
 const GRAINS: usize = 500;
-/// A pressure is met when it is as near as this, relative.
+/// Largest relative difference between the pressure that was wanted and that of the packings.
 const PRESSURE_TOLERANCE: f64 = 0.01;
-/// Rounds of packing at most until it is.
+/// Largest number of rounds of packing to find the porosity with the wanted pressure.
 const ROUNDS: usize = 8;
 
-/// What is wanted of the initial packing.
+/// The quantity that the initial packing has to have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
     /// η [-], overlaps counted once.
@@ -33,7 +34,7 @@ pub enum Start {
     Pressure(f64),
 }
 
-/// Mean over the boxes, and how far a single box is from it.
+/// Mean over the boxes, and scatter between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     pub mean: f64,
@@ -45,36 +46,36 @@ pub struct Spread {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Packing {
     pub boxes: usize,
-    /// Grains in each.
+    /// Number of grains in each box.
     pub grains: usize,
     pub compression: Compression,
     /// η [-], overlaps counted once.
     pub porosity: Spread,
     /// f = F_xx − F_yy [-].
     pub fabric_index: Spread,
-    /// (K_xx − K_yy)/(K_xx + K_yy) [-], network of contacts solved.
+    /// (K_xx − K_yy)/(K_xx + K_yy) [-], resistor network of the contacts solved.
     pub fabric_conductivity: Spread,
     /// σ_xx, σ_yy [Pa].
     pub stress: [Spread; 2],
     /// p [Pa].
     pub pressure: Spread,
-    /// (K_xx + K_yy)/2k [-], network of contacts solved.
+    /// (K_xx + K_yy)/(2 k) [-], resistor network of the contacts solved.
     pub conductivity: Spread,
 }
 
-/// How to pack.
+/// How many boxes are packed, and on how many threads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
-    /// Boxes that are averaged.
+    /// Number of boxes that are averaged.
     pub boxes: usize,
-    /// Seed of the first one.
+    /// Seed of the first box.
     pub seed: u64,
-    /// Results do not depend on it.
+    /// Number of threads; results do not depend on it.
     pub threads: usize,
 }
 
-/// Packs boxes of the grains and averages them. `progress` hears the number of boxes done, of how many in all as far as is
-/// known.
+/// Packs boxes of the grains and averages them. `progress` is called with the number of boxes that are done, and with the
+/// number of all boxes as far as it is known then.
 ///
 /// # Errors
 /// [`CaseError::Parameter`] for a porosity or pressure that such grains do not have or the shipped model does not know;
@@ -96,7 +97,7 @@ pub fn pack(
     }
 }
 
-/// Refuses what is out of range before anything is packed.
+/// Refuses a start that is out of range, before anything is packed.
 ///
 /// # Errors
 /// [`CaseError::Parameter`].
@@ -132,26 +133,26 @@ pub fn check(grains: &Grains, start: Start, compression: Compression) -> Result<
     }
 }
 
-/// Three digits.
+/// A number with three significant digits.
 fn rounded(value: f64) -> String {
     crate::values::plain(crate::scene::rounded(value, 3))
 }
 
-/// Pressures [Pa] of the loosest and of the densest packing that are allowed, as the shipped model knows them.
+/// Pressures [Pa] of the loosest and of the densest packing that are allowed, by the shipped model.
 fn pressures(grains: &Grains, compression: Compression) -> Result<[f64; 2], CaseError> {
     let model = msdd_surrogate::models::builtin(msdd_surrogate::models::BUILTIN)?;
     let at = |porosity| grains.stress_scale() * expected(model.as_ref(), porosity, compression);
     Ok([at(POROSITIES[1]), at(POROSITIES[0])])
 }
 
-/// p̃ [-] of the mean packing of a porosity, as the model knows it.
+/// Reduced pressure p̃ [-] of the mean packing of a porosity, by the model.
 fn expected(model: &dyn Surrogate, porosity: f64, compression: Compression) -> f64 {
     let known = Known { porosity, fabric_index: usual_fabric(compression), ..Known::default() };
     let answer = model.evaluate(&model.initial_state(&known), 0.0);
     0.5 * (answer.stress[0][0] + answer.stress[1][0])
 }
 
-/// Fabric index of packings that were compressed in this way [-], roughly.
+/// Approximate fabric index of packings that were compressed in this way [-].
 pub fn usual_fabric(compression: Compression) -> f64 {
     match compression {
         Compression::Isotropic => 0.0,
@@ -159,7 +160,8 @@ pub fn usual_fabric(compression: Compression) -> f64 {
     }
 }
 
-/// Looks for the porosity by interpolation between the two packings that are nearest in √p, of which it is nearly linear.
+/// Finds the porosity with a given pressure. The porosity is nearly linear in √p, so each round interpolates between the two
+/// packings whose √p is nearest to the wanted one.
 fn to_pressure(
     grains: &Grains,
     pressure: f64,
@@ -181,7 +183,7 @@ fn to_pressure(
         known.sort_by(|a, b| (a[1] - wanted).abs().total_cmp(&(b[1] - wanted).abs()));
         let slope = match known.as_slice() {
             [a, b, ..] if a[1] != b[1] => (a[0] - b[0]) / (a[1] - b[1]),
-            // Of √p̃ against η of the shipped model's packings, to begin with.
+            // Slope of √p̃ over η, from the packings of the shipped model, for the first round.
             _ => -0.47,
         };
         let [low, high] = [POROSITIES[0] - 0.01, POROSITIES[1] + 0.01];
@@ -250,8 +252,8 @@ fn packed(
 }
 
 impl Packing {
-    /// Of packings that were compressed alike in both directions what differs between x and y is chance: such are averaged
-    /// with themselves turned by 90°.
+    /// Mean over the boxes. In packings that were compressed equally in both directions, differences between x and y are
+    /// random, so each is averaged with itself turned by 90°.
     fn of(averages: &[Averages], compression: Compression) -> Self {
         let alike = compression == Compression::Isotropic;
         let spread = |value: fn(&Averages) -> f64| Spread::of(averages.iter().map(value));

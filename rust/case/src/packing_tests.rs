@@ -1,4 +1,4 @@
-//! Packings beside what the model expects, and what is refused.
+//! Compares packings with the model, and tests what is refused.
 
 use super::*;
 use crate::grains::PRESETS;

@@ -1,4 +1,4 @@
-//! What a new case is about: box, walls, grains, start, end. Nothing here is written or printed.
+//! The parameters of a new case: box, walls, grains, initial state, end. Nothing is written or printed here.
 
 use crate::CaseError;
 use crate::grains::Grains;
@@ -10,11 +10,11 @@ use msdd_rve::message::number;
 use msdd_surrogate::models;
 use msdd_surrogate::surrogate::Known;
 
-/// Side of a cell over the mean radius that is proposed: a square of it holds nearly five grains, as in the paper's mesh.
+/// Proposed side of a cell over the mean radius: a square of this side holds nearly five grains, as in the paper's mesh.
 pub const CELL_RADII: f64 = 4.3;
-/// Cells along the longer side at most, when nothing else is wished.
+/// Largest number of cells along the longer side that is proposed.
 const PROPOSED_CELLS: f64 = 100.0;
-/// Cells of a case at most, which is beyond what one would wait for.
+/// Largest number of cells of a case; a run with more would take too long to be useful.
 const MOST_CELLS: usize = 4_000_000;
 /// Names of the walls, in the order of [`msdd_dem::Side`].
 pub const WALLS: [&str; 4] = ["left", "right", "bottom", "top"];
@@ -22,24 +22,24 @@ pub const WALLS: [&str; 4] = ["left", "right", "bottom", "top"];
 /// Whether the grains move until the stress is in equilibrium.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mechanics {
-    /// They do not: the paper's algorithm.
+    /// The grains do not move: the paper's algorithm.
     None,
     #[default]
     Equilibrium,
 }
 
-/// All that a new case is made from. SI units.
+/// All parameters of a new case. SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Width and height of the box [m].
     pub size: [f64; 2],
     /// Cells along x and y.
     pub cells: [usize; 2],
-    /// In the order of [`WALLS`].
+    /// Thermal boundary conditions, in the order of [`WALLS`].
     pub walls: [WallOverTime; 4],
-    /// T at the start, everywhere [K].
+    /// Initial temperature of the whole bed [K].
     pub initial_temperature: f64,
-    /// Name of the material, for the comments.
+    /// Name of the material, for comments in the files.
     pub material: String,
     pub grains: Grains,
     pub start: Start,
@@ -47,15 +47,15 @@ pub struct Scene {
     pub mechanics: Mechanics,
     /// Heat released in the bed [W/m³], negative for a sink.
     pub heat_source: Option<f64>,
-    /// [s]
+    /// End of the simulation [s].
     pub end_time: f64,
-    /// Error of T that a step may make [K]; a thousandth of the range of T when absent.
+    /// Largest error of T that a time step may add [K]; `None`: a thousandth of the range of T.
     pub tolerance: Option<f64>,
-    /// Where T is recorded [m].
+    /// Points where T is recorded [m].
     pub probes: Vec<[f64; 2]>,
 }
 
-/// A number with so many digits that count.
+/// A number rounded to `digits` significant digits.
 pub fn rounded(value: f64, digits: i32) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return value;
@@ -64,25 +64,26 @@ pub fn rounded(value: f64, digits: i32) -> f64 {
     format!("{value:.places$e}").parse().unwrap_or(value)
 }
 
-/// Cells of a box [m] when nothing is wished: about [`CELL_RADII`] wide, or wider in large boxes.
+/// Proposed numbers of cells along x and y of a box of this size [m]: cells are about [`CELL_RADII`] mean radii wide, or
+/// wider in large boxes.
 pub fn proposed_cells(size: [f64; 2], mean_radius: f64) -> [usize; 2] {
     let cell = (CELL_RADII * mean_radius).max(size[0].max(size[1]) / PROPOSED_CELLS);
     cells_of(size, cell)
 }
 
-/// Cells of about this side [m].
+/// Numbers of cells along x and y if the cells have about this side [m].
 pub fn cells_of(size: [f64; 2], cell: f64) -> [usize; 2] {
     size.map(|length| (length / cell).round().max(1.0) as usize)
 }
 
-/// Three places along the middle of the box [m]: near the left wall, in the middle, near the right wall.
+/// Three points on the horizontal middle line of the box [m]: near the left wall, in the middle, near the right wall.
 pub fn proposed_probes(size: [f64; 2]) -> Vec<[f64; 2]> {
     let near = (0.5 * size[1]).min(0.25 * size[0]);
     [near, 0.5 * size[0], size[0] - near].map(|x| [rounded(x, 6), rounded(0.5 * size[1], 6)]).to_vec()
 }
 
 impl Scene {
-    /// Refuses what makes no case; names the first such wish.
+    /// Refuses values out of range; the error names the first of them.
     ///
     /// # Errors
     /// [`CaseError::Parameter`].
@@ -140,14 +141,14 @@ impl Scene {
         [0, 1].map(|k| self.size[k] / self.cells[k] as f64)
     }
 
-    /// Least and largest temperature of the start and of the walls at any time [K].
+    /// Least and largest temperature of the initial state and of the walls at any time [K].
     pub fn temperatures(&self) -> [f64; 2] {
         let walls = self.walls.iter().flat_map(wall_temperatures);
         walls.fold([self.initial_temperature; 2], |[least, most], value| [least.min(value), most.max(value)])
     }
 
-    /// Length over which heat has to spread [m]: half the box where both walls have a temperature, all of it where one has, the
-    /// shorter of both directions.
+    /// Length over which heat has to spread [m]: in each direction half of the box if both walls have a temperature, the whole
+    /// box if one has; the shorter of the two directions.
     pub fn heat_way(&self) -> f64 {
         let warm = |wall: usize| !wall_temperatures(&self.walls[wall]).is_empty();
         let ways = [0, 1].map(|k| match (warm(2 * k), warm(2 * k + 1)) {
@@ -159,8 +160,8 @@ impl Scene {
         if way.is_finite() { way } else { self.size[0].max(self.size[1]) }
     }
 
-    /// Thermal diffusivity of the bed, K/(ρ c (1 − η)) [m²/s], and mean conductivity K [W/(m K)], as the shipped model knows
-    /// packings of about this start.
+    /// Thermal diffusivity of the bed, K/(ρ c (1 − η)) [m²/s], and its mean conductivity K [W/(m K)], by the shipped model for
+    /// packings of about the initial porosity or pressure.
     ///
     /// # Errors
     /// [`CaseError::Model`] when the shipped model cannot be read.
@@ -180,7 +181,8 @@ impl Scene {
         Ok([conductivity / storage, conductivity])
     }
 
-    /// L²/D [s], in which most of the heat has spread over the length L = [`Scene::heat_way`]; two digits.
+    /// Proposed end time L²/D [s], rounded to two digits: the time in which most of the heat has spread over the length
+    /// L = [`Scene::heat_way`].
     ///
     /// # Errors
     /// [`CaseError::Model`].
@@ -189,7 +191,7 @@ impl Scene {
         Ok(rounded(way * way / self.diffusivity()?[0], 2))
     }
 
-    /// The first time step [s]: a twentieth of the time in which heat crosses a cell, two digits.
+    /// The first time step [s], rounded to two digits: a twentieth of the time in which heat crosses a cell.
     ///
     /// # Errors
     /// [`CaseError::Model`].
@@ -200,7 +202,7 @@ impl Scene {
     }
 }
 
-/// Temperatures that a wall has at some time [K]; none when no temperature is set.
+/// Temperatures that a wall has over time [K]; empty when it has no temperature.
 pub fn wall_temperatures(wall: &WallOverTime) -> Vec<f64> {
     match wall {
         WallOverTime::Steady(WallHeat::Temperature(value)) => vec![*value],
@@ -216,10 +218,10 @@ fn allow(key: &str, value: f64, good: bool, allowed: impl FnOnce() -> String) ->
     Err(CaseError::Parameter { key: key.to_string(), value: number(value), allowed: allowed() })
 }
 
-/// `0.6x0.2`: two numbers with an x between.
+/// Reads two numbers with an x between them, such as `0.6x0.2`.
 ///
 /// # Errors
-/// What is allowed.
+/// A text that says what is allowed.
 pub fn parse_pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], String> {
     let parts: Option<Vec<T>> = text.split(['x', 'X', '×']).map(|part| part.trim().parse().ok()).collect();
     match parts.map(<[T; 2]>::try_from) {
@@ -230,10 +232,10 @@ pub fn parse_pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], String> {
     }
 }
 
-/// `0.1,0.05`: x and y [m].
+/// Reads x and y [m], such as `0.1,0.05`.
 ///
 /// # Errors
-/// What is allowed.
+/// A text that says what is allowed.
 pub fn parse_point(text: &str) -> Result<[f64; 2], String> {
     let parts: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     match parts.map(<[f64; 2]>::try_from) {
@@ -242,10 +244,10 @@ pub fn parse_point(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// `insulated`, a temperature [K], or `time:T,time:T,...`.
+/// Reads the condition of a wall: `insulated`, a temperature [K], or `time:T,time:T,...`.
 ///
 /// # Errors
-/// What is allowed.
+/// A text that says what is allowed.
 pub fn parse_wall(text: &str) -> Result<WallOverTime, String> {
     let text = text.trim();
     let allowed = || {

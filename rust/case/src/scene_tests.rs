@@ -1,4 +1,4 @@
-//! Wishes: how they are written, what is refused, what is proposed.
+//! Tests of the parameters of a new case: how they are written, what is refused, what is proposed.
 
 use super::*;
 use crate::grains::PRESETS;

@@ -1,4 +1,4 @@
-//! What stands in the files of a new case: numbers and names as text.
+//! Values in the files of a new case: numbers and names as text.
 
 use crate::CaseError;
 use crate::packing::{Packing, RADIUS_RANGE, Spread};
@@ -9,20 +9,20 @@ use msdd_rve::Compression;
 use std::f64::consts::PI;
 use std::path::Path;
 
-/// Times at which fields are written, and lines of the probes' tables, over the run.
+/// Number of times at which fields are written during the run, and number of rows in the probes' tables.
 const WRITES: f64 = 4.0;
 const PROBE_LINES: f64 = 200.0;
-/// A step is at most this part of the run, so that curves of T are smooth.
+/// Least number of time steps of a run, so that curves of T are smooth.
 const STEPS: f64 = 100.0;
 
-/// Step of discrete elements over the square root of density times radius over Young's modulus, and their time for a grain and a
-/// step [s] on one core: from 20 s of case H, 15 000 grains, steps of 1 ms, 131 core-seconds.
+/// To estimate the duration of a discrete element simulation: time step over sqrt(density radius / Young's modulus), and time
+/// for one grain and step on one core [s]. From 20 s of case H with 15 000 grains and steps of 1 ms, 131 core-seconds.
 const DISCS_STEP: f64 = 0.8;
 const DISCS_COST: f64 = 4e-7;
 
 pub(crate) type Values = Vec<(&'static str, String)>;
 
-/// What stands for `@key@` in the templates.
+/// The values that replace `@key@` in the templates.
 pub(crate) fn values(
     scene: &Scene,
     packing: &Packing,
@@ -85,10 +85,10 @@ fn mesh_values(scene: &Scene, packing: &Packing) -> Values {
     ]
 }
 
-/// Number of grains on an area [m²] of a porosity, overlaps left out of account.
+/// Number of grains on an area [m²] with this porosity, if overlaps are neglected.
 pub fn grains_in(area: f64, porosity: f64, mean_radius: f64) -> f64 {
     let [low, high] = RADIUS_RANGE.map(|ratio| ratio * mean_radius);
-    // Mean of r² for radii that are uniform between the two.
+    // Mean of r² for radii that are uniformly distributed between the two.
     area * (1.0 - porosity) / (PI * (low * low + low * high + high * high) / 3.0)
 }
 
@@ -111,17 +111,17 @@ fn readme_values(scene: &Scene, packing: &Packing) -> Values {
         (
             "noSource",
             match scene.heat_source {
-                Some(_) => "; but msdd reference knows no heat sources and leaves this one out, so its results are not those of this case".to_string(),
+                Some(_) => "; but msdd reference cannot simulate heat sources and leaves this one out, so its results are not those of this case".to_string(),
                 None => String::new(),
             },
         ),
     ]
 }
 
-/// How long discrete elements would take for a case, for a reader: as measured on the paper's grains.
+/// Estimated duration of a discrete element simulation of the case, as text; from measurements with the paper's grains.
 fn discs_time(scene: &Scene, discs: f64) -> String {
     let grains = &scene.grains;
-    // Of one step, in the time in which a grain answers a push: 1 ms of 1.2 ms in the paper.
+    // Time step, in proportion to the period in which a grain oscillates on its contacts: 1 ms of 1.2 ms in the paper.
     let step = DISCS_STEP * (grains.density * grains.mean_radius / grains.young_modulus).sqrt();
     let seconds = scene.end_time / step * discs * DISCS_COST;
     match seconds {
@@ -132,7 +132,7 @@ fn discs_time(scene: &Scene, discs: f64) -> String {
     }
 }
 
-/// What a wall does, for a reader.
+/// Thermal boundary condition of a wall, as text.
 pub fn describe(wall: &WallOverTime) -> String {
     match wall {
         WallOverTime::Steady(WallHeat::Temperature(value)) => format!("{} K", plain(*value)),
@@ -147,7 +147,7 @@ pub fn describe(wall: &WallOverTime) -> String {
     }
 }
 
-/// Rows of the initial state: quantity, mean, scatter.
+/// Rows of the table of the initial state: quantity, mean, scatter.
 pub fn packing_rows(packing: &Packing) -> Vec<[String; 3]> {
     let row = |what: &str, spread: Spread, digits: usize| {
         [what.to_string(), format!("{:.digits$}", spread.mean), format!("{:.digits$}", spread.deviation)]
@@ -202,7 +202,7 @@ fn walls(scene: &Scene) -> String {
     WALLS.into_iter().zip(&scene.walls).map(block).collect()
 }
 
-/// As `constant/granularProperties` calls it.
+/// Name of the mechanics in `constant/granularProperties`.
 pub fn mechanics_name(mechanics: Mechanics) -> &'static str {
     match mechanics {
         Mechanics::None => "none",
@@ -219,13 +219,13 @@ pub fn compression_name(compression: Compression) -> &'static str {
     }
 }
 
-/// A number as one writes it: 0.012, 1.93e11. Reads back exactly.
+/// A number in its usual short form, such as 0.012 or 1.93e11, which gives exactly the same number when it is read.
 pub fn plain(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || (1e-4..1e5).contains(&size) { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// Puts values in the places of `@key@`.
+/// Replaces every `@key@` by its value.
 pub(crate) fn fill(template: &str, values: &Values) -> String {
     values.iter().fold(template.to_string(), |text, (key, value)| text.replace(&format!("@{key}@"), value))
 }

@@ -1,4 +1,4 @@
-//! What the walls of a case do to heat, over time: the patches of `0/T`.
+//! Thermal boundary conditions of the walls over time, from the patches of `0/T`.
 
 use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
@@ -6,7 +6,8 @@ use msdd_dem::{Side, WallHeat};
 
 /// Names of the four walls in the mesh, in the order of [`Side`].
 const PATCHES: [&str; 4] = ["left", "right", "bottom", "top"];
-/// Patch types of meshes, not of heat: OpenFOAM lists them all, whether a patch has them or not.
+/// Patch types that say something about the mesh and not about heat. The standard include of OpenFOAM lists all of them,
+/// whether a patch has this type or not.
 const CONSTRAINTS: [&str; 12] = [
     "empty",
     "cyclic",
@@ -22,24 +23,24 @@ const CONSTRAINTS: [&str; 12] = [
     "overset",
 ];
 
-/// What a wall does to heat.
+/// Thermal boundary condition of a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub enum WallOverTime {
     Steady(WallHeat),
-    /// Times [s], from 0 on and rising, and temperatures [K]; straight between two, the last one after the end.
+    /// Times [s], rising from 0, and temperatures [K]: linear between two rows, constant after the last.
     Table(Vec<[f64; 2]>),
 }
 
 impl WallOverTime {
-    /// Of rows of time [s] and temperature [K]; `None` unless there are two or more, with finite numbers and times that rise
-    /// from 0.
+    /// Makes a table from rows of time [s] and temperature [K]; `None` unless there are at least two rows with finite numbers,
+    /// and their times rise from 0.
     pub fn table(rows: Vec<[f64; 2]>) -> Option<Self> {
         let finite = rows.iter().flatten().all(|number: &f64| number.is_finite());
         let rising = rows.windows(2).all(|pair| pair[0][0] < pair[1][0]);
         (rows.len() > 1 && rows[0][0] == 0.0 && finite && rising).then_some(Self::Table(rows))
     }
 
-    /// At `time` [s].
+    /// The condition at `time` [s].
     pub fn at(&self, time: f64) -> WallHeat {
         match self {
             Self::Steady(heat) => *heat,
@@ -54,7 +55,7 @@ fn interpolated(rows: &[[f64; 2]], time: f64) -> f64 {
     from + (to - from) * ((time - t0) / (t1 - t0)).clamp(0.0, 1.0)
 }
 
-/// `table ( ( 0 50 ) ( 2 70 ) ... )`, two rows or more.
+/// Reads `table ( ( 0 50 ) ( 2 70 ) ... )` with at least two rows.
 fn table(tokens: &[Token]) -> Option<WallOverTime> {
     let [word, open, inner @ .., close] = tokens else { return None };
     if [&word.text, &open.text, &close.text] != ["table", "(", ")"] {
@@ -72,7 +73,7 @@ fn table(tokens: &[Token]) -> Option<WallOverTime> {
 /// The four walls of `0/T`, in the order of [`Side`].
 ///
 /// # Errors
-/// [`CaseError::Key`] for a patch, type or key that means something else or nothing here.
+/// [`CaseError::Key`] for a patch, type or key that the reference does not know.
 pub fn heat_of_walls(file: &Dictionary) -> Result<[WallOverTime; 4], CaseError> {
     let patches = file.dictionary_at("boundaryField")?;
     let stray = |key: &&Token| {
@@ -129,7 +130,7 @@ fn wall_heat(patch: &Dictionary) -> Result<WallOverTime, CaseError> {
             patch.check_keys(&[&["type", "gradient", "value"]])?;
             match patch.uniform("gradient")? {
                 0.0 => Ok(Steady(WallHeat::Insulated)),
-                // Its heat flux is K times it, and grains have no K of their own.
+                // The heat flux would be K times the gradient, and discrete elements have no K of the bed.
                 other => Err(patch.refuse("gradient", &format!("uniform {other}"), "uniform 0")),
             }
         }

@@ -1,4 +1,4 @@
-//! The check on the cases of this project, which are sound, and on the bad input that the solver's tests have.
+//! Runs the check on the cases of this project, in which it must find nothing, and on the bad input of the solver's tests.
 //! Needs OpenFOAM's foamDictionary, as scripts/setup installs it.
 
 use msdd_case::check::{Findings, check};

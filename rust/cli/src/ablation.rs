@@ -1,4 +1,4 @@
-//! `msdd ablation`: what each input of the networks is worth.
+//! `msdd ablation`: how much each input of the networks contributes to their accuracy.
 
 use crate::database::warn_without_checksum;
 use crate::error::CliError;
@@ -13,19 +13,20 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 #[command(
-    after_help = "The paper's Table 3. A split by sample flatters: samples of one packing resemble each other."
+    after_help = "As Table 3 of the paper. The data are split into training and test data by packing. Splitting them by sample \
+gives too small errors, because samples of the same packing, which resemble each other, are then in both."
 )]
 pub struct Arguments {
     /// Database, or the CSV that was exported from one; given several times, all of them together.
     #[arg(long, value_name = "FILE", required = true)]
     database: Vec<PathBuf>,
-    /// Fixes the splits and the starting weights.
+    /// Seed of the random splits and starting weights.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Levenberg-Marquardt steps of each network at most.
+    /// Largest number of Levenberg-Marquardt steps for each network.
     #[arg(long, default_value_t = 20)]
     epochs: u32,
-    /// JSON to write.
+    /// JSON file to write.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }

@@ -15,19 +15,19 @@ use std::path::PathBuf;
 
 Lines join the centres of grains that press on each other; their width is proportional to the normal force.")]
 pub struct Arguments {
-    /// State of a box of grains, as `msdd rve pack` writes it.
+    /// State file of a box of grains, as `msdd rve pack` writes it.
     #[arg(long, value_name = "FILE")]
     state: PathBuf,
-    /// Field of the solver to draw beside the box: a scalar field in a time folder, text, one value a cell.
+    /// Field of the solver to draw beside the box: the file of a scalar field in a time folder, in text format.
     #[arg(long, value_name = "FILE", requires = "cells")]
     field: Option<PathBuf>,
-    /// Cells of the field along x and y; cells are square.
+    /// Number of cells of the field along x and y; cells are drawn as squares.
     #[arg(long, value_name = "NX,NY", value_parser = cells)]
     cells: Option<[usize; 2]>,
-    /// What the field is, with its unit.
+    /// Name of the field with its unit, as the caption.
     #[arg(long, default_value = "")]
     label: String,
-    /// SVG to write.
+    /// SVG file to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
@@ -46,12 +46,12 @@ const GAP: f64 = 60.0;
 /// Height of the captions above and of the scale below [px].
 const HEAD: f64 = 30.0;
 const FOOT: f64 = 44.0;
-/// Width of a line at the mean normal force [px], and the most of it.
+/// Width of a line at the mean normal force [px], and largest width.
 const LINE: f64 = 1.4;
 const WIDEST: f64 = 7.0;
-/// Shades of the field.
+/// Number of colours of the field.
 const SHADES: usize = 48;
-/// Blue over white to red, told apart by the colour-blind: ends and middle of the scale.
+/// Ends and middle of the colour scale: blue, white and red, which colour-blind readers can tell apart.
 const COLD: [f64; 3] = [33.0, 102.0, 172.0];
 const MIDDLE: [f64; 3] = [247.0, 247.0, 247.0];
 const HOT: [f64; 3] = [178.0, 24.0, 43.0];
@@ -92,7 +92,7 @@ fn scalars(text: &str, cells: [usize; 2]) -> Result<Vec<f64>, String> {
     }
 }
 
-/// Grains in grey, forces in black.
+/// SVG of the grains in grey and of the contact forces as black lines.
 fn grains(simulation: &Simulation) -> String {
     let [x0, x1, y0, y1] = simulation.walls.position;
     let scale = BOX / (x1 - x0).max(y1 - y0);
@@ -128,7 +128,7 @@ fn grains(simulation: &Simulation) -> String {
     )
 }
 
-/// The field in shades, cells of one shade in a row joined, with the scale below.
+/// SVG of the field in colours with the scale below. Neighbouring cells of a row with the same colour are one rectangle.
 fn map(values: &[f64], columns: usize, label: &str) -> String {
     let (low, high) =
         values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
@@ -190,7 +190,7 @@ fn colour(shade: usize) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Three digits.
+/// A number with three significant digits.
 fn brief(value: f64) -> String {
     let digits = (2.0 - value.abs().max(1e-300).log10().floor()).clamp(0.0, 9.0) as usize;
     format!("{value:.digits$}")
@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn cells_of_one_shade_are_joined_and_the_ends_are_cold_and_hot() {
         let svg = map(&[0.0, 0.0, 0.0, 100.0], 2, "T [K]");
-        // Three for the cells, the scale, the frame.
+        // Three rectangles for the cells, those of the scale, and the frame.
         assert_eq!(svg.matches("<rect").count(), 3 + SHADES + 1, "{svg}");
         assert!(svg.contains("#2166ac") && svg.contains("#b2182b") && svg.contains(">100</text>"), "{svg}");
     }

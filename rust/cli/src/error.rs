@@ -1,4 +1,4 @@
-//! What the program reports before it exits with status 1.
+//! Errors that the program reports before it exits with status 1.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,5 @@
-//! `msdd`: the offline work of multiscale data-driven simulation. The only place that parses arguments and prints.
+//! `msdd`: everything in multiscale data-driven simulation but the solver itself: cases, databases, models, references,
+//! reports. The only crate that parses arguments and prints.
 #![forbid(unsafe_code)]
 
 #[macro_use]
@@ -24,17 +25,17 @@ mod train;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Version, and the commit that this was built from.
+/// Version, and the commit that this program was built from.
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (commit ", env!("MSDD_COMMIT"), ")");
 
 const AFTER_HELP: &str = "\
-The way of the data:
+From a database to results:
   msdd database generate --plan cases/database/quick.toml --out results/quick.msdd
   msdd train --database results/quick.msdd --out results/model.json
 then name the model in a case's constant/granularProperties, run msddFoam, and
   msdd summary --cases cases --out results/summary.json --plot results/temperature.svg";
 
-/// Multiscale data-driven simulation of heat conduction with thermal expansion in granular media: the offline work.
+/// Multiscale data-driven simulation of heat conduction with thermal expansion in granular media: everything but the solver
 #[derive(Parser)]
 #[command(name = "msdd", version = VERSION, after_help = AFTER_HELP, arg_required_else_help = true)]
 struct Program {
@@ -44,7 +45,7 @@ struct Program {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Begin a case of your own, or check one before it runs.
+    /// Make a new case for the solver, or check one before it runs.
     #[command(subcommand)]
     Case(case::Command),
     /// Generate and export databases of packed and expanded RVEs.
@@ -53,26 +54,26 @@ enum Command {
     /// Pack, expand and average a single RVE.
     #[command(subcommand)]
     Rve(rve::Command),
-    /// The box of a case by discrete elements: the reference that the solver is compared with.
+    /// Simulate the whole box of a case by discrete elements: the reference that the solver is compared with.
     #[command(subcommand)]
     Reference(reference::Command),
-    /// Measure speed; prints JSON.
+    /// Measure speed and stability limits; prints JSON.
     #[command(subcommand)]
     Bench(bench::Command),
-    /// Train the surrogate on a database.
+    /// Train a surrogate model on a database.
     Train(train::Arguments),
-    /// Judge a trained model on packings that it never saw: table, JSON, plots.
+    /// Measure the errors of a trained model on packings that were not used in its training: table, JSON, plots.
     Score(score::Arguments),
-    /// What each input of the networks is worth: trains them without it.
+    /// Measure how much each input of the networks contributes, by training without it.
     Ablation(ablation::Arguments),
-    /// Speed against accuracy: runs what is missing, writes a page and its figures.
+    /// Write the report on speed and accuracy, a page with figures; runs the simulations that are missing.
     Report(report::Arguments),
-    /// Table, JSON and plot of solver results.
+    /// Compare the solver's results of the six cases with discrete elements: table, JSON and plot.
     Summary(summary::Arguments),
 }
 
 fn main() -> ExitCode {
-    // A reader that closes the pipe, such as head, ends the program instead of making it panic.
+    // When the reader of a pipe, such as head, closes it, the program ends by the signal instead of a panic.
     sigpipe::reset();
     let result = match Program::parse().command {
         Command::Case(command) => case::run(&command),

@@ -1,25 +1,26 @@
-//! What the program prints. A full disk behind standard output ends neither the work nor its files; it is told at the end.
+//! Printing. When standard output cannot be written, for example because a disk is full, the work goes on and its files are
+//! written; the error is reported at the end.
 
 use crate::error::CliError;
 use std::fmt::Arguments;
 use std::io::{self, Write};
 use std::sync::OnceLock;
 
-/// The first failure.
+/// The first failure to write to standard output.
 static FAILED: OnceLock<io::Error> = OnceLock::new();
 
-/// `println!`, but never a panic.
+/// As `println!`, but never panics.
 macro_rules! outln {
     () => { $crate::output::print(format_args!("\n")) };
     ($($text:tt)*) => { $crate::output::print(format_args!("{}\n", format_args!($($text)*))) };
 }
 
-/// `print!`, but never a panic.
+/// As `print!`, but never panics.
 macro_rules! out {
     ($($text:tt)*) => { $crate::output::print(format_args!($($text)*)) };
 }
 
-/// A line on standard error, as far as it takes it.
+/// Prints a line on standard error; a failure is ignored.
 macro_rules! note {
     ($($text:tt)*) => { $crate::output::note(format_args!($($text)*)) };
 }
@@ -34,7 +35,7 @@ pub fn flush() {
 }
 
 pub fn note(text: Arguments) {
-    // There is no other place to complain at.
+    // A failure is ignored, because there is no other place where it could be reported.
     let _ = writeln!(io::stderr(), "{text}");
 }
 
@@ -44,7 +45,7 @@ fn keep(result: io::Result<()>) {
     }
 }
 
-/// Whether all of it was written.
+/// Flushes standard output. An error when anything could not be written.
 pub fn finish() -> Result<(), CliError> {
     keep(io::stdout().flush());
     FAILED.get().map_or(Ok(()), |error| Err(CliError::Output(error.to_string())))

@@ -1,17 +1,17 @@
-//! Progress of long work on standard error: a bar with time left on a terminal, now and then a line elsewhere.
+//! Progress of long work on standard error: a bar with the time left on a terminal, else a line every ten seconds.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
-/// Between two lines when standard error is no terminal.
+/// Time between two lines when standard error is not a terminal.
 const LINE_EVERY: Duration = Duration::from_secs(10);
 
 pub struct Progress {
     bar: Option<ProgressBar>,
     what: &'static str,
     start: Instant,
-    /// Count at the first report: what an earlier run has done says nothing about the speed of this one.
+    /// Count at the first report. It was done by an earlier run, so it is left out when the time left is estimated.
     first: Option<u64>,
     last_line: Instant,
 }

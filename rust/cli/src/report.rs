@@ -1,4 +1,4 @@
-//! `msdd report`: speed against accuracy, as a page and as JSON.
+//! `msdd report`: the report on speed and accuracy, as a page and as JSON.
 
 use crate::error::CliError;
 use crate::progress::Progress;
@@ -12,29 +12,31 @@ use std::process::Command;
 
 #[derive(Args)]
 #[command(
-    after_help = "Runs in a checkout whose solver is built (scripts/report does all that is needed). Results are kept by what \
-decides them: a second run takes them from the cache, a killed one goes on."
+    after_help = "Needs a checkout whose solver is built (scripts/report does all that is needed). The result of each simulation \
+is kept in the cache under everything that it depends on (program, inputs, parameters): a second run takes it from there, and a \
+run that was killed continues."
 )]
 pub struct Arguments {
-    /// Few configurations, one packing, coarse meshes: for the tests.
+    /// Few configurations, one packing and coarse meshes, as for the tests.
     #[arg(long)]
     quick: bool,
-    /// Run nothing: draw what the cache has.
+    /// Run no simulations: draw the results that the cache has.
     #[arg(long)]
     draw: bool,
     /// Folder for the page, index.html.
     #[arg(long, value_name = "DIR", default_value = "report")]
     out: PathBuf,
-    /// JSON to write.
+    /// JSON file to write.
     #[arg(long, value_name = "FILE", default_value = "results/report.json")]
     json: PathBuf,
-    /// Also write the table of the cheapest configurations that `msddFoam -cheapest` prints: its source, to build into it.
+    /// Also write the C++ source of the table of the cheapest configurations, which is built into msddFoam and which
+    /// `msddFoam -cheapest` prints.
     #[arg(long, value_name = "FILE")]
     solver_table: Option<PathBuf>,
-    /// Folder for results of jobs.
+    /// Folder of the cache for results of simulations.
     #[arg(long, value_name = "DIR", default_value = ".cache/report")]
     cache: PathBuf,
-    /// Jobs at a time; costs are measured one at a time whatever this is.
+    /// Number of simulations at the same time. Those whose cost is measured always run alone.
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=64))]
     jobs: u32,
 }
@@ -80,7 +82,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     Ok(())
 }
 
-/// What the report judges, and in a quick one what it does not.
+/// How many targets are reached. A quick report does not judge those of accuracy, and the text says so.
 fn judged(report: &Report) -> String {
     let rows = &report.failures.rows;
     let good = rows.iter().filter(|row| row.as_allowed).count();
@@ -126,7 +128,7 @@ fn date() -> String {
     printed("date", &["-u", "+%Y-%m-%d %H:%M UTC"]).unwrap_or_default()
 }
 
-/// Of the checkout, with a + when tracked files differ from it.
+/// Commit of the checkout, with a + when tracked files differ from it.
 fn commit(checkout: &Path) -> String {
     let folder = checkout.to_string_lossy();
     let git = |arguments: &[&str]| printed("git", &[&["-C", &folder], arguments].concat());

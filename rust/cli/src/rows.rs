@@ -1,4 +1,4 @@
-//! Rows of a database as the surrogate's training data.
+//! Converts rows of a database to training data of the surrogate models.
 
 use msdd_rve::database::{Kind, RampName, Record};
 use msdd_surrogate::StateRow;
@@ -9,7 +9,7 @@ use msdd_surrogate::state::variables::stress_ratio;
 use msdd_surrogate::wall_friction::WallSlip;
 use std::collections::BTreeMap;
 
-/// What training can use: all but failures.
+/// Training data from all rows but those of failed simulations.
 pub fn training_data(records: &[Record]) -> TrainingData {
     let of = |kind: Kind| records.iter().filter(move |r| r.kind == kind).collect::<Vec<_>>();
     TrainingData {
@@ -21,8 +21,8 @@ pub fn training_data(records: &[Record]) -> TrainingData {
     }
 }
 
-/// Stresses become dimensionless, σ ℓ/(E r̄) with ℓ = 1 m and the current r̄; the solid fraction is that of the averaging
-/// region. `None` for a stop that was not reached.
+/// One row. Stresses become dimensionless, σ ℓ/(E r̄) with ℓ = 1 m and the current r̄; the solid fraction is that of the
+/// averaging region. `None` for a stop (a strain at which the state is recorded) that was not reached.
 fn state_row(record: &Record, ramp: RampName, stop: i64) -> Option<StateRow> {
     let network = [record.conductivity_network_xx, record.conductivity_network_yy];
     Some(StateRow {
@@ -68,9 +68,9 @@ fn thermal_rows(records: &[&Record]) -> Vec<StateRow> {
     rows
 }
 
-/// Neighbouring stops of the ramps along x and y, the packed state between closing and opening, boxes with walls and
-/// periodic ones alike. Shear (xy) is left out: the tangent takes its modulus as (c11 − c12)/2, which it is
-/// within 3 % at small strain (isotropic packings).
+/// Strain increments between neighbouring stops of the ramps along x and y, from boxes with walls and periodic ones; the
+/// packed state lies between the compressive and the extensive stops. Shear (xy) is left out: the tangent takes the shear
+/// modulus as (c11 − c12)/2, which agrees with simulated shear within 3 % at small strain (isotropic packings).
 fn wall_strains(mechanics: &[&Record]) -> Vec<WallStrain> {
     let mut ramps: BTreeMap<(i64, RampName), Vec<&Record>> = BTreeMap::new();
     for record in mechanics.iter().filter(|r| matches!(r.ramp, RampName::Xx | RampName::Yy)) {
@@ -89,7 +89,7 @@ fn wall_strains(mechanics: &[&Record]) -> Vec<WallStrain> {
     samples
 }
 
-/// Differences between two stops next to each other; `None` when one was not reached, or lies beyond the linear range.
+/// Differences between two neighbouring stops; `None` when one was not reached, or lies beyond the linear range.
 fn wall_strain(a: &Record, b: &Record) -> Option<WallStrain> {
     let linear = |r: &Record| r.strain_xx.abs().max(r.strain_yy.abs()) <= LINEAR_STRAIN;
     if a.stop + 1 != b.stop || !linear(a) || !linear(b) {
@@ -125,7 +125,7 @@ fn between((a, strain_a): &(StateRow, [f64; 2]), (b, strain_b): &(StateRow, [f64
 }
 
 fn wall_slip(record: &Record) -> Option<WallSlip> {
-    // Of the grains at the wall: the solver's cells give way by themselves.
+    // The slip of the grains at the wall alone: the deformation of the bed behind them is computed by the solver.
     let slip = record.wall_slip_of_grains? / record.mean_radius?;
     Some(WallSlip { slip, friction: record.wall_friction? })
 }

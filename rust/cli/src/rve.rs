@@ -14,13 +14,14 @@ use std::path::{Path, PathBuf};
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Pack random discs to a porosity, and let them settle.
+    /// Pack random discs to a porosity, and let them come to equilibrium.
     Pack(PackArguments),
-    /// Expand or contract a packed state.
+    /// Strain a packed state: expand or contract the grains, or deform the box.
     Expand(ExpandArguments),
     /// Print the averages of a state as JSON.
     Homogenise(HomogeniseArguments),
-    /// Conduct heat through a whole frozen assembly; prints it beside the homogenised conductivity as JSON.
+    /// Measure the conductivity of a packing by conducting heat through all of it, grains at rest; prints it beside the
+    /// homogenised conductivity as JSON.
     HeatCheck(HeatCheckArguments),
     /// Draw the grains of a state and the forces between them as SVG, alone or beside a field of the solver.
     Draw(crate::draw::Arguments),
@@ -35,24 +36,24 @@ pub struct PackArguments {
     discs: usize,
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Target for the whole box, overlaps counted once; the averaging region's value is reported.
+    /// Porosity of the whole box to pack to, overlaps counted once. The value that is printed is that of the averaging region.
     #[arg(long)]
     porosity: f64,
-    /// Directions in which the walls close.
+    /// Directions in which the walls move towards each other.
     #[arg(long, value_enum, default_value_t = CompressionName::Isotropic)]
     compression: CompressionName,
     /// Rigid walls, or a periodic box.
     #[arg(long, value_enum, default_value_t = BoundaryName::Walls)]
     boundary: BoundaryName,
-    /// Radii are uniform between these [m].
+    /// Smallest radius [m]; radii are uniformly distributed between the smallest and the largest.
     #[arg(long, default_value_t = 3e-3)]
     radius_min: f64,
     #[arg(long, default_value_t = 7e-3)]
     radius_max: f64,
-    /// How forces are brought into balance: the grains' own damped motion, or FIRE, several times as fast.
+    /// How equilibrium is found: by the damped motion of the grains, or by the minimiser FIRE, which is several times as fast.
     #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
     relaxation: RelaxationName,
-    /// State file (JSON) to write; of a run that fails, FILE.last-good.json.
+    /// State file (JSON) to write. If the run fails, the last good state is written to FILE.last-good.json instead.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Folder for ParaView files of the state.
@@ -69,37 +70,38 @@ pub struct PackArguments {
   msdd rve expand --state state.json --xx=-0.01,-0.02 --out out.json            (walls close along x)
   msdd rve expand --state periodic.json --xy 0.01,0.02 --out out.json            (shear of a periodic box)")]
 pub struct ExpandArguments {
-    /// State to start from; strains count from its radii.
+    /// State file to start from; strains are relative to its radii and its box.
     #[arg(long, value_name = "FILE")]
     state: PathBuf,
     /// Thermal strain of the radii.
     #[arg(long, allow_negative_numbers = true, conflicts_with = "stops")]
     strain: Option<f64>,
-    /// Thermal strains of several stops on one path; it settles at each.
+    /// Thermal strains of several stops, reached one after the other; at each, the grains come to equilibrium.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     stops: Vec<f64>,
-    /// Extension of the box along x at the stops; one a stop, 0 when absent.
+    /// Strain of the box along x (extension positive) at the stops, one value for each stop; 0 when not given.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     xx: Vec<f64>,
-    /// Extension of the box along y at the stops.
+    /// Strain of the box along y at the stops.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     yy: Vec<f64>,
     /// Shear γxy of a periodic box at the stops.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     xy: Vec<f64>,
-    /// Moving walls carry the grains along.
+    /// When the walls move, displace all grains with the mean strain of the box; else only the walls push them.
     #[arg(long)]
     affine: bool,
     /// Rate of the strain that changes most [1/s]; default: 0.1 when contacts close, 0.02 when they open.
     #[arg(long)]
     rate: Option<f64>,
-    /// Wall stiffness over E r; default: that of the state.
+    /// Contact stiffness of the walls over E r; default: that of the state.
     #[arg(long)]
     wall_stiffness: Option<f64>,
-    /// How forces are brought into balance: the grains' own damped motion, or FIRE, several times as fast.
+    /// How equilibrium is found: by the damped motion of the grains, or by the minimiser FIRE, which is several times as fast.
     #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
     relaxation: RelaxationName,
-    /// State file (JSON) to write: the state at the last stop; of a run that fails, FILE.last-good.json.
+    /// State file (JSON) to write: the state at the last stop. If the run fails, the last good state is written to
+    /// FILE.last-good.json instead.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Folder for a ParaView time series of the stops.
@@ -113,19 +115,20 @@ pub struct ExpandArguments {
 pub struct HomogeniseArguments {
     #[arg(long, value_name = "FILE")]
     state: PathBuf,
-    /// Averaging region: hull of the inner discs, the box inset by 0.8 mean radii, or the whole box; of a periodic box
-    /// always the cell.
+    /// Averaging region: hull of the inner discs, the box without a margin of 0.8 mean radii, or the whole box. A periodic box
+    /// is always averaged as a whole.
     #[arg(long, value_enum, default_value_t = RegionName::Inset)]
     region: RegionName,
-    /// Contacts that the border crosses count with their share inside, or wholly.
+    /// Whether contacts that cross the border of the region count with their share inside of it, or in full.
     #[arg(long, value_enum, default_value_t = CutName::Clip)]
     cut: CutName,
 }
 
 #[derive(Args)]
 #[command(
-    after_help = "Two opposite walls have different temperatures, the other two are insulated. Over k: k_measured
-(flux over the gradient in the inner part), k_affine (Eq. 9) and k_network (contacts solved) of windows there."
+    after_help = "Two opposite walls have different temperatures, the other two are insulated. Prints three conductivities over \
+that of the grains, k: k_measured (heat flux over the temperature gradient in the inner part), and, averaged over windows of the \
+inner part, k_affine (Eq. 9 of the paper) and k_network (resistor network of the contacts solved)."
 )]
 pub struct HeatCheckArguments {
     #[arg(long, value_name = "FILE")]
@@ -278,7 +281,7 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
     }
 }
 
-/// The stops: as many as the longest list has, absent lists are zero.
+/// The strains at the stops: as many as the longest list has; lists that are not given count as zero.
 fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
     let thermal = arguments.strain.map_or_else(|| arguments.stops.clone(), |strain| vec![strain]);
     let lists = [("stops", &thermal), ("xx", &arguments.xx), ("yy", &arguments.yy), ("xy", &arguments.xy)];
@@ -302,7 +305,7 @@ fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
     Ok((0..count).map(strains).collect())
 }
 
-/// One line about a state.
+/// Prints one line about a state.
 fn report(what: &str, settled: &Settled, averages: &Averages) {
     outln!(
         "{what}: {} after {} steps, porosity {:.4}, fabric index {:+.4}, K/k {:.4} {:.4}, pressure {:.1} Pa, \
@@ -346,7 +349,7 @@ fn check_heat(arguments: &HeatCheckArguments) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Conductivity over k; stresses in Pa, compression positive.
+/// The averages as JSON: conductivities over k; stresses in Pa, compression positive.
 fn as_json(a: &Averages, unbalanced: f64) -> serde_json::Value {
     json!({
         "porosity": a.porosity,
@@ -368,7 +371,7 @@ fn as_json(a: &Averages, unbalanced: f64) -> serde_json::Value {
     })
 }
 
-/// ParaView time series in a folder; nothing without one.
+/// Writes a ParaView time series to a folder; without a folder, it writes nothing.
 struct Series<'a> {
     folder: Option<&'a Path>,
     particles: Vec<(f64, String)>,

@@ -1,4 +1,4 @@
-//! `--simd`: the instruction set of the kernels.
+//! `--simd`: the instruction set of the kernels, the inner loops of the discrete element engine.
 
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
@@ -6,8 +6,8 @@ use msdd_dem::Simd;
 
 #[derive(Args)]
 pub struct SimdArgument {
-    /// Instruction set of the kernels; default: the widest of this machine. All give the same bits, so neither states nor
-    /// databases say which it was.
+    /// Instruction set of the innermost loops; default: the widest of this machine. All give the same results, bit for bit,
+    /// so neither states nor databases record which was used.
     #[arg(long, value_enum, value_name = "SET")]
     simd: Option<SimdName>,
 }
@@ -30,7 +30,7 @@ impl SimdArgument {
     }
 }
 
-/// The set of that name, refused when the machine does not have it.
+/// The instruction set of that name; refused when the machine does not have it.
 fn set(name: SimdName, available: impl Fn(Simd) -> bool) -> Result<Simd, CliError> {
     let simd = match name {
         SimdName::Scalar => Simd::Scalar,

@@ -25,28 +25,28 @@ pub struct Arguments {
     /// Kind of model: constant, paper or state.
     #[arg(long, default_value = models::DEFAULT)]
     model: String,
-    /// Name of the model; its kind when not given.
+    /// Name of the model. Default: its kind.
     #[arg(long)]
     name: Option<String>,
-    /// Fixes the split into training, validation and held-out packings, and the starting weights.
+    /// Seed of the random split into training, validation and held-out packings, and of the starting weights.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Starts from other weights; the best on the validation packings is kept.
+    /// Number of trainings from different starting weights; the one with the least validation error is kept.
     #[arg(long)]
     restarts: Option<u32>,
-    /// Levenberg–Marquardt steps at most.
+    /// Largest number of epochs, that is of Levenberg–Marquardt steps.
     #[arg(long)]
     epochs: Option<u32>,
-    /// Epochs without a better validation error after which a start ends.
+    /// Number of epochs without a smaller validation error after which a training ends.
     #[arg(long)]
     patience: Option<u32>,
-    /// State model: neurons of the hidden layers of the rates' network, one or two layers.
+    /// State model: neurons in each hidden layer of the network for the rates of the state; one or two layers.
     #[arg(long, value_delimiter = ',', default_value = "4")]
     hidden: Vec<usize>,
-    /// State model: the same of the readout's.
+    /// State model: neurons in each hidden layer of the readout, the network from the state to K and stress; one or two layers.
     #[arg(long, value_delimiter = ',', default_value = "4")]
     readout: Vec<usize>,
-    /// State model: leave a variable out of the state, fabric_conductivity or deviator.
+    /// State model: leave fabric_conductivity or deviator out of the state.
     #[arg(long, value_delimiter = ',')]
     without: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! The program's files and its standard output, when they are not what one hopes for.
+//! Files and standard output of the program under unusual conditions: links, full disks, closed pipes, damaged files.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -58,7 +58,7 @@ fn a_full_standard_output_ends_with_an_error_and_the_files_are_written() {
     refused(&folder, "$msdd rve homogenise --state a.json > /dev/full", full);
     refused(&folder, &format!("{GENERATE} a.msdd > /dev/full"), full);
     refused(&folder, "$msdd database check a.msdd > /dev/full", full);
-    // Even when the complaint has no place.
+    // Also when standard error cannot be written.
     let output = shell(&folder, "$msdd database check a.msdd > /dev/full 2> /dev/full");
     assert_eq!(output.status.code(), Some(1));
     good(&folder, "$msdd database check a.msdd");
@@ -101,7 +101,7 @@ fn a_full_disk_leaves_the_old_file_and_no_part() {
     refused(&folder, &format!("{full} $msdd database export a.msdd --out c.csv"), "cannot write ");
     assert_eq!(std::fs::read(folder.join("a.msdd")).unwrap(), before);
     assert!(names(&folder).iter().all(|name| !name.ends_with(".part")), "{:?}", names(&folder));
-    // What it left is completed by the next.
+    // The next run completes the database that it left.
     good(&folder, &format!("{GENERATE} b.msdd"));
     assert_eq!(std::fs::read(folder.join("b.msdd")).unwrap(), before);
 }
@@ -122,7 +122,7 @@ fn two_writers_of_one_state_both_succeed_and_two_generators_do_not_meet() {
     good(&folder, "$msdd rve homogenise --state a.json");
     let plan = PLAN.replace("repeats = 1", "repeats = 200");
     std::fs::write(folder.join("plan.toml"), plan).unwrap();
-    // The first is stopped as soon as it holds the file, so the second meets it for sure.
+    // The first process is stopped (SIGSTOP) as soon as it holds the lock, so that the second certainly finds it locked.
     let first = format!("{GENERATE} a.msdd > /dev/null 2>&1 & first=$!;");
     let wait = "until grep -q process a.msdd.lock 2> /dev/null; do sleep 0.01; done; kill -STOP $first;";
     let second = format!("{GENERATE} a.msdd; code=$?; kill -KILL $first; exit $code");
@@ -159,7 +159,7 @@ fn what_check_refuses_is_refused_by_all_and_older_files_are_warned_of() {
     refused(&folder, "$msdd database plot a.csv --out plots", damaged);
     refused(&folder, "$msdd database export a.csv --out b.csv", damaged);
     assert!(!folder.join("model.json").exists() && !folder.join("b.csv").exists());
-    // As of an older program.
+    // Remove the checksums, so that the file looks like one of an older program.
     good(&folder, "sed -i 's/\"[a-z]*_sha256\":\"[0-9a-f]*\",\\?//g; s/,}/}/' a.provenance.json");
     refused(&folder, "$msdd train --database a.csv --out model.json", "warning: a.csv has no checksums");
     refused(

@@ -1,9 +1,9 @@
-//! `msdd rve` from outside: instruction sets, and what a failed run leaves.
+//! The program `msdd rve`: instruction sets, and the files that a failed run leaves.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// A folder of its own, removed at the end.
+/// A folder for one test, removed at the end.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -60,7 +60,8 @@ fn every_instruction_set_writes_the_same_bytes() {
     assert!(stderr(&output).contains("[possible values: scalar, avx2, avx512]"), "{}", stderr(&output));
 }
 
-/// The failure is on standard error with the file, which `homogenise` reads; the file asked for is not written.
+/// Checks that the message on standard error names the file with the last good state, that `homogenise` can read this file,
+/// and that the output file itself is not written.
 fn assert_last_good(output: &Output, out: &Path) {
     let file = PathBuf::from(format!("{}.last-good.json", out.display()));
     let message = stderr(output);

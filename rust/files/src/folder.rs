@@ -1,9 +1,9 @@
-//! What lies in a folder.
+//! The contents of a folder.
 
 use crate::FileError;
 use std::path::{Path, PathBuf};
 
-/// Files and folders in `folder`, in the order of their names: the system's own order differs from machine to machine.
+/// Files and folders in `folder`, sorted by name, because the order of the system differs from machine to machine.
 ///
 /// # Errors
 /// [`FileError::Read`] with the folder.

@@ -2,10 +2,10 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`part`] | a file in the making, beside the one that it will replace |
-//! | [`lock`] | one program at a time on a file |
-//! | [`limit`] | reading no more than was meant |
-//! | [`folder`] | what lies in a folder |
+//! | [`part`] | writes a file beside the one that it will replace, and then renames it |
+//! | [`lock`] | a lock, so that only one program at a time works on a file |
+//! | [`limit`] | reads files up to a limit of size |
+//! | [`folder`] | the contents of a folder |
 #![forbid(unsafe_code)]
 
 pub mod folder;
@@ -21,7 +21,7 @@ pub use part::{Part, check_target, write};
 use std::io;
 use std::path::PathBuf;
 
-/// What can be wrong with a file, and which.
+/// What can be wrong with a file. Every message names the file.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     #[error(

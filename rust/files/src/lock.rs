@@ -1,4 +1,4 @@
-//! One program at a time on a file.
+//! A lock, so that only one program at a time works on a file.
 
 use crate::{FileError, check_target};
 use std::fs::{self, File, TryLockError};
@@ -6,19 +6,20 @@ use std::io::{self, Read, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
-/// Says that this program is at work on a file, by a locked file beside it. The system lets go of the lock when the program
-/// ends, however it ends, so what a killed one left is in nobody's way.
+/// Shows other programs, by a locked file beside a file, that this program is at work on it. The operating system releases
+/// the lock when the program ends, however it ends, so the lock file of a killed program does not keep others out.
 pub struct Lock {
     path: PathBuf,
-    /// Locked as long as it is open.
+    /// The lock file, which is locked as long as it is open.
     _file: File,
 }
 
 impl Lock {
-    /// Takes the lock on `file` by the file `FILE.lock`, which is gone again at the end.
+    /// Takes the lock on `file`: makes and locks the file `FILE.lock`, which is removed when the lock is dropped.
     ///
     /// # Errors
-    /// [`FileError::Held`] at once when another one has it; those of [`check_target`]; [`FileError::Write`].
+    /// [`FileError::Held`], without waiting, when another program has the lock; those of [`check_target`];
+    /// [`FileError::Write`].
     pub fn take(file: &Path) -> Result<Self, FileError> {
         let mut path = file.as_os_str().to_os_string();
         path.push(".lock");
@@ -35,7 +36,8 @@ impl Lock {
                     return Err(FileError::Held { file: file.to_path_buf(), holder: holder(&mut lock) });
                 }
             }
-            // The one before may have removed the file after it was opened here: then this lock is of no use.
+            // The previous holder may have removed the file after it was opened here. Then this lock is of no use, because
+            // others would make and lock a new file: try again.
             if is_at(&lock, &path).map_err(failed)? {
                 lock.set_len(0).and_then(|()| lock.write_all(own_name().as_bytes())).map_err(failed)?;
                 return Ok(Self { path, _file: lock });

@@ -1,4 +1,4 @@
-//! A file in the making, beside the one that it will replace.
+//! Writing a file whole or not at all: it is written beside the one that it will replace, and then renamed.
 
 use crate::FileError;
 use std::fs::{self, FileType, Permissions};
@@ -7,18 +7,18 @@ use std::os::unix::fs::{FileTypeExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// Characters of a file's name that stand in the name of its part: names have 255 bytes at most.
+/// Largest number of characters of a file's name that are used in the name of its part, because names may have 255 bytes.
 const NAME: usize = 30;
 
-/// A file in the making. It has a name that nothing had before, so two writers do not meet and what a killed one left is in
-/// nobody's way. Dropped before [`Part::put`], it is gone.
+/// A file that is being written. It has a unique name, so two writers do not disturb each other, nor does a file that a
+/// killed program left. If it is dropped before [`Part::put`], it is removed.
 pub struct Part {
     temporary: NamedTempFile,
     file: PathBuf,
 }
 
 impl Part {
-    /// Begins an empty file beside `file`, whose folder is made when it is missing.
+    /// Makes an empty file beside `file`, and its folder when it is missing.
     ///
     /// # Errors
     /// Those of [`check_target`]; [`FileError::Write`].
@@ -31,19 +31,19 @@ impl Part {
         let temporary = tempfile::Builder::new()
             .prefix(&format!("{name}."))
             .suffix(".part")
-            // As any new file has them: the system takes away what the user's mask says.
+            // The permissions of any new file; the system removes those in the user's mask (umask).
             .permissions(Permissions::from_mode(0o666))
             .tempfile_in(folder)
             .map_err(failed(file))?;
         Ok(Self { temporary, file: file.to_path_buf() })
     }
 
-    /// Where it stands now.
+    /// Present path of the part.
     pub fn path(&self) -> &Path {
         self.temporary.path()
     }
 
-    /// Puts it in the place of the file, once it is on the disk.
+    /// Replaces the file by this one, after all of it has been written to the disk.
     ///
     /// # Errors
     /// Those of [`check_target`]; [`FileError::Write`].
@@ -52,13 +52,14 @@ impl Part {
         temporary.as_file().sync_all().map_err(failed(&file))?;
         check_target(&file)?;
         temporary.persist(&file).map_err(|error| failed(&file)(error.error))?;
-        // Some systems cannot do that to a folder; the file is whole with or without.
+        // Some systems cannot sync a folder, so a failure is ignored; the file is whole in any case.
         let _ = fs::File::open(folder(&file)).and_then(|folder| folder.sync_all());
         Ok(())
     }
 }
 
-/// Writes a whole file: a kill, a full disk or another writer leave the old file or the new one.
+/// Writes a whole file. Also when the program is killed, the disk is full or another program writes, either the old or the
+/// new file is there, never a part of one.
 ///
 /// # Errors
 /// Those of [`check_target`]; [`FileError::Write`].
@@ -68,7 +69,7 @@ pub fn write(file: &Path, bytes: &[u8]) -> Result<(), FileError> {
     part.put()
 }
 
-/// Whether a file of this name may be written: nothing or a regular file stands there.
+/// Checks that a file of this name may be written: there is none yet, or a regular file.
 ///
 /// # Errors
 /// [`FileError::Link`] for a symbolic link, wherever it leads; [`FileError::Kind`] for a folder, a device, a pipe.

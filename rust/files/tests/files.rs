@@ -1,4 +1,4 @@
-//! What is written, refused and left over.
+//! Tests of what is written, what is refused, and which files are left over.
 
 use msdd_files::{FileError, Lock, Part, read, read_text, write};
 use std::fs;
@@ -29,7 +29,7 @@ fn a_file_is_replaced_whole_and_its_folder_is_made() {
         write(&file, text.as_bytes()).unwrap();
         assert_eq!(fs::read_to_string(&file).unwrap(), text);
     }
-    // As any program's file has them.
+    // A file with the permissions that any program's file has.
     fs::write(folder.join("plain"), "").unwrap();
     let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
     assert_eq!(mode(&file), mode(&folder.join("plain")));
@@ -67,7 +67,7 @@ fn links_are_neither_followed_nor_replaced() {
         let text = error.to_string();
         assert!(text.contains(&link.display().to_string()) && text.contains(target), "{text}");
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
-        // Nor is the lock's file, when it is a link.
+        // A lock file that is a link is not followed either.
         symlink("victim", folder.join("a.lock")).unwrap();
         assert!(matches!(Lock::take(&folder.join("a")), Err(FileError::Link { .. })));
         fs::remove_file(folder.join("a.lock")).unwrap();
@@ -131,7 +131,7 @@ fn the_second_is_told_who_holds_the_lock() {
     let error = Lock::take(&file).err().unwrap().to_string();
     assert!(error.contains(&format!("process {}", std::process::id())), "{error}");
     drop(lock);
-    // Many that come and go: never two at a time.
+    // Many threads take and release the lock; there must never be two inside at the same time.
     let inside = std::sync::atomic::AtomicUsize::new(0);
     std::thread::scope(|scope| {
         for _ in 0..4 {

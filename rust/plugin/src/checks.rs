@@ -1,4 +1,4 @@
-//! What the answers of a plug-in are held to: what no packing of grains has is refused, with column and cell.
+//! Checks of the results of a plug-in: values that no packing of grains can have are refused, with column and cell.
 
 use crate::PluginError;
 use crate::questions::Answer;
@@ -12,7 +12,8 @@ pub(crate) struct Allowed {
 }
 
 pub(crate) const FINITE: Allowed = Allowed { low: f64::MIN, high: f64::MAX, text: "finite" };
-/// Of K/k; times any k that the library takes it stays a number. K is diagonal, so both above zero is positive definite.
+/// Range of K/k; times any k that the library accepts it is still finite. K is diagonal, so it is positive definite when
+/// both values are above zero.
 pub(crate) const CONDUCTIVITY: Allowed =
     Allowed { low: 1e-30, high: 1e30, text: "finite, above 0: 1e-30 to 1e30" };
 pub(crate) const STRESS: Allowed = Allowed {
@@ -20,7 +21,8 @@ pub(crate) const STRESS: Allowed = Allowed {
     high: 1e30,
     text: "0 to 1e30: compression is positive, and loose grains do not pull",
 };
-/// Of c11 and c22. Our own model keeps a hundredth of the stiffness where grains do not touch, and is never at zero.
+/// Range of c11 and c22. They have to be above zero: our own model keeps a hundredth of the stiffness where grains do not
+/// touch.
 pub(crate) const STIFFNESS: Allowed =
     Allowed { low: 1e-30, high: 1e30, text: "1e-30 to 1e30: above 0 also where grains do not touch" };
 pub(crate) const SPREAD: Allowed = Allowed { low: 0.0, high: f64::MAX, text: "finite, not negative" };
@@ -31,12 +33,12 @@ const FABRIC_INDEX: Allowed = Allowed { low: -1.0, high: 1.0, text: "-1 to 1" };
 
 impl Allowed {
     fn has(&self, value: f64) -> bool {
-        // False for NaN.
+        // Both comparisons are false for NaN.
         self.low <= value && value <= self.high
     }
 }
 
-/// A question to one function of a plug-in, for messages.
+/// A call of one function of a plug-in, named in messages.
 #[derive(Clone, Copy)]
 pub(crate) struct Question<'a> {
     /// Name and path of the plug-in.
@@ -45,7 +47,7 @@ pub(crate) struct Question<'a> {
     pub state_names: &'a [String],
 }
 
-/// A column with its name, and what it may hold.
+/// A column (one value per cell) with its name and the range of its values.
 pub(crate) type Column<'a> = (String, &'a [f64], Allowed);
 type Checked = Result<(), PluginError>;
 
@@ -62,12 +64,12 @@ impl Question<'_> {
         }
     }
 
-    /// All of these columns hold what they may.
+    /// Checks that all values of these columns are in their ranges.
     pub fn columns(&self, columns: &[Column]) -> Checked {
         columns.iter().try_for_each(|(name, values, allowed)| self.column(name, values, *allowed))
     }
 
-    /// The first two columns of a state at the start are those given.
+    /// Checks that the first two columns of an initial state, porosity and fabric index, are those given.
     pub fn start(&self, state: &[Vec<f64>], given: [&[f64]; 2]) -> Checked {
         for (k, given) in given.into_iter().enumerate() {
             if let Some(cell) = (0..given.len()).find(|&cell| state[k][cell] != given[cell]) {
@@ -77,7 +79,8 @@ impl Question<'_> {
         Ok(())
     }
 
-    /// A packing stays one: porosity from 0 to 1 and fabric index from -1 to 1, unless that of the cell was given outside.
+    /// Checks that porosity is from 0 to 1 and fabric index from -1 to 1, unless the cell's value before the step was
+    /// already outside.
     pub fn packing(&self, given: &[&[f64]], state: &[Vec<f64>]) -> Checked {
         for (k, allowed) in [POROSITY, FABRIC_INDEX].into_iter().enumerate() {
             let bad = |cell: &usize| !allowed.has(state[k][*cell]) && allowed.has(given[k][*cell]);
@@ -93,7 +96,7 @@ impl Question<'_> {
         Ok(())
     }
 
-    /// Where all `strains` are zero and nothing is outside of the plug-in's own range, the state stays as it is.
+    /// Checks that the state is unchanged where all `strains` are zero and nothing is outside of the plug-in's own range.
     pub fn rest(
         &self,
         given: &[&[f64]],
@@ -113,19 +116,19 @@ impl Question<'_> {
         Ok(())
     }
 
-    /// The same question has the same answer, to the bit.
+    /// Checks that two calls with the same inputs gave the same bits.
     pub fn again(&self, first: &[Column], second: &[Column]) -> Checked {
         for ((name, first, _), (_, second, _)) in first.iter().zip(second) {
             let differs = |cell: &usize| first[*cell].to_bits() != second[*cell].to_bits();
             if let Some(cell) = (0..first.len()).find(differs) {
-                let allowed = "what it answered to the same question a moment before";
+                let allowed = "the result of the call before, which had the same inputs";
                 return self.refused(name, cell, second[cell], allowed);
             }
         }
         Ok(())
     }
 
-    /// c11, c22 and c12 of a medium that resists every strain.
+    /// Checks that the stiffness matrix of c11, c22 and c12 is positive definite, so that every strain meets resistance.
     pub fn stiffness(&self, [c11, c22, c12]: [&[f64]; 3]) -> Checked {
         self.column("c11", c11, STIFFNESS)?;
         self.column("c22", c22, STIFFNESS)?;
@@ -141,13 +144,13 @@ impl Question<'_> {
 }
 
 impl Question<'_> {
-    /// Columns of a state, with their names.
+    /// Columns of a state, with their names and ranges.
     pub fn state<'s>(&self, state: &'s [Vec<f64>]) -> Vec<Column<'s>> {
         let names = self.state_names.iter().map(|name| format!("state {name}"));
         names.zip(state).map(|(name, column)| (name, column.as_slice(), FINITE)).collect()
     }
 
-    /// Columns of an answer, with their names.
+    /// Columns of a result of `advance`, with their names and ranges.
     pub fn answer<'s>(&self, answer: &'s Answer) -> Vec<Column<'s>> {
         let mut columns = self.state(&answer.state);
         let ([kxx, kyy], [sxx, syy]) = (&answer.conductivity, &answer.stress);

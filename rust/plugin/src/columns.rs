@@ -1,8 +1,8 @@
-//! Columns that foreign code gets: copies of inputs, and outputs of our own.
+//! Columns (arrays with one value per cell) that are passed to a plug-in: copies of the inputs, and outputs of our own.
 
-/// Copies of a caller's columns. A plug-in that writes to what it is told to read changes these and nothing else.
+/// Copies of a caller's columns. A plug-in that writes to its inputs, which it must not, changes only these copies.
 pub(crate) struct Inputs {
-    /// All columns, one after the other. Written through the pointers by a plug-in that should not.
+    /// All columns, one after the other. They are kept here only because the plug-in reads them through the pointers.
     _values: Vec<f64>,
     pointers: Vec<*const f64>,
 }
@@ -30,7 +30,7 @@ impl Inputs {
     }
 }
 
-/// NaN everywhere: a column that a plug-in leaves out is found.
+/// A column of NaN for a plug-in to fill in: values that it does not write are found, because NaN is refused.
 pub(crate) fn unwritten(cells: usize) -> Vec<f64> {
     vec![f64::NAN; cells]
 }

@@ -1,4 +1,4 @@
-//! From a path to a table that may be called.
+//! Loads a shared library and gets its checked table of functions.
 
 use crate::PluginError;
 use libloading::os::unix::{Library, RTLD_LOCAL, RTLD_NOW};
@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use std::ffi::{CStr, c_char};
 use std::path::Path;
 
-/// The one symbol of a plug-in.
+/// The function that every plug-in defines; it returns the table.
 const SYMBOL: &CStr = c"msdd_plugin_v1_table";
 
 /// `e_machine` of ELF files for this processor (ELF specification, and its supplements).
@@ -17,14 +17,14 @@ const MACHINE: Option<(u16, &str)> = match () {
     () => None,
 };
 
-/// A table as the plug-in gave it: of this version and size, and its pointers not yet looked at.
+/// The table of a plug-in, whose version and size have been checked, but not yet its pointers.
 pub(crate) struct Loaded {
     pub table: msdd_plugin_v1,
     /// SHA-256 of the file, hexadecimal.
     pub hash: String,
 }
 
-/// Loads a library for good and asks it for its table.
+/// Loads a library, which is never unloaded, and gets its table.
 ///
 /// # Errors
 /// [`PluginError::Read`] or [`PluginError::Unfit`].
@@ -32,11 +32,11 @@ pub(crate) fn load(path: &Path) -> Result<Loaded, PluginError> {
     let shown = path.display().to_string();
     let unfit = |reason: String| PluginError::Unfit { path: shown.clone(), reason };
     let read = |error| PluginError::Read { path: shown.clone(), error };
-    // Absolute, or the loader would look for a bare name in the system's folders.
+    // An absolute path, because the loader would look for a bare name in the system's folders.
     let absolute = path.canonicalize().map_err(read)?;
     let bytes = std::fs::read(&absolute).map_err(read)?;
     check_file(&bytes).map_err(unfit)?;
-    // SAFETY: initialisers of the library run; whoever names a plug-in wants that.
+    // SAFETY: the library's initialisers run; the caller trusts the code of the plug-in that it names.
     let library = unsafe { Library::open(Some(&absolute), RTLD_NOW | RTLD_LOCAL) };
     let library = library.map_err(|error| unfit(format!("the system's loader refuses it: {error}")))?;
     // SAFETY: the header gives this symbol this type.
@@ -46,7 +46,7 @@ pub(crate) fn load(path: &Path) -> Result<Loaded, PluginError> {
     let Ok(entry) = symbol else {
         return Err(unfit("has no function msdd_plugin_v1_table, see msdd.h".to_string()));
     };
-    // Never unloaded: its texts and functions stay valid, and so do threads that it may have started.
+    // Never unloaded, so that its texts and functions stay valid, also for threads that it may have started.
     std::mem::forget(library);
     // SAFETY: takes nothing; its type is the header's.
     let table = unsafe { entry() };
@@ -55,7 +55,8 @@ pub(crate) fn load(path: &Path) -> Result<Loaded, PluginError> {
     Ok(Loaded { table, hash: Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect() })
 }
 
-/// The system's loader says "No such file" of a library for another machine, so look first.
+/// Refuses what is not a shared library for this machine. The system's loader would refuse it, too, but its message for a
+/// library of another machine may be "No such file".
 fn check_file(bytes: &[u8]) -> Result<(), String> {
     if !cfg!(target_os = "linux") {
         return Ok(());
@@ -100,7 +101,7 @@ unsafe fn checked(table: *const msdd_plugin_v1) -> Result<msdd_plugin_v1, String
     Ok(unsafe { table.read() })
 }
 
-/// Copy of a text of the plug-in's.
+/// Copies a text of the plug-in.
 ///
 /// # Safety
 /// `text` is null or a C string.

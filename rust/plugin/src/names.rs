@@ -1,11 +1,11 @@
-//! Names of state columns. Solvers make names of fields, and so of files, from them.
+//! Checks the names of state columns. Solvers make names of fields from them, and so names of files.
 
 use crate::library::text;
 use msdd_abi::msdd_plugin_v1;
 
-/// State columns at most: nobody means more, and a wrong table is likely to say more.
+/// Largest number of state columns. A larger number is taken for a sign of a broken table.
 const MOST_COLUMNS: usize = 64;
-/// Characters of a name at most.
+/// Largest number of characters of a name.
 const LONGEST_NAME: usize = 64;
 
 /// Checked names of a table's state columns.
@@ -34,7 +34,7 @@ pub(crate) unsafe fn state_names(table: &msdd_plugin_v1) -> Result<Vec<String>, 
     Ok(names)
 }
 
-/// A name is one word of letters and digits, and is none of those before it.
+/// Checks that name `k` is a letter followed by letters, digits and underscores, and differs from those before it.
 fn check(k: usize, names: &[String]) -> Result<(), String> {
     let (name, before) = (&names[k], &names[..k]);
     let starts = name.starts_with(|c: char| c.is_ascii_alphabetic());
@@ -57,7 +57,7 @@ fn check(k: usize, names: &[String]) -> Result<(), String> {
     }
 }
 
-/// A name as it is shown: with escapes for what is no visible character, and not endless.
+/// A name for a message: quoted, with escapes for invisible characters, and shortened if it is very long.
 fn quoted(name: &str) -> String {
     let shown: String = name.chars().take(LONGEST_NAME).collect();
     format!("{shown:?}{}", if shown.len() < name.len() { " and more" } else { "" })

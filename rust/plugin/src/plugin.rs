@@ -1,4 +1,4 @@
-//! A loaded plug-in: calls of its functions, and checks of what they answer.
+//! A loaded plug-in: calls of its functions, and checks of their results.
 
 use crate::PluginError;
 use crate::checks::{self, Question};
@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 type Deform = unsafe extern "C" fn(usize, *const *const f64, *const f64, *const f64, *const *mut f64) -> i32;
 type Tangent = unsafe extern "C" fn(*const msdd_plugin_tangent) -> i32;
 
-/// A surrogate model from a shared library; any number of threads may ask it.
+/// A surrogate model from a shared library; any number of threads may use it at the same time.
 #[derive(Debug)]
 pub struct Plugin {
     /// Its name and path, for messages.
@@ -31,7 +31,8 @@ pub struct Plugin {
     spread: Option<unsafe extern "C" fn(usize, *const *const f64, *mut f64) -> i32>,
     last_error: Option<unsafe extern "C" fn() -> *const c_char>,
     wall_friction: Option<WallFriction>,
-    /// Whether `initial_state` and `advance` have been asked before: their first question is asked twice.
+    /// Whether `initial_state` and `advance` have been called before: the first call of each is made twice, and the results
+    /// are compared.
     started: AtomicBool,
     advanced: AtomicBool,
 }
@@ -43,15 +44,15 @@ impl Plugin {
     /// [`PluginError::Read`] or [`PluginError::Unfit`] with the reason.
     pub fn load(path: &Path) -> Result<Self, PluginError> {
         let loaded = load(path)?;
-        // SAFETY: a table of right version and size, whose pointers are as the header says.
+        // SAFETY: version and size of the table have been checked; its pointers are as the header requires.
         unsafe { Self::from_table(path, &loaded.table, loaded.hash) }
             .map_err(|reason| PluginError::Unfit { path: path.display().to_string(), reason })
     }
 
     /// # Safety
-    /// The table's pointers are null or as the header says.
+    /// The table's pointers are null or as the header requires.
     unsafe fn from_table(path: &Path, table: &msdd_plugin_v1, hash: String) -> Result<Self, String> {
-        // SAFETY: passed on to the caller.
+        // SAFETY: the caller guarantees it, by this function's contract.
         let (name, state_names) = unsafe { (text("name", table.name)?, state_names(table)?) };
         let mechanics = match (table.tangent, table.deform) {
             (None, None) => None,
@@ -97,7 +98,7 @@ impl Plugin {
         &self.state_names
     }
 
-    /// Whether its K is that of the resistor network solved; else affine, Eq. 9.
+    /// Whether its K is that of the resistor network solved; else it is affine, Eq. 9 of the paper.
     pub fn network_conductivity(&self) -> bool {
         self.network_conductivity
     }
@@ -107,7 +108,7 @@ impl Plugin {
         self.mechanics.is_some()
     }
 
-    /// Whether it has solid fractions.
+    /// Whether it has a function for the solid fraction.
     pub fn has_solid_fraction(&self) -> bool {
         self.solid_fraction.is_some()
     }
@@ -116,13 +117,13 @@ impl Plugin {
         self.wall_friction
     }
 
-    /// State columns of cells at the start.
+    /// Initial state of cells, one column per state name.
     ///
     /// # Errors
     /// [`PluginError::Failed`] or [`PluginError::Answer`].
     ///
     /// # Panics
-    /// When columns differ in length; so do the other functions, and when columns are missing.
+    /// When columns differ in length. The other functions panic then, too, and when columns are missing.
     pub fn initial_state(&self, start: &Start) -> Result<Vec<Vec<f64>>, PluginError> {
         let question = self.question("initial_state");
         let state = self.ask_start(start)?;
@@ -178,7 +179,7 @@ impl Plugin {
         Ok(answer)
     }
 
-    /// A checked step of thermal strain alone.
+    /// Makes and checks a step of thermal strain, without mechanical strain.
     fn advance_once(
         &self,
         state: Columns,
@@ -232,7 +233,7 @@ impl Plugin {
         Ok(answer)
     }
 
-    /// State after mechanical strains of the cells of an answer. Without a tangent, their state as it is.
+    /// State after mechanical strains that follow on the thermal step `before`. Without a tangent, the state of `before`.
     fn deformed(&self, before: &Answer, strain: [&[f64]; 2]) -> Result<Vec<Vec<f64>>, PluginError> {
         let state = slices(&before.state);
         let Some((_, deform)) = self.mechanics else { return Ok(before.state.clone()) };
@@ -280,7 +281,7 @@ impl Plugin {
         Ok(Some(columns))
     }
 
-    /// Relative standard deviation of K between RVEs of equal state; `None` when it does not know.
+    /// Relative standard deviation of K between RVEs of equal state; `None` when the plug-in does not know it.
     ///
     /// # Errors
     /// [`PluginError::Failed`] or [`PluginError::Answer`].
@@ -294,7 +295,7 @@ impl Plugin {
         Ok(Some(column))
     }
 
-    /// Solid fractions, overlaps counted twice, of initial states; `None` when it has none.
+    /// Solid fractions, overlaps counted twice, of initial states; `None` when the plug-in does not know them.
     ///
     /// # Errors
     /// [`PluginError::Failed`] or [`PluginError::Answer`].
@@ -313,13 +314,13 @@ impl Plugin {
         Question { plugin: &self.label, function, state_names: &self.state_names }
     }
 
-    /// Number of state columns; as many have to be given.
+    /// Number of state columns; panics when another number is given.
     fn count(&self, state: Columns) -> usize {
         assert_eq!(state.len(), self.state_names.len(), "state columns");
         state.len()
     }
 
-    /// Calls a function unless there is nothing to do, and turns its status into an error with its text.
+    /// Calls a function unless there are no cells, and turns its status into an error with the plug-in's text.
     fn status(
         &self,
         function: &'static str,
@@ -333,7 +334,7 @@ impl Plugin {
         if status == 0 {
             return Ok(());
         }
-        let text = self.last_error.map_or(Err("it has no text for that".to_string()), |last_error| {
+        let text = self.last_error.map_or(Err("it gives no message".to_string()), |last_error| {
             // SAFETY: takes nothing, and returns null or a C string, by the header.
             unsafe { text("the text of its last_error", last_error()) }
         });
@@ -353,7 +354,7 @@ fn wall_friction(table: &msdd_plugin_v1) -> Result<Option<WallFriction>, String>
     }
 }
 
-/// Whether a function is asked for the first time, about any cells.
+/// Whether this is the first call of a function with any cells; remembers the call in `asked`.
 fn first_time(asked: &AtomicBool, cells: usize) -> bool {
     cells > 0 && !asked.swap(true, Ordering::Relaxed)
 }

@@ -1,9 +1,9 @@
-//! What a plug-in is asked and what it answers, as columns with a value a cell.
+//! Inputs and outputs of the functions of a plug-in, as columns: arrays with one value per cell.
 
-/// A column each, of equal length.
+/// Several columns of equal length.
 pub(crate) type Columns<'a> = &'a [&'a [f64]];
 
-/// Mobilised wall friction limit s/(s + slip) after the slip s.
+/// Parameters of the friction coefficient limit s/(s + slip) that a wall mobilises after the slip s of the grains along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallFriction {
     /// \[-\]
@@ -25,11 +25,12 @@ pub struct Start<'a> {
 /// One step of cells: columns of equal length, finite. Strains extension positive.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'a> {
-    /// One column a state name.
+    /// One column per state name.
     pub state: Columns<'a>,
     /// Above −1.
     pub thermal_strain: &'a [f64],
-    /// Share of it, 0 to 1, that leads beyond all that the cell has been strained to before; `None`: all of it.
+    /// Share of `thermal_strain`, 0 to 1, that takes the total beyond the range that the cell has had before ("virgin"
+    /// strain, in which grains slide); `None`: all of it.
     pub virgin_share: Option<&'a [f64]>,
     /// Mechanical strains along x and y, after the thermal one; for plug-ins that have a tangent.
     pub strain: Option<[&'a [f64]; 2]>,
@@ -38,12 +39,12 @@ pub struct Step<'a> {
 /// Columns after a step, all finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// One column a state name.
+    /// One column per state name.
     pub state: Vec<Vec<f64>>,
     /// K_xx/k, K_yy/k; above zero.
     pub conductivity: [Vec<f64>; 2],
     /// σ_xx, σ_yy, reduced, compression positive.
     pub stress: [Vec<f64>; 2],
-    /// Per state column, then for the thermal strain: how far outside the model's range, 0 inside.
+    /// One column per state column, and one for the thermal strain: signed distance from the model's range, 0 inside.
     pub outside: Vec<Vec<f64>>,
 }

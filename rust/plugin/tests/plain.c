@@ -1,9 +1,9 @@
-/* A plain plug-in, and by macros what may be wrong with one. */
+/* A simple plug-in for tests. Macros given to the compiler introduce the faults that a plug-in may have. */
 #include "msdd.h"
 
 #include <string.h>
 
-/* Of advance and initial_state. */
+/* Number of calls of advance and initial_state. */
 static double calls;
 
 static int32_t initial_state(const msdd_plugin_start *start)

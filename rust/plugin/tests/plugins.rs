@@ -1,4 +1,4 @@
-//! Good and bad plug-ins, compiled from `plain.c`: each fault has its own text.
+//! Good and faulty plug-ins, compiled from `plain.c`: every fault has a message of its own.
 
 use msdd_plugin::{Plugin, PluginError, Start, Step};
 use std::path::{Path, PathBuf};
@@ -168,7 +168,7 @@ fn failures_come_with_the_text_of_the_plugin() {
     assert!(told.contains("plug-in \"plain\""), "{told}");
     assert!(told.contains("advance failed with status -3: the table of isotherms is empty"), "{told}");
     let told = message("mute", &["FAILS=1", "CHANGE=table.last_error=NULL"]);
-    assert!(told.contains("status 1: it has no text for that"), "{told}");
+    assert!(told.contains("status 1: it gives no message"), "{told}");
 }
 
 #[test]
@@ -206,7 +206,7 @@ fn answers_that_no_grains_have_are_named_by_column_and_cell() {
         (
             "calls",
             "ANSWERS=step->stress_xx[2]=calls",
-            "stress_xx[2] = 2, allowed: what it answered to the same",
+            "stress_xx[2] = 2, allowed: the result of the call before",
         ),
     ] {
         let plugin = Plugin::load(&compiled(&format!("answer-{name}"), &[macros])).expect("fit");
@@ -225,7 +225,7 @@ fn answers_that_no_grains_have_are_named_by_column_and_cell() {
 
 const DEFORMED: Step = Step { strain: Some([&[0.0, 0.01, 0.0], &[0.0, 0.0, -0.01]]), ..STEP };
 
-/// `plain.c` with a tangent and all else that a plug-in may have.
+/// Compiles `plain.c` with a tangent and all other optional functions of a plug-in.
 fn whole(name: &str, more: &str) -> Plugin {
     let macros = ["TANGENT=tangent", "DEFORM=deform", "HAS_ALL", more];
     Plugin::load(&compiled(&format!("whole-{name}"), &macros)).expect("fit")
@@ -280,7 +280,7 @@ fn spreads_and_solid_fractions_are_those_of_grains() {
     }
 }
 
-/// The first question is asked twice: what depends on the number of calls is found at the start.
+/// The first call is made twice, so that a result that depends on the number of calls is found at the start.
 #[test]
 fn a_start_that_depends_on_the_number_of_calls_is_refused() {
     let names = "NAMES=\"porosity\",\"fabric_index\",\"age\"";
@@ -288,12 +288,13 @@ fn a_start_that_depends_on_the_number_of_calls_is_refused() {
     let start = Start { porosity: &[0.1], fabric_index: &[0.2], fabric_conductivity: None, stress: None };
     let message = plugin.initial_state(&start).expect_err("ages").to_string();
     assert!(
-        message.contains("initial_state answered state age[0] = 2, allowed: what it answered"),
+        message.contains("initial_state answered state age[0] = 2, allowed: the result of the call before"),
         "{message}"
     );
 }
 
-/// A state that no packing has comes back as the plug-in will, if it says that it is outside; there is nothing to keep.
+/// If a plug-in says that a cell is outside of its range, the cell's next state is not checked: zero strain may change it,
+/// and it need not be one that a packing can have.
 #[test]
 fn states_outside_are_the_callers() {
     let plugin = Plugin::load(&compiled("outside", &["ANSWERS=step->outside[0][0]=5"])).expect("fit");
@@ -301,7 +302,7 @@ fn states_outside_are_the_callers() {
     assert_eq!(plugin.advance(&step).expect("the caller's").state[0], [7.0, 8.0, 0.1]);
 }
 
-/// A plug-in that writes to its inputs changes copies.
+/// A plug-in that writes to its inputs changes only copies.
 #[test]
 fn inputs_are_copies() {
     let write = |what: &str| format!("((double *){what})[1]=0.5");

@@ -1,4 +1,4 @@
-//! What a killed run continues from, bit for bit: the state, the heat, and what was recorded so far.
+//! Checkpoints, from which a killed run continues bit for bit: the state, the temperatures, and what was recorded so far.
 
 use crate::ReferenceError;
 use crate::results::Table;
@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Name of the schema.
+/// Name of the file's schema.
 const SCHEMA: &str = "msdd-reference-checkpoint-3";
 
 /// What was recorded so far.
@@ -25,30 +25,30 @@ pub struct Records {
     pub network: Table,
 }
 
-/// Where a run stands.
+/// All that is needed to continue a run.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Checkpoint {
     schema: String,
-    /// What the run was asked for; a checkpoint of another run is refused.
+    /// Parameters of the run in one line; a checkpoint of a run with other parameters is refused.
     asked: String,
     pub records: Records,
     pub heat: HeatState,
     /// The state file.
     pub state: Box<RawValue>,
-    /// SHA-256 of all that stands before it; hexadecimal.
+    /// SHA-256 of all fields above, hexadecimal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
 
 impl Checkpoint {
-    /// Of all but the checksum itself.
+    /// SHA-256 of all fields but the checksum itself.
     fn digest(&self) -> Result<String, serde_json::Error> {
         let text = serde_json::to_string(self)?;
         Ok(Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect())
     }
 
-    /// As text, of a simulation with heat.
+    /// The text of a checkpoint of a simulation with heat conduction.
     ///
     /// # Errors
     /// [`ReferenceError::State`] or [`ReferenceError::Json`] when a number is not finite.
@@ -70,7 +70,7 @@ impl Checkpoint {
         Ok(Some(serde_json::to_string(&checkpoint)?))
     }
 
-    /// Reads a checkpoint of the run that was asked for; none when there is no file.
+    /// Reads a checkpoint of the run with the parameters `asked`; `None` when there is no file.
     ///
     /// # Errors
     /// [`ReferenceError::Checkpoint`] when it is damaged, unreadable or of another run.
@@ -83,7 +83,7 @@ impl Checkpoint {
         }
     }
 
-    /// Reads the text of a checkpoint of the run that was asked for.
+    /// Reads the text of a checkpoint of the run with the parameters `asked`.
     ///
     /// # Errors
     /// What is wrong with it.

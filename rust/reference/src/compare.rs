@@ -13,11 +13,11 @@ pub struct FieldError {
     pub quantity: String,
     pub unit: String,
     pub rms: f64,
-    /// Of the 8 x 1 sub-regions that touch no wall.
+    /// Root mean square over the 8 x 1 sub-regions that touch no wall.
     pub rms_inner: f64,
     /// Largest of any sub-region, with its sign.
     pub worst: f64,
-    /// Of the means over the box, and of the standard deviations over the sub-regions: solver and discrete elements.
+    /// Means over the box, and standard deviations over the sub-regions: solver, discrete elements.
     pub means: [f64; 2],
     pub deviations: [f64; 2],
 }
@@ -25,24 +25,24 @@ pub struct FieldError {
 /// Errors of one configuration in one case. Signed: solver minus discrete elements.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Errors {
-    /// Of T at P1, P2, P3 [% of the range].
+    /// Errors of T at P1, P2, P3 [% of the range].
     pub temperature: [f64; 3],
-    /// The same of each packing.
+    /// The same errors of each packing.
     pub temperature_of_seeds: Vec<[f64; 3]>,
-    /// Of the mean pressure [% of the paper's range].
+    /// Error of the mean pressure [% of the paper's range].
     pub pressure: f64,
     pub pressure_of_seeds: Vec<f64>,
-    /// The same against the discs' mean off the walls, where they lie looser: what the solver's cells hold. None when the reference
-    /// does not have it.
+    /// Error of the mean pressure against the mean of the discs in the inner region, without the looser layers at the walls,
+    /// which the solver's cells do not have either. `None` when the reference has not recorded it.
     pub pressure_inner: Option<f64>,
     pub pressure_inner_of_seeds: Vec<f64>,
     pub fields: Vec<FieldError>,
-    /// Of the displacement along x at the end, largest difference over largest displacement [%].
+    /// Error of the displacement along x at the end: largest difference over largest displacement [%].
     pub displacement: Option<f64>,
 }
 
 impl Errors {
-    /// The largest of the three probes, without its sign [% of the range].
+    /// Largest absolute value of the three probes [% of the range].
     pub fn largest_temperature(&self) -> f64 {
         self.temperature.iter().fold(0.0, |worst, e| worst.max(e.abs()))
     }
@@ -52,8 +52,8 @@ impl Errors {
     }
 }
 
-/// Compares one run a packing, in the order of the reference's packings. `affine`: K is compared with Eq. 9 instead of the
-/// network's. None when a run ends before the reference.
+/// Compares one run per packing, in the order of the reference's packings. `affine`: K is compared with that of Eq. 9 instead
+/// of that of the solved resistor network. `None` when a run ends before the reference.
 pub fn errors(reference: &Reference, runs: &[&Run], affine: bool) -> Option<Errors> {
     let times = reference.times();
     let end = times.last()?;
@@ -88,9 +88,9 @@ pub fn errors(reference: &Reference, runs: &[&Run], affine: bool) -> Option<Erro
     })
 }
 
-/// Errors of T at P1 to P3 of one run, lines of time and three temperatures, against the discs of one packing, windows of
-/// 40 mm: the largest over the discs' times where the solver has values on both sides, solver minus discs [% of `range`,
-/// which is in K].
+/// Errors of T at P1 to P3 of one run (rows of time and three temperatures) against the means over windows of 40 mm in the
+/// discs of one packing: solver minus discs where it is largest [% of `range`, which is in K]. Only the times of the discs
+/// between the first and last of the solver's are compared.
 pub fn temperature_errors(run: &[[f64; 4]], discs: &Results, range: f64) -> [f64; 3] {
     let times = discs.series.column("time").unwrap_or_default();
     [1, 2, 3].map(|probe| {
@@ -103,7 +103,8 @@ pub fn temperature_errors(run: &[[f64; 4]], discs: &Results, range: f64) -> [f64
     })
 }
 
-/// Mean pressure of the solver minus a column of the discs [% of the paper's range], by packing; none without the column.
+/// Mean pressure of the solver minus a column of the discs [% of the paper's range], by packing; `None` when the discs do not
+/// have the column.
 fn pressure_differences(reference: &Reference, runs: &[&Run], column: &str) -> Vec<Vec<f64>> {
     let (times, scale) = (reference.times(), 100.0 / pressure_range(&reference.case));
     let series = reference.series(column);
@@ -119,7 +120,7 @@ fn means(by_packing: &[Vec<f64>]) -> Vec<f64> {
     statistics(by_packing).into_iter().map(|(mean, _)| mean).collect()
 }
 
-/// The solver writes no value at the start.
+/// The series with the value at the start in front, which the solver does not write.
 fn with_start(series: &[[f64; 2]], start: f64) -> Vec<[f64; 2]> {
     match series.first() {
         Some(first) if first[0] > 1e-9 => [&[[0.0, start]], series].concat(),
@@ -160,7 +161,7 @@ pub fn reference_sub_regions(reference: &Reference, quantity: &str, affine: bool
     scaled(quantity, affine, |column| reference.sub_regions(column))
 }
 
-/// The same at the start.
+/// As [`reference_sub_regions`], at the start.
 pub fn reference_start(reference: &Reference, quantity: &str, affine: bool) -> Vec<Vec<f64>> {
     scaled(quantity, affine, |column| reference.sub_regions_start(column))
 }
@@ -202,7 +203,7 @@ fn displacement(reference: &Reference, runs: &[&Run]) -> Option<f64> {
     let (solver, dem) = (means(&solver), means(&reference.slices("displacement_x")));
     let differences: Vec<f64> = solver.iter().zip(&dem).map(|(s, d)| s - d).collect();
     let most = largest(&dem).abs();
-    // Where nothing moves by symmetry, a ratio says nothing.
+    // Where nothing moves because of symmetry, the ratio would be meaningless.
     (most > 1e-3).then(|| 100.0 * largest(&differences) / most)
 }
 
@@ -211,7 +212,7 @@ mod tests {
     use super::*;
     use std::path::Path;
 
-    /// A run that gives back the reference, `offset` warmer [K], with `factor` on the pressure.
+    /// A run with the results of the reference, but `offset` warmer [K] and with the pressure times `factor`.
     fn echo(reference: &Reference, packing: usize, offset: f64, factor: f64) -> Run {
         let times = reference.times();
         let temperature = reference.temperature();

@@ -13,10 +13,10 @@ pub const WINDOW: f64 = 0.215;
 /// Height of a band of the box [m].
 const BAND: f64 = 0.05;
 
-/// Averages around each of the centres [m], on `threads` threads; results do not depend on them.
+/// Averages over a window around each of the centres [m], on `threads` threads; results do not depend on their number.
 ///
 /// # Errors
-/// [`ReferenceError::Parameter`] with a centre outside the box; what the system says when it has no more threads.
+/// [`ReferenceError::Parameter`] with a centre outside the box; the error of the system when it cannot start threads.
 pub fn around(
     simulation: &Simulation,
     centres: &[[f64; 2]],
@@ -39,13 +39,13 @@ pub fn around(
     Ok(pool.install(|| centres.par_iter().map(average).collect()))
 }
 
-/// The box in overlapping bands, each with all that windows around its centres depend on, so that a window passes over
-/// few discs.
+/// Cuts the box into overlapping bands. Each has all discs that the windows around the centres in it depend on, so that
+/// averaging over a window has to look at few discs only.
 fn bands(simulation: &Simulation) -> Vec<Simulation> {
     let [left, right, bottom, top] = simulation.walls.position;
     let count = ((top - bottom) / BAND).ceil() as usize;
     let band = |k: usize| {
-        // A window at a wall is shifted inside by up to half of its side.
+        // A window at a wall is shifted inwards by up to half of its side.
         let reach = WINDOW + MARGIN * simulation.mean_radius();
         let (low, high) = (bottom + k as f64 * BAND - reach, bottom + (k + 1) as f64 * BAND + reach);
         crop(simulation, [left, low], [right, high])
@@ -53,13 +53,13 @@ fn bands(simulation: &Simulation) -> Vec<Simulation> {
     (0..count).map(band).collect()
 }
 
-/// The field files: name and text. `note` says where they come from.
+/// The files of the fields: name and text. `note` says where the values come from.
 pub fn files(averages: &[Averages], note: &str) -> Vec<(&'static str, String)> {
     let scalar = |name, what: &str, value: fn(&Averages) -> f64| {
         let lines = averages.iter().map(|a| format!("{:.6}", value(a)));
         (name, list(name, FieldKind::Ratio, &format!("{what}. {note}"), lines))
     };
-    // OpenFOAM's stress: tension positive. The grains are in a plane, so the rest is zero.
+    // OpenFOAM's stress: tension positive. The grains are in a plane, so components with z are zero.
     let stress = averages.iter().map(|a| {
         let [xx, xy, yy] = [a.stress_xx, shear_stress(a), a.stress_yy].map(|stress| -stress);
         format!("({xx:.2} {xy:.2} 0 {yy:.2} 0 0)")
@@ -73,7 +73,8 @@ pub fn files(averages: &[Averages], note: &str) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// (K_xx − K_yy)/(K_xx + K_yy) of the solved network, which is what the default model carries; 0 without conduction.
+/// (K_xx − K_yy)/(K_xx + K_yy) of the solved resistor network, which is a state variable of the default model; 0 without
+/// conduction.
 fn network_anisotropy(a: &Averages) -> f64 {
     let (xx, yy) = (a.conductivity_network_xx, a.conductivity_network_yy);
     if xx + yy > 0.0 { (xx - yy) / (xx + yy) } else { 0.0 }
@@ -84,7 +85,7 @@ mod tests {
     use super::*;
     use msdd_dem::{Disc, Material, Walls};
 
-    /// Overlapping discs, no two rows alike, in a box of several bands.
+    /// Overlapping discs in different rows, in a box of several bands.
     fn heap() -> Simulation {
         let disc = |k: u32| {
             let (x, y) = (f64::from(k % 40), f64::from(k / 40));

@@ -1,15 +1,16 @@
-//! The reference: all grains of a case's box by discrete elements (section 3.2), run from the solver's own case files.
+//! The reference: simulates all grains in the box of a case by discrete elements (section 3.2 of the paper), with the
+//! parameters from the solver's own case files.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`model`] | the packed initial model and its statistics |
 //! | [`mod@observe`] | what is recorded of a state: series, sub-regions, profiles |
 //! | [`run`](mod@run) | heat, expansion and motion to the end time |
-//! | [`checkpoint`] | what a killed run continues from |
+//! | [`checkpoint`] | files from which a killed run continues |
 //! | [`fields`] | initial fields for the solver |
 //! | [`results`] | result files |
-//! | [`packings`] | the committed runs, three packings a case |
-//! | [`solver`] | what the solver wrote into a case folder |
+//! | [`packings`] | the committed runs, three packings for each case |
+//! | [`solver`] | reads the solver's results from a case folder |
 //! | [`series`] | interpolation, means and deviations |
 //! | [`compare`] | the solver's errors against the discs |
 //!

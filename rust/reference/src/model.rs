@@ -1,9 +1,10 @@
-//! The initial model (section 3.2.1): the box full of discs, packed to rest, and its statistics.
+//! The initial model (section 3.2.1 of the paper): the box full of discs, packed until they are at rest, and its statistics.
 //!
-//! The box ends at exactly the size of the case, so the area of the discs fixes how much of it they fill when overlaps
-//! count twice; friction while packing decides at what porosity they jam, hence the pressure (method: loose packing,
-//! walls close along x, grains and long walls carried along). With walls that stay, their friction leaves one end of the
-//! box at three times the pressure of the other.
+//! The discs are placed loosely in a longer box, which is then compressed along x. It ends at exactly the size of the case,
+//! so the total area of the discs determines the porosity with overlaps counted twice. The friction during packing
+//! determines the porosity at which the discs jam, and so the pressure. The grains and the long walls move with the mean
+//! strain of the box: if the long walls stayed, their friction would leave one end of the box at three times the pressure
+//! of the other.
 
 use crate::ReferenceError;
 use msdd_case::Case;
@@ -18,18 +19,20 @@ use msdd_rve::{Cut, Relaxation, homogenise_in, windows};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Discs in the box of the paper's cases.
+/// Number of discs in the box of the paper's cases.
 pub const DISCS: usize = 15_000;
-/// 1 − Σ π r² / area of the box. The paper's 12.5 % counts overlaps once; with the friction below this gives it. (15 000
-/// discs of the paper's radii have 10.5 % on average; they are made 0.05 % larger.)
+/// Porosity with overlaps counted twice, 1 − Σ π r² / area of the box. With the packing friction used it leads to the
+/// paper's porosity of 12.5 %, in which overlaps are counted once. (15 000 discs of the paper's radii have 10.5 % on average,
+/// so they are made 0.05 % larger.)
 pub const SUM_POROSITY: f64 = 0.104;
-/// Area fraction of the discs at the start; a denser start has more even sub-regions and more fabric.
+/// Area fraction of the discs when they are placed. A denser start makes the sub-regions more alike and the fabric index
+/// larger.
 const START_DENSITY: f64 = 0.55;
-/// Strain rate of the box [1/s] while grains hardly touch, and from the sum-of-areas porosity below on.
+/// Strain rate of the box [1/s] while grains hardly touch, and below the porosity `DENSE_POROSITY` (overlaps counted twice).
 const LOOSE_RATE: f64 = 0.1;
 const DENSE_RATE: f64 = 0.02;
 const DENSE_POROSITY: f64 = 0.25;
-/// Steps between two looks at the way left.
+/// Steps after which the remaining displacement of the wall is looked at again.
 const RUN: u64 = 50;
 /// Sub-regions of the box along x and y (section 3.2.1).
 pub const SUB_REGIONS: [usize; 2] = [10, 3];
@@ -37,15 +40,15 @@ pub const SUB_REGIONS: [usize; 2] = [10, 3];
 /// What to pack. The size of the box and the grains are those of the case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ModelSpec {
-    /// Other than what fills the case ([`discs_of`]): a smaller or larger box of the same shape.
+    /// Number of discs. Unless it is that of [`discs_of`], the box is smaller or larger than the case's, of the same shape.
     pub discs: usize,
     pub seed: u64,
 }
 
-/// Number of discs that fill the case's box: [`DISCS`] when these do, within 1 %, as in the paper.
+/// Number of discs that fill the case's box; [`DISCS`], as in the paper, if that is right within 1 %.
 pub fn discs_of(case: &Case) -> usize {
     let [low, high] = RADIUS_RANGE.map(|ratio| ratio * case.mean_radius);
-    // Mean of r² for radii that are uniform between the two.
+    // Mean of r² for radii that are uniformly distributed between the two.
     let disc = PI * (low * low + low * high + high * high) / 3.0;
     let filling = (1.0 - SUM_POROSITY) * case.size[0] * case.size[1] / disc;
     if (filling / DISCS as f64 - 1.0).abs() < 0.01 { DISCS } else { filling.round() as usize }
@@ -58,25 +61,25 @@ pub struct Model {
     pub settled: Settled,
 }
 
-/// What the paper tells about its initial model, and what it does not.
+/// Statistics of the initial model, beside the values that the paper gives for its own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// η of the box, overlaps counted once [-]; paper: 0.125.
     pub porosity: f64,
     pub porosity_sum_of_areas: f64,
-    /// η of the sub-regions, least and largest; paper (in windows): 0.117 to 0.131.
+    /// η of the sub-regions, least and largest; paper (over windows): 0.117 to 0.131.
     pub porosity_range: [f64; 2],
     /// f of the box [-]; paper: 0.050.
     pub fabric_index: f64,
-    /// f of the sub-regions, least and largest; paper (in windows): 0.030 to 0.064.
+    /// f of the sub-regions, least and largest; paper (over windows): 0.030 to 0.064.
     pub fabric_range: [f64; 2],
     /// p [Pa], compression positive.
     pub pressure: f64,
     /// σ_xx over σ_yy of the box [-].
     pub stress_ratio: f64,
-    /// σ_xx [Pa] of the box's first and last tenth along x: how even the packing is.
+    /// σ_xx [Pa] of the box's first and last tenth along x, which shows how even the packing is.
     pub stress_xx_ends: [f64; 2],
-    /// K/k, xx and yy [-], affine estimate and network.
+    /// K/k, xx and yy [-], affine estimate (Eq. 9) and solved resistor network.
     pub conductivity: [f64; 2],
     pub conductivity_network: [f64; 2],
     pub coordination: f64,
@@ -84,7 +87,7 @@ pub struct Statistics {
 }
 
 impl ModelSpec {
-    /// The box over that of the case [-].
+    /// Size of the box over that of the case [-].
     pub fn scale(&self, case: &Case) -> f64 {
         (self.discs as f64 / discs_of(case) as f64).sqrt()
     }
@@ -98,7 +101,7 @@ impl ModelSpec {
     }
 }
 
-/// Packs the box of a case; results do not depend on `threads`. `progress` hears how much of the way is done, 0 to 1.
+/// Packs the box of a case; results do not depend on `threads`. `progress` is called with the share that is done, 0 to 1.
 ///
 /// # Errors
 /// [`ReferenceError::Parameter`] when the case's grains do not fill the box; [`ReferenceError::Rve`] when the packing
@@ -115,7 +118,8 @@ pub fn pack(
     let mut random = Random::new(spec.seed);
     let radii = fitting_radii(&mut random, spec, case, width * height)?;
     let start_width = (1.0 - SUM_POROSITY) * width / START_DENSITY;
-    // Placed with x and y exchanged: discs are then numbered column by column, so that neighbours lie near in memory.
+    // The discs are placed with x and y exchanged, so that they are numbered column by column and neighbours are near each
+    // other in memory.
     let discs = scatter(&mut random, radii, height, start_width, case.material.density)?;
     let discs = discs.into_iter().map(|disc| Disc { x: disc.y, y: disc.x, ..disc }).collect();
     let slippery = Material { friction_angle: PACKING_FRICTION.atan(), ..case.material.clone() };
@@ -142,7 +146,7 @@ fn fitting_radii(
     let mut radii = radii(random, spec.discs, low, high);
     let filled: f64 = radii.iter().map(|r| PI * r * r).sum();
     let factor = ((1.0 - SUM_POROSITY) * area / filled).sqrt();
-    // The mean square of few random radii scatters more: 0.2 % in the factor with 15 000.
+    // The mean square of random radii scatters more with fewer discs; with 15 000 the factor scatters by 0.2 %.
     let slack = 0.01 * (DISCS as f64 / spec.discs as f64).sqrt().max(1.0);
     if (factor - 1.0).abs() > slack {
         return Err(ReferenceError::Parameter {
@@ -160,7 +164,7 @@ fn fitting_radii(
     Ok(radii)
 }
 
-/// Moves the right wall to `width` [m], grains carried along.
+/// Moves the right wall to `width` [m]; the grains move with the mean strain of the box.
 fn close(
     simulation: &mut Simulation,
     width: f64,

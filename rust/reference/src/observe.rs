@@ -1,7 +1,7 @@
-//! What is recorded of a state: one line of the time series, the table of sub-regions, profiles along x.
+//! Records of a state: one row of the time series, the table of sub-regions, profiles along x.
 //!
-//! Compression positive. T of a place is given twice: of the closest disc, as in the paper, which may be a rattler, and of
-//! the heat in a window of 40 mm.
+//! Compression positive. T at a probe is given twice: that of the closest disc, as in the paper, which may be a rattler
+//! (a disc without contacts), and the mean of the discs in a window of 40 mm, weighted by their mass.
 
 use crate::model::SUB_REGIONS;
 use crate::results::{Grains, Table};
@@ -10,21 +10,22 @@ use msdd_rve::network::Network;
 use msdd_rve::region::{Polygon, whole_box};
 use msdd_rve::{Averages, Cut, homogenise_affine_in, windows};
 
-/// Distance of windows from the walls, in mean radii: the grains next to a wall lie looser, with up to 2 % less conductivity in
-/// a window, but conduct to it as well as the material does.
+/// Distance of windows from the walls, in mean radii. The grains next to a wall are packed more loosely, which lowers the
+/// conductivity of a window by up to 2 %; but they conduct heat to the wall as well as the bulk does, so the windows leave
+/// them out.
 pub const MARGIN: f64 = 2.0;
 /// Side of the window around a probe [m].
 const PROBE_WINDOW: f64 = 0.04;
-/// Side of the window whose discs are listed [m].
+/// Side of the window whose discs are listed one by one [m].
 const GRAINS_WINDOW: f64 = 0.12;
 /// Bins of a profile.
 const BINS: usize = 20;
-/// K/k: affine estimate (Eq. 9) and network of contacts solved.
+/// Columns of K/k: affine estimate (Eq. 9) and solved resistor network of the contacts.
 const CONDUCTIVITIES: [&str; 4] =
     ["conductivity_xx", "conductivity_yy", "conductivity_network_xx", "conductivity_network_yy"];
 const WALL_NAMES: [&str; 4] = ["left", "right", "bottom", "top"];
 
-/// Columns of the time series for `probes` places.
+/// Columns of the time series for a number of probes.
 pub fn series_columns(probes: usize) -> Vec<String> {
     let mut names = vec!["time".to_string()];
     names.extend((1..=probes).map(|k| format!("T_P{k}_disc")));
@@ -40,7 +41,7 @@ pub fn series_columns(probes: usize) -> Vec<String> {
     names
 }
 
-/// One line of the time series: K, K/k, Pa, N, J.
+/// One row of the time series. Temperatures in K, conductivities over k, stresses in Pa, forces in N, energies in J.
 pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]]) -> Vec<f64> {
     let mut row = vec![simulation.time];
     row.extend(probes.iter().map(|&at| temperature_of_closest(simulation, at)));
@@ -64,8 +65,8 @@ pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]]) -> Vec<f64> {
     row
 }
 
-/// The box without a margin of [`MARGIN`] mean radii along its walls, where grains lie looser: what the windows of the
-/// solver's initial fields cover together, too.
+/// The box without a margin of [`MARGIN`] mean radii along its walls, where grains are packed more loosely. The windows of
+/// the solver's initial fields together cover the same region.
 fn inner_box(simulation: &Simulation) -> Polygon {
     let [left, right, bottom, top] = simulation.walls.position;
     let margin = MARGIN * simulation.mean_radius();
@@ -77,13 +78,13 @@ pub fn shear_stress(averages: &Averages) -> f64 {
     0.5 * (averages.stress_xy + averages.stress_yx)
 }
 
-/// An empty table of the box's conductivity by the solved network, which is too dear for each line of the series.
+/// An empty table of the box's conductivity by the solved resistor network, which takes too long for every row of the series.
 pub fn network_table() -> Table {
     let columns = ["time", "conductivity_network_xx", "conductivity_network_yy"];
     Table::new(columns.map(str::to_string).to_vec())
 }
 
-/// Adds the present K/k.
+/// Adds a row with the present K/k.
 pub fn add_network(table: &mut Table, simulation: &Simulation) {
     let region = whole_box(simulation);
     let [xx, yy, _] = Network::of_region(simulation, &region, Cut::Clip).conductivity(region.area());
@@ -100,7 +101,7 @@ fn temperature_of_closest(simulation: &Simulation, [x, y]: [f64; 2]) -> f64 {
     closest.map_or(f64::NAN, |disc| disc.temperature)
 }
 
-/// Mean T of the discs with their centre in the rectangle, by mass: that of their heat.
+/// Mean T of the discs with their centre in the rectangle, weighted by mass, so that it corresponds to their heat.
 fn mean_temperature(simulation: &Simulation, low: [f64; 2], high: [f64; 2]) -> f64 {
     let (mut heat, mut mass) = (0.0, 0.0);
     let inside =
@@ -115,11 +116,11 @@ fn mean_temperature(simulation: &Simulation, low: [f64; 2], high: [f64; 2]) -> f
 /// Forces of the grains on a wall.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WallLoad {
-    /// [N], outwards positive.
+    /// Normal force [N], outwards positive.
     pub normal: f64,
-    /// [N], along the positive coordinate axis.
+    /// Tangential force [N], positive along the positive coordinate axis.
     pub tangential: f64,
-    /// Σ |f_t| / Σ f_n of its contacts [-].
+    /// Mobilised friction Σ |f_t| / Σ f_n of its contacts [-].
     pub mobilised: f64,
 }
 
@@ -140,7 +141,7 @@ pub fn wall_loads(simulation: &Simulation) -> [WallLoad; 4] {
     loads
 }
 
-/// From the force on the disc: the part of its reaction along the wall.
+/// Component along the wall of the force on the wall, from the force on the disc.
 fn tangential_on_wall(side: Side, [fx, fy]: [f64; 2]) -> f64 {
     match side {
         Side::Left | Side::Right => -fy,
@@ -148,7 +149,7 @@ fn tangential_on_wall(side: Side, [fx, fy]: [f64; 2]) -> f64 {
     }
 }
 
-/// Sub-regions, x fastest: centre [m], η, f, K/k, σ [Pa], T [K].
+/// Table of the sub-regions, x index fastest: centre [m], η, f, K/k, σ [Pa], T [K].
 pub fn sub_regions(simulation: &Simulation) -> Table {
     let mut columns = vec!["x", "y", "porosity", "fabric_index"];
     columns.extend(CONDUCTIVITIES);
@@ -165,8 +166,8 @@ pub fn sub_regions(simulation: &Simulation) -> Table {
     table
 }
 
-/// Sub-regions, x fastest: centre and mean displacement [m] of the discs that were in it at the start (`start` are their
-/// centres).
+/// Table of the sub-regions, x index fastest: centre, and mean displacement [m] of the discs that were in the sub-region at
+/// the start (`start` are their centres).
 pub fn displacements(simulation: &Simulation, start: &[[f64; 2]]) -> Table {
     let [left, right, bottom, top] = simulation.walls.position;
     let [nx, ny] = SUB_REGIONS;
@@ -187,8 +188,8 @@ pub fn displacements(simulation: &Simulation, start: &[[f64; 2]]) -> Table {
     table
 }
 
-/// The discs that reach into a window around a place, at the start and now; at the start all have the temperature
-/// `initial` [K].
+/// The discs that reach into a window around a point, at the start and now; at the start all have the temperature `initial`
+/// [K].
 pub fn grains(start: &Simulation, initial: f64, now: &Simulation, [x, y]: [f64; 2]) -> Grains {
     let half = 0.5 * GRAINS_WINDOW;
     let listed = |simulation: &Simulation, temperature: Option<f64>| {
@@ -225,8 +226,8 @@ pub fn profile_table() -> Table {
     Table::new(columns.map(str::to_string).to_vec())
 }
 
-/// Adds the present profile along x: T of the discs in a bin, displacement of the discs that were in it at the start
-/// [m] (`start` are their centres), stress [Pa], and forces on bottom and top over the length of the bin [Pa].
+/// Adds the present profile along x. For each bin: T of the discs in it, displacement of the discs that were in it at the
+/// start [m] (`start` are their centres), stress [Pa], and forces on bottom and top over the length of the bin [Pa].
 pub fn add_profile(table: &mut Table, simulation: &Simulation, start: &[[f64; 2]]) {
     let [left, right, ..] = simulation.walls.position;
     let width = (right - left) / BINS as f64;

@@ -1,4 +1,4 @@
-//! Means over places of known discs.
+//! Tests of the means over sub-regions, windows and profiles with discs whose values are known.
 
 use super::*;
 use msdd_dem::{Disc, Material, Walls};
@@ -15,7 +15,7 @@ fn displacement_belongs_to_where_a_disc_started() {
     let start = lattice();
     let centres: Vec<[f64; 2]> = start.discs.iter().map(|d| [d.x, d.y]).collect();
     let mut moved = start.clone();
-    // By a tenth of the place along x: some discs end in the next sub-region.
+    // Displaced by a tenth of their x, so that some discs end in the next sub-region.
     moved.discs.iter_mut().for_each(|d| (d.x, d.y) = (1.1 * d.x, d.y - 1e-3));
     let table = displacements(&moved, &centres);
     assert_eq!(table.rows.len(), SUB_REGIONS[0] * SUB_REGIONS[1]);
@@ -32,7 +32,7 @@ fn grains_of_a_window_at_both_times() {
     let mut now = start.clone();
     now.discs.iter_mut().for_each(|d| (d.x, d.temperature) = (d.x + 0.1, 70.0));
     let found = grains(&start, 50.0, &now, [0.2, 0.2]);
-    // 12 x 12 discs inside, and those beside that reach into it.
+    // 12 x 12 discs inside, and those around them that reach into the window.
     assert_eq!(found.start.rows.len(), 14 * 14);
     assert_eq!(found.end.rows.len(), 14 * 14);
     assert!(
@@ -48,7 +48,7 @@ fn the_inner_box_leaves_the_walls_out() {
     let row = series_row(&lattice(), &[]);
     let of = |name: &str| row[columns.iter().position(|column| column == name).unwrap()];
     assert_eq!(columns.len(), row.len());
-    // The lattice is alike everywhere, but no contact ends at a wall: there half a branch bears nothing.
+    // The lattice is the same everywhere, but has no contacts with the walls, so the half branches there carry no force.
     let whole = of("stress_xx_inner") * 39.0 / 40.0;
     assert!(of("pressure_inner") > of("pressure") && (of("stress_xx") / whole - 1.0).abs() < 1e-3, "{row:?}");
 }

@@ -1,23 +1,24 @@
-//! The committed runs by discrete elements of `cases/reference`, three packings a case: what the solver is judged by.
+//! The committed runs by discrete elements of `cases/reference`, three packings for each case. The solver is compared with
+//! them.
 
 use crate::ReferenceError;
 use crate::results::{Results, Table};
 use std::path::Path;
 
-/// Packings of the reference.
+/// Seeds of the packings of the reference.
 pub const SEEDS: [u32; 3] = [1, 2, 3];
-/// The cases by folder and how they are called: with a star, grains do not expand.
+/// Folders and names of the cases; in those with a star the grains do not expand.
 pub const CASES: [(&str, &str); 6] =
     [("H", "H"), ("C", "C"), ("HC", "HC"), ("Hstar", "H*"), ("Cstar", "C*"), ("HCstar", "HC*")];
 /// Conductivity of the grains in the cases [W/(m K)], by which the reference's K/k is multiplied.
 pub const GRAIN_CONDUCTIVITY: f64 = 100.0;
 
-/// Range of the temperature in a case [K], by which errors are divided.
+/// Range of the temperature in a case [K]; errors are given in per cent of it.
 pub fn temperature_range(case: &str) -> f64 {
     if case.starts_with("HC") { 100.0 } else { 50.0 }
 }
 
-/// The paper's range of the pressure [Pa], by which its errors are divided (section 3.3).
+/// The paper's range of the pressure [Pa]; errors are given in per cent of it (section 3.3).
 pub fn pressure_range(case: &str) -> f64 {
     match case.trim_end_matches("star") {
         "H" => 3200.0,
@@ -26,7 +27,7 @@ pub fn pressure_range(case: &str) -> f64 {
     }
 }
 
-/// One case by discrete elements, by packing.
+/// Results of one case by discrete elements, one for each packing.
 #[derive(Clone)]
 pub struct Reference {
     pub case: String,
@@ -45,7 +46,7 @@ impl Reference {
         Ok(Self { case: case.to_string(), results: seeds.iter().map(read).collect::<Result<_, _>>()? })
     }
 
-    /// The first packings alone.
+    /// The same reference with the first packings alone.
     pub fn first(&self, packings: usize) -> Self {
         Self { case: self.case.clone(), results: self.results.iter().take(packings).cloned().collect() }
     }
@@ -60,7 +61,7 @@ impl Reference {
         self.results.iter().map(|r| r.series.column(column).unwrap_or_default()).collect()
     }
 
-    /// T [K] of 40 mm windows at P1 to P3: by probe, then packing.
+    /// Mean T [K] over 40 mm windows at P1 to P3: by probe, then by packing.
     pub fn temperature(&self) -> [Vec<Vec<f64>>; 3] {
         [1, 2, 3].map(|probe| self.series(&format!("T_P{probe}_window")))
     }
@@ -70,12 +71,13 @@ impl Reference {
         self.results.iter().map(|r| r.sub_regions_end.column(column).unwrap_or_default()).collect()
     }
 
-    /// The same at the start.
+    /// A column of the 30 sub-regions at the start, by packing.
     pub fn sub_regions_start(&self, column: &str) -> Vec<Vec<f64>> {
         self.results.iter().map(|r| r.sub_regions_start.column(column).unwrap_or_default()).collect()
     }
 
-    /// Mean displacement along x of the discs that started in each sub-region [m], by packing; of those that have it.
+    /// Mean displacement along x of the discs that started in each sub-region [m], by packing; packings without it are left
+    /// out.
     pub fn displacement(&self) -> Vec<Vec<f64>> {
         let tables = self.results.iter().filter_map(|r| r.displacement.as_ref());
         tables.map(|table| table.column("displacement_x").unwrap_or_default()).collect()
@@ -87,7 +89,7 @@ impl Reference {
     }
 }
 
-/// The last of the profiles, pairs of its 20 bins averaged.
+/// The last of the profiles, in ten slices: pairs of its 20 bins are averaged.
 fn last_profile(profiles: &Table, column: &str) -> Vec<f64> {
     let values = profiles.column(column).unwrap_or_default();
     let last = &values[values.len().saturating_sub(20)..];

@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Name of the schema.
+/// Name of the file's schema.
 pub const SCHEMA: &str = "msdd-reference-1";
 /// Significant digits of a number in a table.
 const DIGITS: usize = 7;
 
-/// Named columns of numbers, line by line.
+/// Rows of numbers with named columns.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Table {
@@ -25,10 +25,10 @@ impl Table {
         Self { columns, rows: Vec::new() }
     }
 
-    /// Adds a line, rounded to 7 digits.
+    /// Adds a row, rounded to 7 significant digits.
     ///
     /// # Panics
-    /// When it has not one number a column.
+    /// When the row has not exactly one number for each column.
     pub fn push(&mut self, row: Vec<f64>) {
         assert_eq!(row.len(), self.columns.len(), "one number a column");
         self.rows.push(row.into_iter().map(rounded).collect());
@@ -40,7 +40,7 @@ impl Table {
         Some(self.rows.iter().map(|row| row[k]).collect())
     }
 
-    /// As CSV with a head line.
+    /// The table as CSV with a head line.
     pub fn to_csv(&self) -> String {
         let mut text = self.columns.join(",");
         text.push('\n');
@@ -53,11 +53,11 @@ impl Table {
 }
 
 fn rounded(value: f64) -> f64 {
-    // −0 would read differently from 0 for nothing.
+    // −0 becomes 0, so that equal numbers have equal texts.
     format!("{value:.*e}", DIGITS - 1).parse::<f64>().map_or(value, |value| value + 0.0)
 }
 
-/// What a run was given, and what came out. SI units, compression positive.
+/// Parameters and results of a run. SI units, compression positive.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Results {
@@ -68,21 +68,21 @@ pub struct Results {
     /// Width and height of the box [m].
     #[serde(rename = "box")]
     pub size: [f64; 2],
-    /// Where T was recorded [m].
+    /// Points where T was recorded [m].
     pub probes: Vec<[f64; 2]>,
-    /// The model at the start.
+    /// Statistics of the packed model at the start.
     pub model: Statistics,
-    /// Mechanical steps, none on the frozen network of a case without expansion, and thermal sub-steps.
+    /// Mechanical steps (none in a case without expansion, where the grains stay at rest), and thermal sub-steps.
     pub steps: u64,
     pub thermal_substeps: u64,
-    /// Largest mechanical step asked for [s]; absent: from the engine's bound.
+    /// Largest mechanical time step that was given [s]; absent: that of the stability bound was used.
     pub time_step: Option<f64>,
     pub series: Table,
     pub sub_regions_start: Table,
     pub sub_regions_end: Table,
-    /// Along x, at several times.
+    /// Profiles along x at several times.
     pub profiles: Table,
-    /// K/k of the box by the solved network of contacts, at the times of the profiles.
+    /// K/k of the box by the solved resistor network of the contacts, at the times of the profiles.
     pub network: Table,
     /// Mean u_x, u_y [m] at the end of the discs that started in each sub-region; absent in older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -96,7 +96,7 @@ impl Results {
     /// Reads a result file.
     ///
     /// # Errors
-    /// [`ReferenceError::File`], [`ReferenceError::Read`] for what is no result.
+    /// [`ReferenceError::File`]; [`ReferenceError::Read`] when it is not a result file.
     pub fn read(file: &Path) -> Result<Self, ReferenceError> {
         serde_json::from_str(&read_text(file)?)
             .map_err(|error| ReferenceError::Read { file: file.to_path_buf(), problem: error.to_string() })

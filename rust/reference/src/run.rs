@@ -1,5 +1,5 @@
-//! A case from its start to its end: heat, expansion and motion; heat alone, on the frozen network, when the grains do
-//! not expand.
+//! Runs a case from its start to its end: heat conduction, expansion and motion of the grains. When the grains do not
+//! expand, they stay at rest and only heat is conducted through their contacts.
 
 use crate::ReferenceError;
 use crate::checkpoint::{Checkpoint, Records};
@@ -16,24 +16,24 @@ use msdd_rve::state;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Steps between two looks at the stable time step.
+/// Steps after which the stable time step is computed again.
 const RUN: u64 = 50;
 
 /// How to run a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunSpec {
     pub seed: u64,
-    /// The run ends here [s]; that of the case in general.
+    /// End of the run [s]; usually that of the case.
     pub end: f64,
-    /// Between two lines of the time series [s].
+    /// Time between two rows of the time series [s].
     pub interval: f64,
-    /// Profiles, evenly over the run, one at the start and one at the end.
+    /// Number of profiles, evenly spaced over the run, the first at the start and the last at the end.
     pub profiles: usize,
-    /// Largest mechanical step [s], also of conduction alone; none: from the engine's bound.
+    /// Largest mechanical time step [s], also when heat alone is conducted; `None`: that of the stability bound.
     pub time_step: Option<f64>,
-    /// Results do not depend on it.
+    /// Number of threads; results do not depend on it.
     pub threads: usize,
-    /// Between two checkpoints, at least.
+    /// Least time between two checkpoints, of the clock.
     pub checkpoint_every: Duration,
 }
 
@@ -56,36 +56,36 @@ impl RunSpec {
         }
     }
 
-    /// Times of the series [s]: the start, every interval, the end.
+    /// Times of the series [s]: the start, then one every interval, and the end.
     fn times(&self) -> Vec<f64> {
         let count = (self.end / self.interval - 1e-9).ceil() as usize;
         (0..count).map(|k| k as f64 * self.interval).chain([self.end]).collect()
     }
 
-    /// Whether the time number `k` of `count` gets a profile.
+    /// Whether a profile is recorded at time number `k` of `count`.
     fn has_profile(&self, k: usize, count: usize) -> bool {
         let parts = self.profiles.max(2) - 1;
         (0..=parts).any(|part| k == (part * (count - 1) + parts / 2) / parts)
     }
 }
 
-/// Sees the state whenever a profile is taken, with the times of the profiles so far [s].
+/// Called whenever a profile is recorded, with the times of the profiles so far [s] and the state.
 pub type OnProfile<'a> = &'a mut dyn FnMut(&[f64], &Simulation) -> Result<(), ReferenceError>;
 
-/// Who watches a run.
+/// Functions that are called during a run.
 pub struct Watch<'a> {
-    /// Hears the simulated time [s] now and then.
+    /// Called from time to time with the simulated time [s].
     pub progress: &'a mut dyn FnMut(f64),
     pub profile: OnProfile<'a>,
-    /// Writes a checkpoint's text beside and renames it.
+    /// Writes the text of a checkpoint to its file.
     pub save: &'a mut dyn FnMut(&str) -> Result<(), ReferenceError>,
 }
 
-/// Runs a case from a packed box, or goes on from the checkpoint when there is one.
+/// Runs a case from a packed box, or continues from the checkpoint when there is one.
 ///
 /// # Errors
-/// [`ReferenceError::Parameter`] for a useless `spec`, [`ReferenceError::Checkpoint`], [`ReferenceError::Failure`] when
-/// the run blows up or a given time step is too long.
+/// [`ReferenceError::Parameter`] for a value of `spec` that is out of range, [`ReferenceError::Checkpoint`],
+/// [`ReferenceError::Failure`] when the simulation diverges or a given time step is too long.
 pub fn run(
     case: &Case,
     start: &Simulation,
@@ -150,7 +150,7 @@ pub fn run(
     })
 }
 
-/// What a run is asked for, in one line: the checkpoint of another is refused.
+/// All parameters of a run in one line; a checkpoint with another line is refused.
 fn asked(case: &Case, start: &Simulation, spec: &RunSpec) -> String {
     let mix =
         |sum: u64, d: &msdd_dem::Disc| sum.rotate_left(5) ^ d.x.to_bits() ^ d.y.to_bits().rotate_left(32);
@@ -189,12 +189,13 @@ fn resume(case: &Case, checkpoint: Checkpoint) -> Result<(Simulation, Records), 
     Ok((simulation, checkpoint.records))
 }
 
-/// What the walls do to heat at `time` [s].
+/// Thermal boundary conditions of the walls at `time` [s].
 fn walls_at(case: &Case, time: f64) -> [WallHeat; 4] {
     std::array::from_fn(|side| case.walls[side].at(time))
 }
 
-/// Goes on to `time` [s], exactly. Walls that change have the temperature of the middle of each run of steps.
+/// Advances the simulation to exactly `time` [s]. A wall whose temperature changes has, during a block of steps, its
+/// temperature at the middle of the block.
 fn advance(
     simulation: &mut Simulation,
     case: &Case,
@@ -203,7 +204,7 @@ fn advance(
     watch: &mut Watch,
 ) -> Result<(), ReferenceError> {
     if case.thermal.expansion == 0.0 {
-        // Nothing moves: the engine's thermal sub-steps are all that is needed.
+        // Nothing moves, so the engine's thermal sub-steps are all that is needed.
         let way = time - simulation.time;
         let steps = spec.time_step.map_or(1.0, |step| (way / step - 1e-9).ceil()).max(1.0);
         for step in 0..steps as u64 {
@@ -225,7 +226,7 @@ fn advance(
             Some(step) if step <= bound => step,
             Some(step) => return Err(Failure::TimeStep { step, bound, time: simulation.time }.into()),
         };
-        // Equal steps that end at the time.
+        // Equal steps that end exactly at `time`.
         let steps = (left / limit - 1e-9).ceil().max(1.0);
         simulation.choose_time_step(StepChoice::Fixed { step: left / steps, on_excess: Excess::Refuse })?;
         let now = (steps as u64).min(RUN);

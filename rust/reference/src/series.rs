@@ -1,4 +1,4 @@
-//! Numbers over time and over packings: interpolation, means and deviations.
+//! Time series and numbers by packing: interpolation, means and deviations.
 
 /// Mean and standard deviation over packings (n - 1).
 pub fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
@@ -21,8 +21,8 @@ pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |worst: f64, &v| if v.abs() > worst.abs() { v } else { worst })
 }
 
-/// Value of a series at time `t`: by the cubic through the four points around (adaptive steps may be longer than the
-/// reference's 0.1 s, and the series are smooth), by fewer near the ends.
+/// Value of a series at time `t`, by the cubic through the four points around it, or a polynomial through fewer near the
+/// ends. Linear interpolation would be too coarse: adaptive steps may be longer than the 0.1 s of the reference.
 pub fn at(series: &[[f64; 2]], t: f64) -> f64 {
     let after = series.partition_point(|row| row[0] < t - 1e-9);
     if let Some(row) = series.get(after).filter(|row| (row[0] - t).abs() < 1e-9) {
@@ -39,12 +39,12 @@ pub fn at(series: &[[f64; 2]], t: f64) -> f64 {
         .sum()
 }
 
-/// 0 of no values.
+/// Root mean square; 0 when there are no values.
 pub fn root_mean_square(values: &[f64]) -> f64 {
     (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
-/// Mean over all, and the deviation over the sub-regions, averaged over the packings.
+/// Mean over all sub-regions and packings, and the standard deviation over the sub-regions, averaged over the packings.
 pub fn spread(by_packing: &[Vec<f64>]) -> (f64, f64) {
     let each: Vec<(f64, f64)> = by_packing.iter().map(|values| mean_and_deviation(values)).collect();
     let n = each.len() as f64;

@@ -1,5 +1,5 @@
-//! What the solver wrote into a case folder: series, sub-regions, the summary. With the function objects that the jobs of
-//! `msdd report` name: `spaceProbes`, `wallPressure`, `subRegions`, `columns`.
+//! Reads the solver's results from a case folder: time series, sub-regions, the summary. They are written by the function
+//! objects that the jobs of `msdd report` have: `spaceProbes`, `wallPressure`, `subRegions`, `columns`.
 
 use crate::ReferenceError;
 use msdd_files::{list, read_text};
@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Names of a job's own function objects begin so.
+/// Start of the names of function objects that a single job adds.
 pub const WATCH: &str = "watch";
 
 /// Columns of the sub-regions, in the order that the solver writes them. K in W/(m K), stress in Pa, compression positive.
@@ -30,16 +30,16 @@ pub struct Run {
     pub temperature: Vec<[f64; 4]>,
     /// t [s], mean pressure [Pa].
     pub pressure: Vec<[f64; 2]>,
-    /// A line a sub-region of 10 x 3, from the lower left, x first: [`COLUMNS`].
+    /// A row of [`COLUMNS`] for each of the 10 x 3 sub-regions, from the lower left, x index fastest.
     pub sub_regions: Vec<Vec<f64>>,
-    /// The same of ten slices along x.
+    /// A row of [`COLUMNS`] for each of ten slices along x.
     pub columns: Vec<Vec<f64>>,
     /// Displacement along x in ten slices [m]; with grains that move only.
     pub displacement: Option<Vec<f64>>,
     /// Displacement along x and y of the grains that started in each sub-region [m]; with grains that move only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<Vec<[f64; 2]>>,
-    /// Lines of numbers of each function object that the job adds, by its name, which begins with [`WATCH`].
+    /// Rows of numbers of each function object that the job adds, by its name, which begins with [`WATCH`].
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub watched: BTreeMap<String, Vec<Vec<f64>>>,
     pub cells: u64,
@@ -53,10 +53,11 @@ pub struct Run {
     pub end_porosity: f64,
 }
 
-/// Reads the results in a case folder; `mesh`: cells along x and y, by which displacements are averaged; `end_time` [s]: of the run.
+/// Reads the results in a case folder. `mesh`: number of cells along x and y, needed to average displacements over
+/// sub-regions; `end_time`: end of the run [s].
 ///
 /// # Errors
-/// [`ReferenceError::File`], [`ReferenceError::Read`] for a file that is missing or holds something else.
+/// [`ReferenceError::File`], [`ReferenceError::Read`] for a file that is missing or has other contents.
 pub fn read(folder: &Path, mesh: [usize; 2], end_time: f64) -> Result<Run, ReferenceError> {
     let post = folder.join("postProcessing");
     let summary = read_summary(&post.join("msddFoam/summary.json"))?;
@@ -86,7 +87,7 @@ pub fn read(folder: &Path, mesh: [usize; 2], end_time: f64) -> Result<Run, Refer
     })
 }
 
-/// Time [s] and T [K] at P1, P2, P3: the means in windows of 40 mm around the probes that `spaceProbes` writes.
+/// Time [s] and T [K] at P1, P2, P3: the means over windows of 40 mm around the probes, which `spaceProbes` writes.
 ///
 /// # Errors
 /// As [`read`].
@@ -100,14 +101,14 @@ fn read_summary(file: &Path) -> Result<Value, ReferenceError> {
         .map_err(|error| ReferenceError::Read { file: file.to_path_buf(), problem: error.to_string() })
 }
 
-/// The one file of a function object: its only one of the first start time.
+/// The file that a function object has written: the only one in the folder of the first start time.
 fn newest(folder: &Path) -> Result<std::path::PathBuf, ReferenceError> {
     let none = || ReferenceError::Read { file: folder.to_path_buf(), problem: "no file".to_string() };
     let start = list(folder)?.into_iter().next().ok_or_else(none)?;
     list(&start)?.into_iter().next().ok_or_else(none)
 }
 
-/// Lines of numbers; brackets and lines that begin with # are left out.
+/// The rows of numbers of a file, without brackets and without lines that begin with #.
 fn numbers(file: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
     let text = read_text(file)?;
     let line = |line: &str| -> Result<Vec<f64>, ReferenceError> {
@@ -123,7 +124,7 @@ fn numbers(file: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
     text.lines().filter(|l| !l.starts_with('#') && !l.trim().is_empty()).map(line).collect()
 }
 
-/// The last lines of a file of sub-regions, without time and place.
+/// The last rows of a file of sub-regions, without time and position.
 fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReferenceError> {
     let file = newest(folder)?;
     let rows = numbers(&file)?;
@@ -139,7 +140,7 @@ fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReferenceE
     }
 }
 
-/// The displacement of the cells, x first [m], where the solver wrote it.
+/// The displacement of the cells [m], x index fastest; `None` when the solver wrote none.
 fn displacement(folder: &Path, end: f64) -> Result<Option<Vec<Vec<f64>>>, ReferenceError> {
     let file = folder.join(format!("{end}/D"));
     if !file.exists() {
@@ -149,7 +150,8 @@ fn displacement(folder: &Path, end: f64) -> Result<Option<Vec<Vec<f64>>>, Refere
     nonuniform(&read_text(&file)?).map_err(wrong).map(Some)
 }
 
-/// Means of the first two components over `parts` of the mesh, which the grains carry along; 0 where no cell is.
+/// Means of the first two components over regions of the mesh, which moves with the grains; `parts` is the number of regions
+/// along x and y. 0 for a region without cells.
 fn means_in(values: &[Vec<f64>], mesh: [usize; 2], parts: [usize; 2]) -> Vec<[f64; 2]> {
     let [nx, ny] = mesh.map(|n| n.max(1));
     let (mut sum, mut count) = (vec![[0.0; 2]; parts[0] * parts[1]], vec![0.0; parts[0] * parts[1]]);
@@ -205,7 +207,7 @@ mod tests {
 
     #[test]
     fn displacement_by_parts_of_the_mesh() {
-        // 20 x 6 cells: u_x the column, u_y the row
+        // 20 x 6 cells; u_x is the index of the column, u_y that of the row
         let values: Vec<Vec<f64>> =
             (0..120).map(|k| vec![f64::from(k % 20), f64::from(k / 20), 0.0]).collect();
         let parts = means_in(&values, [20, 6], [10, 3]);

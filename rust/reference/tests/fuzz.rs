@@ -1,4 +1,4 @@
-//! Checkpoints under mutations: none is accepted but what was written.
+//! Mutated checkpoints: none is accepted unless it is the one that was written.
 
 #[path = "../../rve/tests/common/mutations.rs"]
 mod mutations;

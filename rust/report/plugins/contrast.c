@@ -1,5 +1,6 @@
-/* A surrogate of no material, as a plug-in: the conductivity falls by a decade for every 0.01 of porosity above 0.10, so that two
- * halves of a box have any contrast wanted. Isotropic, without stress; the state stays as it is. */
+/* A plug-in for tests that describes no real material: the conductivity falls by a factor of ten for every 0.01 of porosity
+ * above 0.10, so that two halves of a box can have any ratio of conductivities. Isotropic, without stress; the state does not
+ * change. */
 #include "msdd.h"
 
 #include <math.h>

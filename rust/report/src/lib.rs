@@ -1,5 +1,5 @@
-//! Speed against accuracy: runs of the solver and of the discrete elements as cached jobs, compared with the committed
-//! reference, as `results/report.json` and as a page that needs nothing else.
+//! The report on speed and accuracy: runs of the solver and of the discrete elements as cached jobs, compared with the
+//! committed reference. Written as `results/report.json` and as a single page that needs no other files.
 //!
 //! A module uses only modules above it in this table.
 //!
@@ -7,10 +7,10 @@
 //! |---|---|
 //! | [`jobs`] | runs with a cache of their results |
 //! | [`plan`] | the configurations of the report |
-//! | [`settings`] | what is to be made, and where |
-//! | [`studies`] | what is found out by runs |
-//! | [`failures`] | where methods break, and what the program does there |
-//! | [`report`] | all of it as data: the JSON |
+//! | [`settings`] | which report is made, and where |
+//! | [`studies`] | studies: the jobs that each needs, and its results |
+//! | [`failures`] | where methods lose accuracy or fail, and what the programs do there |
+//! | [`report`] | all results as data: the JSON file |
 //! | [`solver_table`] | the cheapest configurations as `msddFoam -cheapest` prints them |
 //! | [`draw`] | figures as SVG |
 //! | [`page`] | the page |
@@ -30,7 +30,7 @@ pub mod studies;
 
 use std::path::{Path, PathBuf};
 
-/// What keeps a report from being made. A job that fails is an outcome of the job, not an error.
+/// Why a report cannot be made. A job that fails is part of the report and not an error.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     #[error("cannot read {file}: {problem}", file = file.display())]
@@ -57,7 +57,7 @@ pub fn read_text(file: &Path) -> Result<String, ReportError> {
     Ok(msdd_files::read_text(file)?)
 }
 
-/// Writes a whole text file, so that a killed run leaves the old file or the new one. Makes the folder.
+/// Writes a text file whole, so that a killed program leaves the old file or the new one. Makes the folder if needed.
 ///
 /// # Errors
 /// [`ReportError::File`].

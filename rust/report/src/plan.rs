@@ -1,9 +1,9 @@
-//! The configurations of the report. Adding one is a line in [`chart`].
+//! The configurations of the report. To add one, add an entry in [`chart`].
 
 use crate::jobs::job::{Job, SolverJob, ToolJob};
 use crate::jobs::pool::Asked;
 
-/// Kinds of configurations, told apart by marker and colour.
+/// Kinds of configurations, which are drawn with different markers and colours.
 pub const FAMILIES: [&str; 9] = [
     "state network",
     "state network, grains move",
@@ -19,17 +19,17 @@ pub const FAMILIES: [&str; 9] = [
 /// How a configuration's cost and error are known.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Known {
-    /// Run to the end for all packings.
+    /// The configuration is run to the end for all packings.
     Run,
-    /// Run to this time [s] for the cost alone; the error is that of the configuration of this name.
+    /// It is run to this time [s] to measure its cost alone; the error is that of the configuration with this name.
     Segment(f64, String),
-    /// Run to this time [s] for the cost of an answer alone; the number of answers a cell, and the error, are those of the
-    /// configuration of this name, which is on another mesh.
+    /// It is run to this time [s] to measure the cost of one evaluation of the model; the number of evaluations for each cell,
+    /// and the error, are those of the configuration with this name, which has another mesh.
     Answers(f64, String),
 }
 
 impl Known {
-    /// The configuration whose error is taken.
+    /// Name of the configuration whose error is used.
     pub fn borrowed(&self) -> Option<&str> {
         match self {
             Self::Run => None,
@@ -38,20 +38,20 @@ impl Known {
     }
 }
 
-/// One point of the chart in some cases.
+/// One configuration: a point of the chart of error against cost, for some of the cases.
 #[derive(Clone, Debug)]
 pub struct Configuration {
     pub name: String,
     pub family: &'static str,
-    /// Without case and packing.
+    /// The job without case and packing.
     template: SolverJob,
     pub cases: Vec<&'static str>,
-    /// Its K is Eq. 9's, an upper bound, and is compared with that.
+    /// Whether its K is that of Eq. 9, an upper bound, which is compared with the same of the discs.
     pub affine: bool,
     pub known: Known,
-    /// Packings that it is run for, of those of the report.
+    /// Number of the report's packings that it is run for.
     pub packings: usize,
-    /// Guess of its processor time [s].
+    /// Estimate of its processor time [s].
     pub guess: f64,
 }
 
@@ -84,7 +84,7 @@ impl Configuration {
 /// The cases of the chart.
 pub const CHARTED: [&str; 3] = ["H", "C", "HC"];
 
-/// The paper's scheme with steps of `step` [s], the state network, grains that keep their place.
+/// The paper's scheme with fixed steps of `step` [s], the state network, and grains that stay where they are.
 fn fixed(step: &str, guess: f64) -> Configuration {
     let milliseconds = 1e3 * step.parse::<f64>().unwrap_or(0.0);
     Configuration {
@@ -105,7 +105,7 @@ fn second_order(step: &str, guess: f64) -> Configuration {
     base.named(&name, FAMILIES[0])
 }
 
-/// Adaptive steps, second order, with a tolerance of `tolerance` [K] a step.
+/// Adaptive steps of second order with an error of at most `tolerance` [K] in each.
 fn adaptive(tolerance: f64, guess: f64) -> Configuration {
     let keys = format!(
         "msddFoam {{ timeScheme secondOrder; temperatureTolerance {tolerance}; stateTolerance 0.5; }}\n\
@@ -136,8 +136,8 @@ fn model(name: &str, family: &'static str, keys: &str, guess: f64) -> Configurat
 const PAPER: &str = "surrogate { model builtin:paper; }";
 const MEDIUM: &str = "surrogate { type plugin; pluginCoeffs { library plugin.so; } }";
 
-/// What validation is made of: the paper's algorithm with both networks and with boxes of grains in all cells, and with grains
-/// that move.
+/// The configurations of the validation: the paper's algorithm with both networks and with boxes of grains in all cells, and the
+/// state network with grains that move.
 pub fn validated(quick: bool) -> Vec<Configuration> {
     let all: Vec<&'static str> = msdd_reference::packings::CASES.iter().map(|case| case.0).collect();
     let mut state = fixed("1e-2", 2.0).named("state network", FAMILIES[0]).only(&all);
@@ -145,7 +145,7 @@ pub fn validated(quick: bool) -> Vec<Configuration> {
     let mut moves = moving("2e-2", 25.0).named("state network, grains move", FAMILIES[1]);
     paper.affine = true;
     if quick {
-        // Coarser, and fewer
+        // On a coarser mesh, and fewer of them
         (state, paper, moves) =
             (state.on([25, 8]).only(&CHARTED), paper.on([25, 8]).only(&["HC"]), moves.on([10, 3]));
         moves = moves.change(|job| job.control("deltaT 0.1;"));
@@ -158,7 +158,7 @@ pub fn validated(quick: bool) -> Vec<Configuration> {
     list
 }
 
-/// All points of the chart, but the discrete elements'.
+/// All points of the chart except those of the discrete elements.
 pub fn chart(quick: bool) -> Vec<Configuration> {
     let coarse = |base: Configuration, mesh: [usize; 2]| {
         let (name, family) = (format!("{}, {}x{}", base.name, mesh[0], mesh[1]), base.family);
@@ -223,7 +223,8 @@ pub fn chart(quick: bool) -> Vec<Configuration> {
     list
 }
 
-/// Of all cells on coarse meshes; of cells that share boxes, with tolerances; and what all cells of the fine mesh would cost.
+/// Configurations with boxes of grains that are simulated during the run: one for every cell on coarse meshes; shared by cells
+/// of similar state; and one for every cell of the fine mesh, for which only the cost is estimated.
 fn online() -> Vec<Configuration> {
     let mut fine = all_cells("2e-3", 150.0).named("all cells, 100x30, one packing", FAMILIES[5]);
     fine.known = Known::Answers(0.4, all_boxes().name);
@@ -245,12 +246,12 @@ fn online() -> Vec<Configuration> {
     list
 }
 
-/// All cells on a mesh that costs minutes; of the validation, too.
+/// A box for every cell, on a mesh so coarse that a run takes minutes. Also part of the validation.
 fn all_boxes() -> Configuration {
     all_cells("2e-3", 200.0).on([30, 9]).named("all cells, 30x9, one packing", FAMILIES[5])
 }
 
-/// A box for every cell, asked again after a strain of `strain`.
+/// A box for every cell, which is simulated again whenever the cell has strained by `strain`.
 fn all_cells(strain: &str, guess: f64) -> Configuration {
     boxes("", &format!("smallestStrain {strain};"), "", guess)
 }
@@ -265,12 +266,13 @@ fn boxes(name: &str, keys: &str, coefficients: &str, guess: f64) -> Configuratio
         job.limit = 1800;
         job
     });
-    // They cost as much as the rest of the chart together.
+    // One packing only, because these runs cost as much as the rest of the chart together.
     base.packings = 1;
     base
 }
 
-/// A run of a case by discrete elements on one thread, to `end` [s]; `step`: largest step [s], none: the engine's own.
+/// A run of a case by discrete elements on one thread, to `end` [s]. `step`: largest time step [s]; `None`: that of the
+/// stability bound.
 pub fn elements(case: &str, end: f64, step: Option<f64>, limit: u64) -> Job {
     let mut arguments: Vec<String> = ["reference", "run", "--case", &format!("cases/{case}"), "--seed", "1"]
         .iter()
@@ -283,7 +285,7 @@ pub fn elements(case: &str, end: f64, step: Option<f64>, limit: u64) -> Job {
     tool(arguments, &["cases/common"], limit)
 }
 
-/// What programs of the engine are made of.
+/// Source folders of the discrete element engine and the programs that use it; results depend on them.
 const ENGINE: [&str; 4] = ["rust/dem", "rust/rve", "rust/reference", "Cargo.lock"];
 
 pub fn tool(arguments: Vec<String>, inputs: &[&str], limit: u64) -> Job {

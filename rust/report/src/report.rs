@@ -1,4 +1,4 @@
-//! The report as data: which jobs are run, in which order, and what follows from them.
+//! The report as data: which jobs are run, in which order, and the results that follow from them.
 
 use crate::ReportError;
 use crate::failures::{self, Failures};
@@ -28,7 +28,7 @@ pub struct Report {
     pub made: Stamp,
     pub jobs: usize,
     pub cached_jobs: usize,
-    /// Processor time of one step: the start [core-s].
+    /// Processor time of a run with a single step, that is of the start of the program [s].
     pub start_up: Option<f64>,
     /// Scatter of T between the packings, the largest over time and probes, standard deviation [% of the range].
     pub scatter: BTreeMap<String, f64>,
@@ -42,7 +42,7 @@ pub struct Report {
     pub other_cases: Vec<OtherCase>,
     pub scalings: Vec<Scaling>,
     pub failures: Failures,
-    /// What was left out, and why.
+    /// What the report does not contain, and why.
     pub left_out: Vec<String>,
 }
 
@@ -50,18 +50,18 @@ pub struct Report {
 pub struct Made {
     pub report: Report,
     pub references: Vec<Reference>,
-    /// By (case, configuration): one run a packing.
+    /// Runs by (case, configuration), one for each packing.
     pub runs: BTreeMap<(String, String), Vec<Run>>,
     pub details: Details,
     pub other_cases: OtherCases,
-    /// States of the database, where models know the material.
+    /// Hulls of the states in the database, within which models were trained.
     pub known: KnownStates,
 }
 
-/// Makes the report: runs what the cache does not have.
+/// Makes the report; runs the jobs that the cache does not have.
 ///
 /// # Errors
-/// Files of the reference or the cases that are missing or cannot be written; jobs that fail are part of the report.
+/// When files of the reference or the cases are missing, or files cannot be written. Jobs that fail are part of the report.
 pub fn make(
     settings: &Settings,
     watch: &mut (dyn FnMut(&str, &Progress) + Send),
@@ -108,7 +108,7 @@ pub fn make(
     Ok(Made { report, references, runs, details, other_cases, known })
 }
 
-/// Packs the box of the discrete elements unless it is there.
+/// Packs the box of the discrete elements unless its state file is there.
 fn pack(settings: &Settings) -> Result<(), ReportError> {
     if settings.quick
         || !settings.run
@@ -155,7 +155,7 @@ fn run_all(
     if !settings.run {
         return pool::found(cache, &[costs, rest].concat());
     }
-    // Alone, so that no other job of ours takes from its caches.
+    // One at a time, so that no other job of ours slows it down by using the same processor caches.
     let mut records = pool::run(cache, place, &costs, 1, &mut |p| watch("cost, one at a time", p))?;
     records.extend(pool::run(cache, place, &rest, settings.at_a_time, &mut |p| watch("accuracy", p))?);
     Ok(records)
@@ -164,7 +164,7 @@ fn run_all(
 fn left_out(quick: bool) -> Vec<String> {
     let mut list: Vec<&str> = vec![
         "K_xy of boxes of grains and of cells that are sheared.",
-        "The discs' pressure off their walls in the charts, and in the cases whose grains do not expand: the whole box stands there.",
+        "The pressure of the discs in the inner region, in the charts and in the cases whose grains do not expand: that of the whole box is used there.",
     ];
     if quick {
         list.push("Quick: one packing, few configurations, coarse meshes, no discrete elements.");

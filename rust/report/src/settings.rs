@@ -1,4 +1,4 @@
-//! What is to be made, where, and which records of jobs belong to it.
+//! Settings of a report, and the records of jobs that belong to it.
 
 use crate::jobs::cache::Cache;
 use crate::jobs::execute::{Place, Record};
@@ -7,18 +7,18 @@ use crate::jobs::pool::Records;
 use crate::plan::Configuration;
 use msdd_reference::packings::SEEDS;
 
-/// What to make.
+/// Settings of a report.
 pub struct Settings {
     pub quick: bool,
     pub place: Place,
     pub cache: Cache,
     pub at_a_time: usize,
-    /// Whether jobs are run that the cache does not have; else they are reported as not run.
+    /// Whether jobs that the cache does not have are run; else they are reported as not run.
     pub run: bool,
 }
 
 impl Settings {
-    /// Packings that are run.
+    /// Seeds of the packings that are run.
     pub fn seeds(&self) -> &'static [u32] {
         if self.quick { &SEEDS[..1] } else { &SEEDS }
     }
@@ -28,7 +28,7 @@ impl Settings {
         self.seeds().len().min(configuration.packings)
     }
 
-    /// Records of one configuration in a case, a packing each.
+    /// Records of one configuration in a case, one for each packing.
     pub fn records<'a>(
         &self,
         records: &'a Records,
@@ -40,7 +40,7 @@ impl Settings {
         seeds.filter_map(|seed| self.record(records, &job(seed))).collect()
     }
 
-    /// What is known of a job.
+    /// The record of a job, if there is one.
     pub fn record<'a>(&self, records: &'a Records, job: &Job) -> Option<&'a Record> {
         records.get(&self.cache.key(job).ok()?)
     }

@@ -1,4 +1,4 @@
-//! What `msddFoam -cheapest` prints, as a header of C++.
+//! Writes the table that `msddFoam -cheapest` prints, as a C++ header.
 
 use crate::report::Report;
 use crate::studies::chart::Cheapest;

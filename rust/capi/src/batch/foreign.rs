@@ -1,4 +1,5 @@
-//! One step of a batch by a plug-in: the whole batch into columns of ours, looked at, then converted into the caller's.
+//! One step of a batch by a plug-in: it writes the whole batch into columns of ours, which are checked, then converted to
+//! SI and copied into the caller's columns.
 
 use super::Columns;
 use crate::columns::{Input, Output};
@@ -17,7 +18,7 @@ impl Columns<'_> {
         let wanted = self.tangent.iter().any(Output::is_wanted);
         let tangent = if wanted { plugin.tangent(&state)? } else { None };
         let spread = if self.spread.is_wanted() { plugin.spread(&state)? } else { None };
-        // The total strain may be in a column that is written below: stiffnesses first.
+        // Stiffnesses are computed first, because the total strain that they need may be in a column that is written below.
         let stiffness = |column: &Vec<f64>| self.converted(column, |lanes, total| si.stress(lanes, total));
         let tangent = tangent.map(|[c11, c22, c12, porosity, fabric_index]| {
             [stiffness(&c11), stiffness(&c22), stiffness(&c12), porosity, fabric_index]
@@ -32,7 +33,7 @@ impl Columns<'_> {
 
     fn ask<'s>(&'s self, plugin: &Plugin) -> Result<Answer, Failure> {
         let zero = vec![0.0; if self.deforms() { self.cells } else { 0 }];
-        // SAFETY: outputs are written after these slices have gone; that no other thread does, the header asks.
+        // SAFETY: outputs are written after the last use of these slices, and the header forbids other threads to write.
         let slice = |column: &'s Input<'_>| unsafe { column.slice() };
         let state: Vec<&[f64]> = self.state.iter().map(slice).collect();
         let strain = self.strain.each_ref().map(|column| column.as_ref().map_or(zero.as_slice(), slice));
@@ -63,7 +64,7 @@ impl Columns<'_> {
         self.clamped.write_all(&clamped);
     }
 
-    /// A column in SI, by the conversion that our own models' blocks go through.
+    /// Converts a column to SI with the function that converts the blocks of our own models, too.
     fn converted(&self, column: &[f64], convert: impl Fn(Lanes, &Lanes) -> Lanes) -> Vec<f64> {
         let mut result = Vec::with_capacity(self.cells);
         for first in (0..self.cells).step_by(LANES) {

@@ -9,7 +9,7 @@ use std::ffi::{c_char, c_void};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-/// Largest number of threads that anybody can mean.
+/// Largest number of threads that is accepted; more is taken for a mistake.
 const MOST_THREADS: u32 = 1024;
 
 /// `msdd_database_generate`
@@ -40,7 +40,7 @@ pub unsafe extern "C" fn msdd_database_generate(
         let mut cancelled = false;
         generate(&plan, Path::new(&path), &run, |state| {
             let Some(progress) = progress else { return ControlFlow::Continue(()) };
-            // SAFETY: may be called so, by this function's contract; on the caller's thread.
+            // SAFETY: `progress` may be called with `user`, by this function's contract; this is the caller's thread.
             let hear =
                 || unsafe { progress(user, state.done as u64, state.total as u64, state.failed as u64) };
             let answer = panics::foreign(hear);

@@ -1,4 +1,4 @@
-//! Functions of `msdd.h`. Each turns pointers into references and calls safe code; none lets a panic out.
+//! Functions of `msdd.h`. Each turns pointers into references and calls safe code, and catches panics.
 
 mod database;
 mod rve;
@@ -56,7 +56,7 @@ pub unsafe extern "C" fn msdd_text_free(text: *mut c_char) {
     }
 }
 
-/// Hands a text over to the caller.
+/// Gives a text to the caller, who frees it with `msdd_text_free`.
 ///
 /// # Safety
 /// `out` is writable.
@@ -65,7 +65,7 @@ unsafe fn give_text(out: *mut *mut c_char, text: &str) {
     unsafe { out.write(c_string(text).into_raw()) };
 }
 
-/// A caller's string.
+/// Reads a string of the caller.
 ///
 /// # Safety
 /// `text` is null or a C string.

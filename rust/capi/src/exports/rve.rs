@@ -12,7 +12,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::ffi::c_char;
 
-/// Characters of a specification that a message shows.
+/// Largest number of characters of a specification that a message shows.
 const MOST_SHOWN: usize = 200;
 
 /// Specification of a packing, as JSON.
@@ -30,7 +30,7 @@ struct Specification {
     material: Grains,
 }
 
-/// The material of a specification: unlike that of a state file, it may leave out what is as usual.
+/// The material of a specification: unlike in a state file, keys may be left out and then have their defaults.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct Grains {
@@ -88,14 +88,14 @@ impl Default for Specification {
 }
 
 impl Specification {
-    /// Reads a JSON object. An array, which serde takes for an object without keys, is refused.
+    /// Reads a JSON object. Arrays are refused here, because serde would take them for an object without keys.
     fn read(text: &str) -> Result<Self, Failure> {
         let refused = |name: &str, allowed: String| {
             let start: String = text.chars().take(MOST_SHOWN).collect();
             let more = if start.len() < text.len() { " and more" } else { "" };
             Failure::argument(name, format!("{start}{more}"), allowed)
         };
-        // serde's text may quote all of a key.
+        // The text of a serde error may quote a key of any length.
         let reason =
             |error: serde_json::Error| error.to_string().chars().take(2 * MOST_SHOWN).collect::<String>();
         let json = |error| refused("specification", format!("a JSON object: {}", reason(error)));
@@ -122,13 +122,13 @@ impl Specification {
             relaxation: self.relaxation,
         };
         let simulation = pack(&spec, &self.material.into())?.simulation;
-        // Grains that soft walls let through: such a state could be written, and not be read again.
+        // Soft walls may let grains through. Such a state could be written, but not be read again: refuse it here.
         state::from_json(&state::to_json(&simulation)?)?;
         Ok(RveHandle { simulation })
     }
 }
 
-/// Hands a new RVE over to the caller.
+/// Gives a new RVE to the caller as a handle.
 ///
 /// # Safety
 /// `out` is writable.

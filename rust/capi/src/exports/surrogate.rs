@@ -35,7 +35,7 @@ pub unsafe extern "C" fn msdd_surrogate_load(source: *const c_char, out: *mut *m
     })
 }
 
-/// What a source starts with that is a shared library.
+/// Start of a `source` that names a plug-in, a shared library.
 const PLUGIN: &str = "plugin:";
 
 fn load(source: &str) -> Result<Arc<dyn BatchModel>, Failure> {
@@ -62,12 +62,12 @@ unsafe fn handle<'a>(surrogate: *const msdd_surrogate) -> Option<&'a SurrogateHa
     unsafe { surrogate.cast::<SurrogateHandle>().as_ref() }
 }
 
-/// As [`handle`], for functions that need it.
+/// As [`handle`], but a null handle is an error.
 ///
 /// # Safety
 /// As for [`handle`].
 unsafe fn needed<'a>(surrogate: *const msdd_surrogate) -> Result<&'a SurrogateHandle, Failure> {
-    // SAFETY: passed on to the caller.
+    // SAFETY: the caller guarantees it, by this function's contract.
     unsafe { handle(surrogate) }.ok_or_else(|| Failure::null("surrogate"))
 }
 

@@ -1,4 +1,4 @@
-//! What a loaded model answers.
+//! Results of a loaded model through the C functions.
 
 use super::{Cells, Handle, MATERIAL, MSDD_INVALID_ARGUMENT, MSDD_OK, last_error, text};
 use crate::abi;
@@ -86,7 +86,7 @@ fn virgin_strains_slide_and_others_hardly() {
     };
     let [all, half, none] = [1.0, 0.5, 0.0].map(|share| with(Some(share)));
     assert_eq!(with(None), all);
-    // Porosity and pressure do not know the difference; fabric index, f_K and deviator do.
+    // The virgin share does not change porosity and pressure; it changes fabric index, f_K and deviator.
     assert!(none[0] == all[0] && none[2] == all[2]);
     for column in [1, 3, 4] {
         let cell = 3;
@@ -117,7 +117,8 @@ fn zero_strain_and_unwanted_columns() {
     assert_eq!(none, MSDD_OK);
 }
 
-/// Closing along x stiffens, hardens and packs, as the tangent says; the paper's model has none and says so.
+/// Compression along x raises stress and stiffness and lowers the porosity by what the tangent says. The paper's model has
+/// no tangent, and the message says so.
 #[test]
 fn mechanical_strain_follows_the_tangent() {
     let handle = Handle::builtin();

@@ -1,4 +1,4 @@
-//! What is refused: by which status, with which message, and that nothing is written then.
+//! Inputs that are refused: with which status and message, and that nothing is written then.
 
 use super::{
     Cells, Handle, MATERIAL, MSDD_INTERNAL, MSDD_INVALID_ARGUMENT, MSDD_IO, MSDD_MODEL, MSDD_NON_FINITE,
@@ -64,7 +64,8 @@ fn bad_arguments_are_refused() {
     }
 }
 
-/// At the ends of the allowed scales K and stresses are numbers above zero; beyond, the scale is refused with its range.
+/// At the ends of the allowed ranges of the scales, K and stresses are finite and above zero; outside, a scale is refused
+/// and the message gives its range.
 #[test]
 fn scales_keep_answers_numbers_or_are_refused() {
     let handle = Handle::builtin();
@@ -128,7 +129,7 @@ fn scales_keep_answers_numbers_or_are_refused() {
     }
 }
 
-/// What no packing has is no start: the first such cell is named, and nothing is written.
+/// An initial value that no packing has is refused: the message names the first such cell, and nothing is written.
 #[test]
 fn a_start_that_no_packing_has_is_refused() {
     for source in [c"builtin", c"builtin:paper"] {

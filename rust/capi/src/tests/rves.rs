@@ -24,7 +24,7 @@ fn averages(rve: *const msdd_rve) -> msdd_averages {
     result
 }
 
-/// An RVE packs, swells, and goes on the same after a trip through text.
+/// An RVE is packed and strained; read back from its text it behaves exactly like the original.
 #[test]
 fn an_rve_from_packing_to_text_and_back() {
     let rve = pack(c"{\"discs\": 60, \"seed\": 3, \"porosity\": 0.13}").expect("packs");
@@ -51,7 +51,7 @@ fn an_rve_from_packing_to_text_and_back() {
     }
 }
 
-/// Every key of a specification has its default, those of the material among them.
+/// Every key of a specification has a default, also every key of the material.
 #[test]
 fn what_a_specification_leaves_out_is_as_usual() {
     let made = |specification: &CStr| {

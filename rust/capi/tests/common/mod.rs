@@ -76,10 +76,10 @@ pub struct Cells {
     pub thermal_strain: Vec<f64>,
     pub total: Vec<f64>,
     pub virgin_share: Vec<f64>,
-    /// Mechanical, given to models that have a tangent.
+    /// Mechanical strains, given to models that have a tangent.
     pub strain: [Vec<f64>; 2],
     pub next: Vec<Vec<f64>>,
-    /// K_xx, K_yy, σ_xx, σ_yy, and the tangent's five.
+    /// K_xx, K_yy, σ_xx, σ_yy, and the five columns of the tangent.
     pub outputs: [Vec<f64>; 9],
     pub outside: Vec<Vec<f64>>,
     pub spread: Vec<f64>,
@@ -195,7 +195,7 @@ impl Cells {
         }
     }
 
-    /// All bits of a cell's answer.
+    /// Bits of all outputs of a cell.
     pub fn bits(&self, cell: usize) -> Vec<u64> {
         let columns = self.next.iter().chain(&self.outputs).chain(&self.outside).chain([&self.spread]);
         columns.map(|column| column[cell].to_bits()).chain([u64::from(self.clamped[cell])]).collect()
@@ -218,7 +218,7 @@ pub fn plugin(source: &str) -> String {
     format!("plugin:{}", out.display())
 }
 
-/// The built-in model as a plug-in: a dev-dependency, whose shared library lies beside the tests.
+/// Source of the built-in model as a plug-in. It is a dev-dependency, so its shared library lies beside the tests.
 pub fn exported() -> String {
     let test = std::env::current_exe().expect("running");
     let library: PathBuf = test.parent().expect("a folder").join("libmsdd_exported.so");

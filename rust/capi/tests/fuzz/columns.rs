@@ -1,11 +1,11 @@
-//! Columns of batches and tables of plug-ins at random.
+//! Random columns of batches and random tables of plug-ins.
 
 use crate::common::{Cells, Model, OK, last_error};
 use crate::mutations::{Random, TOKENS};
 use msdd::abi;
 use std::ptr::{null, null_mut};
 
-/// Edges of numbers and of ranges, and usual values between.
+/// A random number: extreme floating-point numbers, ends of ranges, and often a usual value.
 fn number(random: &mut Random, usual: f64) -> f64 {
     match random.below(8) {
         0 => TOKENS[random.below(TOKENS.len())].parse().unwrap_or(f64::INFINITY),
@@ -16,7 +16,7 @@ fn number(random: &mut Random, usual: f64) -> f64 {
     }
 }
 
-/// A batch of random columns, some of them left out: numbers, or a refusal that writes nothing.
+/// A batch of random columns, some of them left out, must give finite results, or be refused and write nothing.
 pub fn batch(model: &Model, trial: usize) -> Result<bool, String> {
     let mut random = Random(((trial as u64) << 20) + 11);
     let mut cells = Cells::new(model, 1 + random.below(20));
@@ -57,7 +57,8 @@ pub fn batch(model: &Model, trial: usize) -> Result<bool, String> {
     }
 }
 
-/// A random table of a plug-in, and of a good one random answers: sound, or a refusal that names the plug-in.
+/// A plug-in with a random table, or with a good table and random results, must give valid results, or be refused with a
+/// message that names it.
 pub fn foreign(source: &str) -> Result<bool, String> {
     let named = |status: i32| match status == abi::MSDD_PLUGIN as i32 && last_error().contains("fuzzed") {
         true => Ok(false),

@@ -1,8 +1,9 @@
-//! Everything that is read from outside, texts under mutations of a corpus, and the columns of batches and the tables of
-//! plug-ins at random: no panic, and what is accepted is sound. The same trials in every run, whatever the number of threads;
-//! MSDD_FUZZ sets their number a reader (scripts/test --full takes many; a million of them takes minutes).
+//! Fuzz tests of everything that is read from outside: mutated texts of a corpus, random columns of batches and random
+//! tables of plug-ins. Nothing may panic, and what is accepted must give valid results. Every run makes the same trials,
+//! whatever the number of threads. MSDD_FUZZ sets the number of trials of each reader (scripts/test --full makes many; a
+//! million takes minutes).
 //!
-//! A finding is written to the target folder; add it to `corpus/` (files there are tried as they are, too).
+//! An input that fails is written to the target folder. Add it to `corpus/`, whose files are also tried unchanged.
 #![allow(unsafe_code)] // the C interface is what is tested
 
 mod columns;
@@ -76,7 +77,7 @@ fn fuzz(name: &str, corpus: &[Vec<u8>], count: usize, check: fn(&str) -> Result<
             }
         };
         let Ok(text) = String::from_utf8(input) else { return Ok(false) };
-        // Written first: an input that ends the process is found, too.
+        // Written before it is tried, so that an input that kills the process can be found, too.
         let file = scratch(name);
         write(&file, &text);
         let result = catch_unwind(|| check(&text)).unwrap_or_else(|_| Err("panic".to_string()));
@@ -110,7 +111,7 @@ fn plans_through_c() {
     assert!(fuzz("plans-c", &corpus, trials(600), plan_through_c) > 10);
 }
 
-/// A packing takes milliseconds: a hundredth of the trials.
+/// A hundredth of the trials, because every packing takes milliseconds.
 #[test]
 fn specifications() {
     assert!(
@@ -128,7 +129,7 @@ fn batches() {
     }
 }
 
-/// The plug-in counts its calls: on one thread every run is the same.
+/// On one thread, because the results of the plug-in depend on the number of its calls and every run has to be the same.
 #[test]
 fn plugins() {
     let source = plugin("rust/capi/tests/fuzzed_plugin.c");

@@ -1,4 +1,4 @@
-//! Readers of texts: what each has to hold to, whatever it is given.
+//! Readers of texts, and what each of them must guarantee for any text.
 
 use crate::common::{self, Cells, Model, OK, last_error};
 use ::msdd_rve::database::Plan;
@@ -11,14 +11,15 @@ use std::ptr::null_mut;
 
 const INTERNAL: i32 = abi::MSDD_INTERNAL as i32;
 
-/// A file of this thread's own.
+/// Path of a file that only this thread uses.
 pub fn scratch(name: &str) -> PathBuf {
     let thread = format!("{:?}", std::thread::current().id());
     let number: String = thread.chars().filter(char::is_ascii_digit).collect();
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fuzz-{name}-{number}"))
 }
 
-/// Writes a file over the one before. Never cut to nothing: on some file systems a file so replaced goes to the disk at once.
+/// Overwrites a file without truncating it to zero length first: some file systems write a file that was truncated and
+/// replaced to the disk at once, which is slow.
 pub fn write(file: &Path, text: &str) {
     let mut open = std::fs::OpenOptions::new();
     let mut file = open.create(true).truncate(false).write(true).open(file).expect("writable");
@@ -26,7 +27,7 @@ pub fn write(file: &Path, text: &str) {
     file.set_len(text.len() as u64).expect("writable");
 }
 
-/// A model that is accepted answers cells inside and far outside of its range with numbers that grains have.
+/// A model that is accepted must give results that grains can have, for cells inside and far outside of its range.
 pub fn model(text: &str) -> Result<bool, String> {
     let file = scratch("model-file");
     write(&file, text);
@@ -70,7 +71,7 @@ pub fn model(text: &str) -> Result<bool, String> {
     }
 }
 
-/// A state that is accepted has finite averages, and its own text is the same state.
+/// A state that is accepted must have finite averages, and must be the same when it is written and read again.
 pub fn state(text: &str) -> Result<bool, String> {
     let Ok(text) = CString::new(text) else { return Ok(false) };
     let mut rve = null_mut();
@@ -117,7 +118,7 @@ unsafe fn sound(rve: *mut msdd_rve) -> Result<(), String> {
     }
 }
 
-/// A plan that is accepted has packings that may be made, of stops that are numbers.
+/// A plan that is accepted must have packings with valid specifications, and finite strains at which they are recorded.
 pub fn plan(text: &str) -> Result<bool, String> {
     let Ok(plan) = Plan::parse(text, "plan") else { return Ok(false) };
     let jobs = plan.jobs();
@@ -133,7 +134,7 @@ pub fn plan(text: &str) -> Result<bool, String> {
     }
 }
 
-/// A plan that the C interface takes is begun, and ends at its first call-back.
+/// A plan that the C interface accepts must start, and stop at the first call of `progress`.
 pub fn plan_through_c(text: &str) -> Result<bool, String> {
     extern "C" fn stop(_user: *mut c_void, _done: u64, _total: u64, _failed: u64) -> i32 {
         1
@@ -148,7 +149,7 @@ pub fn plan_through_c(text: &str) -> Result<bool, String> {
     let status = unsafe { msdd_database_generate(plan.as_ptr(), name.as_ptr(), 1, Some(stop), null_mut()) };
     match (parsed, status) {
         (_, INTERNAL) => Err(last_error()),
-        // Nothing to do asks nobody.
+        // A plan without packings never calls `progress`.
         (Ok(0), OK) => Ok(true),
         (Ok(_), status) if status == abi::MSDD_CANCELLED as i32 => Ok(true),
         (Err(_), status) if status == abi::MSDD_RVE as i32 => Ok(false),
@@ -156,8 +157,8 @@ pub fn plan_through_c(text: &str) -> Result<bool, String> {
     }
 }
 
-/// Whether a specification, if it is one, is packed in milliseconds: few grains, and not many more steps than usual for the
-/// way of the walls, which go with the root of E r/rho. Stiffer grains take as long as they take.
+/// Whether a specification, if the text is one, is packed in milliseconds: it has few grains, and they are not so stiff
+/// that moving the walls takes many more time steps than usual (their number is proportional to the root of E r/rho).
 fn soon_packed(text: &str) -> bool {
     let Ok(value) = serde_json::from_str::<serde_json::Value>(text) else { return true };
     let number =
@@ -169,12 +170,12 @@ fn soon_packed(text: &str) -> bool {
         number("/material/density", 3e3),
     ];
     let [Some(discs), Some(young_modulus), Some(radius), Some(density)] = numbers else { return true };
-    // Infinite and not-a-number are refused at once.
+    // Infinite and NaN values are refused before any packing.
     let stiffness = young_modulus * radius / density;
     discs <= 24.0 && (stiffness <= 1e4 || !stiffness.is_finite())
 }
 
-/// A specification of few grains is packed, or refused with a text.
+/// A specification of few grains must be packed, or refused with a text.
 pub fn specification(text: &str) -> Result<bool, String> {
     let few = soon_packed(text);
     let (Ok(text), true) = (CString::new(text), few) else { return Ok(false) };

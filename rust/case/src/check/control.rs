@@ -1,4 +1,4 @@
-//! `system/controlDict` and `system/fvSolution`.
+//! Checks `system/controlDict` and `system/fvSolution`.
 
 use super::finding::Findings;
 use super::keys;
@@ -9,7 +9,7 @@ pub const CONTROL: &str = "system/controlDict";
 /// Path in the case folder.
 pub const SOLUTION: &str = "system/fvSolution";
 
-/// Keys that OpenFOAM looks for, against mistyping.
+/// Keys of controlDict that OpenFOAM looks for, to find mistyped ones.
 const OPENFOAM: [&str; 31] = [
     "FoamFile",
     "application",
@@ -44,7 +44,7 @@ const OPENFOAM: [&str; 31] = [
     "writeOnceNow",
 ];
 
-/// Libraries that come with OpenFOAM or with this project: others are code of somebody else.
+/// Libraries that come with OpenFOAM or with this project. Others contain code of somebody else, and are reported.
 const LIBRARIES: [&str; 7] = [
     "libsampling.so",
     "libfieldFunctionObjects.so",
@@ -55,25 +55,25 @@ const LIBRARIES: [&str; 7] = [
     "libsolverFunctionObjects.so",
 ];
 
-/// What the checks of other files need from here.
+/// Times of the case, which checks of other files need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
-    /// [s]
+    /// End of the simulation [s].
     pub end: f64,
-    /// The (first) step [s].
+    /// Time step, or the first one when steps are adaptive [s].
     pub step: f64,
-    /// Whether steps follow from their error.
+    /// Whether steps are adaptive: their length follows from their error.
     pub adaptive: bool,
 }
 
-/// Checks both; gives the times when they are known.
+/// Checks both files; returns the times when they are known.
 pub fn check(control: &Dictionary, solution: Option<&Dictionary>, found: &mut Findings) -> Option<Times> {
     for key in keys::CONTROL {
         keys::value(control, CONTROL, key, found);
     }
     for key in control.keys().filter(|key| !OPENFOAM.contains(&key.text.as_str())) {
         if let Some(near) = keys::nearest(&key.text, &OPENFOAM) {
-            let advice = format!("OpenFOAM does not know this key and passes over it: is '{near}' meant?");
+            let advice = format!("OpenFOAM does not know this key and ignores it: is '{near}' meant?");
             found.doubt([CONTROL, &key.text], "", "", &advice);
         }
     }
@@ -95,7 +95,7 @@ pub fn check(control: &Dictionary, solution: Option<&Dictionary>, found: &mut Fi
     Some(Times { end: end - start, step, adaptive })
 }
 
-/// Gives the time scheme.
+/// Checks `system/fvSolution`; returns the time scheme.
 fn check_solution(solution: &Dictionary, found: &mut Findings) -> String {
     let solves = matches!(solution.dictionary_at("solvers"), Ok(solvers) if solvers.matching("T").is_some());
     if !solves {
@@ -107,7 +107,7 @@ fn check_solution(solution: &Dictionary, found: &mut Findings) -> String {
     own.text("timeScheme").unwrap_or_else(|_| "paper".to_string())
 }
 
-/// Code that a case brings along runs with the rights of whoever runs the case.
+/// Reports code in the case, because it runs with the rights of whoever runs the case.
 fn check_code(control: &Dictionary, found: &mut Findings) {
     check_libraries(control, found);
     let Ok(functions) = control.dictionary_at("functions") else { return };

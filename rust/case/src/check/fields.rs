@@ -1,4 +1,4 @@
-//! The fields in `0`: dimensions, values, boundary conditions.
+//! Checks the fields in `0`: dimensions, values, boundary conditions.
 
 use super::finding::Findings;
 use super::mesh::Mesh;
@@ -11,13 +11,13 @@ pub struct Expected {
     pub required: bool,
     dimensions: &'static str,
     unit: &'static str,
-    /// Values lie between these.
+    /// Least and largest value that is allowed.
     range: [f64; 2],
     /// Components of a value.
     components: usize,
 }
 
-/// T, porosity and fabricIndex must be there; without the others the model's mean stands in.
+/// The fields. T, porosity and fabricIndex are required; for the others the solver uses the model's mean when they are missing.
 pub const FIELDS: [Expected; 5] = [
     expected("0/T", true, "[ 0 0 0 1 0 0 0 ]", "K", [0.0, 1e6]),
     expected("0/porosity", true, "[ 0 0 0 0 0 0 0 ]", "", [0.0, 1.0]),
@@ -43,7 +43,7 @@ const fn expected(
     Expected { file, required, dimensions, unit, range, components: 1 }
 }
 
-/// Values of a field: one for all cells, or one a cell; each has one component or six.
+/// Values of a field: one for all cells, or one for each cell; each has one component or six.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Values {
     pub numbers: Vec<Vec<f64>>,
@@ -51,18 +51,18 @@ pub struct Values {
 }
 
 impl Values {
-    /// Of a cell.
+    /// Value of a cell.
     pub fn at(&self, cell: usize) -> &[f64] {
         &self.numbers[if self.uniform { 0 } else { cell.min(self.numbers.len() - 1) }]
     }
 
-    /// Mean over the cells of a component.
+    /// Mean of a component over the cells.
     pub fn mean(&self, component: usize) -> f64 {
         self.numbers.iter().map(|value| value[component]).sum::<f64>() / self.numbers.len() as f64
     }
 }
 
-/// Checks a field; gives its values when they can be read.
+/// Checks a field; returns its values when they can be read.
 pub fn check(field: &Expected, file: &Dictionary, mesh: &Mesh, found: &mut Findings) -> Option<Values> {
     match file.text("dimensions") {
         Ok(given) if given == field.dimensions => {}
@@ -78,7 +78,7 @@ pub fn check(field: &Expected, file: &Dictionary, mesh: &Mesh, found: &mut Findi
         }
     };
     let [least, most] = field.range;
-    // Only temperatures may be at the end of their range.
+    // Only temperatures may be equal to an end of their range.
     let inside = |value: f64| value < most && (value > least || (field.unit == "K" && value == least));
     let wrong = values.numbers.iter().enumerate().find(|(_, value)| !value.iter().all(|&one| inside(one)));
     if let Some((cell, value)) = wrong {
@@ -144,7 +144,7 @@ fn numbers_in(words: &[&str], components: usize) -> Option<Vec<Vec<f64>>> {
         .then(|| numbers.chunks(components).map(<[f64]>::to_vec).collect())
 }
 
-/// Each patch of the mesh needs a condition: by name, by pattern, or by its type (empty).
+/// Checks that each patch of the mesh has a boundary condition: by its name, by a pattern, or by its type (empty).
 fn check_patches(field: &Expected, file: &Dictionary, mesh: &Mesh, found: &mut Findings) {
     let Ok(boundary) = file.dictionary_at("boundaryField") else {
         found.error(

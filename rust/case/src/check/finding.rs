@@ -1,4 +1,4 @@
-//! What a check finds.
+//! The findings of a check.
 
 use crate::CaseError;
 use msdd_rve::message::shortened;
@@ -9,7 +9,7 @@ use std::fmt;
 pub enum Severity {
     /// The solver refuses the case, or computes something else than was meant.
     Error,
-    /// The case runs, but the result deserves doubt.
+    /// The case runs, but its result may be wrong.
     Doubt,
 }
 
@@ -19,11 +19,11 @@ pub struct Finding {
     pub severity: Severity,
     /// Path below the case folder.
     pub file: String,
-    /// Empty when the whole file is meant.
+    /// The key with those of its enclosing dictionaries; empty when the whole file is meant.
     pub key: String,
     pub value: String,
     pub allowed: String,
-    /// A sentence: why, or how to mend it.
+    /// A sentence that says why, or what to do about it.
     pub advice: String,
 }
 
@@ -58,7 +58,7 @@ impl Findings {
         self.add(Severity::Error, [file, key], value, allowed, advice);
     }
 
-    /// Adds something that one should know before the run.
+    /// Adds something that the user should know before the run, although the solver accepts it.
     pub fn doubt(&mut self, [file, key]: [&str; 2], value: &str, allowed: &str, advice: &str) {
         self.add(Severity::Doubt, [file, key], value, allowed, advice);
     }
@@ -68,7 +68,7 @@ impl Findings {
         self.0.push(Finding { severity, file, key, value, allowed, advice });
     }
 
-    /// Adds what reading a file of the case ended with.
+    /// Adds the error with which reading a file of the case ended.
     pub fn refused(&mut self, file: &str, error: CaseError, advice: &str) {
         match error {
             CaseError::Key { key, value, allowed, .. } => self.error([file, &key], &value, &allowed, advice),

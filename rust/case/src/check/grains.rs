@@ -1,4 +1,4 @@
-//! `constant/granularProperties`: keys, values, the model that is named there.
+//! Checks `constant/granularProperties`: its keys, their values, and the model that is named there.
 
 use super::finding::Findings;
 use super::keys::{self, Key, Kind};
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Path in the case folder.
 pub const FILE: &str = "constant/granularProperties";
 
-/// Checks the file; gives the model, where it is a network that can be loaded.
+/// Checks the file; returns the model, if it is a neural network that can be loaded.
 pub fn check(
     folder: &Path,
     file: &Dictionary,
@@ -69,21 +69,21 @@ fn check_surrogate(
     model
 }
 
-/// The solver passes over keys of `surrogate` itself that it does not know, so a mistyped one has no effect.
+/// Reports unknown keys of `surrogate` itself. The solver ignores them, so a mistyped key has no effect.
 fn stray_keys(surrogate: &Dictionary, table: &[Key], found: &mut Findings) {
     let all = [keys::SURROGATE, keys::NETWORK, keys::CONSTANT, keys::PLUGIN, keys::ONLINE_RVE];
     let is_known = |name: &str| all.iter().flat_map(|list| list.iter()).any(|key| key.name == name);
     for key in surrogate.keys().filter(|key| !is_known(&key.text)) {
         let names: Vec<&str> = keys::SURROGATE.iter().chain(table).map(|key| key.name).collect();
         let meant = match keys::nearest(&key.text, &names) {
-            Some(near) => format!("The solver does not know this key and passes over it: is '{near}' meant?"),
-            None => "The solver does not know this key and passes over it".to_string(),
+            Some(near) => format!("The solver does not know this key and ignores it: is '{near}' meant?"),
+            None => "The solver does not know this key and ignores it".to_string(),
         };
         found.doubt([FILE, &surrogate.path_of(&key.text)], "", "", &meant);
     }
 }
 
-/// A model that is compiled in, or a file relative to the case folder.
+/// Loads a model that is compiled in, or one from a file relative to the case folder.
 fn load(
     folder: &Path,
     coefficients: &Dictionary,
@@ -132,7 +132,7 @@ fn load(
     Some(model)
 }
 
-/// Names of the environment are put in their places, as the solver does.
+/// A path relative to the case folder, with the values of environment variables in it, as the solver expands them.
 fn in_case(folder: &Path, name: &str) -> PathBuf {
     let path = match name.strip_prefix("~/") {
         Some(rest) => std::env::home_dir().unwrap_or_default().join(rest),
@@ -141,7 +141,7 @@ fn in_case(folder: &Path, name: &str) -> PathBuf {
     folder.join(path)
 }
 
-/// `conductivity` of a constant model.
+/// Checks `conductivity` of a constant model.
 fn check_tensor(coefficients: &Dictionary, found: &mut Findings) {
     let Ok(tokens) = coefficients.value("conductivity") else { return };
     let numbers: Vec<f64> = tokens.iter().filter_map(|token| token.text.parse().ok()).collect();
@@ -179,7 +179,7 @@ fn check_policy(surrogate: &Dictionary, model: Option<&dyn Surrogate>, found: &m
     }
 }
 
-/// reduced_pressure becomes reducedPressure.
+/// Name of the field of a state column: reduced_pressure becomes reducedPressure.
 pub fn field_name(column: &str) -> String {
     let mut parts = column.split('_');
     let first = parts.next().unwrap_or_default().to_string();
@@ -229,7 +229,7 @@ fn check_mechanics(
     }
 }
 
-/// A range that depends on the grains.
+/// Checks a value against a range that depends on the grains.
 fn between(
     dictionary: &Dictionary,
     name: &'static str,

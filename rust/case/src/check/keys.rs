@@ -1,22 +1,22 @@
-//! The keys of the solver's dictionaries and what they may hold, as its sources have them.
+//! Tables of the keys of the solver's dictionaries and their allowed values. A test compares them with the solver's sources.
 
 use super::finding::Findings;
 use crate::dictionary::{Dictionary, Entry, joined};
 use msdd_rve::message::number as number_text;
 
-/// What a key holds.
+/// Kind and range of the value of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// A number above 0, of OpenFOAM's dimensions, in a unit.
+    /// A number above 0: its unit, and its dimensions as OpenFOAM writes them.
     Positive(&'static str, &'static str),
-    /// A number of 0 and above, likewise.
+    /// A number of 0 or above: its unit, and its dimensions as OpenFOAM writes them.
     NotNegative(&'static str, &'static str),
-    /// A number from the first to the second, in a unit.
+    /// A number from the first to the second, and its unit.
     Range(f64, f64, &'static str),
     /// One of these words.
     Word(&'static [&'static str]),
     Dictionary,
-    /// Looked at elsewhere, or OpenFOAM's own business.
+    /// Any value here: it is checked elsewhere, or by OpenFOAM itself.
     Any,
 }
 
@@ -96,10 +96,10 @@ pub const ONLINE_RVE: &[Key] = &[
     may("strainTolerance", Kind::Range(1e-6, 0.1, "")),
 ];
 
-/// What is done beyond the region of a model.
+/// What the solver does when a state is outside of the model's trained range.
 pub const POLICY: Kind = Kind::Word(&["clamp", "cutStep", "error", "warn"]);
 
-/// `outOfRegion`; a model may have further columns.
+/// `outOfRegion`; a model may have further state columns.
 pub const OUT_OF_REGION: &[Key] = &[
     may("maxFraction", Kind::Range(0.0, 1.0, "")),
     may("porosity", Kind::Dictionary),
@@ -110,10 +110,10 @@ pub const OUT_OF_REGION: &[Key] = &[
     may("thermalStrain", Kind::Dictionary),
 ];
 
-/// A column in it.
+/// The dictionary of a column in `outOfRegion`.
 pub const SIDES: &[Key] = &[may("below", POLICY), may("above", POLICY)];
 
-/// `equilibriumCoeffs`; residual, maxResidual and slip depend on the grains.
+/// `equilibriumCoeffs`; the ranges of residual, maxResidual and slip depend on the grains.
 pub const EQUILIBRIUM: &[Key] = &[
     may("residual", Kind::Any),
     may("maxIterations", Kind::Range(1.0, 1000.0, "")),
@@ -123,7 +123,7 @@ pub const EQUILIBRIUM: &[Key] = &[
     may("walls", Kind::Dictionary),
 ];
 
-/// A wall in its `walls`.
+/// The dictionary of a wall in `walls` of `equilibriumCoeffs`.
 pub const WALL: &[Key] = &[
     may("type", Kind::Word(&["rigid", "frictionless", "symmetry", "displacement", "pressure"])),
     may("friction", Kind::Range(0.0, 10.0, "")),
@@ -144,7 +144,7 @@ pub const SOLVER: &[Key] = &[
     may("waitLimit", Kind::Range(0.0, 1e9, "s")),
 ];
 
-/// Numbers of `system/controlDict`; all its other keys are OpenFOAM's.
+/// Numbers of `system/controlDict`; all its other keys are checked by OpenFOAM itself.
 pub const CONTROL: &[Key] = &[
     may("startTime", Kind::Range(0.0, 1e300, "s")),
     must("endTime", Kind::Range(-1e300, 1e300, "s")),
@@ -154,7 +154,7 @@ pub const CONTROL: &[Key] = &[
     may("writeInterval", Kind::Positive("s or steps", "")),
 ];
 
-/// Holds a dictionary against the keys that it may have. `known`: further names that are no mistake.
+/// Checks a dictionary against the keys that it may have. `known`: further names that are allowed.
 pub fn check(dictionary: &Dictionary, file: &str, keys: &[Key], known: &[&str], found: &mut Findings) {
     for key in dictionary.keys() {
         let name = key.text.as_str();
@@ -178,7 +178,7 @@ pub fn check(dictionary: &Dictionary, file: &str, keys: &[Key], known: &[&str], 
     }
 }
 
-/// Holds one value against its key.
+/// Checks the value of one key.
 pub fn value(dictionary: &Dictionary, file: &str, key: &Key, found: &mut Findings) {
     let place = dictionary.path_of(key.name);
     let allowed = key.kind.allowed();
@@ -213,7 +213,7 @@ pub fn value(dictionary: &Dictionary, file: &str, key: &Key, found: &mut Finding
     }
 }
 
-/// A number, which may have its name and its dimensions in front; then these must be as expected.
+/// Reads a number, which may have a name and dimensions in front; the dimensions must then be those given here.
 pub fn number(dictionary: &Dictionary, key: &str, dimensions: &str) -> Option<f64> {
     let tokens = dictionary.value(key).ok()?;
     let (last, front) = tokens.split_last()?;
@@ -232,7 +232,7 @@ fn shown(dictionary: &Dictionary, key: &str) -> String {
 }
 
 impl Kind {
-    /// For messages.
+    /// The allowed values, for messages.
     pub fn allowed(self) -> String {
         match self {
             Self::Positive(unit, dimensions) => format!("> 0 {unit} {}", of(dimensions)).trim().to_string(),
@@ -253,7 +253,7 @@ fn of(dimensions: &str) -> String {
     if dimensions.is_empty() { String::new() } else { format!("{dimensions}, if dimensions are given") }
 }
 
-/// The name that a mistyped one is nearest to, if it is near at all.
+/// The name that is most similar to a mistyped one, if any is similar enough.
 pub fn nearest<'a>(name: &str, names: &[&'a str]) -> Option<&'a str> {
     let far = |other: &str| strsim::damerau_levenshtein(&name.to_lowercase(), &other.to_lowercase());
     let near = names.iter().copied().min_by_key(|other| far(other))?;

@@ -1,4 +1,4 @@
-//! The tables beside the solver's sources, and what they find.
+//! Compares the tables of keys with the solver's sources, and tests the checks that use them.
 
 use super::*;
 use regex::Regex;

@@ -1,4 +1,4 @@
-//! The mesh: from `constant/polyMesh` when it is there, else from `system/blockMeshDict`.
+//! Checks the mesh: that in `constant/polyMesh` when it is there, else the one that `system/blockMeshDict` describes.
 
 use super::finding::Findings;
 use crate::dictionary::{Dictionary, Entry, joined};
@@ -7,16 +7,16 @@ use std::path::Path;
 /// Path in the case folder.
 pub const BLOCKS: &str = "system/blockMeshDict";
 
-/// What other checks need to know.
+/// Properties of the mesh that other checks need.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Names of the patches with their types; empty when they are not known.
     pub patches: Vec<[String; 2]>,
     /// Number of cells.
     pub cells: Option<usize>,
-    /// Cells along x and y, of a single block.
+    /// Number of cells along x and y, if the mesh is a single block.
     pub shape: Option<[usize; 2]>,
-    /// Lower left and upper right corner [m].
+    /// Lower left and upper right corner of the box [m].
     pub bounds: Option<[[f64; 2]; 2]>,
 }
 
@@ -26,20 +26,20 @@ impl Mesh {
         self.patches.iter().map(|[name, _]| name.clone()).collect()
     }
 
-    /// Sides of a cell [m], where all cells are alike.
+    /// Sides of a cell [m], if all cells are equal.
     pub fn cell(&self) -> Option<[f64; 2]> {
         let ([low, high], [nx, ny]) = (self.bounds?, self.shape?);
         Some([(high[0] - low[0]) / nx as f64, (high[1] - low[1]) / ny as f64])
     }
 }
 
-/// Reads what there is of a mesh; `blocks` is `system/blockMeshDict`.
+/// Checks the mesh and returns what is known of it; `blocks` is `system/blockMeshDict`.
 pub fn check(folder: &Path, blocks: Option<&Dictionary>, found: &mut Findings) -> Mesh {
     let mut mesh = Mesh::default();
     if let Some(blocks) = blocks {
         read_blocks(blocks, &mut mesh, found);
     }
-    // What the solver reads is the mesh; blockMeshDict may have been changed after it was made.
+    // The solver reads the mesh in constant/polyMesh; blockMeshDict may have been changed after that was made.
     let boundary = folder.join("constant/polyMesh/boundary");
     if let Ok(text) = msdd_files::read_text(&boundary) {
         match patches_of_mesh(&boundary, &text) {
@@ -90,7 +90,7 @@ fn read_blocks(blocks: &Dictionary, mesh: &mut Mesh, found: &mut Findings) {
     mesh.patches = patches_of_blocks(blocks);
 }
 
-/// The numbers of cells of each `hex ( ... ) ( nx ny nz )`, also with the name of a zone between.
+/// The numbers of cells in each `hex ( ... ) ( nx ny nz )`, also with the name of a zone in between.
 fn cells_in(text: &str) -> Vec<[usize; 3]> {
     let after = |part: &str| {
         let (_, rest) = part.split_once(')')?;
@@ -102,7 +102,7 @@ fn cells_in(text: &str) -> Vec<[usize; 3]> {
     text.split("hex").skip(1).filter_map(after).collect()
 }
 
-/// `boundary ( name { type t; faces (...); } ... )`.
+/// Names and types of the patches in `boundary ( name { type t; faces (...); } ... )`.
 fn patches_of_blocks(blocks: &Dictionary) -> Vec<[String; 2]> {
     let Ok(tokens) = blocks.value("boundary") else { return Vec::new() };
     let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
@@ -132,7 +132,7 @@ fn patches_of_mesh(file: &Path, text: &str) -> Option<Vec<[String; 2]>> {
     Some(patches_in(&words))
 }
 
-/// `nCells:N` of the note in `constant/polyMesh/owner`.
+/// Number of cells, from `nCells:N` in the note of `constant/polyMesh/owner`.
 fn cells_of_mesh(folder: &Path) -> Option<usize> {
     let text = msdd_files::read_text(&folder.join("constant/polyMesh/owner")).ok()?;
     let (_, rest) = text.split_once("nCells:")?;

@@ -1,15 +1,15 @@
-//! Before a run: what is missing, out of range or doubtful in a case folder.
+//! Checks a case folder before a run: finds what is missing, out of range or doubtful.
 //!
 //! | module | what |
 //! |---|---|
-//! | [`finding`] | what is found |
+//! | [`finding`] | the findings |
 //! | [`keys`] | the keys of the solver's dictionaries and what they may hold |
 //! | [`grains`] | `constant/granularProperties` and the model |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
 //! | [`mesh`] | mesh and `system/blockMeshDict` |
 //! | [`fields`] | the fields in `0` |
-//! | [`state`] | the state at the start, as the model knows it |
-//! | [`scales`] | temperatures, lengths and times beside each other |
+//! | [`state`] | the initial state, against the range of the model |
+//! | [`scales`] | temperatures, lengths and times, against each other |
 
 pub mod control;
 pub mod fields;
@@ -86,7 +86,7 @@ pub fn check(folder: &Path) -> Findings {
     found
 }
 
-/// OpenFOAM takes blanks out of paths.
+/// Refuses paths with blanks or quotation marks: OpenFOAM removes blanks from paths and then finds no files.
 fn check_path(folder: &Path, found: &mut Findings) {
     let whole = folder.canonicalize().unwrap_or_default();
     if whole.as_os_str().as_encoded_bytes().iter().any(|byte| b" \t\n\"'".contains(byte)) {
@@ -100,7 +100,7 @@ fn check_path(folder: &Path, found: &mut Findings) {
     }
 }
 
-/// Reads what is there and says what is missing or cannot be read.
+/// Reads the files of the case, and adds a finding for each that is missing or cannot be read.
 fn read(folder: &Path, found: &mut Findings) -> Vec<(&'static str, Dictionary)> {
     let there = |name: &str| folder.join(name).exists() || folder.join(format!("{name}.gz")).exists();
     let results: Vec<_> = FILES
@@ -124,7 +124,7 @@ fn read(folder: &Path, found: &mut Findings) -> Vec<(&'static str, Dictionary)> 
     files
 }
 
-/// The six numbers of the grains, if all are sound.
+/// The six properties of the grains, if all are valid.
 fn numbers(file: &Dictionary) -> Option<Grains> {
     let value = |key: &str| {
         let text = file.value(key).ok()?.last()?;

@@ -1,4 +1,4 @@
-//! Temperatures, lengths and times of a case beside each other.
+//! Checks temperatures, lengths and times of a case against each other.
 
 use super::control::{CONTROL, Times};
 use super::fields::Values;
@@ -13,25 +13,25 @@ use msdd_rve::message::number;
 
 /// Path in the case folder.
 pub const SOURCES: &str = "constant/fvOptions";
-/// Grains of a cell below which it is doubtful to speak of their mean.
+/// Number of grains in a cell below which a mean over them says little.
 const LEAST_GRAINS: f64 = 4.0;
-/// Mean radii of the narrowest box that is worth it: four grains side by side.
+/// Least width of a box in mean radii: four grains side by side.
 const LEAST_RADII: f64 = 8.0;
 /// Largest thermal strain that the shipped models were trained with [-].
 const MOST_STRAIN: f64 = 0.05;
-/// End over diffusion time between which nothing is said.
+/// Usual range of the end time over the time in which heat spreads; outside of it, the check reports a doubt.
 const USUAL_END: [f64; 2] = [0.02, 50.0];
 
-/// What is known of a case; what is not known is not judged.
+/// The parts of a case that could be read. What is not known is not checked.
 pub struct Scene<'a> {
     mesh: &'a Mesh,
     times: Option<Times>,
-    /// T at the start [K].
+    /// Initial T [K].
     start: Option<&'a Values>,
-    /// Names of walls (patches that are not empty), and the temperatures that each has over time [K]; none for a condition that
-    /// sets no temperature.
+    /// Names of the walls (patches whose type is not `empty`), and the temperatures that each has over time [K]; no
+    /// temperatures for a boundary condition that sets none.
     walls: Vec<(String, Vec<f64>)>,
-    /// Whether a wall has a condition that is neither a temperature nor insulation: then not all is known.
+    /// Whether a wall has a boundary condition other than a temperature or insulation, so that its effect is not known.
     strange: bool,
     /// Heat released [W/m³].
     source: f64,
@@ -89,7 +89,7 @@ impl<'a> Scene<'a> {
         self.walls.push((name.to_string(), values));
     }
 
-    /// Walls that are below 0 K, or that do nothing.
+    /// Reports walls below 0 K, and a case in which nothing heats or cools.
     pub fn check_walls(&self, found: &mut Findings) {
         for (name, values) in &self.walls {
             if let Some(value) = values.iter().find(|value| value.is_nan() || **value < 0.0) {
@@ -121,7 +121,7 @@ impl<'a> Scene<'a> {
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)])
     }
 
-    /// Cells and box beside the grains.
+    /// Checks the sizes of cells and box against that of the grains.
     pub fn check_cells(&self, grains: &Grains, porosity: f64, found: &mut Findings) {
         if let Some([width, height]) = self.mesh.cell() {
             let count = grains_in(width * height, porosity, grains.mean_radius);
@@ -129,7 +129,7 @@ impl<'a> Scene<'a> {
                 let value = format!("{} grains in a cell", number(rounded(count, 2)));
                 let side = number(rounded(crate::scene::CELL_RADII * grains.mean_radius, 2));
                 let advice = format!(
-                    "A cell stands for the mean over its grains, which means little here, however smooth the result looks: make \
+                    "A cell describes the mean over its grains, which says little for so few, even if the result looks smooth: make \
                      cells of about {side} m (fewer of them), or check meanRadius, which is {} m",
                     number(grains.mean_radius)
                 );
@@ -150,7 +150,8 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Thermal strains beside what the model was trained with; `walk` follows one of them, with its temperature.
+    /// Checks the thermal strains against the range that the model was trained with. `walk` is called with a strain and its
+    /// temperature, and follows the state of the bed to this strain.
     pub fn check_strains(
         &self,
         grains: &Grains,
@@ -161,7 +162,7 @@ impl<'a> Scene<'a> {
         let Some(start) = self.start else { return };
         let initial = start.mean(0);
         let [least, most] = self.range(start.numbers.iter().map(|value| value[0]));
-        // A steady source heats by q L²/(2 K) at the far end of the way.
+        // In the steady state, a source q raises T by q L²/(2 K) at the distance L from the wall.
         let rise = self.way().map_or(0.0, |way| self.source * way * way / (2.0 * bed.conductivity));
         for temperature in [least + rise.min(0.0), most + rise.max(0.0)] {
             let strain = grains.thermal_expansion * (temperature - initial);
@@ -175,12 +176,12 @@ impl<'a> Scene<'a> {
                 let source = if rise == 0.0 {
                     ""
                 } else {
-                    " (Estimated: what the heat source leads to at last, with the conductivity of the start; grains that swell \
-                     conduct better and get less hot.)"
+                    " (Estimated from the steady state with the heat source and the initial conductivity. Grains that expand \
+                     conduct better, so the bed gets less hot.)"
                 };
                 let advice = format!(
-                    "The strain from the start to the hottest or coldest place is beyond what the model was trained with: it is \
-                     composed of small steps, but whether the result is right has not been measured{source}"
+                    "The strain from the initial to the highest or lowest temperature is outside of what the model was trained with. The \
+                     solver adds it up in small steps, but the accuracy of the result has not been measured{source}"
                 );
                 let advice = advice.as_str();
                 found.doubt(
@@ -195,7 +196,8 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Length over which heat has to spread [m]: half the box between two walls that have a temperature, all of it with one.
+    /// Length over which heat has to spread [m]: half the box between two walls that have a temperature, the whole box when
+    /// only one has.
     fn way(&self) -> Option<f64> {
         let [low, high] = self.mesh.bounds?;
         let warm = |name: &str| self.walls.iter().any(|(wall, values)| wall == name && !values.is_empty());
@@ -210,7 +212,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// End and step beside the time that heat takes.
+    /// Checks the end time and the time step against the time in which heat spreads.
     pub fn check_times(&self, bed: &Bed, found: &mut Findings) {
         let Some(times) = self.times else { return };
         if let Some(way) = self.way() {
@@ -240,7 +242,7 @@ impl<'a> Scene<'a> {
             let crossed = side * side / bed.diffusivity;
             if !times.adaptive && times.step > crossed {
                 let advice = format!(
-                    "Heat crosses a cell in {} s: steps longer than that are stable but smear the beginning. Take shorter ones, or \
+                    "Heat crosses a cell in {} s. Longer steps are stable, but inaccurate at the beginning. Take shorter ones, or \
                      adaptive ones (adjustTimeStep yes, timeScheme secondOrder)",
                     number(rounded(crossed, 2))
                 );

@@ -1,4 +1,4 @@
-//! The state at the start, and where expansion will lead it, as the model of the case knows it.
+//! Checks the initial state against the range of the case's model, and the states to which expansion will lead.
 
 use super::fields::Values;
 use super::finding::Findings;
@@ -10,15 +10,16 @@ use msdd_rve::message::number;
 use msdd_surrogate::Surrogate;
 use msdd_surrogate::surrogate::{Known, MAX_STATE};
 
-/// Porosity [-] beyond which the solver refuses a start without stress: no grains touch. As in networkModel.H.
+/// Porosity [-] above which the solver refuses an initial state without stress, because no grains touch. The same value as in
+/// networkModel.H.
 const UNJAMMED: f64 = 0.22;
-/// Steps in which a thermal strain is walked.
+/// Number of steps in which the model is taken to a thermal strain.
 const WALK: usize = 50;
-/// Mean pressure at the start over that of packings of the same mean porosity, between which nothing is said. Packings that were
-/// prepared with other friction differ by less.
+/// Usual range of the initial mean pressure over that of packings of the same mean porosity; outside of it, the check reports
+/// a doubt. Packings that were prepared with another friction differ by less than this.
 const USUAL_PRESSURE: [f64; 2] = [0.6, 1.6];
 
-/// The fields at the start; stress is OpenFOAM's, tension positive.
+/// The initial fields; stress is OpenFOAM's, tension positive.
 pub struct Start<'a> {
     pub porosity: &'a Values,
     pub fabric_index: &'a Values,
@@ -53,7 +54,7 @@ impl Start<'_> {
     }
 }
 
-/// What other checks need.
+/// Mean properties of the bed, which other checks need.
 pub struct Bed {
     /// Mean of K_xx and K_yy [W/(m K)].
     pub conductivity: f64,
@@ -63,7 +64,7 @@ pub struct Bed {
     pub filled: f64,
 }
 
-/// Checks the state of every cell and gives the properties of the mean one.
+/// Checks the state of every cell and returns the properties of the mean state.
 pub fn check(
     model: &dyn Surrogate,
     start: &Start,
@@ -93,13 +94,13 @@ pub fn check(
     Bed { conductivity, diffusivity: conductivity / storage, filled: 1.0 - porosity }
 }
 
-/// Names of the fields of the model's columns, the thermal strain last.
+/// Names of the fields of the model's state columns, and of the thermal strain at the end.
 fn columns(model: &dyn Surrogate) -> Vec<String> {
     let names = model.state_names().iter().map(|name| field_name(name));
     names.chain(["thermalStrain".to_string()]).collect()
 }
 
-/// For each column and side, how many cells and how far.
+/// For each state column and each side of the trained range: how many cells are outside, and by how much at most.
 fn outside_at_start(model: &dyn Surrogate, start: &Start, scale: f64) -> Vec<[[f64; 2]; 2]> {
     let count = model.state_names().len();
     let mut all = vec![[[0.0; 2]; 2]; count + 1];
@@ -116,7 +117,8 @@ fn outside_at_start(model: &dyn Surrogate, start: &Start, scale: f64) -> Vec<[[f
     all
 }
 
-/// What the case has the solver do there: as regionPolicy.C has it when nothing is given.
+/// What the solver will do with a state outside of the trained range: the value in the case, else the default of
+/// regionPolicy.C.
 fn policy(file: &Dictionary, column: &str, side: &str) -> String {
     let given = file
         .dictionary_at("surrogate")
@@ -160,7 +162,7 @@ fn report_outside(
             );
         }
         _ => {
-            let advice = "The model answers as at the end of its region";
+            let advice = "The model will be evaluated at the nearest end of its trained range";
             found.doubt(
                 [&place, "internalField"],
                 &value,
@@ -171,7 +173,7 @@ fn report_outside(
     }
 }
 
-/// Porosities that packings do not have; whether those that are too large were said.
+/// Reports porosities that packings do not have. Returns whether porosities that are too large were reported.
 fn check_loose(start: &Start, file: &Dictionary, found: &mut Findings) -> bool {
     let [densest, loosest] = crate::packing::POROSITIES;
     let all = || start.porosity.numbers.iter().map(|value| value[0]);
@@ -192,19 +194,19 @@ fn check_loose(start: &Start, file: &Dictionary, found: &mut Findings) -> bool {
     let given = given.and_then(|all| all.dictionary_at("porosity")).and_then(|sides| sides.text("above"));
     let value = format!("up to {}", number(rounded(most, 4)));
     if most > UNJAMMED && given.as_deref().unwrap_or("error") == "error" {
-        let advice = "Discs that fill so little of a plane do not touch, and nothing would conduct: the solver refuses it. \
+        let advice = "Discs that fill so little of a plane do not touch, so the bed would not conduct: the solver refuses it. \
                       'porosity { above clamp; }' in outOfRegion has it treated as the loosest packing";
         found.error(["0/porosity", "internalField"], &value, &format!("at most {UNJAMMED}"), advice);
     } else {
         let advice = format!(
-            "That is looser than all packings that the model was trained with; it answers as for {loosest}"
+            "That is looser than all packings that the model was trained with; it will be evaluated at {loosest}"
         );
         found.doubt(["0/porosity", "internalField"], &value, &format!("at most {loosest}"), &advice);
     }
     true
 }
 
-/// The pressure at the start beside that of packings of the same porosity.
+/// Checks the initial pressure against that of packings of the same porosity.
 fn check_stress(model: &dyn Surrogate, start: &Start, scale: f64, found: &mut Findings) {
     let Some(stress) = start.stress else { return };
     let pressure = -0.5 * (stress.mean(0) + stress.mean(3));
@@ -232,8 +234,8 @@ fn check_stress(model: &dyn Surrogate, start: &Start, scale: f64, found: &mut Fi
     }
 }
 
-/// Walks the mean state to a thermal strain in a box that does not give way, and says what it leaves on the way. `what`: how the
-/// strain comes about.
+/// Takes the mean state to a thermal strain, with the box held fixed, and reports when it leaves the trained range of the
+/// model on the way. `what`: what causes the strain, for the message.
 pub fn walk(
     model: &dyn Surrogate,
     start: &Start,
@@ -249,22 +251,23 @@ pub fn walk(
         let answer = model.evaluate(&state, increment);
         let left = (0..names.len() - 1).find(|&column| {
             let beyond = answer.outside[column][0];
-            // The thin side is left when grains lose contact, which the model knows.
+            // The fabric index is not reported: its range is narrow, and it leaves it when grains lose contact, which the model
+            // can describe.
             beyond != 0.0 && names[column] != "fabricIndex" && step > 0
         });
         if let Some(column) = left {
             let side = if answer.outside[column][0] > 0.0 { "above" } else { "below" };
             let value = format!("a strain of {} at {} K", number(rounded(strain, 3)), number(temperature));
             let advice = format!(
-                "Where grains that cannot move come to this temperature, {} runs {side} what the model was trained with, from a \
-                 strain of {} on. The run may end there; grains that move (mechanics equilibrium) help as long as others give way",
+                "Where grains that cannot move reach this temperature, {} gets {side} the range that the model was trained with, from a \
+                 strain of {} on. The run may end then. With 'mechanics equilibrium' the state changes less, as long as the bed around gives way",
                 names[column],
                 number(rounded(part(step + 1), 2))
             );
             found.doubt(
                 [FILE, "thermalExpansion"],
                 &value,
-                "strains that keep to the region of the model",
+                "strains for which the state stays in the range of the model",
                 &advice,
             );
             return;

@@ -1,4 +1,4 @@
-//! `msdd bench inference`: cost of a surrogate's query.
+//! `msdd bench inference`: time that a surrogate model needs for a query, that is for one step of one cell.
 
 use crate::error::CliError;
 use crate::simd::SimdArgument;
@@ -12,7 +12,9 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 #[derive(Args)]
-#[command(after_help = "All outputs of a query are written: state, conductivity, stress. One thread.")]
+#[command(
+    after_help = "A query is one step of one cell, with all outputs: state, conductivity, stress. One thread."
+)]
 pub struct Arguments {
     /// Model file; may be given several times.
     #[arg(long, value_name = "FILE", required = true)]
@@ -24,7 +26,7 @@ pub struct Arguments {
     simd: SimdArgument,
 }
 
-/// Cells in a batch: one, a register's, a scene's, more than the caches hold.
+/// Numbers of cells in a batch: one cell, a few vector registers, a typical case, and more than fits into the caches.
 const BATCHES: [usize; 4] = [1, 64, 3_000, 1_000_000];
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
@@ -48,15 +50,15 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Many short rounds: one shorter than the time slice of a busy machine is measured undisturbed.
+/// Many short rounds: on a busy machine, some of them fall between two interruptions and are measured undisturbed.
 const ROUNDS: usize = 300;
 
-/// Strains of both signs, small as a solver's.
+/// Strains of both signs, as small as in a step of the solver.
 fn strain(cell: usize) -> f64 {
     1e-5 * ((cell % 7) as f64 - 3.0)
 }
 
-/// Nanoseconds a query in the fastest of several rounds: what the code costs when nothing else disturbs it.
+/// Nanoseconds per query in the fastest of several rounds, the one that other programs have disturbed least.
 fn nanoseconds(model: &dyn Surrogate, cells: usize, queries: usize) -> f64 {
     let start = |cell: usize| {
         let porosity = 0.08 + 0.1 * (cell % 97) as f64 / 97.0;

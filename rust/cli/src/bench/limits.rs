@@ -1,4 +1,4 @@
-//! `msdd bench limits`: how slowly RVEs have to be made, and what is left of them as they lose touch.
+//! `msdd bench limits`: how slowly RVEs have to be packed and strained, and how well models follow them as contacts open.
 
 use crate::error::CliError;
 use crate::progress::Progress;
@@ -16,35 +16,38 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 #[command(
-    after_help = "Periodic boxes of 500 discs, closed along x to a porosity of 0.13. Rates and balances: pressure after a strain \
-against that of the same packing strained slowest and balanced best, mean and rms over the packings [%]. Wall speeds: \
-pressure and porosity that they settle at, mean and standard deviation. Unjamming: stops on one ramp down, beside models that start \
-from the packed state and take 200 increments to each stop."
+    after_help = "Periodic boxes of 500 discs, compressed along x to a porosity of 0.13. Strain rates, and limits of the \
+unbalanced force at which a state counts as equilibrium: difference of the pressure from that of the same packing at the lowest \
+rate and limit, mean and rms over the packings [%]. Wall speeds during packing: pressure and porosity in equilibrium, mean and \
+standard deviation. Unjamming: states of a contraction until hardly any contact is left, beside models that start from the \
+packed state and take 200 increments to each of these states."
 )]
 pub struct Arguments {
     /// Packings to average over.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=1000))]
     packings: u64,
-    /// Models beside the discrete elements as grains lose touch; may be given several times.
+    /// Model file to compare with the discrete elements while contacts open; may be given several times.
     #[arg(long, value_name = "FILE")]
     model: Vec<PathBuf>,
-    /// File for the results (JSON); default: printed.
+    /// JSON file to write; default: the results are printed.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
 const POROSITY: f64 = 0.13;
 const STRAINS: [f64; 2] = [0.02, -0.02];
-/// [1/s], slowest first.
+/// Strain rates [1/s], slowest first.
 const RATES: [f64; 7] = [2e-3, 0.01, 0.02, 0.1, 0.5, 2.0, 10.0];
-/// Mean resultant over mean contact force, best first.
+/// Limits of the unbalanced force at which a state counts as equilibrium: mean resultant force on a grain over mean
+/// contact force [-], strictest first.
 const BALANCES: [f64; 6] = [1e-6, 1e-5, UNBALANCED_LIMIT, 1e-3, 1e-2, 1e-1];
-/// [m/s]
+/// Wall speeds during packing [m/s].
 const SPEEDS: [f64; 6] = [0.01, 0.03, 0.05, 0.2, 1.0, 3.0];
-/// Down to strains where hardly any contact is left.
+/// States of the contraction; at the last of them hardly any contact is left.
 const STOPS: usize = 20;
 const STOP: f64 = -0.005;
-/// Increments of a model between two stops.
+/// Increments that a model takes between two stops. A stop is a strain at which the grains come to equilibrium and are
+/// averaged.
 const INCREMENTS: usize = 200;
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
@@ -93,7 +96,7 @@ fn packed(seed: u64, wall_speed: Option<f64>) -> Result<Packed, CliError> {
     Ok(pack_as(&spec, &preparation, &Material::default())?)
 }
 
-/// The stop at one strain.
+/// Strains a copy of a packing, and returns its state in equilibrium.
 fn strained(packing: &Packed, strain: f64, protocol: Protocol) -> Result<Stop, CliError> {
     let mut simulation = packing.simulation.clone();
     let mut ramp = follow(&mut simulation, &[Strains::thermal(strain)], protocol, |_, _| ())?;
@@ -103,7 +106,7 @@ fn strained(packing: &Packed, strain: f64, protocol: Protocol) -> Result<Stop, C
     }
 }
 
-/// Per strain and rate: pressure [Pa], and whether the forces balanced.
+/// Per strain and rate: pressure [Pa], and whether equilibrium was reached.
 type Measured = Vec<Vec<(f64, bool)>>;
 
 fn measured(
@@ -132,7 +135,7 @@ fn by_balance(packing: &Packed) -> Result<Measured, CliError> {
     measured(packing, &BALANCES, |limit| Protocol { unbalanced_limit: limit, ..Protocol::default() })
 }
 
-/// Differences from the first value, over the packings [%].
+/// Relative differences from the first value: mean and rms over the packings [%].
 fn against_first(packings: &[Measured], values: &[f64], key: &str) -> Vec<Value> {
     let mut rows = Vec::new();
     for (s, strain) in STRAINS.iter().enumerate() {
@@ -159,7 +162,7 @@ fn deviation(values: &[f64]) -> f64 {
     mean(&values.iter().map(|v| (v - middle).powi(2)).collect::<Vec<_>>()).sqrt()
 }
 
-/// A speed at which packing fails is counted, not an error.
+/// Results for each wall speed. A packing that fails at a speed is counted, and does not end the program.
 fn speed_rows(packings: &[[Result<Packed, CliError>; SPEEDS.len()]]) -> Vec<Value> {
     let row = |(k, speed): (usize, &f64)| {
         let all: Vec<Averages> = packings.iter().filter_map(|p| p[k].as_ref().ok()).map(averages).collect();
@@ -181,10 +184,10 @@ fn averages(packing: &Packed) -> Averages {
     msdd_rve::homogenise(&packing.simulation, RegionKind::default())
 }
 
-/// K/k (mean of xx and yy, by the network solved) and pressure [Pa], of the discrete elements and of each model.
+/// K/k (mean of xx and yy, resistor network solved) and pressure [Pa], of the discrete elements and of each model.
 type Point = Vec<[f64; 2]>;
 
-/// From the packed state on, stop by stop.
+/// Contracts a packing from the packed state, stop by stop, by discrete elements and by the models.
 fn unjammed(packing: &Packed, models: &[Box<dyn Surrogate>]) -> Result<Vec<Point>, CliError> {
     let start = averages(packing);
     let path: Vec<Strains> = (1..=STOPS).map(|k| Strains::thermal(STOP * k as f64)).collect();
@@ -204,7 +207,7 @@ fn of_elements(a: &Averages) -> [f64; 2] {
     [0.5 * (a.conductivity_network_xx + a.conductivity_network_yy), a.pressure]
 }
 
-/// What a model makes of the ramp, from the packed state.
+/// Results of a model at the stops of the contraction, from the averages of the packed state on.
 fn composed(model: &dyn Surrogate, start: &Averages) -> Vec<[f64; 2]> {
     let unit = |radius: f64| Material::default().young_modulus * radius;
     let reduced = [start.stress_xx, start.stress_yy].map(|stress| stress / unit(start.mean_radius));

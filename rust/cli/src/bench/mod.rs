@@ -1,4 +1,4 @@
-//! `msdd bench`: speed, as JSON.
+//! `msdd bench`: measures speed, stability limits and rates; prints JSON.
 
 mod inference;
 mod limits;
@@ -16,20 +16,20 @@ use std::time::Instant;
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Cost of a step of the discrete element engine, in all and by stage.
+    /// Time of a step of the discrete element engine, in all and by stage of the step.
     Dem(DemArguments),
-    /// Largest stable mechanical and thermal steps: predicted by the bounds, and measured.
+    /// Largest stable mechanical and thermal time steps: predicted by the bounds, and measured.
     Stability(stability::Arguments),
-    /// How slowly RVEs have to be packed, strained and balanced; what is left of them as grains lose touch.
+    /// How slowly RVEs have to be packed and strained, how well forces have to balance, and how models follow as contacts open.
     Limits(limits::Arguments),
-    /// Cost of a surrogate's query, by size of the batch.
+    /// Time that a surrogate model needs for a step of one cell, by size of the batch.
     Inference(inference::Arguments),
 }
 
 #[derive(Args)]
 #[command(
-    after_help = "Each block of 500 steps starts from the given state and expands it at 0.1 1/s, so that the cost \
-is that of a dense, moving assembly. Without --state, discs are packed isotropically to a porosity of 0.12 first."
+    after_help = "Each block of 500 steps starts from the given state and expands the grains at a strain rate of 0.1 1/s, so \
+that the steps are those of a dense packing in motion. Without --state, discs are packed isotropically to a porosity of 0.12 first."
 )]
 pub struct DemArguments {
     /// Discs to pack when no state is given.
@@ -43,15 +43,16 @@ pub struct DemArguments {
     steps: u64,
     #[command(flatten)]
     simd: SimdArgument,
-    /// Threads of one simulation; small assemblies stay on one.
+    /// Threads of the simulation; small packings use one all the same.
     #[arg(long, default_value_t = 1, value_parser = crate::threads::parser())]
     threads: u32,
-    /// Heat on: the walls are 50 K hotter than the grains (Table 2 of the paper), which then swell by their temperature.
+    /// Simulate heat conduction, too: the walls are 50 K hotter than the grains (Table 2 of the paper), whose expansion then
+    /// follows from their temperatures.
     #[arg(long)]
     heat: bool,
 }
 
-/// Steps from the start state before it is taken again: at most 2 % strain.
+/// Steps before the start state is taken again, so that the strain stays below 2 %.
 const BLOCK: u64 = 500;
 const STRAIN_RATE: f64 = 0.1;
 
@@ -128,17 +129,17 @@ fn measure(start: &Simulation, alone: &Simulation, steps: u64, threads: u32) -> 
         "simd": start.simd(),
         "particle_steps_per_second": 1e9 / per_step,
         "ns_per_particle_step": per_step,
-        // Of the fastest block: what the code costs when nothing else disturbs it.
+        // Of the fastest block, the one that other programs have disturbed least.
         "ns_per_particle_step_best": 1e9 * best / (BLOCK as f64 * particles),
         "ns_per_particle_step_by_stage": by_stage(start, steps.min(BLOCK)),
         "rebuilds": rebuilds,
         "heat_substeps": substeps,
-        // Median over blocks, each taken with the threads and then with one.
+        // Median over blocks; each is timed with all threads and then with one.
         "speed_over_one_thread": gains.get(gains.len() / 2),
     })
 }
 
-/// A run of its own, because looking at the clock costs time.
+/// Time of the stages of a step [ns]. Measured in a separate run, because reading the clock in every stage takes time.
 fn by_stage(start: &Simulation, steps: u64) -> Value {
     let mut nanoseconds = [0.0f64; Stage::ALL.len()];
     let mut simulation = start.clone();

@@ -1,4 +1,4 @@
-//! `msdd bench stability`: the largest stable steps, predicted and measured.
+//! `msdd bench stability`: the largest stable time steps, predicted and measured.
 
 use crate::error::CliError;
 use clap::Args;
@@ -18,7 +18,7 @@ pub struct Arguments {
     /// Porosities to pack 500 discs to.
     #[arg(long, value_delimiter = ',', default_values_t = [0.06, 0.09, 0.12, 0.17])]
     porosity: Vec<f64>,
-    /// States to measure as well.
+    /// State file to measure as well; may be given several times.
     #[arg(long, value_name = "FILE")]
     state: Vec<PathBuf>,
     /// Measure these states under thermal shock, too.
@@ -27,10 +27,10 @@ pub struct Arguments {
 }
 
 const STEPS: u64 = 4000;
-/// Walls above the grains [K], and the steps after which the limits are sought.
+/// Temperature of the walls above that of the grains [K], and the number of steps after which the limits are sought.
 const SHOCK: f64 = 100.0;
 const SHOCK_STEPS: u64 = 500;
-/// Factors on the predicted limit between which the measured one is sought, and how finely.
+/// The measured limit is sought between these factors times the predicted one, by so many bisections.
 const FACTORS: [f64; 2] = [0.5, 2.0];
 const BISECTIONS: u32 = 6;
 

@@ -3,18 +3,18 @@
 use crate::error::CliError;
 use std::io::{self, BufRead};
 
-/// Where answers come from.
+/// Gets values from the user, or takes the proposals.
 pub struct Asker {
-    /// Otherwise all proposals are taken.
+    /// Whether questions are asked; otherwise all proposals are taken.
     pub interactive: bool,
 }
 
 impl Asker {
-    /// The value that was given as an option, else the answer to a question, else the proposal. `help`: what the question is
-    /// about, for somebody who sees it for the first time.
+    /// The value that was given as an option, else the answer to a question, else the proposal. `help`: text that is
+    /// printed before the question and explains it.
     ///
     /// # Errors
-    /// [`CliError::Message`] when a proposal is wrong, or the answers have come to an end.
+    /// [`CliError::Message`] when a proposal cannot be parsed, or the input has ended.
     pub fn value<T>(
         &self,
         given: Option<T>,
@@ -54,7 +54,7 @@ fn wrong(question: &str, value: &str, allowed: &str) -> CliError {
     CliError::Message(format!("{question} = {value}, allowed: {allowed}"))
 }
 
-/// A number; ranges are checked once all is known.
+/// Parses a finite number. Ranges are checked later, when all values are known.
 pub fn number(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 #[command(
-    after_help = "Each line is an error (the solver refuses the case) or a doubt (it runs, but look at the result with care), with file, key, value,
-what is allowed, and what to do. Status 1 with errors, 0 without. Nothing is run and nothing is written; OpenFOAM must be
-installed, since its own program reads the dictionaries.
+    after_help = "Each line is an error (the solver refuses the case) or a doubt (the solver runs it, but the result may be wrong), with file, key,
+value, what is allowed, and what to do. The exit status is 1 with errors, 0 without. Nothing is simulated and nothing is written;
+OpenFOAM must be installed, because its program foamDictionary reads the files.
 
 Example: msdd case check cases/H"
 )]

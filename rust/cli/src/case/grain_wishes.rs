@@ -1,4 +1,4 @@
-//! What a user wishes of the grains of a new case.
+//! The user's choices for the grains of a new case: options, and questions about everything that is not given as one.
 
 use super::ask::{Asker, number};
 use crate::error::CliError;
@@ -8,8 +8,8 @@ use msdd_case::values::plain;
 
 #[derive(Args)]
 pub struct GrainWishes {
-    /// Material of the grains: paper, steel, glass or alumina (values and sources: `msdd case new --list-materials`). Each of
-    /// the values below replaces one of it.
+    /// Material of the grains: paper, steel, glass or alumina (values and sources: `msdd case new --list-materials`). The
+    /// options below replace single values of it.
     #[arg(long, value_name = "NAME", help_heading = "Grains")]
     material: Option<String>,
     /// Density of the grains [kg/m3].
@@ -27,13 +27,13 @@ pub struct GrainWishes {
     /// Linear thermal expansion coefficient of the grains [1/K].
     #[arg(long, value_name = "1/K", help_heading = "Grains")]
     thermal_expansion: Option<f64>,
-    /// Mean radius of the grains [m]; radii are uniform between 0.6 and 1.4 of it.
+    /// Mean radius of the grains [m]; the radii are uniformly distributed between 0.6 and 1.4 times this value.
     #[arg(long, value_name = "M", help_heading = "Grains")]
     mean_radius: Option<f64>,
 }
 
 impl GrainWishes {
-    /// The named material that was begun with, what to call the result, and the grains.
+    /// The named material that was chosen first, the name of the material as changed by the user, and the grains.
     pub fn ask(&self, asker: &Asker) -> Result<(&'static Preset, String, Grains), CliError> {
         let base = match &self.material {
             Some(name) => preset(name)?,
@@ -75,7 +75,7 @@ impl GrainWishes {
         Ok((base, material, asked))
     }
 
-    /// Asks for the values that no option says.
+    /// Asks for the values of the material that are not given as options.
     fn ask_values(&self, asker: &Asker, from: Grains) -> Result<Grains, CliError> {
         let given = [
             self.density,
@@ -101,7 +101,7 @@ impl GrainWishes {
                 "The linear thermal expansion coefficient. Times the change of temperature it should stay below 0.05.",
                 "Thermal expansion [1/K]",
             ),
-            ("The mean radius; radii are uniform between 0.6 and 1.4 of it.", "Mean radius [m]"),
+            ("The mean radius; radii are uniform between 0.6 and 1.4 times it.", "Mean radius [m]"),
         ];
         let mut values = from.named().map(|(_, value, _)| value);
         for ((value, given), (help, question)) in values.iter_mut().zip(given).zip(questions) {

@@ -1,4 +1,4 @@
-//! `msdd case`: case folders of the solver, begun and checked.
+//! `msdd case`: makes and checks case folders of the solver.
 
 mod ask;
 mod check;
@@ -11,9 +11,9 @@ use clap::Subcommand;
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Begin a case of your own: asks for what is not given, packs grains, writes a folder that runs.
+    /// Make a new case: asks for what is not given as an option, packs grains, and writes a folder that is ready to run.
     New(Box<new::Arguments>),
-    /// Say before a run what is missing, out of range or doubtful in a case folder.
+    /// Check a case folder before the run: lists what is missing, out of range or doubtful.
     Check(check::Arguments),
 }
 

@@ -16,8 +16,8 @@ use std::sync::Mutex;
 
 #[derive(Args)]
 #[command(
-    after_help = "On a terminal it asks for whatever is not given as an option, with a proposal for each; an empty answer takes it.
-Without a terminal, or with --yes, the proposals are taken.
+    after_help = "On a terminal the program asks for everything that is not given as an option, and proposes a value; an empty answer \
+takes the proposal. Without a terminal, or with --yes, all proposals are taken.
 
 Examples:
   msdd case new bed                                   asks
@@ -25,33 +25,33 @@ Examples:
   msdd case new bed --yes --material glass --box 0.05x0.02 --left 350 --pressure 2e6
   msdd case new bed --yes --box 0.5x0.2 --left insulated --right insulated --top 50 --bottom 50 --heat-source 3000
 
-Then: bed/Allrun. The folder stands for itself: it may lie anywhere and be copied."
+Then: bed/Allrun. The folder needs no files of other cases, so it may stand anywhere and be copied."
 )]
 pub struct Arguments {
-    /// The new case folder; missing or empty.
+    /// The new case folder; it must not exist yet, or be empty.
     #[arg(required_unless_present = "list_materials")]
     folder: Option<PathBuf>,
-    /// Take the proposal for all that is not given, without asking.
+    /// Ask nothing: take the proposed value of everything that is not given as an option.
     #[arg(long, visible_alias = "non-interactive", conflicts_with = "ask")]
     yes: bool,
-    /// Ask even if the input is no terminal: one answer a line.
+    /// Ask even if the input is not a terminal; answers are read line by line.
     #[arg(long)]
     ask: bool,
     /// Write into a folder that is not empty: files of the same name are replaced, all others stay.
     #[arg(long)]
     force: bool,
-    /// List the materials that have a name, with their values and sources.
+    /// List the materials that can be named by --material, with their values and sources.
     #[arg(long)]
     list_materials: bool,
     #[command(flatten)]
     wishes: Wishes,
-    /// Boxes of 500 grains that are packed and averaged for the start.
+    /// Number of boxes of 500 grains that are packed to find the initial state; their averages are averaged.
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = "Packing at the start")]
     packings: u32,
-    /// Seed of the first of them.
+    /// Seed of the random numbers for the first box; each further box has the next one.
     #[arg(long, default_value_t = 1, help_heading = "Packing at the start")]
     seed: u64,
-    /// Default: all processor cores. The results do not depend on it.
+    /// Number of threads; the results do not depend on it. Default: all processor cores.
     #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
     threads: u32,
     /// MSDD's checkout, whose solver the case will run. Default: the one that this program was built in.
@@ -107,7 +107,8 @@ fn packed(scene: &Scene, arguments: &Arguments) -> Result<msdd_case::packing::Pa
     Ok(packing)
 }
 
-/// The folder with the solver: the one that was named, one above this program, or the one that it was compiled in.
+/// The checkout with the solver: the one that was named, else the one that contains this program, else the one that it was
+/// compiled in.
 fn checkout(named: Option<&Path>) -> Result<PathBuf, CliError> {
     let is_checkout = |folder: &Path| folder.join("scripts/foam-env").is_file();
     let missing = |folder: &Path| {

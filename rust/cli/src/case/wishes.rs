@@ -1,4 +1,4 @@
-//! What a user wishes of a new case: options, and questions about what no option says.
+//! The user's choices for a new case: options, and questions about everything that is not given as an option.
 
 use super::ask::{Asker, number};
 use super::grain_wishes::GrainWishes;
@@ -12,7 +12,7 @@ use msdd_case::values::{describe, plain};
 use msdd_case::walls::WallOverTime;
 use msdd_rve::Compression;
 
-/// Temperature of the hot wall over that of the start that is proposed [K]; for the paper's grains, a strain of 5 %.
+/// Proposed difference between the hot wall's temperature and the initial one [K]; the paper's grains strain by 5 % then.
 const HOTTER: f64 = 50.0;
 
 #[derive(Args)]
@@ -20,55 +20,55 @@ pub struct Wishes {
     /// Width x height of the box [m], such as 0.6x0.2.
     #[arg(long = "box", value_name = "WxH", value_parser = parse_pair::<f64>, help_heading = "Box")]
     size: Option<[f64; 2]>,
-    /// Cells along x and y, such as 30x10. Default: cells of 4.3 mean radii, which hold nearly five grains, but not more than
-    /// 100 along the longer side.
+    /// Number of cells along x and y, such as 30x10. Default: cells with sides of 4.3 mean radii, which hold nearly five
+    /// grains, but at most 100 along the longer side.
     #[arg(long, value_name = "NXxNY", value_parser = parse_pair::<usize>, conflicts_with = "cell_size", help_heading = "Box")]
     cells: Option<[usize; 2]>,
-    /// Side of a cell [m], roughly, instead of their number.
+    /// Approximate side of a cell [m], instead of the number of cells.
     #[arg(long, value_name = "M", help_heading = "Box")]
     cell_size: Option<f64>,
-    /// Left wall: a temperature [K], 'insulated', or temperatures over time such as 0:300,60:350 (at 0 s 300 K, at 60 s 350 K,
-    /// straight between).
+    /// Left wall: a temperature [K], 'insulated', or temperatures over time such as 0:300,60:350 (300 K at 0 s, 350 K at 60 s,
+    /// linear between them).
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     left: Option<WallOverTime>,
-    /// Right wall.
+    /// Right wall; values as for the left one.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     right: Option<WallOverTime>,
-    /// Bottom.
+    /// Bottom wall; values as for the left one.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     bottom: Option<WallOverTime>,
-    /// Top.
+    /// Top wall; values as for the left one.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     top: Option<WallOverTime>,
-    /// Temperature at the start, everywhere [K].
+    /// Initial temperature of the whole bed [K].
     #[arg(long, value_name = "K", help_heading = "Walls and temperatures")]
     initial_temperature: Option<f64>,
-    /// Heat released inside of the bed [W/m3 of bed]; negative takes heat away.
+    /// Heat released inside of the bed [W per m3 of bed]; negative for heat that is taken away.
     #[arg(long, value_name = "W/M3", allow_negative_numbers = true, help_heading = "Walls and temperatures")]
     heat_source: Option<f64>,
     #[command(flatten)]
     grains: GrainWishes,
-    /// Share of the plane without grains at the start, overlaps counted once: 0.06 (dense) to 0.19 (loose).
+    /// Initial porosity: share of the plane without grains (overlaps counted once), 0.06 (dense) to 0.19 (loose).
     #[arg(long, value_name = "ETA", conflicts_with = "pressure", help_heading = "Packing at the start")]
     porosity: Option<f64>,
-    /// Pressure at the start [Pa] instead of the porosity, which is then found by packing.
+    /// Initial pressure [Pa] instead of the porosity; the porosity with this pressure is then found by packing.
     #[arg(long, value_name = "PA", help_heading = "Packing at the start")]
     pressure: Option<f64>,
-    /// How the grains were brought together: from all sides alike, or along x alone, as `msdd reference` fills its box (more
-    /// contacts point along x then, and the bed conducts better along x).
+    /// How the grains were compressed: equally from all sides, or along x alone, as `msdd reference` fills its box (then more
+    /// contacts point along x, and the bed conducts better along x).
     #[arg(long, value_enum, help_heading = "Packing at the start")]
     compression: Option<CompressionName>,
-    /// Whether the grains move until their stress is in equilibrium, as grains do, or stay where they are, as in the paper.
+    /// Whether the grains move until the stress is in equilibrium, as real grains do, or stay where they are, as in the paper.
     #[arg(long, value_enum, help_heading = "Computation")]
     mechanics: Option<MechanicsName>,
     /// End of the simulation [s]. Default: the time in which heat spreads over the box.
     #[arg(long, value_name = "S", help_heading = "Computation")]
     end_time: Option<f64>,
-    /// Error of temperature that one time step may make [K]. Default: a thousandth of the range of temperatures.
+    /// Largest error of the temperature that one time step may add [K]. Default: a thousandth of the range of temperatures.
     #[arg(long, value_name = "K", help_heading = "Computation")]
     tolerance: Option<f64>,
-    /// A place where the temperature is recorded [m], such as 0.1,0.05; may be given several times. Default: three along the
-    /// middle.
+    /// Point where the temperature is recorded [m], such as 0.1,0.05; may be given several times. Default: three points along
+    /// the horizontal middle line.
     #[arg(long = "probe", value_name = "X,Y", value_parser = parse_point, help_heading = "Computation")]
     probes: Vec<[f64; 2]>,
 }
@@ -89,7 +89,7 @@ impl Wishes {
     /// The scene, once all questions are answered.
     ///
     /// # Errors
-    /// What cannot be made a case, as [`Scene::check`] says it.
+    /// The errors of [`Scene::check`], when no case can be made from the choices.
     pub fn scene(&self, asker: &Asker) -> Result<Scene, CliError> {
         let (base, material, grains) = self.grains.ask(asker)?;
         let (size, cells) = self.ask_box(asker, grains.mean_radius)?;
@@ -163,7 +163,7 @@ impl Wishes {
 
     fn ask_walls(&self, asker: &Asker, initial: f64) -> Result<[WallOverTime; 4], CliError> {
         let help = "Each wall is insulated, or has a temperature [K], or one that changes over time: 0:300,60:350 is 300 K at \
-                    0 s, 350 K at 60 s, and straight between.";
+                    0 s, 350 K at 60 s, and linear between them.";
         let hot = plain(initial + HOTTER);
         let cold = plain(initial);
         let left = asker.value(self.left.clone(), help, "Left wall", &hot, parse_wall)?;
@@ -174,7 +174,13 @@ impl Wishes {
         ];
         let mut walls = vec![left];
         for (given, name, proposal) in others {
-            walls.push(asker.value(given.clone(), "Likewise.", name, proposal, parse_wall)?);
+            walls.push(asker.value(
+                given.clone(),
+                "Values as for the left wall.",
+                name,
+                proposal,
+                parse_wall,
+            )?);
         }
         walls.try_into().map_err(|_| CliError::Message("four walls".to_string()))
     }
@@ -201,8 +207,8 @@ impl Wishes {
     fn ask_compression(&self, asker: &Asker) -> Result<Compression, CliError> {
         let name = asker.value(
             self.compression,
-            "How the grains were brought together: along x alone (horizontal), as 'msdd reference' does when it fills a box for \
-             comparison, or from all sides alike (isotropic).",
+            "How the grains were compressed: along x alone (horizontal), as 'msdd reference' does when it fills a box for \
+             comparison, or equally from all sides (isotropic).",
             "Compression",
             "horizontal",
             |text| CompressionName::from_str(text, true).map_err(|_| "horizontal, isotropic".to_string()),
@@ -243,7 +249,7 @@ fn parse_start(text: &str) -> Result<Start, String> {
     }
 }
 
-/// What will be made, in lines for the terminal.
+/// Summary of the case that will be made, for the terminal.
 pub fn summary(scene: &Scene) -> String {
     let [width, height] = scene.size.map(plain);
     let walls: Vec<String> = msdd_case::scene::WALLS

@@ -6,10 +6,10 @@ use msdd_rve::database::check::{Report, check};
 use msdd_rve::database::inspect;
 use std::path::PathBuf;
 
-/// Said of a file of an older program: no violation, but worth knowing.
+/// Note on a file of an older program, which is accepted.
 const NO_CHECKSUMS: &str =
-    "there are none, so damage that breaks no law goes unseen; msdd database seal gives it some";
-/// Violations that are printed one by one.
+    "there are none, so damage that violates no exact law is not noticed; msdd database seal adds them";
+/// Largest number of violations that are printed one by one.
 const PRINTED: usize = 20;
 
 #[derive(Args)]

@@ -20,41 +20,41 @@ use std::time::Instant;
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Make the RVEs of a plan, or go on where an earlier run stopped.
+    /// Generate the RVEs of a plan, or continue where an earlier run stopped.
     Generate(GenerateArguments),
-    /// Join the shards of a plan: the file that one process would have made.
+    /// Join the parts (shards) of a plan to the database that a single process would have generated.
     Merge(MergeArguments),
     /// Write a database as CSV, with FILE.columns.csv (units, meaning) and FILE.provenance.json beside it.
     Export(ExportArguments),
-    /// Check checksums, and exact laws on every row; print symmetry, size effects and noise floor. Status 1 when a checksum
-    /// does not agree or a law is violated.
+    /// Check the checksums, and laws that hold exactly for every row; print symmetry, size effects and scatter between
+    /// packings. The exit status is 1 when a checksum does not agree or a law is violated.
     Check(check::Arguments),
-    /// Give a database or CSV of an older program its checksums, if all laws hold on its rows.
+    /// Add checksums to a database or CSV of an older program, if all exact laws hold for its rows.
     Seal(SealArguments),
-    /// Plan RVEs around the states that a solver asked about outside a model's range.
+    /// Write a plan for RVEs around states of a solver's run that were outside of the model's trained range.
     Plan(PlanArguments),
-    /// Draw the inputs with their hulls, and K and sigma against porosity.
+    /// Draw the inputs with their convex hulls, and K and sigma against porosity.
     Plot(plot::Arguments),
 }
 
 #[derive(Args)]
 pub struct GenerateArguments {
-    /// What to make (TOML); see cases/database.
+    /// The plan (TOML), which says what to generate; see cases/database.
     #[arg(long, value_name = "FILE")]
     plan: PathBuf,
     /// The database (SQLite); an existing one of the same plan is completed.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Threads; the rows do not depend on it. Default: all cores.
+    /// Number of threads; the rows do not depend on it. Default: all processor cores.
     #[arg(long, value_parser = crate::threads::parser())]
     threads: Option<u32>,
-    /// Part of the plan, as 3/16; `merge` joins the parts.
+    /// Generate one part of the plan, such as 3/16 for the third of 16; `msdd database merge` joins the parts.
     #[arg(long, value_name = "NUMBER/COUNT", default_value_t)]
     shard: Shard,
     /// Commit of this program, for the provenance; default: the one it was built from.
     #[arg(long, value_name = "TEXT")]
     commit: Option<String>,
-    /// JSON to write: where the time went.
+    /// JSON file to write: how long each part of the work took.
     #[arg(long, value_name = "FILE")]
     timing: Option<PathBuf>,
     #[command(flatten)]
@@ -63,10 +63,11 @@ pub struct GenerateArguments {
 
 #[derive(Args)]
 #[command(
-    after_help = "Then generate the plan, and train on both: msdd train --database OLD --database NEW --out MODEL"
+    after_help = "Afterwards generate the database of the plan, and train a model on the old and the new database: \
+msdd train --database OLD --database NEW --out MODEL"
 )]
 pub struct PlanArguments {
-    /// Cells outside the range, as msddFoam writes them to postProcessing/msddFoam/offenders.json.
+    /// States outside of the trained range, as msddFoam writes them to postProcessing/msddFoam/offenders.json.
     #[arg(long, value_name = "FILE")]
     from: PathBuf,
     /// The plan of the model's database: radii and material are taken from it.
@@ -75,10 +76,10 @@ pub struct PlanArguments {
     /// The plan (TOML) to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Discs in a packing.
+    /// Number of discs in a packing.
     #[arg(long, default_value_t = 500)]
     discs: usize,
-    /// Packings for each porosity and kind of compression.
+    /// Number of packings for each porosity and kind of compression.
     #[arg(long, default_value_t = 4)]
     repeats: u32,
 }
@@ -95,7 +96,7 @@ pub struct MergeArguments {
 
 #[derive(Args)]
 pub struct SealArguments {
-    /// Database, or the CSV that was exported from one; of the latter, FILE.provenance.json alone is written.
+    /// Database, or the CSV that was exported from one; of a CSV only FILE.provenance.json is changed.
     #[arg(value_name = "FILE")]
     database: PathBuf,
 }
@@ -108,7 +109,7 @@ pub struct ExportArguments {
     /// The CSV file; compressed when it ends in .gz.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Significant digits of floats; default: all, so that they read back exactly.
+    /// Significant digits of numbers; default: as many as are needed to read the same numbers again.
     #[arg(long, value_parser = clap::value_parser!(u8).range(3..=17))]
     digits: Option<u8>,
 }
@@ -183,7 +184,7 @@ fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
     report(arguments, &timing)
 }
 
-/// Rows by outcome, and where the time went.
+/// Prints the number of rows by outcome, and how long each part of the work took.
 fn report(arguments: &GenerateArguments, timing: &timing::Timing) -> Result<(), CliError> {
     let records = read(&arguments.out)?.records;
     let mut outcomes: BTreeMap<&str, usize> = BTreeMap::new();

@@ -14,7 +14,8 @@ use std::path::PathBuf;
 
 /// Size of one panel.
 const PANEL: (u32, u32) = (420, 400);
-/// Blue, orange and black of Okabe and Ito: contraction, expansion, hull and packed state.
+/// Blue: contraction, orange: expansion, black: hull and packed state. From the palette of Okabe and Ito, which
+/// colour-blind readers can tell apart.
 const DOWN: RGBColor = RGBColor(0, 114, 178);
 const UP: RGBColor = RGBColor(230, 159, 0);
 const REST: RGBColor = RGBColor(0, 0, 0);
@@ -29,7 +30,7 @@ pub struct Arguments {
     out: PathBuf,
 }
 
-/// What is drawn of one state; the thermal ramps from the packed state, where it bears load.
+/// A state to draw: one of the thermal ramps that start from the packed state, if it bears load.
 struct Point {
     /// η₀, f₀, ε.
     inputs: [f64; 3],
@@ -155,7 +156,7 @@ impl Panel {
             _ => REST,
         };
         let mut points: Vec<_> = distinct(&self.points);
-        // Packed states on top.
+        // Packed states come last, so that they are drawn on top.
         points.sort_by_key(|(_, strain)| *strain == 0.0);
         let circle =
             |([x, y], strain): ([f64; 2], f64)| Circle::new((x, y), 1, colour(strain).mix(0.6).filled());
@@ -164,7 +165,7 @@ impl Panel {
     }
 }
 
-/// Each place once: an SVG circle over another shows nothing.
+/// The points without duplicates: of circles at the same place only the last is visible.
 fn distinct(points: &[([f64; 2], f64)]) -> Vec<([f64; 2], f64)> {
     let mut seen = std::collections::BTreeSet::new();
     let new = |(point, strain): &&([f64; 2], f64)| {
@@ -173,7 +174,7 @@ fn distinct(points: &[([f64; 2], f64)]) -> Vec<([f64; 2], f64)> {
     points.iter().filter(new).copied().collect()
 }
 
-/// Range of the values with 5 % to spare on both sides.
+/// Range of the values with a margin of 5 % on both sides.
 fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
     let spare = 0.05 * (high - low).max(1e-3);
@@ -211,7 +212,7 @@ mod tests {
         let points = points(&records);
         assert_eq!(points.len(), 5);
         let drawn = svg(&inputs(&points)).unwrap();
-        // A packed state that also expands is drawn twice, black over orange; the same place in one colour once.
+        // A place with two colours is drawn twice (a packed state, black, over an expanded one, orange), with one colour once.
         assert_eq!(drawn.matches("<circle").count(), 5 + 4 + 4);
         assert_eq!(drawn.matches(&format!("stroke=\"#{:06X}\" stroke-width=\"2\"", 0)).count(), 3, "{drawn}");
         for label in ["initial porosity", "initial fabric index", "thermal strain"] {

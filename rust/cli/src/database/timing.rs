@@ -1,4 +1,4 @@
-//! Where the time of a generation went.
+//! How long the parts of the generation of a database took.
 
 use crate::error::CliError;
 use msdd_files::write;
@@ -11,13 +11,13 @@ use std::path::Path;
 
 #[derive(Serialize)]
 pub struct Timing {
-    /// Made in this run.
+    /// Number of rows made in this run.
     rows: usize,
     /// Wall time [s].
     seconds: f64,
     rows_per_second: f64,
     threads: usize,
-    /// Seconds of all threads by part of the work; storing runs beside them.
+    /// Time by part of the work, summed over all threads [s]; storing is done by a thread of its own at the same time.
     stages: BTreeMap<&'static str, f64>,
 }
 

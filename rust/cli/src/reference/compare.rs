@@ -1,4 +1,4 @@
-//! `msdd reference compare`: T of a run of the solver beside that of discrete elements.
+//! `msdd reference compare`: temperatures of a run of the solver beside those of discrete elements.
 
 use crate::error::CliError;
 use clap::Args;
@@ -18,7 +18,8 @@ pub struct Arguments {
     /// Result of `msdd reference run` for the same case.
     #[arg(long, value_name = "FILE")]
     discs: PathBuf,
-    /// Range of temperatures [K] that errors are given in per cent of: hottest minus coldest wall or start.
+    /// Range of temperatures [K]: the highest minus the lowest of all walls and the initial state. Errors are given in
+    /// per cent of it.
     #[arg(long, value_name = "K", value_parser = range)]
     range: f64,
 }
@@ -28,7 +29,7 @@ fn range(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "allowed: a number above 0".to_string())
 }
 
-/// Prints the largest difference over time at each probe, and the largest of all without its sign.
+/// Prints the largest difference over time at each probe, and the largest absolute value of all probes.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let discs = Results::read(&arguments.discs)?;
     let solver = temperatures(&arguments.case)?;

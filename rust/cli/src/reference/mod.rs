@@ -1,4 +1,4 @@
-//! `msdd reference`: the box of a case by discrete elements.
+//! `msdd reference`: simulates the whole box of a case by discrete elements.
 
 mod compare;
 mod summary;
@@ -21,13 +21,13 @@ use std::time::{Duration, Instant};
 pub enum Command {
     /// Pack the initial model of a case, and print its statistics beside the paper's.
     Pack(PackArguments),
-    /// Run a case; a killed run resumes.
+    /// Run a case, or continue a run that was killed.
     Run(RunArguments),
-    /// Write the initial fields of the solver from windows of the packed model.
+    /// Write the initial fields of the solver: averages over windows of the packed model around the cells.
     Fields(FieldsArguments),
-    /// Table of results: mean and scatter over the seeds; or how far two runs differ.
+    /// Print a table of results: mean and scatter over the seeds; or the differences of two runs.
     Summary(summary::Arguments),
-    /// How far T of a run of the solver is from that of discrete elements at the probes.
+    /// Print the differences of a run of the solver from discrete elements in the temperatures at the probes.
     Compare(compare::Arguments),
 }
 
@@ -39,11 +39,12 @@ pub struct ModelArguments {
     case: PathBuf,
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Fewer or more discs get a smaller or larger box of the same shape and porosity; default: those that fill the case's box,
-    /// 15000 for H, C and HC.
+    /// Number of discs. The box is scaled, with the same shape and porosity, so that they fill it. Default: as many as fill the
+    /// box of the case, 15000 for H, C and HC.
     #[arg(long)]
     discs: Option<usize>,
-    /// Packed model (state file); packed and written when missing. Default: results/reference/packed_seed<N>.json.
+    /// State file of the packed model; if it does not exist, the model is packed and the file written. Default:
+    /// results/reference/packed_seed<N>.json.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
     #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
@@ -55,7 +56,7 @@ pub struct ModelArguments {
 pub struct PackArguments {
     #[command(flatten)]
     model: ModelArguments,
-    /// Pack again even if there is a model.
+    /// Pack again even if the state file exists.
     #[arg(long)]
     force: bool,
 }
@@ -69,22 +70,22 @@ pub struct RunArguments {
     /// Folder for the results.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// End [s]; default: endTime of the case.
+    /// End of the simulation [s]; default: endTime of the case.
     #[arg(long)]
     end: Option<f64>,
-    /// Between two lines of the time series [s].
+    /// Time between two lines of the time series [s].
     #[arg(long, default_value_t = 0.1)]
     interval: f64,
-    /// Profiles along x over the run.
+    /// Number of times, evenly spaced over the run, at which profiles along x are recorded.
     #[arg(long, default_value_t = 21)]
     profiles: usize,
-    /// Largest mechanical step [s]; default: from the stability bound.
+    /// Largest mechanical time step [s]; default: that of the stability bound.
     #[arg(long)]
     time_step: Option<f64>,
-    /// Seconds between two checkpoints, at least.
+    /// Least time between two checkpoints, from which a killed run continues [s of the clock].
     #[arg(long, default_value_t = 20.0)]
     checkpoint_every: f64,
-    /// Folder for a ParaView series, one state a profile.
+    /// Folder for a ParaView series, with one state for each time at which profiles are recorded.
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
 }
@@ -95,7 +96,7 @@ writes porosity, fabricIndex, fabricConductivity and stress into cases/H/0 for t
 pub struct FieldsArguments {
     #[command(flatten)]
     model: ModelArguments,
-    /// Folder for the fields; default: 0 of the case.
+    /// Folder for the fields; default: the folder 0 of the case.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -127,13 +128,13 @@ impl ModelArguments {
         self.state.clone().unwrap_or_else(|| Path::new("results/reference").join(name))
     }
 
-    /// The packed model: from its file, or packed now and written there.
+    /// The packed model: read from its file, or else packed now and written there.
     fn load(&self, case: &Case) -> Result<Simulation, CliError> {
         let path = self.path(case);
         if !path.exists() {
             self.pack(case)?;
         }
-        // Always as read back, so that a run does not depend on whether it packed the model itself.
+        // The state is always read from the file, so that a run does not depend on whether it packed the model itself.
         let simulation = read_state(&path)?;
         let refused = |error: ReferenceError| CliError::Message(format!("{}: {error}", path.display()));
         check_state(&simulation, case).map_err(refused)?;
@@ -209,7 +210,7 @@ fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
     let name = format!("{}_seed{}", case.name, arguments.model.seed);
     let file = |suffix: &str| arguments.out.join(format!("{name}.{suffix}"));
     let checkpoint = file("checkpoint.json");
-    // Refused now rather than at the end of a long run.
+    // Files that cannot be written are refused now rather than at the end of a long run.
     [&checkpoint, &file("json"), &file("csv")].into_iter().try_for_each(|file| check_target(file))?;
     let begin = Instant::now();
     let results = watched(&case, &start, &spec, &checkpoint, arguments.vtk.as_deref())?;
@@ -228,7 +229,7 @@ fn watched(
     checkpoint: &Path,
     vtk: Option<&Path>,
 ) -> Result<Results, CliError> {
-    // In milliseconds of simulated time.
+    // Progress is counted in milliseconds of simulated time.
     let total = (1e3 * spec.end).ceil() as u64;
     let mut progress = Progress::new("simulated ms", total);
     let io = |error: CliError| ReferenceError::Watch(error.to_string());
@@ -245,7 +246,7 @@ fn watched(
     Ok(results)
 }
 
-/// The state at the last of `times` [s], and the series of all of them.
+/// Writes the state at the last of `times` [s], and the ParaView series file that lists all of them.
 fn write_vtk(folder: &Path, times: &[f64], simulation: &Simulation) -> Result<(), CliError> {
     for (name, text) in [("particles", vtk::particles(simulation)), ("contacts", vtk::contacts(simulation))] {
         let file = |k: usize| format!("{name}_{k:04}.vtp");

@@ -1,4 +1,5 @@
-//! `msdd reference summary`: what the seeds agree on, and what the step size costs.
+//! `msdd reference summary`: mean and scatter over packings of different seeds, or the differences of two runs, for example
+//! with different time steps.
 
 use crate::error::CliError;
 use clap::Args;
@@ -14,22 +15,22 @@ use std::path::PathBuf;
   msdd reference summary results/reference/*_seed?.json --out results/reference/summary.json
   msdd reference summary results/fine/H_seed1.json results/reference/H_seed1.json --differences")]
 pub struct Arguments {
-    /// Results of `msdd reference run`.
+    /// Result file of `msdd reference run`; may be given several times.
     #[arg(required = true, value_name = "FILE")]
     results: Vec<PathBuf>,
-    /// Largest difference of each column of the series of two results, at the times of the first.
+    /// Print the largest difference of each column of the time series of two results, at the times of the first.
     #[arg(long)]
     differences: bool,
-    /// Also write the table as JSON.
+    /// JSON file to write the table to.
     #[arg(long, value_name = "FILE", conflicts_with = "differences")]
     out: Option<PathBuf>,
 }
 
-/// Times at which a case is summed up, over its end: 0, 1, 5, 10 and 20 s of 20.
+/// Times of the table, as shares of the end time: 0, 1, 5, 10 and 20 s of a run of 20 s.
 const MOMENTS: [f64; 5] = [0.0, 0.05, 0.25, 0.5, 1.0];
-/// Columns of the profiles whose scatter at the end is given.
+/// Columns of the profiles whose scatter at the end of the run is printed.
 const PROFILES: [&str; 6] = ["T", "displacement_x", "porosity", "stress_xx", "stress_yy", "stress_xy"];
-/// Columns that are left out of the table: single contacts, single discs.
+/// Columns that are left out of the table, by the start of their names: values of single contacts and single discs.
 const LEFT_OUT: [&str; 2] = ["tangential_force", "mobilised"];
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
@@ -84,7 +85,7 @@ fn table(case: &str, results: &[&Results]) -> Result<Value, CliError> {
     Ok(json!({"seeds": seeds, "times": moments, "mean_and_deviation": columns, "profiles_at_end": profiles}))
 }
 
-/// Five significant digits of the mean, the deviation to the same place.
+/// The mean with five significant digits, and the deviation with as many decimals.
 fn shown_pair(mean: f64, deviation: f64) -> String {
     let size = mean.abs().max(deviation).max(1e-9).log10().floor() as i32;
     let decimals = usize::try_from(4 - size).unwrap_or(0);
@@ -118,7 +119,7 @@ fn profile_scatter(results: &[&Results]) -> Result<Value, CliError> {
     Ok(Value::Object(scatter))
 }
 
-/// Prints how far the second result is from the first.
+/// Prints the differences of the second result from the first.
 fn differences(first: &Results, second: &Results) -> Result<(), CliError> {
     let times = column(first, "time")?;
     let step = |result: &Results| match result.time_step {

@@ -1,4 +1,4 @@
-//! `msdd score`: how good a model is, on packings that it never saw.
+//! `msdd score`: errors of a model on packings that were not used in its training.
 
 mod plot;
 
@@ -17,14 +17,14 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Model file; given several times, the models' main figures are set side by side at the end.
+    /// Model file; given several times, the main errors of the models are printed side by side at the end.
     #[arg(long, value_name = "FILE", required = true)]
     model: Vec<PathBuf>,
-    /// Database, or the CSV that was exported from one; given several times, all of them together. When it is the one of
-    /// the training, the packings that were held out then are scored, else all.
+    /// Database, or the CSV that was exported from one; given several times, all of them together. If the model was trained
+    /// on it, the packings that were held out of the training are used, else all.
     #[arg(long, value_name = "FILE", required = true)]
     database: Vec<PathBuf>,
-    /// JSON to write: a list, one entry a model.
+    /// JSON file to write: a list with one entry for each model.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Folder for the plots (SVG): parity, response surfaces.
@@ -66,7 +66,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Increments at which models are set side by side: a solver takes many small ones.
+/// Increments of a strain when models are compared: many, because a solver takes many small ones.
 const MANY: u32 = 500;
 
 fn print_side_by_side(scores: &[Score]) {
@@ -87,7 +87,7 @@ fn print_side_by_side(scores: &[Score]) {
     }
 }
 
-/// What `msdd train` says of a fresh model.
+/// Prints what `msdd train` reports of a new model.
 pub fn print_training(
     model: &dyn Surrogate,
     data: &TrainingData,
@@ -155,7 +155,7 @@ fn print(score: &Score) {
         );
     }
     outln!();
-    outln!("There and back: what is left, relative in % (eta: absolute)");
+    outln!("Strained and strained back: difference from the initial state, relative in % (eta: absolute)");
     for t in &score.there_and_back {
         outln!(
             "{:>+7.3} in {}: p {:.3}, K {:.3}, eta {:.6}",
@@ -169,7 +169,7 @@ fn print(score: &Score) {
     if !score.way_back.is_empty() {
         outln!();
         outln!(
-            "The database's way back to the packed radii; below it, by a model that takes it for virgin strain"
+            "Errors on ramps back to the packed radii; below each, with all strain taken for virgin (as if never reached before)"
         );
         outln!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
         for way in &score.way_back {

@@ -8,7 +8,7 @@ use msdd_surrogate::surrogate::{Known, Surrogate};
 use plotters::prelude::*;
 
 const PANEL: u32 = 320;
-/// Points of a panel at most; more do not show.
+/// Largest number of points of a panel; more could not be told apart.
 const POINTS: usize = 1500;
 const BLUE: RGBColor = RGBColor(0, 114, 178);
 

@@ -1,4 +1,4 @@
-//! The solver's runs beside discrete elements of the same cases: mean and scatter of three packings.
+//! Results of the six cases by discrete elements, mean and scatter of three packings, and the solver's errors against them.
 
 use super::read::{CaseResult, PROBES};
 use crate::error::CliError;
@@ -15,9 +15,9 @@ pub type Band = Vec<(f64, f64, f64)>;
 /// One case by discrete elements.
 #[derive(Clone, Debug, Serialize)]
 pub struct Discs {
-    /// Range of T by which errors are divided [K].
+    /// Range of T that errors are given in per cent of [K].
     pub temperature_range: f64,
-    /// T of windows of 40 mm at the probes [K], by name.
+    /// Mean T over windows of 40 mm around the probes [K], by name of the probe.
     pub temperature: BTreeMap<&'static str, Band>,
     /// Mean pressure of the box [Pa], compression positive.
     pub pressure: Band,
@@ -27,7 +27,7 @@ pub struct Discs {
     pub core_seconds: Option<f64>,
 }
 
-/// Solver minus discs' mean, the largest over time, with its sign.
+/// Differences of a run of the solver from the mean of the discrete elements: the largest over time, with its sign.
 #[derive(Clone, Debug, Serialize)]
 pub struct Errors {
     /// Of T at the probes [% of the range].
@@ -37,23 +37,23 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The largest of the three probes, without its sign [% of the range].
+    /// Largest absolute value of the three probes [% of the range].
     pub fn largest(&self) -> f64 {
         largest(&self.temperature).abs()
     }
 }
 
-/// A case, how it is called, its runs, and discrete elements of it.
+/// A case: its name, the solver's runs, and the discrete elements.
 pub struct Named {
     pub folder: &'static str,
     pub name: &'static str,
-    /// With the paper's scheme, and with grains that move.
+    /// The run with the paper's scheme (grains stay in their cells) and, if there is one, that with grains that move.
     pub stay: CaseResult,
     pub moving: Option<CaseResult>,
     pub discs: Discs,
 }
 
-/// The same for programs.
+/// The same data for the JSON file.
 #[derive(Serialize)]
 pub struct Comparison<'a> {
     discs: &'a Discs,
@@ -114,7 +114,7 @@ impl Discs {
         })
     }
 
-    /// How far `run` is from the mean of the packings. None when it ended before the discs.
+    /// Differences of `run` from the mean of the packings. `None` when the run ended earlier than the discrete elements.
     pub fn errors(&self, case: &str, run: &CaseResult) -> Option<Errors> {
         let end = self.pressure.last()?;
         let of_probe = |probe: &str| -> Option<f64> {
@@ -125,7 +125,7 @@ impl Discs {
             }
             let band = &self.temperature[probe];
             if series[0][0] > 0.0 {
-                // The solver's probes have no value at the start, where all grains have the same T.
+                // The solver's probes record no value at time 0, where all grains have the same T: add it.
                 series.insert(0, [0.0, band[0].1]);
             }
             let differences: Vec<f64> = band
@@ -150,7 +150,7 @@ mod tests {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/reference")
     }
 
-    /// A run that gives back the discs' mean, P3 two kelvin warmer, with a pressure 38 Pa too high.
+    /// A run with the mean temperatures of the discs, but P3 two kelvin warmer, and a pressure 38 Pa too high.
     #[test]
     fn an_offset_is_found_and_the_mean_itself_has_no_error() {
         let discs = Discs::read(&reference(), "HC").unwrap();

@@ -37,7 +37,7 @@ pub fn reference() -> PathBuf {
 pub struct Cases(PathBuf);
 
 impl Cases {
-    /// `name` keeps tests that run at the same time apart.
+    /// Makes the folders. Every test needs another `name`, because tests run at the same time.
     pub fn new(name: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("msdd-summary-{}-{name}", std::process::id()));
         let cases = Self(folder);

@@ -1,4 +1,4 @@
-//! `msdd summary`: what the solver left in the case folders, beside discrete elements of the same cases, as a table, as JSON
+//! `msdd summary`: the solver's results in the case folders beside discrete elements of the same cases, as a table, as JSON
 //! and as a plot.
 
 mod discs;
@@ -20,19 +20,19 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Folder of the case folders H, C, HC, Hstar, Cstar, HCstar, run with the paper's scheme: grains stay in their cells.
+    /// Folder with the case folders H, C, HC, Hstar, Cstar, HCstar after runs with the paper's scheme: grains stay in their cells.
     #[arg(long, value_name = "DIR", default_value = "cases")]
     cases: PathBuf,
-    /// Folder of the same cases, run with grains that move (`mechanics equilibrium`). Without it they are left out.
+    /// Folder with the same cases after runs with grains that move (`mechanics equilibrium`); without it these are left out.
     #[arg(long, value_name = "DIR")]
     moving: Option<PathBuf>,
     /// Folder of the results by discrete elements.
     #[arg(long, value_name = "DIR", default_value = "cases/reference")]
     reference: PathBuf,
-    /// JSON to write.
+    /// JSON file to write.
     #[arg(long, value_name = "FILE", default_value = "results/summary.json")]
     out: PathBuf,
-    /// Plot of T at the three probes in all cases to write (SVG).
+    /// SVG file to write: T at the three probes in all cases.
     #[arg(long, value_name = "FILE", default_value = "results/temperature.svg")]
     plot: PathBuf,
 }
@@ -47,7 +47,7 @@ struct Summary<'a> {
     model: &'a Model,
 }
 
-/// Reads, checks and reports. All cases are read before anything is written.
+/// Reads, checks and reports the cases. All of them are read before anything is written.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let (named, model) = read_all(&arguments.cases, arguments.moving.as_deref(), &arguments.reference)?;
     let json = serde_json::to_string_pretty(&Summary {
@@ -65,8 +65,8 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The six cases in the folder `cases` and, with grains that move, in `moving`, and the one model they were run with: figures of
-/// different models are no comparison.
+/// The six cases in the folder `cases` and, with grains that move, in `moving`, and the model they were run with. Runs with
+/// different models are refused, because their results cannot be compared.
 fn read_all(cases: &Path, moving: Option<&Path>, reference: &Path) -> Result<(Vec<Named>, Model), CliError> {
     let mut named = Vec::new();
     let mut models: Vec<(PathBuf, Model)> = Vec::new();

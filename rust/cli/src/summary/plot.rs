@@ -7,22 +7,23 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 const SIZE: (u32, u32) = (1000, 1020);
-/// Colours of P1, P2, P3: Okabe and Ito's, told apart by the colour-blind, and in grey.
+/// Colours of P1, P2, P3 from the palette of Okabe and Ito, which can be told apart by colour-blind readers and in grey.
 const COLOURS: [RGBColor; 3] = [RGBColor(230, 159, 0), RGBColor(0, 0, 0), RGBColor(0, 114, 178)];
-/// One in so many of the discs' times (0.1 s apart) has a point.
+/// Only every so-manieth time of the discrete elements (0.1 s apart) is drawn as a point.
 const SPARSE: usize = 8;
 
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// The plot's SVG text: a panel a case; dashed the paper's scheme, solid with grains that move, points and bars the discs.
+/// The plot as SVG text: one panel for each case; dashed lines: the paper's scheme, solid lines: grains that move, points
+/// and error bars: discrete elements.
 pub fn temperature(cases: &[Named]) -> Result<String, CliError> {
     let mut svg = String::new();
     draw(cases, &mut svg).map_err(|error| CliError::Message(format!("cannot draw the plot: {error}")))?;
     Ok(svg)
 }
 
-/// Lowest and highest T, rounded outwards to tens of kelvin, 0 to 100 K at least: the walls of the shipped cases.
+/// Range of T of all curves, rounded outwards to tens of kelvin, and at least 0 to 100 K, the range of the shipped cases.
 fn range(cases: &[Named]) -> std::ops::Range<f64> {
     let runs = cases.iter().flat_map(|case| [Some(&case.stay), case.moving.as_ref()]).flatten();
     let values: Vec<f64> =
@@ -47,7 +48,7 @@ fn draw(cases: &[Named], svg: &mut String) -> Drawn {
     Ok(())
 }
 
-/// A row of samples with their names.
+/// The legend: a row of line samples with their names.
 fn legend(area: &Area) -> Drawn {
     let text = |x: i32, words: &str| {
         area.draw(&Text::new(words.to_string(), (x, 22), ("sans-serif", 15).into_font()))

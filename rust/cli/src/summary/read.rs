@@ -1,4 +1,4 @@
-//! What the solver left in one case folder.
+//! Reads the solver's results in one case folder.
 
 use crate::error::CliError;
 use msdd_files::read_text;
@@ -16,13 +16,13 @@ pub type Probes = BTreeMap<&'static str, Vec<(f64, f64)>>;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CaseResult {
     pub wall_seconds: f64,
-    /// Processor time of all processes [s]; absent in what an older solver wrote.
+    /// Processor time of all processes [s]; absent in files of an older solver.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cpu_seconds: Option<f64>,
     pub steps: u64,
     pub queries: u64,
     pub clamped_queries: u64,
-    /// Absent in what an older solver wrote.
+    /// Absent in files of an older solver.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mechanics: Option<Mechanics>,
     pub probes: Probes,
@@ -30,20 +30,20 @@ pub struct CaseResult {
     pub end: End,
 }
 
-/// What equilibrium of the stress needed.
+/// Effort and accuracy of the solution for equilibrium of the stress.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mechanics {
     /// "none" or "equilibrium".
     pub kind: String,
-    /// Steps for which a solution was sought.
+    /// Time steps in which equilibrium was solved for.
     pub solves: u64,
-    /// Iterations of Newton's method, and of linear equations.
+    /// Iterations of Newton's method, and of the solver of its linear equations.
     pub iterations: u64,
     pub linear_iterations: u64,
-    /// Steps that were brought in by parts, and steps left above the residual that was asked for.
+    /// Time steps whose strain had to be applied in parts, and time steps that ended above the tolerance of the residual.
     pub cut_steps: u64,
     pub unconverged_steps: u64,
-    /// Largest residual left [Pa], largest displacement at the end [m].
+    /// Largest residual at the end of a time step [Pa], and largest displacement at the end of the run [m].
     pub residual: f64,
     pub displacement: f64,
 }
@@ -93,7 +93,8 @@ pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
     }
     let solver = solver_summary(&read_text(&path)?)
         .map_err(|text| CliError::Message(format!("{}: {text}", path.display())))?;
-    // Points of OpenFOAM's own probes move with the grains; those of spaceProbes stay.
+    // The points of OpenFOAM's own function object `probes` move with the mesh, that is with the grains; those of spaceProbes
+    // stay where they are.
     let [in_space, with_grains] =
         ["spaceProbes.dat", "T"].map(|name| folder.join("postProcessing/probes/0").join(name));
     let path = if in_space.exists() { in_space } else { with_grains };
@@ -111,7 +112,8 @@ pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
     Ok((result, solver.model))
 }
 
-/// Parses the solver's summary. JSON has no NaN: a run that ended with one does not parse, and the line says why.
+/// Parses the solver's summary. JSON has no NaN, so the summary of a run that ended with one does not parse; the error then
+/// shows the line with the NaN.
 fn solver_summary(text: &str) -> Result<SolverSummary, String> {
     serde_json::from_str(text).map_err(|error| {
         let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default().trim();
@@ -123,7 +125,7 @@ fn solver_summary(text: &str) -> Result<SolverSummary, String> {
     })
 }
 
-/// What OpenFOAM writes for a probe that no cell holds is finite: -VGREAT, -1e300.
+/// OpenFOAM writes the finite number -VGREAT = -1e300 for a probe that lies in no cell; values below this limit are that.
 const OUTSIDE: f64 = -1e299;
 
 /// Rows of OpenFOAM's probes file: time, then one value a probe; comments start with #.

@@ -1,14 +1,14 @@
-//! The tables on the terminal.
+//! The tables of `msdd summary` on the terminal.
 
 use super::discs::{Errors, Named};
 use super::read::{CaseResult, PROBES};
 use std::fmt::Write;
 
-/// Time at which temperatures are shown [s]: the cases differ most in the middle of the heating.
+/// Time at which temperatures are shown [s], in the middle of the heating, where the cases differ most.
 const TIME: f64 = 5.0;
 const WAYS: [&str; 2] = ["grains stay", "grains move"];
 
-/// Value of a series at `time`, or the next within a tenth of a second (adaptive steps).
+/// Value of a series at `time`, or at the next time within 0.1 s, because adaptive steps may not end exactly at `time`.
 fn at(series: &[(f64, f64)], time: f64) -> Option<f64> {
     let near = series.iter().min_by(|a, b| (a.0 - time).abs().total_cmp(&(b.0 - time).abs()))?;
     ((near.0 - time).abs() < 0.11).then_some(near.1)
@@ -18,13 +18,13 @@ fn line(out: &mut String, text: &str) {
     writeln!(out, "{}", text.trim_end()).unwrap_or_default();
 }
 
-/// The runs of a case with the words for them.
+/// The runs of a case, and what they are called in the tables.
 fn runs(case: &Named) -> Vec<(&'static str, &CaseResult)> {
     let moving = case.moving.as_ref().map(|run| (WAYS[1], run));
     [Some((WAYS[0], &case.stay)), moving].into_iter().flatten().collect()
 }
 
-/// Temperatures, errors and cost beside the discs, the state at the end, and what that means in a sentence.
+/// Tables of temperatures, of errors and cost beside the discs, and of the state at the end, and sentences that sum them up.
 pub fn text(cases: &[Named]) -> String {
     let mut out = String::new();
     temperatures(&mut out, cases);
@@ -114,7 +114,7 @@ fn ends(out: &mut String, cases: &[Named]) {
     }
 }
 
-/// What the tables say about the cases with expansion, in words.
+/// Sums up the errors of the cases with expansion in sentences.
 fn sentences(out: &mut String, cases: &[Named]) {
     let expanding: Vec<&Named> = cases.iter().filter(|case| !case.name.ends_with('*')).collect();
     let worst = |run: fn(&Named) -> Option<&CaseResult>| {

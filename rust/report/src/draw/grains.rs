@@ -1,11 +1,11 @@
-//! Grains of a window, to scale, shaded by a value.
+//! Draws the grains in a window, to scale, in colours by a value.
 
 use super::maps::shade;
 use super::{Drawn, FONT, SIZE, responsive};
 use crate::ReportError;
 use plotters::prelude::*;
 
-/// A grain: centre and radius [m], and the value that shades it.
+/// A grain: centre and radius [m], and the value that determines its colour.
 #[derive(Clone, Copy, Debug)]
 pub struct Grain {
     pub at: [f64; 2],
@@ -15,10 +15,11 @@ pub struct Grain {
 
 /// Left and upper edge, and side of the window in the figure [px].
 const WINDOW: (i32, i32, i32) = (30, 34, 420);
-/// Below the window: the scale.
+/// Height of the scale below the window [px].
 const SCALE: i32 = 46;
 
-/// Grains in the square from `low` to `high` [m], dark for 0 to light for `most`, with the scale below, `label` beside it.
+/// Draws the grains in the square from `low` to `high` [m], from dark for the value 0 to light for `most`, with the colour
+/// scale and `label` below.
 ///
 /// # Errors
 /// [`ReportError::Draw`].
@@ -55,9 +56,9 @@ fn draw(
         root.draw(&Circle::new((x, y), radius, shade(grain.value / most.max(1e-300)).filled()))?;
         root.draw(&Circle::new((x, y), radius, BLACK.stroke_width(1)))?;
     }
-    // What reaches over the edge is covered.
+    // The parts of grains outside of the window are covered by white rectangles.
     let (right, bottom) = (left + size, top + size);
-    // Beyond the figure, as grains reach, too
+    // The rectangles reach beyond the figure, because grains do, too
     let (width, end) = (SIZE.0 as i32 + size, height + size);
     for cover in [
         [(0, 0), (left, end)],

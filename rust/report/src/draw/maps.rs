@@ -1,10 +1,10 @@
-//! Maps of sub-regions, values written into their places.
+//! Draws maps of sub-regions with the values written into them.
 
 use super::{Drawn, FONT, SIZE, responsive};
 use crate::ReportError;
 use plotters::prelude::*;
 
-/// Maps of 10 x 3 sub-regions, one below the other on one scale, each value written into its place.
+/// Draws maps of 10 x 3 sub-regions, one below the other with the same colour scale, each value written into its sub-region.
 ///
 /// # Errors
 /// [`ReportError::Draw`].
@@ -28,7 +28,7 @@ fn draw_maps(svg: &mut String, title: &str, digits: usize, named: &[(&str, Vec<f
         let top = 30 + ROW * row as i32;
         root.draw(&Text::new((*name).to_string(), (10, top + 3), (FONT, 13)))?;
         for (k, value) in values.iter().enumerate() {
-            // From the lower left, x first
+            // From the lower left, x index fastest
             let (i, j) = ((k % 10) as i32, (k / 10) as i32);
             let corner = (10 + i * CELL.0, top + 20 + (2 - j) * CELL.1);
             let colour = shade((value - low) / (high - low).max(1e-300));
@@ -47,7 +47,7 @@ fn draw_maps(svg: &mut String, title: &str, digits: usize, named: &[(&str, Vec<f
     Ok(())
 }
 
-/// From dark (0) to light (1), also in grey: five colours of viridis.
+/// Colour from dark (0) to light (1), by five colours of the palette viridis; also in grey, darker means less.
 pub(super) fn shade(share: f64) -> RGBColor {
     const STOPS: [[f64; 3]; 5] = [
         [68.0, 1.0, 84.0],

@@ -1,5 +1,5 @@
-//! Figures as SVG, small enough to be read on a phone: lines and markers on axes, and maps of sub-regions. Colours are Okabe and
-//! Ito's; what differs in colour differs in marker or dash as well.
+//! Draws figures as SVG, small enough to be read on a phone: lines and markers on axes, and maps of sub-regions. Colours are
+//! from the palette of Okabe and Ito; series that differ in colour also differ in marker or dash.
 
 mod grains;
 mod maps;
@@ -41,7 +41,7 @@ pub enum Marker {
     Star,
 }
 
-/// In the order of [`crate::plan::FAMILIES`].
+/// Markers of the kinds of configurations, in the order of [`crate::plan::FAMILIES`].
 pub const MARKERS: [Marker; 9] = [
     Marker::Circle,
     Marker::Square,
@@ -62,10 +62,10 @@ pub enum Line {
     Dotted,
 }
 
-/// How a series looks.
+/// Colour, marker and line of a series.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    /// Index, any number.
+    /// Index of the colour; numbers beyond the last colour start again from the first.
     pub colour: usize,
     pub marker: Marker,
     pub line: Line,
@@ -94,10 +94,10 @@ pub struct Series {
 }
 
 pub struct Axis<'a> {
-    /// With its unit.
+    /// Name of the quantity with its unit.
     pub label: &'a str,
     pub log: bool,
-    /// None: from the points.
+    /// Ends of the axis; `None`: they follow from the points.
     pub range: Option<(f64, f64)>,
 }
 
@@ -119,7 +119,7 @@ impl Axis<'_> {
     }
 }
 
-/// Lines and markers. `title` says which panel of the figure this is.
+/// Draws lines and markers on axes. `title` stands above this panel of the figure.
 ///
 /// # Errors
 /// [`ReportError::Draw`].
@@ -238,7 +238,7 @@ fn outlines(style: Style) -> Vec<(Vec<(i32, i32)>, bool)> {
     }
 }
 
-/// A piece of line with its marker, for a legend beside the text.
+/// A short piece of a line with its marker, for the legend.
 ///
 /// # Errors
 /// [`ReportError::Draw`].
@@ -287,12 +287,12 @@ pub fn from_data(label: &str, log: bool) -> Axis<'_> {
     Axis { label, log, range: None }
 }
 
-/// Text as HTML and SVG hold it.
+/// Text with the characters escaped that have a meaning in HTML and SVG.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// The SVG for a page: as wide as its place, with a name for those who hear it.
+/// The SVG for a page: as wide as the space that it has, and with a title for screen readers.
 fn responsive(svg: &str, title: &str) -> String {
     let body: Vec<&str> = svg.lines().filter(|line| !line.starts_with("<?xml")).collect();
     let body = body.join("\n");

@@ -1,4 +1,4 @@
-//! Ten cycles of 50 K ± 20 K (case `cycle`): solver beside discrete elements.
+//! Ten thermal cycles of 50 K ± 20 K (case `cycle`): the solver compared with discrete elements.
 
 use crate::jobs::job::{Job, Part, SolverJob};
 use crate::jobs::pool::Records;
@@ -11,7 +11,7 @@ use msdd_reference::series::statistics;
 use serde::Serialize;
 use std::path::Path;
 
-/// Pressure over that at the start [-] at the ends of the quarters of the cycles, the start first.
+/// Results of the cycles: pressure over that at the start [-], at the start and at the end of each quarter of a cycle.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cycles {
     pub name: String,
@@ -20,7 +20,7 @@ pub struct Cycles {
     pub anisotropy: f64,
 }
 
-/// A cycle [s]; 50 K at its start, 70 K after a quarter, 30 K after three.
+/// Duration of a cycle [s]. The walls have 50 K at its start, 70 K after a quarter, 30 K after three quarters.
 pub const PERIOD: f64 = 8.0;
 pub const COUNT: usize = 10;
 const SEEDS: [u32; 3] = [21, 22, 23];
@@ -37,7 +37,7 @@ pub fn jobs() -> Vec<Job> {
     ["none", "equilibrium"].map(|mechanics| job(mechanics).into()).to_vec()
 }
 
-/// Pressure at the ends of the quarters over that at the start, the mean of the packings for the discrete elements.
+/// Reads the results of the solver and of the discrete elements (mean of the packings).
 pub fn read(settings: &Settings, records: &Records) -> Vec<Cycles> {
     let mut list = Vec::new();
     for (name, mechanics) in
@@ -46,7 +46,7 @@ pub fn read(settings: &Settings, records: &Records) -> Vec<Cycles> {
         let record = settings.record(records, &job(mechanics).into());
         if let Some(run) = record.and_then(|record| record.run.as_ref()) {
             let start = start(&settings.place.checkout).map(|pressure| [0.0, pressure]);
-            // The solver writes no value at the start.
+            // The solver writes no value at the start: add it.
             let series: Vec<[f64; 2]> = start.into_iter().chain(run.pressure.iter().copied()).collect();
             let [xx, yy] = CONDUCTIVITY.map(|quantity| sub_regions(run, quantity).iter().sum::<f64>());
             list.push(Cycles::new(name, &series, xx / yy));
@@ -66,7 +66,7 @@ fn start(checkout: &Path) -> Option<f64> {
 
 fn elements(checkout: &Path) -> Option<Cycles> {
     let reference = Reference::read(checkout, "cycle", &SEEDS).ok()?;
-    // Grains at the walls lie looser, and the box is small.
+    // The inner region, because grains at the walls are packed more loosely, which matters in this small box.
     let pressure = statistics(&reference.series("pressure_inner"));
     let rows: Vec<[f64; 2]> =
         reference.times().iter().zip(pressure).map(|(&t, (mean, _))| [t, mean]).collect();
@@ -76,7 +76,7 @@ fn elements(checkout: &Path) -> Option<Cycles> {
 }
 
 impl Cycles {
-    /// From a series of time [s] and pressure [Pa], and K_xx/K_yy at its end.
+    /// Makes the results from a series of time [s] and pressure [Pa], and from K_xx/K_yy at its end.
     fn new(name: &str, series: &[[f64; 2]], anisotropy: f64) -> Self {
         let quarter = 0.25 * PERIOD;
         let start = at(series, 0.0);

@@ -1,4 +1,4 @@
-//! Networks in many increments: one strain in more and more of them, and with more and more neurons.
+//! Errors of the neural networks when a strain is divided into many increments, by the number of increments and of neurons.
 
 use crate::jobs::execute::{Outcome, THEN};
 use crate::jobs::job::{Job, ToolJob};
@@ -7,35 +7,35 @@ use crate::settings::Settings;
 use serde::Serialize;
 use serde_json::Value;
 
-/// Drift of a network with the number of increments.
+/// Error of a network by the number of increments. If it grows, the network drifts: errors of increments add up.
 #[derive(Clone, Debug, Serialize)]
 pub struct Drift {
     pub model: String,
     pub strain: f64,
-    /// Increments, rms error of the stress [%].
+    /// Number of increments, rms error of the stress [%].
     pub stress: Vec<[f64; 2]>,
 }
 
-/// Errors of state networks of a size, on packings that training never saw.
+/// Errors of state networks of one size, on packings that were not used in training.
 #[derive(Clone, Debug, Serialize)]
 pub struct Depth {
-    /// Neurons of the rates' and of the readouts' hidden layer.
+    /// Neurons in the hidden layers of the network for the rates, and of the readout.
     pub neurons: [usize; 2],
     pub strain: f64,
-    /// Rms error of the stress [%] in one increment, and in the most.
+    /// Rms error of the stress [%] in one increment, and in the largest number of increments.
     pub once: f64,
     pub composed: f64,
 }
 
 const STRAINS: [f64; 3] = [0.02, -0.02, -0.05];
-/// The shipped model's is the second.
+/// Sizes of the networks; the shipped model has the second one.
 const SIZES: [[usize; 2]; 4] = [[2, 2], [4, 4], [8, 8], [16, 16]];
 
 pub fn jobs() -> Vec<Job> {
     std::iter::once(score()).chain(SIZES.map(sized)).collect()
 }
 
-/// `msdd` with arguments one after the other, and the scores that it writes.
+/// Runs `msdd` with these arguments; the result are the scores that it writes.
 fn scored(arguments: &[&str], inputs: &[&str], limit: u64) -> Job {
     let sources = ["rust/surrogate/src", "rust/rve/src"];
     Job::Tool(ToolJob {
@@ -53,7 +53,7 @@ pub fn score() -> Job {
     scored(&[&arguments[..], &["--json", "WORK/score.json"]].concat(), &[models[0], models[1], database], 600)
 }
 
-/// Trains, then scores.
+/// Trains a network of this size, then scores it.
 fn sized([hidden, readout]: [usize; 2]) -> Job {
     let database = "cases/database/periodic.csv.gz";
     let (hidden, readout) = (hidden.to_string(), readout.to_string());

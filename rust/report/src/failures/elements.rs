@@ -5,11 +5,11 @@ use crate::plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Largest stable steps of 500 discs [s].
+/// Largest stable time steps of 500 discs [s].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StableStep {
     pub porosity: f64,
-    /// Predicted, measured.
+    /// Predicted by the bound, measured.
     pub mechanical: [f64; 2],
     pub thermal: [f64; 2],
 }
@@ -28,37 +28,38 @@ pub struct Limits {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RampRate {
     pub strain: f64,
-    /// [1/s]
+    /// Strain rate [1/s].
     pub rate: f64,
     pub pressure_mean: f64,
     pub pressure_rms: f64,
     pub not_settled: u64,
 }
 
-/// Pressure after a strain with the forces balanced to `unbalanced`, against the best balance [%].
+/// Difference of the pressure after a strain when a state counts as equilibrium at `unbalanced`, from that at the strictest
+/// limit [%].
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Balance {
     pub strain: f64,
-    /// Mean resultant over mean contact force [-].
+    /// Limit of the unbalanced force: mean resultant force on a grain over mean contact force [-].
     pub unbalanced: f64,
     pub pressure_mean: f64,
     pub pressure_rms: f64,
     pub not_settled: u64,
 }
 
-/// Packings closed at a speed: mean and standard deviation.
+/// Packings that were compressed at a speed of the walls: mean and standard deviation.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct WallSpeed {
-    /// [m/s]
+    /// Speed of the walls [m/s].
     pub speed: f64,
     pub failed: u64,
-    /// [Pa]
+    /// Pressure [Pa].
     pub pressure: [f64; 2],
     pub porosity: [f64; 2],
     pub fabric_index: [f64; 2],
 }
 
-/// Means over the packings at a strain, by who was asked.
+/// Means over the packings at a strain, of the discrete elements and of each model.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Unjamming {
     pub strain: f64,
@@ -69,7 +70,7 @@ pub struct Unjamming {
 pub struct Answer {
     /// K/k, mean of xx and yy [-].
     pub conductivity: f64,
-    /// [Pa]
+    /// Pressure [Pa].
     pub pressure: f64,
 }
 
@@ -105,7 +106,7 @@ pub fn limits(quick: bool) -> Job {
     }
 }
 
-/// Lines "porosity 0.06  1.011e-3  1.051e-3  1.04  4.973e-4  4.934e-4  0.99".
+/// Reads lines such as "porosity 0.06  1.011e-3  1.051e-3  1.04  4.973e-4  4.934e-4  0.99".
 pub fn stable_steps(printed: &str) -> Vec<StableStep> {
     let line = |line: &str| -> Option<StableStep> {
         let numbers: Vec<f64> =

@@ -1,12 +1,12 @@
-//! Where methods break: predicted and measured, and what the program does there.
+//! The failure map: where methods lose accuracy or fail, predicted and measured, and what the programs do there.
 //!
 //! | module | what |
 //! |---|---|
-//! | [`rows`] | configurations at the edge: refused, ended, cut, reported? |
-//! | [`elements`] | discrete elements: steps, rates, balance, unjamming |
-//! | [`solver`] | long steps, contrasts, slanted cells |
-//! | [`cycles`] | thermal cycling |
-//! | [`drift`] | networks in many increments |
+//! | [`rows`] | configurations outside of what a method can do, and whether the program refuses, ends, cuts or reports them |
+//! | [`elements`] | discrete elements: time steps, strain rates, limits of equilibrium, loss of contacts |
+//! | [`solver`] | long time steps, contrasts of conductivity, slanted cells |
+//! | [`cycles`] | thermal cycles |
+//! | [`drift`] | networks when a strain is divided into many increments |
 
 pub mod cycles;
 pub mod drift;
@@ -45,7 +45,7 @@ pub fn jobs(quick: bool) -> Vec<Asked> {
     jobs.into_iter().map(|job| Asked { guess: 2.0, job }).collect()
 }
 
-/// The failure map from the records.
+/// Makes the failure map from the records of the jobs.
 pub fn read(settings: &Settings, records: &Records) -> Failures {
     let done =
         |job: &Job| settings.record(records, job).filter(|record| record.outcome == Outcome::Done).cloned();

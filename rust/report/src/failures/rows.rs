@@ -1,5 +1,5 @@
-//! Configurations at the edge of a method. Each was run, and each has to be refused, ended, cut or reported, as its line says.
-//! Adding one is a line in [`edges`].
+//! Configurations at the edge of what a method can do, or beyond. Each is run, and must be refused, ended, cut (repeated with
+//! smaller time steps) or reported, as its entry in [`edges`] says. To add one, add an entry there.
 
 use crate::jobs::execute::{Outcome, Record};
 use crate::jobs::job::{Job, SolverJob};
@@ -9,18 +9,18 @@ use crate::settings::Settings;
 use msdd_reference::solver::Run;
 use serde::Serialize;
 
-/// A configuration at or beyond the edge of a method, and what came of it.
+/// A configuration at or beyond the edge of a method, and how its run ended.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     pub method: String,
     pub condition: String,
-    /// What was to be expected, before it was run.
+    /// What was expected before the run.
     pub predicted: String,
     /// "refused", "ended", "cut", "reported", "done", "stopped at the limit".
     pub behaviour: String,
-    /// Whether it is one of those allowed.
+    /// Whether the behaviour is one of those allowed.
     pub as_allowed: bool,
-    /// What the program said, or what came out.
+    /// The message of the program, or results of the run.
     pub message: String,
 }
 
@@ -33,13 +33,13 @@ pub struct Edge {
     pub job: Job,
 }
 
-/// Nothing was computed.
+/// The program refused to start: nothing was computed.
 const REFUSED: &[&str] = &["refused"];
-/// Stopped with a message.
+/// The run stopped with a message.
 const ENDED: &[&str] = &["ended"];
 const CUT: &[&str] = &["cut"];
 const REPORTED: &[&str] = &["reported"];
-/// Inside of the edge.
+/// The run ended as usual, because the configuration is still inside of the edge.
 const DONE: &[&str] = &["done"];
 
 fn edge(
@@ -69,7 +69,7 @@ fn walls(job: SolverJob, kelvin: &str) -> SolverJob {
     job.temperature(&format!("boundaryField {{ {wall} }}"))
 }
 
-/// In the order of the table.
+/// All configurations, in the order of the table.
 pub fn edges(quick: bool) -> Vec<Edge> {
     [coupling(), region(), unjamming(), equilibrium(), numbers(), scenes(), elements(quick)]
         .into_iter()
@@ -194,7 +194,7 @@ fn equilibrium() -> Vec<Edge> {
     ]
 }
 
-/// Numbers that no material has. OpenFOAM's floating-point traps are on in all runs of this report.
+/// Material and temperature values that no material has. OpenFOAM's floating-point traps are on in all runs of this report.
 fn numbers() -> Vec<Edge> {
     let indefinite = "surrogate { type constant; constantCoeffs { conductivity (10 20 0 10 0 10); } }";
     vec![
@@ -222,7 +222,7 @@ fn numbers() -> Vec<Edge> {
     ]
 }
 
-/// Scenes that a mesh or a model was not made for.
+/// Cases that a mesh or a model was not made for.
 fn scenes() -> Vec<Edge> {
     let lean = |angle: f64| super::solver::slanted(angle, [50, 15], 0);
     vec![
@@ -278,7 +278,7 @@ fn row(edge: &Edge, record: &Record) -> Row {
     let run = record.run.clone().unwrap_or_default();
     let (behaviour, message) = match record.outcome {
         Outcome::Refused => ("refused", record.message.clone()),
-        // A tool that refuses has done nothing yet either.
+        // A tool whose message refuses a value has not computed anything yet, so it counts as refused, too.
         Outcome::Failed if is_refusal(&record.message) => ("refused", record.message.clone()),
         Outcome::Failed => ("ended", record.message.clone()),
         Outcome::TimedOut => ("stopped at the limit", record.message.clone()),
@@ -303,7 +303,8 @@ fn row(edge: &Edge, record: &Record) -> Row {
     }
 }
 
-/// A program's word on a value that it does not allow, before or at its first step; it may have packed a box before.
+/// Whether this is a message about a value that is not allowed, which comes before or at the first step (a box may have been
+/// packed before).
 fn is_refusal(message: &str) -> bool {
     let Some(at) = message.find("msdd: ") else { return false };
     message[at..].starts_with("msdd: t = 0 s") || message[at..].contains(", allowed: ")

@@ -1,4 +1,4 @@
-//! Where the solver's discretisation loses accuracy: long steps, contrasts of conductivity, slanted cells.
+//! Where the discretisation of the solver loses accuracy: long time steps, contrasts of conductivity, slanted cells.
 
 use crate::jobs::job::{BOX, Job, PROBES, SolverJob};
 use crate::jobs::pool::Records;
@@ -7,39 +7,41 @@ use msdd_reference::series::{at, largest};
 use msdd_reference::solver::Run;
 use serde::Serialize;
 
-/// Error in time of the coupled steps, case H on 25 x 8 cells, against adaptive steps of 0.0005 K.
+/// Error in time of a coupling scheme with fixed steps, for case H on 25 x 8 cells, against a run with adaptive steps and a
+/// tolerance of 0.0005 K.
 #[derive(Clone, Debug, Serialize)]
 pub struct Coupling {
     pub scheme: String,
-    /// [s]
+    /// Time step [s].
     pub step: f64,
-    /// Largest error of T at the probes from 1 s on [K]; none when the run ended early.
+    /// Largest error of T at the probes from 1 s on [K]; `None` when the run ended early.
     pub error: Option<f64>,
     pub outcome: String,
     pub message: String,
 }
 
-/// Heat through two halves of different conductivity, at rest.
+/// Steady heat flow through two halves of different conductivity.
 #[derive(Clone, Debug, Serialize)]
 pub struct Contrast {
     /// Larger over smaller conductivity [-].
     pub contrast: f64,
-    /// Along x.
+    /// Number of cells along x.
     pub cells: usize,
-    /// Error of the heat that flows [%]: of the scheme as a chain of resistances, and measured.
+    /// Error of the heat flow [%]: predicted, by the scheme as a chain of thermal resistances, and measured.
     pub predicted: f64,
     pub measured: Option<f64>,
     pub outcome: String,
 }
 
-/// Case H* in a box whose ends lean over.
+/// Case H* in a box whose ends are slanted.
 #[derive(Clone, Debug, Serialize)]
 pub struct Slant {
-    /// Between the line of two centres and the face's normal [degrees].
+    /// Angle between the line through the centres of two cells and the normal of their face [degrees].
     pub angle: f64,
     pub cells: [usize; 2],
     pub correctors: usize,
-    /// Largest error of T at the probes from 0.5 s on, against 200 x 60 cells and five corrections [% of the range].
+    /// Largest error of T at the probes from 0.5 s on, against a run with 200 x 60 cells and five non-orthogonal correctors
+    /// [% of the range].
     pub error: Option<f64>,
     pub outcome: String,
     pub message: String,
@@ -47,14 +49,14 @@ pub struct Slant {
 
 const STEPS: [f64; 9] = [2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005];
 const SCHEMES: [&str; 2] = ["paper", "secondOrder"];
-/// Decades of conductivity, and cells along x.
+/// Contrasts as powers of ten, and numbers of cells along x.
 const DECADES: [i32; 6] = [0, 1, 2, 3, 4, 6];
 const ALONG: [usize; 3] = [10, 30, 100];
 const ANGLES: [f64; 8] = [0.0, 20.0, 40.0, 50.0, 60.0, 70.0, 75.0, 80.0];
-/// Meshes and corrections.
+/// Meshes and numbers of non-orthogonal correctors.
 const SLANTED: [([usize; 2], usize); 3] = [([50, 15], 0), ([50, 15], 3), ([100, 30], 0)];
 const FINE: ([usize; 2], usize) = ([200, 60], 5);
-/// Of case H* [K].
+/// Range of T of case H* [K].
 const RANGE: f64 = 50.0;
 
 pub fn jobs(quick: bool) -> Vec<Job> {
@@ -75,7 +77,7 @@ fn coupled(scheme: &str, step: f64) -> SolverJob {
     job.solution(&format!("msddFoam {{ timeScheme {scheme}; }}"))
 }
 
-/// What the coupled steps are measured against.
+/// The run with very small errors, with which the others are compared.
 fn converged() -> SolverJob {
     SolverJob::coarse("H")
         .control("deltaT 1e-3; adjustTimeStep yes;")
@@ -102,7 +104,7 @@ pub fn coupling(settings: &Settings, records: &Records) -> Vec<Coupling> {
     list
 }
 
-/// Largest difference of T at the probes, at the times that the run has, from `from` on [K].
+/// Largest difference of T at the probes, over the times of the run from `from` [s] on [K].
 fn difference(run: &Run, exact: &Run, from: f64) -> f64 {
     let series = |p: usize| -> Vec<[f64; 2]> { exact.temperature.iter().map(|r| [r[0], r[1 + p]]).collect() };
     let exact = [0, 1, 2].map(series);
@@ -118,7 +120,8 @@ fn contrasts(quick: bool) -> impl Iterator<Item = (i32, usize)> {
     along.iter().flat_map(move |cells| decades.iter().map(move |decades| (*decades, *cells)))
 }
 
-/// Of a plug-in's conductivity: its exponent falls by one for each 0.01 of porosity above 0.10.
+/// A box of two halves whose conductivities differ by 10^`decades`, by the plug-in `contrast.c`: its conductivity falls by a
+/// factor of ten for each 0.01 of porosity above 0.10.
 fn halves(decades: i32, cells: usize) -> SolverJob {
     let porosity = |k: usize| if k < cells / 2 { 0.10 } else { 0.10 + 0.01 * f64::from(decades) };
     let list: Vec<String> = (0..cells).map(|k| porosity(k).to_string()).collect();
@@ -133,14 +136,14 @@ fn halves(decades: i32, cells: usize) -> SolverJob {
     job.mesh = [cells, 1];
     job.uniform = Some([0.1, 0.0]);
     job.plugin = Some("rust/report/plugins/contrast.c".to_string());
-    // Long enough to come to rest, in few steps, at any conductivity.
+    // Long enough for the steady state at any conductivity, in few steps.
     job.end = 5e12;
     job.limit = 60;
     job
 }
 
-/// Resistances per area in a row: half cells at both ends and whole ones between, with the mean conductivity at the face
-/// between the halves. Over those of the two halves; the heat is its inverse.
+/// Predicted error of the heat flow [%]. The scheme is a chain of thermal resistances: half cells at both ends, whole ones
+/// between, and at the face between the halves the mean of the two conductivities. The heat flow is the inverse of their sum.
 fn predicted_contrast(decades: i32, cells: usize) -> f64 {
     let (n, low) = (cells as f64, 10f64.powi(-decades));
     let exact = 0.5 * n * (1.0 + 1.0 / low);
@@ -148,7 +151,7 @@ fn predicted_contrast(decades: i32, cells: usize) -> f64 {
     100.0 * (exact / chain - 1.0)
 }
 
-/// The heat that flows, from T at P3 in the half that conducts less [%].
+/// Measured error of the heat flow, from T at P3 in the half that conducts less [%].
 fn measured_contrast(run: &Run, decades: i32) -> Option<f64> {
     let low = 10f64.powi(-decades);
     let slope = run.temperature.last()?[3] / (BOX[0] - PROBES[2][0]);

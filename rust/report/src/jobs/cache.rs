@@ -1,4 +1,5 @@
-//! Results of jobs on disk, by a hash of all that decides them: the job, the files that it reads, the programs, the processor.
+//! Cache of the results of jobs on disk. The key of a result is a hash of everything that it depends on: the job, the files
+//! that it reads, the programs, the processor.
 
 use crate::jobs::execute::Record;
 use crate::jobs::job::{Job, Part};
@@ -12,11 +13,11 @@ pub struct Cache {
     folder: PathBuf,
     checkout: PathBuf,
     cpu: String,
-    /// Hashes of files and folders that were asked for, which do not change while a report is made.
+    /// Hashes of files and folders that were computed already; files do not change while a report is made.
     known: Mutex<HashMap<PathBuf, String>>,
 }
 
-/// What `msddFoam` is made of.
+/// Files that belong to `msddFoam`.
 const PROGRAMS: [&str; 3] = ["bin/msddFoam", "lib/libgranularModels.so", "lib/libgranularFunctionObjects.so"];
 
 impl Cache {
@@ -37,7 +38,7 @@ impl Cache {
                 for folder in ["0", "constant", "system"] {
                     parts.push(self.hash(&format!("{case}/{folder}"))?);
                 }
-                // A case without expansion includes another one.
+                // A case without expansion includes the files of the case with expansion.
                 let whole = solver.case.trim_end_matches("star");
                 parts.push(self.hash(&format!("cases/{whole}/0"))?);
                 parts.push(self.hash(&format!("cases/{whole}/constant"))?);
@@ -61,7 +62,7 @@ impl Cache {
         Ok(hex(&Sha256::digest(parts.join("\n"))))
     }
 
-    /// Hash of a file, or of all files of a folder with their names; not of results and meshes.
+    /// Hash of a file, or of all files of a folder with their names, but without results and meshes.
     fn hash(&self, path: &str) -> Result<String, ReportError> {
         let path = self.checkout.join(path);
         if let Some(hash) = self.known.lock().ok().and_then(|known| known.get(&path).cloned()) {
@@ -76,7 +77,7 @@ impl Cache {
         Ok(hash)
     }
 
-    /// Where the results are.
+    /// The folder of the results.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

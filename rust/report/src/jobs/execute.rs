@@ -1,4 +1,4 @@
-//! Runs one job. It always ends, within its time limit, in an outcome.
+//! Runs one job. Every job ends within its time limit, and with one of the outcomes.
 
 use super::setup;
 use crate::jobs::job::{Job, SolverJob, ToolJob};
@@ -14,18 +14,18 @@ use std::time::Instant;
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     Done,
-    /// Ended with an error before the first step.
+    /// The job ended with an error before the first step.
     Refused,
-    /// Ended with an error later.
+    /// The job ended with an error later.
     Failed,
-    /// Stopped at its limit of processor time; or, on a busy machine, at [`PATIENCE`] times as much wall time.
+    /// The job was stopped at its limit of processor time or, on a busy machine, at [`PATIENCE`] times as much wall time.
     TimedOut,
-    /// Not asked to run.
+    /// The job was not run, because only results of the cache were wanted.
     NotRun,
 }
 
 impl Record {
-    /// Whether another run would end alike: not when a busy machine kept the job from its processor time.
+    /// Whether another run would have the same outcome. It would not if a busy machine gave the job too little processor time.
     pub fn is_settled(&self) -> bool {
         self.outcome != Outcome::TimedOut || self.cpu_seconds >= 0.9 * self.job.limit() as f64
     }
@@ -46,29 +46,29 @@ impl Outcome {
 /// When and where a job ran.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stamp {
-    /// UTC.
+    /// Date in UTC.
     pub date: String,
-    /// Of the checkout, with a + when files differed from it.
+    /// Commit of the checkout, with a + when files differed from it.
     pub commit: String,
     pub cpu: String,
 }
 
-/// A job and what came out.
+/// A job and its results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     pub job: Job,
     pub outcome: Outcome,
-    /// Why, unless done; of a solver run that is done, its first warning.
+    /// Why the job is not done; for a run of the solver that is done, its first warning.
     pub message: String,
     /// Processor time of the program alone, user and system [s].
     pub cpu_seconds: f64,
     pub wall_seconds: f64,
     pub run: Option<Run>,
-    /// What a tool printed, and the file that was asked for.
+    /// The output of a tool, and the text of the output file that the job names.
     pub printed: String,
     pub file: Option<String>,
     pub stamp: Stamp,
-    /// Taken from the cache; not part of the file.
+    /// Whether the record was taken from the cache; not part of the file.
     #[serde(skip)]
     pub cached: bool,
 }
@@ -77,22 +77,22 @@ pub struct Record {
 #[derive(Clone, Debug)]
 pub struct Place {
     pub checkout: PathBuf,
-    /// The `msdd` that tools are run with.
+    /// The program `msdd` for jobs that run it.
     pub msdd: PathBuf,
-    /// Folders of running jobs.
+    /// Folder for the folders of running jobs.
     pub work: PathBuf,
     pub stamp: Stamp,
 }
 
-/// Between the arguments of two commands of one job, the second of which needs what the first wrote.
+/// Separates the arguments of two commands of one job, which run one after the other.
 pub const THEN: &str = "THEN";
-/// Characters of a message that are kept.
+/// Largest number of characters of a message that are kept.
 const MESSAGE: usize = 400;
 
 /// Runs `job` in a folder of its own, which is removed afterwards.
 ///
 /// # Errors
-/// Only what says nothing about the job: files that cannot be written, a shell that cannot be started.
+/// Only errors that say nothing about the job: files that cannot be written, a shell that cannot be started.
 pub fn execute(place: &Place, job: &Job, name: &str) -> Result<Record, ReportError> {
     let folder = place.work.join(format!("{name}.{}", std::process::id()));
     let _ = std::fs::remove_dir_all(&folder);
@@ -101,7 +101,7 @@ pub fn execute(place: &Place, job: &Job, name: &str) -> Result<Record, ReportErr
         Job::Tool(tool) => run_tool(place, job, tool, &folder),
     };
     let _ = std::fs::remove_dir_all(&folder);
-    // Where it ran says nothing.
+    // The path of the folder is removed from the message, because it differs from run to run.
     let inside = format!("{}/", folder.display());
     record.map(|record| Record { message: record.message.replace(&inside, ""), ..record })
 }
@@ -125,8 +125,9 @@ struct Ended {
 /// On a busy machine a job may take this many times its limit of processor time.
 const PATIENCE: u64 = 6;
 
-/// Runs `preparation`, then `program` with its processor time taken, in `folder`; output in `log`. Status 97: preparation failed.
-/// The limit is processor time, so that the outcome does not depend on what else the machine does.
+/// Runs `preparation`, then `program`, whose processor time is measured, in `folder`, with the output in `log`. The status is
+/// 97 when the preparation fails. The limit is one of processor time, so that the outcome does not depend on what else the
+/// machine does.
 fn timed(
     place: &Place,
     folder: &Path,
@@ -139,7 +140,7 @@ fn timed(
          ulimit -t {limit}\n\
          TIMEFORMAT='%U %S'\n\
          {{ time timeout --kill-after=5 {wall} {program} > log 2>&1; }} 2> cpu\n\
-         exit $?", // as the last command of all bash would replace itself by it, and take no time
+         exit $?", // without it, bash would replace itself by the last command and measure no time
         place.checkout.display(),
         folder.display(),
         wall = PATIENCE * limit,
@@ -152,13 +153,14 @@ fn timed(
         .status()
         .map_err(|error| ReportError::Start { program: "bash".to_string(), problem: error.to_string() })?;
     let cpu = read_text(&folder.join("cpu")).unwrap_or_default();
-    // The last line: above it bash may tell which signal ended the program.
+    // The last line; bash may print a line before it on the signal that ended the program.
     let cpu = cpu.lines().last().unwrap_or_default();
     let cpu = cpu.split_whitespace().filter_map(|word| word.parse::<f64>().ok()).sum();
     Ok(Ended { code: status.code().unwrap_or(137), cpu, wall: began.elapsed().as_secs_f64() })
 }
 
-/// Ended by `timeout` (124), killed (128 + 9) or out of processor time (128 + 24).
+/// Whether a status means that the limit was reached: ended by `timeout` (124), killed (128 + 9), or out of processor time
+/// (128 + 24).
 fn timed_out(code: i32) -> bool {
     [124, 137, 152].contains(&code)
 }
@@ -246,7 +248,7 @@ fn tail(text: &str) -> String {
     short(&lines[lines.len().saturating_sub(3)..].join(" "))
 }
 
-/// The message of OpenFOAM's fatal error, without its frame; else the last lines.
+/// The message of OpenFOAM's fatal error, without the lines around it; else the last lines of the log.
 fn fatal(log: &str) -> String {
     let Some(at) = log.find("FOAM FATAL") else { return tail(log) };
     let body: Vec<&str> = log[at..]
@@ -259,7 +261,7 @@ fn fatal(log: &str) -> String {
     short(&body.join(" "))
 }
 
-/// The first warning of a run, without its frame.
+/// The first warning of a run, without the lines around it.
 fn warning(log: &str) -> String {
     let Some((_, rest)) = log.split_once("FOAM Warning :") else { return String::new() };
     let frame = |line: &&str| ["From ", "in file"].iter().any(|begin| line.trim_start().starts_with(begin));

@@ -1,5 +1,5 @@
-//! Initial fields of the reference, which are on 100 x 30 cells, on other meshes: means by area, so that coarse cells get what
-//! the fine ones hold together, and fine ones copies.
+//! Transfers the initial fields of the reference, which are on 100 x 30 cells, to other meshes: each cell gets the mean over
+//! its area, so that coarse cells have the mean of the fine ones in them, and finer ones have copies.
 
 use crate::ReportError;
 use crate::jobs::job::{BOX, MESH, Part};
@@ -7,7 +7,7 @@ use msdd_reference::solver::nonuniform;
 use std::fmt::Write;
 use std::path::Path;
 
-/// A cell-centred field: for each cell, x first, one number (scalar) or six (symmetric tensor).
+/// A cell-centred field: for each cell, x index fastest, one number (scalar) or six (symmetric tensor).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     pub values: Vec<Vec<f64>>,
@@ -17,7 +17,7 @@ impl Field {
     /// Reads `internalField nonuniform List<...>` of an OpenFOAM field on [`MESH`].
     ///
     /// # Errors
-    /// [`ReportError::Read`] when the file is missing or has not one value a cell of that mesh.
+    /// [`ReportError::Read`] when the file is missing or has not exactly one value for each cell of that mesh.
     pub fn read(file: &Path) -> Result<Self, ReportError> {
         let text = crate::read_text(file)?;
         let wrong = |problem: String| ReportError::Read { file: file.to_path_buf(), problem };
@@ -29,7 +29,7 @@ impl Field {
         Ok(Self { values })
     }
 
-    /// Means by area on `mesh` cells of a part of the box.
+    /// The field on another mesh, of `mesh` cells along x and y, in a part of the box: means over the area of each cell.
     pub fn on(&self, mesh: [usize; 2], part: Part) -> Self {
         let size = part.size();
         let weights = |axis: usize| -> Vec<Vec<(usize, f64)>> {
@@ -52,7 +52,7 @@ impl Field {
         Self { values }
     }
 
-    /// As an OpenFOAM field file.
+    /// The text of an OpenFOAM field file.
     pub fn to_text(&self, name: &str) -> String {
         let (class, list, dimensions) = match self.values.first().map_or(1, Vec::len) {
             1 => ("volScalarField", "scalar", "[0 0 0 0 0 0 0]"),
@@ -96,7 +96,7 @@ mod tests {
         let coarse = ramp().on([10, 3], Part::Whole);
         assert_eq!(coarse.values.len(), 30);
         assert!((coarse.values[0][0] - 5.0).abs() < 1e-12 && (coarse.values[29][0] - 95.0).abs() < 1e-12);
-        // No cell of 100 x 30 begins or ends with one of 7 x 8: the mean stays.
+        // The cells of 7 x 8 do not coincide with edges of those of 100 x 30, but the mean must be the same.
         let odd = ramp().on([7, 8], Part::Whole);
         let mean = odd.values.iter().map(|v| v[0]).sum::<f64>() / 56.0;
         assert!((mean - 50.0).abs() < 1e-9, "{mean}");

@@ -1,4 +1,4 @@
-//! One configuration to run. A job holds all that decides its result but the files that the cache hashes beside it.
+//! One configuration to run. A job contains everything that its result depends on, except the files, which the cache hashes.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -7,23 +7,23 @@ use std::collections::BTreeMap;
 pub const MESH: [usize; 2] = [100, 30];
 /// Width and height of the box of the cases [m] (Fig. 7).
 pub const BOX: [f64; 2] = [2.15, 0.645];
-/// Where T is compared [m] (Fig. 7).
+/// The probes P1, P2, P3, where T is compared [m] (Fig. 7).
 pub const PROBES: [[f64; 2]; 3] = [[0.3225, 0.3225], [1.075, 0.3225], [1.8275, 0.3225]];
 
-/// How much of the box is computed; the cut is a plane of symmetry.
+/// The part of the box that is computed. Where the box is cut, the boundary is a plane of symmetry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Part {
     Whole,
-    /// x up to the middle.
+    /// The left half.
     Half,
-    /// x and y up to the middle.
+    /// The lower left quarter.
     Quarter,
-    /// The box of a case that brings its own: mesh, fields and probes as shipped.
+    /// The box of a case with a box of its own: mesh, fields and probes as shipped.
     Shipped,
 }
 
 impl Part {
-    /// Width and height of what is computed of the box of the cases [m].
+    /// Width and height of the part of the box that is computed [m].
     pub fn size(self) -> [f64; 2] {
         match self {
             Self::Whole | Self::Shipped => BOX,
@@ -32,7 +32,8 @@ impl Part {
         }
     }
 
-    /// The probes inside, P3 at its mirror image P1; a hair inside of the planes of symmetry.
+    /// The probes inside of the part; P3 is replaced by its mirror image P1. Probes on a plane of symmetry are moved slightly
+    /// inwards.
     pub fn probes(self) -> [[f64; 2]; 3] {
         let inside = |[x, y]: [f64; 2]| {
             let size = self.size();
@@ -50,26 +51,26 @@ impl Part {
 pub struct SolverJob {
     /// Folder in `cases`.
     pub case: String,
-    /// Packing whose windows are the initial fields.
+    /// Seed of the packing from whose windows the initial fields are taken.
     pub seed: u32,
     pub mesh: [usize; 2],
     pub part: Part,
-    /// Porosity and fabric index everywhere, instead of the packing's windows.
+    /// Porosity and fabric index of all cells, instead of those of the packing's windows.
     pub uniform: Option<[f64; 2]>,
-    /// Text at the end of files of the case: OpenFOAM merges dictionaries, the last value counts.
+    /// Text that is added at the end of files of the case: OpenFOAM merges dictionaries, and the last value counts.
     pub append: BTreeMap<String, String>,
-    /// End [s].
+    /// End of the simulation [s].
     pub end: f64,
     /// C source of a plug-in, relative to the checkout, which the case finds as `plugin.so`.
     pub plugin: Option<String>,
-    /// The ends of the box lean over by this angle to the right [degrees]; its height stays.
+    /// Angle by which the ends of the box are slanted to the right [degrees]; its height stays the same.
     pub slant: f64,
-    /// Processor time after which it is stopped [s].
+    /// Processor time after which the run is stopped [s].
     pub limit: u64,
 }
 
 impl SolverJob {
-    /// The shipped case with steps of 10 ms.
+    /// The case as shipped, with steps of 10 ms.
     pub fn new(case: &str, seed: u32) -> Self {
         let job = Self {
             case: case.to_string(),
@@ -86,12 +87,12 @@ impl SolverJob {
         job.control("deltaT 1e-2;")
     }
 
-    /// The first packing on few cells, which is enough to see a method break.
+    /// The first packing on a coarse mesh, which is enough to see where a method fails.
     pub fn coarse(case: &str) -> Self {
         Self { mesh: [25, 8], limit: 120, ..Self::new(case, 1) }
     }
 
-    /// `text` at the end of `file`.
+    /// Adds `text` at the end of `file`.
     pub fn with(mut self, file: &str, text: &str) -> Self {
         let entry = self.append.entry(file.to_string()).or_default();
         entry.push_str(text);
@@ -112,14 +113,14 @@ impl SolverJob {
     }
 }
 
-/// A program of this project, by its output.
+/// A run of `msdd`, whose result is its output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ToolJob {
     /// Arguments of `msdd`; `WORK` stands for the folder of the job.
     pub arguments: Vec<String>,
-    /// Files and folders, relative to the checkout, that decide the result beside the arguments.
+    /// Files and folders, relative to the checkout, that the result depends on beside the arguments.
     pub inputs: Vec<String>,
-    /// File in `WORK` whose text is kept.
+    /// Output file in `WORK` whose text is kept.
     pub output: Option<String>,
     pub limit: u64,
 }
@@ -131,7 +132,7 @@ pub enum Job {
 }
 
 impl Job {
-    /// Short, for the progress line.
+    /// Short name for the progress line.
     pub fn name(&self) -> String {
         match self {
             Self::Solver(job) => format!("{} seed {} on {}x{}", job.case, job.seed, job.mesh[0], job.mesh[1]),

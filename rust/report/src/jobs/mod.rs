@@ -5,9 +5,9 @@
 //! | [`job`] | one configuration to run: a case of the solver, or a program |
 //! | [`grid`] | initial fields of the reference on other meshes |
 //! | [`setup`] | the case folder of a job |
-//! | [`execute`] | runs a job; what came out |
-//! | [`cache`] | results of jobs by the hash of what decides them |
-//! | [`pool`] | runs many jobs, some at a time |
+//! | [`execute`] | runs a job and records its results |
+//! | [`cache`] | results of jobs, by a hash of everything that they depend on |
+//! | [`pool`] | runs many jobs, several at the same time |
 
 pub mod cache;
 pub mod execute;

@@ -1,4 +1,4 @@
-//! Runs many jobs, some at a time, from the cache where it has them.
+//! Runs many jobs, several at the same time, and takes results from the cache where it has them.
 
 use crate::ReportError;
 use crate::jobs::cache::Cache;
@@ -9,28 +9,28 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// Results by the job's key.
+/// Results by the key of the job in the cache.
 pub type Records = BTreeMap<String, Record>;
 
-/// How far a set of jobs is.
+/// Progress of a set of jobs.
 pub struct Progress<'a> {
     pub done: usize,
     pub total: usize,
-    /// Processor-independent guess of what is done and of all [s].
+    /// Estimated times of the jobs that have run and of all jobs that have to run [s].
     pub work: [f64; 2],
-    /// Of jobs that ran now.
+    /// Time that has passed since the first job was started [s].
     pub elapsed: f64,
     pub last: &'a str,
 }
 
-/// A job and a guess of its wall time [s], which serves the time left only.
+/// A job and an estimate of its wall time [s], which is only used to show the time left.
 #[derive(Clone, Debug)]
 pub struct Asked {
     pub job: Job,
     pub guess: f64,
 }
 
-/// What the cache has of the jobs.
+/// The results of the jobs that the cache has.
 ///
 /// # Errors
 /// [`ReportError::Read`] for a file of a job that is missing; [`ReportError::Empty`] when the cache has nothing.
@@ -48,10 +48,10 @@ pub fn found(cache: &Cache, jobs: &[Asked]) -> Result<Records, ReportError> {
     }
 }
 
-/// Runs the jobs that the cache does not have, `at_a_time`; each once.
+/// Runs the jobs that the cache does not have, each once, `at_a_time` at the same time.
 ///
 /// # Errors
-/// The first error that is none of a job: jobs under way are finished first.
+/// The first error that is not the outcome of a job. Jobs that are running are finished first.
 pub fn run(
     cache: &Cache,
     place: &Place,

@@ -1,25 +1,26 @@
-//! The case folder of a job: the shipped case, its mesh, the initial fields of a packing, what is written, and the job's keys.
+//! Makes the case folder of a job: the shipped case, its mesh, the initial fields of a packing, the function objects that write
+//! results, and the job's own keys.
 
 use crate::jobs::grid::Field;
 use crate::jobs::job::{Part, SolverJob};
 use crate::{ReportError, read_text, write_text};
 use std::path::Path;
 
-/// Fields that start from the windows of a packing.
+/// Fields whose initial values are taken from the windows of a packing.
 pub const FIELDS: [&str; 4] = ["porosity", "fabricIndex", "fabricConductivity", "stress"];
-/// Between two values of a series [s], unless steps are longer.
+/// Time between two values of a series [s], unless steps are longer.
 const INTERVAL: f64 = 0.1;
 
 /// Writes the case of `job` into `folder`.
 ///
 /// # Errors
-/// Files of the case that cannot be read, or written.
+/// When files of the case cannot be read or written.
 pub fn write_case(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(), ReportError> {
     let case = checkout.join("cases").join(&job.case);
     let shipped = job.part == Part::Shipped;
     for part in ["0", "constant", "system"] {
         for file in msdd_files::list(&case.join(part))? {
-            // Not the mesh that a run by hand left, which is a folder, and not the fields, which follow.
+            // Folders (such as the mesh of an earlier run by hand) are not copied, nor are the fields, which are made below.
             let field = FIELDS.iter().any(|name| file.ends_with(format!("0/{name}")));
             if file.is_dir() || (field && !shipped) {
                 continue;
@@ -37,7 +38,7 @@ pub fn write_case(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(),
     write_fields(checkout, job, folder)
 }
 
-/// What every job has at the end of a file, before its own keys.
+/// Text that every job adds at the end of a file, before its own keys.
 fn defaults(name: &str, job: &SolverJob) -> String {
     match name {
         "system/controlDict" => control(job),
@@ -65,7 +66,8 @@ fn control(job: &SolverJob) -> String {
     )
 }
 
-/// The box of the cases or a part of it. Names of the walls as in `cases/common/blockMeshDict`; cuts are planes of symmetry.
+/// blockMeshDict of the cases' box or a part of it. Walls have the names of `cases/common/blockMeshDict`; where the box is
+/// cut, the patch is a plane of symmetry.
 fn mesh(job: &SolverJob) -> String {
     let [width, height] = job.part.size();
     let [nx, ny] = job.mesh;
@@ -92,7 +94,7 @@ fn write_fields(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(), R
     let cells = job.mesh[0] * job.mesh[1];
     let keys = |name: &str| job.append.get(&format!("0/{name}")).map_or("", String::as_str);
     if let Some(values) = job.uniform {
-        // Without the other two the model's mean for these stands in.
+        // The other two fields are left out: the solver then uses the model's mean for the given ones.
         for (name, value) in FIELDS.iter().zip(values) {
             let field = Field { values: vec![vec![value]; cells] };
             write_text(&folder.join("0").join(name), &(field.to_text(name) + keys(name)))?;
@@ -107,8 +109,8 @@ fn write_fields(checkout: &Path, job: &SolverJob, folder: &Path) -> Result<(), R
     Ok(())
 }
 
-/// Commands that make the mesh, and the plug-in where it is needed, which msddFoam may then load as root, too; in the case
-/// folder.
+/// Commands, run in the case folder, that make the mesh and, if the job has a plug-in, compile it and name it in
+/// MSDD_ALLOW_PLUGINS, because msddFoam loads no other plug-ins when it runs as root.
 pub fn preparation(checkout: &Path, job: &SolverJob) -> String {
     let mut commands = "blockMesh > log.blockMesh 2>&1".to_string();
     if let Some(source) = &job.plugin {
@@ -144,7 +146,7 @@ mod tests {
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// Where jobs run as root, msddFoam loads the plug-in by its name alone.
+    /// Jobs may run as root, where msddFoam loads a plug-in only if the environment names it.
     #[test]
     fn a_plugin_is_compiled_and_named() {
         let mut job = SolverJob::new("H", 1);

@@ -1,4 +1,4 @@
-//! Beyond the six cases: order in time, sensitivity, another scene and another material.
+//! Section of the page beyond the six cases: order in time, sensitivity, another geometry and another material.
 
 use super::html::{Figure, case_name, fixed, table};
 use crate::ReportError;
@@ -79,8 +79,8 @@ fn sensitivity(made: &Made) -> String {
         ["'changed", "T in H [%]", "C [%]", "HC [%]", "pressure in H [%]", "C [%]", "displacement in HC [%]"];
     format!(
         "<h3>Sensitivity</h3>\n<p>Nothing is fitted to these runs: wall friction, shear modulus and stiffness come from the database of small boxes, sinPhi is the default of 0.35. \
-         Each changed, packing 1: largest error of T at P1 to P3, of the pressure off the walls (% of the ranges), and of the \
-         displacement (% of the largest).</p>\n{}",
+         In each row one of them is changed; packing 1. Largest errors of T at P1 to P3 and of the pressure in the inner region, without \
+         two mean radii along each wall (% of the ranges), and of the displacement (% of the largest).</p>\n{}",
         table(&heads, &rows)
     )
 }
@@ -129,7 +129,7 @@ fn other_cases(made: &Made) -> Result<String, ReportError> {
         rows.filter_map(|row| Some(format!("{} {} %", row.case, text(row.temperature.as_ref()?)))).collect()
     };
     let caption = format!(
-        "Fig. #. Cases that nothing was chosen on, as shipped, the same model: half of the walls of a square box hot (corner), grains of another size, density, E, k, c and α \
+        "Fig. #. Two cases that were not used to choose any parameter, run as shipped with the same model: half of the walls of a square box hot (corner), and grains of another size, density, E, k, c and α \
          (material). Largest errors at P1, P2, P3, % of the range (50, 100 K): grains move {}; grains stay {}.",
         worst(WAYS[0].0).join("; "),
         worst(WAYS[1].0).join("; ")
@@ -159,7 +159,7 @@ fn other_table(made: &Made) -> String {
     table(&heads, &rows)
 }
 
-/// Why p ℓ/(E r̄) is carried and not the paper's p/E.
+/// Table that shows why the state network has p ℓ/(E r̄) in its state and not the paper's p/E.
 fn scalings(made: &Made) -> String {
     let all = &made.other_cases.scalings;
     let row = |s: &crate::studies::other_cases::Scaling| {
@@ -179,14 +179,14 @@ fn scalings(made: &Made) -> String {
     let pair = all.iter().find(|s| s.case == "H").zip(all.iter().find(|s| s.case == "material"));
     let said = pair.map_or(String::new(), |(first, other)| {
         format!(
-            " Packed alike, material has {:.2} times the p/E of H, and {:.3} times its p ℓ/(E r̄): a contact's stiffness is a force per length, E r, so stress over E is not free of \
-             the size of the grains.",
+            " Packed in the same way, case material has {:.2} times the p/E of case H, and {:.3} times its p ℓ/(E r̄): the stiffness of a contact is a force per length, E r, so stress over E \
+             still depends on the size of the grains.",
             other.over_modulus / first.over_modulus,
             other.reduced / first.reduced
         )
     });
     format!(
-        "<p>The stress that the state network carries is σ ℓ/(E r̄), ℓ = 1 m; the paper's is σ/E.{said}</p>\n{}",
+        "<p>The stress in the state of the state network is σ ℓ/(E r̄), ℓ = 1 m; that in the paper is σ/E.{said}</p>\n{}",
         table(&heads, &rows)
     )
 }

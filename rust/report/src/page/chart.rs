@@ -1,4 +1,4 @@
-//! Error against cost, and the ledger.
+//! Section of the page on error against cost, with the table of what can be left out of a case.
 
 use super::html::{Figure, case_name, fixed, table};
 use crate::ReportError;
@@ -28,7 +28,7 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
     html += &figure(made, 1)?;
     let _ = writeln!(
         html,
-        "<p>Start-up, {} core-s, is in every point of the solver. A tenth of a second more or less is the machine.</p>",
+        "<p>The cost of every run of the solver includes {} core-s to start. Differences of a tenth of a second are noise of the machine.</p>",
         fixed(report.start_up, 2)
     );
     html += "<details><summary>All points</summary>\n";
@@ -49,7 +49,7 @@ fn charts(made: &Made) -> impl Iterator<Item = (&'static str, &Vec<Point>)> {
     CHARTED.into_iter().filter_map(|case| Some((case, made.report.chart.get(case)?)))
 }
 
-/// Of T (0) or of the pressure (1), a panel a case.
+/// The figure for the error of T (0) or of the pressure (1), with one panel for each case.
 fn figure(made: &Made, which: usize) -> Result<String, ReportError> {
     let label = ["error of T [% of range]", "error of pressure [% of range]"][which];
     let lowest = made.report.chart.values().flatten().filter_map(|p| p.place(which)).map(|p| p.1);
@@ -65,7 +65,7 @@ fn figure(made: &Made, which: usize) -> Result<String, ReportError> {
         for point in points {
             let place = match (point.place(which), point.core_seconds) {
                 (Some(place), _) => place,
-                // What the paper judges by has no error of its own: on the lower edge.
+                // The paper's reference has no error of its own: it is drawn at the lower edge.
                 (None, Some(cost)) if point.cost == "quoted" => (cost, 1.08 * low),
                 _ => continue,
             };
@@ -79,11 +79,14 @@ fn figure(made: &Made, which: usize) -> Result<String, ReportError> {
             keys.push((style(point), point.family.clone()));
         }
     }
-    keys.push((Style::line(4, Line::Solid), "front: nothing is both cheaper and better".to_string()));
+    keys.push((
+        Style::line(4, Line::Solid),
+        "front: no configuration is both cheaper and more accurate".to_string(),
+    ));
     let best: Vec<String> = charts(made).filter_map(|(case, points)| best(case, points, which)).collect();
     let caption = format!(
-        "Fig. #. {} against cost, one point a configuration, both axes logarithmic, in % of the range ({}); hollow: extrapolated or quoted. Most accurate of \
-         those run: {}.{}",
+        "Fig. #. {} against cost, one point for each configuration, both axes logarithmic, in % of the range ({}); hollow: extrapolated or quoted. The most accurate \
+         that were run: {}.{}",
         ["Error of T", "Error of the mean pressure"][which],
         ["50 K; HC 100 K", "the paper's: H 3.2, C 2.2, HC 3.8 kPa"][which],
         best.join("; "),
@@ -101,7 +104,7 @@ fn front(points: &[Point], which: usize) -> Vec<(f64, f64)> {
     let mut places: Vec<(f64, f64)> =
         points.iter().filter(|p| p.front[which]).filter_map(|p| p.place(which)).collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // A staircase: between two points the cheaper one is to be had.
+    // The line is a staircase: for a cost between those of two points, the cheaper point is the best that can be had.
     let mut stairs = Vec::new();
     for place in places {
         if let Some(&(_, last)) = stairs.last() {
@@ -194,9 +197,9 @@ fn ledger(made: &Made) -> String {
         "\"outcome",
     ];
     format!(
-        "<h2>No more than a scene needs</h2>\n<p>What could be left out of each case, and at what error: change of T, the largest at \
-         P1 to P3 from 1 s on, against all computed; error of T against discrete elements, over all 20 s. State network, cells keep \
-         their place. A half and a quarter take the initial fields of their part of the box. Processor time was taken with two jobs at \
+        "<h2>No more than a case needs</h2>\n<p>What can be left out of the computation of each case, and the error that this causes. Change of T: largest difference at \
+         P1 to P3 from 1 s on, from the run that computes all. Error of T: against discrete elements, over all 20 s. State network, cells keep \
+         their place. A half and a quarter of the box have the initial fields of their part. Processor time was measured with two jobs at \
          a time.</p>\n{}",
         table(&heads, &rows)
     )

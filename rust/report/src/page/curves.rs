@@ -1,4 +1,4 @@
-//! Curves over time: T at the probes, mean pressure, stress at the walls.
+//! Section of the page with curves over time: T at the probes, mean pressure, stress at the walls.
 
 use super::html::{Figure, case_name};
 use crate::ReportError;
@@ -14,9 +14,9 @@ use msdd_reference::solver::Run;
 
 const SOURCE: &str = "discrete elements committed; solver measured and cached";
 const TIME: Axis = Axis { label: "t [s]", log: false, range: Some((0.0, 20.0)) };
-/// Discrete elements.
+/// Style of the discrete elements.
 const DISCS: Style = Style { colour: 0, marker: Marker::Circle, line: Line::None, hollow: false, size: 4 };
-/// The same over another region.
+/// Style of the discrete elements when they are averaged over the whole box.
 const DISCS_WHOLE: Style =
     Style { colour: 0, marker: Marker::Square, line: Line::None, hollow: true, size: 4 };
 
@@ -24,7 +24,7 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
     Ok(temperatures(made)? + &pressures(made)? + &walls(made)?)
 }
 
-/// Lines of the configurations that were validated, in order.
+/// Line styles of the validated configurations, in their order.
 pub const LINES: [(Line, usize); 4] =
     [(Line::Solid, 1), (Line::Dashed, 2), (Line::Dotted, 3), (Line::Dashed, 5)];
 
@@ -94,7 +94,7 @@ fn temperatures(made: &Made) -> Result<String, ReportError> {
     let mut panels = Vec::new();
     for reference in &made.references {
         for (probe, by_packing) in reference.temperature().iter().enumerate() {
-            // P3 mirrors P1 where all walls are alike, up to the packing.
+            // In a symmetric case, P3 is the mirror image of P1 and differs from it by the packing only: not drawn.
             if !reference.case.starts_with("HC") && probe == 2 {
                 continue;
             }
@@ -142,8 +142,8 @@ fn pressures(made: &Made) -> Result<String, ReportError> {
     };
     let shown = made.report.validation.iter().filter(|v| !v.case.ends_with("star"));
     let caption = format!(
-        "Fig. #. Mean pressure (paper, Fig. 20). Grains at a wall lie looser, so the whole box of discs has less than its inner region, \
-         two mean radii off the walls. Largest errors against the inner region and against the whole box, % of the paper's range: {}.",
+        "Fig. #. Mean pressure (paper, Fig. 20). Grains at a wall are packed more loosely, so the pressure of the whole box of discs is below that of its inner region, \
+         two mean radii away from the walls. Largest errors against the inner region and against the whole box, % of the paper's range: {}.",
         shown.filter_map(error).collect::<Vec<_>>().join("; ")
     );
     let mut keys = keys(made);
@@ -166,7 +166,7 @@ const HOT_COLD_SIDES: [Walls; 3] = [
     ("bottom and top", &[2, 3], 2, Marker::Square, Line::Dashed),
 ];
 
-/// Normal stress on walls by discs [Pa], by packing: force over length.
+/// Normal stress of the discs on walls [Pa], force over length, by packing.
 fn wall_stress(reference: &Reference, walls: &[usize]) -> Vec<Vec<f64>> {
     let names = ["left", "right", "bottom", "top"];
     let of = |result: &msdd_reference::results::Results| -> Vec<f64> {

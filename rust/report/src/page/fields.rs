@@ -1,4 +1,4 @@
-//! Fields in sub-regions and along x: at the start and at the end.
+//! Section of the page with fields in sub-regions and along x, at the start and at the end.
 
 use super::curves::{configurations, curves, keys};
 use super::html::{Figure, case_name};
@@ -17,7 +17,7 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
     Ok(start_maps(made)? + &end_maps(made)? + &profiles(made)? + &displacement_map(made)?)
 }
 
-/// What the runs start from: the state of the windows, and what the models make of it.
+/// The initial state of the runs: the averages over windows, and the conductivity and stress of the models for them.
 fn start_maps(made: &Made) -> Result<String, ReportError> {
     let Some(reference) = made.references.iter().find(|r| r.case == "H") else { return Ok(String::new()) };
     let names = configurations(made);
@@ -57,8 +57,8 @@ fn start_maps(made: &Made) -> Result<String, ReportError> {
     }
     let caption = format!(
         "Fig. #. The start, means over 10 × 3 sub-regions and over the packings (paper, Figs. 8 to 10). Porosity, fabric index and stress of the solver's cells \
-         are those of 215 mm windows of the discs, which smooth them and keep off the walls; conductivity is the model's for that state, and with the paper's \
-         network the stress, too. Mean ± deviation over the sub-regions (discrete elements), rms of the difference over the mean: {}. The paper's network has the \
+         are averages over windows of 215 mm of the discs, which smooth them and leave out the layers at the walls; conductivity is that of the model for this state, and with the paper's \
+         network so is the stress. Mean ± deviation over the sub-regions (discrete elements), rms of the difference over the mean: {}. The paper's network has the \
          affine conductivity, and is compared with that.",
         said.join(". ")
     );
@@ -87,7 +87,7 @@ fn end_maps(made: &Made) -> Result<String, ReportError> {
             let dem = reference_sub_regions(reference, quantity, false);
             let mut named = vec![("discrete elements", averaged(&dem, scale))];
             let names = configurations(made);
-            // The paper's network has the affine conductivity, another scale.
+            // The paper's network has the affine conductivity, which is larger, so it is left out of these maps.
             for name in names.iter().take(2) {
                 if let Some(runs) = made.runs.get(&(reference.case.clone(), name.clone())) {
                     let values: Vec<Vec<f64>> = runs.iter().map(|run| sub_regions(run, quantity)).collect();
@@ -97,8 +97,8 @@ fn end_maps(made: &Made) -> Result<String, ReportError> {
             panels.push(maps(&format!("case {}: {label}", case_name(&reference.case)), digits, &named)?);
         }
     }
-    let caption = "Fig. #. Means over 10 × 3 sub-regions at the end, and over the packings (paper, Figs. 14, 16, 19): light is \
-                   high, one scale for the maps of a panel. K of discrete elements by the network solved."
+    let caption = "Fig. #. Means over 10 × 3 sub-regions at the end, and over the packings (paper, Figs. 14, 16, 19): lighter means \
+                   higher, and the maps of a panel have the same scale. K of discrete elements is that of the resistor network solved."
         .to_string();
     Figure { id: "maps", panels, keys: Vec::new(), caption, source: SOURCE }.html(made)
 }
@@ -130,8 +130,8 @@ fn profiles(made: &Made) -> Result<String, ReportError> {
         plot("case HC, stress along x", &along, &axis("σ_xx [kPa]"), &stresses)?,
         plot("case HC, displacement along x", &along, &axis("u_x [mm]"), &displacements)?,
     ];
-    let caption = "Fig. #. Case HC at the end, ten slices along x (paper, Fig. 15): without grains that move each slice keeps the stress of its own strain; \
-                   with them σ_xx evens out up to the friction of the long walls."
+    let caption = "Fig. #. Case HC at the end, ten slices along x (paper, Fig. 15): when grains stay, each slice keeps the stress of its own strain; \
+                   when grains move, σ_xx becomes even along x, except for the friction of the long walls."
         .to_string();
     Figure { id: "profiles", panels, keys: keys(made), caption, source: SOURCE }.html(made)
 }

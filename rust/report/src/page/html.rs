@@ -1,4 +1,4 @@
-//! Parts of the page: figures, tables, numbers.
+//! HTML of parts of the page: figures, tables, numbers.
 
 use crate::ReportError;
 use crate::draw::{Style, escape, key};
@@ -6,7 +6,7 @@ use crate::report::Made;
 use msdd_reference::packings::CASES;
 use std::fmt::Write;
 
-/// A figure: panels, what the markers mean, one sentence of what one sees, and where it comes from.
+/// A figure: panels, the legend, a caption that says what one sees, and the source of the data.
 pub struct Figure<'a> {
     pub id: &'a str,
     pub panels: Vec<String>,
@@ -35,7 +35,7 @@ impl Figure<'_> {
     }
 }
 
-/// A table that scrolls in its box. Columns whose head begins with "'" hold text, with "\"" long text.
+/// A table that scrolls if it is too wide. Columns whose head begins with "'" contain text, with "\"" long text, else numbers.
 pub fn table(heads: &[&str], rows: &[Vec<String>]) -> String {
     let class = |head: &str| match head.chars().next() {
         Some('\'') => " class=\"text\"",
@@ -59,12 +59,12 @@ pub fn table(heads: &[&str], rows: &[Vec<String>]) -> String {
     html + "</table></div>\n"
 }
 
-/// A number with so many digits after the point; a dash for none.
+/// A number with `digits` digits after the point; a dash for `None`.
 pub fn fixed(value: Option<f64>, digits: usize) -> String {
     value.filter(|v| v.is_finite()).map_or("–".to_string(), |v| format!("{v:.digits$}"))
 }
 
-/// The cases' names, with a star for those without expansion.
+/// Name of the case in a folder; those without expansion have a star.
 pub fn case_name(case: &str) -> &str {
     CASES.iter().find(|c| c.0 == case).map_or(case, |c| c.1)
 }

@@ -40,8 +40,8 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
         }
     );
     page += "<p class=\"source\">How values are known. <b>committed</b>: the reference by discrete elements, three packings, \
-             <code>cases/reference/make</code>, commit as above. <b>measured</b>: in this run. <b>cached</b>: measured by an earlier run \
-             with the same programs, keys and processor. <b>extrapolated</b>: from a timed segment. <b>quoted</b>: from the paper. \
+             <code>cases/reference/make</code>, commit as above. <b>measured</b>: by this run of the report. <b>cached</b>: measured by an earlier one \
+             with the same programs, parameters and processor. <b>extrapolated</b>: from a shorter run. <b>quoted</b>: from the paper. \
              Nothing is fitted to these runs: conductivity, stress, mechanical tangent and wall friction come from the database of \
              small boxes. Cost is processor time of one process, start and output included.</p>\n";
     page += &chart::section(made)?;
@@ -54,7 +54,7 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
     Ok(numbered(&(page + "</ul>\n</body>\n</html>\n")))
 }
 
-/// Captions begin with "Fig. #.": numbered as they follow each other.
+/// Numbers the figures in their order: captions begin with "Fig. #.".
 fn numbered(page: &str) -> String {
     let mut parts = page.split("Fig. #.");
     let first = parts.next().unwrap_or_default().to_string();

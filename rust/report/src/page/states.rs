@@ -1,4 +1,5 @@
-//! States that the solver asks for, on what the database knows; grains around P2.
+//! Section of the page with the states at which the solver evaluates the model, beside those of the database, and with the
+//! grains around P2.
 
 use super::html::{Figure, case_name};
 use crate::ReportError;
@@ -45,7 +46,7 @@ fn histories(made: &Made, run: &Run, start: &Run) -> Vec<Vec<State>> {
     let mut histories: Vec<Vec<State>> = start
         .sub_regions
         .iter()
-        // Whatever heat one step brought: nothing has expanded.
+        // The strain is set to zero: the run for the initial state has one step, whose small heating must not count.
         .map(|row| {
             let mut row = row.clone();
             row[column("T")] = first;
@@ -110,9 +111,9 @@ fn queries(made: &Made) -> Result<String, ReportError> {
         said.push(format!("{}: {} %, {clamped:.1} %", case_name(case), shares.join(", ")));
     }
     let caption = format!(
-        "Fig. #. What the solver asks (paper, Fig. 12): state of 10 × 3 sub-regions over 20 s, packing 1, grains that move; in each step the model is asked for the \
-         rates at these states and multiplies them by the strain of the step. Inside the line: hull of the {} thermal states of the database that bear load, those turned by \
-         90° included. Share of the states inside the three hulls, and of the queries of single cells beyond the model's own region of all its variables, where its edge is taken: {}.",
+        "Fig. #. States at which the solver evaluates the model (paper, Fig. 12): state of 10 × 3 sub-regions over 20 s, packing 1, grains that move. In each step the model computes the \
+         rates at these states, and multiplies them by the strain of the step. Line: hull of the {} thermal states of the database that bear load, with the same states turned by \
+         90°. Share of the states inside the three hulls, and share of the evaluations for single cells that are outside of the model's trained range in any variable and are made at its nearest end: {}.",
         made.known.states,
         said.join("; ")
     );
@@ -136,7 +137,7 @@ fn with_overlaps(table: &Table) -> Vec<Grain> {
     (0..x.len()).map(grain).collect()
 }
 
-/// Share of the window that no grain covers, by lines across it.
+/// Share of the window that no grain covers, from the lengths of many parallel lines outside of grains.
 fn porosity([low, high]: [[f64; 2]; 2], list: &[Grain]) -> f64 {
     const LINES: usize = 2000;
     let mut covered = 0.0;

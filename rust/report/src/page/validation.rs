@@ -1,4 +1,5 @@
-//! The solver beside discrete elements: errors and targets; the figures are in `curves`, `fields`, `states` and `beyond`.
+//! Section of the page that compares the solver with discrete elements: errors and targets. The figures are in `curves`,
+//! `fields`, `states` and `beyond`.
 
 use super::html::{case_name, fixed, table};
 use super::{beyond, curves, fields, states};
@@ -12,8 +13,8 @@ const PAPER: [(&str, [&str; 3], &str); 3] =
 
 pub fn section(made: &Made) -> Result<String, ReportError> {
     let mut html = "<h2>Validation</h2>\n<p>Each run starts from the fields of one packing and is compared with that packing's discrete \
-                    elements; T of 40 mm windows. Pressure: the solver's mean against the discs' mean off the walls (the box without two mean radii along each: grains \
-                    at a wall lie looser, and the solver's cells hold the material's state), and against the whole box. Errors are solver minus discrete elements where they are largest; in brackets the \
+                    elements; T is a mean over windows of 40 mm. Pressure: the solver's mean against the mean of the discs off the walls (the box without two mean radii along each wall: grains \
+                    at a wall are packed more loosely, which the cells of the solver do not describe), and against the whole box. Errors are solver minus discrete elements where they are largest; in brackets the \
                     largest of a single packing. Sub-regions: 10 × 3, at the end, root mean square over all packings; worst one in \
                     brackets.</p>\n"
         .to_string();
@@ -126,7 +127,7 @@ fn targets_table(made: &Made) -> String {
     )
 }
 
-/// Outcome of a run that did not end well.
+/// Outcome of a run that was not completed, with its message.
 fn why(v: &Validated) -> String {
     let message: String = v.message.chars().take(80).collect();
     if message.is_empty() { v.outcome.clone() } else { format!("{}: {message}", v.outcome) }

@@ -1,4 +1,4 @@
-//! Error against cost: the points of the chart of one case, and the cheapest for a wanted error.
+//! Error against cost: the points of the chart of one case, and the cheapest configuration for each wanted error.
 
 use super::front::{Point, cheapest, mark};
 use super::validation::{complete, scatter};
@@ -15,36 +15,38 @@ use serde::Serialize;
 
 /// Errors for which the cheapest configuration is named [% of the range].
 pub const WANTED: [f64; 4] = [5.0, 2.0, 1.0, 0.5];
-/// The paper's own costs [core-s]: a reference of 30 h, a multiscale run of 40 s (its section 3.4), and its errors at P2 [%].
+/// Costs [core-s] that the paper gives in section 3.4: 30 h for its reference, 40 s for a multiscale run, with its errors at
+/// P2 [%].
 const QUOTED: [(&str, f64, Option<[f64; 3]>); 2] = [
     ("paper: discrete elements, 30 h", 108_000.0, None),
     ("paper: multiscale, 40 s", 40.0, Some([5.3, 2.8, 6.5])),
 ];
-/// Simulated time of a segment by discrete elements [s], and the steps that are tried [s].
+/// Simulated time of a segment, a short run by discrete elements that is only timed [s], and the time steps that are tried [s].
 const SEGMENT: f64 = 0.1;
 const STEPS: [f64; 2] = [2e-4, 5e-5];
-/// The case that is run as a whole by discrete elements; costs of segments are scaled by its ratio of whole to segment.
+/// The case that is run to its end by discrete elements. The costs of segments of other cases are multiplied by its ratio of
+/// the cost of the whole run to that of a segment.
 const WHOLE: &str = "H";
 
 /// The cheapest configuration for an error of T.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cheapest {
     pub case: String,
-    /// [% of the range]
+    /// Wanted error [% of the range].
     pub error: f64,
-    /// None: none reaches it.
+    /// Name of the configuration; `None`: no configuration reaches the error.
     pub configuration: Option<String>,
     pub core_seconds: Option<f64>,
 }
 
-/// One step of case H.
+/// The job of one step of case H, to measure the cost of the start.
 pub fn start_up() -> Asked {
     let mut job = SolverJob::new("H", 1);
     job.end = 0.01;
     Asked { job: Job::Solver(job), guess: 0.5 }
 }
 
-/// Case H as a whole, and segments of all with shorter steps, too.
+/// Jobs by discrete elements: case H to its end, and segments of all cases, also with shorter steps.
 pub fn elements(case: &str) -> Vec<Asked> {
     let segment = |step: Option<f64>| Asked {
         job: plan::elements(case, SEGMENT, step, 600),
@@ -58,7 +60,7 @@ pub fn elements(case: &str) -> Vec<Asked> {
     jobs
 }
 
-/// The points of the case of `reference`, those on the fronts marked.
+/// The points of the case of `reference`; those on the Pareto fronts are marked.
 pub fn points(settings: &Settings, records: &Records, reference: &Reference) -> Vec<Point> {
     let case = reference.case.as_str();
     let mut points: Vec<Point> = Vec::new();
@@ -119,8 +121,9 @@ fn point(
     }
 }
 
-/// Cost of a whole run [core-s] whose cells are answered as often as those of the configuration of a name. The cost of an
-/// answer is that of the segment, its packings included. The first question, of all cells at once, strains none.
+/// Estimated cost of a whole run [core-s] whose model is evaluated as often for each cell as in the configuration `name`. The
+/// cost of an evaluation is that in the segment, with the packing of the boxes in it. The first evaluation, of all cells at
+/// once, is not counted, because no box is strained in it.
 fn all_answers(
     settings: &Settings,
     records: &Records,
@@ -135,14 +138,14 @@ fn all_answers(
     answers_ratio(whole, segment.run.as_ref()?).map(|ratio| segment.cpu_seconds * ratio)
 }
 
-/// Answers a cell of a whole run over those of a segment, each without the first; none if the segment has no other.
+/// Evaluations per cell in a whole run over those in a segment, each without the first; `None` if the segment has no other.
 fn answers_ratio(whole: &Run, segment: &Run) -> Option<f64> {
     let answers = |run: &Run| run.cell_queries.saturating_sub(run.cells) as f64 / run.cells as f64;
     let ratio = answers(whole) / answers(segment);
     ratio.is_finite().then_some(ratio)
 }
 
-/// Segments take the error of the configuration that they name.
+/// Gives the segments the errors of the configurations that they name.
 fn borrow_errors(points: &mut [Point], quick: bool) {
     for configuration in plan::chart(quick) {
         let Some(from) = configuration.known.borrowed() else { continue };
@@ -196,7 +199,7 @@ fn quoted(case: &str) -> Vec<Point> {
             name: (*name).to_string(),
             family: FAMILIES[8].to_string(),
             core_seconds: Some(*cost),
-            // The paper's reference is what it judges by: drawn at the lower edge, without an error of its own.
+            // The paper's reference has no error, because the paper compares with it; it is drawn at the lower edge.
             temperature_error: errors.map(|e| e[index]),
             pressure_error: errors.map(|_| [9.6, 10.9, 3.0][index]),
             cost: "quoted".to_string(),
@@ -228,7 +231,7 @@ mod tests {
     #[test]
     fn answers_are_counted_a_cell_without_the_first() {
         let run = |cells, cell_queries| Run { cells, cell_queries, ..Run::default() };
-        // 20 answers a cell against 0.5.
+        // 20 evaluations per cell over 0.5.
         assert_eq!(answers_ratio(&run(270, 21 * 270), &run(3000, 4500)), Some(40.0));
         assert_eq!(answers_ratio(&run(270, 540), &run(3000, 3000)), None);
     }

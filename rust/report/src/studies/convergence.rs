@@ -1,4 +1,5 @@
-//! Order of the coupling in time (section 3.4): mean T of case H with fixed steps against one run with far smaller errors.
+//! Order of the coupling in time (section 3.4 of the paper): mean T of case H with fixed steps against a run with far smaller
+//! errors.
 
 use crate::jobs::execute::Outcome;
 use crate::jobs::job::{Job, SolverJob};
@@ -7,9 +8,9 @@ use crate::settings::Settings;
 use msdd_reference::series::{at, root_mean_square};
 use serde::Serialize;
 
-/// Mean of the box over time, by a sub-region that is all of it.
+/// Function object that writes the mean over the box, as a single sub-region.
 const MEAN: &str = "watchMean";
-/// T in its lines.
+/// Column of T in its rows.
 const TEMPERATURE: usize = 3;
 
 /// Errors of one scheme.
@@ -23,7 +24,8 @@ pub struct Convergence {
     pub order: Option<f64>,
 }
 
-/// Scheme and its steps [s]. Second order strains cells at walls by more than the model was trained for in a first step of 0.1 s.
+/// Schemes and their steps [s]. The second-order scheme has no step of 0.1 s, because the first one would strain the cells at
+/// the walls by more than the model was trained for.
 fn schemes(quick: bool) -> [(&'static str, Vec<f64>); 2] {
     if quick {
         return [("paper", vec![0.1, 0.05, 0.02]), ("secondOrder", vec![0.05, 0.02])];
@@ -44,7 +46,7 @@ fn job(scheme: &str, step: f64, quick: bool) -> SolverJob {
     job
 }
 
-/// What the others are measured against.
+/// The run with far smaller errors, with which the others are compared.
 fn finest(quick: bool) -> SolverJob {
     job("secondOrder", if quick { 0.01 } else { 0.002 }, quick)
 }
@@ -80,7 +82,7 @@ pub fn read(settings: &Settings, records: &Records) -> Vec<Convergence> {
     schemes(settings.quick).into_iter().map(of).collect()
 }
 
-/// (factor, order) of error = factor × step ^ order.
+/// Fits error = factor × step ^ order; returns (factor, order).
 fn power_law(errors: &[[f64; 2]]) -> Option<(f64, f64)> {
     let points: Vec<[f64; 2]> = errors.iter().filter(|e| e[1] > 0.0).map(|e| e.map(f64::ln)).collect();
     if points.len() < 2 {

@@ -1,4 +1,4 @@
-//! Runs of the validated configurations that also write what figures need: walls, sub-regions over time, the state at the start.
+//! Runs of the validated configurations that write additional data for figures: walls, sub-regions over time, the initial state.
 
 use crate::ReportError;
 use crate::jobs::execute::Outcome;
@@ -10,17 +10,17 @@ use crate::studies::other_cases::grain_value;
 use msdd_reference::solver::Run;
 use std::collections::BTreeMap;
 
-/// Mean pressure and normal stress [Pa] in the cells at each wall; in lines of [`WALL_COLUMNS`] after time and mean.
+/// Function object that writes time, mean pressure, and for each wall mean pressure and normal stress [Pa] in the cells at it.
 pub const WALLS: &str = "watchWalls";
-/// Normal stress at left, right, bottom and top, in the lines of [`WALLS`].
+/// Columns of the normal stress at left, right, bottom and top in the rows of [`WALLS`].
 pub const WALL_COLUMNS: [usize; 4] = [3, 5, 7, 9];
-/// Sub-regions at several times: time, x and y index, [`msdd_reference::solver::COLUMNS`].
+/// Function object that writes sub-regions at several times: time, x and y index, [`msdd_reference::solver::COLUMNS`].
 pub const REGIONS: &str = "watchRegions";
 
-/// The state where runs start, by a case whose grains do not expand: their state never changes.
+/// The case from which the initial state is read: its grains do not expand, so their state never changes.
 const START: &str = "Hstar";
 
-/// Runs of all packings by (case, configuration), and the state at the start by configuration.
+/// Runs of all packings by (case, configuration), and the initial state by configuration.
 #[derive(Default)]
 pub struct Details {
     pub watched: BTreeMap<(String, String), Vec<Run>>,
@@ -45,12 +45,12 @@ fn start_job(configuration: &Configuration, seed: u32) -> SolverJob {
     SolverJob { end: 0.1, ..configuration.job(START, seed).control("deltaT 0.1;") }
 }
 
-/// Grains that move: what walls bear, what is asked.
+/// The configuration with grains that move, for stresses at the walls and states over time.
 fn watched(quick: bool) -> impl Iterator<Item = Configuration> {
     plan::validated(quick).into_iter().filter(|c| c.family == FAMILIES[1])
 }
 
-/// Both networks, which start from different conductivities.
+/// The configurations with both networks, whose initial conductivities differ.
 fn started(quick: bool) -> impl Iterator<Item = Configuration> {
     plan::validated(quick).into_iter().filter(|c| [FAMILIES[0], FAMILIES[2]].contains(&c.family))
 }
@@ -71,7 +71,7 @@ pub fn jobs(settings: &Settings) -> Vec<Asked> {
     jobs
 }
 
-/// What is there of all packings.
+/// Reads the data of all packings for which there are records.
 ///
 /// # Errors
 /// [`ReportError::Read`] for the grains of the cases.

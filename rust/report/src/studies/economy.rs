@@ -1,4 +1,4 @@
-//! What each case needs: the same case with less computed, and what that costs in accuracy.
+//! How much of a case has to be computed: runs that compute less of it, and the accuracy that is lost.
 
 use crate::jobs::execute::Outcome;
 use crate::jobs::job::{Job, Part, SolverJob};
@@ -10,7 +10,7 @@ use msdd_reference::series::{at, largest};
 use msdd_reference::solver::Run;
 use serde::Serialize;
 
-/// One way to compute a case, summed over its run (first packing), errors over the packings.
+/// One way to compute a case: counts and cost of the run of the first packing, errors over all packings.
 #[derive(Clone, Debug, Serialize)]
 pub struct Saving {
     pub case: String,
@@ -18,10 +18,10 @@ pub struct Saving {
     pub cells: u64,
     pub steps: u64,
     pub cell_steps: u64,
-    /// Of the cell-steps, those in which the model was asked.
+    /// Number of cell-steps in which the model was evaluated.
     pub cell_queries: u64,
     pub core_seconds: Option<f64>,
-    /// Largest difference of T from all computed, over time and probes [% of the range].
+    /// Largest difference of T from the run that computes all, over time and probes [% of the range].
     pub change: Option<f64>,
     /// Largest error of T against discrete elements [% of the range].
     pub error: Option<f64>,
@@ -32,7 +32,7 @@ pub struct Saving {
 const ADAPTIVE: &str = "msddFoam { timeScheme secondOrder; temperatureTolerance 0.05; stateTolerance 0.5; }\n\
                         solvers { T { tolerance 1e-8; } }";
 
-/// Name, and what is changed; the first is all that there is. `None`: not for this case.
+/// Names and jobs of the ways to compute a case; the first one computes all.
 fn ways(case: &str) -> Vec<(&'static str, SolverJob)> {
     let all = || SolverJob::new(case, 0);
     let adaptive = || all().solution(ADAPTIVE).control("adjustTimeStep yes;");
@@ -70,7 +70,7 @@ pub fn jobs(settings: &Settings) -> Vec<Asked> {
         .collect()
 }
 
-/// The ledger.
+/// Results of all ways to compute the cases.
 pub fn savings(settings: &Settings, records: &Records, references: &[Reference]) -> Vec<Saving> {
     let mut list = Vec::new();
     for reference in references.iter().filter(|r| cases(settings.quick).contains(&r.case.as_str())) {
@@ -117,8 +117,8 @@ fn saving(
     }
 }
 
-/// Largest difference of T of two runs at the probes over the times after the first second, which coarse meshes do not
-/// resolve at all [K].
+/// Largest difference of T between two runs at the probes [K], over the times after the first second, which coarse meshes do
+/// not resolve.
 fn change(times: &[f64], run: &Run, whole: &Run) -> f64 {
     let series = |run: &Run, p: usize| -> Vec<[f64; 2]> {
         run.temperature.iter().map(|row| [row[0], row[1 + p]]).collect()

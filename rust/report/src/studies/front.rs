@@ -1,4 +1,4 @@
-//! The chart of error against cost: which configurations are worth having.
+//! The Pareto front in the chart of error against cost.
 
 use serde::Serialize;
 
@@ -6,18 +6,20 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Point {
     pub name: String,
-    /// Which marker: one of [`crate::plan::FAMILIES`].
+    /// Kind of the configuration, which determines its marker: one of [`crate::plan::FAMILIES`].
     pub family: String,
-    /// Processor time, start-up included [s].
+    /// Processor time, with the start of the program [s].
     pub core_seconds: Option<f64>,
-    /// Error of T at the worst probe [% of the range], and of the pressure [% of the paper's range]; none for runs that did not end.
+    /// Error of T at the worst probe [% of the range], and of the pressure [% of the paper's range]; `None` for runs that were
+    /// not completed.
     pub temperature_error: Option<f64>,
     pub pressure_error: Option<f64>,
     /// How the cost is known: "measured", "cached", "extrapolated", "quoted".
     pub cost: String,
     pub outcome: String,
     pub message: String,
-    /// On the front of T, of the pressure: nothing is both cheaper and better. Quoted and extrapolated points take no part.
+    /// Whether the point is on the Pareto front of T, and of the pressure: no other point is both cheaper and more accurate.
+    /// Quoted and extrapolated points are not considered.
     pub front: [bool; 2],
 }
 
@@ -33,7 +35,7 @@ impl Point {
     }
 }
 
-/// Marks the Pareto fronts.
+/// Marks the points on the Pareto fronts.
 pub fn mark(points: &mut [Point]) {
     for which in [0, 1] {
         let places: Vec<Option<(f64, f64)>> =

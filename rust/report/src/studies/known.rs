@@ -1,14 +1,15 @@
-//! Where the shipped state model knows the material: the thermal states of its database.
+//! The states that the shipped state model was trained with: the thermal states of its database.
 
 use crate::ReportError;
 use msdd_rve::database::{Kind, read};
 use msdd_rve::region::Polygon;
 use std::path::Path;
 
-/// That of the shipped state model.
+/// Database of the shipped state model.
 pub const DATABASE: &str = "cases/database/periodic.csv.gz";
 
-/// Convex hulls of the states that bear load, with those turned by 90° (f with the other sign), by which models are trained.
+/// Convex hulls of the states that bear load. Models are trained with these and with the same states turned by 90° (f with the
+/// opposite sign), so the hulls contain both.
 #[derive(Clone, Debug, Default)]
 pub struct KnownStates {
     /// Porosity and fabric index [-].

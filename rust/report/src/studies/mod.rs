@@ -1,16 +1,16 @@
-//! What is found out by runs: each study says which jobs it needs and what follows from their records.
+//! The studies of the report. Each study says which jobs it needs, and computes its results from their records.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`validation`] | all cases against the discrete elements |
-//! | [`targets`] | what the validation is to reach |
-//! | [`front`], [`chart`] | error against cost, and the cheapest for a wanted error |
-//! | [`economy`] | what each case needs |
+//! | [`targets`] | the accuracy that the validation has to reach |
+//! | [`front`], [`chart`] | error against cost, and the cheapest configuration for a wanted error |
+//! | [`economy`] | how much of a case has to be computed |
 //! | [`convergence`] | order of the coupling in time |
-//! | [`sensitivity`] | what the mechanics' parameters do |
-//! | [`other_cases`] | another scene, another material |
+//! | [`sensitivity`] | influence of the parameters of the mechanics |
+//! | [`other_cases`] | another geometry, another material |
 //! | [`known`] | states of the database |
-//! | [`detail`] | runs that write what some figures need |
+//! | [`detail`] | runs that write additional data for figures |
 
 pub mod chart;
 pub mod convergence;

@@ -1,5 +1,6 @@
-//! Cases that nothing was chosen on, as shipped, against discs of other packings: another scene (`corner`), another material
-//! (`material`). And the two ways to make a stress dimensionless, by their packings.
+//! Two cases that were not used to choose any parameter, run as shipped and compared with discs of other packings: another
+//! geometry (`corner`), another material (`material`). Their packings also serve to compare two ways to make a stress
+//! dimensionless.
 
 use crate::jobs::execute::Outcome;
 use crate::jobs::job::{Job, Part, SolverJob};
@@ -26,7 +27,7 @@ const OTHERS: [Other; 2] = [
     Other { case: "corner", discs: "corner_seed11", range: 50.0, mesh: [60, 60] },
     Other { case: "material", discs: "material_seed12", range: 100.0, mesh: [50, 15] },
 ];
-/// Name and keys.
+/// Name of each way to run a case, and its keys.
 pub const WAYS: [(&str, &str); 2] = [("grains move", ""), ("grains stay", "mechanics none;")];
 
 /// One way to run such a case. Signed: solver minus discrete elements.
@@ -34,29 +35,29 @@ pub const WAYS: [(&str, &str); 2] = [("grains move", ""), ("grains stay", "mecha
 pub struct OtherCase {
     pub case: String,
     pub what: String,
-    /// Of T at P1, P2, P3, the largest over time [% of the range].
+    /// Errors of T at P1, P2, P3, the largest over time [% of the range].
     pub temperature: Option<[f64; 3]>,
     /// Mean pressure at the end [Pa]: solver, discs (whole box).
     pub pressure: Option<[f64; 2]>,
     pub outcome: String,
 }
 
-/// How the packed pressure of a case is scaled.
+/// Pressure of the packed box of a case, made dimensionless in two ways.
 #[derive(Clone, Debug, Serialize)]
 pub struct Scaling {
     pub case: String,
     pub young_modulus: f64,
     pub mean_radius: f64,
     pub porosity: f64,
-    /// Of the packed box [Pa].
+    /// Pressure of the packed box [Pa].
     pub pressure: f64,
-    /// p/E, the paper's.
+    /// p/E, as in the paper.
     pub over_modulus: f64,
     /// p ℓ/(E r̄), ℓ = 1 m.
     pub reduced: f64,
 }
 
-/// What is compared, and the series for the figure by (case, way).
+/// Results of the comparison, and the time series for the figure by (case, way).
 #[derive(Default)]
 pub struct OtherCases {
     pub rows: Vec<OtherCase>,
@@ -66,7 +67,7 @@ pub struct OtherCases {
 }
 
 fn job(other: &Other, keys: &str) -> SolverJob {
-    // As shipped, its own steps, too
+    // As shipped, also with the case's own time steps
     let job = SolverJob { append: BTreeMap::new(), ..SolverJob::new(other.case, 0) };
     let job = SolverJob { part: Part::Shipped, mesh: other.mesh, ..job };
     if keys.is_empty() { job } else { job.grains(keys) }
@@ -127,7 +128,7 @@ fn scaling(checkout: &Path, discs: &Results) -> Result<Scaling, ReportError> {
     })
 }
 
-/// A number of `constant/granularProperties`: the case's own, else the common one.
+/// A number of `constant/granularProperties`: that of the case, else that of the common file.
 pub(crate) fn grain_value(checkout: &Path, case: &str, key: &str) -> Result<f64, ReportError> {
     let own = checkout.join(format!("cases/{case}/constant/granularProperties"));
     let common = checkout.join("cases/common/granularProperties");

@@ -1,4 +1,4 @@
-//! What the mechanics' parameters do to the result: each is changed by more than the database leaves open.
+//! Influence of the parameters of the mechanics on the results: each is changed by more than its uncertainty in the database.
 
 use crate::jobs::execute::Outcome;
 use crate::jobs::job::{Job, SolverJob};
@@ -9,24 +9,25 @@ use msdd_reference::compare::errors;
 use msdd_reference::packings::Reference;
 use serde::Serialize;
 
-/// The packing that it is made for.
+/// Seed of the packing that is used.
 const PACKING: usize = 1;
 
-/// One change in one case, errors against the discs of the same packing.
+/// One change in one case, with the errors against the discs of the same packing.
 #[derive(Clone, Debug, Serialize)]
 pub struct Sensitivity {
     pub case: String,
     pub what: String,
-    /// The largest over time and the probes [% of the range].
+    /// Error of T, the largest over time and probes [% of the range].
     pub temperature: Option<f64>,
-    /// Of the mean pressure against the discs off the walls [% of the paper's range].
+    /// Error of the mean pressure against the discs in the inner region [% of the paper's range].
     pub pressure: Option<f64>,
-    /// Largest difference over largest displacement along x [%]; of HC, the others hardly move along x.
+    /// Largest difference over largest displacement along x [%]; for HC only, because the grains of the other cases hardly move
+    /// along x.
     pub displacement: Option<f64>,
     pub outcome: String,
 }
 
-/// Name and keys; the first is the case as shipped.
+/// Name and keys of each change; the first is the case as shipped.
 fn changes() -> Vec<(&'static str, String)> {
     let keys = |text: &str| format!("equilibriumCoeffs {{ {text} }}");
     let walls = |limit: f64| keys(&format!("walls {{ \"left|right|bottom|top\" {{ friction {limit}; }} }}"));

@@ -1,25 +1,25 @@
-//! What the validation is to reach, with grains that move and the network's conductivity.
+//! The accuracy that the validation has to reach with grains that move and the conductivity of the resistor network.
 
 use crate::plan::FAMILIES;
 use crate::studies::validation::Validated;
 use msdd_reference::compare::FieldError;
 use serde::Serialize;
 
-/// A target and what was reached.
+/// A target and the value that was reached.
 #[derive(Clone, Debug, Serialize)]
 pub struct Target {
     pub case: String,
     pub what: String,
     pub target: f64,
     pub reached: Option<f64>,
-    /// None: not judged, because the runs are coarser and fewer than the target is for.
+    /// Whether the target was met. `None`: not judged, because the target is for finer meshes and more packings.
     pub met: Option<bool>,
-    /// The same over another region, with its name.
+    /// The same error over another region, with the name of the region.
     pub beside: String,
 }
 
-/// Targets of the validation with grains that move and the network's conductivity. They are for the mesh of the shipped
-/// cases and the mean of three packings: a `quick` report, which has neither, tells its errors and judges none.
+/// Targets of the validation with grains that move and the conductivity of the resistor network. They are for the mesh of the
+/// shipped cases and the mean of three packings. A `quick` report has neither, so it gives the errors without judging them.
 pub fn targets(validation: &[Validated], quick: bool) -> Vec<Target> {
     let of = |case: &str| {
         let found = validation.iter().find(|v| v.case == case && v.family == FAMILIES[1]);
@@ -40,7 +40,7 @@ pub fn targets(validation: &[Validated], quick: bool) -> Vec<Target> {
             list.push(target(case, &what, limit, of(case).map(|e| e.temperature[probe])));
         }
         if case != "HC" {
-            // The solver's cells hold the material; the discs' box holds looser layers at its walls, too.
+            // Compared with the inner region, because the solver's cells do not describe the looser layers of discs at the walls.
             let what = "pressure, discs off the walls [% of the paper's range]";
             let whole = of(case).map(|e| format!("whole box: {:.2}", e.pressure.abs())).unwrap_or_default();
             let inner = of(case).and_then(|e| e.pressure_inner);

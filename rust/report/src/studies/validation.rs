@@ -11,7 +11,7 @@ use msdd_reference::solver::Run;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// One configuration in one case against the reference.
+/// Errors of one configuration in one case against the reference.
 #[derive(Clone, Debug, Serialize)]
 pub struct Validated {
     pub case: String,
@@ -22,7 +22,7 @@ pub struct Validated {
     pub errors: Option<Errors>,
 }
 
-/// Runs of a configuration, if those of all `packings` ended well; else why not.
+/// Runs of a configuration, if those of all `packings` were completed; else the outcome and message of one that was not.
 pub fn complete<'a>(records: &[&'a Record], packings: usize) -> Result<Vec<&'a Run>, (Outcome, String)> {
     let runs: Vec<&Run> = records.iter().filter_map(|record| record.run.as_ref()).collect();
     match records.iter().find(|record| record.outcome != Outcome::Done) {
@@ -34,7 +34,7 @@ pub fn complete<'a>(records: &[&'a Record], packings: usize) -> Result<Vec<&'a R
     }
 }
 
-/// All validated configurations; the runs of those that ended are put into `kept`.
+/// Errors of all validated configurations; runs that were completed are added to `kept`.
 pub fn validation(
     settings: &Settings,
     records: &Records,

@@ -1,4 +1,4 @@
-//! Limits of the discrete elements.
+//! Section of the page on the limits of the discrete elements.
 
 use crate::ReportError;
 use crate::draw::{Axis, Line, Marker, Series, Style, from_data, plot, series};
@@ -29,7 +29,7 @@ pub fn steps(made: &Made) -> Result<String, ReportError> {
         format!("{low:.2} to {:.2}", ratios.iter().copied().fold(0.0, f64::max))
     };
     let caption = format!(
-        "Fig. #. Discrete elements: stable below, unstable above. Measured over predicted: mechanical {}, thermal {}; the program takes \
+        "Fig. #. Largest stable time steps of discrete elements; longer ones are unstable. Measured over predicted: mechanical {}, thermal {}. The program uses \
          0.4 and 0.7 of the bound, and refuses fixed steps beyond it.",
         ratio(&|s| s.mechanical),
         ratio(&|s| s.thermal)
@@ -48,7 +48,7 @@ pub fn steps(made: &Made) -> Result<String, ReportError> {
     .html(made)
 }
 
-/// Marks of the two strains, +2 and -2 %.
+/// Styles of the two strains, +2 and -2 %.
 fn strained(strain: f64) -> (Style, &'static str) {
     if strain > 0.0 {
         (Style { line: Line::Solid, ..Style::marker(1, Marker::Circle) }, "expansion by 2 %")
@@ -57,7 +57,7 @@ fn strained(strain: f64) -> (Style, &'static str) {
     }
 }
 
-/// A line down to the lowest error drawn, at the value that the program uses.
+/// A vertical line at the value that the program uses, down to the lowest error drawn.
 fn used(at: f64, range: (f64, f64)) -> Series {
     series(vec![(at, range.0), (at, range.1)], Style::line(4, Line::Dotted))
 }
@@ -116,9 +116,9 @@ fn said_of(limits: &Limits) -> String {
     let porosity =
         |speed: f64| limits.wall_speed.iter().find(|r| r.speed == speed).map_or(f64::NAN, |r| r.porosity[0]);
     format!(
-        "Fig. #. How slowly boxes have to be made, {} packings. Expected: expansion hardly feels its rate, contraction does, walls at most at \
-         0.05 m/s. Rates: at 2 1/s {:.1} % for expansion and {:.1} % for contraction, at those of the program (0.1 and 0.02 1/s) {:.2} and \
-         {:.2} %. Balance: {:.4} % at 1e-4, {:.2} % at 0.01. Packing to 0.13: walls at 0.03 m/s end at {:.3}, at 1 m/s, which throws grains ahead \
+        "Fig. #. How slowly boxes have to be strained and packed, {} packings. Expected: the result of expansion hardly depends on the strain rate, that of contraction does, \
+         and walls may move at 0.05 m/s at most. Error of the pressure by strain rate: at 2 1/s {:.1} % for expansion and {:.1} % for contraction, at the rates of the program (0.1 and 0.02 1/s) {:.2} and \
+         {:.2} %. By the unbalanced force that is allowed: {:.4} % at 1e-4, {:.2} % at 0.01. Packing to a porosity of 0.13: with walls at 0.03 m/s the packing comes to rest at {:.3}, with walls at 1 m/s, which throw grains ahead \
          of them, at {:.3}.",
         limits.packings,
         rate(0.02, 2.0),
@@ -164,8 +164,8 @@ pub fn unjamming(made: &Made) -> Result<String, ReportError> {
         _ => "never".to_string(),
     };
     let caption = format!(
-        "Fig. #. Grains that shrink until they lose touch, mean of {} packings: below 1 Pa discrete elements {}, the state network {}, the paper's \
-         network {}. The state network starts from the packings' stress; K stays above zero by a floor of 1e-4.",
+        "Fig. #. Grains that shrink until they lose contact, mean of {} packings. The pressure falls below 1 Pa: discrete elements {}, the state network {}, the paper's \
+         network {}. The state network starts from the stress of the packings; its K/k is kept above zero, at 1e-4 or more.",
         limits.packings,
         said("discrete elements"),
         said("state"),

@@ -1,4 +1,4 @@
-//! The failure map.
+//! Section of the page with the failure map.
 
 mod elements;
 mod networks;
@@ -9,8 +9,8 @@ use crate::ReportError;
 use crate::report::Made;
 
 pub fn section(made: &Made) -> Result<String, ReportError> {
-    let mut html = "<h2>Where methods break</h2>\n<p>Each row was run. <b>refused</b>: nothing was computed; <b>ended</b>: stopped with the \
-                    message; <b>cut</b>: steps were repeated with half the size; <b>reported</b>: went on, counted and said so; \
+    let mut html = "<h2>Where methods break</h2>\n<p>The configuration of each row was run. <b>refused</b>: nothing was computed; <b>ended</b>: the run stopped with the \
+                    message; <b>cut</b>: steps were repeated with half the size; <b>reported</b>: the run went on, and its summary or log says so; \
                     <b>done</b>: nothing to report.</p>\n"
         .to_string();
     let rows = &made.report.failures.rows;

@@ -1,4 +1,4 @@
-//! Networks in many increments.
+//! Section of the page on networks when a strain is divided into many increments.
 
 use crate::ReportError;
 use crate::draw::{Axis, Line, Marker, Style, plot, series};
@@ -30,8 +30,8 @@ pub fn drift(made: &Made) -> Result<String, ReportError> {
             .fold(0.0, f64::max)
     };
     let caption = format!(
-        "Fig. #. One strain in more and more increments, packings that training never saw: neither network drifts; largest error of the \
-         stress at the most increments {:.0} % (state) and {:.0} % (paper).",
+        "Fig. #. The same strain divided into more and more increments, on packings that were not used in training: the errors of neither network grow. Largest error of the \
+         stress with the most increments: {:.0} % (state) and {:.0} % (paper).",
         last("state"),
         last("paper")
     );
@@ -72,9 +72,9 @@ pub fn depth(made: &Made) -> Result<String, ReportError> {
         rows.map(|d| d.composed).fold(0.0, f64::max)
     };
     let caption = format!(
-        "Fig. #. Networks of 2, 4, 8 and 16 neurons, trained alike, on packings that training never saw: in many increments (full) \
+        "Fig. #. Networks of 2, 4, 8 and 16 neurons, trained in the same way, on packings that were not used in training: in many increments (full) \
          and in one (hollow). Largest error {:.1}, {:.1}, {:.1}, {:.1} %; the shipped model has 4. Larger networks do not drift: the error \
-         in many increments is that in one.",
+         in many increments equals that in one.",
         worst(2),
         worst(4),
         worst(8),

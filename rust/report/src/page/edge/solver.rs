@@ -1,4 +1,4 @@
-//! Limits of the solver's discretisation.
+//! Section of the page on the limits of the solver's discretisation.
 
 use crate::ReportError;
 use crate::draw::{Axis, Line, Marker, Style, from_data, plot, series};
@@ -6,7 +6,7 @@ use crate::failures::cycles::{Cycles, worst};
 use crate::page::html::{Figure, fixed};
 use crate::report::Made;
 
-/// A panel, its keys, and what the caption says of it.
+/// A panel, the entries of its legend, and its part of the caption.
 type Part = (String, Vec<(Style, String)>, String);
 
 pub fn coupling(made: &Made) -> Result<String, ReportError> {
@@ -37,8 +37,8 @@ pub fn coupling(made: &Made) -> Result<String, ReportError> {
         .collect();
     let largest = all.iter().filter(|c| c.scheme == "paper").filter_map(|c| c.error).fold(0.0, f64::max);
     let caption = format!(
-        "Fig. #. Coupling with fixed steps (paper, Fig. 21), against adaptive steps of 0.0005 K: nothing becomes unstable (largest error of the paper's \
-         scheme {largest:.1} K), accuracy is lost instead, silently; adaptive steps control it. {}",
+        "Fig. #. Coupling with fixed steps (paper, Fig. 21), compared with adaptive steps and a tolerance of 0.0005 K: nothing becomes unstable (largest error of the paper's \
+         scheme {largest:.1} K), but accuracy is lost without a warning; adaptive steps control the error. {}",
         if ended.is_empty() { String::new() } else { format!("Ended early: {}.", ended.join(", ")) }
     );
     Figure { id: "coupling", panels, keys, caption, source: "measured and cached" }.html(made)
@@ -71,8 +71,8 @@ pub fn discretisation(made: &Made) -> Result<String, ReportError> {
     let mut panels = vec![plot("two halves, at rest", &x, &y, &drawn)?];
     let even = failures.contrast.iter().filter(|c| c.contrast == 1.0).filter_map(|c| c.measured);
     let mut caption = format!(
-        "Fig. #. Left: heat through two halves of a box of different conductivity; K at a face is the mean of the two cells, which \
-         lets through too much by about one part in the number of cells ({:.1e} % without contrast), at any contrast: nothing breaks.",
+        "Fig. #. Left: steady heat flow through a box whose halves differ in conductivity. K at a face is the mean of the two cells, so the heat flow \
+         is too large by a share of about one over the number of cells ({:.1e} % without contrast), at any contrast: the method does not fail.",
         even.fold(0.0, |worst: f64, e| worst.max(e.abs()))
     );
     if !failures.slant.is_empty() {
@@ -107,8 +107,8 @@ fn slant(made: &Made) -> Result<Part, ReportError> {
         .map(|s| format!("{} degrees: {}", s.angle, s.outcome))
         .collect();
     let said = format!(
-        " Right: case H* in a box that leans over, against 200 x 60 cells: the shipped mesh is off by more than 1 % from {first} \
-         degrees on, where the solver warns; at 80 the box is so slender that T is that of the walls. {}",
+        " Right: case H* in a slanted box, compared with 200 x 60 cells: the error of the shipped mesh is above 1 % from {first} \
+         degrees on, where the solver warns; at 80 degrees the box is so slender that T is that of the walls. {}",
         if ended.is_empty() { "None ended early.".to_string() } else { ended.join(", ") }
     );
     Ok((panel, keys, said))
@@ -148,8 +148,8 @@ pub fn cycles(made: &Made) -> Result<String, ReportError> {
     };
     let caption = format!(
         "Fig. #. Ten cycles of 50 K ± 20 K at the walls (case cycle): pressure over that at the start, after 1, 2 and 10 cycles {}. Grains rearrange in \
-         the first cycle and hardly after; T lags behind the walls, so that a cycle does not end at 50 K. Largest difference to the \
-         discrete elements: {} %, with grains that move {} %.",
+         the first cycle and hardly after; T lags behind the walls, so that a cycle does not end at 50 K. Largest difference from the \
+         discrete elements: {} % when cells keep their place, {} % when grains move.",
         all.iter().map(ends).collect::<Vec<_>>().join("; "),
         fixed(worst(&made.report.failures.cycles, "keep"), 1),
         fixed(worst(&made.report.failures.cycles, "move"), 1)
