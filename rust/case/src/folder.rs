@@ -2,8 +2,9 @@
 
 use crate::CaseError;
 use crate::fields::{FieldKind, head, uniform};
+use crate::numbers::rounded;
 use crate::packing::{Packing, Spread};
-use crate::scene::{Scene, rounded};
+use crate::scene::Scene;
 use crate::values::{compression_name, fill, values};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;

@@ -11,6 +11,7 @@
 //! | [`scene`] | the parameters of a new case |
 //! | [`packing`] | the initial packing of a new case |
 //! | [`folder`] | the files of a new case |
+//! | [`numbers`] | numbers as a person writes them |
 //! | [`values`] | values in these files, as text |
 //! | [`check`](mod@check) | what is missing, out of range or doubtful before a run |
 #![forbid(unsafe_code)]
@@ -22,6 +23,7 @@ pub mod fields;
 pub mod folder;
 pub mod grains;
 pub mod mesh;
+pub mod numbers;
 pub mod packing;
 pub mod scene;
 pub mod values;

@@ -2,6 +2,7 @@
 
 use crate::CaseError;
 use crate::grains::Grains;
+use crate::numbers;
 use msdd_rve::message::number;
 use msdd_rve::{
     Averages, Boundary, Compression, PackingSpec, Preparation, RegionKind, Relaxation, homogenise, pack_as,
@@ -135,7 +136,7 @@ pub fn check(grains: &Grains, start: Start, compression: Compression) -> Result<
 
 /// A number with three significant digits.
 fn rounded(value: f64) -> String {
-    crate::values::plain(crate::scene::rounded(value, 3))
+    numbers::plain(numbers::rounded(value, 3))
 }
 
 /// Pressures [Pa] of the loosest and of the densest packing that are allowed, by the shipped model.

@@ -2,6 +2,7 @@
 
 use crate::CaseError;
 use crate::grains::Grains;
+use crate::numbers::rounded;
 use crate::packing::{self, Start, usual_fabric};
 use crate::walls::WallOverTime;
 use msdd_dem::WallHeat;
@@ -53,15 +54,6 @@ pub struct Scene {
     pub tolerance: Option<f64>,
     /// Points where T is recorded [m].
     pub probes: Vec<[f64; 2]>,
-}
-
-/// A number rounded to `digits` significant digits.
-pub fn rounded(value: f64, digits: i32) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    let places = (digits as usize).saturating_sub(1);
-    format!("{value:.places$e}").parse().unwrap_or(value)
 }
 
 /// Proposed numbers of cells along x and y of a box of this size [m]: cells are about [`CELL_RADII`] mean radii wide, or

@@ -1,8 +1,9 @@
 //! Values in the files of a new case: numbers and names as text.
 
 use crate::CaseError;
+use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, RADIUS_RANGE, Spread};
-use crate::scene::{Mechanics, Scene, WALLS, rounded};
+use crate::scene::{Mechanics, Scene, WALLS};
 use crate::walls::WallOverTime;
 use msdd_dem::WallHeat;
 use msdd_rve::Compression;
@@ -217,12 +218,6 @@ pub fn compression_name(compression: Compression) -> &'static str {
         Compression::Intermediate => "intermediate",
         Compression::Sheared => "sheared",
     }
-}
-
-/// A number in its usual short form, such as 0.012 or 1.93e11, which gives exactly the same number when it is read.
-pub fn plain(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || (1e-4..1e5).contains(&size) { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// Replaces every `@key@` by its value.

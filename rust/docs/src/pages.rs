@@ -1,6 +1,6 @@
 //! Which Markdown files there are, and reading them.
 
-use crate::DocsError;
+use crate::error::DocsError;
 use pulldown_cmark::{Event, Options, Parser};
 use std::ops::Range;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! `docs/results.json`: every measured number and table of README and book.
 
-use crate::DocsError;
+use crate::error::DocsError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -164,4 +164,26 @@ impl Table {
 /// Whether a text can stand between marks and in a cell.
 fn plain(text: &str) -> bool {
     !text.contains(['\n', '\r', '|']) && !text.contains("<!--")
+}
+
+impl Section {
+    /// Adds a number, as it is printed.
+    pub(crate) fn number(&mut self, key: &str, value: String, unit: &str, meaning: &str, source: &str) {
+        let [unit, meaning, source] = [unit, meaning, source].map(str::to_string);
+        self.values.insert(key.to_string(), Value { value, unit, meaning, source });
+    }
+
+    /// Adds a table.
+    pub(crate) fn add_table(
+        &mut self,
+        name: &str,
+        meaning: &str,
+        source: &str,
+        columns: &[&str],
+        rows: Vec<Vec<String>>,
+    ) {
+        let columns = columns.iter().map(|column| (*column).to_string()).collect();
+        let (meaning, source) = (meaning.to_string(), source.to_string());
+        self.tables.insert(name.to_string(), Table { meaning, source, columns, rows });
+    }
 }

@@ -241,7 +241,7 @@ fn between(
     let count = found.0.len();
     keys::value(dictionary, FILE, &key, found);
     if let Some(finding) = found.0.get_mut(count) {
-        let short = |value: f64| number_text(crate::scene::rounded(value, 6));
+        let short = |value: f64| number_text(crate::numbers::rounded(value, 6));
         finding.allowed = format!("{} to {} {unit} for these grains", short(least), short(most));
     }
 }

@@ -7,7 +7,7 @@ use super::mesh::{BLOCKS, Mesh};
 use super::state::Bed;
 use crate::dictionary::{Dictionary, Entry, Token};
 use crate::grains::Grains;
-use crate::scene::rounded;
+use crate::numbers::rounded;
 use crate::values::grains_in;
 use msdd_rve::message::number;
 

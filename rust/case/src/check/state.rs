@@ -5,7 +5,7 @@ use super::finding::Findings;
 use super::grains::{FILE, field_name};
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
-use crate::scene::rounded;
+use crate::numbers::rounded;
 use msdd_rve::message::number;
 use msdd_surrogate::Surrogate;
 use msdd_surrogate::surrogate::{Known, MAX_STATE};

@@ -4,7 +4,7 @@ use super::ask::{Asker, number};
 use crate::error::CliError;
 use clap::Args;
 use msdd_case::grains::{Grains, PRESETS, Preset, preset};
-use msdd_case::values::plain;
+use msdd_case::numbers::plain;
 
 #[derive(Args)]
 pub struct GrainWishes {

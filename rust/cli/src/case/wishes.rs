@@ -4,11 +4,12 @@ use super::ask::{Asker, number};
 use super::grain_wishes::GrainWishes;
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
+use msdd_case::numbers::{plain, rounded};
 use msdd_case::packing::{POROSITIES, Start};
 use msdd_case::scene::{
     Mechanics, Scene, cells_of, parse_pair, parse_point, parse_wall, proposed_cells, proposed_probes,
 };
-use msdd_case::values::{describe, plain};
+use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
 use msdd_rve::Compression;
 
@@ -131,7 +132,7 @@ impl Wishes {
     }
 
     fn ask_box(&self, asker: &Asker, mean_radius: f64) -> Result<([f64; 2], [usize; 2]), CliError> {
-        let proposal = [129.0, 43.0].map(|radii| plain(msdd_case::scene::rounded(radii * mean_radius, 3)));
+        let proposal = [129.0, 43.0].map(|radii| plain(rounded(radii * mean_radius, 3)));
         let size = asker.value(
             self.size,
             &format!(

@@ -1,10 +1,10 @@
 //! The six cases: the solver by the paper's scheme and with grains that move, beside the committed discrete elements. All of it
 //! is in what `msdd summary` writes; errors are computed there.
 
-use super::Section;
-use super::json::Json;
-use super::print::{NONE, decimals, two, with_scatter};
-use crate::DocsError;
+use crate::error::DocsError;
+use crate::gather::json::Json;
+use crate::gather::print::{NONE, decimals, two, with_scatter};
+use crate::results::Section;
 use std::path::Path;
 
 /// Written by `msdd summary`, which scripts/run calls.

@@ -1,9 +1,9 @@
 //! The committed databases: what `msdd database check` found, and when they were made.
 
-use super::json::Json;
-use super::print::grouped;
-use super::{INPUTS, Section};
-use crate::DocsError;
+use crate::error::DocsError;
+use crate::gather::json::{INPUTS, Json};
+use crate::gather::print::grouped;
+use crate::results::Section;
 use std::path::Path;
 
 /// Name, what is in it.

@@ -1,8 +1,11 @@
 //! Reading entries of JSON files, with messages that name file and entry.
 
-use crate::DocsError;
+use crate::error::DocsError;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+
+/// Where scripts/results leaves what the programs wrote, relative to the checkout.
+pub const INPUTS: &str = "results/numbers";
 
 /// A file, or a part of it.
 #[derive(Clone, Debug)]

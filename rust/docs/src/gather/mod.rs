@@ -10,12 +10,9 @@ pub mod speed;
 pub mod surrogate;
 pub mod witness;
 
-use crate::DocsError;
-use crate::results::{Results, Section, Table, Value};
+use crate::error::DocsError;
+use crate::results::{Results, Section};
 use std::path::Path;
-
-/// Where scripts/results leaves what the programs wrote, relative to the checkout.
-pub const INPUTS: &str = "results/numbers";
 
 /// Makes one section of the checkout; its origin is filled in by [`renew`].
 type Make = fn(&Path) -> Result<Section, DocsError>;
@@ -55,26 +52,4 @@ pub fn renew(root: &Path, name: &str, origin: Origin) -> Result<(), DocsError> {
         if root.join(crate::results::FILE).is_file() { Results::read(root)? } else { Results::default() };
     results.sections.insert(name.to_string(), section);
     results.write(root)
-}
-
-impl Section {
-    /// Adds a number, as it is printed.
-    fn number(&mut self, key: &str, value: String, unit: &str, meaning: &str, source: &str) {
-        let [unit, meaning, source] = [unit, meaning, source].map(str::to_string);
-        self.values.insert(key.to_string(), Value { value, unit, meaning, source });
-    }
-
-    /// Adds a table.
-    fn add_table(
-        &mut self,
-        name: &str,
-        meaning: &str,
-        source: &str,
-        columns: &[&str],
-        rows: Vec<Vec<String>>,
-    ) {
-        let columns = columns.iter().map(|column| (*column).to_string()).collect();
-        let (meaning, source) = (meaning.to_string(), source.to_string());
-        self.tables.insert(name.to_string(), Table { meaning, source, columns, rows });
-    }
 }

@@ -1,9 +1,9 @@
 //! Speed of engine, surrogate and solver: what `msdd bench` and `scripts/bench-solver` measured.
 
-use super::json::Json;
-use super::print::{decimals, grouped, two};
-use super::{INPUTS, Section};
-use crate::DocsError;
+use crate::error::DocsError;
+use crate::gather::json::{INPUTS, Json};
+use crate::gather::print::{decimals, grouped, two};
+use crate::results::Section;
 use std::path::Path;
 
 /// File of `msdd bench dem`, key, words.

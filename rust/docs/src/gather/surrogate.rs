@@ -1,9 +1,9 @@
 //! How good the shipped models are on packings that their training never saw: what `msdd score` found.
 
-use super::json::Json;
-use super::print::{NONE, decimals, grouped, or_none};
-use super::{INPUTS, Section};
-use crate::DocsError;
+use crate::error::DocsError;
+use crate::gather::json::{INPUTS, Json};
+use crate::gather::print::{NONE, decimals, grouped, or_none};
+use crate::results::Section;
 use std::path::Path;
 
 /// Key, file of the scores, words.

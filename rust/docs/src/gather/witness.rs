@@ -1,8 +1,9 @@
 //! The engine beside YADE: what `tests/engines/run` printed.
 
-use super::print::{decimals, power};
-use super::{INPUTS, Section};
-use crate::DocsError;
+use crate::error::DocsError;
+use crate::gather::json::INPUTS;
+use crate::gather::print::{decimals, power};
+use crate::results::Section;
 use std::path::Path;
 
 const FILE: &str = "witness.txt";

@@ -1,10 +1,12 @@
 //! What happens at the edges of the methods: stable steps, refusals, and where accuracy is lost.
 
-use super::FILE;
-use crate::DocsError;
+use crate::error::DocsError;
 use crate::gather::json::Json;
 use crate::gather::print::{decimals, or_none, power, two};
 use crate::results::Section;
+
+/// Written by `msdd report`.
+pub const FILE: &str = "results/report.json";
 
 /// Largest stable steps of the engine: predicted and measured.
 ///

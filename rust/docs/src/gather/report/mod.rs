@@ -3,14 +3,13 @@
 
 mod edges;
 
-use super::Section;
-use super::json::Json;
-use super::print::{NONE, decimals, grouped, or_none, two};
-use crate::DocsError;
+use crate::error::DocsError;
+use crate::gather::json::Json;
+use crate::gather::print::{NONE, decimals, grouped, or_none, two};
+use crate::results::Section;
+use edges::FILE;
 use std::path::Path;
 
-/// Written by `msdd report`.
-const FILE: &str = "results/report.json";
 const CASES: [&str; 3] = ["H", "C", "HC"];
 const STATE: &str = "state network";
 const MOVING: &str = "state network, grains move";
