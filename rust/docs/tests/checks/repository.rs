@@ -42,7 +42,6 @@ fn figures_of_the_book_are_those_of_the_case() {
 }
 
 #[test]
-#[ignore = "until scripts/results report has run on a quiet machine"]
 fn the_report_behind_the_numbers_is_whole() {
     let results = msdd_docs::results::Results::read(&root()).unwrap();
     let jobs: usize = results.value("report.jobs").unwrap().value.replace('\u{a0}', "").parse().unwrap();
