@@ -108,7 +108,7 @@ fn plans() {
 fn plans_through_c() {
     let plans = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/database");
     let corpus = corpus("plans", &["tiny.toml", "quick.toml"].map(|name| plans.join(name)));
-    assert!(fuzz("plans-c", &corpus, trials(600), plan_through_c) > 10);
+    assert!(fuzz("plans-c", &corpus, trials(1500), plan_through_c) > 10);
 }
 
 /// A hundredth of the trials, because every packing takes milliseconds.
