@@ -204,7 +204,7 @@ fn what_is_no_table_of_ours_is_not_read() {
         (format!("DROP TABLE states; {endless}"), "view states does not belong to a database"),
         (
             "CREATE TRIGGER t AFTER INSERT ON states BEGIN DELETE FROM states; END".to_string(),
-            "trigger t is none",
+            "trigger t does not belong to a database",
         ),
         (
             "ALTER TABLE states ADD COLUMN more REAL".to_string(),
