@@ -73,6 +73,9 @@ class Databases(unittest.TestCase):
 
     def test_interrupted_by_the_keyboard(self) -> None:
         self.plan.write_text(PLAN.replace("repeats = 2", "repeats = 1000"))  # a minute or so
+        # A shell starts what runs in the background with interrupts ignored; Python then leaves them so.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.getsignal(signal.SIGINT))
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
         with self.assertRaises(KeyboardInterrupt):
             msdd.generate_database(self.plan, self.database)
