@@ -1,6 +1,7 @@
 //! Errors of solver runs against the reference: each run starts from the fields of one packing and is compared with that
 //! packing's discrete elements; the error of a case is the largest, over time, of the mean difference over the packings.
 
+use crate::ReferenceError;
 use crate::packings::{GRAIN_CONDUCTIVITY, Reference, pressure_range, temperature_range};
 use crate::results::Results;
 use crate::series::{at, largest, root_mean_square, spread, statistics};
@@ -88,19 +89,38 @@ pub fn errors(reference: &Reference, runs: &[&Run], affine: bool) -> Option<Erro
     })
 }
 
-/// Errors of T at P1 to P3 of one run (rows of time and three temperatures) against the means over windows of 40 mm in the
-/// discs of one packing: solver minus discs where it is largest [% of `range`, which is in K]. Only the times of the discs
-/// between the first and last of the solver's are compared.
-pub fn temperature_errors(run: &[[f64; 4]], discs: &Results, range: f64) -> [f64; 3] {
+/// Errors of T at each probe of one run (rows of time and a temperature for each probe of the discs) against the means over
+/// windows of 40 mm in the discs of one packing: solver minus discs where it is largest [% of `range`, which is in K]. Only the
+/// times of the discs between the first and last of the solver's are compared.
+///
+/// # Errors
+/// [`ReferenceError::Parameter`]: rows with another number of temperatures than the discs have probes, or a run that ends at
+/// another time than the discs (more than a tenth apart).
+pub fn temperature_errors(run: &[Vec<f64>], discs: &Results, range: f64) -> Result<Vec<f64>, ReferenceError> {
     let times = discs.series.column("time").unwrap_or_default();
-    [1, 2, 3].map(|probe| {
+    let probes = discs.probes.len();
+    let wrong = |key, value: String, allowed: String| Err(ReferenceError::Parameter { key, value, allowed });
+    if let Some(row) = run.iter().find(|row| row.len() != 1 + probes) {
+        let allowed = format!("{probes}, the probes of the discs' result: record the same points in both");
+        return wrong("points of spaceProbes", (row.len() - 1).to_string(), allowed);
+    }
+    let (first, last) = (run.first().map_or(0.0, |r| r[0]), run.last().map_or(0.0, |r| r[0]));
+    let end = times.last().copied().unwrap_or(0.0);
+    if (last - end).abs() > 0.1 * end {
+        return wrong(
+            "last time of the solver's run",
+            format!("{last} s"),
+            format!("about {end} s, that of the discs"),
+        );
+    }
+    let error = |probe: usize| {
         let values = discs.series.column(&format!("T_P{probe}_window")).unwrap_or_default();
         let series: Vec<[f64; 2]> = run.iter().map(|row| [row[0], row[probe]]).collect();
-        let (first, last) = (series.first().map_or(0.0, |r| r[0]), series.last().map_or(0.0, |r| r[0]));
         let inside = times.iter().zip(&values).filter(|(t, _)| (first..=last).contains(*t));
         let differences: Vec<f64> = inside.map(|(&t, v)| 100.0 / range * (at(&series, t) - v)).collect();
         largest(&differences)
-    })
+    };
+    Ok((1..=probes).map(error).collect())
 }
 
 /// Mean pressure of the solver minus a column of the discs [% of the paper's range], by packing; `None` when the discs do not
@@ -210,6 +230,22 @@ fn displacement(reference: &Reference, runs: &[&Run]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn temperatures_are_compared_at_all_probes_of_the_discs_and_at_no_others() {
+        let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let discs = Results::read(&checkout.join("cases/reference/results/corner_seed11.json")).unwrap();
+        let columns =
+            ["time", "T_P1_window", "T_P2_window", "T_P3_window"].map(|c| discs.series.column(c).unwrap());
+        let rows: Vec<Vec<f64>> =
+            (0..columns[0].len()).map(|k| columns.iter().map(|column| column[k]).collect()).collect();
+        assert_eq!(temperature_errors(&rows, &discs, 50.0).unwrap(), [0.0; 3]);
+        let two: Vec<Vec<f64>> = rows.iter().map(|row| row[..3].to_vec()).collect();
+        let error = temperature_errors(&two, &discs, 50.0).unwrap_err().to_string();
+        assert!(error.starts_with("points of spaceProbes = 2, allowed: 3"), "{error}");
+        let error = temperature_errors(&rows[..100], &discs, 50.0).unwrap_err().to_string();
+        assert!(error.contains("last time of the solver's run"), "{error}");
+    }
     use std::path::Path;
 
     /// A run with the results of the reference, but `offset` warmer [K] and with the pressure times `factor`.

@@ -92,8 +92,16 @@ pub fn read(folder: &Path, mesh: [usize; 2], end_time: f64) -> Result<Run, Refer
 /// # Errors
 /// As [`read`].
 pub fn temperatures(folder: &Path) -> Result<Vec<[f64; 4]>, ReferenceError> {
-    let rows = numbers(&newest(&folder.join("postProcessing/spaceProbes"))?)?;
+    let rows = probe_rows(folder)?;
     Ok(rows.iter().filter_map(|row| row.get(..4)?.try_into().ok()).collect())
+}
+
+/// Rows of time [s] and T [K] at each of the points of the function object `spaceProbes`, however many there are.
+///
+/// # Errors
+/// As [`read`].
+pub fn probe_rows(folder: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
+    numbers(&newest(&folder.join("postProcessing/spaceProbes"))?)
 }
 
 fn read_summary(file: &Path) -> Result<Value, ReferenceError> {

@@ -100,6 +100,12 @@ fn read(field: &Expected, tokens: &[Token], mesh: &Mesh, found: &mut Findings) -
     let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
     let (numbers, uniform) = match words.as_slice() {
         ["uniform", rest @ ..] => (numbers_in(rest, field.components), true),
+        // A list of equal values, as OpenFOAM prints it: 336 { 0.12 }
+        ["nonuniform", _, count, "{", value @ .., "}"]
+            if count.parse().ok() == mesh.cells.or(count.parse::<usize>().ok()) =>
+        {
+            (numbers_in(value, field.components).filter(|numbers| numbers.len() == 1), true)
+        }
         ["nonuniform", _, count, rest @ ..] => {
             let numbers = numbers_in(rest, field.components);
             let length = numbers.as_ref().map(Vec::len);

@@ -8,6 +8,7 @@ use msdd_case::numbers::{plain, rounded};
 use msdd_case::packing::{POROSITIES, Start};
 use msdd_case::scene::{
     Mechanics, Scene, cells_of, parse_pair, parse_point, parse_wall, proposed_cells, proposed_probes,
+    wall_temperatures,
 };
 use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
@@ -98,7 +99,7 @@ impl Wishes {
             self.initial_temperature,
             "The whole bed has one temperature at the start. Temperatures are in Kelvin.",
             "Temperature at the start [K]",
-            &plain(base.temperature),
+            &plain(self.coldest_wall().unwrap_or(base.temperature)),
             number,
         )?;
         let walls = self.ask_walls(asker, initial_temperature)?;
@@ -162,11 +163,23 @@ impl Wishes {
         Ok((size, cells))
     }
 
+    fn given_walls(&self) -> [&Option<WallOverTime>; 4] {
+        [&self.left, &self.right, &self.bottom, &self.top]
+    }
+
+    /// The lowest temperature of the walls that options gave [K].
+    fn coldest_wall(&self) -> Option<f64> {
+        let given = self.given_walls().into_iter().flatten();
+        given.flat_map(wall_temperatures).reduce(f64::min)
+    }
+
+    /// Where options gave any wall, the others are insulated unless answered otherwise; else the left wall is hot.
     fn ask_walls(&self, asker: &Asker, initial: f64) -> Result<[WallOverTime; 4], CliError> {
         let help = "Each wall is insulated, or has a temperature [K], or one that changes over time: 0:300,60:350 is 300 K at \
                     0 s, 350 K at 60 s, and linear between them.";
-        let hot = plain(initial + HOTTER);
-        let cold = plain(initial);
+        let given = self.given_walls().into_iter().any(Option::is_some);
+        let or_insulated = |value: f64| if given { "insulated".to_string() } else { plain(value) };
+        let (hot, cold) = (or_insulated(initial + HOTTER), or_insulated(initial));
         let left = asker.value(self.left.clone(), help, "Left wall", &hot, parse_wall)?;
         let others = [
             (&self.right, "Right wall", cold.as_str()),

@@ -4,7 +4,7 @@ use crate::error::CliError;
 use clap::Args;
 use msdd_reference::compare::temperature_errors;
 use msdd_reference::results::Results;
-use msdd_reference::solver::temperatures;
+use msdd_reference::solver::probe_rows;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -32,12 +32,12 @@ fn range(text: &str) -> Result<f64, String> {
 /// Prints the largest difference over time at each probe, and the largest absolute value of all probes.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let discs = Results::read(&arguments.discs)?;
-    let solver = temperatures(&arguments.case)?;
-    let errors = temperature_errors(&solver, &discs, arguments.range);
+    let solver = probe_rows(&arguments.case)?;
+    let errors = temperature_errors(&solver, &discs, arguments.range)?;
     outln!("T of the solver minus T of the discs, means in windows of 40 mm, where they differ most");
-    for (probe, error) in (1..).zip(errors) {
+    for (probe, error) in (1..).zip(&errors) {
         outln!("P{probe} {error:+.3} % of {} K", arguments.range);
     }
-    outln!("largest {:.3} %", errors.into_iter().map(f64::abs).fold(0.0, f64::max));
+    outln!("largest {:.3} %", errors.iter().map(|error| error.abs()).fold(0.0, f64::max));
     Ok(())
 }

@@ -97,7 +97,10 @@ pub fn read(
             found.rows.push(OtherCase {
                 case: other.case.to_string(),
                 what: what.to_string(),
-                temperature: run.map(|run| temperature_errors(&run.temperature, &discs, other.range)),
+                temperature: run.and_then(|run| {
+                    let rows: Vec<Vec<f64>> = run.temperature.iter().map(|row| row.to_vec()).collect();
+                    temperature_errors(&rows, &discs, other.range).ok()?.try_into().ok()
+                }),
                 pressure: run.zip(end).map(|(run, end)| [run.end_pressure, end]),
                 outcome: record.outcome.as_str().to_string(),
             });
