@@ -170,7 +170,8 @@ impl Wishes {
     /// The lowest temperature of the walls that options gave [K].
     fn coldest_wall(&self) -> Option<f64> {
         let given = self.given_walls().into_iter().flatten();
-        given.flat_map(wall_temperatures).reduce(f64::min)
+        // A wall below 0 K is refused as a wall, not as the start.
+        given.flat_map(wall_temperatures).reduce(f64::min).filter(|&coldest| coldest >= 0.0)
     }
 
     /// Where options gave any wall, the others are insulated unless answered otherwise; else the left wall is hot.
