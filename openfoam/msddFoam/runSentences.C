@@ -62,7 +62,8 @@ Foam::string Foam::runSummary::range() const
         " about lay outside the range that it was made for, and were answered"
         " as if they lay at its edge. At the end "
       + Foam::name(grains_.cellsOutside()) + " of " + Foam::name(cells)
-      + " cells are outside (field inRegion is 0 there). The cells are listed in"
+      + " cells are outside (field inRegion is 0 there). Such cells, at most"
+        " 10000 of each process, are listed in"
         " postProcessing/msddFoam/offenders.json.";
 }
 

@@ -89,6 +89,27 @@ pub fn errors(reference: &Reference, runs: &[&Run], affine: bool) -> Option<Erro
     })
 }
 
+/// Refuses to compare a run that recorded T at other points [m] than the discs.
+///
+/// # Errors
+/// [`ReferenceError::Parameter`].
+pub fn check_points(points: &[[f64; 2]], discs: &Results) -> Result<(), ReferenceError> {
+    let near = 1e-6 * discs.size[0].max(discs.size[1]);
+    let same = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs() <= near && (a[1] - b[1]).abs() <= near;
+    if points.len() == discs.probes.len() && points.iter().zip(&discs.probes).all(same) {
+        return Ok(());
+    }
+    let words = |points: &[[f64; 2]]| {
+        let words: Vec<String> = points.iter().map(|[x, y]| format!("({x} {y})")).collect();
+        words.join(" ")
+    };
+    Err(ReferenceError::Parameter {
+        key: "points of spaceProbes [m]",
+        value: words(points),
+        allowed: format!("{}, the probes of the discs' result", words(&discs.probes)),
+    })
+}
+
 /// Errors of T at each probe of one run (rows of time and a temperature for each probe of the discs) against the means over
 /// windows of 40 mm in the discs of one packing: solver minus discs where it is largest [% of `range`, which is in K]. Only the
 /// times of the discs between the first and last of the solver's are compared.
@@ -101,8 +122,12 @@ pub fn temperature_errors(run: &[Vec<f64>], discs: &Results, range: f64) -> Resu
     let probes = discs.probes.len();
     let wrong = |key, value: String, allowed: String| Err(ReferenceError::Parameter { key, value, allowed });
     if let Some(row) = run.iter().find(|row| row.len() != 1 + probes) {
-        let allowed = format!("{probes}, the probes of the discs' result: record the same points in both");
-        return wrong("points of spaceProbes", (row.len() - 1).to_string(), allowed);
+        let allowed = format!("{probes}, one for each probe of the discs");
+        return wrong(
+            "temperatures in a row of spaceProbes",
+            row.len().saturating_sub(1).to_string(),
+            allowed,
+        );
     }
     let (first, last) = (run.first().map_or(0.0, |r| r[0]), run.last().map_or(0.0, |r| r[0]));
     let end = times.last().copied().unwrap_or(0.0);
@@ -242,7 +267,13 @@ mod tests {
         assert_eq!(temperature_errors(&rows, &discs, 50.0).unwrap(), [0.0; 3]);
         let two: Vec<Vec<f64>> = rows.iter().map(|row| row[..3].to_vec()).collect();
         let error = temperature_errors(&two, &discs, 50.0).unwrap_err().to_string();
-        assert!(error.starts_with("points of spaceProbes = 2, allowed: 3"), "{error}");
+        assert!(error.starts_with("temperatures in a row of spaceProbes = 2, allowed: 3"), "{error}");
+        assert!(check_points(&discs.probes, &discs).is_ok());
+        let error = check_points(&discs.probes[..2], &discs).unwrap_err().to_string();
+        assert!(error.starts_with("points of spaceProbes [m] = ("), "{error}");
+        let mut moved = discs.probes.clone();
+        moved[1][0] += 0.01;
+        assert!(check_points(&moved, &discs).is_err());
         let error = temperature_errors(&rows[..100], &discs, 50.0).unwrap_err().to_string();
         assert!(error.contains("last time of the solver's run"), "{error}");
     }

@@ -96,6 +96,23 @@ pub fn temperatures(folder: &Path) -> Result<Vec<[f64; 4]>, ReferenceError> {
     Ok(rows.iter().filter_map(|row| row.get(..4)?.try_into().ok()).collect())
 }
 
+/// The points [m] of the function object `spaceProbes`, from the head of its file: `# Probe 0 : (x y z)`.
+///
+/// # Errors
+/// As [`read`].
+pub fn probe_points(folder: &Path) -> Result<Vec<[f64; 2]>, ReferenceError> {
+    let file = newest(&folder.join("postProcessing/spaceProbes"))?;
+    let text = read_text(&file)?;
+    let point = |line: &str| -> Option<[f64; 2]> {
+        let mut numbers = line.split_once('(')?.1.trim_end_matches(')').split_whitespace().map(str::parse);
+        Some([numbers.next()?.ok()?, numbers.next()?.ok()?])
+    };
+    let heads = text.lines().filter(|line| line.starts_with("# Probe "));
+    let wrong =
+        |line: &str| ReferenceError::Read { file: file.clone(), problem: format!("'{line}' has no point") };
+    heads.map(|line| point(line.trim_end()).ok_or_else(|| wrong(line))).collect()
+}
+
 /// Rows of time [s] and T [K] at each of the points of the function object `spaceProbes`, however many there are.
 ///
 /// # Errors

@@ -100,15 +100,15 @@ fn read(field: &Expected, tokens: &[Token], mesh: &Mesh, found: &mut Findings) -
     let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
     let (numbers, uniform) = match words.as_slice() {
         ["uniform", rest @ ..] => (numbers_in(rest, field.components), true),
-        // A list of equal values, as OpenFOAM prints it: 336 { 0.12 }
-        ["nonuniform", _, count, "{", value @ .., "}"]
-            if count.parse().ok() == mesh.cells.or(count.parse::<usize>().ok()) =>
-        {
-            (numbers_in(value, field.components).filter(|numbers| numbers.len() == 1), true)
-        }
         ["nonuniform", _, count, rest @ ..] => {
-            let numbers = numbers_in(rest, field.components);
-            let length = numbers.as_ref().map(Vec::len);
+            // A list of equal values is printed by OpenFOAM as 336 { 0.12 }.
+            let (numbers, equal) = match rest {
+                ["{", value @ .., "}"] => {
+                    (numbers_in(value, field.components).filter(|numbers| numbers.len() == 1), true)
+                }
+                _ => (numbers_in(rest, field.components), false),
+            };
+            let length = if equal { count.parse().ok() } else { numbers.as_ref().map(Vec::len) };
             if let (Some(length), Some(cells)) = (length, mesh.cells)
                 && length != cells
             {
@@ -123,7 +123,7 @@ fn read(field: &Expected, tokens: &[Token], mesh: &Mesh, found: &mut Findings) -
                 );
                 return None;
             }
-            (numbers, false)
+            (numbers, equal)
         }
         _ => (None, true),
     };
@@ -211,6 +211,8 @@ mod tests {
         let good = "dimensions [0 0 0 0 0 0 0]; internalField nonuniform List<scalar> 3 ( 0.1 0.2 0.1 );
             boundaryField { empty { type empty; } \".*\" { type zeroGradient; } }";
         assert_eq!(lines(1, good), Vec::<String>::new());
+        // As OpenFOAM prints a list of equal values.
+        assert_eq!(lines(1, &good.replace("3 ( 0.1 0.2 0.1 )", "3{0.1}")), Vec::<String>::new());
         for (from, to, message) in [
             (
                 "[0 0 0 0 0 0 0]",
@@ -220,6 +222,11 @@ mod tests {
             (
                 "3 ( 0.1 0.2 0.1 )",
                 "2 ( 0.1 0.2 )",
+                "internalField = a list of 2 values, allowed: 3, one for each cell",
+            ),
+            (
+                "3 ( 0.1 0.2 0.1 )",
+                "2{0.1}",
                 "internalField = a list of 2 values, allowed: 3, one for each cell",
             ),
             ("0.2", "12.5", "internalField = 12.5 in cell 1, allowed: between 0 and 1. Is it in per cent?"),

@@ -30,19 +30,20 @@ pub struct Wishes {
     #[arg(long, value_name = "M", help_heading = "Box")]
     cell_size: Option<f64>,
     /// Left wall: a temperature [K], 'insulated', or temperatures over time such as 0:300,60:350 (300 K at 0 s, 350 K at 60 s,
-    /// linear between them).
+    /// linear between them). Default: 50 K above the start; insulated if another wall is given.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     left: Option<WallOverTime>,
-    /// Right wall; values as for the left one.
+    /// Right wall; values as for the left one. Default: the initial temperature; insulated if another wall is given.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     right: Option<WallOverTime>,
-    /// Bottom wall; values as for the left one.
+    /// Bottom wall; values as for the left one. Default: insulated.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     bottom: Option<WallOverTime>,
-    /// Top wall; values as for the left one.
+    /// Top wall; values as for the left one. Default: insulated.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     top: Option<WallOverTime>,
-    /// Initial temperature of the whole bed [K].
+    /// Initial temperature of the whole bed [K]. Default: that of the coldest wall if walls of different temperatures are given,
+    /// else the usual one of the material.
     #[arg(long, value_name = "K", help_heading = "Walls and temperatures")]
     initial_temperature: Option<f64>,
     /// Heat released inside of the bed [W per m3 of bed]; negative for heat that is taken away.
@@ -167,11 +168,13 @@ impl Wishes {
         [&self.left, &self.right, &self.bottom, &self.top]
     }
 
-    /// The lowest temperature of the walls that options gave [K].
+    /// The temperature of the coldest wall [K], if options gave walls of different temperatures: the bed then starts at it. A
+    /// single temperature would leave nothing to heat or cool; a wall below 0 K is refused as a wall, not as the start.
     fn coldest_wall(&self) -> Option<f64> {
-        let given = self.given_walls().into_iter().flatten();
-        // A wall below 0 K is refused as a wall, not as the start.
-        given.flat_map(wall_temperatures).reduce(f64::min).filter(|&coldest| coldest >= 0.0)
+        let given = self.given_walls().into_iter().flatten().flat_map(wall_temperatures);
+        let [least, most] =
+            given.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)]);
+        (0.0 <= least && least < most).then_some(least)
     }
 
     /// Where options gave any wall, the others are insulated unless answered otherwise; else the left wall is hot.

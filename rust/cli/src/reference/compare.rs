@@ -2,9 +2,9 @@
 
 use crate::error::CliError;
 use clap::Args;
-use msdd_reference::compare::temperature_errors;
+use msdd_reference::compare::{check_points, temperature_errors};
 use msdd_reference::results::Results;
-use msdd_reference::solver::probe_rows;
+use msdd_reference::solver::{probe_points, probe_rows};
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -32,6 +32,7 @@ fn range(text: &str) -> Result<f64, String> {
 /// Prints the largest difference over time at each probe, and the largest absolute value of all probes.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let discs = Results::read(&arguments.discs)?;
+    check_points(&probe_points(&arguments.case)?, &discs)?;
     let solver = probe_rows(&arguments.case)?;
     let errors = temperature_errors(&solver, &discs, arguments.range)?;
     outln!("T of the solver minus T of the discs, means in windows of 40 mm, where they differ most");
