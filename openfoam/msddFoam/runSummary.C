@@ -15,8 +15,8 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "runSummary.H"
-#include "OFstream.H"
-#include "OSspecific.H"
+#include "OStringStream.H"
+#include "wholeFile.H"
 #include "Time.H"
 
 Foam::runSummary::runSummary
@@ -91,73 +91,63 @@ void Foam::runSummary::write(const label rejected) const
         return;
     }
 
-    mkDir(path().path());
-    const fileName beside(path() + ".part");
+    OStringStream os;
+    os.precision(10);
+    os  << "{\n  \"application\": \"msddFoam\",\n"
+        << "  \"wall_seconds\": " << wallSeconds << ",\n"
+        << "  \"cpu_seconds\": " << cpuSeconds << ",\n"
+        << "  \"steps\": " << steps << ",\n"
+        << "  \"cells\": " << cells << ",\n"
+        << "  \"queries\": " << grains_.queries() << ",\n"
+        << "  \"clamped_queries\": " << clamped << ",\n"
+        << "  \"cell_queries\": " << asked << ",\n"
+        << "  \"cell_steps\": " << all << ",\n"
+        << "  \"rejected_steps\": " << rejected << ",\n"
+        << "  \"mechanics\": {\"kind\": " << string(mechanics_.type())
+        << ", \"solves\": " << moved.solves
+        << ", \"iterations\": " << moved.iterations
+        << ", \"linear_iterations\": " << moved.linear
+        << ", \"cut_steps\": " << moved.cut
+        << ", \"unconverged_steps\": " << moved.unconverged
+        << ", \"residual\": " << moved.residual
+        << ", \"displacement\": " << moved.displacement
+        << ", \"looped_cells\": " << moved.looped
+        << ", \"warnings\": [";
+    forAll(moved.warnings, i)
     {
-        OFstream os(beside);
-        os.precision(10);
-        os  << "{\n  \"application\": \"msddFoam\",\n"
-            << "  \"wall_seconds\": " << wallSeconds << ",\n"
-            << "  \"cpu_seconds\": " << cpuSeconds << ",\n"
-            << "  \"steps\": " << steps << ",\n"
-            << "  \"cells\": " << cells << ",\n"
-            << "  \"queries\": " << grains_.queries() << ",\n"
-            << "  \"clamped_queries\": " << clamped << ",\n"
-            << "  \"cell_queries\": " << asked << ",\n"
-            << "  \"cell_steps\": " << all << ",\n"
-            << "  \"rejected_steps\": " << rejected << ",\n"
-            << "  \"mechanics\": {\"kind\": " << string(mechanics_.type())
-            << ", \"solves\": " << moved.solves
-            << ", \"iterations\": " << moved.iterations
-            << ", \"linear_iterations\": " << moved.linear
-            << ", \"cut_steps\": " << moved.cut
-            << ", \"unconverged_steps\": " << moved.unconverged
-            << ", \"residual\": " << moved.residual
-            << ", \"displacement\": " << moved.displacement
-            << ", \"looped_cells\": " << moved.looped
-            << ", \"warnings\": [";
-        forAll(moved.warnings, i)
-        {
-            os  << (i ? ", " : "") << moved.warnings[i];
-        }
-        os  << "]},\n"
-            << "  \"heat\": {\"patches\": " << heat.patches
-            << ", \"sources\": " << heat.sources
-            << ", \"stored\": " << heat.stored
-            << ", \"exchanged\": " << heat.exchanged
-            << ", \"relative_difference\": " << heat.difference() << "},\n"
-            << "  \"what_to_know\": [";
-        forAll(sentences, i)
-        {
-            os  << (i ? ",\n    " : "\n    ") << sentences[i];
-        }
-        os  << "\n  ],\n"
-            << "  \"model\": {\"source\": " << grains_.model().source()
-            << ", \"hash\": " << string(grains_.model().hash())
-            << ", \"library_version\": "
-            << string(granularModel::libraryVersion());
-        for (const auto& item : counts)
-        {
-            os  << ", \"" << item.first.c_str() << "\": " << item.second;
-        }
-        os  << "},\n"
-            << "  \"final\": {\n"
-            << "    \"time\": " << time.value() << ",\n"
-            << "    \"porosity\": " << meanPorosity << ",\n"
-            << "    \"fabric\": " << meanFabric << ",\n"
-            << "    \"conductivity_xx\": " << meanK.xx() << ",\n"
-            << "    \"conductivity_yy\": " << meanK.yy() << ",\n"
-            << "    \"stress_xx\": " << -meanStress.xx() << ",\n"
-            << "    \"stress_yy\": " << -meanStress.yy() << ",\n"
-            << "    \"pressure\": " << meanPressure << "\n  }\n}" << endl;
-
-        if (!os.good())
-        {
-            FatalErrorInFunction
-                << "Cannot write " << beside << exit(FatalError);
-        }
+        os  << (i ? ", " : "") << moved.warnings[i];
     }
-    mv(beside, path());
+    os  << "]},\n"
+        << "  \"heat\": {\"patches\": " << heat.patches
+        << ", \"sources\": " << heat.sources
+        << ", \"stored\": " << heat.stored
+        << ", \"exchanged\": " << heat.exchanged
+        << ", \"relative_difference\": " << heat.difference() << "},\n"
+        << "  \"what_to_know\": [";
+    forAll(sentences, i)
+    {
+        os  << (i ? ",\n    " : "\n    ") << sentences[i];
+    }
+    os  << "\n  ],\n"
+        << "  \"model\": {\"source\": " << grains_.model().source()
+        << ", \"hash\": " << string(grains_.model().hash())
+        << ", \"library_version\": "
+        << string(granularModel::libraryVersion());
+    for (const auto& item : counts)
+    {
+        os  << ", \"" << item.first.c_str() << "\": " << item.second;
+    }
+    os  << "},\n"
+        << "  \"final\": {\n"
+        << "    \"time\": " << time.value() << ",\n"
+        << "    \"porosity\": " << meanPorosity << ",\n"
+        << "    \"fabric\": " << meanFabric << ",\n"
+        << "    \"conductivity_xx\": " << meanK.xx() << ",\n"
+        << "    \"conductivity_yy\": " << meanK.yy() << ",\n"
+        << "    \"stress_xx\": " << -meanStress.xx() << ",\n"
+        << "    \"stress_yy\": " << -meanStress.yy() << ",\n"
+        << "    \"pressure\": " << meanPressure << "\n  }\n}" << endl;
+    writeWhole(path(), [&](std::ostream& file) { file << os.str(); });
 }
 
 

@@ -15,8 +15,8 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "onlineRveModel.H"
+#include "wholeFile.H"
 #include "Time.H"
-#include "OSspecific.H"
 
 #include <algorithm>
 #include <cstdio>
@@ -80,19 +80,8 @@ public:
     ) const
     {
         const fileName folder(time().path()/time().timeName());
-        mkDir(folder);
-        const fileName beside(folder/name() + ".part");
-        {
-            std::ofstream os(beside);
-            model_.write(os);
-            os.close();
-            if (!os.good())
-            {
-                FatalErrorInFunction
-                    << "Cannot write " << beside << exit(FatalError);
-            }
-        }
-        return mv(beside, folder/name());
+        writeWhole(folder/name(), [&](std::ostream& os) { model_.write(os); });
+        return true;
     }
 };
 

@@ -15,8 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "regionPolicy.H"
-#include "OFstream.H"
-#include "OSspecific.H"
+#include "wholeFile.H"
 #include "Time.H"
 
 #include <cctype>
@@ -357,20 +356,17 @@ void Foam::regionPolicy::write() const
         return;
     }
 
-    const fileName file(path(mesh_.time()));
-    mkDir(file.path());
-    const fileName beside(file + ".part");
+    const auto write = [&](std::ostream& os)
     {
-        OFstream os(beside);
         os  << "{\"schema\": \"msdd-offenders-1\", \"model_hash\": \""
             << hash_.c_str() << "\",\n \"state_names\": [";
         for (label k = 0; k < names_.size() - 1; ++k)
         {
             os  << (k ? ", \"" : "\"") << columnName(names_[k]).c_str() << '"';
         }
-        os  << "],\n \"rows\": [" << text.substr(1).c_str() << "\n]}" << endl;
-    }
-    mv(beside, file);
+        os  << "],\n \"rows\": [" << text.substr(1).c_str() << "\n]}\n";
+    };
+    writeWhole(path(mesh_.time()), write);
 }
 
 

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "timeFolder.H"
+#include "wholeFile.H"
 #include "IStringStream.H"
 #include "OSspecific.H"
 #include "Pstream.H"
@@ -185,17 +186,7 @@ void Foam::timeFolder::write
     text += ");\n";
     text += lastLine + SHA1(text).digest().str() + lastEnd;
 
-    const fileName place(path/recordName), beside(place + ".part");
-    mkDir(place.path());
-    std::ofstream os(beside, std::ios::binary | std::ios::trunc);
-    os << text;
-    os.close();
-    if (!os || !mv(beside, place))
-    {
-        FatalErrorInFunction
-            << "Cannot write " << place << ". Is the disk full? A restart takes"
-            << " the last time that is complete" << exit(FatalError);
-    }
+    writeWhole(path/recordName, [&](std::ostream& os) { os << text; });
 }
 
 

@@ -37,6 +37,12 @@ pub struct Case {
 }
 
 impl Case {
+    /// Highest less lowest temperature of the walls at any time and of the start [K].
+    pub fn temperature_range(&self) -> f64 {
+        let all = || self.walls.iter().flat_map(WallOverTime::temperatures).chain([self.initial_temperature]);
+        all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+    }
+
     /// Reads `0/T`, `constant/granularProperties`, `system/controlDict` and `system/blockMeshDict` of a folder.
     ///
     /// # Errors

@@ -102,7 +102,7 @@ impl Scene {
         };
         temperature("initial temperature", self.initial_temperature)?;
         for (name, wall) in WALLS.into_iter().zip(&self.walls) {
-            for value in wall_temperatures(wall) {
+            for value in wall.temperatures() {
                 temperature(name, value)?;
             }
         }
@@ -135,14 +135,14 @@ impl Scene {
 
     /// Least and largest temperature of the initial state and of the walls at any time [K].
     pub fn temperatures(&self) -> [f64; 2] {
-        let walls = self.walls.iter().flat_map(wall_temperatures);
+        let walls = self.walls.iter().flat_map(WallOverTime::temperatures);
         walls.fold([self.initial_temperature; 2], |[least, most], value| [least.min(value), most.max(value)])
     }
 
     /// Length over which heat has to spread [m]: in each direction half of the box if both walls have a temperature, the whole
     /// box if one has; the shorter of the two directions.
     pub fn heat_way(&self) -> f64 {
-        let warm = |wall: usize| !wall_temperatures(&self.walls[wall]).is_empty();
+        let warm = |wall: usize| !self.walls[wall].temperatures().is_empty();
         let ways = [0, 1].map(|k| match (warm(2 * k), warm(2 * k + 1)) {
             (true, true) => 0.5 * self.size[k],
             (false, false) => f64::INFINITY,
@@ -191,15 +191,6 @@ impl Scene {
         let [x, y] = self.cell();
         let crossed = x.min(y) * x.min(y) / self.diffusivity()?[0];
         Ok(rounded((0.05 * crossed).min(0.01 * self.end_time), 2))
-    }
-}
-
-/// Temperatures that a wall has over time [K]; empty when it has no temperature.
-pub fn wall_temperatures(wall: &WallOverTime) -> Vec<f64> {
-    match wall {
-        WallOverTime::Steady(WallHeat::Temperature(value)) => vec![*value],
-        WallOverTime::Steady(_) => Vec::new(),
-        WallOverTime::Table(rows) => rows.iter().map(|row| row[1]).collect(),
     }
 }
 

@@ -40,6 +40,15 @@ impl WallOverTime {
         (rows.len() > 1 && rows[0][0] == 0.0 && finite && rising).then_some(Self::Table(rows))
     }
 
+    /// Temperatures that the wall has over time [K]; empty when it has none.
+    pub fn temperatures(&self) -> Vec<f64> {
+        match self {
+            Self::Steady(WallHeat::Temperature(value)) => vec![*value],
+            Self::Steady(_) => Vec::new(),
+            Self::Table(rows) => rows.iter().map(|row| row[1]).collect(),
+        }
+    }
+
     /// The condition at `time` [s].
     pub fn at(&self, time: f64) -> WallHeat {
         match self {

@@ -45,12 +45,12 @@ pub struct MaterialError {
 }
 
 impl Material {
-    /// Refuses values for which the contact law has no meaning; names the first such key.
-    pub fn check(&self) -> Result<(), MaterialError> {
+    /// The parameters: name, value, whether the contact law has a meaning for it, and the values for which it has.
+    pub fn parameters(&self) -> [(&'static str, f64, bool, &'static str); 6] {
         // Within these bounds products of several parameters stay finite.
         let positive = |v: f64| (1e-30..=1e30).contains(&v);
         let quarter_turn = |v: f64| (0.0..std::f64::consts::FRAC_PI_2).contains(&v);
-        let table: [(&'static str, f64, bool, &'static str); 6] = [
+        [
             ("density", self.density, positive(self.density), "1e-30 to 1e30 kg/m3"),
             ("young_modulus", self.young_modulus, positive(self.young_modulus), "1e-30 to 1e30 Pa"),
             ("stiffness_ratio", self.stiffness_ratio, (0.0..=1.0).contains(&self.stiffness_ratio), "0 to 1"),
@@ -67,10 +67,14 @@ impl Material {
                 "1e-30 to 1e30",
             ),
             ("damping", self.damping, (0.0..1.0).contains(&self.damping), "0 <= damping < 1"),
-        ];
-        match table.iter().find(|row| !row.2) {
+        ]
+    }
+
+    /// Refuses values for which the contact law has no meaning; names the first such key.
+    pub fn check(&self) -> Result<(), MaterialError> {
+        match self.parameters().into_iter().find(|parameter| !parameter.2) {
             None => Ok(()),
-            Some(&(key, value, _, allowed)) => Err(MaterialError { key, value, allowed }),
+            Some((key, value, _, allowed)) => Err(MaterialError { key, value, allowed }),
         }
     }
 }

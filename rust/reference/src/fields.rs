@@ -8,18 +8,19 @@ use msdd_rve::window::crop;
 use msdd_rve::{Averages, window_around};
 use rayon::prelude::*;
 
-/// Side of a window [m]: about 500 discs (section 3.2.1).
-pub const WINDOW: f64 = 0.215;
-/// Height of a band of the box [m].
-const BAND: f64 = 0.05;
+/// Side of a window in mean radii, 215 mm with the paper's grains: about 500 discs (section 3.2.1).
+pub const WINDOW: f64 = 43.0;
+/// Height of a band of the box over the side of a window.
+const BAND: f64 = 0.25;
 
-/// Averages over a window around each of the centres [m], on `threads` threads; results do not depend on their number.
+/// Averages over a window of side `window` [m] around each of the centres [m], on `threads` threads; results do not depend on their number.
 ///
 /// # Errors
 /// [`ReferenceError::Parameter`] with a centre outside the box; the error of the system when it cannot start threads.
 pub fn around(
     simulation: &Simulation,
     centres: &[[f64; 2]],
+    window: f64,
     threads: usize,
 ) -> Result<Vec<Averages>, ReferenceError> {
     let [left, right, bottom, top] = simulation.walls.position;
@@ -30,24 +31,25 @@ pub fn around(
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build();
     let pool = pool.map_err(std::io::Error::other)?;
-    let bands = bands(simulation);
+    let bands = bands(simulation, window);
     let margin = MARGIN * simulation.mean_radius();
     let average = |&centre: &[f64; 2]| {
-        let band = (((centre[1] - bottom) / BAND) as usize).min(bands.len() - 1);
-        window_around(&bands[band], centre, WINDOW, margin).averages
+        let band = (((centre[1] - bottom) / (BAND * window)) as usize).min(bands.len() - 1);
+        window_around(&bands[band], centre, window, margin).averages
     };
     Ok(pool.install(|| centres.par_iter().map(average).collect()))
 }
 
 /// Cuts the box into overlapping bands. Each has all discs that the windows around the centres in it depend on, so that
 /// averaging over a window has to look at few discs only.
-fn bands(simulation: &Simulation) -> Vec<Simulation> {
+fn bands(simulation: &Simulation, window: f64) -> Vec<Simulation> {
     let [left, right, bottom, top] = simulation.walls.position;
-    let count = ((top - bottom) / BAND).ceil() as usize;
+    let height = BAND * window;
+    let count = ((top - bottom) / height).ceil() as usize;
     let band = |k: usize| {
         // A window at a wall is shifted inwards by up to half of its side.
-        let reach = WINDOW + MARGIN * simulation.mean_radius();
-        let (low, high) = (bottom + k as f64 * BAND - reach, bottom + (k + 1) as f64 * BAND + reach);
+        let reach = window + MARGIN * simulation.mean_radius();
+        let (low, high) = (bottom + k as f64 * height - reach, bottom + (k + 1) as f64 * height + reach);
         crop(simulation, [left, low], [right, high])
     };
     (0..count).map(band).collect()
@@ -99,18 +101,18 @@ mod tests {
     fn a_window_of_a_band_is_that_of_the_whole() {
         let heap = heap();
         let centres = [[0.01, 0.01], [0.2, 0.149], [0.3, 0.21], [0.39, 0.399]];
-        for (centre, found) in centres.iter().zip(around(&heap, &centres, 2).unwrap()) {
-            let whole = window_around(&heap, *centre, WINDOW, MARGIN * heap.mean_radius()).averages;
+        for (centre, found) in centres.iter().zip(around(&heap, &centres, 0.2, 2).unwrap()) {
+            let whole = window_around(&heap, *centre, 0.2, MARGIN * heap.mean_radius()).averages;
             assert_eq!(found, whole, "{centre:?}");
         }
-        let error = around(&heap, &[[0.5, 0.1]], 1).unwrap_err().to_string();
+        let error = around(&heap, &[[0.5, 0.1]], 0.2, 1).unwrap_err().to_string();
         assert!(error.contains("cell centre = [0.5, 0.1] m"), "{error}");
     }
 
     #[test]
     fn stress_is_written_tension_positive() {
         let heap = heap();
-        let averages = around(&heap, &[[0.2, 0.2]], 1).unwrap();
+        let averages = around(&heap, &[[0.2, 0.2]], 0.2, 1).unwrap();
         let files = files(&averages, "note");
         let text = &files.iter().find(|file| file.0 == "stress").unwrap().1;
         let line = text.lines().skip_while(|line| *line != "(").nth(1).unwrap();

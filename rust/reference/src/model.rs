@@ -11,9 +11,11 @@ use msdd_case::Case;
 pub use msdd_case::packing::PACKING_FRICTION;
 use msdd_case::packing::RADIUS_RANGE;
 use msdd_dem::{Disc, Material, Simulation, Walls};
-use msdd_rve::pack::FREE_DRAG;
+use msdd_rve::message::number;
+use msdd_rve::pack::free_drag;
 use msdd_rve::place::{Random, radii, scatter};
 use msdd_rve::region::whole_box;
+use msdd_rve::scale::rate_factor;
 use msdd_rve::settle::{Settled, settle};
 use msdd_rve::{Cut, Relaxation, homogenise_in, windows};
 use serde::{Deserialize, Serialize};
@@ -28,7 +30,8 @@ pub const SUM_POROSITY: f64 = 0.104;
 /// Area fraction of the discs when they are placed. A denser start makes the sub-regions more alike and the fabric index
 /// larger.
 const START_DENSITY: f64 = 0.55;
-/// Strain rate of the box [1/s] while grains hardly touch, and below the porosity `DENSE_POROSITY` (overlaps counted twice).
+/// Strain rate of the box [1/s] while grains hardly touch, and below the porosity `DENSE_POROSITY` (overlaps counted twice);
+/// scaled from the paper's grains to others.
 const LOOSE_RATE: f64 = 0.1;
 const DENSE_RATE: f64 = 0.02;
 const DENSE_POROSITY: f64 = 0.25;
@@ -124,7 +127,7 @@ pub fn pack(
     let discs = discs.into_iter().map(|disc| Disc { x: disc.y, y: disc.x, ..disc }).collect();
     let slippery = Material { friction_angle: PACKING_FRICTION.atan(), ..case.material.clone() };
     let mut simulation = Simulation::new(slippery, discs, Walls::around(start_width, height));
-    simulation.free_drag = FREE_DRAG;
+    simulation.free_drag = free_drag(&simulation);
     simulation.set_threads(threads)?;
     close(&mut simulation, width, |done| progress(0.9 * done))?;
     simulation.material = case.material.clone();
@@ -172,11 +175,12 @@ fn close(
 ) -> Result<(), ReferenceError> {
     let way = simulation.walls.width() - width;
     let solid: f64 = simulation.discs.iter().map(Disc::area).sum();
+    let faster = rate_factor(&simulation.material, simulation.mean_radius());
     (simulation.affine, simulation.affine_walls) = (true, true);
     loop {
         let left = simulation.walls.width() - width;
         let loose = 1.0 - solid / simulation.walls.area() > DENSE_POROSITY;
-        let speed = simulation.walls.width() * if loose { LOOSE_RATE } else { DENSE_RATE };
+        let speed = simulation.walls.width() * faster * if loose { LOOSE_RATE } else { DENSE_RATE };
         let steps = (left / (speed * simulation.time_step)).ceil();
         if steps < 1.0 || left < 1e-12 {
             break;
@@ -217,19 +221,29 @@ pub fn statistics(simulation: &Simulation) -> Statistics {
     }
 }
 
+/// What is behind a state that does not fit.
+const OTHER: &str = "as in the case, which has changed since it was packed: pack it again (msdd reference pack --force) or name another --state";
+
 /// Refuses a state that is not a packed box of this case.
 ///
 /// # Errors
 /// [`ReferenceError::Parameter`] with what differs.
 pub fn check_state(simulation: &Simulation, case: &Case) -> Result<(), ReferenceError> {
     let refuse = |key, value: String, allowed: String| Err(ReferenceError::Parameter { key, value, allowed });
-    if simulation.material != case.material {
-        let (value, allowed) = (format!("{:?}", simulation.material), format!("{:?}", case.material));
-        return refuse("material of the state", value, allowed);
+    let (found, wanted) = (simulation.material.parameters(), case.material.parameters());
+    if let Some((found, wanted)) = found.iter().zip(&wanted).find(|(found, wanted)| found.1 != wanted.1) {
+        let (value, allowed) = (number(found.1), number(wanted.1));
+        return refuse(found.0, format!("{value} in the state"), format!("{allowed}, {OTHER}"));
+    }
+    // With few discs the mean of random radii scatters: by 2 % with 100.
+    let (radius, wanted) = (simulation.mean_radius(), case.mean_radius);
+    if (radius / wanted - 1.0).abs() > 0.1 {
+        let allowed = format!("about {} m, {OTHER}", number(wanted));
+        return refuse("mean radius", format!("{} m in the state", number(radius)), allowed);
     }
     let (width, height) = (simulation.walls.width(), simulation.walls.height());
     if ((width / height) / (case.size[0] / case.size[1]) - 1.0).abs() > 1e-9 {
-        let allowed = format!("the shape of the case's box, {:?} m", case.size);
+        let allowed = format!("the shape of the case's box, {:?} m; {OTHER}", case.size);
         return refuse("box of the state", format!("{width} x {height} m"), allowed);
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! Records of a state: one row of the time series, the table of sub-regions, profiles along x.
 //!
 //! Compression positive. T at a probe is given twice: that of the closest disc, as in the paper, which may be a rattler
-//! (a disc without contacts), and the mean of the discs in a window of 40 mm, weighted by their mass.
+//! (a disc without contacts), and the mean of the discs in a window around the probe, weighted by their mass.
 
 use crate::model::SUB_REGIONS;
 use crate::results::{Grains, Table};
@@ -14,10 +14,11 @@ use msdd_rve::{Averages, Cut, homogenise_affine_in, windows};
 /// conductivity of a window by up to 2 %; but they conduct heat to the wall as well as the bulk does, so the windows leave
 /// them out.
 pub const MARGIN: f64 = 2.0;
-/// Side of the window around a probe [m].
-const PROBE_WINDOW: f64 = 0.04;
-/// Side of the window whose discs are listed one by one [m].
-const GRAINS_WINDOW: f64 = 0.12;
+/// Side of the window around a probe, in mean radii: 40 mm with the paper's grains, some 18 discs. A larger one smooths the
+/// curve of T more, a smaller one leaves more of the differences between neighbouring discs.
+pub const PROBE_WINDOW: f64 = 8.0;
+/// Side of the window whose discs are listed one by one, in mean radii.
+pub const GRAINS_WINDOW: f64 = 24.0;
 /// Bins of a profile.
 const BINS: usize = 20;
 /// Columns of K/k: affine estimate (Eq. 9) and solved resistor network of the contacts.
@@ -41,12 +42,13 @@ pub fn series_columns(probes: usize) -> Vec<String> {
     names
 }
 
-/// One row of the time series. Temperatures in K, conductivities over k, stresses in Pa, forces in N, energies in J.
-pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]]) -> Vec<f64> {
+/// One row of the time series; `window` is the side of the windows around the probes [m]. Temperatures in K, conductivities
+/// over k, stresses in Pa, forces in N, energies in J.
+pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]], window: f64) -> Vec<f64> {
     let mut row = vec![simulation.time];
     row.extend(probes.iter().map(|&at| temperature_of_closest(simulation, at)));
     row.extend(probes.iter().map(|&at| {
-        let corner = |side: f64| at.map(|x| x + side * 0.5 * PROBE_WINDOW);
+        let corner = |side: f64| at.map(|x| x + side * 0.5 * window);
         mean_temperature(simulation, corner(-1.0), corner(1.0))
     }));
     let whole = homogenise_affine_in(simulation, &whole_box(simulation), Cut::Clip);
@@ -188,10 +190,10 @@ pub fn displacements(simulation: &Simulation, start: &[[f64; 2]]) -> Table {
     table
 }
 
-/// The discs that reach into a window around a point, at the start and now; at the start all have the temperature `initial`
-/// [K].
-pub fn grains(start: &Simulation, initial: f64, now: &Simulation, [x, y]: [f64; 2]) -> Grains {
-    let half = 0.5 * GRAINS_WINDOW;
+/// The discs that reach into the window of side `side` [m] around a point, at the start and now; at the start all have the
+/// temperature `initial` [K].
+pub fn grains(start: &Simulation, initial: f64, now: &Simulation, [x, y]: [f64; 2], side: f64) -> Grains {
+    let half = 0.5 * side;
     let listed = |simulation: &Simulation, temperature: Option<f64>| {
         let mut table = Table::new(["disc", "x", "y", "r", "T"].map(str::to_string).to_vec());
         for (k, disc) in simulation.discs.iter().enumerate() {

@@ -31,7 +31,7 @@ fn grains_of_a_window_at_both_times() {
     let start = lattice();
     let mut now = start.clone();
     now.discs.iter_mut().for_each(|d| (d.x, d.temperature) = (d.x + 0.1, 70.0));
-    let found = grains(&start, 50.0, &now, [0.2, 0.2]);
+    let found = grains(&start, 50.0, &now, [0.2, 0.2], 0.12);
     // 12 x 12 discs inside, and those around them that reach into the window.
     assert_eq!(found.start.rows.len(), 14 * 14);
     assert_eq!(found.end.rows.len(), 14 * 14);
@@ -45,7 +45,7 @@ fn grains_of_a_window_at_both_times() {
 #[test]
 fn the_inner_box_leaves_the_walls_out() {
     let columns = series_columns(0);
-    let row = series_row(&lattice(), &[]);
+    let row = series_row(&lattice(), &[], 0.04);
     let of = |name: &str| row[columns.iter().position(|column| column == name).unwrap()];
     assert_eq!(columns.len(), row.len());
     // The lattice is the same everywhere, but has no contacts with the walls, so the half branches there carry no force.

@@ -70,6 +70,9 @@ pub struct Results {
     pub size: [f64; 2],
     /// Points where T was recorded [m].
     pub probes: Vec<[f64; 2]>,
+    /// Side of the windows around the probes over which T is averaged [m]; absent in older files, where it was 40 mm.
+    #[serde(default = "older_window")]
+    pub probe_window: f64,
     /// Statistics of the packed model at the start.
     pub model: Statistics,
     /// Mechanical steps (none in a case without expansion, where the grains stay at rest), and thermal sub-steps.
@@ -90,6 +93,10 @@ pub struct Results {
     /// Discs around the second probe at the start and at the end; absent in older files and without that probe.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grains: Option<Grains>,
+}
+
+fn older_window() -> f64 {
+    0.04
 }
 
 impl Results {

@@ -5,8 +5,8 @@ use crate::ReferenceError;
 use crate::checkpoint::{Checkpoint, Records};
 use crate::model::statistics;
 use crate::observe::{
-    add_network, add_profile, displacements, grains, network_table, profile_table, series_columns,
-    series_row, sub_regions,
+    GRAINS_WINDOW, PROBE_WINDOW, add_network, add_profile, displacements, grains, network_table,
+    profile_table, series_columns, series_row, sub_regions,
 };
 use crate::results::{Results, SCHEMA, Table};
 use msdd_case::Case;
@@ -97,6 +97,7 @@ pub fn run(
     crate::model::check_state(start, case)?;
     let scale = start.walls.width() / case.size[0];
     let probes: Vec<[f64; 2]> = case.probes.iter().map(|at| at.map(|x| x * scale)).collect();
+    let probe_window = PROBE_WINDOW * case.mean_radius;
     let asked = asked(case, start, spec);
     let (mut simulation, mut records) = match Checkpoint::read(checkpoint, &asked)? {
         Some(checkpoint) => resume(case, checkpoint)?,
@@ -116,7 +117,7 @@ pub fn run(
             continue;
         }
         advance(&mut simulation, case, spec, time, watch)?;
-        records.series.push(series_row(&simulation, &probes));
+        records.series.push(series_row(&simulation, &probes, probe_window));
         if profile {
             add_profile(&mut records.profiles, &simulation, &centres);
             add_network(&mut records.network, &simulation);
@@ -135,9 +136,12 @@ pub fn run(
         seed: spec.seed,
         discs: start.discs.len(),
         size: [start.walls.width(), start.walls.height()],
-        grains: probes.get(1).map(|&at| grains(start, case.initial_temperature, &simulation, at)),
+        grains: probes.get(1).map(|&at| {
+            grains(start, case.initial_temperature, &simulation, at, GRAINS_WINDOW * case.mean_radius)
+        }),
         displacement: Some(displacements(&simulation, &centres)),
         probes,
+        probe_window,
         model: statistics(start),
         steps: simulation.steps,
         thermal_substeps: simulation.heat().map_or(0, |heat| heat.substeps),

@@ -33,7 +33,7 @@ pub mod pack;
 pub mod place;
 pub mod region;
 mod resistors;
-mod scale;
+pub mod scale;
 pub mod settle;
 pub mod slide;
 pub mod state;

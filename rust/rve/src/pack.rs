@@ -267,7 +267,7 @@ fn loose_start(spec: &PackingSpec, aspect: f64, material: &Material) -> Result<S
 }
 
 /// [`FREE_DRAG`] scaled for the grains of `simulation` [1/s].
-pub(crate) fn free_drag(simulation: &Simulation) -> f64 {
+pub fn free_drag(simulation: &Simulation) -> f64 {
     FREE_DRAG * rate_factor(&simulation.material, simulation.mean_radius())
 }
 

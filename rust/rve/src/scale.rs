@@ -12,14 +12,14 @@ use crate::Material;
 const RADIUS: f64 = 5e-3;
 
 /// Factor of speeds [-] for grains of the mean radius `radius` [m].
-pub(crate) fn speed_factor(material: &Material, radius: f64) -> f64 {
+pub fn speed_factor(material: &Material, radius: f64) -> f64 {
     let paper = Material::default();
     let squared = |m: &Material, r: f64| m.young_modulus * r / m.density;
     root_as_power_of_two(squared(material, radius) / squared(&paper, RADIUS))
 }
 
 /// Factor of strain rates and of the drag [-] for grains of the mean radius `radius` [m].
-pub(crate) fn rate_factor(material: &Material, radius: f64) -> f64 {
+pub fn rate_factor(material: &Material, radius: f64) -> f64 {
     let paper = Material::default();
     let squared = |m: &Material, r: f64| m.young_modulus / (m.density * r);
     root_as_power_of_two(squared(material, radius) / squared(&paper, RADIUS))

@@ -40,17 +40,22 @@ logged msddFoam
 e=$(worst heatAudit 6)
 check "tensor laplacian: heat balance closes to $e <= 1e-10" below "$e" 1e-10
 
-rm -rf "${work:?}/breeder" # the shipped case with a volumetric heat source
-cp -r "$checkout/cases/breeder" "$work/breeder"
-cd "$work/breeder"
-sed -i "s#\.\./\.\./common#$checkout/cases/common#" 0/* constant/granularProperties system/*
+shipped() { # case: goes into a copy of it, without results that stand there
+    rm -rf "${work:?}/$1"
+    mkdir "$work/$1"
+    cp -r "$checkout/cases/$1"/{0,constant,system} "$work/$1"
+    cd "$work/$1"
+    sed -i "s#\.\./\.\./common#$checkout/cases/common#" 0/* constant/granularProperties system/*
+}
+
+shipped breeder # with a volumetric heat source
 logged blockMesh
 logged msddFoam
 top=$(field 60/T | awk '$1 > top { top = $1 } END { print top }')
 check "breeder: the middle ends at $top, 85 to 89 K" below "$(awk "BEGIN { print ($top - 87)^2 }")" 4
 check "breeder: heat balance closes to $(worst heatAudit 6) <= 1e-10" below "$(worst heatAudit 6)" 1e-10
 
-# Prints the largest differences of T at the probes from the discs' means over windows of 40 mm, in % of the range [K]
+# Prints the largest differences of T at the probes from the discs' means over windows, in % of the range [K]
 (cd "$checkout" && cargo build --release --quiet ${MSDD_PACKAGES:---package msdd-cli})
 msdd=$(cd "$checkout" && realpath -m "${CARGO_TARGET_DIR:-target}")/release/msdd
 against_discs() { # reference, range
@@ -59,10 +64,7 @@ against_discs() { # reference, range
 # The shipped cases corner (half of the walls hot) and material (other grains), for which no parameter was chosen; grains move
 for case in "corner corner_seed11 50" "material material_seed12 100"; do
     set -- $case
-    rm -rf "${work:?}/$1"
-    cp -r "$checkout/cases/$1" "$work/$1"
-    cd "$work/$1"
-    sed -i "s#\.\./\.\./common#$checkout/cases/common#" 0/* constant/granularProperties system/*
+    shipped "$1"
     logged blockMesh
     logged msddFoam
     e=$(against_discs "$2" "$3")
@@ -71,10 +73,7 @@ done
 
 # The shipped case cycle, ten thermal cycles: grains slide only in the first cycle, when they are strained further than before;
 # a restart must keep the largest and least strains
-rm -rf "${work:?}/cycle"
-cp -r "$checkout/cases/cycle" "$work/cycle"
-cd "$work/cycle"
-sed -i "s#\.\./\.\./common#$checkout/cases/common#" 0/* constant/granularProperties system/*
+shipped cycle
 logged blockMesh
 logged msddFoam
 e=$(awk '!/^#/ && ($1 == 8 || $1 == 48) { p[$1] = $2 } END { print p[48]/p[8] - 1 }' postProcessing/wallPressure/0/wallPressure.dat)

@@ -152,7 +152,7 @@ fn report_outside(
         "error" => {
             let advice = format!(
                 "The solver will refuse it: change the field, or give '{name} {{ {side} clamp; }}' in outOfRegion of {FILE} to \
-                 have the region's end used"
+                 have the nearest state of the region used"
             );
             found.error(
                 [&place, "internalField"],

@@ -70,7 +70,10 @@ impl GrainWishes {
         } else {
             let changed = asked.named().into_iter().zip(base.grains.named()).filter(|(a, b)| a.1 != b.1);
             let names: Vec<&str> = changed.map(|(a, _)| a.0).collect();
-            format!("{} ({}), but {} as wished", base.name, base.about, names.join(", "))
+            match names.len() {
+                6 => "grains of your own".to_string(),
+                _ => format!("{} ({}), with {} of your own", base.name, base.about, names.join(", ")),
+            }
         };
         Ok((base, material, asked))
     }

@@ -8,7 +8,6 @@ use msdd_case::numbers::{plain, rounded};
 use msdd_case::packing::{POROSITIES, Start};
 use msdd_case::scene::{
     Mechanics, Scene, cells_of, parse_pair, parse_point, parse_wall, proposed_cells, proposed_probes,
-    wall_temperatures,
 };
 use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
@@ -171,7 +170,7 @@ impl Wishes {
     /// The temperature of the coldest wall [K], if options gave walls of different temperatures: the bed then starts at it. A
     /// single temperature would leave nothing to heat or cool; a wall below 0 K is refused as a wall, not as the start.
     fn coldest_wall(&self) -> Option<f64> {
-        let given = self.given_walls().into_iter().flatten().flat_map(wall_temperatures);
+        let given = self.given_walls().into_iter().flatten().flat_map(WallOverTime::temperatures);
         let [least, most] =
             given.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)]);
         (0.0 <= least && least < most).then_some(least)

@@ -2,14 +2,16 @@
 
 use crate::error::CliError;
 use clap::Args;
+use msdd_case::Case;
 use msdd_reference::compare::{check_points, temperature_errors};
 use msdd_reference::results::Results;
 use msdd_reference::solver::{probe_points, probe_rows};
-use std::path::PathBuf;
+use msdd_rve::message::number;
+use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 #[command(after_help = "Example, after cases/corner/Allrun:
-  msdd reference compare --case cases/corner --discs cases/reference/results/corner_seed11.json --range 50
+  msdd reference compare --case cases/corner --discs cases/reference/results/corner_seed11.json
 The case needs the function object spaceProbes, which the shipped cases have.")]
 pub struct Arguments {
     /// Case folder in which msddFoam has run.
@@ -18,10 +20,10 @@ pub struct Arguments {
     /// Result of `msdd reference run` for the same case.
     #[arg(long, value_name = "FILE")]
     discs: PathBuf,
-    /// Range of temperatures [K]: the highest minus the lowest of all walls and the initial state. Errors are given in
-    /// per cent of it.
+    /// Range of temperatures [K], of which errors are given in per cent. Default: the highest minus the lowest of all walls
+    /// and the initial state.
     #[arg(long, value_name = "K", value_parser = range)]
-    range: f64,
+    range: Option<f64>,
 }
 
 fn range(text: &str) -> Result<f64, String> {
@@ -29,15 +31,32 @@ fn range(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "allowed: a number above 0".to_string())
 }
 
+/// The range of temperatures of the case [K].
+fn range_of(case: &Path) -> Result<f64, CliError> {
+    let range = Case::read(case)?.temperature_range();
+    if range > 0.0 {
+        return Ok(range);
+    }
+    let problem = "all walls and the start have one temperature; give the range by --range";
+    Err(CliError::Message(format!("{}: {problem}", case.display())))
+}
+
 /// Prints the largest difference over time at each probe, and the largest absolute value of all probes.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let discs = Results::read(&arguments.discs)?;
     check_points(&probe_points(&arguments.case)?, &discs)?;
     let solver = probe_rows(&arguments.case)?;
-    let errors = temperature_errors(&solver, &discs, arguments.range)?;
-    outln!("T of the solver minus T of the discs, means in windows of 40 mm, where they differ most");
+    let range = match arguments.range {
+        Some(range) => range,
+        None => range_of(&arguments.case)?,
+    };
+    let errors = temperature_errors(&solver, &discs, range)?;
+    outln!(
+        "T of the solver minus T of the discs, means in windows of {} mm, where they differ most",
+        number(1e3 * discs.probe_window)
+    );
     for (probe, error) in (1..).zip(&errors) {
-        outln!("P{probe} {error:+.3} % of {} K", arguments.range);
+        outln!("P{probe} {error:+.3} % of {} K", number(range));
     }
     outln!("largest {:.3} %", errors.iter().map(|error| error.abs()).fold(0.0, f64::max));
     Ok(())

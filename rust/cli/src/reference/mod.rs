@@ -7,12 +7,14 @@ use crate::error::CliError;
 use crate::progress::Progress;
 use crate::rve::{read_state, write_state};
 use clap::{Args, Subcommand};
+use msdd_case::numbers::rounded;
 use msdd_case::{Case, mesh};
 use msdd_dem::Simulation;
 use msdd_files::{check_target, write};
 use msdd_reference::model::{DISCS, ModelSpec, check_state, discs_of, pack, statistics};
 use msdd_reference::run::Watch;
 use msdd_reference::{ReferenceError, RunSpec, Statistics, fields, results::Results, run as run_case};
+use msdd_rve::message::number;
 use msdd_rve::vtk;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -73,9 +75,9 @@ pub struct RunArguments {
     /// End of the simulation [s]; default: endTime of the case.
     #[arg(long)]
     end: Option<f64>,
-    /// Time between two lines of the time series [s].
-    #[arg(long, default_value_t = 0.1)]
-    interval: f64,
+    /// Time between two lines of the time series [s]; default: a 200th of the end, rounded to two digits.
+    #[arg(long)]
+    interval: Option<f64>,
     /// Number of times, evenly spaced over the run, at which profiles along x are recorded.
     #[arg(long, default_value_t = 21)]
     profiles: usize,
@@ -198,10 +200,11 @@ fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
     let case = Case::read(&arguments.model.case)?;
     let start = arguments.model.load(&case)?;
     let every = Duration::try_from_secs_f64(arguments.checkpoint_every);
+    let end = arguments.end.unwrap_or(case.end_time);
     let spec = RunSpec {
         seed: arguments.model.seed,
-        end: arguments.end.unwrap_or(case.end_time),
-        interval: arguments.interval,
+        end,
+        interval: arguments.interval.unwrap_or_else(|| rounded(end / 200.0, 2)),
         profiles: arguments.profiles,
         time_step: arguments.time_step,
         threads: arguments.model.threads as usize,
@@ -284,10 +287,11 @@ fn write_fields(arguments: &FieldsArguments) -> Result<(), CliError> {
     let at = |[x, y]: [f64; 2]| [left + scale * (x - case.origin[0]), bottom + scale * (y - case.origin[1])];
     let centres: Vec<[f64; 2]> = centres.into_iter().map(at).collect();
     let begin = Instant::now();
-    let averages = fields::around(&simulation, &centres, arguments.model.threads as usize)?;
+    let window = fields::WINDOW * case.mean_radius;
+    let averages = fields::around(&simulation, &centres, window, arguments.model.threads as usize)?;
     let note = format!(
         "Windows of {} mm of {} packed grains, seed {}: written by msdd reference fields",
-        1e3 * fields::WINDOW,
+        number(1e3 * window),
         simulation.discs.len(),
         arguments.model.seed
     );

@@ -92,7 +92,7 @@ fn coupling() -> Vec<Edge> {
         edge(
             "explicit coupling",
             "the same, thermalStrain warn",
-            "goes on with the region's end, says so",
+            "goes on with the nearest strain of the data, says so",
             REPORTED,
             hot().grains(warn),
         ),
