@@ -22,7 +22,7 @@ start() { # processes: starts the solver in the background; $solver is its proce
     solver=$!
 }
 kill_all() { # kills all processes at once, as a power cut would: none sees another one end
-    pkill -9 -f -- "-case $PWD" || true
+    pkill -9 -f -- "-case $PWD" || [ $? = 1 ] # 1: none was left
     wait "$solver" 2> /dev/null || true
 }
 killed_and_restarted() { # processes: runs this case, kills it once and restarts it
