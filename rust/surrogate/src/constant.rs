@@ -108,7 +108,9 @@ impl Surrogate for ConstantModel {
     }
 
     fn initial_state(&self, known: &Known) -> [f64; MAX_STATE] {
-        [known.porosity, known.fabric_index, 0.0, 0.0, 0.0, 0.0]
+        let mut state = [0.0; MAX_STATE];
+        state[..2].copy_from_slice(&[known.porosity, known.fabric_index]);
+        state
     }
 
     fn block(&self, state: &StateLanes, _strain: &Lanes) -> Answer {
@@ -138,7 +140,8 @@ mod tests {
     fn is_the_mean_and_survives_its_file() {
         let rows = synthetic::rows(5, 2);
         let model = train(&rows, &TrainingOptions::default()).expect("good rows");
-        let state = [0.11, 0.03, 0.0, 0.0, 0.0, 0.0];
+        let mut state = [0.0; MAX_STATE];
+        state[..2].copy_from_slice(&[0.11, 0.03]);
         let answer = model.evaluate(&state, 0.04);
         assert_eq!(answer.state.map(|lanes| lanes[2]), state);
         let packed: Vec<_> = rows.iter().filter(|row| row.stop == 0).collect();

@@ -37,6 +37,7 @@ pub mod document;
 pub mod drift;
 mod error;
 pub mod fit;
+pub mod increment;
 pub mod kernel;
 pub mod least_squares;
 pub mod levenberg_marquardt;

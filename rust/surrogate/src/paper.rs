@@ -32,7 +32,9 @@ impl Surrogate for Model {
     }
 
     fn initial_state(&self, known: &Known) -> [f64; MAX_STATE] {
-        [known.porosity, known.fabric_index, 0.0, 0.0, 0.0, 0.0]
+        let mut state = [0.0; MAX_STATE];
+        state[..2].copy_from_slice(&[known.porosity, known.fabric_index]);
+        state
     }
 
     fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer {
@@ -75,14 +77,14 @@ mod tests {
     fn gives_the_networks_answers() {
         let model = Model::builtin().expect("the shipped model is sound");
         let direct = Model::evaluate(&model, 0.13, 0.02, 0.001);
-        let answer = Surrogate::evaluate(&model, &[0.13, 0.02, 0.0, 0.0, 0.0, 0.0], 0.001);
+        let answer = Surrogate::evaluate(&model, &[0.13, 0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.001);
         assert_eq!(answer.state[0][3], 0.13 + direct.delta_porosity);
         assert_eq!(
             (answer.conductivity[1][0], answer.stress[0][7]),
             (direct.conductivity_yy, direct.stress_xx)
         );
         assert!(answer.inside(0));
-        let far = Surrogate::evaluate(&model, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.0], -0.2);
+        let far = Surrogate::evaluate(&model, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], -0.2);
         assert!(far.outside[0][0] > 0.2 && far.outside[MAX_STATE][0] < -0.1 && !far.inside(0));
     }
 }

@@ -370,7 +370,8 @@ mod tests {
         assert!((mean[PRESSURE] - law).abs() < 0.05 * law, "{mean:?}");
         let doubt = model.doubt(&state).expect("the model knows its region");
         assert!(doubt.distance.is_finite() && doubt.conductivity_spread >= 0.0);
-        let far = model.doubt(&[0.5, 0.0, 0.4, 0.0, 0.0, 0.0]).expect("the model knows its region");
+        let far =
+            model.doubt(&[0.5, 0.0, 0.4, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).expect("the model knows its region");
         assert!(far.beyond_hull > 1.0 && far.distance > 3.0, "{far:?}");
     }
 

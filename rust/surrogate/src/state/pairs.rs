@@ -66,7 +66,7 @@ const PRESSURE_SCALE: f64 = 0.01;
 pub fn blank_rates(variables: Variables, hidden: &[usize], pairs: &[Pair], ramps: &[Ramp]) -> Rates {
     let sizes = rates::sizes(variables, hidden);
     let network = Perceptron { weights: vec![0.0; crate::perceptron::weight_count(&sizes)], sizes };
-    let (mut offset, mut scale) = ([0.0; MAX_STATE], [1.0; MAX_STATE]);
+    let (mut offset, mut scale) = ([0.0; rates::STORED], [1.0; rates::STORED]);
     let jammed = || pairs.iter().filter(|pair| pair.jammed());
     for column in 0..variables.names().len() {
         let rate = |pair: &Pair| (pair.to.state[column] - pair.from.state[column]) / pair.strain;

@@ -4,7 +4,7 @@ use super::variables::{FABRIC_INDEX, Features, MAX_ODD, POROSITY, PRESSURE, RATE
 use crate::kernel::vector::Vector;
 use crate::kernel::{Lanes, Task, all_layers, dispatch};
 use crate::perceptron::{Neurons, Perceptron};
-use crate::surrogate::{MAX_STATE, StateLanes};
+use crate::surrogate::StateLanes;
 use serde::{Deserialize, Serialize};
 
 /// The rates' network and its scales.
@@ -15,13 +15,15 @@ pub struct Rates {
     /// coefficients of the odd features in its rate, and a coefficient of its own feature times the sign of the strain.
     pub network: Perceptron,
     /// Rate dx/dε of each state column [-] at output 0; not zero only for even variables.
-    pub offset: [f64; MAX_STATE],
+    pub offset: [f64; STORED],
     /// Rate dx/dε of each state column [-] per unit of output.
-    pub scale: [f64; MAX_STATE],
+    pub scale: [f64; STORED],
     /// η above which a state without stress remains without, whatever the strain [-].
     pub unjamming_porosity: f64,
 }
 
+/// Number of state columns in the files of models.
+pub const STORED: usize = 6;
 /// Upper limit of |f|, |f_K| and η in composed states; no state of grains has larger values.
 const FABRIC_LIMIT: f64 = 0.9;
 const POROSITY_LIMIT: f64 = 0.99;

@@ -5,6 +5,7 @@ pub use crate::dataset::ConductivityKind;
 use crate::dataset::StateRow;
 use crate::kernel::vector::{Portable, Vector};
 use crate::kernel::{LANES, Lanes};
+use crate::region::Coordinates;
 use crate::scaling::Range;
 use crate::surrogate::{MAX_STATE, StateLanes};
 use serde::{Deserialize, Serialize};
@@ -255,13 +256,13 @@ impl FeatureRanges {
     }
 
     /// A state as a point of the [`crate::region::Region`]: η, √p̃ and the odd features, scaled but not clamped.
-    pub fn coordinates(&self, variables: Variables, state: &[f64; MAX_STATE]) -> [f64; MAX_STATE] {
+    pub fn coordinates(&self, variables: Variables, state: &[f64; MAX_STATE]) -> Coordinates {
         let on = |value: f64, range: Range| {
             (value - 0.5 * (range.min + range.max)) / (0.5 * range.width()).max(f64::MIN_POSITIVE)
         };
         let root = Range { min: 0.0, max: self.pressure.max.sqrt() };
         let pressure = state[PRESSURE].max(0.0);
-        let mut point = [0.0; MAX_STATE];
+        let mut point = Coordinates::default();
         point[POROSITY] = on(state[POROSITY], self.porosity);
         point[FABRIC_INDEX] = on(state[FABRIC_INDEX], self.fabric_index);
         point[PRESSURE] = on(pressure.sqrt(), root);

@@ -1,0 +1,233 @@
+//! Answers of the law, a block of cells at a time.
+
+use super::law::{ELEMENTS, Elastic, Law, Moduli, Strain, rotation};
+use super::number::{Dual, Number, Plain};
+use super::readout::{Features, Readout};
+use crate::kernel::vector::Vector;
+use crate::kernel::{LANES, Lanes, Task, dispatch};
+use crate::surrogate::{MAX_STATE, StateLanes};
+
+/// Columns of the state.
+pub const POROSITY: usize = 0;
+pub const FABRIC_INDEX: usize = 1;
+pub const FABRIC_SHEAR: usize = 2;
+pub const JAMMING: usize = 3;
+pub const COMPRESSION: usize = 4;
+/// First of the elements' shear strains, two columns for each element.
+pub const SHEAR: usize = 5;
+/// Number of columns.
+pub const COLUMNS: usize = SHEAR + 2 * ELEMENTS;
+
+/// Names of the columns.
+pub const NAMES: [&str; COLUMNS] = [
+    "porosity",
+    "fabric_index",
+    "fabric_shear",
+    "jamming_fraction",
+    "elastic_compression",
+    "elastic_shear_1",
+    "elastic_shear_1_xy",
+    "elastic_shear_2",
+    "elastic_shear_2_xy",
+];
+
+/// Strain of a block of cells: growth of the radii, and strain of the cell, extension positive; xy is 2 e_xy. `rotation` is the
+/// angle by which the cell turns, counter-clockwise positive [rad].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Increment {
+    pub thermal: Lanes,
+    pub xx: Lanes,
+    pub yy: Lanes,
+    pub xy: Lanes,
+    pub rotation: Lanes,
+}
+
+/// State, reduced stress (xx, yy, xy; compression positive) and K/k (xx, yy, xy) after a strain.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct After {
+    pub state: StateLanes,
+    pub stress: [Lanes; 3],
+    pub conductivity: [Lanes; 3],
+}
+
+/// −dσ̃/de for σ̃_xx, σ̃_yy, σ̃_xy (first index) and e_xx, e_yy, 2 e_xy (second).
+pub type Tangent = [[Lanes; 3]; 3];
+
+/// What answers queries.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Core {
+    pub law: Law,
+    pub readout: Readout,
+}
+
+struct Query<'a> {
+    core: &'a Core,
+    state: &'a StateLanes,
+    strain: &'a Increment,
+    after: &'a mut After,
+    tangent: Option<&'a mut Tangent>,
+}
+
+impl Task for Query<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        let Self { core, state, strain, after, tangent } = self;
+        core.advance_as::<V>(state, strain, after, tangent);
+    }
+}
+
+impl Core {
+    /// Strains a block of cells. Without strain the state stays as it is, bit for bit. A lane's answer depends on that lane
+    /// alone, and is the same with and without `tangent`, which is the derivative of the stress by the strain at its end.
+    pub fn advance(
+        &self,
+        state: &StateLanes,
+        strain: &Increment,
+        after: &mut After,
+        tangent: Option<&mut Tangent>,
+    ) {
+        dispatch(Query { core: self, state, strain, after, tangent });
+    }
+
+    #[inline(always)]
+    fn advance_as<V: Vector>(
+        &self,
+        state: &StateLanes,
+        strain: &Increment,
+        after: &mut After,
+        tangent: Option<&mut Tangent>,
+    ) {
+        let turn = rotation(V::read(&strain.rotation));
+        let before = elastic::<V>(state);
+        let [thermal, xx, yy, xy] =
+            [V::read(&strain.thermal), V::read(&strain.xx), V::read(&strain.yy), V::read(&strain.xy)];
+        let (next, moduli) = match tangent {
+            None => {
+                let strain = Strain { thermal: Plain(thermal), xx: Plain(xx), yy: Plain(yy), xy: Plain(xy) };
+                self.law.advanced(&before, &strain, [Plain(turn[0]), Plain(turn[1])])
+            }
+            Some(tangent) => {
+                let strain = Strain {
+                    thermal: Dual::of(thermal),
+                    xx: Dual::strain(xx, 0),
+                    yy: Dual::strain(yy, 1),
+                    xy: Dual::strain(xy, 2),
+                };
+                self.with_tangent::<V>(&before, &strain, turn, tangent)
+            }
+        };
+        let moved = thermal.abs() + xx.abs() + yy.abs() + xy.abs() + V::read(&strain.rotation).abs();
+        self.write::<V>(state, &before, (&next, &moduli), (turn, moved), after);
+    }
+
+    /// The advance with its derivatives; returns the values.
+    #[inline(always)]
+    fn with_tangent<V: Vector>(
+        &self,
+        before: &Elastic<Plain<V>>,
+        strain: &Strain<Dual<V>>,
+        turn: [V; 2],
+        tangent: &mut Tangent,
+    ) -> (Elastic<Plain<V>>, Moduli<Plain<V>>) {
+        let mut from = Elastic {
+            jamming: Dual::of(before.jamming.0),
+            compression: Dual::of(before.compression.0),
+            shear: [[Dual::of(V::zero()); 2]; ELEMENTS],
+        };
+        for k in 0..ELEMENTS {
+            from.shear[k] = [Dual::of(before.shear[k][0].0), Dual::of(before.shear[k][1].0)];
+        }
+        let (next, moduli) = self.law.advanced(&from, strain, [Dual::of(turn[0]), Dual::of(turn[1])]);
+        let [p, q1, q2] = self.law.stress(&next, &moduli);
+        for (row, stress) in tangent.iter_mut().zip([p + q1, p - q1, q2]) {
+            for (lanes, derivative) in row.iter_mut().zip(stress.by) {
+                (V::zero() - derivative).write(lanes);
+            }
+        }
+        let mut values = Elastic {
+            jamming: Plain(next.jamming.value),
+            compression: Plain(next.compression.value),
+            shear: before.shear,
+        };
+        for k in 0..ELEMENTS {
+            values.shear[k] = [Plain(next.shear[k][0].value), Plain(next.shear[k][1].value)];
+        }
+        let moduli = Moduli {
+            pressure: Plain(moduli.pressure.value),
+            ratio: Plain(moduli.ratio.value),
+            growth: Plain(moduli.growth.value),
+        };
+        (values, moduli)
+    }
+
+    /// Writes the answer. Where `moved` is 0 the state stays as it was, to the last bit.
+    #[inline(always)]
+    fn write<V: Vector>(
+        &self,
+        state: &StateLanes,
+        before: &Elastic<Plain<V>>,
+        (next, moduli): (&Elastic<Plain<V>>, &Moduli<Plain<V>>),
+        (turn, moved): ([V; 2], V),
+        after: &mut After,
+    ) {
+        let stress = self.law.stress(next, moduli);
+        let features = Features::of(&stress, next.looseness().0);
+        let porosity = V::all(1.0) - next.solid().0 + self.readout.overlap(&features);
+        let porosity = porosity.within(V::zero(), V::all(MOST_POROSITY));
+        // The fabric follows the elastic state; the rest of it turns with the cell, by twice its angle.
+        let old = self.law.moduli(before.compression, before.looseness());
+        let from = self.readout.fabric(before, old.ratio.0);
+        let to = self.readout.fabric(next, moduli.ratio.0);
+        let rest = [V::read(&state[FABRIC_INDEX]) - from[0], V::read(&state[FABRIC_SHEAR]) - from[1]];
+        let rest = turned_twice(rest, turn);
+        let (low, high) = (V::all(-MOST_FABRIC), V::all(MOST_FABRIC));
+        let fabric = [(rest[0] + to[0]).within(low, high), (rest[1] + to[1]).within(low, high)];
+        let mut keep = |column: usize, value: V| {
+            moved.where_greater(V::zero(), value, V::read(&state[column])).write(&mut after.state[column]);
+        };
+        keep(POROSITY, porosity);
+        keep(FABRIC_INDEX, fabric[0]);
+        keep(FABRIC_SHEAR, fabric[1]);
+        keep(JAMMING, next.jamming.0);
+        keep(COMPRESSION, next.compression.0);
+        for k in 0..ELEMENTS {
+            keep(SHEAR + 2 * k, next.shear[k][0].0);
+            keep(SHEAR + 2 * k + 1, next.shear[k][1].0);
+        }
+        let [Plain(p), Plain(q1), Plain(q2)] = stress;
+        (p + q1).write(&mut after.stress[0]);
+        (p - q1).write(&mut after.stress[1]);
+        q2.write(&mut after.stress[2]);
+        let conductivity = self.readout.conductivity(&features, fabric);
+        for k in 0..3 {
+            conductivity[k].write(&mut after.conductivity[k]);
+        }
+    }
+}
+
+#[inline(always)]
+fn turned_twice<V: Vector>(vector: [V; 2], [cosine, sine]: [V; 2]) -> [V; 2] {
+    let turned = |[a, b]: [V; 2]| [cosine * a - sine * b, sine * a + cosine * b];
+    turned(turned(vector))
+}
+
+/// Largest porosity and fabric that a state may reach.
+const MOST_POROSITY: f64 = 0.99;
+const MOST_FABRIC: f64 = 0.9;
+
+#[inline(always)]
+fn elastic<V: Vector>(state: &StateLanes) -> Elastic<Plain<V>> {
+    let zero = Plain(V::zero());
+    let mut shear = [[zero; 2]; ELEMENTS];
+    for k in 0..ELEMENTS {
+        shear[k] = [Plain(V::read(&state[SHEAR + 2 * k])), Plain(V::read(&state[SHEAR + 2 * k + 1]))];
+    }
+    let (jamming, compression) = (Plain(V::read(&state[JAMMING])), Plain(V::read(&state[COMPRESSION])));
+    Elastic { jamming, compression, shear }
+}
+
+const _: () = assert!(COLUMNS <= MAX_STATE && LANES > 0);
+
+#[cfg(test)]
+#[path = "core_tests.rs"]
+mod tests;

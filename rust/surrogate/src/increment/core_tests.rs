@@ -1,0 +1,311 @@
+//! Tests of the law as a whole: symmetries, the tangent, work, composition, bad inputs.
+
+use super::super::law::{Element, Law};
+use super::super::readout::Readout;
+use super::super::start::start;
+use super::*;
+use crate::kernel::vector::Portable;
+use crate::kernel::with_every_set;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// A law like the shipped one.
+pub(crate) fn core() -> Core {
+    let element = |share, strength, dilatancy| Element { share, strength, dilatancy };
+    Core {
+        law: Law {
+            bulk: [0.484, 0.533, 0.052],
+            looseness: -5.0,
+            onset: 5e-4,
+            shear: [0.357, 0.0162, 0.15],
+            elements: [element(0.6, 0.05, -0.034), element(0.4, 0.245, -0.196)],
+            dilatancy_of_looseness: 7.68,
+        },
+        readout: Readout {
+            conductivity: [1.1, 1.8, -1.5, -3.0, 2.0, -0.5, 0.0],
+            overlap: [0.045, 1.85, -0.6, 0.5, 1.2],
+            anisotropy: [0.335, 1.0],
+            fabric: [[-0.5, 0.1], [-0.3, 0.1]],
+        },
+    }
+}
+
+/// The state of a packing as a row of one cell.
+fn packed(porosity: f64, pressure: f64, ratio: [f64; 2]) -> [f64; MAX_STATE] {
+    let core = core();
+    let found = start(&core.law, &core.readout, porosity, pressure, ratio.map(|r| r * pressure));
+    let mut state = [0.0; MAX_STATE];
+    state[..COMPRESSION + 1].copy_from_slice(&[porosity, 0.02, 0.01, found.jamming, found.compression]);
+    for (k, part) in found.shear.iter().flatten().enumerate() {
+        state[SHEAR + k] = *part;
+    }
+    state
+}
+
+fn lanes(state: &[f64; MAX_STATE]) -> StateLanes {
+    state.map(|value| [value; LANES])
+}
+
+/// thermal, xx, yy, xy, rotation
+fn strain(values: [f64; 5]) -> Increment {
+    let [thermal, xx, yy, xy, rotation] = values.map(|value| [value; LANES]);
+    Increment { thermal, xx, yy, xy, rotation }
+}
+
+fn advanced(state: &[f64; MAX_STATE], values: [f64; 5]) -> ([f64; MAX_STATE], [f64; 3], [f64; 3]) {
+    let mut after = After::default();
+    core().advance(&lanes(state), &strain(values), &mut after, None);
+    (after.state.map(|c| c[0]), after.stress.map(|c| c[0]), after.conductivity.map(|c| c[0]))
+}
+
+fn random_strain(random: &mut ChaCha8Rng, size: f64) -> [f64; 5] {
+    std::array::from_fn(|_| size * signed(random))
+}
+
+fn signed(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+/// A state somewhere on a random path from a random packing.
+fn wandered(random: &mut ChaCha8Rng) -> [f64; MAX_STATE] {
+    let (eta, ratio) = (0.12 + 0.05 * signed(random), [0.25 * signed(random), 0.1 * signed(random)]);
+    let pressure = 0.06 * (0.19 - eta) / 0.07;
+    let mut state = packed(eta, pressure, ratio);
+    for _ in 0..20 {
+        state = advanced(&state, random_strain(random, 2e-3)).0;
+    }
+    state
+}
+
+#[test]
+fn the_start_has_the_stress_that_is_known() {
+    for (eta, p, ratio) in [(0.12, 0.058, [0.272, 0.0]), (0.18, 0.015, [0.1, -0.1]), (0.07, 0.13, [0.0, 0.0])]
+    {
+        let (_, [xx, yy, xy], [kxx, kyy, _]) = advanced(&packed(eta, p, ratio), [0.0; 5]);
+        assert!((0.5 * (xx + yy) / p - 1.0).abs() < 1e-9, "{xx} {yy}");
+        assert!((0.5 * (xx - yy) / p - ratio[0]).abs() < 1e-6 && (xy / p - ratio[1]).abs() < 1e-6);
+        assert!(kxx > 0.0 && kyy > 0.0 && kxx < 1.0);
+    }
+    let none = packed(0.2, 0.0, [0.0; 2]);
+    assert_eq!(advanced(&none, [0.0; 5]).1, [0.0; 3]);
+}
+
+#[test]
+fn without_strain_nothing_changes() {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    for _ in 0..200 {
+        let state = wandered(&mut random);
+        let (next, ..) = advanced(&state, [0.0; 5]);
+        assert_eq!(next.map(f64::to_bits), state.map(f64::to_bits));
+    }
+}
+
+#[test]
+fn turned_axes_give_turned_answers() {
+    let mut random = ChaCha8Rng::seed_from_u64(2);
+    let turn = |[a, b]: [f64; 2], angle: f64| {
+        let (s, c) = (2.0 * angle).sin_cos();
+        [c * a - s * b, s * a + c * b]
+    };
+    for _ in 0..200 {
+        let (state, values) = (wandered(&mut random), random_strain(&mut random, 5e-3));
+        let angle = 3.0 * signed(&mut random);
+        let mut other = state;
+        for column in [FABRIC_INDEX, SHEAR, SHEAR + 2] {
+            let turned = turn([state[column], state[column + 1]], angle);
+            other[column..column + 2].copy_from_slice(&turned);
+        }
+        let [thermal, xx, yy, xy, rotation] = values;
+        let (mean, [half, shear]) = (0.5 * (xx + yy), turn([0.5 * (xx - yy), 0.5 * xy], angle));
+        let (a, sa, ka) = advanced(&state, values);
+        let (b, sb, kb) = advanced(&other, [thermal, mean + half, mean - half, 2.0 * shear, rotation]);
+        let near = |a: f64, b: f64, what: &str| assert!((a - b).abs() < 1e-13, "{what} {a} {b}");
+        near(a[POROSITY], b[POROSITY], "porosity");
+        near(a[COMPRESSION], b[COMPRESSION], "compression");
+        for column in [FABRIC_INDEX, SHEAR, SHEAR + 2] {
+            let turned = turn([a[column], a[column + 1]], angle);
+            near(turned[0], b[column], "shear");
+            near(turned[1], b[column + 1], "shear");
+        }
+        for (x, y) in [(sa, sb), (ka, kb)] {
+            let turned = turn([0.5 * (x[0] - x[1]), x[2]], angle);
+            near(0.5 * (x[0] + x[1]), 0.5 * (y[0] + y[1]), "mean");
+            near(turned[0], 0.5 * (y[0] - y[1]), "deviator");
+            near(turned[1], y[2], "xy");
+        }
+    }
+}
+
+#[test]
+fn a_thermal_strain_is_an_isotropic_compression() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    for _ in 0..100 {
+        let (state, strain) = (wandered(&mut random), 0.03 * signed(&mut random));
+        let box_strain = 1.0 / (1.0 + strain) - 1.0;
+        let (a, sa, ka) = advanced(&state, [strain, 0.0, 0.0, 0.0, 0.0]);
+        let (b, sb, kb) = advanced(&state, [0.0, box_strain, box_strain, 0.0, 0.0]);
+        let pairs = a.iter().zip(&b).chain(sa.iter().zip(&sb)).chain(ka.iter().zip(&kb));
+        pairs.for_each(|(a, b)| assert!((a - b).abs() < 1e-13, "{a} {b}"));
+    }
+}
+
+#[test]
+fn the_tangent_is_the_derivative_of_the_stress() {
+    let mut random = ChaCha8Rng::seed_from_u64(4);
+    let core = core();
+    let mut checked = 0;
+    for _ in 0..300 {
+        let (state, values) = (wandered(&mut random), random_strain(&mut random, 2e-3));
+        let (mut after, mut tangent) = (After::default(), Tangent::default());
+        core.advance(&lanes(&state), &strain(values), &mut after, Some(&mut tangent));
+        assert_eq!(
+            after.stress.map(|c| c[0]),
+            advanced(&state, values).1,
+            "the same with and without tangent"
+        );
+        let h = 1e-7;
+        for k in 0..3 {
+            let at = |side: f64| {
+                let mut values = values;
+                values[1 + k] += side * h;
+                advanced(&state, values).1
+            };
+            let (low, high) = (at(-1.0), at(1.0));
+            for i in 0..3 {
+                let found = -(high[i] - low[i]) / (2.0 * h);
+                // Where an element begins to slide within h, the derivative jumps.
+                checked += u32::from((tangent[i][k][0] - found).abs() < 1e-5);
+            }
+        }
+    }
+    assert!(checked >= 2650, "{checked} of 2700");
+}
+
+#[test]
+fn small_strains_of_a_core_that_does_not_slide_are_reversible_and_symmetric() {
+    let state = advanced(&packed(0.12, 0.058, [0.1, 0.0]), [0.02, 0.0, 0.0, 0.0, 0.0]).0;
+    let core = core();
+    let (mut after, mut t) = (After::default(), Tangent::default());
+    core.advance(&lanes(&state), &strain([0.0, 1e-9, 0.0, 0.0, 0.0]), &mut after, Some(&mut t));
+    let t = t.map(|row| row.map(|lanes| lanes[0]));
+    assert!((t[0][1] - t[1][0]).abs() < 1e-9 && (t[0][2] - t[2][0]).abs() < 1e-9, "{t:?}");
+    assert!(t[0][0] > t[0][1] && t[1][1] > t[0][1] && t[2][2] > 0.1, "{t:?}");
+    let path = [[0.0, 1e-3, 0.0, 0.0, 0.0], [0.0, 0.0, 2e-3, 1e-3, 0.0]];
+    let mut moved = state;
+    for values in path {
+        moved = advanced(&moved, values).0;
+    }
+    let back = [0.0, 1.0 / 1.001 - 1.0, 1.0 / 1.002 - 1.0, -1e-3, 0.0];
+    let (end, ..) = advanced(&moved, back);
+    // The strains of a path back add up to second order only.
+    for (a, b) in end.iter().zip(&state) {
+        assert!((a - b).abs() < 1e-5, "{a} {b}");
+    }
+}
+
+#[test]
+fn one_strain_or_five_thousand_parts_of_it_agree() {
+    for values in [
+        [0.02, 0.0, 0.0, 0.0, 0.0],
+        [-0.02, 0.0, 0.0, 0.0, 0.0],
+        [0.0, 0.01, -0.01, 0.0, 0.0],
+        [0.0, -0.02, 0.0, 0.01, 0.0],
+    ] {
+        let state = packed(0.12, 0.058, [0.2, 0.0]);
+        let (_, whole, _) = advanced(&state, values);
+        let mut parts = state;
+        let mut stress = [0.0; 3];
+        for k in 0..5000 {
+            let part = |v: f64| v / (5000.0 + v * f64::from(k));
+            (parts, stress, _) = advanced(&parts, values.map(part));
+        }
+        for (a, b) in whole.iter().zip(&stress) {
+            assert!((a - b).abs() < 0.02 * stress[0], "{values:?}: {whole:?} {stress:?}");
+        }
+    }
+}
+
+#[test]
+fn all_instruction_sets_give_the_same_bits() {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    for _ in 0..50 {
+        let (state, values) = (lanes(&wandered(&mut random)), strain(random_strain(&mut random, 4e-3)));
+        let mut answers = Vec::new();
+        with_every_set(|_| {
+            let (mut after, mut tangent) = (After::default(), Tangent::default());
+            core().advance(&state, &values, &mut after, Some(&mut tangent));
+            answers.push(format!("{after:?} {tangent:?}"));
+        });
+        assert!(answers.windows(2).all(|pair| pair[0] == pair[1]));
+    }
+}
+
+/// Stored energy: ∫ A dv/(1 + v) + G S/2 at fixed z, by numerical integration.
+fn energy(state: &[f64; MAX_STATE]) -> f64 {
+    let core = core();
+    let v = state[COMPRESSION].max(0.0);
+    let at = |v: f64| {
+        let moduli = core.law.moduli(Plain(Portable::all(v)), Plain(Portable::all(0.83 - state[JAMMING])));
+        let mut lanes = [[0.0; LANES]; 2];
+        moduli.pressure.0.write(&mut lanes[0]);
+        (moduli.pressure * moduli.ratio).0.write(&mut lanes[1]);
+        lanes.map(|lanes| lanes[0])
+    };
+    // Simpson's rule.
+    let parts = 200;
+    let h = v / f64::from(parts);
+    let term = |k: i32| at(h * f64::from(k))[0] / (1.0 + h * f64::from(k));
+    let inner: f64 = (1..parts).map(|k| if k % 2 == 1 { 4.0 } else { 2.0 } * term(k)).sum();
+    let square: f64 = core
+        .law
+        .elements
+        .iter()
+        .enumerate()
+        .map(|(k, element)| {
+            let [along, across] = [state[SHEAR + 2 * k], state[SHEAR + 2 * k + 1]];
+            element.share * (along * along + across * across)
+        })
+        .sum();
+    h / 3.0 * (term(0) + inner + term(parts)) + 0.5 * at(v)[1] * square
+}
+
+#[test]
+fn no_strain_creates_energy() {
+    let mut random = ChaCha8Rng::seed_from_u64(6);
+    let mut least = f64::INFINITY;
+    for _ in 0..400 {
+        let state = wandered(&mut random);
+        let mut values = random_strain(&mut random, 1e-6);
+        values[4] = 0.0;
+        let before = advanced(&state, [0.0; 5]).1;
+        let (after, stress, _) = advanced(&state, values);
+        let [thermal, xx, yy, xy, _] = values;
+        let mean = |k: usize| 0.5 * (before[k] + stress[k]);
+        let work = -(mean(0) * (xx - thermal) + mean(1) * (yy - thermal) + mean(2) * xy);
+        let lost = work - (energy(&after) - energy(&state));
+        least = least.min(lost / (stress[0] * 1e-6));
+    }
+    println!("least {least}");
+    assert!(least > -1e-5, "{least}");
+}
+
+#[test]
+fn speed() {
+    let core = core();
+    let state = lanes(&packed(0.12, 0.058, [0.2, 0.0]));
+    let values = strain([1e-4, 1e-4, -2e-4, 1e-4, 1e-5]);
+    let (mut after, mut tangent) = (After::default(), Tangent::default());
+    for with in [false, true] {
+        let begin = std::time::Instant::now();
+        for _ in 0..200_000 {
+            core.advance(
+                std::hint::black_box(&state),
+                &values,
+                &mut after,
+                if with { Some(&mut tangent) } else { None },
+            );
+            std::hint::black_box(&after);
+        }
+        println!("{with} {:.1} ns a cell", begin.elapsed().as_secs_f64() * 1e9 / 200_000.0 / LANES as f64);
+    }
+}

@@ -1,0 +1,254 @@
+//! The law of the increments: elastic energy, sliding and dilatancy of grains, as in [`super`].
+
+use super::number::Number;
+use crate::SurrogateError;
+use crate::document::field;
+use crate::kernel::vector::Vector;
+use serde::{Deserialize, Serialize};
+
+/// Number of parallel elements, each with an elastic shear strain of its own.
+pub const ELEMENTS: usize = 2;
+
+/// Numbers of the law. Stresses and moduli are reduced (times ℓ/(E r̄), ℓ = 1 m), compression positive.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Law {
+    /// A = k₀ (1 + `looseness`·z) v²/(v + `onset`) + k₁ v²/2 + k₂ v³/3: k₀, k₁, k₂.
+    pub bulk: [f64; 3],
+    pub looseness: f64,
+    /// Elastic compression at which contacts have mostly formed [-].
+    pub onset: f64,
+    /// G/A = g₀/(A + a) + g₁: g₀, a, g₁.
+    pub shear: [f64; 3],
+    pub elements: [Element; ELEMENTS],
+    /// Growth of all elements' dilatancy with z.
+    pub dilatancy_of_looseness: f64,
+}
+
+/// An element slides when its part of the deviator exceeds `strength` times A.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Element {
+    /// Part of the shear modulus [0 to 1]; 1 in sum.
+    pub share: f64,
+    /// Largest part of the deviator over A [-].
+    pub strength: f64,
+    /// Loss of elastic compression by a unit of sliding, at z = 0 [-]: negative where grains climb over each other.
+    pub dilatancy: f64,
+}
+
+/// Porosity without stress of the packing for which k₀ and the dilatancies are given: z is measured from it.
+const USUAL_POROSITY: f64 = 0.17;
+/// Least k₀ (1 + looseness·z) over k₀.
+const LEAST_BULK: f64 = 0.1;
+/// Largest elastic compression: that of grains which overlap by a third of their radius.
+const MOST_COMPRESSION: f64 = 0.6;
+/// Largest work of dilatancy over that of friction: less than 1, so that sliding always dissipates.
+const MOST_CLIMBING: f64 = 0.9;
+/// Added to squares of lengths before their root is taken, so that its derivative exists.
+const TINY: f64 = 1e-30;
+
+/// What determines the stress of a cell.
+#[derive(Clone, Copy)]
+pub struct Elastic<N> {
+    /// φ_J: the solid fraction (overlaps counted twice) at which the packing would bear no load [-].
+    pub jamming: N,
+    /// v = φ_s/φ_J − 1: how far the packing is compressed beyond φ_J [-]; negative where the grains do not touch.
+    pub compression: N,
+    /// Elastic shear strain of each element: γ₁ = e_yy − e_xx and γ₂ = −2 e_xy.
+    pub shear: [[N; 2]; ELEMENTS],
+}
+
+impl<N: Number> Elastic<N> {
+    /// φ_s: sum of the grains' areas over the area [-].
+    #[inline(always)]
+    pub fn solid(&self) -> N {
+        self.jamming + self.jamming * self.compression
+    }
+
+    /// z: the porosity without stress, less the usual one.
+    #[inline(always)]
+    pub fn looseness(&self) -> N {
+        self.jamming.times(-1.0).plus(1.0 - USUAL_POROSITY)
+    }
+}
+
+/// Moduli at a compression, per unit of E r̄/ℓ.
+#[derive(Clone, Copy)]
+pub struct Moduli<N> {
+    /// A, the pressure without shear.
+    pub pressure: N,
+    /// G/A, finite also where the grains do not touch.
+    pub ratio: N,
+    /// dG/d ln(1 + v), the growth of G with a compression of the cell.
+    pub growth: N,
+}
+
+/// p, and (σ_xx − σ_yy)/2 and σ_xy.
+pub type Stress<N> = [N; 3];
+
+/// Strains of an increment: extension positive, radii's growth positive.
+#[derive(Clone, Copy)]
+pub struct Strain<N> {
+    pub thermal: N,
+    pub xx: N,
+    pub yy: N,
+    /// 2 e_xy.
+    pub xy: N,
+}
+
+impl Law {
+    #[inline(always)]
+    pub fn moduli<N: Number>(&self, compression: N, loose: N) -> Moduli<N> {
+        let zero = N::all(0.0);
+        let (most, least) = (N::all(MOST_COMPRESSION), N::all(LEAST_BULK));
+        let touching = compression.where_greater(zero, compression, zero);
+        let v = touching.where_greater(most, most, touching);
+        let stiffer = loose.times(self.looseness).plus(1.0);
+        let first = stiffer.where_greater(least, stiffer, least).times(self.bulk[0]);
+        let [_, second, third] = self.bulk;
+        let share = v * v.plus(self.onset).inverse();
+        let pressure = v * (first * share + v * v.times(third / 3.0).plus(0.5 * second));
+        let bulk = first * share * share.times(-1.0).plus(2.0) + v * v.times(third).plus(second);
+        let [g0, a, g1] = self.shear;
+        let inverse = pressure.plus(a).inverse();
+        Moduli {
+            pressure,
+            ratio: inverse.times(g0).plus(g1),
+            growth: (inverse * inverse).times(g0 * a).plus(g1) * bulk * v.plus(1.0),
+        }
+    }
+
+    /// Stress of a state with these moduli.
+    #[inline(always)]
+    pub fn stress<N: Number>(&self, state: &Elastic<N>, moduli: &Moduli<N>) -> Stress<N> {
+        let zero = N::all(0.0);
+        let (mut square, mut along, mut across) = (zero, zero, zero);
+        for k in 0..ELEMENTS {
+            let (share, [a, b]) = (self.elements[k].share, state.shear[k]);
+            square = square + (a * a + b * b).times(share);
+            along = along + a.times(share);
+            across = across + b.times(share);
+        }
+        let shear = moduli.pressure * moduli.ratio;
+        [moduli.pressure + (moduli.growth * square).times(0.5), shear * along, shear * across]
+    }
+
+    /// State after a strain, and its moduli. `turn` is the cosine and sine of the angle by which the cell turns. Zero strain
+    /// may change the last bits of a state that slides.
+    #[inline(always)]
+    pub fn advanced<N: Number>(
+        &self,
+        state: &Elastic<N>,
+        strain: &Strain<N>,
+        turn: [N; 2],
+    ) -> (Elastic<N>, Moduli<N>) {
+        let (zero, one) = (N::all(0.0), N::all(1.0));
+        let Strain { thermal, xx, yy, xy } = *strain;
+        let half = xy.times(0.5);
+        // Growth of the area of the grains, and of the cell.
+        let (grains, cell) = (thermal + thermal + thermal * thermal, xx + yy + (xx * yy - half * half));
+        // φ_s after over φ_s before, less 1; exactly 0 without strain.
+        let denser = (grains - cell) * cell.plus(1.0).inverse();
+        let tried = state.compression + state.compression.plus(1.0) * denser;
+        let loose = state.looseness();
+        let moduli = self.moduli(tried, loose);
+        let more = loose.times(self.dilatancy_of_looseness);
+        let (mut shear, mut lengths, mut loss) = (state.shear, [zero; ELEMENTS], zero);
+        for k in 0..ELEMENTS {
+            let Element { share, strength, dilatancy } = self.elements[k];
+            // The shear strains turn by twice the angle of the cell: half of it before the strain, half after.
+            let [along, across] = turned(shear[k], turn);
+            shear[k] = turned([along + yy - xx, across - xy], turn);
+            let [along, across] = shear[k];
+            let length = (along * along + across * across).plus(TINY).sqrt();
+            // Elastic load of the element over its strength.
+            let load = (moduli.ratio * length).times(share / strength);
+            let kept = load.where_greater(one, load.inverse(), one);
+            let (climbing, least) = (more.plus(dilatancy), N::all(-MOST_CLIMBING * strength));
+            loss = loss + length * (one - kept) * climbing.where_greater(least, climbing, least);
+            shear[k] = [along * kept, across * kept];
+            lengths[k] = length * kept;
+        }
+        // Grains that do not touch do not climb.
+        let loss = tried.where_greater(zero, loss, zero);
+        let compression = tried - loss;
+        let jamming = state.jamming * (tried.plus(1.0) * compression.plus(1.0).inverse());
+        let next = Elastic { jamming, compression, shear };
+        // The strength changes with the compression.
+        let moduli = self.moduli(compression, next.looseness());
+        let mut shear = shear;
+        for k in 0..ELEMENTS {
+            let Element { share, strength, .. } = self.elements[k];
+            let load = (moduli.ratio * lengths[k]).times(share / strength);
+            let kept = load.where_greater(one, load.inverse(), one);
+            shear[k] = [shear[k][0] * kept, shear[k][1] * kept];
+        }
+        (Elastic { shear, ..next }, moduli)
+    }
+
+    /// Refuses numbers for which the law has no meaning.
+    ///
+    /// # Errors
+    /// [`SurrogateError::Field`] with key, value and what is allowed.
+    pub fn check(&self) -> Result<(), SurrogateError> {
+        let [k0, k1, k2] = self.bulk;
+        let [g0, a, g1] = self.shear;
+        // The bulk modulus must stay positive up to the largest compression.
+        let stiff = |v: f64| LEAST_BULK * k0 + k1 * v + k2 * v * v > 0.0;
+        let numbers = [
+            ("bulk[0]", k0, (1e-6..=1e6).contains(&k0), "1e-6 to 1e6"),
+            ("bulk[1]", k1, k1.abs() <= 1e6, "-1e6 to 1e6"),
+            (
+                "bulk[2]",
+                k2,
+                k2.abs() <= 1e6 && (0..=60).all(|k| stiff(0.01 * f64::from(k))),
+                "a bulk modulus above 0 up to a compression of 0.6",
+            ),
+            ("looseness", self.looseness, self.looseness.abs() <= 1e3, "-1e3 to 1e3"),
+            ("onset", self.onset, (1e-9..=1.0).contains(&self.onset), "1e-9 to 1"),
+            ("shear[0]", g0, (0.0..=1e6).contains(&g0), "0 to 1e6"),
+            ("shear[1]", a, (1e-9..=1e6).contains(&a), "1e-9 to 1e6"),
+            ("shear[2]", g1, (0.0..=1e6).contains(&g1) && g0 + g1 > 1e-6, "0 to 1e6, and not both 0"),
+            (
+                "dilatancy_of_looseness",
+                self.dilatancy_of_looseness,
+                self.dilatancy_of_looseness.abs() <= 1e3,
+                "-1e3 to 1e3",
+            ),
+        ];
+        if let Some((key, value, _, allowed)) = numbers.iter().find(|(_, _, good, _)| !good) {
+            return field(&format!("law.{key}"), value, allowed);
+        }
+        let shares: f64 = self.elements.iter().map(|element| element.share).sum();
+        if (shares - 1.0).abs() > 1e-9 {
+            return field("law.elements (sum of shares)", shares, "1");
+        }
+        for (k, element) in self.elements.iter().enumerate() {
+            let Element { share, strength, dilatancy } = *element;
+            let good =
+                (1e-6..=1.0).contains(&share) && (1e-6..=1e3).contains(&strength) && dilatancy.abs() <= 1e3;
+            if !good {
+                let found = format!("share {share}, strength {strength}, dilatancy {dilatancy}");
+                let allowed = "share 1e-6 to 1, strength 1e-6 to 1e3, dilatancy -1e3 to 1e3";
+                return field(&format!("law.elements[{k}]"), found, allowed);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A shear strain turned by the angle of this cosine and sine.
+#[inline(always)]
+fn turned<N: Number>([along, across]: [N; 2], [cosine, sine]: [N; 2]) -> [N; 2] {
+    [cosine * along - sine * across, sine * along + cosine * across]
+}
+
+/// Cosine and sine of small angles: the sum of their squares is 1 to rounding, and the angle is right within θ³/12.
+#[inline(always)]
+pub fn rotation<V: Vector>(angle: V) -> [V; 2] {
+    let half = angle * V::all(0.5);
+    let square = half * half;
+    let inverse = V::all(1.0) / (V::all(1.0) + square);
+    [(V::all(1.0) - square) * inverse, (half + half) * inverse]
+}

@@ -1,0 +1,116 @@
+//! What is computed from the elastic state: conductivity, overlaps of the grains, fabric.
+
+use super::law::{ELEMENTS, Elastic, Stress};
+use super::number::Plain;
+use crate::SurrogateError;
+use crate::document::field;
+use crate::kernel::vector::Vector;
+use serde::{Deserialize, Serialize};
+
+/// Coefficients of the readouts. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Readout {
+    /// Mean conductivity over that of the grains, K/(k s): coefficients of 1, s, p̃, z, z s, r², z².
+    pub conductivity: [f64; 7],
+    /// Overlaps of the grains over the area, o/p̃: coefficients of 1, s, p̃, s z, s r².
+    pub overlap: [f64; 5],
+    /// Direction of the conductivity, (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy): coefficients of q̃/p̃ and of the fabric.
+    pub anisotropy: [f64; 2],
+    /// Direction of the contacts, (F_xx − F_yy, 2 F_xy), as far as it follows the elastic state: for each element the
+    /// coefficients of its shear strain and of its shear strain times G/A.
+    pub fabric: [[f64; 2]; ELEMENTS],
+}
+
+/// Added to p̃ in q̃/p̃, so that the ratio tends to zero where the grains lose contact: a hundredth of p̃ of the loosest
+/// packings.
+pub const PRESSURE_FLOOR: f64 = 1e-4;
+/// K/k of a state without stress: far below that of any packing (at least 0.05), but positive, as the heat equation needs.
+pub const CONDUCTIVITY_FLOOR: f64 = 1e-4;
+/// Least K/(k s): a fifth of that of the loosest packings.
+const LEAST_CONDUCTIVITY: f64 = 0.1;
+/// Largest length of (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy), so that the conductivity is positive in every direction.
+const LARGEST_ANISOTROPY: f64 = 0.9;
+
+/// Functions of a state that the readouts use.
+#[derive(Clone, Copy)]
+pub struct Features<V> {
+    /// p̃ and √p̃.
+    pub pressure: V,
+    pub root: V,
+    /// z.
+    pub loose: V,
+    /// q̃/p̃, both components, and the square of its length.
+    pub ratio: [V; 2],
+    pub square: V,
+}
+
+impl<V: Vector> Features<V> {
+    #[inline(always)]
+    pub fn of(stress: &Stress<Plain<V>>, loose: V) -> Self {
+        let [Plain(p), Plain(q1), Plain(q2)] = *stress;
+        let over = V::all(1.0) / (p + V::all(PRESSURE_FLOOR));
+        let ratio = [q1 * over, q2 * over];
+        let square = ratio[0].fused(ratio[0], ratio[1] * ratio[1]);
+        Self { pressure: p, root: p.sqrt(), loose, ratio, square }
+    }
+}
+
+impl Readout {
+    /// o [-]: the part of the plane that overlaps cover.
+    #[inline(always)]
+    pub fn overlap<V: Vector>(&self, x: &Features<V>) -> V {
+        let [one, s, p, sz, sr] = self.overlap.map(V::all);
+        let of_root = sr.fused(x.square, sz.fused(x.loose, s));
+        x.pressure * of_root.fused(x.root, p.fused(x.pressure, one))
+    }
+
+    /// The part of the fabric that follows the elastic state.
+    #[inline(always)]
+    pub fn fabric<V: Vector>(&self, state: &Elastic<Plain<V>>, ratio: V) -> [V; 2] {
+        let (mut along, mut across) = (V::zero(), V::zero());
+        for k in 0..ELEMENTS {
+            let [own, loaded] = self.fabric[k];
+            let factor = ratio.fused(V::all(loaded), V::all(own));
+            along = factor.fused(state.shear[k][0].0, along);
+            across = factor.fused(state.shear[k][1].0, across);
+        }
+        [along, across]
+    }
+
+    /// K_xx/k, K_yy/k, K_xy/k for the fabric (F_xx − F_yy, 2 F_xy).
+    #[inline(always)]
+    pub fn conductivity<V: Vector>(&self, x: &Features<V>, fabric: [V; 2]) -> [V; 3] {
+        let [one, s, p, z, zs, r, zz] = self.conductivity.map(V::all);
+        let of_loose = zz.fused(x.loose, zs.fused(x.root, z));
+        let rest = p.fused(x.pressure, s.fused(x.root, one));
+        let share = of_loose.fused(x.loose, r.fused(x.square, rest)).at_least(V::all(LEAST_CONDUCTIVITY));
+        let mean = x.root.fused(share, V::all(CONDUCTIVITY_FLOOR));
+        let [of_stress, of_fabric] = self.anisotropy.map(V::all);
+        let along = of_stress.fused(x.ratio[0], of_fabric * fabric[0]);
+        let across = of_stress.fused(x.ratio[1], of_fabric * fabric[1]);
+        let length = along.fused(along, across * across).sqrt();
+        let most = V::all(LARGEST_ANISOTROPY);
+        let kept = length.where_greater(most, most / length.at_least(most), V::all(1.0));
+        let (along, across) = (along * kept, across * kept);
+        let unit = V::all(1.0);
+        [mean * (unit + along), mean * (unit - along), mean * across]
+    }
+
+    /// # Errors
+    /// [`SurrogateError::Field`] for numbers that are not finite or absurdly large.
+    pub fn check(&self) -> Result<(), SurrogateError> {
+        let lists: [(&str, &[f64]); 4] = [
+            ("conductivity", &self.conductivity),
+            ("overlap", &self.overlap),
+            ("anisotropy", &self.anisotropy),
+            ("fabric", self.fabric.as_flattened()),
+        ];
+        for (key, list) in lists {
+            if let Some(value) = list.iter().find(|value| value.is_nan() || value.abs() > 1e6) {
+                return field(&format!("readout.{key}"), value, "-1e6 to 1e6");
+            }
+        }
+        Ok(())
+    }
+}

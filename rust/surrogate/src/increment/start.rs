@@ -1,0 +1,87 @@
+//! The state of a packing whose porosity, fabric and stress are known.
+
+use super::law::{ELEMENTS, Elastic, Law};
+use super::number::Plain;
+use super::readout::{Features, Readout};
+use crate::kernel::vector::{Portable, Vector};
+use crate::kernel::{LANES, Lanes};
+
+/// The elastic state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    pub jamming: f64,
+    pub compression: f64,
+    pub shear: [[f64; 2]; ELEMENTS],
+}
+
+/// Number of bisections: the interval becomes smaller than rounding.
+const HALVINGS: usize = 60;
+/// Number of rounds in which φ_s and v, which depend on each other by the overlaps, are found.
+const ROUNDS: usize = 20;
+/// Largest v that is looked for.
+const LARGEST: f64 = 0.6;
+
+type Cell = Plain<Portable>;
+
+fn cell(value: f64) -> Cell {
+    Plain(Portable::all(value))
+}
+
+fn number(cell: Cell) -> f64 {
+    let mut lanes: Lanes = [0.0; LANES];
+    cell.0.write(&mut lanes);
+    lanes[0]
+}
+
+/// The state with porosity η, pressure p̃ and deviator (q̃₁, q̃₂). The elements share the deviator as after a proportional
+/// load from zero: each bears its part of the shear strain until it slides. A deviator that is larger than all strengths
+/// is borne as far as they go.
+pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviator: [f64; 2]) -> Start {
+    let size = deviator[0].hypot(deviator[1]);
+    let direction = if size > 0.0 { deviator.map(|q| q / size) } else { [0.0; 2] };
+    let mut solid = 1.0 - porosity;
+    let mut found = Start { jamming: solid, compression: 0.0, shear: [[0.0; 2]; ELEMENTS] };
+    for _ in 0..ROUNDS {
+        let compression = if pressure > 0.0 {
+            halved([0.0, LARGEST], |v| number(at(law, solid, v, size, direction).1[0]) < pressure)
+        } else {
+            0.0
+        };
+        let (state, stress) = at(law, solid, compression, size, direction);
+        let features = Features::of(&stress, state.looseness().0);
+        found = Start {
+            jamming: solid / (1.0 + compression),
+            compression,
+            shear: state.shear.map(|shear| shear.map(number)),
+        };
+        solid = 1.0 - porosity + number(Plain(readout.overlap(&features)));
+    }
+    found
+}
+
+/// State and stress at a compression whose elements bear a deviator of this size.
+fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -> (Elastic<Cell>, [Cell; 3]) {
+    let (jamming, v) = (cell(solid / (1.0 + compression)), cell(compression));
+    let unsheared = Elastic { jamming, compression: v, shear: [[cell(0.0); 2]; ELEMENTS] };
+    let moduli = law.moduli(v, unsheared.looseness());
+    let (ratio, pressure) = (number(moduli.ratio), number(moduli.pressure));
+    let limits = law.elements.map(|element| element.strength / (element.share * ratio));
+    let stiffness = ratio * pressure;
+    let borne = |common: f64| -> f64 {
+        let parts = law.elements.iter().zip(limits);
+        parts.map(|(element, limit)| element.share * stiffness * common.min(limit)).sum()
+    };
+    let common = if size > 0.0 { halved([0.0, 1.0], |common| borne(common) < size) } else { 0.0 };
+    let shear = limits.map(|limit| direction.map(|d| cell(d * common.min(limit))));
+    let state = Elastic { shear, ..unsheared };
+    (state, law.stress(&state, &moduli))
+}
+
+/// The end of the part of an interval, from its beginning, in which `low` holds.
+fn halved([mut from, mut to]: [f64; 2], low: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (from + to);
+        if low(middle) { from = middle } else { to = middle }
+    }
+    0.5 * (from + to)
+}
