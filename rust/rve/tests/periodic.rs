@@ -74,6 +74,7 @@ fn hexagonal_lattice_in_an_oblique_cell_in_closed_form() {
         close("kxx", averages.conductivity_xx, root * chord / SPACING, 1e-12);
         close("kyy", averages.conductivity_yy, root * chord / SPACING, 1e-12);
         close("f", averages.fabric_index, 0.0, 1e-12);
+        close("F_xy", averages.fabric_xy, 0.0, 1e-12);
         close("z", averages.coordination, 6.0, 0.0);
         let solid = (PI * RADIUS * RADIUS - 6.0 * hidden) / (0.5 * root * SPACING * SPACING);
         close("porosity", averages.porosity, 1.0 - solid, 1e-12);

@@ -153,6 +153,7 @@ impl Offenders {
             thermal: thermal.collect(),
             mechanics: Vec::new(),
             wall_shear: Vec::new(),
+            paths: Vec::new(),
             text: String::new(),
             ..like.clone()
         };
