@@ -11,6 +11,7 @@ mod case;
 mod database;
 mod draw;
 mod error;
+mod fit_increment;
 mod progress;
 mod reference;
 mod report;
@@ -20,6 +21,7 @@ mod score;
 mod simd;
 mod summary;
 mod threads;
+mod tracks;
 mod train;
 
 use clap::{Parser, Subcommand};
@@ -62,6 +64,8 @@ enum Command {
     Bench(bench::Command),
     /// Train a surrogate model on a database.
     Train(train::Arguments),
+    /// Temporary: fit of the law.
+    FitIncrement(fit_increment::Arguments),
     /// Measure the errors of a trained model on packings that were not used in its training: table, JSON, plots.
     Score(score::Arguments),
     /// Measure how much each input of the networks contributes, by training without it.
@@ -82,6 +86,7 @@ fn main() -> ExitCode {
         Command::Reference(command) => reference::run(&command),
         Command::Bench(command) => bench::run(&command),
         Command::Train(arguments) => train::run(&arguments),
+        Command::FitIncrement(arguments) => fit_increment::run(&arguments),
         Command::Score(arguments) => score::run(&arguments),
         Command::Ablation(arguments) => ablation::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),

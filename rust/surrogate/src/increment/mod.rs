@@ -25,7 +25,9 @@
 //! (2016), Granular Matter 18:58.
 
 pub mod core;
+pub mod fit;
 pub mod law;
 pub mod number;
+pub mod paths;
 pub mod readout;
 pub mod start;

@@ -8,7 +8,7 @@ use crate::kernel::vector::Vector;
 use serde::{Deserialize, Serialize};
 
 /// Coefficients of the readouts. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
     /// Mean conductivity over that of the grains, K/(k s): coefficients of 1, s, p̃, z, z s, r², z².

@@ -4,7 +4,6 @@ use super::law::{ELEMENTS, Elastic, Law};
 use super::number::Plain;
 use super::readout::{Features, Readout};
 use crate::kernel::vector::{Portable, Vector};
-use crate::kernel::{LANES, Lanes};
 
 /// The elastic state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,35 +27,38 @@ fn cell(value: f64) -> Cell {
 }
 
 fn number(cell: Cell) -> f64 {
-    let mut lanes: Lanes = [0.0; LANES];
-    cell.0.write(&mut lanes);
-    lanes[0]
+    cell.0.into_first()
 }
 
-/// The state with porosity η, pressure p̃ and deviator (q̃₁, q̃₂). The elements share the deviator as after a proportional
-/// load from zero: each bears its part of the shear strain until it slides. A deviator that is larger than all strengths
-/// is borne as far as they go.
+/// The state with porosity η, pressure p̃ and deviator (q̃₁, q̃₂).
 pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviator: [f64; 2]) -> Start {
-    let size = deviator[0].hypot(deviator[1]);
-    let direction = if size > 0.0 { deviator.map(|q| q / size) } else { [0.0; 2] };
     let mut solid = 1.0 - porosity;
-    let mut found = Start { jamming: solid, compression: 0.0, shear: [[0.0; 2]; ELEMENTS] };
     for _ in 0..ROUNDS {
-        let compression = if pressure > 0.0 {
-            halved([0.0, LARGEST], |v| number(at(law, solid, v, size, direction).1[0]) < pressure)
-        } else {
-            0.0
-        };
-        let (state, stress) = at(law, solid, compression, size, direction);
+        let (state, stress) = loaded(law, solid, pressure, deviator);
         let features = Features::of(&stress, state.looseness().0);
-        found = Start {
-            jamming: solid / (1.0 + compression),
-            compression,
-            shear: state.shear.map(|shear| shear.map(number)),
-        };
         solid = 1.0 - porosity + number(Plain(readout.overlap(&features)));
     }
-    found
+    start_of_solid(law, solid, pressure, deviator)
+}
+
+/// The state with the solid fraction φ_s, pressure p̃ and deviator (q̃₁, q̃₂). The elements share the deviator as after a
+/// proportional load from zero: each bears its part of the shear strain until it slides. A deviator that is larger than all
+/// strengths is borne as far as they go.
+pub fn start_of_solid(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> Start {
+    let (state, _) = loaded(law, solid, pressure, deviator);
+    Start {
+        jamming: number(state.jamming),
+        compression: number(state.compression),
+        shear: state.shear.map(|shear| shear.map(number)),
+    }
+}
+
+fn loaded(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> (Elastic<Cell>, [Cell; 3]) {
+    let size = deviator[0].hypot(deviator[1]);
+    let direction = if size > 0.0 { deviator.map(|q| q / size) } else { [0.0; 2] };
+    let reaches = |v: f64| number(at(law, solid, v, size, direction).1[0]) < pressure;
+    let compression = if pressure > 0.0 { halved([0.0, LARGEST], reaches) } else { 0.0 };
+    at(law, solid, compression, size, direction)
 }
 
 /// State and stress at a compression whose elements bear a deviator of this size.

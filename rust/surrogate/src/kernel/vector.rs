@@ -56,6 +56,11 @@ impl Portable {
     fn of(value: impl Fn(usize) -> f64) -> Self {
         Self(std::array::from_fn(value))
     }
+
+    /// The value of the first lane.
+    pub fn into_first(self) -> f64 {
+        self.0[0]
+    }
 }
 
 macro_rules! operator {

@@ -1,0 +1,304 @@
+//! Fit of the law to paths of strain: least squares of the stress along them.
+
+use super::core::{COMPRESSION, Core, JAMMING, SHEAR};
+use super::law::{ELEMENTS, Elastic, Element, Law};
+use super::number::Plain;
+use super::paths::{Point, States, Track, follow, stresses};
+use super::readout::{Features, Readout};
+use crate::kernel::vector::{Portable, Vector};
+use crate::least_squares;
+use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};
+use crate::surrogate::MAX_STATE;
+use nalgebra::{DMatrix, DVector};
+use std::ops::ControlFlow;
+
+/// Elastic compression at which contacts have mostly formed; too small for the data to determine.
+const ONSET: f64 = 1e-3;
+/// Added to the mean pressure of a track, over which its errors are taken: a fifth of that of the loosest packings, so that
+/// these do not dominate.
+const PRESSURE_SCALE: f64 = 0.003;
+/// Error above which a residual counts less than by its square, since some packings rearrange suddenly.
+const ROBUST: f64 = 0.03;
+/// Weight of the differences of probes over their strain.
+const PROBE_WEIGHT: f64 = 0.15;
+/// Number of grains of a packing whose errors have the weight 1; that of others goes with the root of their number.
+const USUAL_DISCS: f64 = 500.0;
+/// Largest residual.
+const MOST: f64 = 1.0;
+/// Relative step of the numerical derivatives.
+const STEP: f64 = 1e-4;
+/// Number of parameters.
+const PARAMETERS: usize = 13;
+
+/// The law's numbers as parameters without bounds.
+pub fn parameters(law: &Law) -> DVector<f64> {
+    let [k0, k1, k2] = law.bulk;
+    let [g0, a, g1] = law.shear;
+    let [first, second] = law.elements;
+    DVector::from_vec(vec![
+        k0.ln(),
+        law.looseness,
+        k1,
+        k2,
+        g0.ln(),
+        a.ln(),
+        g1.ln(),
+        (first.share / second.share).ln(),
+        first.strength.ln(),
+        second.strength.ln(),
+        first.dilatancy,
+        second.dilatancy,
+        law.dilatancy_of_looseness,
+    ])
+}
+
+/// The law of these parameters.
+pub fn law(x: &DVector<f64>) -> Law {
+    let share = 1.0 / (1.0 + (-x[7]).exp());
+    let element = |share, strength: f64, dilatancy| Element { share, strength: strength.exp(), dilatancy };
+    Law {
+        bulk: [x[0].exp(), x[2], x[3]],
+        looseness: x[1],
+        onset: ONSET,
+        shear: [x[4].exp(), x[5].exp(), x[6].exp()],
+        elements: [element(share, x[8], x[10]), element(1.0 - share, x[9], x[11])],
+        dilatancy_of_looseness: x[12],
+    }
+}
+
+/// Where the fit begins: values of the grains of the paper, to one digit.
+pub fn beginning() -> Law {
+    let element = |share, strength, dilatancy| Element { share, strength, dilatancy };
+    Law {
+        bulk: [0.5, 0.5, 0.0],
+        looseness: -5.0,
+        onset: ONSET,
+        shear: [0.4, 0.02, 0.2],
+        elements: [element(0.6, 0.05, 0.0), element(0.4, 0.2, 0.0)],
+        dilatancy_of_looseness: 5.0,
+    }
+}
+const _: () = assert!(ELEMENTS == 2);
+
+/// Residuals of the stress along tracks.
+pub struct PathFit<'a> {
+    pub tracks: &'a [Track],
+    pub threads: usize,
+}
+
+impl PathFit<'_> {
+    /// All residuals, in a fixed order.
+    pub fn residuals(&self, x: &DVector<f64>) -> Vec<f64> {
+        let core = Core { law: law(x), readout: Readout::default() };
+        let mut residuals = Vec::new();
+        for (track, states) in self.tracks.iter().zip(follow(&core, self.tracks)) {
+            add_residuals(track, &stresses(&core, &states), &mut residuals);
+        }
+        residuals
+    }
+
+    /// Residuals at several parameters, on the fit's threads.
+    fn residuals_of(&self, all: &[DVector<f64>]) -> Vec<Vec<f64>> {
+        let each = all.len().div_ceil(self.threads.max(1)).max(1);
+        std::thread::scope(|scope| {
+            let some = |some: &'_ [DVector<f64>]| some.iter().map(|x| self.residuals(x)).collect::<Vec<_>>();
+            let handles: Vec<_> = all.chunks(each).map(|chunk| scope.spawn(move || some(chunk))).collect();
+            handles.into_iter().flat_map(|handle| handle.join().unwrap_or_default()).collect()
+        })
+    }
+}
+
+/// Weight of a residual's square, and its share of the sum: that of a large residual grows less than with its square.
+fn robust(residual: f64) -> [f64; 2] {
+    let ratio = residual / ROBUST;
+    let root = (1.0 + ratio * ratio).sqrt();
+    [1.0 / root, 2.0 * ROBUST * ROBUST * (root - 1.0)]
+}
+
+impl LeastSquares for PathFit<'_> {
+    fn mean_square(&self, x: &DVector<f64>) -> f64 {
+        let residuals = self.residuals(x);
+        residuals.iter().map(|&r| robust(r)[1]).sum::<f64>() / residuals.len().max(1) as f64
+    }
+
+    fn normal_equations(&self, x: &DVector<f64>) -> NormalEquations {
+        let steps: Vec<f64> = x.iter().map(|value| STEP * value.abs().max(0.1)).collect();
+        let moved = |(k, side): (usize, f64)| {
+            let mut x = x.clone();
+            x[k] += side * steps[k];
+            x
+        };
+        let sides = (0..PARAMETERS).flat_map(|k| [(k, 1.0), (k, -1.0)]).map(moved);
+        let at: Vec<DVector<f64>> = sides.chain([x.clone()]).collect();
+        let found = self.residuals_of(&at);
+        let here = &found[2 * PARAMETERS];
+        let mut matrix = DMatrix::zeros(PARAMETERS, PARAMETERS);
+        let mut gradient = DVector::zeros(PARAMETERS);
+        let mut row = [0.0; PARAMETERS];
+        for (n, &residual) in here.iter().enumerate() {
+            for k in 0..PARAMETERS {
+                row[k] = (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]);
+            }
+            let [weight, _] = robust(residual);
+            for a in 0..PARAMETERS {
+                gradient[a] += weight * row[a] * residual;
+                for b in 0..=a {
+                    matrix[(a, b)] += weight * row[a] * row[b];
+                }
+            }
+        }
+        let count = here.len().max(1) as f64;
+        NormalEquations { matrix: matrix / count, gradient: gradient / count }
+    }
+}
+
+fn add_residuals(track: &Track, found: &[[f64; 3]], residuals: &mut Vec<f64>) {
+    let over = 1.0 / (track.pressure() + PRESSURE_SCALE);
+    let weight = (track.discs as f64 / USUAL_DISCS).sqrt();
+    let mut push = |error: f64| residuals.push((weight * error).clamp(-MOST, MOST));
+    for (k, step) in track.steps.iter().enumerate() {
+        if !step.to.load_bearing {
+            continue;
+        }
+        let (data, law) = (step.to.invariants(), found[k + 1]);
+        if step.probe {
+            let size = step.strain.iter().fold(0.0f64, |a, b| a.max(b.abs())).max(1e-12);
+            let base = track.point(step.from).invariants();
+            for c in 0..3 {
+                push(PROBE_WEIGHT * ((law[c] - found[step.from][c]) - (data[c] - base[c])) / size);
+            }
+        } else {
+            (0..3).for_each(|c| push((law[c] - data[c]) * over));
+        }
+    }
+}
+
+/// Fits the law; `watch` is called with the number of the epoch and the mean square.
+pub fn fit(problem: &PathFit, epochs: u32, mut watch: impl FnMut(u32, f64)) -> (Law, Minimum) {
+    let limits = Limits { max_epochs: epochs, gradient: 1e-10 };
+    let minimum = minimise(problem, parameters(&beginning()), limits, |epoch, _, square| {
+        watch(epoch, square);
+        ControlFlow::Continue(())
+    });
+    (law(&minimum.parameters), minimum)
+}
+
+/// Least p̃ of states to which the readouts are fitted: below, the packings are losing their contacts one by one.
+const LEAST_PRESSURE: f64 = 1e-3;
+
+/// A state of the database beside the law's.
+struct Seen<'a> {
+    point: &'a Point,
+    features: Scalars,
+    /// Elements' shear strains, without and with G/A, minus those of the packing; component along, across.
+    sheared: [[[f64; 2]; 2]; ELEMENTS],
+    /// Fabric minus that of the packing.
+    fabric: [Option<f64>; 2],
+}
+
+/// Features of the measured stress and the law's looseness.
+struct Scalars {
+    pressure: f64,
+    root: f64,
+    loose: f64,
+    ratio: [f64; 2],
+    square: f64,
+}
+
+impl Scalars {
+    fn of(point: &Point, loose: f64) -> Self {
+        let stress = point.invariants().map(|value| Plain(Portable::all(value)));
+        let features = Features::of(&stress, Portable::all(loose));
+        let number = Portable::into_first;
+        Self {
+            pressure: number(features.pressure),
+            root: number(features.root),
+            loose: number(features.loose),
+            ratio: features.ratio.map(number),
+            square: number(features.square),
+        }
+    }
+}
+
+/// Fits the readouts to the states of tracks that the law has followed.
+pub fn readout(law: &Law, tracks: &[Track], states: &[States]) -> Readout {
+    let mut all = Vec::new();
+    for (track, states) in tracks.iter().zip(states) {
+        let start = sheared(law, &states[0]);
+        for (k, state) in states.iter().enumerate() {
+            let point = track.point(k);
+            if !point.load_bearing || point.invariants()[0] < LEAST_PRESSURE {
+                continue;
+            }
+            let now = sheared(law, state);
+            let difference = |e: usize, kind: usize, c: usize| now[e][kind][c] - start[e][kind][c];
+            all.push(Seen {
+                point,
+                features: Scalars::of(point, looseness(state)),
+                sheared: std::array::from_fn(|e| [0, 1].map(|kind| [0, 1].map(|c| difference(e, kind, c)))),
+                fabric: [
+                    (k > 0).then(|| point.fabric_index - track.packed.fabric_index),
+                    point.fabric_shear.zip(track.packed.fabric_shear).filter(|_| k > 0).map(|(a, b)| a - b),
+                ],
+            });
+        }
+    }
+    let conductivity = all.iter().filter_map(|seen| {
+        let ([xx, yy, _], x) = (seen.point.conductivity?, &seen.features);
+        let mean = 0.5 * (xx + yy);
+        let row = [1.0, x.root, x.pressure, x.loose, x.loose * x.root, x.square, x.loose * x.loose];
+        Some((row.map(|value| value * x.root / mean), 1.0, 1.0))
+    });
+    let overlap = all.iter().map(|seen| {
+        let x = &seen.features;
+        let found = seen.point.solid - (1.0 - seen.point.porosity);
+        let row = [1.0, x.root, x.pressure, x.root * x.loose, x.root * x.square];
+        let weight = 1.0 / (found.max(0.0) + 0.01);
+        (row.map(|value| value * x.pressure), found, weight)
+    });
+    let anisotropy = all.iter().flat_map(|seen| {
+        let [xx, yy, xy] = seen.point.conductivity.unwrap_or([0.0; 3]);
+        let (x, mean) = (&seen.features, 0.5 * (xx + yy));
+        let directions = [0.5 * (xx - yy), xy].map(|part| if mean > 0.0 { part / mean } else { 0.0 });
+        let fabric = [Some(seen.point.fabric_index), seen.point.fabric_shear];
+        let row = move |c: usize| Some(([x.ratio[c], fabric[c]?], directions[c], 1.0));
+        [row(0), row(1)].into_iter().flatten()
+    });
+    let fabric = all.iter().flat_map(|seen| {
+        let row = |c: usize| {
+            let [first, second] = seen.sheared;
+            Some(([first[0][c], first[1][c], second[0][c], second[1][c]], seen.fabric[c]?, 1.0))
+        };
+        [row(0), row(1)].into_iter().flatten()
+    });
+    let [a, b, c, d] = least_squares::fit(fabric);
+    Readout {
+        conductivity: least_squares::fit(conductivity),
+        overlap: least_squares::fit(overlap),
+        anisotropy: least_squares::fit(anisotropy),
+        fabric: [[a, b], [c, d]],
+    }
+}
+
+fn looseness(state: &[f64; MAX_STATE]) -> f64 {
+    elastic(state).looseness().0.into_first()
+}
+
+fn elastic(state: &[f64; MAX_STATE]) -> Elastic<Plain<Portable>> {
+    let column = |k: usize| Plain(Portable::all(state[k]));
+    Elastic {
+        jamming: column(JAMMING),
+        compression: column(COMPRESSION),
+        shear: std::array::from_fn(|k| [column(SHEAR + 2 * k), column(SHEAR + 2 * k + 1)]),
+    }
+}
+
+/// Shear strains of the elements, without and with the factor G/A.
+fn sheared(law: &Law, state: &[f64; MAX_STATE]) -> [[[f64; 2]; 2]; ELEMENTS] {
+    let cell = elastic(state);
+    let ratio = law.moduli(cell.compression, cell.looseness()).ratio.0.into_first();
+    std::array::from_fn(|k| {
+        let own = [state[SHEAR + 2 * k], state[SHEAR + 2 * k + 1]];
+        [own, own.map(|part| ratio * part)]
+    })
+}

@@ -1,0 +1,164 @@
+//! Paths of strain in periodic boxes, on which the law is fitted and judged.
+
+use super::core::{
+    After, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, Increment, JAMMING, POROSITY, SHEAR,
+};
+use super::law::{ELEMENTS, Law};
+use super::start::start_of_solid;
+use crate::kernel::LANES;
+use crate::surrogate::{MAX_STATE, StateLanes};
+
+/// A state of a packing. Stresses are reduced by E and the present mean radius, compression positive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// η, overlaps counted once [-].
+    pub porosity: f64,
+    /// φ_s: sum of the grains' areas over the area [-].
+    pub solid: f64,
+    /// σ̃_xx, σ̃_yy, σ̃_xy.
+    pub stress: [f64; 3],
+    /// K_xx/k, K_yy/k, K_xy/k, network; none when the database lacks it.
+    pub conductivity: Option<[f64; 3]>,
+    /// F_xx − F_yy and 2 F_xy; none when the database lacks F_xy.
+    pub fabric_index: f64,
+    pub fabric_shear: Option<f64>,
+    /// False without force chains.
+    pub load_bearing: bool,
+}
+
+impl Point {
+    /// p̃, q̃₁, q̃₂.
+    pub fn invariants(&self) -> [f64; 3] {
+        let [xx, yy, xy] = self.stress;
+        [0.5 * (xx + yy), 0.5 * (xx - yy), xy]
+    }
+}
+
+/// An increment from an earlier state of the track.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Number of the state from which it starts: 0 is the packing, k + 1 the state after step k.
+    pub from: usize,
+    /// Growth of the radii, then xx, yy and 2 xy of the box; extension positive.
+    pub strain: [f64; 4],
+    /// The state after it.
+    pub to: Point,
+    /// Whether it is a small strain of a copy, of which only the difference counts.
+    pub probe: bool,
+}
+
+/// A packing and what was done with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    pub packing: i64,
+    pub name: String,
+    /// Number of grains.
+    pub discs: usize,
+    pub packed: Point,
+    pub steps: Vec<Step>,
+}
+
+/// Largest strain that is applied in one part.
+const PART: f64 = 1e-3;
+/// Largest number of parts of a step.
+const MOST_PARTS: f64 = 20.0;
+
+impl Track {
+    /// The state number `k`, see [`Step::from`].
+    pub fn point(&self, k: usize) -> &Point {
+        if k == 0 { &self.packed } else { &self.steps[k - 1].to }
+    }
+
+    /// Mean p̃ of the states that bear load.
+    pub fn pressure(&self) -> f64 {
+        let all = std::iter::once(&self.packed).chain(self.steps.iter().map(|step| &step.to));
+        let (mut sum, mut count) = (0.0, 0.0);
+        for point in all.filter(|point| point.load_bearing) {
+            sum += point.invariants()[0];
+            count += 1.0;
+        }
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
+}
+
+/// The law's states of one track: number k as [`Step::from`].
+pub type States = Vec<[f64; MAX_STATE]>;
+
+/// The state of a packing whose porosity, fabric, solid fraction and stress are known.
+pub fn packed(law: &Law, point: &Point) -> [f64; MAX_STATE] {
+    let [p, q1, q2] = point.invariants();
+    let found = start_of_solid(law, point.solid, p.max(0.0), [q1, q2]);
+    let mut state = [0.0; MAX_STATE];
+    state[POROSITY] = point.porosity;
+    state[FABRIC_INDEX] = point.fabric_index;
+    state[FABRIC_SHEAR] = point.fabric_shear.unwrap_or(0.0);
+    state[JAMMING] = found.jamming;
+    state[COMPRESSION] = found.compression;
+    for k in 0..ELEMENTS {
+        state[SHEAR + 2 * k..SHEAR + 2 * k + 2].copy_from_slice(&found.shear[k]);
+    }
+    state
+}
+
+/// Follows tracks, [`LANES`] at a time.
+pub fn follow(core: &Core, tracks: &[Track]) -> Vec<States> {
+    tracks.chunks(LANES).flat_map(|some| follow_block(core, some)).collect()
+}
+
+fn follow_block(core: &Core, tracks: &[Track]) -> Vec<States> {
+    let mut states: Vec<States> = tracks.iter().map(|track| vec![packed(&core.law, &track.packed)]).collect();
+    let longest = tracks.iter().map(|track| track.steps.len()).max().unwrap_or(0);
+    for k in 0..longest {
+        let step = |lane: usize| tracks.get(lane).and_then(|track| track.steps.get(k));
+        let largest =
+            (0..LANES).filter_map(step).flat_map(|step| step.strain).fold(0.0f64, |a, b| a.max(b.abs()));
+        let parts = (largest / PART).ceil().clamp(1.0, MOST_PARTS);
+        let mut block: StateLanes = [[0.0; LANES]; MAX_STATE];
+        for lane in 0..LANES {
+            let from = step(lane).map_or(0, |step| step.from);
+            let state = states.get(lane).unwrap_or(&states[0])[from];
+            (0..MAX_STATE).for_each(|column| block[column][lane] = state[column]);
+        }
+        let mut after = After::default();
+        for part in 0..parts as u32 {
+            let lanes = |k: usize| {
+                // Equal parts of the whole, so that they compose to it.
+                let of = |strain: f64| strain / (parts + strain * f64::from(part));
+                std::array::from_fn(|lane| step(lane).map_or(0.0, |step| of(step.strain[k])))
+            };
+            let xy: [f64; LANES] = lanes(3);
+            let strain = Increment {
+                thermal: lanes(0),
+                xx: lanes(1),
+                yy: lanes(2),
+                xy,
+                // The upper border moves along x: that turns the box clockwise by half of the shear.
+                rotation: xy.map(|xy| -0.5 * xy),
+            };
+            core.advance(&block, &strain, &mut after, None);
+            block = after.state;
+        }
+        for (lane, states) in states.iter_mut().enumerate() {
+            if k < tracks[lane].steps.len() {
+                states.push(std::array::from_fn(|column| block[column][lane]));
+            }
+        }
+    }
+    states
+}
+
+/// σ̃ of states of the law: p̃, q̃₁, q̃₂.
+pub fn stresses(core: &Core, states: &States) -> Vec<[f64; 3]> {
+    let mut all = Vec::with_capacity(states.len());
+    for some in states.chunks(LANES) {
+        let block =
+            std::array::from_fn(|column| std::array::from_fn(|lane| some[lane.min(some.len() - 1)][column]));
+        let mut after = After::default();
+        core.advance(&block, &Increment::default(), &mut after, None);
+        for lane in 0..some.len() {
+            let [xx, yy, xy] = after.stress.map(|column| column[lane]);
+            all.push([0.5 * (xx + yy), 0.5 * (xx - yy), xy]);
+        }
+    }
+    all
+}
