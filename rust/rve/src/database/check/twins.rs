@@ -3,9 +3,10 @@
 //!
 //! The sum of the areas over that of the box is equal exactly. The other quantities are equal to about 1e-5 without
 //! friction; with friction they differ by what the contacts carry over from the packed state: tangential forces keep
-//! their size in newtons while stiffness grows with the radii, which gives differences in proportion to ε. Sliding grains
-//! may also fall into another arrangement in one of the two, which changes a single pair by more. So single pairs have a
-//! wide bound, which finds damage, and the median over all pairs a narrow one.
+//! their size in newtons while stiffness grows with the radii, which gives differences in proportion to ε (a test in
+//! `tests/periodic.rs` scales these forces, and the difference goes away). Sliding grains may also fall into another
+//! arrangement in one of the two, which changes a single pair by more. So single pairs have a wide bound, which finds
+//! damage, and the median over all pairs a narrow one.
 
 use super::laws::{Violation, tolerance, within};
 use super::local::median;
