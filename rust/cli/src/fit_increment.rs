@@ -40,6 +40,38 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let core = Core { readout: readout(&law, &seen, &follow(&blank, &seen)), law };
     outln!("{:?}", core.readout);
     let states = follow(&core, &unseen);
+    for (lo, hi) in [(0.06, 0.09), (0.09, 0.13), (0.13, 0.16), (0.16, 0.2)] {
+        for name in ["up", "down"] {
+            let mut sums: std::collections::BTreeMap<i64, [f64; 4]> = Default::default();
+            for (track, states) in unseen
+                .iter()
+                .zip(&states)
+                .filter(|(t, _)| t.name == name && (lo..hi).contains(&t.packed.porosity))
+            {
+                let found = stresses(&core, states);
+                let mut e = 1.0;
+                for (k, step) in track.steps.iter().enumerate().filter(|(_, s)| s.to.load_bearing) {
+                    e *= 1.0 + step.strain[0];
+                    let data = step.to.invariants();
+                    let sum = sums.entry(((e - 1.0) * 1e4f64).round() as i64).or_default();
+                    sum[0] += found[k + 1][0];
+                    sum[1] += data[0];
+                    sum[2] += (found[k + 1][0] / data[0] - 1.0).powi(2);
+                    sum[3] += 1.0;
+                }
+            }
+            for (e, s) in sums {
+                if e.abs() >= 100 {
+                    outln!(
+                        "{lo} {name} {:.3} bias {:+.4} rms {:.4}",
+                        e as f64 * 1e-4,
+                        s[0] / s[1] - 1.0,
+                        (s[2] / s[3]).sqrt()
+                    );
+                }
+            }
+        }
+    }
     let mut names: Vec<(String, usize)> = unseen.iter().map(|t| (t.name.clone(), t.discs)).collect();
     names.sort();
     names.dedup();

@@ -15,7 +15,7 @@ pub(crate) fn core() -> Core {
     Core {
         law: Law {
             bulk: [0.484, 0.533, 0.052],
-            looseness: -5.0,
+            looseness: [-5.0, 0.0, 0.0],
             onset: 5e-4,
             shear: [0.357, 0.0162, 0.15],
             elements: [element(0.6, 0.05, -0.034), element(0.4, 0.245, -0.196)],

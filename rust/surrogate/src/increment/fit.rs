@@ -27,8 +27,11 @@ const USUAL_DISCS: f64 = 500.0;
 const MOST: f64 = 1.0;
 /// Relative step of the numerical derivatives.
 const STEP: f64 = 1e-4;
+/// Usual size of the coefficients of z, by which they are divided so that all parameters are of about equal size: z varies by
+/// a tenth of this number's inverse.
+const SIZE: f64 = 10.0;
 /// Number of parameters.
-const PARAMETERS: usize = 13;
+const PARAMETERS: usize = 15;
 
 /// The law's numbers as parameters without bounds.
 pub fn parameters(law: &Law) -> DVector<f64> {
@@ -37,7 +40,7 @@ pub fn parameters(law: &Law) -> DVector<f64> {
     let [first, second] = law.elements;
     DVector::from_vec(vec![
         k0.ln(),
-        law.looseness,
+        law.looseness[0] / SIZE,
         k1,
         k2,
         g0.ln(),
@@ -48,7 +51,9 @@ pub fn parameters(law: &Law) -> DVector<f64> {
         second.strength.ln(),
         first.dilatancy,
         second.dilatancy,
-        law.dilatancy_of_looseness,
+        law.dilatancy_of_looseness / SIZE,
+        law.looseness[1] / (SIZE * SIZE),
+        law.looseness[2] / SIZE,
     ])
 }
 
@@ -58,11 +63,11 @@ pub fn law(x: &DVector<f64>) -> Law {
     let element = |share, strength: f64, dilatancy| Element { share, strength: strength.exp(), dilatancy };
     Law {
         bulk: [x[0].exp(), x[2], x[3]],
-        looseness: x[1],
+        looseness: [SIZE * x[1], SIZE * SIZE * x[13], SIZE * x[14]],
         onset: ONSET,
         shear: [x[4].exp(), x[5].exp(), x[6].exp()],
         elements: [element(share, x[8], x[10]), element(1.0 - share, x[9], x[11])],
-        dilatancy_of_looseness: x[12],
+        dilatancy_of_looseness: SIZE * x[12],
     }
 }
 
@@ -71,7 +76,7 @@ pub fn beginning() -> Law {
     let element = |share, strength, dilatancy| Element { share, strength, dilatancy };
     Law {
         bulk: [0.5, 0.5, 0.0],
-        looseness: -5.0,
+        looseness: [-5.0, 0.0, 0.0],
         onset: ONSET,
         shear: [0.4, 0.02, 0.2],
         elements: [element(0.6, 0.05, 0.0), element(0.4, 0.2, 0.0)],

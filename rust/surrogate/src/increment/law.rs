@@ -13,9 +13,10 @@ pub const ELEMENTS: usize = 2;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Law {
-    /// A = k₀ (1 + `looseness`·z) v²/(v + `onset`) + k₁ v²/2 + k₂ v³/3: k₀, k₁, k₂.
+    /// A = k₀ (1 + l₀ z + l₁ z²) v²/(v + `onset`) + k₁ (1 + l₂ z) v²/2 + k₂ v³/3: k₀, k₁, k₂.
     pub bulk: [f64; 3],
-    pub looseness: f64,
+    /// l₀, l₁, l₂.
+    pub looseness: [f64; 3],
     /// Elastic compression at which contacts have mostly formed [-].
     pub onset: f64,
     /// G/A = g₀/(A + a) + g₁: g₀, a, g₁.
@@ -104,12 +105,15 @@ impl Law {
         let (most, least) = (N::all(MOST_COMPRESSION), N::all(LEAST_BULK));
         let touching = compression.where_greater(zero, compression, zero);
         let v = touching.where_greater(most, most, touching);
-        let stiffer = loose.times(self.looseness).plus(1.0);
-        let first = stiffer.where_greater(least, stiffer, least).times(self.bulk[0]);
-        let [_, second, third] = self.bulk;
+        let [l0, l1, l2] = self.looseness;
+        let [first, second, third] = self.bulk;
+        let stiffer = (loose * loose.times(l1).plus(l0)).plus(1.0);
+        let first = stiffer.where_greater(least, stiffer, least).times(first);
+        let stiffer = loose.times(l2).plus(1.0);
+        let second = stiffer.where_greater(least, stiffer, least).times(second);
         let share = v * v.plus(self.onset).inverse();
-        let pressure = v * (first * share + v * v.times(third / 3.0).plus(0.5 * second));
-        let bulk = first * share * share.times(-1.0).plus(2.0) + v * v.times(third).plus(second);
+        let pressure = v * (first * share + v * (v.times(third / 3.0) + second.times(0.5)));
+        let bulk = first * share * share.times(-1.0).plus(2.0) + v * (v.times(third) + second);
         let [g0, a, g1] = self.shear;
         let inverse = pressure.plus(a).inverse();
         Moduli {
@@ -205,7 +209,9 @@ impl Law {
                 k2.abs() <= 1e6 && (0..=60).all(|k| stiff(0.01 * f64::from(k))),
                 "a bulk modulus above 0 up to a compression of 0.6",
             ),
-            ("looseness", self.looseness, self.looseness.abs() <= 1e3, "-1e3 to 1e3"),
+            ("looseness[0]", self.looseness[0], self.looseness[0].abs() <= 1e4, "-1e4 to 1e4"),
+            ("looseness[1]", self.looseness[1], self.looseness[1].abs() <= 1e4, "-1e4 to 1e4"),
+            ("looseness[2]", self.looseness[2], self.looseness[2].abs() <= 1e4, "-1e4 to 1e4"),
             ("onset", self.onset, (1e-9..=1.0).contains(&self.onset), "1e-9 to 1"),
             ("shear[0]", g0, (0.0..=1e6).contains(&g0), "0 to 1e6"),
             ("shear[1]", a, (1e-9..=1e6).contains(&a), "1e-9 to 1e6"),
