@@ -32,8 +32,8 @@ void Foam::writeWhole
 {
     mkDir(path.path());
     const fileName beside(path + ".part");
-    std::ofstream os(beside, std::ios::binary | std::ios::trunc);
     errno = 0;
+    std::ofstream os(beside, std::ios::binary | std::ios::trunc);
     write(os);
     os.close();
     if (!os || !mv(beside, path))

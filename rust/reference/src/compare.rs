@@ -111,8 +111,8 @@ pub fn check_points(points: &[[f64; 2]], discs: &Results) -> Result<(), Referenc
 }
 
 /// Errors of T at each probe of one run (rows of time and a temperature for each probe of the discs) against the means over
-/// the windows around the probes in the discs of one packing: solver minus discs where it is largest [% of `range`, which is in K]. Only the
-/// times of the discs between the first and last of the solver's are compared.
+/// the windows around the probes in the discs of one packing: solver minus discs where it is largest [% of `range`, which is
+/// in K]. Only the times of the discs between the first and last of the solver's are compared.
 ///
 /// # Errors
 /// [`ReferenceError::Parameter`]: rows with another number of temperatures than the discs have probes, or a run that ends at

@@ -108,6 +108,15 @@ full_disk() { # all files end after 2 KiB, as on a full disk; the next run has n
     check "full disk: once there is room the run starts anew and ends as it should: difference $e" test "$e" = 0
 }
 
+blocked() { # a file stands where the folder of summary.json must be
+    changed blocked
+    controls 'writeInterval 5; endTime 0.5;'
+    mesh_is '12 6 1'
+    mkdir -p postProcessing
+    touch postProcessing/msddFoam
+    check "a file that cannot be written is named with the reason" refused 'msddFoam/summary.json": Not a directory'
+}
+
 other_processes() { # on 1, 3, 1 and 2 x 2 processes in turn, compared with 1 throughout; the sums of heat must be kept
     local e way end=0.5
     changed moved-on-whole
@@ -176,5 +185,6 @@ mesh_is '4 2 1'
 every_file "online RVEs"
 
 full_disk
+blocked
 other_processes
 binary_and_compressed
