@@ -64,7 +64,7 @@ Foam::heatEquation::heatEquation
     TEqn_(T, dimPower),
     controls_(mesh_.solverDict(T.name())),
     correctors_(correctors),
-    aligned_(isAligned(grains.model())),
+    aligned_(isAligned(grains)),
     slanted_(false),
     patchHeat_(mesh_.boundary().size(), Zero),
     sourceHeat_(0)
@@ -105,9 +105,9 @@ Foam::heatEquation::heatEquation
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-bool Foam::heatEquation::isAligned(const granularModel& model) const
+bool Foam::heatEquation::isAligned(const granularState& grains) const
 {
-    bool aligned = model.diagonal();
+    bool aligned = grains.diagonal();
 
     const surfaceVectorField& Sf = mesh_.Sf();
     const surfaceVectorField delta(mesh_.delta());

@@ -111,7 +111,6 @@ void Foam::runSummary::write(const label rejected) const
         << ", \"unconverged_steps\": " << moved.unconverged
         << ", \"residual\": " << moved.residual
         << ", \"displacement\": " << moved.displacement
-        << ", \"looped_cells\": " << moved.looped
         << ", \"warnings\": [";
     forAll(moved.warnings, i)
     {

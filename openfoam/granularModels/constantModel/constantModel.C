@@ -157,6 +157,10 @@ Foam::label Foam::granularModels::constant::advance(const query& cells)
         }
         cells.stressXX[row] = stress_.xx();
         cells.stressYY[row] = stress_.yy();
+        if (cells.stressXY)
+        {
+            cells.stressXY[row] = stress_.xy();
+        }
     }
     return 0;
 }

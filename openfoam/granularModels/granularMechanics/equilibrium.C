@@ -64,11 +64,6 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
             dict_, "maxResidual", 20*tolerance_, tolerance_, 2e7*scale_
         )
     ),
-    sinPhi_(granularProperties::ranged(dict_, "sinPhi", 0.35, 0.01, 1)),
-    shearFactor_
-    (
-        granularProperties::ranged(dict_, "shearFactor", 1, 0.01, 10)
-    ),
     quads_(mesh_),
     walls_
     (
@@ -90,24 +85,10 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         pointMesh::New(mesh_),
         dimensionedVector(dimPressure, Zero)
     ),
-    shearStress_
-    (
-        io("shearStress", IOobject::READ_IF_PRESENT),
-        mesh_,
-        dimensionedScalar(dimPressure, Zero),
-        extrapolatedCalculatedFvPatchScalarField::typeName
-    ),
     initialStress_
     (
         io("initialStress", IOobject::READ_IF_PRESENT),
         grains.stress()
-    ),
-    strainLoops_
-    (
-        io("strainLoops", IOobject::READ_IF_PRESENT),
-        mesh_,
-        dimensionedVector(dimless, Zero),
-        extrapolatedCalculatedFvPatchVectorField::typeName
     ),
     D_
     (
@@ -128,10 +109,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     start_(u_),
     nodeArea_(u_.size(), Zero),
     lastTime_(mesh_.time().value()),
-    shearModulus_(mesh_.nCells(), Zero),
-    strainXX_(shearModulus_),
-    strainYY_(shearModulus_),
-    shear_(shearModulus_),
+    C_(mesh_.nCells()),
     friction_(u_),
     newTraction_(u_),
     stick_(u_),
@@ -147,15 +125,13 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     metric_(mesh_.nCells()),
     steps_(0),
     largest_(0),
-    everMoved_(false),
-    loopsSaid_(false)
+    everMoved_(false)
 {
     granularProperties::checkKeys
     (
         dict_,
         {
-            "residual", "maxIterations", "maxResidual", "sinPhi",
-            "shearFactor", "walls"
+            "residual", "maxIterations", "maxResidual", "walls"
         }
     );
     if (!grains.model().hasTangent())
@@ -168,7 +144,14 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
 
     readNodes(nodeDisplacement_, u_);
     readNodes(wallTraction_, traction_);
-    grains_.setShearStress(shearStress_.primitiveField());
+    for
+    (
+        scalarField* column :
+        {&strain_.xx, &strain_.yy, &strain_.xy, &strain_.rotation}
+    )
+    {
+        column->resize(mesh_.nCells(), Zero);
+    }
     quads_.shapes(quads_.points(), reference_);
     shapes_ = reference_;
     setStart();
@@ -313,11 +296,11 @@ void Foam::granularMechanicsModels::equilibrium::findMetric()
     forAll(metric_, celli)
     {
         const FixedList<scalar, 4> F(gradient(celli));
-        const scalar J = F[0]*F[3] - F[1]*F[2];
-        metric_[celli][0] = sqr(F[3])/J;
-        metric_[celli][1] = sqr(F[1])/J;
-        metric_[celli][2] = sqr(F[2])/J;
-        metric_[celli][3] = sqr(F[0])/J;
+        const scalar root = std::sqrt(F[0]*F[3] - F[1]*F[2]);
+        forAll(F, k)
+        {
+            metric_[celli][k] = F[k]/root;
+        }
     }
 }
 
@@ -333,10 +316,15 @@ Foam::granularMechanicsModels::equilibrium::pulledBack
     pulledBack_ = K;
     forAll(metric_, celli)
     {
+        // J F^-1.K.F^-T, in which the adjugate of F is J F^-1
         const FixedList<scalar, 4>& m = metric_[celli];
-        const scalar xx = K.xx[celli], yy = K.yy[celli];
-        pulledBack_.xx[celli] = m[0]*xx + m[1]*yy;
-        pulledBack_.yy[celli] = m[2]*xx + m[3]*yy;
+        const scalar xx = K.xx[celli], yy = K.yy[celli], xy = K.xy[celli];
+        pulledBack_.xx[celli] =
+            sqr(m[3])*xx - 2*m[1]*m[3]*xy + sqr(m[1])*yy;
+        pulledBack_.yy[celli] =
+            sqr(m[2])*xx - 2*m[0]*m[2]*xy + sqr(m[0])*yy;
+        pulledBack_.xy[celli] =
+            (m[0]*m[3] + m[1]*m[2])*xy - m[2]*m[3]*xx - m[0]*m[1]*yy;
     }
     return pulledBack_;
 }

@@ -23,11 +23,21 @@ License
 namespace Foam
 {
 
-//- Uniform medium for the preconditioner: c11, c12 and pressure, divided by
-//- E r/l, with values of densely packed grains
-static const scalar uniformC11 = 0.65;
-static const scalar uniformC12 = 0.3;
+//- Uniform medium for the preconditioner: c11, c12, shear modulus and
+//- pressure, divided by E r/l, with values of densely packed grains
+static const scalar uniformC11 = 0.8;
+static const scalar uniformC12 = 0.25;
+static const scalar uniformG = 0.3;
 static const scalar uniformPressure = 0.05;
+
+//- Least stiffness of a cell, divided by E r/l: grains that do not touch have
+//- none, but the equations need some
+static const scalar leastStiffness = 0.01;
+
+//- Least ratio of a pivot to its diagonal of a cell's stiffness matrix, and
+//- factor by which the other components are reduced until it is reached
+static const scalar leastPivot = 0.05;
+static const scalar reduction = 0.8;
 
 //- The linear equations of a Newton iteration are solved until their residual
 //- is this share of the imbalance
@@ -41,32 +51,57 @@ static const label maxLinear = 500;
 
 void Foam::granularMechanicsModels::equilibrium::findTangent()
 {
-    C_ = grains_.tangent();
-    forAll(shearModulus_, celli)
-    {
-        scalar& c11 = C_.c11[celli];
-        scalar& c22 = C_.c22[celli];
-        scalar& c12 = C_.c12[celli];
-        const scalar mean = 0.5*(c11 + c22);
-        shearModulus_[celli] = 0.5*shearFactor_*(mean - c12);
+    strain_.xx = 0;
+    strain_.yy = 0;
+    strain_.xy = 0;
+    strain_.rotation = 0;
+    granularState::stressColumns unused;
+    grains_.tryStrain(strain_, unused, tangent_);
+}
 
-        // Deviatoric part scaled by shearFactor, as strain() does, and the
-        // matrix made symmetric for conjugate gradients
-        const scalar more = 0.5*(shearFactor_ - 1)*(mean - c12);
-        c11 += more;
-        c22 += more;
-        c12 -= more;
+
+void Foam::granularMechanicsModels::equilibrium::findStiffness()
+{
+    const scalar least = leastStiffness*scale_;
+    forAll(C_, celli)
+    {
+        // Symmetric part: conjugate gradients need it, and where grains slide
+        // the tangent has no other
+        FixedList<scalar, 6>& c = C_[celli];
+        c[0] = max(tangent_[0][celli], least);
+        c[1] = max(tangent_[4][celli], least);
+        c[2] = max(tangent_[8][celli], 0.5*least);
+        c[3] = 0.5*(tangent_[1][celli] + tangent_[3][celli]);
+        c[4] = 0.5*(tangent_[2][celli] + tangent_[6][celli]);
+        c[5] = 0.5*(tangent_[5][celli] + tangent_[7][celli]);
+
+        // Pivots of the Cholesky factorisation
+        for (label k = 0; k < 20; ++k)
+        {
+            const scalar second = c[1] - sqr(c[3])/c[0];
+            const scalar other = c[5] - c[3]*c[4]/c[0];
+            const scalar third = c[2] - sqr(c[4])/c[0] - sqr(other)/second;
+            if (second > leastPivot*c[1] && third > leastPivot*c[2])
+            {
+                break;
+            }
+            c[3] *= reduction;
+            c[4] *= reduction;
+            c[5] *= reduction;
+        }
     }
 }
 
 
 void Foam::granularMechanicsModels::equilibrium::setUniform()
 {
-    const label cells = mesh_.nCells();
-    C_.c11 = scalarField(cells, scale_*uniformC11);
-    C_.c22 = C_.c11;
-    C_.c12 = scalarField(cells, scale_*uniformC12);
-    shearModulus_ = 0.5*scale_*(uniformC11 - uniformC12);
+    forAll(C_, celli)
+    {
+        C_[celli] = Zero;
+        C_[celli][0] = C_[celli][1] = scale_*uniformC11;
+        C_[celli][2] = scale_*uniformG;
+        C_[celli][3] = scale_*uniformC12;
+    }
     stick_ = walls_.stiffness(scale_*uniformPressure);
     quads_.sum(stick_);
     findDiagonal();
@@ -79,8 +114,8 @@ void Foam::granularMechanicsModels::equilibrium::setUniform()
     {
         const quadMesh::shape& s = shapes_[celli];
         const quadMesh::quad& q = quads_.quads()[celli];
-        const scalar c11 = s.area*C_.c11[celli], c12 = s.area*C_.c12[celli];
-        const scalar G = s.area*shearModulus_[celli];
+        const scalar c11 = s.area*C_[celli][0], c12 = s.area*C_[celli][3];
+        const scalar G = s.area*C_[celli][2];
         for (label a = 0; a < 4; ++a)
         {
             for (label b = 0; b < 4; ++b)
@@ -128,14 +163,16 @@ void Foam::granularMechanicsModels::equilibrium::cellDiagonal
     {
         const quadMesh::shape& s = shapes_[celli];
         const quadMesh::quad& q = quads_.quads()[celli];
-        const scalar G = shearModulus_[celli];
+        const FixedList<scalar, 6>& C = C_[celli];
         for (label a = 0; a < 4; ++a)
         {
-            const scalar b2 = sqr(s.b[a]), c2 = sqr(s.c[a]);
+            const scalar b = s.b[a], c = s.c[a];
             const scalar hg =
                 hourglass*scale_*sqr(reference_[celli].gamma[a]);
-            diagonal[q[a]].x() += s.area*(C_.c11[celli]*b2 + G*c2) + hg;
-            diagonal[q[a]].y() += s.area*(C_.c22[celli]*c2 + G*b2) + hg;
+            diagonal[q[a]].x() +=
+                s.area*(b*(C[0]*b + 2*C[4]*c) + C[2]*c*c) + hg;
+            diagonal[q[a]].y() +=
+                s.area*(c*(C[1]*c + 2*C[5]*b) + C[2]*b*b) + hg;
         }
     }
 }
@@ -177,9 +214,10 @@ void Foam::granularMechanicsModels::equilibrium::multiply
             exy += s.c[a]*v.x() + s.b[a]*v.y();
             pattern += gamma[a]*v;
         }
-        const scalar xx = s.area*(C_.c11[celli]*exx + C_.c12[celli]*eyy);
-        const scalar yy = s.area*(C_.c12[celli]*exx + C_.c22[celli]*eyy);
-        const scalar xy = s.area*shearModulus_[celli]*exy;
+        const FixedList<scalar, 6>& C = C_[celli];
+        const scalar xx = s.area*(C[0]*exx + C[3]*eyy + C[4]*exy);
+        const scalar yy = s.area*(C[3]*exx + C[1]*eyy + C[5]*exy);
+        const scalar xy = s.area*(C[4]*exx + C[5]*eyy + C[2]*exy);
         pattern *= hourglass*scale_;
         for (label a = 0; a < 4; ++a)
         {

@@ -19,7 +19,34 @@ License
 
 #include <cmath>
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Imbalance, divided by E r/l, that rounding errors alone can cause
+static const scalar roundOff = 1e-9;
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::stringList Foam::granularMechanicsModels::equilibrium::warnings() const
+{
+    DynamicList<string> all;
+    if (!everMoved_ && largest_ > roundOff*scale_)
+    {
+        OStringStream text;
+        text<< "The grains were never moved: at most " << largest_ << " Pa were"
+            << " out of balance, which is below the entry residual of"
+            << " equilibriumCoeffs, " << tolerance_ << " Pa. This run has the"
+            << " result of one with mechanics none";
+        all.append(text.str());
+    }
+    return stringList(all);
+}
+
 
 void Foam::granularMechanicsModels::equilibrium::makeFields()
 {
@@ -37,14 +64,11 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
         J[celli] = F[0]*F[3] - F[1]*F[2];
     }
     D_.correctBoundaryConditions();
-    strainLoops_.correctBoundaryConditions();
     areaRatio_.correctBoundaryConditions();
     grains_.setAreaRatio(J);
 
     writeNodes(u_, nodeDisplacement_);
     writeNodes(traction_, wallTraction_);
-    shearStress_.primitiveFieldRef() = grains_.presentStress().xy;
-    shearStress_.correctBoundaryConditions();
 }
 
 
@@ -123,7 +147,6 @@ Foam::granularMechanicsModels::equilibrium::count() const
 {
     counters all(counters_);
     all.displacement = gMax(mag(D_.primitiveField())());
-    all.looped = loopedCells();
     all.warnings = warnings();
     return all;
 }

@@ -62,30 +62,29 @@ bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
     {
         const quadMesh::shape& s = shapes_[celli];
         const quadMesh::quad& q = quads_.quads()[celli];
-        scalar xx = 0, yy = 0, xy = 0;
+        // Gradient of the displacement: xx is du_x/dx, xy is du_x/dy
+        scalar xx = 0, yy = 0, xy = 0, yx = 0;
         for (label a = 0; a < 4; ++a)
         {
             const vector2D& v = du[q[a]];
             xx += s.b[a]*v.x();
             yy += s.c[a]*v.y();
-            xy += s.c[a]*v.x() + s.b[a]*v.y();
+            xy += s.c[a]*v.x();
+            yx += s.b[a]*v.y();
         }
-        // The deviator of the strain times shearFactor, with the same change
-        // of area: scales c11 - c12 and leaves c11 + c12
-        const scalar more = 0.5*(shearFactor_ - 1)*(xx - yy);
-        strainXX_[celli] = xx + more;
-        strainYY_[celli] = yy - more;
-        shear_[celli] = stress_.xy[celli] + shearModulus_[celli]*xy;
-        const scalar all =
-            mag(strainXX_[celli]) + mag(strainYY_[celli]) + mag(xy);
-        if (!(all < largestStrain))
+        strain_.xx[celli] = xx;
+        strain_.yy[celli] = yy;
+        strain_.xy[celli] = xy + yx;
+        strain_.rotation[celli] = 0.5*(yx - xy);
+
+        // This also finds NaN
+        if (!(mag(xx) + mag(yy) + mag(xy) + mag(yx) < largestStrain))
         {
             broken_ = celli;
             return false;
         }
     }
-    stress_.xy = shear_;
-    grains_.tryStrain(strainXX_, strainYY_, sinPhi_, stress_);
+    grains_.tryStrain(strain_, stress_, tangent_);
     return true;
 }
 
@@ -226,6 +225,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
     if (moved)
     {
+        findStiffness();
         follow(du);
     }
 
@@ -237,6 +237,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         ++iteration
     )
     {
+        findStiffness();
         findDiagonal();
         conjugateGradients(r_, d);
         left_ = search(du, d, left_);
@@ -251,10 +252,6 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
 {
     const scalar time = mesh_.time().value();
     const nodeField u(u_), traction(traction_);
-    const vectorField loops
-    (
-        parts > 1 ? strainLoops_.primitiveField() : vectorField()
-    );
     const nodeField way(walls_.way(time, u_));
     granularState::memory before;
     slide_ = walls_.slide(lastTime_, time);
@@ -291,7 +288,6 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
             if (parts > 1)
             {
                 grains_.restore(before);
-                strainLoops_.primitiveFieldRef() = loops;
                 u_ = u;
                 traction_ = traction;
             }
@@ -313,8 +309,13 @@ void Foam::granularMechanicsModels::equilibrium::keep
     traction_ = newTraction_;
     if (moved)
     {
-        move(du);
-        grains_.deform(strainXX_, strainYY_, sinPhi_, shear_);
+        // The state after du is that of the last imbalance
+        forAll(u_, i)
+        {
+            u_[i] += du[i];
+        }
+        everMoved_ = true;
+        grains_.acceptStrain();
         findMetric();
     }
     placed_ = true;
@@ -351,7 +352,6 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
     counters_.unconverged += left_ > tolerance_;
     counters_.residual = max(counters_.residual, left_);
     largest_ = max(largest_, before_);
-    warnOfLoops();
 
     // Printed if and only if the line of the linear solver of T is
     if (solverPerformance::debug)

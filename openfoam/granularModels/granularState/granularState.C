@@ -67,20 +67,6 @@ void Foam::granularState::gather
         strain_[row] = strain[rows_[row]];
         total_[row] = total[rows_[row]];
     }
-    if (mostStrain_.valid())
-    {
-        const scalarField& least = leastStrain_().primitiveField();
-        const scalarField& most = mostStrain_().primitiveField();
-        forAll(rows_, row)
-        {
-            const scalar after = total_[row];
-            const scalar beyond =
-                max(max(after - most[rows_[row]], least[rows_[row]] - after), 0);
-            const scalar change =
-                mag(after - ((1 + after)/(1 + strain_[row]) - 1));
-            virginShare_[row] = beyond < change ? beyond/change : 1;
-        }
-    }
 }
 
 
@@ -100,12 +86,12 @@ Foam::label Foam::granularState::ask
     query.nextState = to.pointers.cdata();
     query.strain = strain.cdata();
     query.totalStrain = total_.cdata();
-    query.virginShare = mostStrain_.valid() ? virginShare_.cdata() : nullptr;
     query.conductivityXX = askedK_.xx.data();
     query.conductivityYY = askedK_.yy.data();
     query.conductivityXY = askedK_.xy.empty() ? nullptr : askedK_.xy.data();
     query.stressXX = askedXX_.data();
     query.stressYY = askedYY_.data();
+    query.stressXY = askedXY_.empty() ? nullptr : askedXY_.data();
     query.outside = wantOutside ? outside_.pointers.cdata() : nullptr;
     query.trial = trial;
 
@@ -291,19 +277,9 @@ void Foam::granularState::commit()
         const label celli = rows_[row];
         stressXX_[celli] = askedXX_[row];
         stressYY_[celli] = askedYY_[row];
+        stressXY_[celli] = askedXY_.empty() ? 0 : askedXY_[row];
         lastStrain_[celli] = strain_[row];
         waiting[celli] = 0;
-    }
-    if (mostStrain_.valid())
-    {
-        scalarField& least = leastStrain_().primitiveFieldRef();
-        scalarField& most = mostStrain_().primitiveFieldRef();
-        forAll(rows_, row)
-        {
-            const label celli = rows_[row];
-            least[celli] = min(least[celli], total_[row]);
-            most[celli] = max(most[celli], total_[row]);
-        }
     }
 }
 
@@ -323,11 +299,6 @@ Foam::granularState::memory Foam::granularState::remember() const
     now.increment = thermalStrainIncrement_.primitiveField();
     now.strain = thermalStrain_.primitiveField();
     now.lastStrain = lastStrain_;
-    if (mostStrain_.valid())
-    {
-        now.least = leastStrain_().primitiveField();
-        now.most = mostStrain_().primitiveField();
-    }
     now.queries = queries_;
     now.asked = asked_;
     now.cellSteps = cellSteps_;
@@ -349,11 +320,6 @@ void Foam::granularState::restore(const memory& before)
     thermalStrainIncrement_.primitiveFieldRef() = before.increment;
     thermalStrain_.primitiveFieldRef() = before.strain;
     lastStrain_ = before.lastStrain;
-    if (mostStrain_.valid())
-    {
-        leastStrain_().primitiveFieldRef() = before.least;
-        mostStrain_().primitiveFieldRef() = before.most;
-    }
     queries_ = before.queries;
     asked_ = before.asked;
     cellSteps_ = before.cellSteps;
@@ -374,6 +340,17 @@ Foam::granularState::trialConductivity()
     scatterConductivity(trialK_);
 
     return trialK_;
+}
+
+
+bool Foam::granularState::diagonal() const
+{
+    // Grains that only swell in their places get no shear
+    return model_->diagonal()
+     || (
+            properties_.getOrDefault<word>("mechanics", "none") == "none"
+         && gSum(mag(K_.xy)) + gSum(mag(stressXY_)) == 0
+        );
 }
 
 

@@ -16,47 +16,41 @@ License
 
 #include "granularState.H"
 
-#include <cmath>
-
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::granularState::stressColumns
 Foam::granularState::presentStress() const
 {
-    return stressColumns{-stressXX_, -stressYY_, stressXY_};
+    return stressColumns{-stressXX_, -stressYY_, -stressXY_};
 }
 
 
-const Foam::granularState::tangentColumns& Foam::granularState::tangent()
-{
-    const label cells = mesh_.nCells();
-    tangent_.c11.resize(cells);
-    tangent_.c22.resize(cells);
-    tangent_.c12.resize(cells);
-
-    granularModel::query query(deformation());
-    query.c11 = tangent_.c11.data();
-    query.c22 = tangent_.c22.data();
-    query.c12 = tangent_.c12.data();
-    model_->advance(query);
-
-    return tangent_;
-}
-
-
-Foam::granularModel::query Foam::granularState::deformation()
+void Foam::granularState::tryStrain
+(
+    const strainColumns& strain,
+    stressColumns& stress,
+    tangentColumns& tangent
+)
 {
     const label cells = mesh_.nCells();
 
-    if (deformedXX_.size() != cells || deformed_.values.empty())
-    {
-        deformed_.setSize(state_.size(), cells);
-        for (scalarField* column :
-            {&deformedK_.xx, &deformedK_.yy, &deformedXX_, &deformedYY_})
+    deformed_.setSize(state_.size(), cells);
+    for
+    (
+        scalarField* column :
         {
-            column->resize(cells, Zero);
+            &deformedK_.xx, &deformedK_.yy, &deformedK_.xy,
+            &deformedXX_, &deformedYY_, &deformedXY_
         }
-        deviator_ = model_->stateNames().find("reducedDeviator");
+    )
+    {
+        column->resize(cells);
+    }
+    FixedList<scalar*, 9> derivatives;
+    forAll(tangent, k)
+    {
+        tangent[k].resize(cells);
+        derivatives[k] = tangent[k].data();
     }
     presentState_.resize(state_.size());
     forAll(state_, i)
@@ -64,103 +58,44 @@ Foam::granularModel::query Foam::granularState::deformation()
         presentState_[i] = state_[i].primitiveField().cdata();
     }
     zero_ = 0;
+
     granularModel::query query;
     query.size = cells;
     query.state = presentState_.cdata();
     query.nextState = deformed_.pointers.cdata();
     query.strain = zero_.cdata();
     query.totalStrain = thermalStrain_.primitiveField().cdata();
+    query.strainXX = strain.xx.cdata();
+    query.strainYY = strain.yy.cdata();
+    query.strainXY = strain.xy.cdata();
+    query.rotation = strain.rotation.cdata();
     query.conductivityXX = deformedK_.xx.data();
     query.conductivityYY = deformedK_.yy.data();
+    query.conductivityXY = deformedK_.xy.data();
     query.stressXX = deformedXX_.data();
     query.stressYY = deformedYY_.data();
-    return query;
-}
-
-
-Foam::scalar Foam::granularState::limit
-(
-    const scalar p,
-    const scalar q,
-    const scalar xy,
-    const scalar sinPhi
-)
-{
-    const scalar most = sinPhi*p, has = std::sqrt(sqr(q) + sqr(xy));
-    return has > most ? most/has : 1;
-}
-
-
-void Foam::granularState::tryStrain
-(
-    const scalarField& strainXX,
-    const scalarField& strainYY,
-    const scalar sinPhi,
-    stressColumns& stress
-) const
-{
-    forAll(strainXX, celli)
-    {
-        const scalar ex = strainXX[celli], ey = strainYY[celli];
-        const scalar c12 = tangent_.c12[celli];
-        const scalar xx =
-            stressXX_[celli] - tangent_.c11[celli]*ex - c12*ey;
-        const scalar yy =
-            stressYY_[celli] - c12*ex - tangent_.c22[celli]*ey;
-        const scalar p = max(0.5*(xx + yy), scalar(0));
-        const scalar q = max(-p, min(p, 0.5*(xx - yy)));
-        const scalar factor = limit(p, q, stress.xy[celli], sinPhi);
-
-        stress.xx[celli] = -(p + factor*q);
-        stress.yy[celli] = -(p - factor*q);
-        stress.xy[celli] *= factor;
-    }
-}
-
-
-void Foam::granularState::deform
-(
-    const scalarField& strainXX,
-    const scalarField& strainYY,
-    const scalar sinPhi,
-    const scalarField& stressXY
-)
-{
-    granularModel::query query(deformation());
-    query.strainXX = strainXX.cdata();
-    query.strainYY = strainYY.cdata();
+    query.stressXY = deformedXY_.data();
+    query.tangent = derivatives.cdata();
     model_->advance(query);
 
-    label limited = 0;
-    forAll(deformedXX_, celli)
-    {
-        const scalar p = 0.5*(deformedXX_[celli] + deformedYY_[celli]);
-        const scalar q = 0.5*(deformedXX_[celli] - deformedYY_[celli]);
-        const scalar factor = limit(p, q, stressXY[celli], sinPhi);
-        stressXY_[celli] = stressXY[celli]*factor;
-        if (factor < 1 && deviator_ >= 0)
-        {
-            deformed_.values[deviator_][celli] *= factor;
-            ++limited;
-        }
-    }
-    if (limited)
-    {
-        // Another query with zero strain, for the conductivity and stress of
-        // the limited state
-        granularModel::query after(deformation());
-        after.state = deformed_.pointers.cdata();
-        model_->advance(after);
-    }
+    // Compression positive becomes tension positive, of which the derivative
+    // is the same
+    stress.xx = -deformedXX_;
+    stress.yy = -deformedYY_;
+    stress.xy = -deformedXY_;
+}
 
+
+void Foam::granularState::acceptStrain()
+{
     forAll(state_, i)
     {
         state_[i].primitiveFieldRef() = deformed_.values[i];
     }
-    K_.xx = deformedK_.xx;
-    K_.yy = deformedK_.yy;
+    K_ = deformedK_;
     stressXX_ = deformedXX_;
     stressYY_ = deformedYY_;
+    stressXY_ = deformedXY_;
 }
 
 

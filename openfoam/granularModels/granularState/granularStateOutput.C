@@ -81,10 +81,10 @@ void Foam::granularState::refresh()
         K[celli].xx() = K_.xx[celli];
         K[celli].yy() = K_.yy[celli];
 
-        // The only place where compression positive becomes tension positive
+        // Compression positive becomes tension positive
         sigma[celli].xx() = -stressXX_[celli];
         sigma[celli].yy() = -stressYY_[celli];
-        sigma[celli].xy() = stressXY_[celli];
+        sigma[celli].xy() = -stressXY_[celli];
         p[celli] = -0.5*(sigma[celli].xx() + sigma[celli].yy());
     }
     forAll(K_.xy, celli)
@@ -105,11 +105,6 @@ void Foam::granularState::refresh()
     }
     thermalStrain_.correctBoundaryConditions();
     thermalStrainIncrement_.correctBoundaryConditions();
-    if (mostStrain_.valid())
-    {
-        leastStrain_().correctBoundaryConditions();
-        mostStrain_().correctBoundaryConditions();
-    }
     conductivity_.correctBoundaryConditions();
     stress_.correctBoundaryConditions();
     pressure_.correctBoundaryConditions();
@@ -142,7 +137,7 @@ Foam::string Foam::granularState::describe(const label celli) const
         text<< state_[i].name() << ' ' << state_[i][celli] << ", ";
     }
     text<< "stress (xx yy xy, tension positive) " << -stressXX_[celli] << ' '
-        << -stressYY_[celli] << ' ' << stressXY_[celli] << " Pa";
+        << -stressYY_[celli] << ' ' << -stressXY_[celli] << " Pa";
     return text.str();
 }
 

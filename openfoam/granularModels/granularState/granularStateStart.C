@@ -143,7 +143,6 @@ Foam::granularState::granularState
         extrapolatedCalculatedFvPatchScalarField::typeName
     ),
     refreshAlways_(false),
-    deviator_(-1),
     queries_(0),
     asked_(0),
     cellSteps_(0),
@@ -165,7 +164,6 @@ Foam::granularState::granularState
 
     readState();
     allocate();
-    findExtremes();
     if (!bulkDensity_.typeHeaderOk<volScalarField>(true))
     {
         setInitialBulkDensity();
@@ -267,15 +265,10 @@ void Foam::granularState::readState()
     // only porosity and fabric index, no other field is needed
     if (missing || names.size() == 2)
     {
-        const auto fabric(given<scalar>("fabricConductivity", dimless));
         const auto stress(given<symmTensor>("stress", dimPressure));
-        scalarField xx, yy;
+        scalarField xx, yy, xy;
         granularModel::known known;
         known.size = mesh_.nCells();
-        if (fabric.valid())
-        {
-            known.fabricConductivity = fabric().primitiveField().cdata();
-        }
         if (stress.valid())
         {
             // Tension positive becomes compression positive
@@ -283,6 +276,11 @@ void Foam::granularState::readState()
             yy = -stress().primitiveField().component(symmTensor::YY);
             known.stressXX = xx.cdata();
             known.stressYY = yy.cdata();
+            if (!model_->diagonal())
+            {
+                xy = -stress().primitiveField().component(symmTensor::XY);
+                known.stressXY = xy.cdata();
+            }
         }
 
         List<scalar*> pointers(names.size());
@@ -341,47 +339,19 @@ void Foam::granularState::allocate()
         {
             &stressXX_, &stressYY_, &lastStrain_,
             &nextIncrement_, &nextStrain_, &strain_, &halfStrain_, &total_,
-            &virginShare_, &zero_, &askedXX_, &askedYY_, &stressXY_
+            &zero_, &askedXX_, &askedYY_, &stressXY_
         }
     )
     {
         column->resize(cells, Zero);
     }
+    askedXY_.resize(model_->diagonal() ? 0 : cells, Zero);
     rows_.setCapacity(cells);
     before_.setSize(count, cells);
     full_.setSize(count, cells);
     half_.setSize(count, cells);
     after_.setSize(count, cells);
     outside_.setSize(count + 1, cells);
-}
-
-
-void Foam::granularState::findExtremes()
-{
-    if (!model_->wantsVirginShare())
-    {
-        return;
-    }
-    const auto found = [&](const word& name)
-    {
-        return new volScalarField
-        (
-            io(name, IOobject::READ_IF_PRESENT),
-            mesh_,
-            dimensionedScalar(dimless, Zero),
-            extrapolatedCalculatedFvPatchScalarField::typeName
-        );
-    };
-    leastStrain_.reset(found("leastThermalStrain"));
-    mostStrain_.reset(found("mostThermalStrain"));
-    checkField(leastStrain_(), dimless, -1, GREAT);
-    checkField(mostStrain_(), dimless, -1, GREAT);
-
-    // The present strain lies between the least and the largest strain
-    scalarField& least = leastStrain_().primitiveFieldRef();
-    scalarField& most = mostStrain_().primitiveFieldRef();
-    least = min(least, scalar(0));
-    most = max(most, scalar(0));
 }
 
 
@@ -428,11 +398,6 @@ void Foam::granularState::askStart()
     const memory before(remember());
     commit();
     thermalStrainIncrement_.primitiveFieldRef() = before.increment;
-    if (mostStrain_.valid())
-    {
-        leastStrain_().primitiveFieldRef() = before.least;
-        mostStrain_().primitiveFieldRef() = before.most;
-    }
 
     // The strain of the last query is not known after a restart; any value
     // but 0 makes the next query include all cells

@@ -86,8 +86,8 @@ Foam::regionPolicy::regionPolicy
     // change its model without changing the policy
     wordList allowed
     ({
-        "maxFraction", "porosity", "fabricIndex", "reducedPressure",
-        "fabricConductivity", "reducedDeviator"
+        "maxFraction", "porosity", "fabricIndex", "fabricShear",
+        "jammingFraction", "elasticCompression"
     });
     allowed.append(names_);
     granularProperties::checkKeys(dict_, allowed);
@@ -100,7 +100,7 @@ Foam::regionPolicy::regionPolicy
         const FixedList<action, 2> dense
         ({
             name == "porosity" ? action::error : other,
-            name == "reducedPressure" ? action::error : other
+            name == "elasticCompression" ? action::error : other
         });
         const dictionary dict(dict_.subOrEmptyDict(name));
 

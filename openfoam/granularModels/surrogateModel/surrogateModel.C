@@ -48,9 +48,8 @@ static const wordList& ownNames()
     ({
         "areaRatio", "bulkDensity", "conductivity", "D", "granularProperties",
         "initialStress", "initialTemperature", "inRegion", "Kxx", "Kyy",
-        "leastThermalStrain", "mostThermalStrain", "msddFoam",
-        "nodeDisplacement", "onlineRve", "particleDensity", "polyMesh",
-        "pressure", "shearStress", "spread", "strainLoops", "stress", "T",
+        "msddFoam", "nodeDisplacement", "onlineRve", "particleDensity",
+        "polyMesh", "pressure", "spread", "stress", "T",
         "thermalStrain", "thermalStrainIncrement", "uniform", "wallTraction"
     });
     return names;
@@ -176,9 +175,9 @@ void Foam::granularModels::surrogateModel::initialState
     msdd_initial initial(msdd::initial(cells.size));
     initial.porosity = cells.porosity;
     initial.fabric_index = cells.fabricIndex;
-    initial.fabric_conductivity = cells.fabricConductivity;
     initial.stress_xx = cells.stressXX;
     initial.stress_yy = cells.stressYY;
+    initial.stress_xy = cells.stressXY;
 
     try
     {
@@ -198,17 +197,18 @@ Foam::label Foam::granularModels::surrogateModel::advance(const query& cells)
     batch.next_state = cells.nextState;
     batch.thermal_strain = cells.strain;
     batch.total_thermal_strain = cells.totalStrain;
-    batch.virgin_share = cells.virginShare;
     batch.conductivity_xx = cells.conductivityXX;
     batch.conductivity_yy = cells.conductivityYY;
+    batch.conductivity_xy = cells.conductivityXY;
     batch.stress_xx = cells.stressXX;
     batch.stress_yy = cells.stressYY;
+    batch.stress_xy = cells.stressXY;
     batch.outside = cells.outside;
     batch.strain_xx = cells.strainXX;
     batch.strain_yy = cells.strainYY;
-    batch.c11 = cells.c11;
-    batch.c22 = cells.c22;
-    batch.c12 = cells.c12;
+    batch.strain_xy = cells.strainXY;
+    batch.rotation = cells.rotation;
+    batch.tangent = cells.tangent;
 
     try
     {

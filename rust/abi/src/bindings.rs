@@ -1,7 +1,7 @@
 //! What bindgen makes of `msdd.h`; `cargo test -p msdd-abi --test header` holds it against the header.
 
-pub const MSDD_ABI_VERSION: u32 = 2;
-pub const MSDD_PLUGIN_VERSION: u32 = 1;
+pub const MSDD_ABI_VERSION: u32 = 3;
+pub const MSDD_PLUGIN_VERSION: u32 = 2;
 pub const MSDD_OK: msdd_status = 0;
 pub const MSDD_INVALID_ARGUMENT: msdd_status = 1;
 pub const MSDD_IO: msdd_status = 2;
@@ -52,17 +52,16 @@ pub struct msdd_batch {
     pub total_thermal_strain: *const f64,
     pub strain_xx: *const f64,
     pub strain_yy: *const f64,
-    pub virgin_share: *const f64,
+    pub strain_xy: *const f64,
+    pub rotation: *const f64,
     pub next_state: *const *mut f64,
     pub conductivity_xx: *mut f64,
     pub conductivity_yy: *mut f64,
+    pub conductivity_xy: *mut f64,
     pub stress_xx: *mut f64,
     pub stress_yy: *mut f64,
-    pub c11: *mut f64,
-    pub c22: *mut f64,
-    pub c12: *mut f64,
-    pub porosity_rate: *mut f64,
-    pub fabric_index_rate: *mut f64,
+    pub stress_xy: *mut f64,
+    pub tangent: *const *mut f64,
     pub clamped: *mut u8,
     pub outside: *const *mut f64,
     pub spread: *mut f64,
@@ -70,7 +69,7 @@ pub struct msdd_batch {
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_batch"][::core::mem::size_of::<msdd_batch>() - 176usize];
+    ["Size of msdd_batch"][::core::mem::size_of::<msdd_batch>() - 168usize];
     ["Alignment of msdd_batch"][::core::mem::align_of::<msdd_batch>() - 8usize];
     [
         "Offset of field: msdd_batch::struct_size",
@@ -94,50 +93,47 @@ const _: () = {
         "Offset of field: msdd_batch::strain_yy",
     ][::core::mem::offset_of!(msdd_batch, strain_yy) - 48usize];
     [
-        "Offset of field: msdd_batch::virgin_share",
-    ][::core::mem::offset_of!(msdd_batch, virgin_share) - 56usize];
+        "Offset of field: msdd_batch::strain_xy",
+    ][::core::mem::offset_of!(msdd_batch, strain_xy) - 56usize];
+    [
+        "Offset of field: msdd_batch::rotation",
+    ][::core::mem::offset_of!(msdd_batch, rotation) - 64usize];
     [
         "Offset of field: msdd_batch::next_state",
-    ][::core::mem::offset_of!(msdd_batch, next_state) - 64usize];
+    ][::core::mem::offset_of!(msdd_batch, next_state) - 72usize];
     [
         "Offset of field: msdd_batch::conductivity_xx",
-    ][::core::mem::offset_of!(msdd_batch, conductivity_xx) - 72usize];
+    ][::core::mem::offset_of!(msdd_batch, conductivity_xx) - 80usize];
     [
         "Offset of field: msdd_batch::conductivity_yy",
-    ][::core::mem::offset_of!(msdd_batch, conductivity_yy) - 80usize];
+    ][::core::mem::offset_of!(msdd_batch, conductivity_yy) - 88usize];
+    [
+        "Offset of field: msdd_batch::conductivity_xy",
+    ][::core::mem::offset_of!(msdd_batch, conductivity_xy) - 96usize];
     [
         "Offset of field: msdd_batch::stress_xx",
-    ][::core::mem::offset_of!(msdd_batch, stress_xx) - 88usize];
+    ][::core::mem::offset_of!(msdd_batch, stress_xx) - 104usize];
     [
         "Offset of field: msdd_batch::stress_yy",
-    ][::core::mem::offset_of!(msdd_batch, stress_yy) - 96usize];
+    ][::core::mem::offset_of!(msdd_batch, stress_yy) - 112usize];
     [
-        "Offset of field: msdd_batch::c11",
-    ][::core::mem::offset_of!(msdd_batch, c11) - 104usize];
+        "Offset of field: msdd_batch::stress_xy",
+    ][::core::mem::offset_of!(msdd_batch, stress_xy) - 120usize];
     [
-        "Offset of field: msdd_batch::c22",
-    ][::core::mem::offset_of!(msdd_batch, c22) - 112usize];
-    [
-        "Offset of field: msdd_batch::c12",
-    ][::core::mem::offset_of!(msdd_batch, c12) - 120usize];
-    [
-        "Offset of field: msdd_batch::porosity_rate",
-    ][::core::mem::offset_of!(msdd_batch, porosity_rate) - 128usize];
-    [
-        "Offset of field: msdd_batch::fabric_index_rate",
-    ][::core::mem::offset_of!(msdd_batch, fabric_index_rate) - 136usize];
+        "Offset of field: msdd_batch::tangent",
+    ][::core::mem::offset_of!(msdd_batch, tangent) - 128usize];
     [
         "Offset of field: msdd_batch::clamped",
-    ][::core::mem::offset_of!(msdd_batch, clamped) - 144usize];
+    ][::core::mem::offset_of!(msdd_batch, clamped) - 136usize];
     [
         "Offset of field: msdd_batch::outside",
-    ][::core::mem::offset_of!(msdd_batch, outside) - 152usize];
+    ][::core::mem::offset_of!(msdd_batch, outside) - 144usize];
     [
         "Offset of field: msdd_batch::spread",
-    ][::core::mem::offset_of!(msdd_batch, spread) - 160usize];
+    ][::core::mem::offset_of!(msdd_batch, spread) - 152usize];
     [
         "Offset of field: msdd_batch::clamped_cells",
-    ][::core::mem::offset_of!(msdd_batch, clamped_cells) - 168usize];
+    ][::core::mem::offset_of!(msdd_batch, clamped_cells) - 160usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -146,13 +142,14 @@ pub struct msdd_initial {
     pub cells: usize,
     pub porosity: *const f64,
     pub fabric_index: *const f64,
-    pub fabric_conductivity: *const f64,
+    pub fabric_xy: *const f64,
     pub stress_xx: *const f64,
     pub stress_yy: *const f64,
+    pub stress_xy: *const f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_initial"][::core::mem::size_of::<msdd_initial>() - 56usize];
+    ["Size of msdd_initial"][::core::mem::size_of::<msdd_initial>() - 64usize];
     ["Alignment of msdd_initial"][::core::mem::align_of::<msdd_initial>() - 8usize];
     [
         "Offset of field: msdd_initial::struct_size",
@@ -167,14 +164,17 @@ const _: () = {
         "Offset of field: msdd_initial::fabric_index",
     ][::core::mem::offset_of!(msdd_initial, fabric_index) - 24usize];
     [
-        "Offset of field: msdd_initial::fabric_conductivity",
-    ][::core::mem::offset_of!(msdd_initial, fabric_conductivity) - 32usize];
+        "Offset of field: msdd_initial::fabric_xy",
+    ][::core::mem::offset_of!(msdd_initial, fabric_xy) - 32usize];
     [
         "Offset of field: msdd_initial::stress_xx",
     ][::core::mem::offset_of!(msdd_initial, stress_xx) - 40usize];
     [
         "Offset of field: msdd_initial::stress_yy",
     ][::core::mem::offset_of!(msdd_initial, stress_yy) - 48usize];
+    [
+        "Offset of field: msdd_initial::stress_xy",
+    ][::core::mem::offset_of!(msdd_initial, stress_xy) - 56usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -289,14 +289,15 @@ pub struct msdd_plugin_start {
     pub cells: usize,
     pub porosity: *const f64,
     pub fabric_index: *const f64,
-    pub fabric_conductivity: *const f64,
+    pub fabric_xy: *const f64,
     pub stress_xx: *const f64,
     pub stress_yy: *const f64,
+    pub stress_xy: *const f64,
     pub state: *const *mut f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_plugin_start"][::core::mem::size_of::<msdd_plugin_start>() - 64usize];
+    ["Size of msdd_plugin_start"][::core::mem::size_of::<msdd_plugin_start>() - 72usize];
     [
         "Alignment of msdd_plugin_start",
     ][::core::mem::align_of::<msdd_plugin_start>() - 8usize];
@@ -313,8 +314,8 @@ const _: () = {
         "Offset of field: msdd_plugin_start::fabric_index",
     ][::core::mem::offset_of!(msdd_plugin_start, fabric_index) - 24usize];
     [
-        "Offset of field: msdd_plugin_start::fabric_conductivity",
-    ][::core::mem::offset_of!(msdd_plugin_start, fabric_conductivity) - 32usize];
+        "Offset of field: msdd_plugin_start::fabric_xy",
+    ][::core::mem::offset_of!(msdd_plugin_start, fabric_xy) - 32usize];
     [
         "Offset of field: msdd_plugin_start::stress_xx",
     ][::core::mem::offset_of!(msdd_plugin_start, stress_xx) - 40usize];
@@ -322,8 +323,11 @@ const _: () = {
         "Offset of field: msdd_plugin_start::stress_yy",
     ][::core::mem::offset_of!(msdd_plugin_start, stress_yy) - 48usize];
     [
+        "Offset of field: msdd_plugin_start::stress_xy",
+    ][::core::mem::offset_of!(msdd_plugin_start, stress_xy) - 56usize];
+    [
         "Offset of field: msdd_plugin_start::state",
-    ][::core::mem::offset_of!(msdd_plugin_start, state) - 56usize];
+    ][::core::mem::offset_of!(msdd_plugin_start, state) - 64usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -332,17 +336,23 @@ pub struct msdd_plugin_step {
     pub cells: usize,
     pub state: *const *const f64,
     pub thermal_strain: *const f64,
+    pub strain_xx: *const f64,
+    pub strain_yy: *const f64,
+    pub strain_xy: *const f64,
+    pub rotation: *const f64,
     pub next_state: *const *mut f64,
     pub conductivity_xx: *mut f64,
     pub conductivity_yy: *mut f64,
+    pub conductivity_xy: *mut f64,
     pub stress_xx: *mut f64,
     pub stress_yy: *mut f64,
+    pub stress_xy: *mut f64,
+    pub tangent: *const *mut f64,
     pub outside: *const *mut f64,
-    pub virgin_share: *const f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_plugin_step"][::core::mem::size_of::<msdd_plugin_step>() - 88usize];
+    ["Size of msdd_plugin_step"][::core::mem::size_of::<msdd_plugin_step>() - 136usize];
     [
         "Alignment of msdd_plugin_step",
     ][::core::mem::align_of::<msdd_plugin_step>() - 8usize];
@@ -359,78 +369,53 @@ const _: () = {
         "Offset of field: msdd_plugin_step::thermal_strain",
     ][::core::mem::offset_of!(msdd_plugin_step, thermal_strain) - 24usize];
     [
+        "Offset of field: msdd_plugin_step::strain_xx",
+    ][::core::mem::offset_of!(msdd_plugin_step, strain_xx) - 32usize];
+    [
+        "Offset of field: msdd_plugin_step::strain_yy",
+    ][::core::mem::offset_of!(msdd_plugin_step, strain_yy) - 40usize];
+    [
+        "Offset of field: msdd_plugin_step::strain_xy",
+    ][::core::mem::offset_of!(msdd_plugin_step, strain_xy) - 48usize];
+    [
+        "Offset of field: msdd_plugin_step::rotation",
+    ][::core::mem::offset_of!(msdd_plugin_step, rotation) - 56usize];
+    [
         "Offset of field: msdd_plugin_step::next_state",
-    ][::core::mem::offset_of!(msdd_plugin_step, next_state) - 32usize];
+    ][::core::mem::offset_of!(msdd_plugin_step, next_state) - 64usize];
     [
         "Offset of field: msdd_plugin_step::conductivity_xx",
-    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_xx) - 40usize];
+    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_xx) - 72usize];
     [
         "Offset of field: msdd_plugin_step::conductivity_yy",
-    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_yy) - 48usize];
+    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_yy) - 80usize];
+    [
+        "Offset of field: msdd_plugin_step::conductivity_xy",
+    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_xy) - 88usize];
     [
         "Offset of field: msdd_plugin_step::stress_xx",
-    ][::core::mem::offset_of!(msdd_plugin_step, stress_xx) - 56usize];
+    ][::core::mem::offset_of!(msdd_plugin_step, stress_xx) - 96usize];
     [
         "Offset of field: msdd_plugin_step::stress_yy",
-    ][::core::mem::offset_of!(msdd_plugin_step, stress_yy) - 64usize];
+    ][::core::mem::offset_of!(msdd_plugin_step, stress_yy) - 104usize];
+    [
+        "Offset of field: msdd_plugin_step::stress_xy",
+    ][::core::mem::offset_of!(msdd_plugin_step, stress_xy) - 112usize];
+    [
+        "Offset of field: msdd_plugin_step::tangent",
+    ][::core::mem::offset_of!(msdd_plugin_step, tangent) - 120usize];
     [
         "Offset of field: msdd_plugin_step::outside",
-    ][::core::mem::offset_of!(msdd_plugin_step, outside) - 72usize];
-    [
-        "Offset of field: msdd_plugin_step::virgin_share",
-    ][::core::mem::offset_of!(msdd_plugin_step, virgin_share) - 80usize];
+    ][::core::mem::offset_of!(msdd_plugin_step, outside) - 128usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
-pub struct msdd_plugin_tangent {
-    pub struct_size: usize,
-    pub cells: usize,
-    pub state: *const *const f64,
-    pub c11: *mut f64,
-    pub c22: *mut f64,
-    pub c12: *mut f64,
-    pub porosity_rate: *mut f64,
-    pub fabric_index_rate: *mut f64,
-}
-#[allow(clippy::unnecessary_operation, clippy::identity_op)]
-const _: () = {
-    [
-        "Size of msdd_plugin_tangent",
-    ][::core::mem::size_of::<msdd_plugin_tangent>() - 64usize];
-    [
-        "Alignment of msdd_plugin_tangent",
-    ][::core::mem::align_of::<msdd_plugin_tangent>() - 8usize];
-    [
-        "Offset of field: msdd_plugin_tangent::struct_size",
-    ][::core::mem::offset_of!(msdd_plugin_tangent, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_plugin_tangent::cells",
-    ][::core::mem::offset_of!(msdd_plugin_tangent, cells) - 8usize];
-    [
-        "Offset of field: msdd_plugin_tangent::state",
-    ][::core::mem::offset_of!(msdd_plugin_tangent, state) - 16usize];
-    [
-        "Offset of field: msdd_plugin_tangent::c11",
-    ][::core::mem::offset_of!(msdd_plugin_tangent, c11) - 24usize];
-    [
-        "Offset of field: msdd_plugin_tangent::c22",
-    ][::core::mem::offset_of!(msdd_plugin_tangent, c22) - 32usize];
-    [
-        "Offset of field: msdd_plugin_tangent::c12",
-    ][::core::mem::offset_of!(msdd_plugin_tangent, c12) - 40usize];
-    [
-        "Offset of field: msdd_plugin_tangent::porosity_rate",
-    ][::core::mem::offset_of!(msdd_plugin_tangent, porosity_rate) - 48usize];
-    [
-        "Offset of field: msdd_plugin_tangent::fabric_index_rate",
-    ][::core::mem::offset_of!(msdd_plugin_tangent, fabric_index_rate) - 56usize];
-};
-#[repr(C)]
-#[derive(Debug, Copy, Clone)]
-pub struct msdd_plugin_v1 {
+pub struct msdd_plugin_v2 {
     pub struct_size: usize,
     pub version: u32,
     pub network_conductivity: u32,
+    pub has_tangent: u32,
+    pub reserved: u32,
     pub name: *const ::core::ffi::c_char,
     pub state_size: usize,
     pub state_names: *const *const ::core::ffi::c_char,
@@ -445,18 +430,6 @@ pub struct msdd_plugin_v1 {
             cells: usize,
             porosity: *const f64,
             solid_fraction: *mut f64,
-        ) -> i32,
-    >,
-    pub tangent: ::core::option::Option<
-        unsafe extern "C" fn(tangent: *const msdd_plugin_tangent) -> i32,
-    >,
-    pub deform: ::core::option::Option<
-        unsafe extern "C" fn(
-            cells: usize,
-            state: *const *const f64,
-            strain_xx: *const f64,
-            strain_yy: *const f64,
-            next_state: *const *mut f64,
         ) -> i32,
     >,
     pub spread: ::core::option::Option<
@@ -474,53 +447,53 @@ pub struct msdd_plugin_v1 {
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_plugin_v1"][::core::mem::size_of::<msdd_plugin_v1>() - 112usize];
-    ["Alignment of msdd_plugin_v1"][::core::mem::align_of::<msdd_plugin_v1>() - 8usize];
+    ["Size of msdd_plugin_v2"][::core::mem::size_of::<msdd_plugin_v2>() - 104usize];
+    ["Alignment of msdd_plugin_v2"][::core::mem::align_of::<msdd_plugin_v2>() - 8usize];
     [
-        "Offset of field: msdd_plugin_v1::struct_size",
-    ][::core::mem::offset_of!(msdd_plugin_v1, struct_size) - 0usize];
+        "Offset of field: msdd_plugin_v2::struct_size",
+    ][::core::mem::offset_of!(msdd_plugin_v2, struct_size) - 0usize];
     [
-        "Offset of field: msdd_plugin_v1::version",
-    ][::core::mem::offset_of!(msdd_plugin_v1, version) - 8usize];
+        "Offset of field: msdd_plugin_v2::version",
+    ][::core::mem::offset_of!(msdd_plugin_v2, version) - 8usize];
     [
-        "Offset of field: msdd_plugin_v1::network_conductivity",
-    ][::core::mem::offset_of!(msdd_plugin_v1, network_conductivity) - 12usize];
+        "Offset of field: msdd_plugin_v2::network_conductivity",
+    ][::core::mem::offset_of!(msdd_plugin_v2, network_conductivity) - 12usize];
     [
-        "Offset of field: msdd_plugin_v1::name",
-    ][::core::mem::offset_of!(msdd_plugin_v1, name) - 16usize];
+        "Offset of field: msdd_plugin_v2::has_tangent",
+    ][::core::mem::offset_of!(msdd_plugin_v2, has_tangent) - 16usize];
     [
-        "Offset of field: msdd_plugin_v1::state_size",
-    ][::core::mem::offset_of!(msdd_plugin_v1, state_size) - 24usize];
+        "Offset of field: msdd_plugin_v2::reserved",
+    ][::core::mem::offset_of!(msdd_plugin_v2, reserved) - 20usize];
     [
-        "Offset of field: msdd_plugin_v1::state_names",
-    ][::core::mem::offset_of!(msdd_plugin_v1, state_names) - 32usize];
+        "Offset of field: msdd_plugin_v2::name",
+    ][::core::mem::offset_of!(msdd_plugin_v2, name) - 24usize];
     [
-        "Offset of field: msdd_plugin_v1::initial_state",
-    ][::core::mem::offset_of!(msdd_plugin_v1, initial_state) - 40usize];
+        "Offset of field: msdd_plugin_v2::state_size",
+    ][::core::mem::offset_of!(msdd_plugin_v2, state_size) - 32usize];
     [
-        "Offset of field: msdd_plugin_v1::advance",
-    ][::core::mem::offset_of!(msdd_plugin_v1, advance) - 48usize];
+        "Offset of field: msdd_plugin_v2::state_names",
+    ][::core::mem::offset_of!(msdd_plugin_v2, state_names) - 40usize];
     [
-        "Offset of field: msdd_plugin_v1::solid_fraction",
-    ][::core::mem::offset_of!(msdd_plugin_v1, solid_fraction) - 56usize];
+        "Offset of field: msdd_plugin_v2::initial_state",
+    ][::core::mem::offset_of!(msdd_plugin_v2, initial_state) - 48usize];
     [
-        "Offset of field: msdd_plugin_v1::tangent",
-    ][::core::mem::offset_of!(msdd_plugin_v1, tangent) - 64usize];
+        "Offset of field: msdd_plugin_v2::advance",
+    ][::core::mem::offset_of!(msdd_plugin_v2, advance) - 56usize];
     [
-        "Offset of field: msdd_plugin_v1::deform",
-    ][::core::mem::offset_of!(msdd_plugin_v1, deform) - 72usize];
+        "Offset of field: msdd_plugin_v2::solid_fraction",
+    ][::core::mem::offset_of!(msdd_plugin_v2, solid_fraction) - 64usize];
     [
-        "Offset of field: msdd_plugin_v1::spread",
-    ][::core::mem::offset_of!(msdd_plugin_v1, spread) - 80usize];
+        "Offset of field: msdd_plugin_v2::spread",
+    ][::core::mem::offset_of!(msdd_plugin_v2, spread) - 72usize];
     [
-        "Offset of field: msdd_plugin_v1::last_error",
-    ][::core::mem::offset_of!(msdd_plugin_v1, last_error) - 88usize];
+        "Offset of field: msdd_plugin_v2::last_error",
+    ][::core::mem::offset_of!(msdd_plugin_v2, last_error) - 80usize];
     [
-        "Offset of field: msdd_plugin_v1::wall_friction_limit",
-    ][::core::mem::offset_of!(msdd_plugin_v1, wall_friction_limit) - 96usize];
+        "Offset of field: msdd_plugin_v2::wall_friction_limit",
+    ][::core::mem::offset_of!(msdd_plugin_v2, wall_friction_limit) - 88usize];
     [
-        "Offset of field: msdd_plugin_v1::wall_friction_slip",
-    ][::core::mem::offset_of!(msdd_plugin_v1, wall_friction_slip) - 104usize];
+        "Offset of field: msdd_plugin_v2::wall_friction_slip",
+    ][::core::mem::offset_of!(msdd_plugin_v2, wall_friction_slip) - 96usize];
 };
 unsafe extern "C" {
     pub fn msdd_abi_version() -> u32;
@@ -610,5 +583,5 @@ unsafe extern "C" {
         csv: *const ::core::ffi::c_char,
         rows: *mut u64,
     ) -> i32;
-    pub fn msdd_plugin_v1_table() -> *const msdd_plugin_v1;
+    pub fn msdd_plugin_v2_table() -> *const msdd_plugin_v2;
 }

@@ -27,7 +27,7 @@ extern "C" {
 #endif
 
 /** Version of this interface. Compare with msdd_abi_version() before anything else is called. */
-#define MSDD_ABI_VERSION 2u
+#define MSDD_ABI_VERSION 3u
 
 enum msdd_status {
     MSDD_OK = 0,
@@ -83,7 +83,8 @@ typedef struct msdd_material {
  *  by msdd_surrogate_state_name. The first two are porosity (the overlap of two grains counted once) and fabric_index
  *  (F_xx - F_yy, the difference of the diagonal components of the fabric tensor). The same column may be given as input
  *  and as output. Any finite state is accepted. An input outside of the trained range, also one that no packing has, such
- *  as a porosity of 2, is evaluated at the nearest end of that range, and is flagged in `clamped` and `outside`. */
+ *  as a porosity of 2, is flagged in `clamped` and `outside`; networks are evaluated at the nearest end of that range, the
+ *  law of the increments continues as far as its numbers make sense. */
 typedef struct msdd_batch {
     size_t struct_size;                 /**< sizeof(msdd_batch) */
     size_t cells;                       /**< length of every column */
@@ -91,29 +92,23 @@ typedef struct msdd_batch {
     const double *const *state;         /**< state columns before the step */
     const double *thermal_strain;       /**< radial strain of the grains in this step, relative to the current radius */
     const double *total_thermal_strain; /**< alpha (T - T0), this step included; NULL = 0 everywhere */
-    const double *strain_xx;            /**< mechanical strain of the cell along x, after the thermal one; NULL = 0 */
-    const double *strain_yy;            /**< the same along y; either needs a model that has a tangent */
-    const double *virgin_share;         /**< share of thermal_strain, 0 to 1, that is "virgin": it takes the total thermal
-                                             strain beyond the range of totals that the cell has had before. Grains slide
-                                             in virgin strains, and hardly at all while they are strained back and return.
-                                             NULL = 1 everywhere, which is right as long as no cell is strained back. In
-                                             cycles, NULL lets the anisotropy grow without limit: K_xx/K_yy is 19 after
-                                             1 000 cycles of +-0.1 %, and is flagged by then. With the shares given, K
-                                             changes by a few percent in ten cycles; 1 000 cycles of +-0.5 % at porosity
-                                             0.16 lower K_xx by 14 %, 100 of +-2 % at porosity 0.12 lower K by 9 %, and
-                                             neither is flagged */
-    /* out; any of them may be NULL when not wanted, and so may single columns of next_state and outside */
+    const double *strain_xx;            /**< strain of the cell along x in this step; above -0.2, to 0.2; NULL = 0. This and
+                                             the next three need a model that has a tangent */
+    const double *strain_yy;            /**< the same along y; NULL = 0 */
+    const double *strain_xy;            /**< twice the shear strain, du_x/dy + du_y/dx; NULL = 0 */
+    const double *rotation;             /**< angle by which the cell turns, counter-clockwise positive,
+                                             (du_y/dx - du_x/dy)/2 [rad]; NULL = 0 */
+    /* out; any of them may be NULL when not wanted, and so may single columns of next_state, tangent and outside */
     double *const *next_state;          /**< state columns after the step */
     double *conductivity_xx;            /**< K_xx after the step [W/(m K)] */
     double *conductivity_yy;            /**< K_yy after the step [W/(m K)] */
+    double *conductivity_xy;            /**< K_xy after the step [W/(m K)]; 0 for a model without tangent */
     double *stress_xx;                  /**< sigma_xx after the step [Pa] */
     double *stress_yy;                  /**< sigma_yy after the step [Pa] */
-    double *c11;                        /**< -d sigma_xx/d strain_xx after the step [Pa]; from here to fabric_index_rate:
-                                             the mechanical tangent, only for a model that has one */
-    double *c22;                        /**< -d sigma_yy/d strain_yy [Pa] */
-    double *c12;                        /**< -d sigma_xx/d strain_yy = -d sigma_yy/d strain_xx [Pa] */
-    double *porosity_rate;              /**< d porosity/d (strain_xx + strain_yy) */
-    double *fabric_index_rate;          /**< d fabric_index/d (strain_xx - strain_yy) */
+    double *stress_xy;                  /**< sigma_xy after the step [Pa]; 0 for a model without tangent */
+    double *const *tangent;             /**< nine columns [Pa], row by row: -d sigma_i/d strain_j at the end of the step, with
+                                             i, j = xx, yy, xy. Only for a model that has a tangent. It is the derivative of
+                                             exactly the stress that is answered, and where grains slide it is not symmetric */
     uint8_t *clamped;                   /**< 1 where an input lay outside the trained range, else 0 */
     double *const *outside;             /**< state_size + 1 columns, the last for thermal_strain: distance of the input
                                              from the trained range, in the input's own unit, negative below and positive
@@ -131,25 +126,23 @@ typedef struct msdd_initial {
     size_t cells;                      /**< length of every column */
     const double *porosity;            /**< overlaps counted once, 0 to 1 */
     const double *fabric_index;        /**< F_xx - F_yy, -1 to 1 */
-    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy), -1 to 1, of the kind of conductivity that the
-                                            model's state carries ("fabric_conductivity" in the text of
-                                            msdd_surrogate_describe); NULL = not known */
+    const double *fabric_xy;           /**< F_xy, -1 to 1; NULL = 0 */
     const double *stress_xx;           /**< [Pa], -1e30 to 1e30; NULL = not known; both or none */
     const double *stress_yy;           /**< [Pa] */
+    const double *stress_xy;           /**< [Pa]; NULL = 0 */
 } msdd_initial;
 
-/** Loads a model. `source`: NULL or "builtin" for the default model compiled into the library ("builtin:state";
+/** Loads a model. `source`: NULL or "builtin" for the default model compiled into the library ("builtin:increment";
  *  "builtin:paper" is the network of the paper); "plugin:" and the path of a shared library that defines
- *  msdd_plugin_v1_table, see the end of this header; else the path of a model file, which contains data and no code. On
+ *  msdd_plugin_v2_table, see the end of this header; else the path of a model file, which contains data and no code. On
  *  success *out owns the model; free it with msdd_surrogate_free.
  *  Loading a plug-in runs its code, with all rights of this process: pass no `source` that a stranger chose. */
 int32_t msdd_surrogate_load(const char *source, msdd_surrogate **out);
 
 /** Makes a copy of a model that computes another kind of conductivity: "affine" (Eq. 9 of the paper, an upper bound) or
  *  "network" (the resistor network of the contacts solved). msdd_surrogate_describe lists the kinds that the model was
- *  trained for as "conductivities"; any other fails with MSDD_INVALID_ARGUMENT. The state columns, and the kind of
- *  fabric_conductivity in msdd_initial, are those of the original. On success *out owns the new handle; either handle may
- *  be freed first. */
+ *  trained for as "conductivities"; any other fails with MSDD_INVALID_ARGUMENT. The state columns are
+ *  those of the original. On success *out owns the new handle; either handle may be freed first. */
 int32_t msdd_surrogate_with_conductivity(const msdd_surrogate *surrogate, const char *kind, msdd_surrogate **out);
 
 /** SHA-256 of the bytes of the model file or plug-in, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
@@ -277,7 +270,7 @@ int32_t msdd_database_export_csv(const char *database, const char *csv, uint64_t
 /* ------------------------------------------------------------------------------------------------------- plug-ins */
 
 /* A plug-in is a shared library with a surrogate model made by somebody else. It includes this header, needs nothing of
- * libmsdd, and defines one function, msdd_plugin_v1_table. Worked example: rust/capi/examples/effective_medium.c.
+ * libmsdd, and defines one function, msdd_plugin_v2_table. Worked example: rust/capi/examples/effective_medium.c.
  *
  *  - Loading a plug-in runs its code in this process and with all its rights: load none that you would not run.
  *  - No SI units: a plug-in computes K/k and reduced stresses sigma l/(E r), with l = 1 m and r the current mean radius,
@@ -291,19 +284,20 @@ int32_t msdd_database_export_csv(const char *database, const char *csv, uint64_t
  *
  * The library checks the following in every call. If a check fails, the call returns MSDD_PLUGIN, its message names the
  * plug-in, column and cell, and nothing is written:
- *  - every output is finite; K/k is from 1e-30 to 1e30, stresses from 0 (no tension) to 1e30, spreads are not negative,
- *    solid fractions are above 0 and at most 2;
+ *  - every output is finite; K/k is from 1e-30 to 1e30 in every direction, stresses from 0 (no tension in any direction)
+ *    to 1e30, spreads are not negative, solid fractions are above 0 and at most 2;
  *  - porosity after a step is from 0 to 1 and fabric_index from -1 to 1, unless the cell's value before the step was
  *    already outside; an initial state has the porosity and fabric_index that were given;
- *  - c11 and c22 are from 1e-30 to 1e30, and c12^2 is below c11 c22: some stiffness has to be left also where grains do
- *    not touch (the built-in model keeps a hundredth);
+ *  - the components of the tangent are from -1e30 to 1e30;
  *  - a strain of 0 keeps the state, unless the plug-in says in `outside` that the cell is outside of its range.
  * The library makes the first calls of initial_state and advance twice, and checks that both give the same bits.
  * It does not check whether results depend on other cells or, in later calls, on the number of calls; whether two strains
- * one after the other give the same state as their sum; whether deform, tangent and stress agree; or what else the code
- * does. */
+ * one after the other give the same state as their sum; whether the tangent is the derivative of the stress; or
+ * what else the code does.
+ *
+ * Version 1 (msdd_plugin_v1_table: functions `tangent` and `deform`, no shear) is refused with a message that says so. */
 
-#define MSDD_PLUGIN_VERSION 1u
+#define MSDD_PLUGIN_VERSION 2u
 
 /** What is known of cells at the start, and columns for their state. */
 typedef struct msdd_plugin_start {
@@ -311,47 +305,45 @@ typedef struct msdd_plugin_start {
     size_t cells;                      /**< length of every column */
     const double *porosity;            /**< overlaps counted once */
     const double *fabric_index;        /**< F_xx - F_yy */
-    const double *fabric_conductivity; /**< (K_xx - K_yy)/(K_xx + K_yy); NULL = not known */
-    const double *stress_xx;           /**< reduced, compression positive; NULL = not known; both or none */
+    const double *fabric_xy;           /**< F_xy; NULL = 0 */
+    const double *stress_xx;           /**< reduced, compression positive; NULL = not known; all or none */
     const double *stress_yy;
+    const double *stress_xy;
     double *const *state;              /**< out: state_size columns; the first two are the given porosity and
                                             fabric_index, which a plug-in may not change */
 } msdd_plugin_start;
 
-/** A step of thermal strain. */
+/** A step. */
 typedef struct msdd_plugin_step {
     size_t struct_size;           /**< sizeof(msdd_plugin_step) */
     size_t cells;                 /**< length of every column */
     const double *const *state;   /**< state_size columns before the step */
     const double *thermal_strain; /**< radial strain of the grains, relative to the current radius; above -1 */
+    const double *strain_xx;      /**< strain of the cell, as in msdd_batch; NULL = none of the four, always so for a plug-in
+                                       without tangent */
+    const double *strain_yy;
+    const double *strain_xy;
+    const double *rotation;
     double *const *next_state;    /**< out: state columns after the step */
     double *conductivity_xx;      /**< out: K_xx/k after the step, > 0 */
     double *conductivity_yy;
+    double *conductivity_xy;      /**< out: 0 before the call, so a plug-in without it need not write it */
     double *stress_xx;            /**< out: reduced, after the step */
     double *stress_yy;
+    double *stress_xy;            /**< out: 0 before the call */
+    double *const *tangent;       /**< out: nine columns as in msdd_batch, reduced; NULL = not wanted */
     double *const *outside;       /**< out: state_size + 1 columns, as in msdd_batch; all 0 before the call, so a plug-in
                                        without limits need not write them */
-    const double *virgin_share;   /**< in: as in msdd_batch; NULL = 1 everywhere */
 } msdd_plugin_step;
-
-/** Mechanical tangent, as in msdd_batch, reduced as the stress is. */
-typedef struct msdd_plugin_tangent {
-    size_t struct_size;         /**< sizeof(msdd_plugin_tangent) */
-    size_t cells;               /**< length of every column */
-    const double *const *state; /**< state_size columns */
-    double *c11;                /**< out */
-    double *c22;
-    double *c12;
-    double *porosity_rate;
-    double *fabric_index_rate;
-} msdd_plugin_tangent;
 
 /** Name, state columns and functions of a plug-in. The table and the texts that it points to have to stay valid as long as
  *  the process runs. */
-typedef struct msdd_plugin_v1 {
-    size_t struct_size;             /**< sizeof(msdd_plugin_v1) */
+typedef struct msdd_plugin_v2 {
+    size_t struct_size;             /**< sizeof(msdd_plugin_v2) */
     uint32_t version;               /**< MSDD_PLUGIN_VERSION */
     uint32_t network_conductivity;  /**< kind of K: 1: resistor network solved; 0: affine, Eq. 9 of the paper */
+    uint32_t has_tangent;           /**< 1: advance takes strains of the cell and computes the tangent; 0: it does neither */
+    uint32_t reserved;              /**< 0 */
     const char *name;               /**< UTF-8 */
     size_t state_size;              /**< 2 to 64 */
     const char *const *state_names; /**< state_size texts; the first two are "porosity" and "fabric_index". A name is a
@@ -366,18 +358,13 @@ typedef struct msdd_plugin_v1 {
     /** Solid fraction, overlaps counted twice, of an initial state with the given porosity; above 0 and at most 2.
      *  NULL = not known. */
     int32_t (*solid_fraction)(size_t cells, const double *porosity, double *solid_fraction);
-    /** Mechanical tangent; NULL = not known. A plug-in defines both `tangent` and `deform`, or neither. */
-    int32_t (*tangent)(const msdd_plugin_tangent *tangent);
-    /** State after mechanical strains of the cells, by linear extrapolation with the tangent. */
-    int32_t (*deform)(size_t cells, const double *const *state, const double *strain_xx, const double *strain_yy,
-                      double *const *next_state);
     /** Relative standard deviation of K between RVEs of equal state, not negative; NULL = not known. */
     int32_t (*spread)(size_t cells, const double *const *state, double *spread);
     /** Text of the last failure on the calling thread, UTF-8; the library copies it at once. NULL = no such function. */
     const char *(*last_error)(void);
     double wall_friction_limit;     /**< as in msdd_surrogate_wall_friction; 0 = not known */
     double wall_friction_slip;      /**< [mean radii], > 0 */
-} msdd_plugin_v1;
+} msdd_plugin_v2;
 
 #if defined(__GNUC__)
 #define MSDD_PLUGIN_EXPORT __attribute__((visibility("default")))
@@ -386,7 +373,7 @@ typedef struct msdd_plugin_v1 {
 #endif
 
 /** Returns the plug-in's table. A plug-in defines this function; libmsdd does not. */
-MSDD_PLUGIN_EXPORT const msdd_plugin_v1 *msdd_plugin_v1_table(void);
+MSDD_PLUGIN_EXPORT const msdd_plugin_v2 *msdd_plugin_v2_table(void);
 
 #ifdef __cplusplus
 }

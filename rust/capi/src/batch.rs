@@ -9,7 +9,7 @@ use crate::si::Si;
 use crate::status::Failure;
 use msdd_surrogate::Surrogate;
 use msdd_surrogate::kernel::{LANES, Lanes};
-use msdd_surrogate::surrogate::{Answer, MAX_STATE, StateLanes, VIRGIN};
+use msdd_surrogate::surrogate::{Answer, Increment, MAX_STATE, StateLanes, Tangent};
 
 /// Columns of a batch.
 pub(crate) struct Columns<'a> {
@@ -17,14 +17,14 @@ pub(crate) struct Columns<'a> {
     state: Vec<Input<'a>>,
     thermal_strain: Input<'a>,
     total_thermal_strain: Option<Input<'a>>,
-    /// Mechanical strains along x and y.
-    strain: [Option<Input<'a>>; 2],
-    virgin_share: Option<Input<'a>>,
+    /// Strains xx, yy, 2 xy of the cells.
+    strain: [Option<Input<'a>>; 3],
+    rotation: Option<Input<'a>>,
     next_state: Vec<Output<f64>>,
-    conductivity: [Output<f64>; 2],
-    stress: [Output<f64>; 2],
-    /// c11, c22, c12; rates of porosity and fabric index.
-    tangent: [Output<f64>; 5],
+    conductivity: [Output<f64>; 3],
+    stress: [Output<f64>; 3],
+    /// Empty, or nine columns.
+    tangent: Vec<Output<f64>>,
     clamped: Output<u8>,
     /// Empty, or one for every state column and one for the thermal strain.
     outside: Vec<Output<f64>>,
@@ -33,8 +33,12 @@ pub(crate) struct Columns<'a> {
 
 /// Largest thermal strain: grains of eleven times their size, which no model describes, and still far from overflow.
 const LARGEST_STRAIN: f64 = 10.0;
-/// Largest mechanical strain of one step: the tangent is a linear law, so larger strains have to be divided into steps.
+/// Largest strain of a cell, and angle [rad] by which it turns, in one step: the law integrates a step at once, so larger ones
+/// have to be divided.
 const LARGEST_STEP: f64 = 0.2;
+
+/// Columns of the tangent.
+const TANGENT: usize = 9;
 
 /// Refuses numbers of cells whose columns cannot fit into memory: pointers to the end of a column would wrap around.
 pub(crate) fn check_length(cells: usize) -> Result<(), Failure> {
@@ -91,13 +95,16 @@ impl<'a> Columns<'a> {
                 state: state.collect::<Result<_, _>>()?,
                 thermal_strain: Input::new("thermal_strain", batch.thermal_strain, cells)?,
                 total_thermal_strain: optional("total_thermal_strain", batch.total_thermal_strain)?,
-                strain: [optional("strain_xx", batch.strain_xx)?, optional("strain_yy", batch.strain_yy)?],
-                virgin_share: optional("virgin_share", batch.virgin_share)?,
+                strain: [
+                    optional("strain_xx", batch.strain_xx)?,
+                    optional("strain_yy", batch.strain_yy)?,
+                    optional("strain_xy", batch.strain_xy)?,
+                ],
+                rotation: optional("rotation", batch.rotation)?,
                 next_state: several("next_state", batch.next_state, names.len())?,
-                conductivity: [output(batch.conductivity_xx), output(batch.conductivity_yy)],
-                stress: [output(batch.stress_xx), output(batch.stress_yy)],
-                tangent: [batch.c11, batch.c22, batch.c12, batch.porosity_rate, batch.fabric_index_rate]
-                    .map(output),
+                conductivity: [batch.conductivity_xx, batch.conductivity_yy, batch.conductivity_xy].map(output),
+                stress: [batch.stress_xx, batch.stress_yy, batch.stress_xy].map(output),
+                tangent: several("tangent", batch.tangent, TANGENT)?,
                 clamped: Output::new(batch.clamped, cells),
                 outside: several("outside", batch.outside, names.len() + 1)?,
                 spread: output(batch.spread),
@@ -107,16 +114,17 @@ impl<'a> Columns<'a> {
 
     /// Takes all cells through the step; returns the number with an input outside the trained range.
     pub fn advance(&self, model: &dyn Surrogate, si: &Si) -> Result<usize, Failure> {
-        self.check(model.name(), model.mechanics().is_some())?;
-        let mut answer = Answer::default();
-        Ok((0..self.cells).step_by(LANES).map(|first| self.fill(model, si, first, &mut answer)).sum())
+        self.check(model.name(), model.has_tangent())?;
+        let (mut answer, mut tangent) = (Answer::default(), Tangent::default());
+        let blocks = (0..self.cells).step_by(LANES);
+        Ok(blocks.map(|first| self.fill(model, si, first, (&mut answer, &mut tangent))).sum())
     }
 
     fn check(&self, name: &str, has_tangent: bool) -> Result<(), Failure> {
         let inputs = self.state.iter().chain([&self.thermal_strain]).chain(&self.total_thermal_strain);
         inputs
             .chain(self.strain.iter().flatten())
-            .chain(&self.virgin_share)
+            .chain(&self.rotation)
             .try_for_each(Input::check_finite)?;
         // The lower end does not belong to these ranges.
         let range = |column: &Input, low: f64, high: f64, allowed: &str| {
@@ -126,27 +134,34 @@ impl<'a> Columns<'a> {
         if let Some(column) = &self.total_thermal_strain {
             range(column, -1.0, LARGEST_STRAIN, "above -1, to 10")?;
         }
-        for column in self.strain.iter().flatten() {
+        for column in self.strain.iter().flatten().chain(&self.rotation) {
             range(column, -LARGEST_STEP, LARGEST_STEP, "above -0.2, to 0.2")?;
         }
-        if let Some(column) = &self.virgin_share {
-            column.check_range(0.0, 1.0, "0 to 1")?;
-        }
-        if !has_tangent && (self.deforms() || self.tangent.iter().any(Output::is_wanted)) {
-            let wanted = "strain_xx, strain_yy, c11, c22, c12, porosity_rate, fabric_index_rate";
+        if !has_tangent && (self.deforms() || self.wants_tangent()) {
+            let wanted = "strain_xx, strain_yy, strain_xy, rotation, tangent";
             let allowed = format!("NULL: model \"{name}\" has no mechanical tangent");
             return Err(Failure::argument(wanted, "not NULL", allowed));
         }
         Ok(())
     }
 
+    fn wants_tangent(&self) -> bool {
+        self.tangent.iter().any(Output::is_wanted)
+    }
+
     fn deforms(&self) -> bool {
-        self.strain.iter().any(Option::is_some)
+        self.strain.iter().chain([&self.rotation]).any(Option::is_some)
     }
 
     /// Evaluates the block of cells from `first` on; returns how many of them had an input outside the trained range.
-    /// `answer` is scratch space for the results of a block.
-    fn fill(&self, model: &dyn Surrogate, si: &Si, first: usize, answer: &mut Answer) -> usize {
+    /// `answer` and `tangent` are scratch space for the results of a block.
+    fn fill(
+        &self,
+        model: &dyn Surrogate,
+        si: &Si,
+        first: usize,
+        (answer, tangent): (&mut Answer, &mut Tangent),
+    ) -> usize {
         // All inputs of a block are read before any output is written, because the same column may be both.
         let lanes_or_zero =
             |column: &Option<Input>| column.map_or([0.0; LANES], |column| column.lanes(first));
@@ -155,13 +170,12 @@ impl<'a> Columns<'a> {
             *lanes = column.lanes(first);
         }
         let total = lanes_or_zero(&self.total_thermal_strain);
-        let strain = [0, 1].map(|k| lanes_or_zero(&self.strain[k]));
-        let virgin = self.virgin_share.map_or(VIRGIN, |column| column.lanes(first));
-        model.block_into(&state, &self.thermal_strain.lanes(first), &virgin, answer);
-        if self.deforms() {
-            let (deformed, outside) = (model.deformed(&answer.state, &strain), answer.outside);
-            model.block_into(&deformed, &[0.0; LANES], &VIRGIN, answer);
-            answer.outside = outside;
+        let [xx, yy, xy] = self.strain.each_ref().map(lanes_or_zero);
+        let (thermal, rotation) = (self.thermal_strain.lanes(first), lanes_or_zero(&self.rotation));
+        let strain = Increment { thermal, xx, yy, xy, rotation };
+        model.advance(&state, &strain, answer, self.wants_tangent().then_some(&mut *tangent));
+        for (column, lanes) in self.tangent.iter().zip(tangent.as_flattened()) {
+            column.write(first, &si.stress(*lanes, &total));
         }
         let outside = answer.lanes_outside();
         self.write(model, si, first, answer, &outside, &total);
@@ -183,7 +197,7 @@ impl<'a> Columns<'a> {
         for (column, lanes) in self.next_state.iter().zip(&answer.state) {
             column.write(first, &largest(lanes));
         }
-        for k in [0, 1] {
+        for k in 0..3 {
             self.conductivity[k].write(first, &si.conductivity(answer.conductivity[k]));
             self.stress[k].write(first, &si.stress(answer.stress[k], total));
         }
@@ -195,23 +209,6 @@ impl<'a> Columns<'a> {
             column.write(first, &largest(lanes));
         }
         let lane_state = |lane: usize| answer.state.map(|column| column[lane]);
-        if self.tangent.iter().any(Output::is_wanted) {
-            let tangents: [_; LANES] = std::array::from_fn(|lane| model.tangent(&lane_state(lane)));
-            let stiffness = |pick: fn(&msdd_surrogate::mechanics::Tangent) -> f64| {
-                si.stress(std::array::from_fn(|lane| tangents[lane].as_ref().map_or(0.0, pick)), total)
-            };
-            let rate = |pick: fn(&msdd_surrogate::mechanics::Tangent) -> f64| -> Lanes {
-                std::array::from_fn(|lane| tangents[lane].as_ref().map_or(0.0, pick))
-            };
-            let columns = [
-                stiffness(|t| t.c11),
-                stiffness(|t| t.c22),
-                stiffness(|t| t.c12),
-                rate(|t| t.porosity),
-                rate(|t| t.fabric_index),
-            ];
-            self.tangent.iter().zip(&columns).for_each(|(column, lanes)| column.write(first, lanes));
-        }
         if self.spread.is_wanted() {
             let spread = |lane| model.doubt(&lane_state(lane)).map_or(f64::NAN, |d| d.conductivity_spread);
             self.spread.write(first, &std::array::from_fn(spread));

@@ -8,7 +8,7 @@ use crate::status::Failure;
 use msdd_plugin::Plugin;
 use msdd_surrogate::Surrogate;
 use msdd_surrogate::kernel::LANES;
-use msdd_surrogate::state::variables::ConductivityKind;
+use msdd_surrogate::dataset::ConductivityKind;
 use msdd_surrogate::surrogate::Known;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -43,9 +43,11 @@ pub(crate) struct Start<'a> {
     pub cells: usize,
     pub porosity: Input<'a>,
     pub fabric_index: Input<'a>,
-    pub fabric_conductivity: Option<Input<'a>>,
+    pub fabric_xy: Option<Input<'a>>,
     /// σ_xx, σ_yy [Pa].
     pub stress: Option<[Input<'a>; 2]>,
+    /// σ_xy [Pa].
+    pub stress_xy: Option<Input<'a>>,
 }
 
 /// A model of the crate [`msdd_surrogate`].
@@ -71,8 +73,7 @@ impl BatchModel for Own {
             "state": model.state_names(),
             "conductivity": self.conductivity(),
             "conductivities": self.conductivities(),
-            "fabric_conductivity": model.fabric_conductivity_kind(),
-            "mechanics": model.mechanics(),
+            "has_tangent": model.has_tangent(),
             "wall_friction": model.wall_friction(),
             "trained_range": file.get("ranges").or(file.get("trained_range")),
             "schema": file["schema"],
@@ -98,7 +99,7 @@ impl BatchModel for Own {
     }
 
     fn has_tangent(&self) -> bool {
-        self.0.mechanics().is_some()
+        self.0.has_tangent()
     }
 
     fn wall_friction(&self) -> Option<[f64; 2]> {
@@ -110,8 +111,11 @@ impl BatchModel for Own {
             let known = Known {
                 porosity: start.porosity.at(cell),
                 fabric_index: start.fabric_index.at(cell),
-                fabric_conductivity: start.fabric_conductivity.map(|column| column.at(cell)),
-                reduced_stress: start.stress.map(|stress| stress.map(|column| si.reduced(column.at(cell)))),
+                fabric_xy: start.fabric_xy.map_or(0.0, |column| column.at(cell)),
+                reduced_stress: start.stress.map(|[xx, yy]| {
+                    let xy = start.stress_xy.map_or(0.0, |column| column.at(cell));
+                    [xx.at(cell), yy.at(cell), xy].map(|stress| si.reduced(stress))
+                }),
             };
             for (column, value) in state.iter().zip(self.0.initial_state(&known)) {
                 column.write_one(cell, value);
@@ -150,7 +154,7 @@ impl BatchModel for Plugin {
             "state": Plugin::state_names(self),
             "conductivity": self.conductivity(),
             "conductivities": self.conductivities(),
-            "fabric_conductivity": self.conductivity(),
+            "has_tangent": Plugin::has_tangent(self),
             "wall_friction": friction.map(|f| json!({"limit": f.limit, "slip": f.slip})),
         })
     }
@@ -185,13 +189,16 @@ impl BatchModel for Plugin {
         let column = |input: &Input| (0..start.cells).map(|cell| input.at(cell)).collect::<Vec<f64>>();
         let reduced =
             |input: &Input| column(input).iter().map(|stress| si.reduced(*stress)).collect::<Vec<f64>>();
-        let stress = start.stress.map(|stress| stress.each_ref().map(reduced));
-        let fabric_conductivity = start.fabric_conductivity.as_ref().map(column);
+        let stress = start.stress.map(|[xx, yy]| {
+            let xy = start.stress_xy.as_ref().map_or_else(|| vec![0.0; start.cells], reduced);
+            [reduced(&xx), reduced(&yy), xy]
+        });
+        let fabric_xy = start.fabric_xy.as_ref().map(column);
         let known = msdd_plugin::Start {
             porosity: &column(&start.porosity),
             fabric_index: &column(&start.fabric_index),
-            fabric_conductivity: fabric_conductivity.as_deref(),
-            stress: stress.as_ref().map(|[xx, yy]| [xx.as_slice(), yy]),
+            fabric_xy: fabric_xy.as_deref(),
+            stress: stress.as_ref().map(|stress| stress.each_ref().map(Vec::as_slice)),
         };
         for (output, values) in state.iter().zip(Plugin::initial_state(self, &known)?) {
             output.write_all(&values);

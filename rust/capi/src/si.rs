@@ -41,7 +41,7 @@ impl Si {
     /// number, so that a state far outside of every trained range does not give infinity.
     pub fn stress(&self, dimensionless: Lanes, total_thermal_strain: &Lanes) -> Lanes {
         let stress = |lane: usize| dimensionless[lane] * (self.stress * (1.0 + total_thermal_strain[lane]));
-        std::array::from_fn(|lane| stress(lane).min(f64::MAX))
+        std::array::from_fn(|lane| stress(lane).clamp(f64::MIN, f64::MAX))
     }
 }
 

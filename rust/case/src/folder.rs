@@ -104,7 +104,7 @@ pub fn write(folder: &Path, files: &[File]) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// The fields porosity, fabricIndex, fabricConductivity and stress, with the same value in all cells.
+/// The fields porosity, fabricIndex and stress, with the same value in all cells.
 fn initial_fields(packing: &Packing) -> Vec<File> {
     let origin = format!(
         "Mean of {} periodic boxes of {} packed grains, {} compression: written by 'msdd case new'",
@@ -132,11 +132,6 @@ fn initial_fields(packing: &Packing) -> Vec<File> {
             "0/fabricIndex",
             "Initial fabric index F_xx - F_yy: above 0 when more contacts point along x",
             packing.fabric_index,
-        ),
-        ratio(
-            "0/fabricConductivity",
-            "Initial anisotropy of the conductivity, (K_xx - K_yy)/(K_xx + K_yy)",
-            packing.fabric_conductivity,
         ),
         File { path: "0/stress", text: stress, program: false },
     ]

@@ -36,7 +36,6 @@ fn made(change: impl Fn(&mut Scene)) -> Vec<File> {
         compression: Compression::Horizontal,
         porosity: spread(0.125),
         fabric_index: spread(0.04),
-        fabric_conductivity: spread(0.13),
         stress: [spread(1.3e7), spread(7e6)],
         pressure: spread(1.01e7),
         conductivity: spread(0.3),

@@ -55,7 +55,6 @@ pub struct Packing {
     /// f = F_xx − F_yy [-].
     pub fabric_index: Spread,
     /// (K_xx − K_yy)/(K_xx + K_yy) [-], resistor network of the contacts solved.
-    pub fabric_conductivity: Spread,
     /// σ_xx, σ_yy [Pa].
     pub stress: [Spread; 2],
     /// p [Pa].
@@ -271,10 +270,6 @@ impl Packing {
             compression,
             porosity: spread(|a| a.porosity),
             fabric_index: odd(|a| a.fabric_index),
-            fabric_conductivity: odd(|a| {
-                let (xx, yy) = (a.conductivity_network_xx, a.conductivity_network_yy);
-                if xx + yy > 0.0 { (xx - yy) / (xx + yy) } else { 0.0 }
-            }),
             stress,
             pressure,
             conductivity: spread(|a| 0.5 * (a.conductivity_network_xx + a.conductivity_network_yy)),

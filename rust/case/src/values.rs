@@ -163,7 +163,6 @@ pub fn packing_rows(packing: &Packing) -> Vec<[String; 3]> {
         pascal("stress along y [Pa]", packing.stress[1]),
         row("fabric index F_xx - F_yy", packing.fabric_index, 4),
         row("conductivity of the bed over that of the grains", packing.conductivity, 4),
-        row("its anisotropy (K_xx - K_yy)/(K_xx + K_yy)", packing.fabric_conductivity, 4),
     ]
 }
 

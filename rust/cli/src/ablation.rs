@@ -1,13 +1,14 @@
-//! `msdd ablation`: how much each input of the networks contributes to their accuracy.
+//! `msdd ablation`: how much each input of the network, and each part of the law of the increments, contributes to the accuracy.
 
 use crate::database::warn_without_checksum;
 use crate::error::CliError;
 use crate::rows::training_data;
+use crate::score::print_paths;
 use clap::Args;
 use msdd_files::{check_target, write};
 use msdd_rve::database::read_all;
+use msdd_surrogate::TrainingOptions;
 use msdd_surrogate::ablation::{self, Line};
-use msdd_surrogate::state::training::StateOptions;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -31,52 +32,47 @@ pub struct Arguments {
     json: Option<PathBuf>,
 }
 
+/// The law's fit is at its minimum after about as many steps.
+const LAW_EPOCHS: u32 = 60;
+
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     arguments.json.iter().try_for_each(|json| check_target(json))?;
     warn_without_checksum(&arguments.database)?;
     let dataset = read_all(&arguments.database)?;
-    let rows = training_data(&dataset.records).rows;
+    let data = training_data(&dataset.records);
     let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
-    let mut options = StateOptions::default();
-    (options.common.seed, options.common.max_epochs, options.common.restarts) =
-        (arguments.seed, arguments.epochs, 1);
-    options.common.database.plan_hash = dataset.provenance.get("plan_hash").cloned().unwrap_or_default();
+    let mut options = TrainingOptions { restarts: 1, seed: arguments.seed, ..TrainingOptions::default() };
+    options.max_epochs = arguments.epochs;
+    options.database.plan_hash = dataset.provenance.get("plan_hash").cloned().unwrap_or_default();
     outln!("R2 (Eq. 12) of one step on what the fit did not see; {} epochs", arguments.epochs);
-    outln!(
-        "{:<44} {:>7} {:>7} {:>7} {:>7} {:>7}",
-        "paper's network, all states",
-        "d eta",
-        "d f",
-        "d f_K",
-        "K",
-        "sigma"
-    );
-    let paper = ablation::paper(&rows, &options.common).map_err(failed)?;
+    outln!("{:<44} {:>7} {:>7} {:>7} {:>7}", "paper's network, all states", "d eta", "d f", "K", "sigma");
+    let paper = ablation::paper(&data.rows, &options).map_err(failed)?;
     for line in &paper {
         let s = &line.scores;
-        print(line, [s.delta_porosity, s.delta_fabric_index, f64::NAN, s.conductivity, s.stress]);
+        print(line, [s.delta_porosity, s.delta_fabric_index, s.conductivity, s.stress]);
     }
-    outln!("state model fitted to single steps, jammed states");
-    let state = ablation::state(&rows, &options).map_err(failed)?;
-    for line in &state {
-        let s = &line.scores;
-        let fabric = s.delta_fabric_conductivity.unwrap_or(f64::NAN);
-        print(line, [s.delta_porosity, s.delta_fabric_index, fabric, s.conductivity, s.stress]);
+    let mut law = Vec::new();
+    if !data.tracks.is_empty() {
+        options.max_epochs = options.max_epochs.max(LAW_EPOCHS);
+        law = ablation::increments(&data, &options).map_err(failed)?;
+        for line in &law {
+            outln!();
+            outln!("law of the increments, {}", line.without.map_or("all".into(), |part| format!("without {part}")));
+            print_paths(&line.scores);
+        }
     }
     if let Some(path) = &arguments.json {
-        let text = serde_json::to_string_pretty(&json!({ "paper": paper, "state": state }))
+        let text = serde_json::to_string_pretty(&json!({ "paper": paper, "increment": law }))
             .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
         write(path, (text + "\n").as_bytes())?;
     }
     Ok(())
 }
 
-fn print<T>(line: &Line<T>, values: [f64; 5]) {
+fn print<T>(line: &Line<T>, values: [f64; 4]) {
     let what = match line.without {
         None => format!("  all inputs, split by {}", if line.random_split { "sample" } else { "packing" }),
         Some(input) => format!("  without {input}"),
     };
-    let text = |value: f64| if value.is_nan() { "-".to_string() } else { format!("{value:.4}") };
-    let columns: Vec<String> = values.map(|value| format!("{:>7}", text(value))).to_vec();
-    outln!("{what:<44} {}", columns.join(" "));
+    outln!("{what:<44} {}", values.map(|value| format!("{value:>7.4}")).join(" "));
 }

@@ -11,7 +11,6 @@ mod case;
 mod database;
 mod draw;
 mod error;
-mod fit_increment;
 mod progress;
 mod reference;
 mod report;
@@ -65,7 +64,6 @@ enum Command {
     /// Train a surrogate model on a database.
     Train(train::Arguments),
     /// Temporary: fit of the law.
-    FitIncrement(fit_increment::Arguments),
     /// Measure the errors of a trained model on packings that were not used in its training: table, JSON, plots.
     Score(score::Arguments),
     /// Measure how much each input of the networks contributes, by training without it.
@@ -86,7 +84,6 @@ fn main() -> ExitCode {
         Command::Reference(command) => reference::run(&command),
         Command::Bench(command) => bench::run(&command),
         Command::Train(arguments) => train::run(&arguments),
-        Command::FitIncrement(arguments) => fit_increment::run(&arguments),
         Command::Score(arguments) => score::run(&arguments),
         Command::Ablation(arguments) => ablation::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),

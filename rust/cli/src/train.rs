@@ -8,9 +8,7 @@ use clap::Args;
 use msdd_files::{check_target, write};
 use msdd_rve::database::{Dataset, read_all};
 use msdd_surrogate::document::hash;
-use msdd_surrogate::state::training::StateOptions;
-use msdd_surrogate::state::variables::Variables;
-use msdd_surrogate::{DatabaseProvenance, models};
+use msdd_surrogate::{DatabaseProvenance, TrainingOptions, models};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -22,7 +20,7 @@ pub struct Arguments {
     /// Model file (JSON) to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Kind of model: constant, paper or state.
+    /// Kind of model: constant, paper or increment.
     #[arg(long, default_value = models::DEFAULT)]
     model: String,
     /// Name of the model. Default: its kind.
@@ -40,15 +38,6 @@ pub struct Arguments {
     /// Number of epochs without a smaller validation error after which a training ends.
     #[arg(long)]
     patience: Option<u32>,
-    /// State model: neurons in each hidden layer of the network for the rates of the state; one or two layers.
-    #[arg(long, value_delimiter = ',', default_value = "4")]
-    hidden: Vec<usize>,
-    /// State model: neurons in each hidden layer of the readout, the network from the state to K and stress; one or two layers.
-    #[arg(long, value_delimiter = ',', default_value = "4")]
-    readout: Vec<usize>,
-    /// State model: leave fabric_conductivity or deviator out of the state.
-    #[arg(long, value_delimiter = ',')]
-    without: Vec<String>,
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
@@ -63,36 +52,19 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let model = (kind.train)(&data, &options).map_err(failed)?;
     let seconds = begin.elapsed().as_secs_f64();
     write(&arguments.out, model.to_json().as_bytes())?;
-    score::print_training(model.as_ref(), &data, &options.common.database.plan_hash).map_err(failed)?;
+    score::print_training(model.as_ref(), &data, &options.database.plan_hash).map_err(failed)?;
     outln!("model {} in {}, trained in {seconds:.1} s", model.hash(), arguments.out.display());
     Ok(())
 }
 
-fn options(arguments: &Arguments, dataset: &Dataset) -> Result<StateOptions, CliError> {
-    let mut options = StateOptions::default();
-    let common = &mut options.common;
-    if arguments.model == "paper" {
-        (common.restarts, common.max_epochs) = (1, 200);
-    }
-    common.name = arguments.name.clone().unwrap_or_else(|| arguments.model.clone());
-    common.seed = arguments.seed;
-    common.restarts = arguments.restarts.unwrap_or(common.restarts);
-    common.max_epochs = arguments.epochs.unwrap_or(common.max_epochs);
-    common.patience = arguments.patience.unwrap_or(common.patience);
-    common.database = provenance(arguments, dataset)?;
-    options.hidden = arguments.hidden.clone();
-    options.readout_hidden = arguments.readout.clone();
-    options.variables = Variables::ALL;
-    for name in &arguments.without {
-        match name.as_str() {
-            "fabric_conductivity" => options.variables.fabric_conductivity = false,
-            "deviator" => options.variables.stress_deviator = false,
-            other => {
-                let allowed = "fabric_conductivity, deviator";
-                return Err(CliError::Message(format!("--without {other}, allowed: {allowed}")));
-            }
-        }
-    }
+fn options(arguments: &Arguments, dataset: &Dataset) -> Result<TrainingOptions, CliError> {
+    let mut options = TrainingOptions::default();
+    options.name = arguments.name.clone().unwrap_or_else(|| arguments.model.clone());
+    options.seed = arguments.seed;
+    options.restarts = arguments.restarts.unwrap_or(options.restarts);
+    options.max_epochs = arguments.epochs.unwrap_or(options.max_epochs);
+    options.patience = arguments.patience.unwrap_or(options.patience);
+    options.database = provenance(arguments, dataset)?;
     Ok(options)
 }
 

@@ -12,8 +12,7 @@ pub(crate) struct Allowed {
 }
 
 pub(crate) const FINITE: Allowed = Allowed { low: f64::MIN, high: f64::MAX, text: "finite" };
-/// Range of K/k; times any k that the library accepts it is still finite. K is diagonal, so it is positive definite when
-/// both values are above zero.
+/// Range of the diagonal of K/k; times any k that the library accepts it is still finite.
 pub(crate) const CONDUCTIVITY: Allowed =
     Allowed { low: 1e-30, high: 1e30, text: "finite, above 0: 1e-30 to 1e30" };
 pub(crate) const STRESS: Allowed = Allowed {
@@ -21,10 +20,7 @@ pub(crate) const STRESS: Allowed = Allowed {
     high: 1e30,
     text: "0 to 1e30: compression is positive, and loose grains do not pull",
 };
-/// Range of c11 and c22. They have to be above zero: our own model keeps a hundredth of the stiffness where grains do not
-/// touch.
-pub(crate) const STIFFNESS: Allowed =
-    Allowed { low: 1e-30, high: 1e30, text: "1e-30 to 1e30: above 0 also where grains do not touch" };
+pub(crate) const STIFFNESS: Allowed = Allowed { low: -1e30, high: 1e30, text: "-1e30 to 1e30" };
 pub(crate) const SPREAD: Allowed = Allowed { low: 0.0, high: f64::MAX, text: "finite, not negative" };
 pub(crate) const SOLID_FRACTION: Allowed =
     Allowed { low: f64::MIN_POSITIVE, high: 2.0, text: "above 0, to 2" };
@@ -128,16 +124,21 @@ impl Question<'_> {
         Ok(())
     }
 
-    /// Checks that the stiffness matrix of c11, c22 and c12 is positive definite, so that every strain meets resistance.
-    pub fn stiffness(&self, [c11, c22, c12]: [&[f64]; 3]) -> Checked {
-        self.column("c11", c11, STIFFNESS)?;
-        self.column("c22", c22, STIFFNESS)?;
-        self.column("c12", c12, FINITE)?;
-        let stable = |cell: usize| c11[cell] * c22[cell] > c12[cell] * c12[cell];
-        match (0..c12.len()).find(|&cell| !stable(cell)) {
+    /// Checks that K is positive and that the stress is nowhere tension, in any direction. The diagonals have been checked.
+    pub fn tensors(&self, answer: &Answer) -> Checked {
+        let bad = |tensor: &[Vec<f64>; 3], slack: f64| {
+            let [xx, yy, xy] = tensor;
+            (0..xx.len()).find(|&cell| xy[cell] * xy[cell] > xx[cell] * yy[cell] * slack)
+        };
+        if let Some(cell) = bad(&answer.conductivity, 1.0 - 1e-12) {
+            let value = answer.conductivity[2][cell];
+            return self.refused("conductivity_xy", cell, value, "conductivity_xy^2 below that of xx times yy");
+        }
+        match bad(&answer.stress, 1.0 + 1e-9) {
             None => Ok(()),
             Some(cell) => {
-                self.refused("c12", cell, c12[cell], "c12^2 below c11 c22: every strain meets resistance")
+                let allowed = "stress_xy^2 up to that of xx times yy: loose grains do not pull";
+                self.refused("stress_xy", cell, answer.stress[2][cell], allowed)
             }
         }
     }
@@ -153,11 +154,16 @@ impl Question<'_> {
     /// Columns of a result of `advance`, with their names and ranges.
     pub fn answer<'s>(&self, answer: &'s Answer) -> Vec<Column<'s>> {
         let mut columns = self.state(&answer.state);
-        let ([kxx, kyy], [sxx, syy]) = (&answer.conductivity, &answer.stress);
+        let ([kxx, kyy, kxy], [sxx, syy, sxy]) = (&answer.conductivity, &answer.stress);
         columns.push(("conductivity_xx".to_string(), kxx, CONDUCTIVITY));
         columns.push(("conductivity_yy".to_string(), kyy, CONDUCTIVITY));
+        columns.push(("conductivity_xy".to_string(), kxy, FINITE));
         columns.push(("stress_xx".to_string(), sxx, STRESS));
         columns.push(("stress_yy".to_string(), syy, STRESS));
+        columns.push(("stress_xy".to_string(), sxy, FINITE));
+        for (k, column) in answer.tangent.iter().flatten().enumerate() {
+            columns.push((format!("tangent[{k}]"), column, STIFFNESS));
+        }
         let inputs = self.state_names.iter().map(String::as_str).chain(["thermal_strain"]);
         columns.extend(
             inputs.zip(&answer.outside).map(|(name, o)| (format!("outside {name}"), o.as_slice(), FINITE)),

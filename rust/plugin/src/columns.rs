@@ -39,10 +39,6 @@ pub(crate) fn pointers(columns: &mut [Vec<f64>]) -> Vec<*mut f64> {
     columns.iter_mut().map(|column| column.as_mut_ptr()).collect()
 }
 
-pub(crate) fn slices(columns: &[Vec<f64>]) -> Vec<&[f64]> {
-    columns.iter().map(Vec::as_slice).collect()
-}
-
 pub(crate) fn check_lengths(columns: &[&[f64]], cells: usize) {
     assert!(columns.iter().all(|column| column.len() == cells), "columns of {cells} values");
 }

@@ -2,13 +2,15 @@
 
 use crate::PluginError;
 use libloading::os::unix::{Library, RTLD_LOCAL, RTLD_NOW};
-use msdd_abi::{MSDD_PLUGIN_VERSION, msdd_plugin_v1};
+use msdd_abi::{MSDD_PLUGIN_VERSION, msdd_plugin_v2};
 use sha2::{Digest, Sha256};
 use std::ffi::{CStr, c_char};
 use std::path::Path;
 
 /// The function that every plug-in defines; it returns the table.
-const SYMBOL: &CStr = c"msdd_plugin_v1_table";
+const SYMBOL: &CStr = c"msdd_plugin_v2_table";
+/// The function of version 1.
+const OLD_SYMBOL: &CStr = c"msdd_plugin_v1_table";
 
 /// `e_machine` of ELF files for this processor (ELF specification, and its supplements).
 const MACHINE: Option<(u16, &str)> = match () {
@@ -19,7 +21,7 @@ const MACHINE: Option<(u16, &str)> = match () {
 
 /// The table of a plug-in, whose version and size have been checked, but not yet its pointers.
 pub(crate) struct Loaded {
-    pub table: msdd_plugin_v1,
+    pub table: msdd_plugin_v2,
     /// SHA-256 of the file, hexadecimal.
     pub hash: String,
 }
@@ -41,10 +43,18 @@ pub(crate) fn load(path: &Path) -> Result<Loaded, PluginError> {
     let library = library.map_err(|error| unfit(format!("the system's loader refuses it: {error}")))?;
     // SAFETY: the header gives this symbol this type.
     let symbol = unsafe {
-        library.get::<unsafe extern "C" fn() -> *const msdd_plugin_v1>(SYMBOL.to_bytes_with_nul()).map(|f| *f)
+        library.get::<unsafe extern "C" fn() -> *const msdd_plugin_v2>(SYMBOL.to_bytes_with_nul()).map(|f| *f)
     };
     let Ok(entry) = symbol else {
-        return Err(unfit("has no function msdd_plugin_v1_table, see msdd.h".to_string()));
+        // SAFETY: the symbol is looked for and not called.
+        let old = unsafe { library.get::<unsafe extern "C" fn()>(OLD_SYMBOL.to_bytes_with_nul()).is_ok() };
+        let reason = if old {
+            "has version 1 of the plug-in interface, which knows no shear; this library has version 2: build it against this \
+             library's msdd.h"
+        } else {
+            "has no function msdd_plugin_v2_table, see msdd.h"
+        };
+        return Err(unfit(reason.to_string()));
     };
     // Never unloaded, so that its texts and functions stay valid, also for threads that it may have started.
     std::mem::forget(library);
@@ -79,9 +89,9 @@ fn check_file(bytes: &[u8]) -> Result<(), String> {
 ///
 /// # Safety
 /// `table` is null or points to a struct that starts with a size and a version and is as long as the size says.
-unsafe fn checked(table: *const msdd_plugin_v1) -> Result<msdd_plugin_v1, String> {
+unsafe fn checked(table: *const msdd_plugin_v2) -> Result<msdd_plugin_v2, String> {
     if table.is_null() {
-        return Err("msdd_plugin_v1_table returned NULL".to_string());
+        return Err("msdd_plugin_v2_table returned NULL".to_string());
     }
     // SAFETY: not null; size and version come first in every version, by this function's contract.
     let (size, version) =
@@ -91,7 +101,7 @@ unsafe fn checked(table: *const msdd_plugin_v1) -> Result<msdd_plugin_v1, String
             "has version {version} of the plug-in table, this library has {MSDD_PLUGIN_VERSION}"
         ));
     }
-    let expected = size_of::<msdd_plugin_v1>();
+    let expected = size_of::<msdd_plugin_v2>();
     if size != expected {
         return Err(format!(
             "struct_size of its table is {size}, allowed: {expected}; build it against this library's msdd.h"

@@ -1,7 +1,7 @@
 //! Checks the names of state columns. Solvers make names of fields from them, and so names of files.
 
 use crate::library::text;
-use msdd_abi::msdd_plugin_v1;
+use msdd_abi::msdd_plugin_v2;
 
 /// Largest number of state columns. A larger number is taken for a sign of a broken table.
 const MOST_COLUMNS: usize = 64;
@@ -15,7 +15,7 @@ const LONGEST_NAME: usize = 64;
 ///
 /// # Safety
 /// The table's texts are null or C strings, as many as its `state_size`.
-pub(crate) unsafe fn state_names(table: &msdd_plugin_v1) -> Result<Vec<String>, String> {
+pub(crate) unsafe fn state_names(table: &msdd_plugin_v2) -> Result<Vec<String>, String> {
     if !(2..=MOST_COLUMNS).contains(&table.state_size) {
         return Err(format!("state_size = {}, allowed: 2 to {MOST_COLUMNS}", table.state_size));
     }

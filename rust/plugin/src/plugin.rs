@@ -2,18 +2,15 @@
 
 use crate::PluginError;
 use crate::checks::{self, Question};
-use crate::columns::{Inputs, pointers, slices, unwritten};
+use crate::columns::{Inputs, pointers, unwritten};
 use crate::library::{load, text};
 use crate::names::state_names;
 use crate::questions::{Answer, Columns, Start, Step, WallFriction};
-use msdd_abi::{msdd_plugin_start, msdd_plugin_step, msdd_plugin_tangent, msdd_plugin_v1};
+use msdd_abi::{msdd_plugin_start, msdd_plugin_step, msdd_plugin_v2};
 use std::ffi::c_char;
 use std::path::Path;
 use std::ptr::null;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-type Deform = unsafe extern "C" fn(usize, *const *const f64, *const f64, *const f64, *const *mut f64) -> i32;
-type Tangent = unsafe extern "C" fn(*const msdd_plugin_tangent) -> i32;
 
 /// A surrogate model from a shared library; any number of threads may use it at the same time.
 #[derive(Debug)]
@@ -27,7 +24,7 @@ pub struct Plugin {
     initial_state: unsafe extern "C" fn(*const msdd_plugin_start) -> i32,
     advance: unsafe extern "C" fn(*const msdd_plugin_step) -> i32,
     solid_fraction: Option<unsafe extern "C" fn(usize, *const f64, *mut f64) -> i32>,
-    mechanics: Option<(Tangent, Deform)>,
+    has_tangent: bool,
     spread: Option<unsafe extern "C" fn(usize, *const *const f64, *mut f64) -> i32>,
     last_error: Option<unsafe extern "C" fn() -> *const c_char>,
     wall_friction: Option<WallFriction>,
@@ -51,30 +48,23 @@ impl Plugin {
 
     /// # Safety
     /// The table's pointers are null or as the header requires.
-    unsafe fn from_table(path: &Path, table: &msdd_plugin_v1, hash: String) -> Result<Self, String> {
+    unsafe fn from_table(path: &Path, table: &msdd_plugin_v2, hash: String) -> Result<Self, String> {
         // SAFETY: the caller guarantees it, by this function's contract.
         let (name, state_names) = unsafe { (text("name", table.name)?, state_names(table)?) };
-        let mechanics = match (table.tangent, table.deform) {
-            (None, None) => None,
-            (Some(tangent), Some(deform)) => Some((tangent, deform)),
-            (Some(_), None) => return Err("deform is NULL, but tangent is not: both or none".to_string()),
-            (None, Some(_)) => return Err("tangent is NULL, but deform is not: both or none".to_string()),
-        };
-        let network_conductivity = match table.network_conductivity {
-            0 => false,
-            1 => true,
-            other => return Err(format!("network_conductivity = {other}, allowed: 0, 1")),
+        let flag = |name: &str, value: u32| match value {
+            0 | 1 => Ok(value == 1),
+            other => Err(format!("{name} = {other}, allowed: 0, 1")),
         };
         Ok(Self {
             label: format!("\"{name}\" ({})", path.display()),
             name,
             hash,
             state_names,
-            network_conductivity,
+            network_conductivity: flag("network_conductivity", table.network_conductivity)?,
+            has_tangent: flag("has_tangent", table.has_tangent)?,
             initial_state: table.initial_state.ok_or("initial_state is NULL")?,
             advance: table.advance.ok_or("advance is NULL")?,
             solid_fraction: table.solid_fraction,
-            mechanics,
             spread: table.spread,
             last_error: table.last_error,
             wall_friction: wall_friction(table)?,
@@ -105,7 +95,7 @@ impl Plugin {
 
     /// Whether it has a mechanical tangent.
     pub fn has_tangent(&self) -> bool {
-        self.mechanics.is_some()
+        self.has_tangent
     }
 
     /// Whether it has a function for the solid fraction.
@@ -137,14 +127,13 @@ impl Plugin {
 
     fn ask_start(&self, start: &Start) -> Result<Vec<Vec<f64>>, PluginError> {
         let cells = start.porosity.len();
-        let stress = start.stress.into_iter().flatten();
         let columns: Vec<&[f64]> = [start.porosity, start.fabric_index]
             .into_iter()
-            .chain(start.fabric_conductivity)
-            .chain(stress)
+            .chain(start.fabric_xy)
+            .chain(start.stress.into_iter().flatten())
             .collect();
         let inputs = Inputs::new(&columns, cells);
-        let stress = 2 + usize::from(start.fabric_conductivity.is_some());
+        let stress = 2 + usize::from(start.fabric_xy.is_some());
         let given = |known: bool, column: usize| if known { inputs.pointer(column) } else { null() };
         let mut state = vec![unwritten(cells); self.state_names.len()];
         let to = pointers(&mut state);
@@ -153,9 +142,10 @@ impl Plugin {
             cells,
             porosity: inputs.pointer(0),
             fabric_index: inputs.pointer(1),
-            fabric_conductivity: given(start.fabric_conductivity.is_some(), 2),
+            fabric_xy: given(start.fabric_xy.is_some(), 2),
             stress_xx: given(start.stress.is_some(), stress),
             stress_yy: given(start.stress.is_some(), stress + 1),
+            stress_xy: given(start.stress.is_some(), stress + 2),
             state: to.as_ptr(),
         };
         // SAFETY: columns of `cells` values, and `state` of as many columns as the table says.
@@ -168,117 +158,67 @@ impl Plugin {
     /// # Errors
     /// [`PluginError::Failed`] or [`PluginError::Answer`].
     pub fn advance(&self, step: &Step) -> Result<Answer, PluginError> {
-        let mut answer = self.advance_once(step.state, step.thermal_strain, step.virgin_share)?;
-        if let Some(strain) = step.strain {
-            let deformed = self.deformed(&answer, strain)?;
-            let rest = vec![0.0; step.thermal_strain.len()];
-            let after = self.advance_once(&slices(&deformed), &rest, None)?;
-            answer = Answer { outside: answer.outside, ..after };
-        }
-        self.question("advance").packing(step.state, &answer.state)?;
-        Ok(answer)
-    }
-
-    /// Makes and checks a step of thermal strain, without mechanical strain.
-    fn advance_once(
-        &self,
-        state: Columns,
-        thermal_strain: &[f64],
-        virgin_share: Option<&[f64]>,
-    ) -> Result<Answer, PluginError> {
         let question = self.question("advance");
-        let answer = self.ask_step(state, thermal_strain, virgin_share)?;
+        let answer = self.ask_step(step)?;
         question.columns(&question.answer(&answer))?;
-        question.rest(state, &[thermal_strain], &answer.state, &answer.outside)?;
-        if first_time(&self.advanced, thermal_strain.len()) {
-            let second = self.ask_step(state, thermal_strain, virgin_share)?;
-            question.again(&question.answer(&answer), &question.answer(&second))?;
+        question.tensors(&answer)?;
+        let strains: Vec<&[f64]> =
+            std::iter::once(step.thermal_strain).chain(step.strain.into_iter().flatten()).collect();
+        question.rest(step.state, &strains, &answer.state, &answer.outside)?;
+        question.packing(step.state, &answer.state)?;
+        if first_time(&self.advanced, step.thermal_strain.len()) {
+            question.again(&question.answer(&answer), &question.answer(&self.ask_step(step)?))?;
         }
         Ok(answer)
     }
 
-    fn ask_step(
-        &self,
-        state: Columns,
-        thermal_strain: &[f64],
-        virgin_share: Option<&[f64]>,
-    ) -> Result<Answer, PluginError> {
-        let (cells, count) = (thermal_strain.len(), self.count(state));
-        let columns: Vec<&[f64]> =
-            state.iter().copied().chain([thermal_strain]).chain(virgin_share).collect();
+    fn ask_step(&self, step: &Step) -> Result<Answer, PluginError> {
+        let (cells, count) = (step.thermal_strain.len(), self.count(step.state));
+        let strain = step.strain.filter(|_| self.has_tangent);
+        let columns: Vec<&[f64]> = step
+            .state
+            .iter()
+            .copied()
+            .chain([step.thermal_strain])
+            .chain(strain.into_iter().flatten())
+            .collect();
         let inputs = Inputs::new(&columns, cells);
+        let zero = || vec![0.0; cells];
+        let wanted = step.wants_tangent && self.has_tangent;
         let mut answer = Answer {
             state: vec![unwritten(cells); count],
-            conductivity: [unwritten(cells), unwritten(cells)],
-            stress: [unwritten(cells), unwritten(cells)],
-            outside: vec![vec![0.0; cells]; count + 1],
+            conductivity: [unwritten(cells), unwritten(cells), zero()],
+            stress: [unwritten(cells), unwritten(cells), zero()],
+            tangent: wanted.then(|| std::array::from_fn(|_| unwritten(cells))),
+            outside: vec![zero(); count + 1],
         };
         let (next, outside) = (pointers(&mut answer.state), pointers(&mut answer.outside));
-        let ([kxx, kyy], [sxx, syy]) = (&mut answer.conductivity, &mut answer.stress);
+        let tangent = answer.tangent.as_mut().map(|columns| pointers(columns));
+        let [kxx, kyy, kxy] = answer.conductivity.each_mut().map(|column| column.as_mut_ptr());
+        let [sxx, syy, sxy] = answer.stress.each_mut().map(|column| column.as_mut_ptr());
+        let given = |k: usize| if strain.is_some() { inputs.pointer(count + 1 + k) } else { null() };
         let step = msdd_plugin_step {
             struct_size: size_of::<msdd_plugin_step>(),
             cells,
             state: inputs.pointers(),
             thermal_strain: inputs.pointer(count),
+            strain_xx: given(0),
+            strain_yy: given(1),
+            strain_xy: given(2),
+            rotation: given(3),
             next_state: next.as_ptr(),
-            conductivity_xx: kxx.as_mut_ptr(),
-            conductivity_yy: kyy.as_mut_ptr(),
-            stress_xx: sxx.as_mut_ptr(),
-            stress_yy: syy.as_mut_ptr(),
+            conductivity_xx: kxx,
+            conductivity_yy: kyy,
+            conductivity_xy: kxy,
+            stress_xx: sxx,
+            stress_yy: syy,
+            stress_xy: sxy,
+            tangent: tangent.as_ref().map_or(null(), |columns| columns.as_ptr()),
             outside: outside.as_ptr(),
-            virgin_share: virgin_share.map_or(null(), |_| inputs.pointer(count + 1)),
         };
-        // SAFETY: columns of `cells` values, and arrays of as many columns as the table says.
+        // SAFETY: columns of `cells` values, and arrays of as many columns as the table and the header say.
         self.status("advance", cells, || unsafe { (self.advance)(&step) })?;
         Ok(answer)
-    }
-
-    /// State after mechanical strains that follow on the thermal step `before`. Without a tangent, the state of `before`.
-    fn deformed(&self, before: &Answer, strain: [&[f64]; 2]) -> Result<Vec<Vec<f64>>, PluginError> {
-        let state = slices(&before.state);
-        let Some((_, deform)) = self.mechanics else { return Ok(before.state.clone()) };
-        let (cells, count) = (strain[0].len(), self.count(&state));
-        let columns: Vec<&[f64]> = state.iter().copied().chain(strain).collect();
-        let inputs = Inputs::new(&columns, cells);
-        let mut next = vec![unwritten(cells); count];
-        let to = pointers(&mut next);
-        let (xx, yy) = (inputs.pointer(count), inputs.pointer(count + 1));
-        // SAFETY: columns of `cells` values, and arrays of as many columns as the table says.
-        self.status("deform", cells, || unsafe { deform(cells, inputs.pointers(), xx, yy, to.as_ptr()) })?;
-        let question = self.question("deform");
-        question.columns(&question.state(&next))?;
-        question.rest(&state, &strain, &next, &before.outside)?;
-        Ok(next)
-    }
-
-    /// c11, c22, c12 (reduced), rates of porosity and fabric index at a state; `None` when it has no tangent.
-    ///
-    /// # Errors
-    /// [`PluginError::Failed`] or [`PluginError::Answer`].
-    pub fn tangent(&self, state: Columns) -> Result<Option<[Vec<f64>; 5]>, PluginError> {
-        let Some((tangent, _)) = self.mechanics else { return Ok(None) };
-        let cells = state[..self.count(state)][0].len();
-        let inputs = Inputs::new(state, cells);
-        let mut columns: [Vec<f64>; 5] = std::array::from_fn(|_| unwritten(cells));
-        let [c11, c22, c12, porosity_rate, fabric_index_rate] = columns.each_mut().map(|c| c.as_mut_ptr());
-        let wanted = msdd_plugin_tangent {
-            struct_size: size_of::<msdd_plugin_tangent>(),
-            cells,
-            state: inputs.pointers(),
-            c11,
-            c22,
-            c12,
-            porosity_rate,
-            fabric_index_rate,
-        };
-        // SAFETY: columns of `cells` values, and `state` of as many columns as the table says.
-        self.status("tangent", cells, || unsafe { tangent(&wanted) })?;
-        let question = self.question("tangent");
-        let [c11, c22, c12, porosity, fabric_index] = columns.each_ref().map(Vec::as_slice);
-        question.stiffness([c11, c22, c12])?;
-        question.column("porosity_rate", porosity, checks::FINITE)?;
-        question.column("fabric_index_rate", fabric_index, checks::FINITE)?;
-        Ok(Some(columns))
     }
 
     /// Relative standard deviation of K between RVEs of equal state; `None` when the plug-in does not know it.
@@ -343,7 +283,7 @@ impl Plugin {
     }
 }
 
-fn wall_friction(table: &msdd_plugin_v1) -> Result<Option<WallFriction>, String> {
+fn wall_friction(table: &msdd_plugin_v2) -> Result<Option<WallFriction>, String> {
     let (limit, slip) = (table.wall_friction_limit, table.wall_friction_slip);
     if limit == 0.0 {
         return Ok(None);

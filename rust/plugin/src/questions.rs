@@ -17,9 +17,9 @@ pub struct WallFriction {
 pub struct Start<'a> {
     pub porosity: &'a [f64],
     pub fabric_index: &'a [f64],
-    pub fabric_conductivity: Option<&'a [f64]>,
-    /// σ_xx, σ_yy.
-    pub stress: Option<[&'a [f64]; 2]>,
+    pub fabric_xy: Option<&'a [f64]>,
+    /// σ_xx, σ_yy, σ_xy.
+    pub stress: Option<[&'a [f64]; 3]>,
 }
 
 /// One step of cells: columns of equal length, finite. Strains extension positive.
@@ -29,11 +29,10 @@ pub struct Step<'a> {
     pub state: Columns<'a>,
     /// Above −1.
     pub thermal_strain: &'a [f64],
-    /// Share of `thermal_strain`, 0 to 1, that takes the total beyond the range that the cell has had before ("virgin"
-    /// strain, in which grains slide); `None`: all of it.
-    pub virgin_share: Option<&'a [f64]>,
-    /// Mechanical strains along x and y, after the thermal one; for plug-ins that have a tangent.
-    pub strain: Option<[&'a [f64]; 2]>,
+    /// Strains xx, yy, 2 xy and rotation of the cells; for plug-ins that have a tangent.
+    pub strain: Option<[&'a [f64]; 4]>,
+    /// Whether the tangent is computed, too.
+    pub wants_tangent: bool,
 }
 
 /// Columns after a step, all finite.
@@ -41,10 +40,12 @@ pub struct Step<'a> {
 pub struct Answer {
     /// One column per state name.
     pub state: Vec<Vec<f64>>,
-    /// K_xx/k, K_yy/k; above zero.
-    pub conductivity: [Vec<f64>; 2],
-    /// σ_xx, σ_yy, reduced, compression positive.
-    pub stress: [Vec<f64>; 2],
+    /// K_xx/k, K_yy/k, K_xy/k; positive in every direction.
+    pub conductivity: [Vec<f64>; 3],
+    /// σ_xx, σ_yy, σ_xy, reduced, compression positive.
+    pub stress: [Vec<f64>; 3],
+    /// −dσ_i/de_j, row by row, if it was wanted.
+    pub tangent: Option<[Vec<f64>; 9]>,
     /// One column per state column, and one for the thermal strain: signed distance from the model's range, 0 inside.
     pub outside: Vec<Vec<f64>>,
 }

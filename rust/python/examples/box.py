@@ -18,8 +18,6 @@ state = model.initial_state(
     grains,
     start.porosity,
     start.fabric_index,
-    fabric_conductivity=(start.conductivity_network_xx - start.conductivity_network_yy)
-    / (start.conductivity_network_xx + start.conductivity_network_yy),
     stress_xx=start.stress_xx,
     stress_yy=start.stress_yy,
 )

@@ -12,7 +12,7 @@ from typing import Optional, Union
 
 from ._errors import raise_for
 
-ABI_VERSION = 2
+ABI_VERSION = 3
 """Version of the C interface that this package was written for."""
 
 Doubles = c.c_void_p
@@ -32,14 +32,14 @@ MaterialStruct = _struct("msdd_material", *_each(c.c_double, "thermal_conductivi
 InitialStruct = _struct(
     "msdd_initial",
     ("cells", c.c_size_t),
-    *_each(Doubles, "porosity fabric_index fabric_conductivity stress_xx stress_yy"),
+    *_each(Doubles, "porosity fabric_index fabric_xy stress_xx stress_yy stress_xy"),
 )
 BatchStruct = _struct(
     "msdd_batch",
     ("cells", c.c_size_t),
-    *_each(Doubles, "state thermal_strain total_thermal_strain strain_xx strain_yy virgin_share"),
-    *_each(Doubles, "next_state conductivity_xx conductivity_yy stress_xx stress_yy"),
-    *_each(Doubles, "c11 c22 c12 porosity_rate fabric_index_rate clamped outside spread"),
+    *_each(Doubles, "state thermal_strain total_thermal_strain strain_xx strain_yy strain_xy rotation"),
+    *_each(Doubles, "next_state conductivity_xx conductivity_yy conductivity_xy stress_xx stress_yy stress_xy"),
+    *_each(Doubles, "tangent clamped outside spread"),
     ("clamped_cells", c.c_size_t),
 )
 AveragesStruct = _struct(

@@ -51,31 +51,27 @@ class Step:
     """K_xx [W/(m K)]"""
     conductivity_yy: Array
     """K_yy [W/(m K)]"""
+    conductivity_xy: Array
+    """K_xy [W/(m K)]"""
     stress_xx: Array
     """sigma_xx [Pa], compression positive"""
     stress_yy: Array
     """sigma_yy [Pa], compression positive"""
+    stress_xy: Array
+    """sigma_xy [Pa], compression positive"""
     clamped: NDArray[np.bool_]
-    """True where an input was outside the range that the model was trained in; the nearest end of it was used"""
+    """True where an input was outside the range that the model was trained in"""
     outside: State
     """how far outside, for each of `Model.state_names` and "thermal_strain", in that input's own unit: negative below the
     range, positive above, 0 inside"""
     spread: Optional[Array] = None
     """relative standard deviation of K between boxes of equal state [-], NaN if the model does not know; None unless asked for"""
-    c11: Optional[Array] = None
-    """-d sigma_xx/d strain_xx [Pa]; this and all below are None unless the tangent was asked for"""
-    c22: Optional[Array] = None
-    """-d sigma_yy/d strain_yy [Pa]"""
-    c12: Optional[Array] = None
-    """-d sigma_xx/d strain_yy = -d sigma_yy/d strain_xx [Pa]"""
-    porosity_rate: Optional[Array] = None
-    """d porosity/d (strain_xx + strain_yy) [-]"""
-    fabric_index_rate: Optional[Array] = None
-    """d fabric_index/d (strain_xx - strain_yy) [-]"""
+    tangent: Optional[Array] = None
+    """-d sigma_i/d strain_j [Pa] with i, j = xx, yy, xy: 3 x 3 and then the shape of the cells; None unless asked for. Where
+    grains slide it is not symmetric"""
 
 
-_ANSWERS = ("conductivity_xx", "conductivity_yy", "stress_xx", "stress_yy")
-_TANGENT = ("c11", "c22", "c12", "porosity_rate", "fabric_index_rate")
+_ANSWERS = ("conductivity_xx", "conductivity_yy", "conductivity_xy", "stress_xx", "stress_yy", "stress_xy")
 
 
 class Model:
@@ -117,8 +113,8 @@ class Model:
     @property
     def trained_range(self) -> dict[str, tuple[float, float]]:
         """Least and largest value of each input in the training, beyond which `Step.clamped` is set: porosity [-], fabric_index
-        [-], thermal_strain [-] and, of a model that carries stress, pressure (reduced as the state is), fabric_conductivity
-        and stress_ratio (deviator over pressure) [-]. Empty for a plug-in, which does not tell."""
+        [-], thermal_strain [-] and, of a model that carries stress, fabric, jamming_fraction, elastic_compression, elastic_shear
+        [-] and pressure (reduced as the state is). Empty for a plug-in, which does not tell."""
         ranges = self.info.get("trained_range") or {}
         return {name: (ends["min"], ends["max"]) for name, ends in ranges.items()}
 
@@ -149,21 +145,22 @@ class Model:
         porosity: ArrayLike,
         fabric_index: ArrayLike = 0.0,
         *,
-        fabric_conductivity: Optional[ArrayLike] = None,
+        fabric_xy: Optional[ArrayLike] = None,
         stress_xx: Optional[ArrayLike] = None,
         stress_yy: Optional[ArrayLike] = None,
+        stress_xy: Optional[ArrayLike] = None,
     ) -> State:
         """State of cells at the start. What is not given is the mean of the packings that the model was trained on.
 
         porosity: 0 to 1. fabric_index: F_xx - F_yy, -1 to 1.
-        fabric_conductivity: (K_xx - K_yy)/(K_xx + K_yy), -1 to 1.
-        stress_xx, stress_yy: [Pa], compression positive, both or none.
+        fabric_xy: F_xy, -1 to 1; None = 0.
+        stress_xx, stress_yy: [Pa], compression positive, both or none. stress_xy: [Pa]; None = 0.
         Arrays of any shapes that broadcast to one; the state has that shape.
         Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
         """
         shape, columns = aligned(
             {"porosity": porosity, "fabric_index": fabric_index},
-            {"fabric_conductivity": fabric_conductivity, "stress_xx": stress_xx, "stress_yy": stress_yy},
+            {"fabric_xy": fabric_xy, "stress_xx": stress_xx, "stress_yy": stress_yy, "stress_xy": stress_xy},
         )
         initial = InitialStruct(c.sizeof(InitialStruct), _count(shape))
         for name, column in columns.items():
@@ -182,7 +179,8 @@ class Model:
         total_thermal_strain: Optional[ArrayLike] = None,
         strain_xx: Optional[ArrayLike] = None,
         strain_yy: Optional[ArrayLike] = None,
-        virgin_share: Optional[ArrayLike] = None,
+        strain_xy: Optional[ArrayLike] = None,
+        rotation: Optional[ArrayLike] = None,
         spread: bool = False,
         tangent: bool = False,
     ) -> Step:
@@ -192,10 +190,9 @@ class Model:
         thermal_strain: radial strain of the grains in this step relative to their present radius, growth positive, -1 to 10.
         total_thermal_strain: the same from the initial state on, this step included, by which stress follows from the
             grains' present radius; None = `thermal_strain`, right for a single step from the start.
-        strain_xx, strain_yy: strain of the cell along x and y in this step, after the thermal one, extension positive,
-            -0.2 to 0.2; None = 0. Need `has_tangent`.
-        virgin_share: share of `thermal_strain`, 0 to 1, that leads beyond all totals that the cell has had before; None = 1,
-            right as long as no cell is heated and cooled again.
+        strain_xx, strain_yy, strain_xy: strain of the cell in this step, extension positive, -0.2 to 0.2; strain_xy is twice
+            the shear, du_x/dy + du_y/dx; None = 0. rotation: angle by which the cell turns, (du_y/dx - du_x/dy)/2,
+            counter-clockwise [rad]; None = 0. All of them need `has_tangent`.
         spread, tangent: whether to compute these, too. The tangent needs `has_tangent`.
         Arrays of any shapes that broadcast to one. Contiguous ones of doubles are read where they are, without a copy.
         Raises InvalidArgument, NonFinite, PluginError; KeyError for a missing column of the state.
@@ -209,11 +206,11 @@ class Model:
         before = {f"state[{name!r}]": state[name] for name in self._state_names}
         shape, columns = aligned(
             {**before, "thermal_strain": thermal_strain, "total_thermal_strain": total},
-            {"strain_xx": strain_xx, "strain_yy": strain_yy, "virgin_share": virgin_share},
+            {"strain_xx": strain_xx, "strain_yy": strain_yy, "strain_xy": strain_xy, "rotation": rotation},
         )
         after = {name: np.empty(shape) for name in self._state_names}
         outside = {name: np.empty(shape) for name in (*self._state_names, "thermal_strain")}
-        wanted = _ANSWERS + (_TANGENT if tangent else ()) + (("spread",) if spread else ())
+        wanted = _ANSWERS + (("spread",) if spread else ())
         answers = {name: np.empty(shape) for name in wanted}
         clamped = np.empty(shape, np.bool_)
         # Arrays and tables live to the end of this function, and so do the addresses in the batch.
@@ -222,6 +219,9 @@ class Model:
             "next_state": table(after.values()),
             "outside": table(outside.values()),
         }
+        stiffness = np.empty((3, 3, *shape)) if tangent else None
+        if stiffness is not None:
+            tables["tangent"] = table(stiffness[i, j, ...] for i in range(3) for j in range(3))
         batch = BatchStruct(struct_size=c.sizeof(BatchStruct), cells=_count(shape), clamped=address(clamped))
         for name, pointers in tables.items():
             setattr(batch, name, c.addressof(pointers))
@@ -229,7 +229,7 @@ class Model:
             if name not in before:
                 setattr(batch, name, address(column))
         check(library.msdd_surrogate_advance(self._handle, _scales(material), c.byref(batch)))
-        return Step(state=after, outside=outside, clamped=clamped, **answers)
+        return Step(state=after, outside=outside, clamped=clamped, tangent=stiffness, **answers)
 
     def solid_fraction(self, porosity: ArrayLike) -> Array:
         """Sum of the grains' areas over the area of an initial state [-], overlaps counted twice: a fit to the database.

@@ -33,12 +33,11 @@ pub fn conductivity(model: &dyn Surrogate, row: &StateRow) -> [f64; 2] {
 
 /// The model's state for a row of the database, in which all quantities are known.
 pub fn state_of(model: &dyn Surrogate, row: &StateRow) -> [f64; MAX_STATE] {
-    let [kxx, kyy] = conductivity(model, row);
     model.initial_state(&Known {
         porosity: row.porosity,
         fabric_index: row.fabric_index,
-        fabric_conductivity: Some(if kxx + kyy > 0.0 { (kxx - kyy) / (kxx + kyy) } else { 0.0 }),
-        reduced_stress: Some([row.stress_xx, row.stress_yy]),
+        fabric_xy: 0.0,
+        reduced_stress: Some([row.stress_xx, row.stress_yy, 0.0]),
     })
 }
 
@@ -76,8 +75,6 @@ pub const GROUP: usize = 30;
 pub struct Path<'a> {
     pub from: &'a StateRow,
     pub to: &'a StateRow,
-    /// Share of its strain that is virgin, which means that the grains have not been strained that far before.
-    pub virgin: f64,
 }
 
 /// Paths of this strain from the packed states (stop 0).
@@ -92,23 +89,23 @@ pub fn paths(ramps: &[Ramp], strain: f64) -> Vec<Path<'_>> {
     };
     let found = ramps.iter().filter_map(|ramp| Some((ramp, path(ramp)?)));
     found
-        .map(|(ramp, (from, to))| Path { from: &ramp.states[from], to: &ramp.states[to], virgin: 1.0 })
+        .map(|(ramp, (from, to))| Path { from: &ramp.states[from], to: &ramp.states[to] })
         .collect()
 }
 
 /// Paths along the whole length of the ramps with this name.
 pub fn whole_paths<'a>(ramps: &'a [Ramp], name: &str) -> Vec<Path<'a>> {
-    let ends = |ramp: &'a Ramp| Some((ramp.states.first()?, ramp.states.last()?, ramp.virgin_share()));
+    let ends = |ramp: &'a Ramp| Some((ramp.states.first()?, ramp.states.last()?));
     let found = ramps.iter().filter(|ramp| ramp.name == name).filter_map(ends);
-    let loaded = found.filter(|(from, to, _)| from.load_bearing && to.load_bearing);
-    loaded.map(|(from, to, virgin)| Path { from, to, virgin }).collect()
+    let loaded = found.filter(|(from, to)| from.load_bearing && to.load_bearing);
+    loaded.map(|(from, to)| Path { from, to }).collect()
 }
 
 /// K_xx, K_yy, σ_xx, σ_yy, p, η, f at the end of a path, either from the data or from the model.
 pub type Quantities = [f64; 7];
 
 fn quantities(answer: &Answer, lane: usize) -> Quantities {
-    let ([kxx, kyy], [sxx, syy]) = (answer.conductivity, answer.stress);
+    let ([kxx, kyy, _], [sxx, syy, _]) = (answer.conductivity, answer.stress);
     let (sxx, syy) = (sxx[lane], syy[lane]);
     [kxx[lane], kyy[lane], sxx, syy, 0.5 * (sxx + syy), answer.state[0][lane], answer.state[1][lane]]
 }
@@ -122,13 +119,7 @@ pub fn ends(model: &dyn Surrogate, paths: &[Path], increments: u32) -> Vec<[Quan
             chunk.get(lane).map_or(0.0, |path| strain_between(path.from, path.to))
         });
         let start = states_of(model, &from);
-        let virgin = std::array::from_fn(|lane| chunk.get(lane).map_or(1.0, |path| path.virgin));
-        let block = |state: &_, strain: &_| {
-            let mut answer = Answer::default();
-            model.block_into(state, strain, &virgin, &mut answer);
-            answer
-        };
-        let answer = composed(block, &start, &total, increments);
+        let answer = composed(|state, strain| model.block(state, strain), &start, &total, increments);
         for (lane, path) in chunk.iter().enumerate() {
             let ([kxx, kyy], row) = (conductivity(model, path.to), path.to);
             let (sxx, syy) = (row.stress_xx, row.stress_yy);

@@ -3,10 +3,10 @@
 use crate::SurrogateError;
 use crate::dataset::StateRow;
 use crate::document::{field, hash, json, schema};
-use crate::kernel::{LANES, Lanes};
+use crate::kernel::LANES;
 use crate::options::TrainingOptions;
 use crate::solid_fraction::SolidFraction;
-use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
+use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
 use serde::{Deserialize, Serialize};
 
 /// Name of the schema. Its number is increased when a reader of the old schema would misread the new one.
@@ -113,13 +113,14 @@ impl Surrogate for ConstantModel {
         state
     }
 
-    fn block(&self, state: &StateLanes, _strain: &Lanes) -> Answer {
-        Answer {
+    fn advance(&self, state: &StateLanes, _: &Increment, answer: &mut Answer, _: Option<&mut Tangent>) {
+        let [k, p, zero] = [self.file.conductivity, self.file.pressure, 0.0].map(|value| [value; LANES]);
+        *answer = Answer {
             state: *state,
-            conductivity: [[self.file.conductivity; LANES]; 2],
-            stress: [[self.file.pressure; LANES]; 2],
-            outside: [[0.0; LANES]; MAX_STATE + 1],
-        }
+            conductivity: [k, k, zero],
+            stress: [p, p, zero],
+            outside: [zero; MAX_STATE + 1],
+        };
     }
 
     fn doubt(&self, _state: &[f64; MAX_STATE]) -> Option<Doubt> {

@@ -97,14 +97,6 @@ pub struct Ramp {
     pub states: Vec<StateRow>,
 }
 
-impl Ramp {
-    /// Share of the ramp's strains that is virgin, which means that the grains have not been strained that far before:
-    /// 0 for the way back of "up_down" and "down_up", else 1.
-    pub fn virgin_share(&self) -> f64 {
-        if matches!(self.name.as_str(), "up_down" | "down_up") { 0.0 } else { 1.0 }
-    }
-}
-
 /// Sorts rows into ramps, in order of packing and ramp name.
 ///
 /// # Errors
@@ -202,13 +194,23 @@ pub(crate) fn shuffle<T>(items: &mut [T], seed: u64) {
     }
 }
 
+/// Packings for training, validation and test.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PackingSplit {
+    pub validation: BTreeSet<i64>,
+    pub test: BTreeSet<i64>,
+}
+
 /// Splits by packing, not by sample: samples of one packing resemble each other, so a random split of samples would
-/// give too good scores.
+/// give too good scores. Packings may occur several times.
 ///
 /// # Errors
 /// [`SurrogateError::Data`] for fewer than three packings.
-pub fn split(ramps: Vec<Ramp>, seed: u64) -> Result<Split, SurrogateError> {
-    let packings: BTreeSet<i64> = ramps.iter().map(|ramp| ramp.packing).collect();
+pub fn split_packings(
+    packings: impl Iterator<Item = i64>,
+    seed: u64,
+) -> Result<PackingSplit, SurrogateError> {
+    let packings: BTreeSet<i64> = packings.collect();
     let mut order: Vec<i64> = packings.into_iter().collect();
     if order.len() < 3 {
         let text = format!("{} packings; the split by packing needs 3 or more", order.len());
@@ -218,16 +220,34 @@ pub fn split(ramps: Vec<Ramp>, seed: u64) -> Result<Split, SurrogateError> {
     let held = ((order.len() as f64 * HELD_SHARE).round() as usize).max(1);
     let (test, rest) = order.split_at(held);
     let (validation, _) = rest.split_at(held);
-    let mut split = Split { training: Vec::new(), validation: Vec::new(), test: Vec::new() };
-    for ramp in ramps {
-        let part = match ramp.packing {
-            packing if test.contains(&packing) => &mut split.test,
-            packing if validation.contains(&packing) => &mut split.validation,
-            _ => &mut split.training,
-        };
-        part.push(ramp);
+    Ok(PackingSplit {
+        validation: validation.iter().copied().collect(),
+        test: test.iter().copied().collect(),
+    })
+}
+
+impl PackingSplit {
+    /// The ramps of each part.
+    pub fn of(&self, ramps: Vec<Ramp>) -> Split {
+        let mut split = Split { training: Vec::new(), validation: Vec::new(), test: Vec::new() };
+        for ramp in ramps {
+            let part = match ramp.packing {
+                packing if self.test.contains(&packing) => &mut split.test,
+                packing if self.validation.contains(&packing) => &mut split.validation,
+                _ => &mut split.training,
+            };
+            part.push(ramp);
+        }
+        split
     }
-    Ok(split)
+}
+
+/// The split of these ramps alone.
+///
+/// # Errors
+/// [`SurrogateError::Data`] for fewer than three packings.
+pub fn split(ramps: Vec<Ramp>, seed: u64) -> Result<Split, SurrogateError> {
+    Ok(split_packings(ramps.iter().map(|ramp| ramp.packing), seed)?.of(ramps))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@
 //! | [`kernel`] | the network's arithmetic, vectorised |
 //! | [`surrogate`] | the trait that all models implement; batches of cells |
 //! | [`models`] | the kinds of models by name, and those compiled in |
-//! | [`state`] | the default model, in which all state variables advance with the strain |
+//! | [`increment`] | the default model: one law for thermal and mechanical strain |
 //! | [`paper`], [`constant`] | the paper's network and the trivial model as implementations of the trait |
 //! | [`perceptron`] | small tanh networks of any shape, of which the state model is made |
 //! | [`network`] | the paper's 3-16-16-6 network and its gradient |
@@ -22,7 +22,7 @@
 //! | [`ablation`] | how much each input contributes |
 //! | [`drift`] | error of composed increments of the paper's network |
 //! | [`region`] | where the training states lie, and how much packings of equal state differ |
-//! | [`mechanics`], [`wall_friction`] | mechanical tangent and wall friction |
+//! | [`wall_friction`] | wall friction |
 //! | [`solid_fraction`] | sum-of-areas solid fraction from porosity |
 //! | [`predictor`], [`model`] | the part of the paper's network that answers queries; the trained model |
 //! | [`options`], [`report`] | training options and training report |
@@ -41,7 +41,6 @@ pub mod increment;
 pub mod kernel;
 pub mod least_squares;
 pub mod levenberg_marquardt;
-pub mod mechanics;
 pub mod model;
 pub mod model_file;
 pub mod models;
@@ -57,7 +56,6 @@ pub mod scaling;
 pub mod score;
 pub mod scores;
 pub mod solid_fraction;
-pub mod state;
 pub mod surrogate;
 #[cfg(test)]
 mod synthetic;

@@ -1,17 +1,38 @@
 //! The kinds of models by name. To add a kind, write a file beside this one and a line in [`MODELS`].
 
-use crate::dataset::StateRow;
+use crate::dataset::{self, PackingSplit, StateRow};
 use crate::document::schema;
-use crate::state::provenance::StateOptions;
-use crate::state::training::Mechanical;
+use crate::increment::paths::Track;
+use crate::options::TrainingOptions;
 use crate::surrogate::Surrogate;
-use crate::{Model, SurrogateError, constant, state, training};
+use crate::wall_friction::WallSlip;
+use crate::{Model, SurrogateError, constant, increment, training};
 
 /// Rows of a database for training.
 #[derive(Clone, Debug, Default)]
 pub struct TrainingData {
+    /// States on thermal ramps.
     pub rows: Vec<StateRow>,
-    pub mechanical: Mechanical,
+    /// All paths of strain, thermal and mechanical, of periodic boxes.
+    pub tracks: Vec<Track>,
+    pub wall_slips: Vec<WallSlip>,
+}
+
+impl TrainingData {
+    /// The packings for training, validation and test.
+    ///
+    /// # Errors
+    /// [`SurrogateError::Data`] for fewer than three packings.
+    pub fn split(&self, seed: u64) -> Result<PackingSplit, SurrogateError> {
+        let rows = self.rows.iter().map(|row| row.packing);
+        dataset::split_packings(rows.chain(self.tracks.iter().map(|track| track.packing)), seed)
+    }
+}
+
+impl From<Vec<StateRow>> for TrainingData {
+    fn from(rows: Vec<StateRow>) -> Self {
+        Self { rows, ..Self::default() }
+    }
 }
 
 /// A kind of model.
@@ -20,7 +41,7 @@ pub struct Kind {
     pub about: &'static str,
     /// Schema of its files, without the version.
     schema: &'static str,
-    pub train: fn(&TrainingData, &StateOptions) -> Trained,
+    pub train: fn(&TrainingData, &TrainingOptions) -> Trained,
     read: fn(&str) -> Trained,
 }
 
@@ -28,29 +49,29 @@ pub struct Kind {
 pub type Trained = Result<Box<dyn Surrogate>, SurrogateError>;
 
 /// Kind of model that is trained when none is named.
-pub const DEFAULT: &str = "state";
+pub const DEFAULT: &str = "increment";
 
 pub const MODELS: [Kind; 3] = [
     Kind {
         name: "constant",
         about: "nothing changes: mean conductivity and pressure of the packed states",
         schema: "msdd-constant-model-",
-        train: |data, options| Ok(Box::new(constant::train(&data.rows, &options.common)?)),
+        train: |data, options| Ok(Box::new(constant::train(&data.rows, options)?)),
         read: |text| Ok(Box::new(constant::read(text)?)),
     },
     Kind {
         name: "paper",
         about: "the paper's network, 3-16-16-6: increments of porosity and fabric; conductivity and stress as outputs",
         schema: "msdd-model-",
-        train: |data, options| Ok(Box::new(training::train(&data.rows, &options.common, |_| ())?.0)),
+        train: |data, options| Ok(Box::new(training::train(data, options, |_| ())?.0)),
         read: |text| Ok(Box::new(Model::from_json(text)?)),
     },
     Kind {
-        name: "state",
-        about: "all state variables, the stress among them, advance with the strain; conductivity read from the state",
-        schema: "msdd-state-model-",
-        train: |data, options| Ok(Box::new(state::training::train(&data.rows, &data.mechanical, options)?)),
-        read: |text| Ok(Box::new(state::file::read(text)?)),
+        name: "increment",
+        about: "one law for thermal and mechanical strain: elastic energy, and sliding that remembers; 35 numbers",
+        schema: "msdd-increment-model-",
+        train: |data, options| Ok(Box::new(increment::training::train(data, options)?)),
+        read: |text| Ok(Box::new(increment::model::read(text)?)),
     },
 ];
 
@@ -62,7 +83,7 @@ pub fn kind(name: &str) -> Result<&'static Kind, SurrogateError> {
     MODELS.iter().find(|kind| kind.name == name).ok_or_else(|| SurrogateError::Option {
         key: "model",
         value: name.to_string(),
-        allowed: "constant, paper, state",
+        allowed: "constant, paper, increment",
     })
 }
 
@@ -71,9 +92,9 @@ pub const BUILTIN: &str = "builtin";
 
 /// Models compiled into the library: name and text of the file, the default first.
 const SHIPPED: [(&str, &str); 2] =
-    [("state", include_str!("../models/state.json")), ("paper", include_str!("../models/paper.json"))];
+    [("increment", include_str!("../models/increment.json")), ("paper", include_str!("../models/paper.json"))];
 
-/// A model compiled into the library: `builtin`, `builtin:state` or `builtin:paper`.
+/// A model compiled into the library: `builtin`, `builtin:increment` or `builtin:paper`.
 ///
 /// # Errors
 /// [`SurrogateError::Option`], which lists the existing names.
@@ -88,7 +109,7 @@ pub fn builtin(name: &str) -> Trained {
         None => Err(SurrogateError::Option {
             key: "model",
             value: name.to_string(),
-            allowed: "builtin, builtin:state, builtin:paper",
+            allowed: "builtin, builtin:increment, builtin:paper",
         }),
     }
 }
@@ -101,7 +122,7 @@ pub fn read(text: &str) -> Trained {
     let found = schema(text)?;
     match MODELS.iter().find(|kind| found.starts_with(kind.schema)) {
         Some(kind) => (kind.read)(text),
-        None => Err(SurrogateError::Schema { found, expected: "msdd-{constant-,,state-}model-1" }),
+        None => Err(SurrogateError::Schema { found, expected: "msdd-{constant-,,increment-}model-1" }),
     }
 }
 

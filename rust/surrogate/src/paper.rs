@@ -1,10 +1,10 @@
 //! The paper's network as a [`Surrogate`]: its state is (η, f), and K and σ are outputs of each step.
 
-use crate::kernel::{LANES, Lanes};
+use crate::kernel::LANES;
 use crate::model::Model;
 use crate::options::TrainingOptions;
-use crate::state::readout::CONDUCTIVITY_FLOOR;
-use crate::surrogate::{Answer, Doubt, Known, MAX_STATE, StateLanes, Surrogate};
+use crate::increment::readout::CONDUCTIVITY_FLOOR;
+use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
 
 impl Surrogate for Model {
     fn kind(&self) -> &'static str {
@@ -37,15 +37,23 @@ impl Surrogate for Model {
         state
     }
 
-    fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer {
-        let block = Model::block(self, &[state[0], state[1], *strain]);
-        let mut answer = Answer {
+    fn advance(
+        &self,
+        state: &StateLanes,
+        strain: &Increment,
+        answer: &mut Answer,
+        _: Option<&mut Tangent>,
+    ) {
+        let block = Model::block(self, &[state[0], state[1], strain.thermal]);
+        let zero = [0.0; LANES];
+        // The network's own lower limit is zero, but the heat equation needs a positive conductivity.
+        let [kxx, kyy] = [block.conductivity_xx, block.conductivity_yy]
+            .map(|lanes| lanes.map(|value| value.max(CONDUCTIVITY_FLOOR)));
+        *answer = Answer {
             state: *state,
-            // The network's own lower limit is zero, but the heat equation needs a positive conductivity.
-            conductivity: [block.conductivity_xx, block.conductivity_yy]
-                .map(|lanes| lanes.map(|value| value.max(CONDUCTIVITY_FLOOR))),
-            stress: [block.stress_xx, block.stress_yy],
-            outside: [[0.0; LANES]; MAX_STATE + 1],
+            conductivity: [kxx, kyy, zero],
+            stress: [block.stress_xx, block.stress_yy, zero],
+            outside: [zero; MAX_STATE + 1],
         };
         let increments = [block.delta_porosity, block.delta_fabric_index];
         for (column, increment) in answer.state.iter_mut().zip(increments) {
@@ -53,11 +61,10 @@ impl Surrogate for Model {
                 column[lane] += increment[lane];
             }
         }
-        let inputs = [(0, state[0]), (1, state[1]), (MAX_STATE, *strain)];
+        let inputs = [(0, state[0]), (1, state[1]), (MAX_STATE, strain.thermal)];
         for ((column, values), range) in inputs.into_iter().zip(self.predictor.range.inputs()) {
             answer.outside[column] = values.map(|value| value - range.clamp(value));
         }
-        answer
     }
 
     fn doubt(&self, _state: &[f64; MAX_STATE]) -> Option<Doubt> {

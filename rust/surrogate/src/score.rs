@@ -6,6 +6,9 @@ use crate::dataset::{self, Ramp, StateRow, strain_between};
 use crate::kernel::LANES;
 use crate::noise;
 use crate::scores::r_squared;
+use crate::increment::errors::PathErrors;
+use crate::increment::paths::Track;
+use crate::models::TrainingData;
 use crate::surrogate::{Answer, Surrogate};
 use serde::Serialize;
 
@@ -16,8 +19,6 @@ pub struct OneStep {
     pub samples: usize,
     pub delta_porosity: f64,
     pub delta_fabric_index: f64,
-    /// None when the state does not contain f_K.
-    pub delta_fabric_conductivity: Option<f64>,
     pub conductivity: f64,
     pub stress: f64,
 }
@@ -39,9 +40,6 @@ pub struct WayBack {
     /// "up_down" from +5 %, "down_up" from -5 %.
     pub ramp: String,
     pub errors: Composed,
-    /// Errors when the model treats the return as virgin strain, which means strain that the grains have not
-    /// experienced before.
-    pub taken_for_virgin: Composed,
 }
 
 /// Noise floor: the part of the end state that no function of the model's state at the start can predict, relative to
@@ -72,6 +70,8 @@ pub struct Score {
     /// Empty when the database has no such ramps.
     pub way_back: Vec<WayBack>,
     pub noise_floor: Vec<Floor>,
+    /// Empty for a model without tangent, or when the database has no periodic boxes.
+    pub paths: Vec<PathErrors>,
 }
 
 /// Strains after which composed errors are computed.
@@ -83,6 +83,8 @@ pub const INCREMENTS: [u32; 5] = [1, 5, 50, 500, 5000];
 pub struct Ramps {
     pub seen: Vec<Ramp>,
     pub unseen: Vec<Ramp>,
+    /// Paths of strain that were not used.
+    pub tracks: Vec<Track>,
 }
 
 /// Splits as the model's training did when it was trained on the database of this plan; for another database all ramps
@@ -90,13 +92,15 @@ pub struct Ramps {
 ///
 /// # Errors
 /// [`SurrogateError::Data`] for unusable rows.
-pub fn ramps(model: &dyn Surrogate, rows: &[StateRow], plan_hash: &str) -> Result<Ramps, SurrogateError> {
-    let all = dataset::ramps(rows)?;
+pub fn ramps(model: &dyn Surrogate, data: &TrainingData, plan_hash: &str) -> Result<Ramps, SurrogateError> {
+    let (all, tracks) = (dataset::ramps(&data.rows)?, data.tracks.clone());
     if model.training().database.plan_hash != plan_hash {
-        return Ok(Ramps { seen: Vec::new(), unseen: all });
+        return Ok(Ramps { seen: Vec::new(), unseen: all, tracks });
     }
-    let split = dataset::split(all, model.training().seed)?;
-    Ok(Ramps { seen: split.training, unseen: split.test })
+    let packings = data.split(model.training().seed)?;
+    let split = packings.of(all);
+    let tracks = tracks.into_iter().filter(|track| packings.test.contains(&track.packing)).collect();
+    Ok(Ramps { seen: split.training, unseen: split.test, tracks })
 }
 
 /// Scores of a model.
@@ -122,28 +126,25 @@ pub fn score(model: &dyn Surrogate, ramps: &Ramps) -> Score {
             .iter()
             .filter_map(|name| way_back(model, &ramps.unseen, name))
             .collect(),
+        paths: model.path_errors(&ramps.tracks),
         noise_floor: STRAINS.map(|strain| floor(model, &all, strain)).to_vec(),
     }
 }
 
 fn way_back(model: &dyn Surrogate, ramps: &[Ramp], name: &str) -> Option<WayBack> {
-    let mut paths = composition::whole_paths(ramps, name);
+    let paths = composition::whole_paths(ramps, name);
     let strain = paths.first().map(|path| strain_between(path.from, path.to))?;
-    let errors = composition::errors(model, &paths, strain, 500);
-    paths.iter_mut().for_each(|path| path.virgin = 1.0);
-    let taken_for_virgin = composition::errors(model, &paths, strain, 500);
-    Some(WayBack { ramp: name.to_string(), errors, taken_for_virgin })
+    Some(WayBack { ramp: name.to_string(), errors: composition::errors(model, &paths, strain, 500) })
 }
 
-/// Data and prediction of a single query for every pair of jammed stops, mirror images included: Δη, Δf, Δf_K, K, σ.
-pub fn one_step_pairs(model: &dyn Surrogate, ramps: &[Ramp]) -> [Vec<[f64; 2]>; 5] {
-    let mut pairs: [Vec<[f64; 2]>; 5] = Default::default();
-    let fabric = model.state_names().iter().position(|name| *name == "fabric_conductivity");
+/// Data and prediction of a single query for every pair of jammed stops, mirror images included: Δη, Δf, K, σ.
+pub fn one_step_pairs(model: &dyn Surrogate, ramps: &[Ramp]) -> [Vec<[f64; 2]>; 4] {
+    let mut pairs: [Vec<[f64; 2]>; 4] = Default::default();
     let mut all: Vec<Path> = Vec::new();
     for ramp in ramps {
         for (i, from) in ramp.states.iter().enumerate().filter(|(_, row)| row.load_bearing) {
             let later = ramp.states[i + 1..].iter().filter(|to| to.load_bearing);
-            all.extend(later.map(|to| Path { from, to, virgin: ramp.virgin_share() }));
+            all.extend(later.map(|to| Path { from, to }));
         }
     }
     for chunk in all.chunks(LANES) {
@@ -152,22 +153,16 @@ pub fn one_step_pairs(model: &dyn Surrogate, ramps: &[Ramp]) -> [Vec<[f64; 2]>; 
             chunk.get(lane).map_or(0.0, |path| strain_between(path.from, path.to))
         });
         let start = states_of(model, &from);
-        let virgin = std::array::from_fn(|lane| chunk.get(lane).map_or(1.0, |path| path.virgin));
-        let mut answer = Answer::default();
-        model.block_into(&start, &strain, &virgin, &mut answer);
+        let answer = model.block(&start, &strain);
         for (lane, path) in chunk.iter().enumerate() {
             let moved = |column: usize| answer.state[column][lane] - start[column][lane];
             pairs[0].push([path.to.porosity - path.from.porosity, moved(0)]);
             let fabric_index = path.to.fabric_index - path.from.fabric_index;
             pairs[1].extend([[fabric_index, moved(1)], [-fabric_index, -moved(1)]]);
-            if let Some(column) = fabric {
-                let delta = state_of(model, path.to)[column] - start[column][lane];
-                pairs[2].extend([[delta, moved(column)], [-delta, -moved(column)]]);
-            }
             let data = composition::conductivity(model, path.to);
-            pairs[3].extend([0, 1].map(|c| [data[c], answer.conductivity[c][lane]]));
+            pairs[2].extend([0, 1].map(|c| [data[c], answer.conductivity[c][lane]]));
             let data = [path.to.stress_xx, path.to.stress_yy];
-            pairs[4].extend([0, 1].map(|c| [data[c], answer.stress[c][lane]]));
+            pairs[3].extend([0, 1].map(|c| [data[c], answer.stress[c][lane]]));
         }
     }
     pairs
@@ -181,9 +176,8 @@ pub fn one_step(model: &dyn Surrogate, ramps: &[Ramp]) -> OneStep {
         samples: pairs[0].len(),
         delta_porosity: r_squared(&pairs[0]),
         delta_fabric_index: r_squared(&pairs[1]),
-        delta_fabric_conductivity: (!pairs[2].is_empty()).then(|| r_squared(&pairs[2])),
-        conductivity: r_squared(&pairs[3]),
-        stress: r_squared(&pairs[4]),
+        conductivity: r_squared(&pairs[2]),
+        stress: r_squared(&pairs[3]),
     }
 }
 
@@ -234,7 +228,7 @@ fn floor(model: &dyn Surrogate, ramps: &[Ramp], strain: f64) -> Floor {
         let state = state_of(model, path.from);
         for (sign, quantities) in [(1.0, [0, 2, 4, 5, 6]), (-1.0, [1, 3, 4, 5, 6])] {
             let coordinates = columns.iter().zip(state);
-            let point: Vec<f64> = coordinates.map(|(name, v)| coordinate(name, v, sign, &state)).collect();
+            let point: Vec<f64> = coordinates.map(|(name, v)| coordinate(name, v, sign)).collect();
             for (k, quantity) in quantities.into_iter().enumerate() {
                 let turned = if quantity == 6 { sign } else { 1.0 };
                 let error = turned * (predicted[quantity] - data[quantity]);
@@ -256,11 +250,10 @@ fn floor(model: &dyn Surrogate, ramps: &[Ramp], strain: f64) -> Floor {
 }
 
 /// A state variable transformed so that distances between states are comparable.
-fn coordinate(name: &str, value: f64, sign: f64, state: &[f64]) -> f64 {
+fn coordinate(name: &str, value: f64, sign: f64) -> f64 {
     match name {
         "porosity" => value,
-        "reduced_pressure" => value.max(0.0).sqrt(),
-        "reduced_deviator" => sign * value / (state[2] + 1e-4),
+        "jamming_fraction" | "elastic_compression" => value,
         _ => sign * value,
     }
 }

@@ -28,23 +28,27 @@ impl SolidFraction {
     /// # Errors
     /// [`SurrogateError::Data`] when there is no such state.
     pub fn fit(rows: &[StateRow]) -> Result<Self, SurrogateError> {
-        let packed: Vec<&StateRow> = rows.iter().filter(|row| row.stop == 0).collect();
+        let packed = rows.iter().filter(|row| row.stop == 0);
+        Self::of(packed.map(|row| (row.porosity, 1.0 - row.porosity_sum_of_areas)))
+    }
+
+    /// Fit to porosities and solid fractions of packed states.
+    ///
+    /// # Errors
+    /// [`SurrogateError::Data`] when there is none.
+    pub fn of(packed: impl Iterator<Item = (f64, f64)>) -> Result<Self, SurrogateError> {
+        let packed: Vec<(f64, f64)> = packed.collect();
         if packed.is_empty() {
             return Err(SurrogateError::Data("no packed state (stop 0)".to_string()));
         }
-        let powers = |row: &StateRow| [1.0, row.porosity, row.porosity * row.porosity];
-        let solid = |row: &StateRow| 1.0 - row.porosity_sum_of_areas;
-        let coefficients = least_squares::fit(packed.iter().map(|row| (powers(row), solid(row), 1.0)));
-        let error = |row: &StateRow| {
-            powers(row)
-                .iter()
-                .zip(&coefficients)
-                .map(|(x, c)| x * c)
-                .fold(-solid(row), |sum, term| sum + term)
+        let powers = |eta: f64| [1.0, eta, eta * eta];
+        let coefficients = least_squares::fit(packed.iter().map(|(eta, solid)| (powers(*eta), *solid, 1.0)));
+        let error = |(eta, solid): &(f64, f64)| {
+            powers(*eta).iter().zip(&coefficients).map(|(x, c)| x * c).fold(-solid, |sum, term| sum + term)
         };
         let square = packed.iter().map(|row| error(row) * error(row)).fold(0.0, |sum, term| sum + term);
         let residual = (square / packed.len() as f64).sqrt();
-        let porosity = Range::of(packed.iter().map(|row| row.porosity));
+        let porosity = Range::of(packed.iter().map(|(eta, _)| *eta));
         Ok(Self { coefficients: coefficients.to_vec(), porosity, residual })
     }
 

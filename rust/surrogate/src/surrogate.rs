@@ -2,8 +2,9 @@
 //! it at the same time.
 
 use crate::dataset::ConductivityKind;
+use crate::increment::errors::PathErrors;
+use crate::increment::paths::Track;
 use crate::kernel::{LANES, Lanes};
-use crate::mechanics::{Mechanics, Tangent};
 use crate::options::TrainingOptions;
 use crate::wall_friction::WallFriction;
 
@@ -13,8 +14,26 @@ pub const MAX_STATE: usize = 9;
 /// State columns of a block of cells; those beyond the model's [`Surrogate::state_names`] are zero.
 pub type StateLanes = [Lanes; MAX_STATE];
 
-/// All strains are virgin, which means that they lead beyond all earlier strains: see [`Surrogate::block_into`].
-pub const VIRGIN: Lanes = [1.0; LANES];
+/// Strain of a block of cells: relative growth of the radii, above −1, and strain of the cell, extension positive; xy is
+/// 2 e_xy. `rotation` is the angle by which the cell turns, counter-clockwise positive [rad].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Increment {
+    pub thermal: Lanes,
+    pub xx: Lanes,
+    pub yy: Lanes,
+    pub xy: Lanes,
+    pub rotation: Lanes,
+}
+
+impl Increment {
+    /// Grains that grow in cells that keep their shape.
+    pub fn thermal(strain: &Lanes) -> Self {
+        Self { thermal: *strain, ..Self::default() }
+    }
+}
+
+/// −dσ̃/de for σ̃_xx, σ̃_yy, σ̃_xy (first index) and e_xx, e_yy, 2 e_xy (second), at the end of a strain.
+pub type Tangent = [[Lanes; 3]; 3];
 
 /// What is known of a cell at the start. The stress is reduced: σ ℓ/(E r̄), ℓ = 1 m, compression positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,10 +42,10 @@ pub struct Known {
     pub porosity: f64,
     /// f = F_xx − F_yy [-].
     pub fabric_index: f64,
-    /// (K_xx − K_yy)/(K_xx + K_yy) [-].
-    pub fabric_conductivity: Option<f64>,
-    /// σ_xx, σ_yy [-].
-    pub reduced_stress: Option<[f64; 2]>,
+    /// F_xy [-].
+    pub fabric_xy: f64,
+    /// σ_xx, σ_yy, σ_xy [-].
+    pub reduced_stress: Option<[f64; 3]>,
 }
 
 /// Answer for a block of cells.
@@ -35,12 +54,12 @@ pub struct Answer {
     /// State after the strain. For zero strain and a state that the model allows, it equals the state before, bit for
     /// bit.
     pub state: StateLanes,
-    /// K_xx/k, K_yy/k [-] of the state after; above zero.
-    pub conductivity: [Lanes; 2],
-    /// σ_xx ℓ/(E r̄), σ_yy ℓ/(E r̄) [-] of the state after, compression positive, never below zero.
-    pub stress: [Lanes; 2],
-    /// For each state column, then for the strain: distance outside of the trained range, in the unit of the column,
-    /// negative below and positive above; 0 inside. The model has used the end of the range instead.
+    /// K_xx/k, K_yy/k, K_xy/k [-] of the state after; positive in every direction.
+    pub conductivity: [Lanes; 3],
+    /// σ ℓ/(E r̄) [-] of the state after: xx, yy, xy, compression positive, without tension in any direction.
+    pub stress: [Lanes; 3],
+    /// For each state column, then for the thermal strain: distance outside of the trained range, in the unit of the
+    /// column, negative below and positive above; 0 inside.
     pub outside: [Lanes; MAX_STATE + 1],
 }
 
@@ -92,17 +111,17 @@ pub trait Surrogate: Send + Sync {
     fn conductivity_kinds(&self) -> Vec<ConductivityKind> {
         vec![self.conductivity_kind()]
     }
-    /// The kind of conductivity whose anisotropy f_K is in the state, whatever kind the model answers with.
-    fn fabric_conductivity_kind(&self) -> ConductivityKind {
-        self.conductivity_kind()
-    }
     /// The same model, answering with another kind of conductivity; `None` when it was not trained for that.
     fn answering_with(&self, _kind: ConductivityKind) -> Option<Box<dyn Surrogate>> {
         None
     }
-    /// Mechanical tangent; none when the database had no wall-strain ramps.
-    fn mechanics(&self) -> Option<&Mechanics> {
-        None
+    /// Whether cells may be strained mechanically, with a tangent.
+    fn has_tangent(&self) -> bool {
+        false
+    }
+    /// Errors along paths of strain; none for a model without [`Surrogate::has_tangent`].
+    fn path_errors(&self, _tracks: &[Track]) -> Vec<PathErrors> {
+        Vec::new()
     }
     /// Wall friction; none when the database had no wall-shear runs.
     fn wall_friction(&self) -> Option<&WallFriction> {
@@ -117,30 +136,27 @@ pub trait Surrogate: Send + Sync {
     /// The state of a cell at the start. Of its quantities, at least η and f are known; those that are not known are
     /// set to the mean of packed states.
     fn initial_state(&self, known: &Known) -> [f64; MAX_STATE];
-    /// Evaluates a block of cells: `strain` is the radial thermal strain relative to the current radii (above −1), and
-    /// all of it is treated as virgin (see [`Surrogate::block_into`]). Finite inputs give finite answers; the answer of
-    /// a lane depends on that lane alone.
-    fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer;
-    /// As [`Surrogate::block`], but writes into an existing answer, so that a batch needs only one. `virgin`: share of
-    /// the strain [0 to 1] that leads beyond all strains that the grains have experienced before; some models do not
-    /// use it.
-    fn block_into(&self, state: &StateLanes, strain: &Lanes, _virgin: &Lanes, answer: &mut Answer) {
-        *answer = self.block(state, strain);
-    }
+    /// Strains a block of cells. Finite inputs give finite answers; the answer of a lane depends on that lane alone. A model
+    /// without [`Surrogate::has_tangent`] uses the thermal strain alone and leaves `tangent` as it is; others write it.
+    fn advance(
+        &self,
+        state: &StateLanes,
+        strain: &Increment,
+        answer: &mut Answer,
+        tangent: Option<&mut Tangent>,
+    );
     /// Reliability of the answer for one cell; `None` when the model contains no data for it. Slower than an
     /// evaluation.
     fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt>;
-    /// Mechanical tangent at a state, for reduced stresses; `None` when the model has none.
-    fn tangent(&self, _state: &[f64; MAX_STATE]) -> Option<Tangent> {
-        None
-    }
-    /// State after mechanical strains of the cells along x and y (extension positive), linear with the tangent, limited
-    /// to p̃ ≥ 0 and |q̃| ≤ p̃. With zero strain, or for a model without tangent, the state does not change.
-    fn deformed(&self, state: &StateLanes, _strain: &[Lanes; 2]) -> StateLanes {
-        *state
-    }
     /// Sum-of-areas solid fraction [-] of a packed state of this porosity.
     fn solid_fraction(&self, porosity: f64) -> f64;
+
+    /// The answer after a thermal strain of the cells.
+    fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer {
+        let mut answer = Answer::default();
+        self.advance(state, &Increment::thermal(strain), &mut answer, None);
+        answer
+    }
 
     /// Evaluates one cell; gives the same bits as in any block.
     fn evaluate(&self, state: &[f64; MAX_STATE], strain: f64) -> Answer {
@@ -156,12 +172,14 @@ pub struct Batch<'a> {
     pub state: &'a [&'a [f64]],
     /// Columns to which the state after the strain is written.
     pub next_state: &'a mut [&'a mut [f64]],
-    /// K_xx/k, K_yy/k.
-    pub conductivity: Option<[&'a mut [f64]; 2]>,
-    /// σ_xx, σ_yy, reduced.
-    pub stress: Option<[&'a mut [f64]; 2]>,
+    /// K_xx/k, K_yy/k, K_xy/k.
+    pub conductivity: Option<[&'a mut [f64]; 3]>,
+    /// σ_xx, σ_yy, σ_xy, reduced.
+    pub stress: Option<[&'a mut [f64]; 3]>,
     /// One column for each state name and then one for the strain: as [`Answer::outside`].
     pub outside: Option<&'a mut [&'a mut [f64]]>,
+    /// As [`Tangent`], row by row.
+    pub tangent: Option<[&'a mut [f64]; 9]>,
 }
 
 /// Evaluates a batch; returns the number of cells outside of the trained range. The answer for a cell depends neither
@@ -175,6 +193,7 @@ pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
     let cells = batch.strain.len();
     let (mut count, mut answer) = (0, Answer::default());
     let (mut state, mut strain) = ([[0.0; LANES]; MAX_STATE], [0.0; LANES]);
+    let mut tangent = Tangent::default();
     for first in (0..cells).step_by(LANES) {
         let here = first..cells.min(first + LANES);
         let read = |column: &[f64], lanes: &mut Lanes| match column[first..].first_chunk::<LANES>() {
@@ -186,7 +205,8 @@ pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
             read(column, lanes);
         }
         read(batch.strain, &mut strain);
-        model.block_into(&state, &strain, &VIRGIN, &mut answer);
+        let wanted = batch.tangent.is_some().then_some(&mut tangent);
+        model.advance(&state, &Increment::thermal(&strain), &mut answer, wanted);
         let write = |column: &mut [f64], lanes: &Lanes| match column[first..].first_chunk_mut::<LANES>() {
             Some(full) => full.copy_from_slice(lanes),
             None => column[here.clone()].copy_from_slice(&lanes[..here.len()]),
@@ -206,6 +226,9 @@ pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
             for (column, lanes) in columns.iter_mut().zip(answer.outside[..names].iter().chain([strain])) {
                 write(column, lanes);
             }
+        }
+        for (column, lanes) in batch.tangent.iter_mut().flatten().zip(tangent.as_flattened()) {
+            write(column, lanes);
         }
         count += answer.lanes_outside()[..here.len()].iter().filter(|outside| **outside).count();
     }

@@ -1,6 +1,7 @@
 //! Training of the paper's network (section 3.1.2) on database rows.
 
-use crate::dataset::{self, Ramp, Sample, StateRow};
+use crate::dataset::{self, Ramp, Sample};
+use crate::models::TrainingData;
 use crate::drift::drifts;
 use crate::fit::NetworkFit;
 use crate::levenberg_marquardt::{LeastSquares, Limits, Stopping, minimise};
@@ -27,17 +28,18 @@ pub struct Progress {
     pub validation_error: f64,
 }
 
-/// Trains a model on the rows of a database.
+/// Trains a model on the thermal rows of a database.
 ///
 /// # Errors
 /// [`SurrogateError::Data`] for unusable rows, [`SurrogateError::Option`] for unusable options.
 pub fn train(
-    rows: &[StateRow],
+    data: &TrainingData,
     options: &TrainingOptions,
     mut progress: impl FnMut(Progress),
 ) -> Result<(Model, Report), SurrogateError> {
     options.check()?;
-    let split = dataset::split(dataset::ramps(rows)?, options.seed)?;
+    let rows = &data.rows;
+    let split = data.split(options.seed)?.of(dataset::ramps(rows)?);
     let samples = Parts::of(&split, samples);
     let (range, scales) = scaling::measure(&samples.training)?;
     let solid_fraction = SolidFraction::fit(rows)?;

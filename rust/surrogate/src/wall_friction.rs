@@ -1,5 +1,7 @@
 //! Wall friction: the part of the friction that is mobilised when a wall slips along the grains.
 
+use crate::SurrogateError;
+use crate::document::field;
 use crate::levenberg_marquardt::{LeastSquares, Limits, NormalEquations, minimise};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -73,6 +75,15 @@ impl WallFriction {
             samples: moved.len(),
             scatter: minimum.mean_square.sqrt(),
         })
+    }
+
+    /// Returns an error for values that no fit can give.
+    pub(crate) fn check(&self) -> Result<(), SurrogateError> {
+        if self.limit.abs() <= 1e3 && self.slip > 0.0 && self.slip <= 1e6 {
+            return Ok(());
+        }
+        let found = format!("limit {}, slip {}", self.limit, self.slip);
+        field("wall_friction", found, "limit to 1e3, slip above 0, to 1e6")
     }
 
     /// Mobilised friction [-] at a slip [mean radii] of either sign.

@@ -2,7 +2,7 @@
 //! SI and copied into the caller's columns.
 
 use super::Columns;
-use crate::columns::{Input, Output};
+use crate::columns::Input;
 use crate::si::Si;
 use crate::status::Failure;
 use msdd_plugin::{Answer, Plugin, Step};
@@ -15,47 +15,39 @@ impl Columns<'_> {
         self.check(plugin.name(), plugin.has_tangent())?;
         let answer = self.ask(plugin)?;
         let state: Vec<&[f64]> = answer.state.iter().map(Vec::as_slice).collect();
-        let wanted = self.tangent.iter().any(Output::is_wanted);
-        let tangent = if wanted { plugin.tangent(&state)? } else { None };
         let spread = if self.spread.is_wanted() { plugin.spread(&state)? } else { None };
-        // Stiffnesses are computed first, because the total strain that they need may be in a column that is written below.
-        let stiffness = |column: &Vec<f64>| self.converted(column, |lanes, total| si.stress(lanes, total));
-        let tangent = tangent.map(|[c11, c22, c12, porosity, fabric_index]| {
-            [stiffness(&c11), stiffness(&c22), stiffness(&c12), porosity, fabric_index]
-        });
         self.write_answer(&answer, si);
-        if let Some(columns) = tangent {
-            self.tangent.iter().zip(&columns).for_each(|(output, values)| output.write_all(values));
-        }
         self.spread.write_all(&spread.unwrap_or_else(|| vec![f64::NAN; self.cells]));
         Ok((0..self.cells).filter(|&cell| is_outside(&answer, cell)).count())
     }
 
     fn ask<'s>(&'s self, plugin: &Plugin) -> Result<Answer, Failure> {
-        let zero = vec![0.0; if self.deforms() { self.cells } else { 0 }];
+        let zero = vec![0.0; self.cells];
         // SAFETY: outputs are written after the last use of these slices, and the header forbids other threads to write.
         let slice = |column: &'s Input<'_>| unsafe { column.slice() };
         let state: Vec<&[f64]> = self.state.iter().map(slice).collect();
-        let strain = self.strain.each_ref().map(|column| column.as_ref().map_or(zero.as_slice(), slice));
+        let [xx, yy, xy] = self.strain.each_ref();
+        let strain = [xx, yy, xy, &self.rotation].map(|column| column.as_ref().map_or(zero.as_slice(), slice));
         let step = Step {
             state: &state,
             thermal_strain: slice(&self.thermal_strain),
-            virgin_share: self.virgin_share.as_ref().map(slice),
-            strain: self.deforms().then_some(strain),
+            strain: plugin.has_tangent().then_some(strain),
+            wants_tangent: self.wants_tangent(),
         };
         Ok(plugin.advance(&step)?)
     }
 
     fn write_answer(&self, answer: &Answer, si: &Si) {
-        let stress = answer
-            .stress
-            .each_ref()
-            .map(|column| self.converted(column, |lanes, total| si.stress(lanes, total)));
+        // All that needs the total strain is computed first, because that may be in a column that is written below.
+        let in_pascal = |column: &Vec<f64>| self.converted(column, |lanes, total| si.stress(lanes, total));
+        let stress = answer.stress.each_ref().map(in_pascal);
+        let tangent: Vec<Vec<f64>> = answer.tangent.iter().flatten().map(in_pascal).collect();
         let conductivity = answer.conductivity.each_ref();
         let conductivity =
             conductivity.map(|column| self.converted(column, |lanes, _| si.conductivity(lanes)));
         self.next_state.iter().zip(&answer.state).for_each(|(output, values)| output.write_all(values));
-        for k in [0, 1] {
+        self.tangent.iter().zip(&tangent).for_each(|(output, values)| output.write_all(values));
+        for k in 0..3 {
             self.conductivity[k].write_all(&conductivity[k]);
             self.stress[k].write_all(&stress[k]);
         }

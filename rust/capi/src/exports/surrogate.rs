@@ -230,21 +230,25 @@ unsafe fn start<'a>(initial: &msdd_initial) -> Result<Start<'a>, Failure> {
         cells,
         porosity: needed("porosity", initial.porosity)?,
         fabric_index: needed("fabric_index", initial.fabric_index)?,
-        fabric_conductivity: optional("fabric_conductivity", initial.fabric_conductivity)?,
+        fabric_xy: optional("fabric_xy", initial.fabric_xy)?,
+        stress_xy: optional("stress_xy", initial.stress_xy)?,
         stress: match stress {
             [Some(xx), Some(yy)] => Some([xx, yy]),
             [None, None] => None,
             _ => return Err(Failure::argument("stress_xx, stress_yy", "one of them", "both or none")),
         },
     };
-    let given = [start.porosity, start.fabric_index].into_iter().chain(start.fabric_conductivity);
+    let given = [start.porosity, start.fabric_index].into_iter().chain(start.fabric_xy).chain(start.stress_xy);
     given.chain(start.stress.into_iter().flatten()).try_for_each(|column| column.check_finite())?;
     start.porosity.check_range(0.0, 1.0, "0 to 1")?;
     start.fabric_index.check_range(-1.0, 1.0, "-1 to 1")?;
-    if let Some(column) = &start.fabric_conductivity {
+    if let Some(column) = &start.fabric_xy {
         column.check_range(-1.0, 1.0, "-1 to 1")?;
     }
-    for column in start.stress.iter().flatten() {
+    if start.stress.is_none() && start.stress_xy.is_some() {
+        return Err(Failure::argument("stress_xy", "not NULL", "NULL without stress_xx and stress_yy"));
+    }
+    for column in start.stress.iter().flatten().chain(&start.stress_xy) {
         column.check_range(-LARGEST_STRESS, LARGEST_STRESS, "-1e30 to 1e30 Pa")?;
     }
     Ok(start)

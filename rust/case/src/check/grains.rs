@@ -196,7 +196,7 @@ fn check_mechanics(
     found: &mut Findings,
 ) {
     let equilibrium = file.text("mechanics").is_ok_and(|kind| kind == "equilibrium");
-    if equilibrium && model.is_some_and(|model| model.mechanics().is_none()) {
+    if equilibrium && model.is_some_and(|model| !model.has_tangent()) {
         let advice = "The model has no mechanical tangent, which this needs; builtin has one";
         found.error([FILE, "mechanics"], "equilibrium", "none with this model", advice);
     }

@@ -105,7 +105,7 @@ pub const OUT_OF_REGION: &[Key] = &[
     may("porosity", Kind::Dictionary),
     may("fabricIndex", Kind::Dictionary),
     may("reducedPressure", Kind::Dictionary),
-    may("fabricConductivity", Kind::Dictionary),
+    may("fabricShear", Kind::Dictionary),
     may("reducedDeviator", Kind::Dictionary),
     may("thermalStrain", Kind::Dictionary),
 ];

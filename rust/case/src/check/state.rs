@@ -19,11 +19,13 @@ const WALK: usize = 50;
 /// a doubt. Packings that were prepared with another friction differ by less than this.
 const USUAL_PRESSURE: [f64; 2] = [0.6, 1.6];
 
+/// Places of xx, yy and xy in OpenFOAM's symmetric tensors.
+const PLANE: [usize; 3] = [0, 3, 1];
+
 /// The initial fields; stress is OpenFOAM's, tension positive.
 pub struct Start<'a> {
     pub porosity: &'a Values,
     pub fabric_index: &'a Values,
-    pub fabric_conductivity: Option<&'a Values>,
     pub stress: Option<&'a Values>,
 }
 
@@ -32,10 +34,8 @@ impl Start<'_> {
         Known {
             porosity: self.porosity.at(cell)[0],
             fabric_index: self.fabric_index.at(cell)[0],
-            fabric_conductivity: self.fabric_conductivity.map(|values| values.at(cell)[0]),
-            reduced_stress: self
-                .stress
-                .map(|values| [-values.at(cell)[0] / scale, -values.at(cell)[3] / scale]),
+            fabric_xy: 0.0,
+            reduced_stress: self.stress.map(|values| PLANE.map(|k| -values.at(cell)[k] / scale)),
         }
     }
 
@@ -43,13 +43,13 @@ impl Start<'_> {
         Known {
             porosity: self.porosity.mean(0),
             fabric_index: self.fabric_index.mean(0),
-            fabric_conductivity: self.fabric_conductivity.map(|values| values.mean(0)),
-            reduced_stress: self.stress.map(|values| [-values.mean(0) / scale, -values.mean(3) / scale]),
+            fabric_xy: 0.0,
+            reduced_stress: self.stress.map(|values| PLANE.map(|k| -values.mean(k) / scale)),
         }
     }
 
     fn cells(&self) -> usize {
-        let all = [Some(self.porosity), Some(self.fabric_index), self.fabric_conductivity, self.stress];
+        let all = [Some(self.porosity), Some(self.fabric_index), self.stress];
         all.into_iter().flatten().map(|values| values.numbers.len()).max().unwrap_or(1)
     }
 }
@@ -126,7 +126,7 @@ fn policy(file: &Dictionary, column: &str, side: &str) -> String {
         .and_then(|surrogate| surrogate.dictionary_at("outOfRegion").ok());
     let given = given.and_then(|all| all.dictionary_at(column).ok()).and_then(|sides| sides.text(side).ok());
     given.unwrap_or_else(|| match (column, side) {
-        ("porosity", "below") | ("reducedPressure", "above") => "error".to_string(),
+        ("porosity", "below") | ("elasticCompression", "above") => "error".to_string(),
         ("thermalStrain", _) => "cutStep".to_string(),
         _ => "clamp".to_string(),
     })

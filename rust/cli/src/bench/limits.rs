@@ -210,11 +210,11 @@ fn of_elements(a: &Averages) -> [f64; 2] {
 /// Results of a model at the stops of the contraction, from the averages of the packed state on.
 fn composed(model: &dyn Surrogate, start: &Averages) -> Vec<[f64; 2]> {
     let unit = |radius: f64| Material::default().young_modulus * radius;
-    let reduced = [start.stress_xx, start.stress_yy].map(|stress| stress / unit(start.mean_radius));
+    let reduced = [start.stress_xx, start.stress_yy, start.stress_xy].map(|stress| stress / unit(start.mean_radius));
     let known = Known {
         porosity: start.porosity,
         fabric_index: start.fabric_index,
-        fabric_conductivity: Some(start.fabric_conductivity),
+        fabric_xy: start.fabric_xy,
         reduced_stress: Some(reduced),
     };
     let mut state = model.initial_state(&known);
@@ -227,7 +227,7 @@ fn composed(model: &dyn Surrogate, start: &Averages) -> Vec<[f64; 2]> {
             state = answer.state.map(|lanes| lanes[0]);
         }
         let radius = start.mean_radius * (1.0 + STOP * stop as f64);
-        let half_sum = |[xx, yy]: [f64; 2]| 0.5 * (xx + yy);
+        let half_sum = |[xx, yy, _]: [f64; 3]| 0.5 * (xx + yy);
         points.push([
             half_sum(answer.conductivity.map(|lanes| lanes[0])),
             unit(radius) * half_sum(answer.stress.map(|lanes| lanes[0])),

@@ -94,7 +94,7 @@ pub struct RunArguments {
 
 #[derive(Args)]
 #[command(after_help = "Example: msdd reference fields --case cases/H --seed 1
-writes porosity, fabricIndex, fabricConductivity and stress into cases/H/0 for the mesh in cases/H/constant/polyMesh.")]
+writes porosity, fabricIndex and stress into cases/H/0 for the mesh in cases/H/constant/polyMesh.")]
 pub struct FieldsArguments {
     #[command(flatten)]
     model: ModelArguments,

@@ -10,6 +10,7 @@ use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
 use msdd_surrogate::composition::Composed;
+use msdd_surrogate::increment::errors::PathErrors;
 use msdd_surrogate::models::{self, TrainingData};
 use msdd_surrogate::score::{OneStep, Score, ramps, score};
 use msdd_surrogate::surrogate::Surrogate;
@@ -43,7 +44,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         let failed = |source| CliError::Model { file: file.clone(), source };
         let model = models::read(&read_text(file)?).map_err(failed)?;
         let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
-        let ramps = ramps(model.as_ref(), &data.rows, &plan_hash).map_err(failed)?;
+        let ramps = ramps(model.as_ref(), &data, &plan_hash).map_err(failed)?;
         let result = score(model.as_ref(), &ramps);
         print(&result);
         outln!();
@@ -93,17 +94,7 @@ pub fn print_training(
     data: &TrainingData,
     plan_hash: &str,
 ) -> Result<(), SurrogateError> {
-    let report: serde_json::Value = serde_json::from_str(&model.to_json()).unwrap_or_default();
-    let fits = &report["provenance"]["report"];
-    for key in ["rates", "readouts"] {
-        if !fits[key].is_null() {
-            outln!("{key}: {}", fits[key]);
-        }
-    }
-    print(&score(model, &ramps(model, &data.rows, plan_hash)?));
-    if let Some(mechanics) = model.mechanics() {
-        outln!("mechanics: {mechanics:?}");
-    }
+    print(&score(model, &ramps(model, data, plan_hash)?));
     if let Some(friction) = model.wall_friction() {
         outln!("wall friction: {friction:?}");
     }
@@ -113,11 +104,10 @@ pub fn print_training(
 fn print(score: &Score) {
     outln!("{} \"{}\" {}", score.kind, score.name, &score.hash[..12]);
     outln!();
-    outln!("R2 (Eq. 12), one step  packings samples  d eta    d f    d f_K      K    sigma");
+    outln!("R2 (Eq. 12), one step  packings samples  d eta    d f       K    sigma");
     let line = |name: &str, s: &OneStep| {
-        let fabric = s.delta_fabric_conductivity.map_or("     -".to_string(), |r| format!("{r:.4}"));
         outln!(
-            "{name:<22} {:>8} {:>7} {:.4} {:>7.4} {fabric} {:>7.4} {:.5}",
+            "{name:<22} {:>8} {:>7} {:.4} {:>7.4} {:>7.4} {:.5}",
             s.packings,
             s.samples,
             s.delta_porosity,
@@ -169,13 +159,36 @@ fn print(score: &Score) {
     if !score.way_back.is_empty() {
         outln!();
         outln!(
-            "Errors on ramps back to the packed radii; below each, with all strain taken for virgin (as if never reached before)"
+            "Errors on ramps back to the packed radii"
         );
         outln!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
         for way in &score.way_back {
             row(&way.errors);
-            row(&way.taken_for_virgin);
         }
+    }
+    if !score.paths.is_empty() {
+        outln!();
+        outln!("Along paths of strain; rms error, p and q in % of the path's mean pressure; f_K, eta, f absolute");
+        print_paths(&score.paths);
+    }
+}
+
+/// Prints errors along paths of strain.
+pub fn print_paths(paths: &[PathErrors]) {
+    outln!("paths          discs number    p %   q %   K %  f_K      eta        f");
+    for e in paths {
+        outln!(
+            "{:<14} {:>5} {:>6} {:>6.2} {:>5.2} {:>5.2} {:.4} {:>8.5} {:>8.5}",
+            e.name,
+            e.discs,
+            e.paths,
+            100.0 * e.pressure,
+            100.0 * e.deviator,
+            100.0 * e.conductivity,
+            e.anisotropy,
+            e.porosity,
+            e.fabric_index
+        );
     }
 }
 

@@ -2,10 +2,11 @@
 
 use super::law::{ELEMENTS, Elastic, Law, Moduli, Strain, rotation};
 use super::number::{Dual, Number, Plain};
-use super::readout::{Features, Readout};
+use super::readout::{Conductivity, Features, Readout};
+use crate::dataset::ConductivityKind;
 use crate::kernel::vector::Vector;
-use crate::kernel::{LANES, Lanes, Task, dispatch};
-use crate::surrogate::{MAX_STATE, StateLanes};
+use crate::kernel::{Lanes, Task, dispatch};
+use crate::surrogate::{Answer, Increment, MAX_STATE, StateLanes, Tangent};
 
 /// Columns of the state.
 pub const POROSITY: usize = 0;
@@ -31,40 +32,19 @@ pub const NAMES: [&str; COLUMNS] = [
     "elastic_shear_2_xy",
 ];
 
-/// Strain of a block of cells: growth of the radii, and strain of the cell, extension positive; xy is 2 e_xy. `rotation` is the
-/// angle by which the cell turns, counter-clockwise positive [rad].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Increment {
-    pub thermal: Lanes,
-    pub xx: Lanes,
-    pub yy: Lanes,
-    pub xy: Lanes,
-    pub rotation: Lanes,
-}
-
-/// State, reduced stress (xx, yy, xy; compression positive) and K/k (xx, yy, xy) after a strain.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct After {
-    pub state: StateLanes,
-    pub stress: [Lanes; 3],
-    pub conductivity: [Lanes; 3],
-}
-
-/// −dσ̃/de for σ̃_xx, σ̃_yy, σ̃_xy (first index) and e_xx, e_yy, 2 e_xy (second).
-pub type Tangent = [[Lanes; 3]; 3];
-
 /// What answers queries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Core {
     pub law: Law,
     pub readout: Readout,
+    pub conductivity: Conductivity,
 }
 
 struct Query<'a> {
     core: &'a Core,
     state: &'a StateLanes,
     strain: &'a Increment,
-    after: &'a mut After,
+    after: &'a mut Answer,
     tangent: Option<&'a mut Tangent>,
 }
 
@@ -77,13 +57,20 @@ impl Task for Query<'_> {
 }
 
 impl Core {
+    /// A core that answers with stress and state, but not with overlaps, fabric and conductivity.
+    pub fn of(law: Law) -> Self {
+        let conductivity =
+            Conductivity { kind: ConductivityKind::Network, mean: [0.0; 7], direction: [0.0; 2] };
+        Self { law, readout: Readout::default(), conductivity }
+    }
+
     /// Strains a block of cells. Without strain the state stays as it is, bit for bit. A lane's answer depends on that lane
     /// alone, and is the same with and without `tangent`, which is the derivative of the stress by the strain at its end.
     pub fn advance(
         &self,
         state: &StateLanes,
         strain: &Increment,
-        after: &mut After,
+        after: &mut Answer,
         tangent: Option<&mut Tangent>,
     ) {
         dispatch(Query { core: self, state, strain, after, tangent });
@@ -94,13 +81,13 @@ impl Core {
         &self,
         state: &StateLanes,
         strain: &Increment,
-        after: &mut After,
+        after: &mut Answer,
         tangent: Option<&mut Tangent>,
     ) {
-        let turn = rotation(V::read(&strain.rotation));
+        let turn = rotation(read::<V>(&strain.rotation, MOST_TURN));
         let before = elastic::<V>(state);
-        let [thermal, xx, yy, xy] =
-            [V::read(&strain.thermal), V::read(&strain.xx), V::read(&strain.yy), V::read(&strain.xy)];
+        let thermal = read::<V>(&strain.thermal, MOST_STRAIN);
+        let [xx, yy, xy] = [&strain.xx, &strain.yy, &strain.xy].map(|part| read::<V>(part, MOST_STRAIN));
         let (next, moduli) = match tangent {
             None => {
                 let strain = Strain { thermal: Plain(thermal), xx: Plain(xx), yy: Plain(yy), xy: Plain(xy) };
@@ -168,7 +155,7 @@ impl Core {
         before: &Elastic<Plain<V>>,
         (next, moduli): (&Elastic<Plain<V>>, &Moduli<Plain<V>>),
         (turn, moved): ([V; 2], V),
-        after: &mut After,
+        after: &mut Answer,
     ) {
         let stress = self.law.stress(next, moduli);
         let features = Features::of(&stress, next.looseness().0);
@@ -178,7 +165,8 @@ impl Core {
         let old = self.law.moduli(before.compression, before.looseness());
         let from = self.readout.fabric(before, old.ratio.0);
         let to = self.readout.fabric(next, moduli.ratio.0);
-        let rest = [V::read(&state[FABRIC_INDEX]) - from[0], V::read(&state[FABRIC_SHEAR]) - from[1]];
+        let [along, across] = [FABRIC_INDEX, FABRIC_SHEAR].map(|k| read::<V>(&state[k], MOST_FABRIC));
+        let rest = [along - from[0], across - from[1]];
         let rest = turned_twice(rest, turn);
         let (low, high) = (V::all(-MOST_FABRIC), V::all(MOST_FABRIC));
         let fabric = [(rest[0] + to[0]).within(low, high), (rest[1] + to[1]).within(low, high)];
@@ -198,7 +186,7 @@ impl Core {
         (p + q1).write(&mut after.stress[0]);
         (p - q1).write(&mut after.stress[1]);
         q2.write(&mut after.stress[2]);
-        let conductivity = self.readout.conductivity(&features, fabric);
+        let conductivity = self.conductivity.at(&features, fabric);
         for k in 0..3 {
             conductivity[k].write(&mut after.conductivity[k]);
         }
@@ -214,19 +202,37 @@ fn turned_twice<V: Vector>(vector: [V; 2], [cosine, sine]: [V; 2]) -> [V; 2] {
 /// Largest porosity and fabric that a state may reach.
 const MOST_POROSITY: f64 = 0.99;
 const MOST_FABRIC: f64 = 0.9;
+/// Beyond these, states and strains are taken at these ends, so that no input overflows. All are far from what grains do.
+const LEAST_JAMMING: f64 = 0.3;
+const MOST_JAMMING: f64 = 1.3;
+const LEAST_COMPRESSION: f64 = -0.9;
+const MOST_COMPRESSION: f64 = 1.0;
+const MOST_SHEAR: f64 = 1.0;
+const MOST_STRAIN: f64 = 0.5;
+const MOST_TURN: f64 = 1.0;
+
+/// A column, limited on both sides.
+#[inline(always)]
+fn read<V: Vector>(lanes: &Lanes, most: f64) -> V {
+    V::read(lanes).within(V::all(-most), V::all(most))
+}
 
 #[inline(always)]
 fn elastic<V: Vector>(state: &StateLanes) -> Elastic<Plain<V>> {
-    let zero = Plain(V::zero());
-    let mut shear = [[zero; 2]; ELEMENTS];
+    let between = |column: usize, low: f64, high: f64| {
+        Plain(V::read(&state[column]).within(V::all(low), V::all(high)))
+    };
+    let jamming = between(JAMMING, LEAST_JAMMING, MOST_JAMMING);
+    let compression = between(COMPRESSION, LEAST_COMPRESSION, MOST_COMPRESSION);
+    let shear = |column: usize| between(column, -MOST_SHEAR, MOST_SHEAR);
+    let mut all = [[jamming; 2]; ELEMENTS];
     for k in 0..ELEMENTS {
-        shear[k] = [Plain(V::read(&state[SHEAR + 2 * k])), Plain(V::read(&state[SHEAR + 2 * k + 1]))];
+        all[k] = [shear(SHEAR + 2 * k), shear(SHEAR + 2 * k + 1)];
     }
-    let (jamming, compression) = (Plain(V::read(&state[JAMMING])), Plain(V::read(&state[COMPRESSION])));
-    Elastic { jamming, compression, shear }
+    Elastic { jamming, compression, shear: all }
 }
 
-const _: () = assert!(COLUMNS <= MAX_STATE && LANES > 0);
+const _: () = assert!(COLUMNS <= MAX_STATE);
 
 #[cfg(test)]
 #[path = "core_tests.rs"]

@@ -1,11 +1,11 @@
 //! Tests of the law as a whole: symmetries, the tangent, work, composition, bad inputs.
 
 use super::super::law::{Element, Law};
-use super::super::readout::Readout;
 use super::super::start::start;
 use super::*;
+use crate::dataset::ConductivityKind;
 use crate::kernel::vector::Portable;
-use crate::kernel::with_every_set;
+use crate::kernel::{LANES, with_every_set};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -22,10 +22,13 @@ pub(crate) fn core() -> Core {
             dilatancy_of_looseness: 7.68,
         },
         readout: Readout {
-            conductivity: [1.1, 1.8, -1.5, -3.0, 2.0, -0.5, 0.0],
             overlap: [0.045, 1.85, -0.6, 0.5, 1.2],
-            anisotropy: [0.335, 1.0],
             fabric: [[-0.5, 0.1], [-0.3, 0.1]],
+        },
+        conductivity: Conductivity {
+            kind: ConductivityKind::Network,
+            mean: [1.1, 1.8, -1.5, -3.0, 2.0, -0.5, 0.0],
+            direction: [0.335, 1.0],
         },
     }
 }
@@ -53,7 +56,7 @@ fn strain(values: [f64; 5]) -> Increment {
 }
 
 fn advanced(state: &[f64; MAX_STATE], values: [f64; 5]) -> ([f64; MAX_STATE], [f64; 3], [f64; 3]) {
-    let mut after = After::default();
+    let mut after = Answer::default();
     core().advance(&lanes(state), &strain(values), &mut after, None);
     (after.state.map(|c| c[0]), after.stress.map(|c| c[0]), after.conductivity.map(|c| c[0]))
 }
@@ -156,7 +159,7 @@ fn the_tangent_is_the_derivative_of_the_stress() {
     let mut checked = 0;
     for _ in 0..300 {
         let (state, values) = (wandered(&mut random), random_strain(&mut random, 2e-3));
-        let (mut after, mut tangent) = (After::default(), Tangent::default());
+        let (mut after, mut tangent) = (Answer::default(), Tangent::default());
         core.advance(&lanes(&state), &strain(values), &mut after, Some(&mut tangent));
         assert_eq!(
             after.stress.map(|c| c[0]),
@@ -185,7 +188,7 @@ fn the_tangent_is_the_derivative_of_the_stress() {
 fn small_strains_of_a_core_that_does_not_slide_are_reversible_and_symmetric() {
     let state = advanced(&packed(0.12, 0.058, [0.1, 0.0]), [0.02, 0.0, 0.0, 0.0, 0.0]).0;
     let core = core();
-    let (mut after, mut t) = (After::default(), Tangent::default());
+    let (mut after, mut t) = (Answer::default(), Tangent::default());
     core.advance(&lanes(&state), &strain([0.0, 1e-9, 0.0, 0.0, 0.0]), &mut after, Some(&mut t));
     let t = t.map(|row| row.map(|lanes| lanes[0]));
     assert!((t[0][1] - t[1][0]).abs() < 1e-9 && (t[0][2] - t[2][0]).abs() < 1e-9, "{t:?}");
@@ -232,7 +235,7 @@ fn all_instruction_sets_give_the_same_bits() {
         let (state, values) = (lanes(&wandered(&mut random)), strain(random_strain(&mut random, 4e-3)));
         let mut answers = Vec::new();
         with_every_set(|_| {
-            let (mut after, mut tangent) = (After::default(), Tangent::default());
+            let (mut after, mut tangent) = (Answer::default(), Tangent::default());
             core().advance(&state, &values, &mut after, Some(&mut tangent));
             answers.push(format!("{after:?} {tangent:?}"));
         });
@@ -294,7 +297,7 @@ fn speed() {
     let core = core();
     let state = lanes(&packed(0.12, 0.058, [0.2, 0.0]));
     let values = strain([1e-4, 1e-4, -2e-4, 1e-4, 1e-5]);
-    let (mut after, mut tangent) = (After::default(), Tangent::default());
+    let (mut after, mut tangent) = (Answer::default(), Tangent::default());
     for with in [false, true] {
         let begin = std::time::Instant::now();
         for _ in 0..200_000 {

@@ -4,7 +4,8 @@ use super::core::{COMPRESSION, Core, JAMMING, SHEAR};
 use super::law::{ELEMENTS, Elastic, Element, Law};
 use super::number::Plain;
 use super::paths::{Point, States, Track, follow, stresses};
-use super::readout::{Features, Readout};
+use super::readout::{Conductivity, Features, Readout};
+use crate::dataset::ConductivityKind;
 use crate::kernel::vector::{Portable, Vector};
 use crate::least_squares;
 use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};
@@ -89,12 +90,14 @@ const _: () = assert!(ELEMENTS == 2);
 pub struct PathFit<'a> {
     pub tracks: &'a [Track],
     pub threads: usize,
+    /// Parameters that keep a value, by number.
+    pub fixed: &'a [(usize, f64)],
 }
 
 impl PathFit<'_> {
     /// All residuals, in a fixed order.
     pub fn residuals(&self, x: &DVector<f64>) -> Vec<f64> {
-        let core = Core { law: law(x), readout: Readout::default() };
+        let core = Core::of(law(x));
         let mut residuals = Vec::new();
         for (track, states) in self.tracks.iter().zip(follow(&core, self.tracks)) {
             add_residuals(track, &stresses(&core, &states), &mut residuals);
@@ -140,9 +143,11 @@ impl LeastSquares for PathFit<'_> {
         let mut matrix = DMatrix::zeros(PARAMETERS, PARAMETERS);
         let mut gradient = DVector::zeros(PARAMETERS);
         let mut row = [0.0; PARAMETERS];
+        let fixed = |k: usize| self.fixed.iter().any(|(number, _)| *number == k);
         for (n, &residual) in here.iter().enumerate() {
             for k in 0..PARAMETERS {
-                row[k] = (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]);
+                // A fixed parameter has no influence, and so does not move.
+                row[k] = if fixed(k) { 0.0 } else { (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]) };
             }
             let [weight, _] = robust(residual);
             for a in 0..PARAMETERS {
@@ -181,7 +186,9 @@ fn add_residuals(track: &Track, found: &[[f64; 3]], residuals: &mut Vec<f64>) {
 /// Fits the law; `watch` is called with the number of the epoch and the mean square.
 pub fn fit(problem: &PathFit, epochs: u32, mut watch: impl FnMut(u32, f64)) -> (Law, Minimum) {
     let limits = Limits { max_epochs: epochs, gradient: 1e-10 };
-    let minimum = minimise(problem, parameters(&beginning()), limits, |epoch, _, square| {
+    let mut start = parameters(&beginning());
+    problem.fixed.iter().for_each(|(number, value)| start[*number] = *value);
+    let minimum = minimise(problem, start, limits, |epoch, _, square| {
         watch(epoch, square);
         ControlFlow::Continue(())
     });
@@ -225,8 +232,13 @@ impl Scalars {
     }
 }
 
-/// Fits the readouts to the states of tracks that the law has followed.
-pub fn readout(law: &Law, tracks: &[Track], states: &[States]) -> Readout {
+/// Fits overlaps and fabric, and each kind of conductivity, to the states of tracks that the law has followed.
+pub fn readouts(
+    law: &Law,
+    tracks: &[Track],
+    states: &[States],
+    kinds: &[ConductivityKind],
+) -> (Readout, Vec<Conductivity>) {
     let mut all = Vec::new();
     for (track, states) in tracks.iter().zip(states) {
         let start = sheared(law, &states[0]);
@@ -248,26 +260,12 @@ pub fn readout(law: &Law, tracks: &[Track], states: &[States]) -> Readout {
             });
         }
     }
-    let conductivity = all.iter().filter_map(|seen| {
-        let ([xx, yy, _], x) = (seen.point.conductivity?, &seen.features);
-        let mean = 0.5 * (xx + yy);
-        let row = [1.0, x.root, x.pressure, x.loose, x.loose * x.root, x.square, x.loose * x.loose];
-        Some((row.map(|value| value * x.root / mean), 1.0, 1.0))
-    });
     let overlap = all.iter().map(|seen| {
         let x = &seen.features;
         let found = seen.point.solid - (1.0 - seen.point.porosity);
         let row = [1.0, x.root, x.pressure, x.root * x.loose, x.root * x.square];
         let weight = 1.0 / (found.max(0.0) + 0.01);
         (row.map(|value| value * x.pressure), found, weight)
-    });
-    let anisotropy = all.iter().flat_map(|seen| {
-        let [xx, yy, xy] = seen.point.conductivity.unwrap_or([0.0; 3]);
-        let (x, mean) = (&seen.features, 0.5 * (xx + yy));
-        let directions = [0.5 * (xx - yy), xy].map(|part| if mean > 0.0 { part / mean } else { 0.0 });
-        let fabric = [Some(seen.point.fabric_index), seen.point.fabric_shear];
-        let row = move |c: usize| Some(([x.ratio[c], fabric[c]?], directions[c], 1.0));
-        [row(0), row(1)].into_iter().flatten()
     });
     let fabric = all.iter().flat_map(|seen| {
         let row = |c: usize| {
@@ -277,12 +275,26 @@ pub fn readout(law: &Law, tracks: &[Track], states: &[States]) -> Readout {
         [row(0), row(1)].into_iter().flatten()
     });
     let [a, b, c, d] = least_squares::fit(fabric);
-    Readout {
-        conductivity: least_squares::fit(conductivity),
-        overlap: least_squares::fit(overlap),
-        anisotropy: least_squares::fit(anisotropy),
-        fabric: [[a, b], [c, d]],
-    }
+    let readout = Readout { overlap: least_squares::fit(overlap), fabric: [[a, b], [c, d]] };
+    (readout, kinds.iter().map(|kind| conductivity(&all, *kind)).collect())
+}
+
+fn conductivity(all: &[Seen], kind: ConductivityKind) -> Conductivity {
+    let mean = all.iter().filter_map(|seen| {
+        let ([xx, yy, _], x) = (seen.point.conductivity(kind)?, &seen.features);
+        let mean = 0.5 * (xx + yy);
+        let row = [1.0, x.root, x.pressure, x.loose, x.loose * x.root, x.square, x.loose * x.loose];
+        Some((row.map(|value| value * x.root / mean), 1.0, 1.0))
+    });
+    let direction = all.iter().flat_map(|seen| {
+        let [xx, yy, xy] = seen.point.conductivity(kind).unwrap_or([0.0; 3]);
+        let (x, mean) = (&seen.features, 0.5 * (xx + yy));
+        let directions = [0.5 * (xx - yy), xy].map(|part| if mean > 0.0 { part / mean } else { 0.0 });
+        let fabric = [Some(seen.point.fabric_index), seen.point.fabric_shear];
+        let row = move |c: usize| Some(([x.ratio[c], fabric[c]?], directions[c], 1.0));
+        [row(0), row(1)].into_iter().flatten()
+    });
+    Conductivity { kind, mean: least_squares::fit(mean), direction: least_squares::fit(direction) }
 }
 
 fn looseness(state: &[f64; MAX_STATE]) -> f64 {

@@ -25,9 +25,13 @@
 //! (2016), Granular Matter 18:58.
 
 pub mod core;
+pub mod errors;
 pub mod fit;
 pub mod law;
+pub mod mean;
+pub mod model;
 pub mod number;
 pub mod paths;
 pub mod readout;
 pub mod start;
+pub mod training;

@@ -1,12 +1,11 @@
 //! Paths of strain in periodic boxes, on which the law is fitted and judged.
 
-use super::core::{
-    After, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, Increment, JAMMING, POROSITY, SHEAR,
-};
+use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR};
 use super::law::{ELEMENTS, Law};
 use super::start::start_of_solid;
-use crate::kernel::LANES;
-use crate::surrogate::{MAX_STATE, StateLanes};
+use crate::dataset::ConductivityKind;
+use crate::kernel::{LANES, Lanes};
+use crate::surrogate::{Answer, Increment, MAX_STATE, StateLanes};
 
 /// A state of a packing. Stresses are reduced by E and the present mean radius, compression positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +16,9 @@ pub struct Point {
     pub solid: f64,
     /// σ̃_xx, σ̃_yy, σ̃_xy.
     pub stress: [f64; 3],
-    /// K_xx/k, K_yy/k, K_xy/k, network; none when the database lacks it.
-    pub conductivity: Option<[f64; 3]>,
+    /// K_xx/k, K_yy/k, K_xy/k: affine, and of the network; the latter is none when the database lacks it.
+    pub affine: [f64; 3],
+    pub network: Option<[f64; 3]>,
     /// F_xx − F_yy and 2 F_xy; none when the database lacks F_xy.
     pub fabric_index: f64,
     pub fabric_shear: Option<f64>,
@@ -27,6 +27,14 @@ pub struct Point {
 }
 
 impl Point {
+    /// K/k of a kind.
+    pub fn conductivity(&self, kind: ConductivityKind) -> Option<[f64; 3]> {
+        match kind {
+            ConductivityKind::Affine => Some(self.affine),
+            ConductivityKind::Network => self.network,
+        }
+    }
+
     /// p̃, q̃₁, q̃₂.
     pub fn invariants(&self) -> [f64; 3] {
         let [xx, yy, xy] = self.stress;
@@ -119,7 +127,7 @@ fn follow_block(core: &Core, tracks: &[Track]) -> Vec<States> {
             let state = states.get(lane).unwrap_or(&states[0])[from];
             (0..MAX_STATE).for_each(|column| block[column][lane] = state[column]);
         }
-        let mut after = After::default();
+        let mut after = Answer::default();
         for part in 0..parts as u32 {
             let lanes = |k: usize| {
                 // Equal parts of the whole, so that they compose to it.
@@ -149,16 +157,25 @@ fn follow_block(core: &Core, tracks: &[Track]) -> Vec<States> {
 
 /// σ̃ of states of the law: p̃, q̃₁, q̃₂.
 pub fn stresses(core: &Core, states: &States) -> Vec<[f64; 3]> {
-    let mut all = Vec::with_capacity(states.len());
+    answers(core, states, |answer| answer.stress)
+        .into_iter()
+        .map(|[xx, yy, xy]| [0.5 * (xx + yy), 0.5 * (xx - yy), xy])
+        .collect()
+}
+
+/// K_xx/k, K_yy/k, K_xy/k of states of the law.
+pub fn conductivities(core: &Core, states: &States) -> Vec<[f64; 3]> {
+    answers(core, states, |answer| answer.conductivity)
+}
+
+fn answers(core: &Core, states: &States, take: fn(&Answer) -> [Lanes; 3]) -> Vec<[f64; 3]> {
+    let (mut all, mut answer) = (Vec::with_capacity(states.len()), Answer::default());
     for some in states.chunks(LANES) {
         let block =
             std::array::from_fn(|column| std::array::from_fn(|lane| some[lane.min(some.len() - 1)][column]));
-        let mut after = After::default();
-        core.advance(&block, &Increment::default(), &mut after, None);
-        for lane in 0..some.len() {
-            let [xx, yy, xy] = after.stress.map(|column| column[lane]);
-            all.push([0.5 * (xx + yy), 0.5 * (xx - yy), xy]);
-        }
+        core.advance(&block, &Increment::default(), &mut answer, None);
+        let columns = take(&answer);
+        all.extend((0..some.len()).map(|lane| columns.map(|column| column[lane])));
     }
     all
 }

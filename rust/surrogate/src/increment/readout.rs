@@ -1,5 +1,6 @@
 //! What is computed from the elastic state: conductivity, overlaps of the grains, fabric.
 
+use crate::dataset::ConductivityKind;
 use super::law::{ELEMENTS, Elastic, Stress};
 use super::number::Plain;
 use crate::SurrogateError;
@@ -7,19 +8,26 @@ use crate::document::field;
 use crate::kernel::vector::Vector;
 use serde::{Deserialize, Serialize};
 
-/// Coefficients of the readouts. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`].
+/// Overlaps and fabric. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
-    /// Mean conductivity over that of the grains, K/(k s): coefficients of 1, s, p̃, z, z s, r², z².
-    pub conductivity: [f64; 7],
     /// Overlaps of the grains over the area, o/p̃: coefficients of 1, s, p̃, s z, s r².
     pub overlap: [f64; 5],
-    /// Direction of the conductivity, (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy): coefficients of q̃/p̃ and of the fabric.
-    pub anisotropy: [f64; 2],
     /// Direction of the contacts, (F_xx − F_yy, 2 F_xy), as far as it follows the elastic state: for each element the
     /// coefficients of its shear strain and of its shear strain times G/A.
     pub fabric: [[f64; 2]; ELEMENTS],
+}
+
+/// Conductivity of one kind, with s, r², z as in [`Readout`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Conductivity {
+    pub kind: ConductivityKind,
+    /// Mean conductivity over that of the grains, K/(k s): coefficients of 1, s, p̃, z, z s, r², z².
+    pub mean: [f64; 7],
+    /// (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy): coefficients of q̃/p̃ and of the fabric.
+    pub direction: [f64; 2],
 }
 
 /// Added to p̃ in q̃/p̃, so that the ratio tends to zero where the grains lose contact: a hundredth of p̃ of the loosest
@@ -78,15 +86,24 @@ impl Readout {
         [along, across]
     }
 
+    /// # Errors
+    /// [`SurrogateError::Field`] for numbers that are not finite or absurdly large.
+    pub fn check(&self) -> Result<(), SurrogateError> {
+        check("readout.overlap", &self.overlap)?;
+        check("readout.fabric", self.fabric.as_flattened())
+    }
+}
+
+impl Conductivity {
     /// K_xx/k, K_yy/k, K_xy/k for the fabric (F_xx − F_yy, 2 F_xy).
     #[inline(always)]
-    pub fn conductivity<V: Vector>(&self, x: &Features<V>, fabric: [V; 2]) -> [V; 3] {
-        let [one, s, p, z, zs, r, zz] = self.conductivity.map(V::all);
+    pub fn at<V: Vector>(&self, x: &Features<V>, fabric: [V; 2]) -> [V; 3] {
+        let [one, s, p, z, zs, r, zz] = self.mean.map(V::all);
         let of_loose = zz.fused(x.loose, zs.fused(x.root, z));
         let rest = p.fused(x.pressure, s.fused(x.root, one));
         let share = of_loose.fused(x.loose, r.fused(x.square, rest)).at_least(V::all(LEAST_CONDUCTIVITY));
         let mean = x.root.fused(share, V::all(CONDUCTIVITY_FLOOR));
-        let [of_stress, of_fabric] = self.anisotropy.map(V::all);
+        let [of_stress, of_fabric] = self.direction.map(V::all);
         let along = of_stress.fused(x.ratio[0], of_fabric * fabric[0]);
         let across = of_stress.fused(x.ratio[1], of_fabric * fabric[1]);
         let length = along.fused(along, across * across).sqrt();
@@ -98,19 +115,16 @@ impl Readout {
     }
 
     /// # Errors
-    /// [`SurrogateError::Field`] for numbers that are not finite or absurdly large.
+    /// As [`Readout::check`].
     pub fn check(&self) -> Result<(), SurrogateError> {
-        let lists: [(&str, &[f64]); 4] = [
-            ("conductivity", &self.conductivity),
-            ("overlap", &self.overlap),
-            ("anisotropy", &self.anisotropy),
-            ("fabric", self.fabric.as_flattened()),
-        ];
-        for (key, list) in lists {
-            if let Some(value) = list.iter().find(|value| value.is_nan() || value.abs() > 1e6) {
-                return field(&format!("readout.{key}"), value, "-1e6 to 1e6");
-            }
-        }
-        Ok(())
+        check("conductivities.mean", &self.mean)?;
+        check("conductivities.direction", &self.direction)
+    }
+}
+
+fn check(key: &str, coefficients: &[f64]) -> Result<(), SurrogateError> {
+    match coefficients.iter().find(|value| value.is_nan() || value.abs() > 1e6) {
+        Some(value) => field(key, value, "-1e6 to 1e6"),
+        None => Ok(()),
     }
 }

@@ -1,0 +1,73 @@
+//! Errors of the law along paths of strain.
+
+use super::core::{Core, FABRIC_INDEX, POROSITY};
+use super::paths::{Track, conductivities, follow, stresses};
+use serde::Serialize;
+
+/// Errors along the paths of one kind, root mean squares over all states but probes: p and q over the mean pressure of the
+/// path, K over its mean.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PathErrors {
+    pub name: String,
+    /// Number of grains in the boxes.
+    pub discs: usize,
+    pub paths: usize,
+    pub states: usize,
+    pub pressure: f64,
+    /// Of both components of the deviator together.
+    pub deviator: f64,
+    pub conductivity: f64,
+    /// Of (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy), both components together, absolute.
+    pub anisotropy: f64,
+    /// Absolute.
+    pub porosity: f64,
+    /// Absolute.
+    pub fabric_index: f64,
+}
+
+/// Errors by name of the path and number of grains.
+pub fn path_errors(core: &Core, tracks: &[Track]) -> Vec<PathErrors> {
+    let states = follow(core, tracks);
+    let mut kinds: Vec<(&str, usize)> = tracks.iter().map(|t| (t.name.as_str(), t.discs)).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let mut all = Vec::new();
+    for (name, discs) in kinds {
+        let (mut sums, mut count, mut paths) = ([0.0; 6], 0, 0);
+        for (track, states) in tracks.iter().zip(&states).filter(|(t, _)| t.name == name && t.discs == discs) {
+            let (found, means) = (stresses(core, states), conductivities(core, states));
+            let over = 1.0 / track.pressure().max(f64::MIN_POSITIVE);
+            paths += 1;
+            for (k, step) in track.steps.iter().enumerate().filter(|(_, s)| s.to.load_bearing && !s.probe) {
+                let (data, law, state) = (step.to.invariants(), found[k + 1], &states[k + 1]);
+                let error = [0, 1, 2].map(|c| (law[c] - data[c]) * over);
+                sums[0] += error[0] * error[0];
+                sums[1] += error[1] * error[1] + error[2] * error[2];
+                if let Some([xx, yy, xy]) = step.to.conductivity(core.conductivity.kind) {
+                    let [x, y, z] = means[k + 1];
+                    sums[2] += ((x + y) / (xx + yy) - 1.0).powi(2);
+                    let direction = |xx: f64, yy: f64, xy: f64| [(xx - yy) / (xx + yy), 2.0 * xy / (xx + yy)];
+                    let (a, b) = (direction(x, y, z), direction(xx, yy, xy));
+                    sums[3] += (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
+                }
+                sums[4] += (state[POROSITY] - step.to.porosity).powi(2);
+                sums[5] += (state[FABRIC_INDEX] - step.to.fabric_index).powi(2);
+                count += 1;
+            }
+        }
+        let rms = sums.map(|sum| (sum / f64::from(count.max(1))).sqrt());
+        all.push(PathErrors {
+            name: name.to_string(),
+            discs,
+            paths,
+            states: count as usize,
+            pressure: rms[0],
+            deviator: rms[1],
+            conductivity: rms[2],
+            anisotropy: rms[3],
+            porosity: rms[4],
+            fabric_index: rms[5],
+        });
+    }
+    all
+}

@@ -1,0 +1,323 @@
+//! The law of the increments with all that a case needs besides, as a [`Surrogate`].
+
+use super::core::{COLUMNS, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, NAMES, POROSITY, SHEAR};
+use super::errors::{PathErrors, path_errors};
+use super::mean::MeanStress;
+use super::number::Plain;
+use super::paths::Track;
+use super::readout::{Conductivity, Features};
+use super::start::start;
+use crate::SurrogateError;
+use crate::dataset::ConductivityKind;
+use crate::document::{field, hash, json, schema};
+use crate::kernel::LANES;
+use crate::kernel::vector::{Portable, Vector};
+use crate::network::WEIGHT_LIMIT;
+use crate::options::TrainingOptions;
+use crate::region::{Coordinates, MOST_COORDINATES, Region, Spread};
+use crate::scaling::Range;
+use crate::solid_fraction::SolidFraction;
+use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
+use crate::wall_friction::WallFriction;
+use serde::{Deserialize, Serialize};
+
+/// Name of the schema. Its number is increased when a reader of the old schema would misread the new one.
+pub const SCHEMA: &str = "msdd-increment-model-1";
+
+/// A trained model; the module [`super`] explains its law.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IncrementModel {
+    pub core: Core,
+    pub file: File,
+    pub(crate) hash: String,
+}
+
+/// The model file: JSON; every number is kept to the last bit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct File {
+    pub schema: String,
+    pub name: String,
+    pub ranges: Ranges,
+    pub law: super::law::Law,
+    pub readout: super::readout::Readout,
+    /// The first is the one that answers.
+    pub conductivities: Vec<Conductivity>,
+    pub mean_stress: MeanStress,
+    pub region: Region,
+    pub spread: Spread,
+    pub solid_fraction: SolidFraction,
+    pub wall_friction: Option<WallFriction>,
+    pub provenance: Provenance,
+}
+
+/// Ranges of the states and strains of the training.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ranges {
+    pub porosity: Range,
+    /// Of both components, symmetric.
+    pub fabric: Range,
+    pub jamming_fraction: Range,
+    pub elastic_compression: Range,
+    /// Of an element's shear strain, both components, symmetric.
+    pub elastic_shear: Range,
+    /// Of the packed radii, to the ends of all ramps.
+    pub thermal_strain: Range,
+    /// p̃.
+    pub pressure: Range,
+}
+
+/// How the model was made.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Provenance {
+    /// Version of the library that trained it.
+    pub library_version: String,
+    pub training: TrainingOptions,
+    pub report: Report,
+}
+
+/// Results of a training.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Report {
+    /// Packings that were fitted and held out, and their paths.
+    pub packings: [usize; 2],
+    pub paths: [usize; 2],
+    /// Numbers of the law that were fitted.
+    pub parameters: usize,
+    pub epochs: u32,
+    /// Mean square of the weighted residuals, of large ones less.
+    pub mean_square: f64,
+}
+
+impl IncrementModel {
+    pub(crate) fn of(file: File) -> Self {
+        let core = Core {
+            law: file.law.clone(),
+            readout: file.readout.clone(),
+            conductivity: file.conductivities[0].clone(),
+        };
+        let hash = hash(&(json(&file) + "\n"));
+        Self { core, file, hash }
+    }
+
+    /// The state of a cell with this porosity, fabric and stress (p̃, q̃₁, q̃₂).
+    fn state(&self, porosity: f64, fabric: [f64; 2], [p, q1, q2]: [f64; 3]) -> [f64; MAX_STATE] {
+        let found = start(&self.core.law, &self.core.readout, porosity, p, [q1, q2]);
+        let mut state = [0.0; MAX_STATE];
+        state[POROSITY] = porosity;
+        [state[FABRIC_INDEX], state[FABRIC_SHEAR]] = fabric;
+        state[JAMMING] = found.jamming;
+        state[COMPRESSION] = found.compression;
+        state[SHEAR..COLUMNS].copy_from_slice(found.shear.as_flattened());
+        state
+    }
+}
+
+impl Ranges {
+    /// For each state column.
+    fn columns(&self) -> [Range; COLUMNS] {
+        let Self { porosity, fabric, jamming_fraction, elastic_compression, elastic_shear: shear, .. } = *self;
+        [porosity, fabric, fabric, jamming_fraction, elastic_compression, shear, shear, shear, shear]
+    }
+
+    /// Porosity, length of the fabric, √p̃ and length of q̃/p̃, about from −1 to 1: they do not depend on the axes.
+    pub(crate) fn coordinates(&self, state: &[f64; MAX_STATE], features: &Features<f64>) -> Coordinates {
+        let mut point = [0.0; MOST_COORDINATES];
+        let over = |value: f64, range: &Range| {
+            (2.0 * value - range.min - range.max) / range.width().max(f64::MIN_POSITIVE)
+        };
+        point[0] = over(state[POROSITY], &self.porosity);
+        point[1] = 2.0 * state[FABRIC_INDEX].hypot(state[FABRIC_SHEAR]) / self.fabric.max - 1.0;
+        point[2] = 2.0 * features.root / self.pressure.max.sqrt() - 1.0;
+        point[3] = 2.0 * features.square.sqrt() / LARGEST_RATIO - 1.0;
+        point
+    }
+
+    fn check(&self) -> Result<(), SurrogateError> {
+        let all = [
+            ("porosity", self.porosity, 0.0, 1.0),
+            ("fabric", self.fabric, -1.0, 1.0),
+            ("jamming_fraction", self.jamming_fraction, 0.3, 1.3),
+            ("elastic_compression", self.elastic_compression, -0.9, 1.0),
+            ("elastic_shear", self.elastic_shear, -1.0, 1.0),
+            ("thermal_strain", self.thermal_strain, -0.5, 0.5),
+            ("pressure", self.pressure, 0.0, 1e3),
+        ];
+        match all.iter().find(|(_, Range { min, max }, low, high)| !(low <= min && min < max && max <= high)) {
+            Some((key, Range { min, max }, low, high)) => {
+                let found = format!("{min} to {max}, within {low} to {high}");
+                field(&format!("ranges.{key}"), found, "min < max, within what grains can have")
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// Number of coordinates of [`Ranges::coordinates`].
+pub(crate) const COORDINATES: usize = 4;
+/// About the largest q̃/p̃ of a packing.
+const LARGEST_RATIO: f64 = 0.4;
+
+/// Features of a state, one cell.
+pub(crate) fn features(core: &Core, state: &[f64; MAX_STATE]) -> Features<f64> {
+    let (block, mut answer) = (state.map(|value| [value; LANES]), Answer::default());
+    core.advance(&block, &Increment::default(), &mut answer, None);
+    let [xx, yy, xy] = answer.stress.map(|column| column[0]);
+    let stress = [0.5 * (xx + yy), 0.5 * (xx - yy), xy].map(|value| Plain(Portable::all(value)));
+    let loose = Portable::all(1.0 - state[JAMMING]);
+    let Features { pressure, root, loose, ratio, square } = Features::of(&stress, loose);
+    let number = Portable::into_first;
+    Features {
+        pressure: number(pressure),
+        root: number(root),
+        loose: number(loose),
+        ratio: ratio.map(number),
+        square: number(square),
+    }
+}
+
+/// Reads the text of a model file.
+///
+/// # Errors
+/// [`SurrogateError::Damaged`], [`SurrogateError::Schema`] or [`SurrogateError::Field`].
+pub fn read(text: &str) -> Result<IncrementModel, SurrogateError> {
+    let found = schema(text)?;
+    if found != SCHEMA {
+        return Err(SurrogateError::Schema { found, expected: SCHEMA });
+    }
+    let file: File =
+        serde_json::from_str(text).map_err(|error| SurrogateError::Damaged(error.to_string()))?;
+    file.check()?;
+    Ok(IncrementModel { hash: hash(text), ..IncrementModel::of(file) })
+}
+
+impl File {
+    fn check(&self) -> Result<(), SurrogateError> {
+        self.ranges.check()?;
+        self.law.check()?;
+        self.readout.check()?;
+        if self.conductivities.is_empty() {
+            return field("conductivities (count)", 0, "1 or more");
+        }
+        self.conductivities.iter().try_for_each(Conductivity::check)?;
+        self.mean_stress.check()?;
+        let Region { dimensions, support, states, spacing } = &self.region;
+        let sound = *dimensions == COORDINATES
+            && support.len() == Region::support_count(COORDINATES)
+            && !states.is_empty()
+            && *spacing > 0.0;
+        if !sound {
+            return field("region", format!("{dimensions} dimensions"), "4 dimensions, with states");
+        }
+        let Spread { pressure, conductivity, pressure_rate } = &self.spread;
+        if conductivity.len() != Spread::BINS || pressure_rate.len() != Spread::BINS {
+            return field("spread (bins)", conductivity.len(), "6");
+        }
+        if !(0.0 <= pressure.min && pressure.min <= pressure.max && pressure.max <= 1e3) {
+            return field("spread.pressure", format!("{} to {}", pressure.min, pressure.max), "0 to 1e3");
+        }
+        let unsound = |value: &&f64| !(0.0..=WEIGHT_LIMIT).contains(*value);
+        if let Some(value) = conductivity.iter().chain(pressure_rate).find(unsound) {
+            return field("spread", value, "0 to 1e9");
+        }
+        self.solid_fraction.check()?;
+        self.wall_friction.as_ref().map_or(Ok(()), WallFriction::check)
+    }
+}
+
+impl Surrogate for IncrementModel {
+    fn kind(&self) -> &'static str {
+        "increment"
+    }
+
+    fn name(&self) -> &str {
+        &self.file.name
+    }
+
+    fn hash(&self) -> &str {
+        &self.hash
+    }
+
+    fn training(&self) -> &TrainingOptions {
+        &self.file.provenance.training
+    }
+
+    fn conductivity_kind(&self) -> ConductivityKind {
+        self.core.conductivity.kind
+    }
+
+    fn conductivity_kinds(&self) -> Vec<ConductivityKind> {
+        self.file.conductivities.iter().map(|conductivity| conductivity.kind).collect()
+    }
+
+    fn answering_with(&self, kind: ConductivityKind) -> Option<Box<dyn Surrogate>> {
+        let conductivity = self.file.conductivities.iter().find(|conductivity| conductivity.kind == kind)?;
+        let mut model = self.clone();
+        model.core.conductivity = conductivity.clone();
+        Some(Box::new(model))
+    }
+
+    fn has_tangent(&self) -> bool {
+        true
+    }
+
+    fn path_errors(&self, tracks: &[Track]) -> Vec<PathErrors> {
+        path_errors(&self.core, tracks)
+    }
+
+    fn wall_friction(&self) -> Option<&WallFriction> {
+        self.file.wall_friction.as_ref()
+    }
+
+    fn to_json(&self) -> String {
+        json(&self.file) + "\n"
+    }
+
+    fn state_names(&self) -> &[&'static str] {
+        &NAMES
+    }
+
+    fn initial_state(&self, known: &Known) -> [f64; MAX_STATE] {
+        let fabric = [known.fabric_index, 2.0 * known.fabric_xy];
+        let stress = known.reduced_stress.map_or_else(
+            || self.file.mean_stress.at(known.porosity, fabric),
+            |[xx, yy, xy]| [0.5 * (xx + yy), 0.5 * (xx - yy), xy],
+        );
+        self.state(known.porosity, fabric, stress)
+    }
+
+    fn advance(
+        &self,
+        state: &StateLanes,
+        strain: &Increment,
+        answer: &mut Answer,
+        tangent: Option<&mut Tangent>,
+    ) {
+        self.core.advance(state, strain, answer, tangent);
+        let beyond = |value: f64, range: &Range| value - range.clamp(value);
+        for ((outside, column), range) in answer.outside.iter_mut().zip(state).zip(self.file.ranges.columns()) {
+            *outside = column.map(|value| beyond(value, &range));
+        }
+        let range = self.file.ranges.thermal_strain;
+        answer.outside[MAX_STATE] = strain.thermal.map(|value| beyond(value, &range));
+    }
+
+    fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt> {
+        let features = features(&self.core, state);
+        let point = self.file.ranges.coordinates(state, &features);
+        let [conductivity_spread, pressure_rate_spread] = self.file.spread.at(features.pressure);
+        Some(Doubt {
+            beyond_hull: self.file.region.beyond_hull(&point),
+            distance: self.file.region.distance(&point),
+            conductivity_spread,
+            pressure_rate_spread,
+        })
+    }
+
+    fn solid_fraction(&self, porosity: f64) -> f64 {
+        self.file.solid_fraction.at(porosity)
+    }
+}

@@ -1,0 +1,182 @@
+//! Training: the law is fitted to the stress along paths, then everything else to the states that it follows.
+
+use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR};
+use super::fit::{PathFit, fit, parameters, readouts};
+use super::mean::MeanStress;
+use super::model::{COORDINATES, File, IncrementModel, Provenance, Ranges, Report, SCHEMA, features};
+use super::paths::{Point, States, Track, conductivities, follow, stresses};
+use crate::SurrogateError;
+use crate::dataset::ConductivityKind;
+use crate::models::TrainingData;
+use crate::options::TrainingOptions;
+use crate::region::{Coordinates, Region, Spread};
+use crate::scaling::Range;
+use crate::solid_fraction::SolidFraction;
+use crate::surrogate::MAX_STATE;
+use crate::wall_friction::WallFriction;
+use std::collections::BTreeSet;
+
+/// Trains on paths of periodic boxes; wall friction is fitted when the data for it is there.
+///
+/// # Errors
+/// [`SurrogateError::Data`] for unusable data, [`SurrogateError::Option`] for unusable options.
+pub fn train(data: &TrainingData, options: &TrainingOptions) -> Result<IncrementModel, SurrogateError> {
+    train_without(data, options, &[])
+}
+
+/// As [`train`], with parameters that keep a value, by number.
+pub(crate) fn train_without(
+    data: &TrainingData,
+    options: &TrainingOptions,
+    fixed: &[(usize, f64)],
+) -> Result<IncrementModel, SurrogateError> {
+    options.check()?;
+    let held_out = data.split(options.seed)?.test;
+    let (unseen, seen): (Vec<Track>, Vec<Track>) =
+        data.tracks.iter().cloned().partition(|track| held_out.contains(&track.packing));
+    if seen.iter().map(|track| track.steps.len()).sum::<usize>() < LEAST_STEPS {
+        let text = "fewer than 100 states of periodic boxes, to which this kind of model is fitted";
+        return Err(SurrogateError::Data(text.to_string()));
+    }
+    let problem = PathFit { tracks: &seen, threads: options.threads_used(), fixed };
+    let (law, minimum) = fit(&problem, options.max_epochs, |_, _| ());
+    let states = follow(&Core::of(law.clone()), &seen);
+    if let Ok(path) = std::env::var("MSDD_DUMP") {
+        let mut text = String::from("packing,name,k,discs,probe,eta0,p,q1,q2,z,v,F1,F2,kxx,kyy,kxy,axx,ayy,eta,solid,pl\n");
+        let found: Vec<_> = states.iter().map(|s| stresses(&Core::of(law.clone()), s)).collect();
+        for ((track, states), found) in seen.iter().zip(&states).zip(&found) {
+            for (k, state) in states.iter().enumerate() {
+                let point = track.point(k);
+                if !point.load_bearing { continue; }
+                let probe = k > 0 && track.steps[k - 1].probe;
+                let [p, q1, q2] = point.invariants();
+                let [a, b, c] = point.network.unwrap_or([f64::NAN; 3]);
+                text += &format!("{},{},{k},{},{},{},{p},{q1},{q2},{},{},{},{},{a},{b},{c},{},{},{},{},{}\n", track.packing, track.name, track.discs, u8::from(probe), track.packed.porosity, 0.83 - state[JAMMING], state[COMPRESSION], point.fabric_index, point.fabric_shear.unwrap_or(f64::NAN), point.affine[0], point.affine[1], point.porosity, point.solid, found[k][0]);
+            }
+        }
+        std::fs::write(path, text).expect("dump");
+    }
+    let kinds = kinds(&seen);
+    let (readout, conductivities) = readouts(&law, &seen, &states, &kinds);
+    let packed: Vec<Point> = seen.iter().map(|track| track.packed).collect();
+    let core = Core { law, readout, conductivity: conductivities[0].clone() };
+    let ranges = ranges(&seen, &states);
+    let judged: &[Track] = if unseen.len() < LEAST_TRACKS { &seen } else { &unseen };
+    let report = Report {
+        packings: [packings(&seen), packings(&unseen)],
+        paths: [seen.len(), unseen.len()],
+        parameters: parameters(&core.law).len(),
+        epochs: minimum.epochs,
+        mean_square: minimum.mean_square,
+    };
+    let model = IncrementModel::of(File {
+        schema: SCHEMA.to_string(),
+        name: options.name.clone(),
+        ranges,
+        region: region(&core, &ranges, &states),
+        spread: spread(&core, &ranges, judged),
+        mean_stress: MeanStress::fit(&packed),
+        solid_fraction: SolidFraction::of(
+            packed.iter().filter(|point| point.load_bearing).map(|point| (point.porosity, point.solid)),
+        )?,
+        wall_friction: WallFriction::fit(&data.wall_slips),
+        law: core.law,
+        readout: core.readout,
+        conductivities,
+        provenance: Provenance {
+            library_version: env!("CARGO_PKG_VERSION").to_string(),
+            training: TrainingOptions { threads: 0, ..options.clone() },
+            report,
+        },
+    });
+    // Whatever the data were, a model that is written can be read.
+    super::model::read(&model_text(&model))
+}
+
+fn model_text(model: &IncrementModel) -> String {
+    crate::Surrogate::to_json(model)
+}
+
+/// Least number of states to which the law is fitted, and of paths by which its spread is judged.
+const LEAST_STEPS: usize = 100;
+const LEAST_TRACKS: usize = 20;
+
+fn packings(tracks: &[Track]) -> usize {
+    tracks.iter().map(|track| track.packing).collect::<BTreeSet<_>>().len()
+}
+
+/// Kinds of conductivity that all states have, the default one first.
+fn kinds(tracks: &[Track]) -> Vec<ConductivityKind> {
+    let network = |point: &Point| point.network.is_some();
+    let all = tracks
+        .iter()
+        .all(|track| network(&track.packed) && track.steps.iter().all(|step| network(&step.to)));
+    if all {
+        vec![ConductivityKind::Network, ConductivityKind::Affine]
+    } else {
+        vec![ConductivityKind::Affine]
+    }
+}
+
+fn ranges(tracks: &[Track], states: &[States]) -> Ranges {
+    let all = || states.iter().flatten();
+    let of = |column: usize| Range::of(all().map(|state| state[column]));
+    let symmetric = |columns: &[usize]| {
+        let largest = all().flat_map(|state| columns.iter().map(|k| state[*k].abs())).fold(0.0, f64::max);
+        Range { min: -largest, max: largest }
+    };
+    let (mut strain, mut pressure) = (Range { min: 0.0, max: 0.0 }, Range { min: 0.0, max: 0.0 });
+    for track in tracks {
+        let mut radius = vec![1.0];
+        for (k, step) in track.steps.iter().enumerate() {
+            radius.push(radius[step.from] * (1.0 + step.strain[0]));
+            strain.min = strain.min.min(radius[k + 1] - 1.0);
+            strain.max = strain.max.max(radius[k + 1] - 1.0);
+            pressure.max = pressure.max.max(step.to.invariants()[0]);
+        }
+    }
+    let shears: Vec<usize> = (SHEAR..super::core::COLUMNS).collect();
+    Ranges {
+        porosity: of(POROSITY),
+        fabric: symmetric(&[FABRIC_INDEX, FABRIC_SHEAR]),
+        jamming_fraction: of(JAMMING),
+        elastic_compression: of(COMPRESSION),
+        elastic_shear: symmetric(&shears),
+        thermal_strain: strain,
+        pressure,
+    }
+}
+
+/// About this many states describe the region.
+const REGION_STATES: usize = 20_000;
+
+fn region(core: &Core, ranges: &Ranges, states: &[States]) -> Region {
+    let all: Vec<&[f64; MAX_STATE]> = states.iter().flatten().collect();
+    let each = all.len().div_ceil(REGION_STATES).max(1);
+    let coordinates = |state: &&[f64; MAX_STATE]| ranges.coordinates(state, &features(core, state));
+    let points: Vec<Coordinates> = all.iter().step_by(each).map(coordinates).collect();
+    Region::of(&points, COORDINATES)
+}
+
+/// Scatter of the errors along these paths.
+fn spread(core: &Core, ranges: &Ranges, tracks: &[Track]) -> Spread {
+    let (mut conductivity, mut rate) = (Vec::new(), Vec::new());
+    for (track, states) in tracks.iter().zip(follow(core, tracks)) {
+        let (found, means) = (stresses(core, &states), conductivities(core, &states));
+        for (k, step) in track.steps.iter().enumerate().filter(|(_, step)| step.to.load_bearing && !step.probe) {
+            let (before, after) = (track.point(step.from).invariants()[0], step.to.invariants()[0]);
+            if step.strain[0].abs() > LEAST_STRAIN {
+                let error = (found[k + 1][0] - found[step.from][0]) - (after - before);
+                rate.push((before, error / step.strain[0]));
+            }
+            if let Some([xx, yy, _]) = step.to.conductivity(core.conductivity.kind) {
+                let [x, y, _] = means[k + 1];
+                conductivity.push((after, (x + y) / (xx + yy) - 1.0));
+            }
+        }
+    }
+    Spread::of(ranges.pressure, &conductivity, &rate)
+}
+
+/// Smallest thermal strain of a step from which a rate is taken.
+const LEAST_STRAIN: f64 = 1e-4;
