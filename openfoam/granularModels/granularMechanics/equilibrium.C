@@ -142,6 +142,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
             << exit(FatalIOError);
     }
 
+    grains_.letDeform(walls_.strength());
     readNodes(nodeDisplacement_, u_);
     readNodes(wallTraction_, traction_);
     for

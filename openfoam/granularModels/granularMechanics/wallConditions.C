@@ -20,6 +20,18 @@ License
 #include "symmetryPlanePolyPatch.H"
 #include "processorPolyPatch.H"
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Width of the layer beside a wall, in mean radii, and strength of its grains
+static const scalar usualLayer = 13;
+static const scalar usualLayerStrength = 1.5;
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 const Foam::Enum<Foam::wallConditions::kind>
@@ -122,8 +134,8 @@ void Foam::wallConditions::read
     (
         dict,
         {
-            "type", "friction", "slip", "displacement", "pressure",
-            "displacementCoeffs", "pressureCoeffs"
+            "type", "friction", "slip", "layer", "layerStrength",
+            "displacement", "pressure", "displacementCoeffs", "pressureCoeffs"
         }
     );
     w.type = kindNames.getOrDefault("type", dict, kind::rigid);
@@ -145,6 +157,14 @@ void Foam::wallConditions::read
         w.slip = granularProperties::ranged
         (
             dict, "slip", slip, 2e-7*radius_, 2000*radius_
+        );
+        w.layer = granularProperties::ranged
+        (
+            dict, "layer", usualLayer*radius_, 0, 1e6*radius_
+        );
+        w.layerStrength = granularProperties::ranged
+        (
+            dict, "layerStrength", usualLayerStrength, 0.1, 3
         );
     }
     if (w.type == kind::pressure)
@@ -260,6 +280,38 @@ void Foam::wallConditions::findFree()
             slip_[i][k] = count[i][k] > 0 ? slip[i][k]/count[i][k] : 1;
         }
     }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalarField Foam::wallConditions::strength() const
+{
+    const vectorField& C = mesh_.mesh().cellCentres();
+    scalarField result(C.size(), 1);
+
+    forAll(sides_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        if (w.friction <= 0)
+        {
+            continue;
+        }
+        scalar place = -GREAT;
+        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        {
+            place = max(place, w.outwards*mesh_.points()[e.first][w.axis]);
+        }
+        reduce(place, maxOp<scalar>());
+        forAll(result, celli)
+        {
+            if (place - w.outwards*C[celli][w.axis] < w.layer)
+            {
+                result[celli] = max(result[celli], w.layerStrength);
+            }
+        }
+    }
+    return result;
 }
 
 

@@ -70,6 +70,20 @@ void Foam::granularState::gather
 }
 
 
+void Foam::granularState::keepOrigin()
+{
+    forAll(state_, i)
+    {
+        origin_.values[i] = state_[i].primitiveField();
+    }
+    originStrain_ = 0;
+    forAll(rows_, row)
+    {
+        originStrain_[rows_[row]] = strain_[row];
+    }
+}
+
+
 Foam::label Foam::granularState::ask
 (
     columns& from,
@@ -260,6 +274,10 @@ void Foam::granularState::commit()
     cellSteps_ += mesh_.nCells();
     clamped_ += clampedNow_;
 
+    if (deforms_)
+    {
+        keepOrigin();
+    }
     forAll(state_, i)
     {
         const scalarField& from = after_.values[i];
@@ -299,6 +317,8 @@ Foam::granularState::memory Foam::granularState::remember() const
     now.increment = thermalStrainIncrement_.primitiveField();
     now.strain = thermalStrain_.primitiveField();
     now.lastStrain = lastStrain_;
+    now.origin = origin_.values;
+    now.originStrain = originStrain_;
     now.queries = queries_;
     now.asked = asked_;
     now.cellSteps = cellSteps_;
@@ -320,6 +340,11 @@ void Foam::granularState::restore(const memory& before)
     thermalStrainIncrement_.primitiveFieldRef() = before.increment;
     thermalStrain_.primitiveFieldRef() = before.strain;
     lastStrain_ = before.lastStrain;
+    forAll(before.origin, i)
+    {
+        origin_.values[i] = before.origin[i];
+    }
+    originStrain_ = before.originStrain;
     queries_ = before.queries;
     asked_ = before.asked;
     cellSteps_ = before.cellSteps;

@@ -25,15 +25,20 @@ Foam::granularState::presentStress() const
 }
 
 
-void Foam::granularState::tryStrain
-(
-    const strainColumns& strain,
-    stressColumns& stress,
-    tangentColumns& tangent
-)
+void Foam::granularState::letDeform(const scalarField& strength)
 {
     const label cells = mesh_.nCells();
+    const label column = model_->stateNames().find("strength");
 
+    if (column >= 0 && !strengthGiven_)
+    {
+        scalarField& now = state_[column].primitiveFieldRef();
+        now = max(now, strength);
+    }
+
+    deforms_ = true;
+    origin_.setSize(state_.size(), cells);
+    originStrain_.resize(cells, Zero);
     deformed_.setSize(state_.size(), cells);
     for
     (
@@ -44,26 +49,33 @@ void Foam::granularState::tryStrain
         }
     )
     {
-        column->resize(cells);
+        column->resize(cells, Zero);
     }
+    rows_.clear();
+    keepOrigin();
+}
+
+
+void Foam::granularState::tryStrain
+(
+    const strainColumns& strain,
+    stressColumns& stress,
+    tangentColumns& tangent
+)
+{
+    const label cells = mesh_.nCells();
     FixedList<scalar*, 9> derivatives;
     forAll(tangent, k)
     {
         tangent[k].resize(cells);
         derivatives[k] = tangent[k].data();
     }
-    presentState_.resize(state_.size());
-    forAll(state_, i)
-    {
-        presentState_[i] = state_[i].primitiveField().cdata();
-    }
-    zero_ = 0;
 
     granularModel::query query;
     query.size = cells;
-    query.state = presentState_.cdata();
+    query.state = origin_.pointers.cdata();
     query.nextState = deformed_.pointers.cdata();
-    query.strain = zero_.cdata();
+    query.strain = originStrain_.cdata();
     query.totalStrain = thermalStrain_.primitiveField().cdata();
     query.strainXX = strain.xx.cdata();
     query.strainYY = strain.yy.cdata();
@@ -92,6 +104,9 @@ void Foam::granularState::acceptStrain()
     {
         state_[i].primitiveFieldRef() = deformed_.values[i];
     }
+    // Further strains start from here
+    deformed_.swap(origin_);
+    originStrain_ = 0;
     K_ = deformedK_;
     stressXX_ = deformedXX_;
     stressYY_ = deformedYY_;

@@ -143,6 +143,8 @@ Foam::granularState::granularState
         extrapolatedCalculatedFvPatchScalarField::typeName
     ),
     refreshAlways_(false),
+    strengthGiven_(false),
+    deforms_(false),
     queries_(0),
     asked_(0),
     cellSteps_(0),
@@ -255,6 +257,7 @@ void Foam::granularState::readState()
         );
         if (field.valid())
         {
+            strengthGiven_ = strengthGiven_ || names[i] == "strength";
             read.set(i, field.release());
         }
     }

@@ -9,7 +9,7 @@ use crate::options::TrainingOptions;
 use crate::wall_friction::WallFriction;
 
 /// Largest number of state variables of any model.
-pub const MAX_STATE: usize = 9;
+pub const MAX_STATE: usize = 10;
 
 /// State columns of a block of cells; those beyond the model's [`Surrogate::state_names`] are zero.
 pub type StateLanes = [Lanes; MAX_STATE];

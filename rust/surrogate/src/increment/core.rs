@@ -17,7 +17,9 @@ pub const COMPRESSION: usize = 4;
 /// First of the elements' shear strains, two columns for each element.
 pub const SHEAR: usize = 5;
 /// Number of columns.
-pub const COLUMNS: usize = SHEAR + 2 * ELEMENTS;
+pub const COLUMNS: usize = STRENGTH + 1;
+/// The last column.
+pub const STRENGTH: usize = SHEAR + 2 * ELEMENTS;
 
 /// Names of the columns.
 pub const NAMES: [&str; COLUMNS] = [
@@ -30,6 +32,7 @@ pub const NAMES: [&str; COLUMNS] = [
     "elastic_shear_1_xy",
     "elastic_shear_2",
     "elastic_shear_2_xy",
+    "strength",
 ];
 
 /// What answers queries.
@@ -60,7 +63,7 @@ impl Core {
     /// A core that answers with stress and state, but not with overlaps, fabric and conductivity.
     pub fn of(law: Law) -> Self {
         let conductivity =
-            Conductivity { kind: ConductivityKind::Network, mean: [0.0; 7], direction: [0.0; 2] };
+            Conductivity { kind: ConductivityKind::Network, mean: [0.0; 11], direction: [0.0; 2] };
         Self { law, readout: Readout::default(), conductivity }
     }
 
@@ -120,6 +123,7 @@ impl Core {
             jamming: Dual::of(before.jamming.0),
             compression: Dual::of(before.compression.0),
             shear: [[Dual::of(V::zero()); 2]; ELEMENTS],
+            strength: Dual::of(before.strength.0),
         };
         for k in 0..ELEMENTS {
             from.shear[k] = [Dual::of(before.shear[k][0].0), Dual::of(before.shear[k][1].0)];
@@ -135,6 +139,7 @@ impl Core {
             jamming: Plain(next.jamming.value),
             compression: Plain(next.compression.value),
             shear: before.shear,
+            strength: before.strength,
         };
         for k in 0..ELEMENTS {
             values.shear[k] = [Plain(next.shear[k][0].value), Plain(next.shear[k][1].value)];
@@ -182,11 +187,12 @@ impl Core {
             keep(SHEAR + 2 * k, next.shear[k][0].0);
             keep(SHEAR + 2 * k + 1, next.shear[k][1].0);
         }
+        after.state[STRENGTH] = state[STRENGTH];
         let [Plain(p), Plain(q1), Plain(q2)] = stress;
         (p + q1).write(&mut after.stress[0]);
         (p - q1).write(&mut after.stress[1]);
         q2.write(&mut after.stress[2]);
-        let conductivity = self.conductivity.at(&features, fabric);
+        let conductivity = self.conductivity.at(&features, porosity, fabric);
         for k in 0..3 {
             conductivity[k].write(&mut after.conductivity[k]);
         }
@@ -208,6 +214,8 @@ const MOST_JAMMING: f64 = 1.3;
 const LEAST_COMPRESSION: f64 = -0.9;
 const MOST_COMPRESSION: f64 = 1.0;
 const MOST_SHEAR: f64 = 1.0;
+const LEAST_STRENGTH: f64 = 0.01;
+const MOST_STRENGTH: f64 = 3.0;
 const MOST_STRAIN: f64 = 0.5;
 const MOST_TURN: f64 = 1.0;
 
@@ -229,7 +237,8 @@ fn elastic<V: Vector>(state: &StateLanes) -> Elastic<Plain<V>> {
     for k in 0..ELEMENTS {
         all[k] = [shear(SHEAR + 2 * k), shear(SHEAR + 2 * k + 1)];
     }
-    Elastic { jamming, compression, shear: all }
+    let strength = between(STRENGTH, LEAST_STRENGTH, MOST_STRENGTH);
+    Elastic { jamming, compression, shear: all, strength }
 }
 
 const _: () = assert!(COLUMNS <= MAX_STATE);

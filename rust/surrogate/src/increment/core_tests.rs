@@ -27,7 +27,7 @@ pub(crate) fn core() -> Core {
         },
         conductivity: Conductivity {
             kind: ConductivityKind::Network,
-            mean: [1.1, 1.8, -1.5, -3.0, 2.0, -0.5, 0.0],
+            mean: [1.3, 0.5, -0.5, -0.5, 0.0, -4.0, 3.0, 0.0, 0.0, 0.0, 0.0],
             direction: [0.335, 1.0],
         },
     }
@@ -311,4 +311,20 @@ fn speed() {
         }
         println!("{with} {:.1} ns a cell", begin.elapsed().as_secs_f64() * 1e9 / 200_000.0 / LANES as f64);
     }
+}
+
+#[test]
+fn stronger_packings_bear_more() {
+    let mut ends = Vec::new();
+    for strength in [1.0, 1.3] {
+        let mut state = packed(0.12, 0.058, [0.1, 0.0]);
+        state[STRENGTH] = strength;
+        let mut stress = [0.0; 3];
+        for _ in 0..100 {
+            (state, stress, _) = advanced(&state, [0.0, 0.0, 0.0, 5e-3, 0.0]);
+        }
+        let [xx, yy, xy] = stress;
+        ends.push((0.5 * (xx - yy)).hypot(xy) / (0.5 * (xx + yy)));
+    }
+    assert!((ends[1] / ends[0] - 1.3).abs() < 0.02, "{ends:?}");
 }

@@ -1,10 +1,10 @@
 //! Fit of the law to paths of strain: least squares of the stress along them.
 
-use super::core::{COMPRESSION, Core, JAMMING, SHEAR};
+use super::core::{COMPRESSION, Core, JAMMING, SHEAR, STRENGTH};
 use super::law::{ELEMENTS, Elastic, Element, Law};
 use super::number::Plain;
 use super::paths::{Point, States, Track, follow, stresses};
-use super::readout::{Conductivity, Features, Readout};
+use super::readout::{Conductivity, Features, Readout, conductivity_row};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::{Portable, Vector};
 use crate::least_squares;
@@ -201,7 +201,7 @@ const LEAST_PRESSURE: f64 = 1e-3;
 /// A state of the database beside the law's.
 struct Seen<'a> {
     point: &'a Point,
-    features: Scalars,
+    features: Features<f64>,
     /// Elements' shear strains, without and with G/A, minus those of the packing; component along, across.
     sheared: [[[f64; 2]; 2]; ELEMENTS],
     /// Fabric minus that of the packing.
@@ -209,27 +209,9 @@ struct Seen<'a> {
 }
 
 /// Features of the measured stress and the law's looseness.
-struct Scalars {
-    pressure: f64,
-    root: f64,
-    loose: f64,
-    ratio: [f64; 2],
-    square: f64,
-}
-
-impl Scalars {
-    fn of(point: &Point, loose: f64) -> Self {
-        let stress = point.invariants().map(|value| Plain(Portable::all(value)));
-        let features = Features::of(&stress, Portable::all(loose));
-        let number = Portable::into_first;
-        Self {
-            pressure: number(features.pressure),
-            root: number(features.root),
-            loose: number(features.loose),
-            ratio: features.ratio.map(number),
-            square: number(features.square),
-        }
-    }
+fn features(point: &Point, loose: f64) -> Features<f64> {
+    let stress = point.invariants().map(|value| Plain(Portable::all(value)));
+    Features::of(&stress, Portable::all(loose)).first()
 }
 
 /// Fits overlaps and fabric, and each kind of conductivity, to the states of tracks that the law has followed.
@@ -251,7 +233,7 @@ pub fn readouts(
             let difference = |e: usize, kind: usize, c: usize| now[e][kind][c] - start[e][kind][c];
             all.push(Seen {
                 point,
-                features: Scalars::of(point, looseness(state)),
+                features: features(point, looseness(state)),
                 sheared: std::array::from_fn(|e| [0, 1].map(|kind| [0, 1].map(|c| difference(e, kind, c)))),
                 fabric: [
                     (k > 0).then(|| point.fabric_index - track.packed.fabric_index),
@@ -283,8 +265,8 @@ fn conductivity(all: &[Seen], kind: ConductivityKind) -> Conductivity {
     let mean = all.iter().filter_map(|seen| {
         let ([xx, yy, _], x) = (seen.point.conductivity(kind)?, &seen.features);
         let mean = 0.5 * (xx + yy);
-        let row = [1.0, x.root, x.pressure, x.loose, x.loose * x.root, x.square, x.loose * x.loose];
-        Some((row.map(|value| value * x.root / mean), 1.0, 1.0))
+        let row = conductivity_row(&x.everywhere(), Portable::all(seen.point.porosity));
+        Some((row.map(|value| value.into_first() * x.root / mean), 1.0, 1.0))
     });
     let direction = all.iter().flat_map(|seen| {
         let [xx, yy, xy] = seen.point.conductivity(kind).unwrap_or([0.0; 3]);
@@ -307,6 +289,7 @@ fn elastic(state: &[f64; MAX_STATE]) -> Elastic<Plain<Portable>> {
         jamming: column(JAMMING),
         compression: column(COMPRESSION),
         shear: std::array::from_fn(|k| [column(SHEAR + 2 * k), column(SHEAR + 2 * k + 1)]),
+        strength: column(STRENGTH),
     }
 }
 

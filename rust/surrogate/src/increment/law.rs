@@ -58,6 +58,8 @@ pub struct Elastic<N> {
     pub compression: N,
     /// Elastic shear strain of each element: γ₁ = e_yy − e_xx and γ₂ = −2 e_xy.
     pub shear: [[N; 2]; ELEMENTS],
+    /// Factor of all elements' strengths, which does not change: 1 but for packings that bear more.
+    pub strength: N,
 }
 
 impl<N: Number> Elastic<N> {
@@ -158,6 +160,7 @@ impl Law {
         let loose = state.looseness();
         let moduli = self.moduli(tried, loose);
         let more = loose.times(self.dilatancy_of_looseness);
+        let weaker = state.strength.inverse();
         let (mut shear, mut lengths, mut loss) = (state.shear, [zero; ELEMENTS], zero);
         for k in 0..ELEMENTS {
             let Element { share, strength, dilatancy } = self.elements[k];
@@ -167,9 +170,9 @@ impl Law {
             let [along, across] = shear[k];
             let length = (along * along + across * across).plus(TINY).sqrt();
             // Elastic load of the element over its strength.
-            let load = (moduli.ratio * length).times(share / strength);
+            let load = (moduli.ratio * length * weaker).times(share / strength);
             let kept = load.where_greater(one, load.inverse(), one);
-            let (climbing, least) = (more.plus(dilatancy), N::all(-MOST_CLIMBING * strength));
+            let (climbing, least) = (more.plus(dilatancy), state.strength.times(-MOST_CLIMBING * strength));
             loss = loss + length * (one - kept) * climbing.where_greater(least, climbing, least);
             shear[k] = [along * kept, across * kept];
             lengths[k] = length * kept;
@@ -178,13 +181,13 @@ impl Law {
         let loss = tried.where_greater(zero, loss, zero);
         let compression = tried - loss;
         let jamming = state.jamming * (tried.plus(1.0) * compression.plus(1.0).inverse());
-        let next = Elastic { jamming, compression, shear };
+        let next = Elastic { jamming, compression, shear, strength: state.strength };
         // The strength changes with the compression.
         let moduli = self.moduli(compression, next.looseness());
         let mut shear = shear;
         for k in 0..ELEMENTS {
             let Element { share, strength, .. } = self.elements[k];
-            let load = (moduli.ratio * lengths[k]).times(share / strength);
+            let load = (moduli.ratio * lengths[k] * weaker).times(share / strength);
             let kept = load.where_greater(one, load.inverse(), one);
             shear[k] = [shear[k][0] * kept, shear[k][1] * kept];
         }

@@ -1,6 +1,6 @@
 //! The law of the increments with all that a case needs besides, as a [`Surrogate`].
 
-use super::core::{COLUMNS, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, NAMES, POROSITY, SHEAR};
+use super::core::{COLUMNS, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, NAMES, POROSITY, SHEAR, STRENGTH};
 use super::errors::{PathErrors, path_errors};
 use super::mean::MeanStress;
 use super::number::Plain;
@@ -62,6 +62,7 @@ pub struct Ranges {
     pub elastic_compression: Range,
     /// Of an element's shear strain, both components, symmetric.
     pub elastic_shear: Range,
+    pub strength: Range,
     /// Of the packed radii, to the ends of all ramps.
     pub thermal_strain: Range,
     /// p̃.
@@ -111,7 +112,8 @@ impl IncrementModel {
         [state[FABRIC_INDEX], state[FABRIC_SHEAR]] = fabric;
         state[JAMMING] = found.jamming;
         state[COMPRESSION] = found.compression;
-        state[SHEAR..COLUMNS].copy_from_slice(found.shear.as_flattened());
+        state[SHEAR..STRENGTH].copy_from_slice(found.shear.as_flattened());
+        state[STRENGTH] = found.strength;
         state
     }
 }
@@ -120,7 +122,8 @@ impl Ranges {
     /// For each state column.
     fn columns(&self) -> [Range; COLUMNS] {
         let Self { porosity, fabric, jamming_fraction, elastic_compression, elastic_shear: shear, .. } = *self;
-        [porosity, fabric, fabric, jamming_fraction, elastic_compression, shear, shear, shear, shear]
+        let strength = self.strength;
+        [porosity, fabric, fabric, jamming_fraction, elastic_compression, shear, shear, shear, shear, strength]
     }
 
     /// Porosity, length of the fabric, √p̃ and length of q̃/p̃, about from −1 to 1: they do not depend on the axes.
@@ -143,6 +146,7 @@ impl Ranges {
             ("jamming_fraction", self.jamming_fraction, 0.3, 1.3),
             ("elastic_compression", self.elastic_compression, -0.9, 1.0),
             ("elastic_shear", self.elastic_shear, -1.0, 1.0),
+            ("strength", self.strength, 0.01, 3.0),
             ("thermal_strain", self.thermal_strain, -0.5, 0.5),
             ("pressure", self.pressure, 0.0, 1e3),
         ];
@@ -167,16 +171,7 @@ pub(crate) fn features(core: &Core, state: &[f64; MAX_STATE]) -> Features<f64> {
     core.advance(&block, &Increment::default(), &mut answer, None);
     let [xx, yy, xy] = answer.stress.map(|column| column[0]);
     let stress = [0.5 * (xx + yy), 0.5 * (xx - yy), xy].map(|value| Plain(Portable::all(value)));
-    let loose = Portable::all(1.0 - state[JAMMING]);
-    let Features { pressure, root, loose, ratio, square } = Features::of(&stress, loose);
-    let number = Portable::into_first;
-    Features {
-        pressure: number(pressure),
-        root: number(root),
-        loose: number(loose),
-        ratio: ratio.map(number),
-        square: number(square),
-    }
+    Features::of(&stress, Portable::all(1.0 - state[JAMMING])).first()
 }
 
 /// Reads the text of a model file.

@@ -1,7 +1,7 @@
 //! Paths of strain in periodic boxes, on which the law is fitted and judged.
 
-use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR};
-use super::law::{ELEMENTS, Law};
+use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR, STRENGTH};
+use super::law::Law;
 use super::start::start_of_solid;
 use crate::dataset::ConductivityKind;
 use crate::kernel::{LANES, Lanes};
@@ -102,9 +102,8 @@ pub fn packed(law: &Law, point: &Point) -> [f64; MAX_STATE] {
     state[FABRIC_SHEAR] = point.fabric_shear.unwrap_or(0.0);
     state[JAMMING] = found.jamming;
     state[COMPRESSION] = found.compression;
-    for k in 0..ELEMENTS {
-        state[SHEAR + 2 * k..SHEAR + 2 * k + 2].copy_from_slice(&found.shear[k]);
-    }
+    state[SHEAR..STRENGTH].copy_from_slice(found.shear.as_flattened());
+    state[STRENGTH] = found.strength;
     state
 }
 

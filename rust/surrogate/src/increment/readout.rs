@@ -5,7 +5,7 @@ use super::law::{ELEMENTS, Elastic, Stress};
 use super::number::Plain;
 use crate::SurrogateError;
 use crate::document::field;
-use crate::kernel::vector::Vector;
+use crate::kernel::vector::{Portable, Vector};
 use serde::{Deserialize, Serialize};
 
 /// Overlaps and fabric. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`].
@@ -24,8 +24,9 @@ pub struct Readout {
 #[serde(deny_unknown_fields)]
 pub struct Conductivity {
     pub kind: ConductivityKind,
-    /// Mean conductivity over that of the grains, K/(k s): coefficients of 1, s, p̃, z, z s, r², z².
-    pub mean: [f64; 7],
+    /// Mean conductivity over that of the grains, K/(k s): coefficients of 1, s, p̃, r², s r², x, x s, x p̃, x r², x², s x², with
+    /// the porosity x above [`USUAL_POROSITY`].
+    pub mean: [f64; 11],
     /// (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy): coefficients of q̃/p̃ and of the fabric.
     pub direction: [f64; 2],
 }
@@ -53,6 +54,35 @@ pub struct Features<V> {
     pub square: V,
 }
 
+impl Features<Portable> {
+    /// Those of the first cell.
+    pub fn first(self) -> Features<f64> {
+        let Self { pressure, root, loose, ratio, square } = self;
+        let number = Portable::into_first;
+        Features {
+            pressure: number(pressure),
+            root: number(root),
+            loose: number(loose),
+            ratio: ratio.map(number),
+            square: number(square),
+        }
+    }
+}
+
+impl Features<f64> {
+    /// The same in all cells.
+    pub fn everywhere(&self) -> Features<Portable> {
+        let all = Portable::all;
+        Features {
+            pressure: all(self.pressure),
+            root: all(self.root),
+            loose: all(self.loose),
+            ratio: self.ratio.map(all),
+            square: all(self.square),
+        }
+    }
+}
+
 impl<V: Vector> Features<V> {
     #[inline(always)]
     pub fn of(stress: &Stress<Plain<V>>, loose: V) -> Self {
@@ -63,6 +93,17 @@ impl<V: Vector> Features<V> {
         Self { pressure: p, root: p.sqrt(), loose, ratio, square }
     }
 }
+
+/// Terms of K/(k s), see [`Conductivity::mean`].
+#[inline(always)]
+pub fn conductivity_row<V: Vector>(features: &Features<V>, porosity: V) -> [V; 11] {
+    let Features { pressure: p, root: s, square: r, .. } = *features;
+    let x = porosity - V::all(USUAL_POROSITY);
+    [V::all(1.0), s, p, r, s * r, x, x * s, x * p, x * r, x * x, s * (x * x)]
+}
+
+/// Porosity from which that of the packings is measured [-].
+const USUAL_POROSITY: f64 = 0.12;
 
 impl Readout {
     /// o [-]: the part of the plane that overlaps cover.
@@ -95,13 +136,15 @@ impl Readout {
 }
 
 impl Conductivity {
-    /// K_xx/k, K_yy/k, K_xy/k for the fabric (F_xx − F_yy, 2 F_xy).
+    /// K_xx/k, K_yy/k, K_xy/k at a porosity and a fabric (F_xx − F_yy, 2 F_xy).
     #[inline(always)]
-    pub fn at<V: Vector>(&self, x: &Features<V>, fabric: [V; 2]) -> [V; 3] {
-        let [one, s, p, z, zs, r, zz] = self.mean.map(V::all);
-        let of_loose = zz.fused(x.loose, zs.fused(x.root, z));
-        let rest = p.fused(x.pressure, s.fused(x.root, one));
-        let share = of_loose.fused(x.loose, r.fused(x.square, rest)).at_least(V::all(LEAST_CONDUCTIVITY));
+    pub fn at<V: Vector>(&self, x: &Features<V>, porosity: V, fabric: [V; 2]) -> [V; 3] {
+        let row = conductivity_row(x, porosity);
+        let mut share = V::all(self.mean[0]);
+        for k in 1..row.len() {
+            share = row[k].fused(V::all(self.mean[k]), share);
+        }
+        let share = share.at_least(V::all(LEAST_CONDUCTIVITY));
         let mean = x.root.fused(share, V::all(CONDUCTIVITY_FLOOR));
         let [of_stress, of_fabric] = self.direction.map(V::all);
         let along = of_stress.fused(x.ratio[0], of_fabric * fabric[0]);

@@ -11,12 +11,15 @@ pub struct Start {
     pub jamming: f64,
     pub compression: f64,
     pub shear: [[f64; 2]; ELEMENTS],
+    pub strength: f64,
 }
 
 /// Number of bisections: the interval becomes smaller than rounding.
 const HALVINGS: usize = 60;
 /// Number of rounds in which φ_s and v, which depend on each other by the overlaps, are found.
 const ROUNDS: usize = 20;
+/// Largest factor of the strengths: grains that bear twice as much are not known.
+const MOST_STRENGTH: f64 = 2.0;
 /// Largest v that is looked for.
 const LARGEST: f64 = 0.6;
 
@@ -42,14 +45,15 @@ pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviato
 }
 
 /// The state with the solid fraction φ_s, pressure p̃ and deviator (q̃₁, q̃₂). The elements share the deviator as after a
-/// proportional load from zero: each bears its part of the shear strain until it slides. A deviator that is larger than all
-/// strengths is borne as far as they go.
+/// proportional load from zero: each bears its part of the shear strain until it slides. A packing that bears a deviator larger
+/// than all strengths has larger strengths, by a common factor.
 pub fn start_of_solid(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> Start {
     let (state, _) = loaded(law, solid, pressure, deviator);
     Start {
         jamming: number(state.jamming),
         compression: number(state.compression),
         shear: state.shear.map(|shear| shear.map(number)),
+        strength: number(state.strength),
     }
 }
 
@@ -64,10 +68,12 @@ fn loaded(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> (Elastic<
 /// State and stress at a compression whose elements bear a deviator of this size.
 fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -> (Elastic<Cell>, [Cell; 3]) {
     let (jamming, v) = (cell(solid / (1.0 + compression)), cell(compression));
-    let unsheared = Elastic { jamming, compression: v, shear: [[cell(0.0); 2]; ELEMENTS] };
+    let unsheared = Elastic { jamming, compression: v, shear: [[cell(0.0); 2]; ELEMENTS], strength: cell(1.0) };
     let moduli = law.moduli(v, unsheared.looseness());
     let (ratio, pressure) = (number(moduli.ratio), number(moduli.pressure));
-    let limits = law.elements.map(|element| element.strength / (element.share * ratio));
+    let all: f64 = law.elements.iter().map(|element| element.strength).sum();
+    let strength = if pressure > 0.0 { (size / (all * pressure)).clamp(1.0, MOST_STRENGTH) } else { 1.0 };
+    let limits = law.elements.map(|element| strength * element.strength / (element.share * ratio));
     let stiffness = ratio * pressure;
     let borne = |common: f64| -> f64 {
         let parts = law.elements.iter().zip(limits);
@@ -75,7 +81,7 @@ fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -
     };
     let common = if size > 0.0 { halved([0.0, 1.0], |common| borne(common) < size) } else { 0.0 };
     let shear = limits.map(|limit| direction.map(|d| cell(d * common.min(limit))));
-    let state = Elastic { shear, ..unsheared };
+    let state = Elastic { shear, strength: cell(strength), ..unsheared };
     (state, law.stress(&state, &moduli))
 }
 

@@ -1,6 +1,6 @@
 //! Training: the law is fitted to the stress along paths, then everything else to the states that it follows.
 
-use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR};
+use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR, STRENGTH};
 use super::fit::{PathFit, fit, parameters, readouts};
 use super::mean::MeanStress;
 use super::model::{COORDINATES, File, IncrementModel, Provenance, Ranges, Report, SCHEMA, features};
@@ -135,17 +135,21 @@ fn ranges(tracks: &[Track], states: &[States]) -> Ranges {
             pressure.max = pressure.max.max(step.to.invariants()[0]);
         }
     }
-    let shears: Vec<usize> = (SHEAR..super::core::COLUMNS).collect();
+    let shears: Vec<usize> = (SHEAR..STRENGTH).collect();
     Ranges {
         porosity: of(POROSITY),
         fabric: symmetric(&[FABRIC_INDEX, FABRIC_SHEAR]),
         jamming_fraction: of(JAMMING),
         elastic_compression: of(COMPRESSION),
         elastic_shear: symmetric(&shears),
+        strength: Range { min: 1.0, max: of(STRENGTH).max.max(USUAL_STRENGTH) },
         thermal_strain: strain,
         pressure,
     }
 }
+
+/// Factors of the strengths up to this one count as known.
+const USUAL_STRENGTH: f64 = 1.2;
 
 /// About this many states describe the region.
 const REGION_STATES: usize = 20_000;
