@@ -269,7 +269,11 @@ void Foam::granularState::readState()
     if (missing || names.size() == 2)
     {
         const auto stress(given<symmTensor>("stress", dimPressure));
-        scalarField xx, yy, xy;
+        const auto conductivity
+        (
+            given<symmTensor>("conductivity", conductivity_.dimensions())
+        );
+        scalarField xx, yy, xy, Kxx, Kyy, Kxy;
         granularModel::known known;
         known.size = mesh_.nCells();
         if (stress.valid())
@@ -283,6 +287,18 @@ void Foam::granularState::readState()
             {
                 xy = -stress().primitiveField().component(symmTensor::XY);
                 known.stressXY = xy.cdata();
+            }
+        }
+        if (conductivity.valid() && missing)
+        {
+            Kxx = conductivity().primitiveField().component(symmTensor::XX);
+            Kyy = conductivity().primitiveField().component(symmTensor::YY);
+            known.conductivityXX = Kxx.cdata();
+            known.conductivityYY = Kyy.cdata();
+            if (!model_->diagonal())
+            {
+                Kxy = conductivity().primitiveField().component(symmTensor::XY);
+                known.conductivityXY = Kxy.cdata();
             }
         }
 

@@ -178,6 +178,9 @@ void Foam::granularModels::surrogateModel::initialState
     initial.stress_xx = cells.stressXX;
     initial.stress_yy = cells.stressYY;
     initial.stress_xy = cells.stressXY;
+    initial.conductivity_xx = cells.conductivityXX;
+    initial.conductivity_yy = cells.conductivityYY;
+    initial.conductivity_xy = cells.conductivityXY;
 
     try
     {

@@ -146,10 +146,13 @@ pub struct msdd_initial {
     pub stress_xx: *const f64,
     pub stress_yy: *const f64,
     pub stress_xy: *const f64,
+    pub conductivity_xx: *const f64,
+    pub conductivity_yy: *const f64,
+    pub conductivity_xy: *const f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_initial"][::core::mem::size_of::<msdd_initial>() - 64usize];
+    ["Size of msdd_initial"][::core::mem::size_of::<msdd_initial>() - 88usize];
     ["Alignment of msdd_initial"][::core::mem::align_of::<msdd_initial>() - 8usize];
     [
         "Offset of field: msdd_initial::struct_size",
@@ -175,6 +178,15 @@ const _: () = {
     [
         "Offset of field: msdd_initial::stress_xy",
     ][::core::mem::offset_of!(msdd_initial, stress_xy) - 56usize];
+    [
+        "Offset of field: msdd_initial::conductivity_xx",
+    ][::core::mem::offset_of!(msdd_initial, conductivity_xx) - 64usize];
+    [
+        "Offset of field: msdd_initial::conductivity_yy",
+    ][::core::mem::offset_of!(msdd_initial, conductivity_yy) - 72usize];
+    [
+        "Offset of field: msdd_initial::conductivity_xy",
+    ][::core::mem::offset_of!(msdd_initial, conductivity_xy) - 80usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -293,11 +305,14 @@ pub struct msdd_plugin_start {
     pub stress_xx: *const f64,
     pub stress_yy: *const f64,
     pub stress_xy: *const f64,
+    pub conductivity_xx: *const f64,
+    pub conductivity_yy: *const f64,
+    pub conductivity_xy: *const f64,
     pub state: *const *mut f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_plugin_start"][::core::mem::size_of::<msdd_plugin_start>() - 72usize];
+    ["Size of msdd_plugin_start"][::core::mem::size_of::<msdd_plugin_start>() - 96usize];
     [
         "Alignment of msdd_plugin_start",
     ][::core::mem::align_of::<msdd_plugin_start>() - 8usize];
@@ -326,8 +341,17 @@ const _: () = {
         "Offset of field: msdd_plugin_start::stress_xy",
     ][::core::mem::offset_of!(msdd_plugin_start, stress_xy) - 56usize];
     [
+        "Offset of field: msdd_plugin_start::conductivity_xx",
+    ][::core::mem::offset_of!(msdd_plugin_start, conductivity_xx) - 64usize];
+    [
+        "Offset of field: msdd_plugin_start::conductivity_yy",
+    ][::core::mem::offset_of!(msdd_plugin_start, conductivity_yy) - 72usize];
+    [
+        "Offset of field: msdd_plugin_start::conductivity_xy",
+    ][::core::mem::offset_of!(msdd_plugin_start, conductivity_xy) - 80usize];
+    [
         "Offset of field: msdd_plugin_start::state",
-    ][::core::mem::offset_of!(msdd_plugin_start, state) - 64usize];
+    ][::core::mem::offset_of!(msdd_plugin_start, state) - 88usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]

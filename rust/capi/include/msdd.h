@@ -130,6 +130,10 @@ typedef struct msdd_initial {
     const double *stress_xx;           /**< [Pa], -1e30 to 1e30; NULL = not known; both or none */
     const double *stress_yy;           /**< [Pa] */
     const double *stress_xy;           /**< [Pa]; NULL = 0 */
+    const double *conductivity_xx;     /**< [W/(m K)], above 0, to 1e30; NULL = not known; both or none. A packing that
+                                            conducts better than others of its state keeps doing so */
+    const double *conductivity_yy;     /**< [W/(m K)] */
+    const double *conductivity_xy;     /**< [W/(m K)]; NULL = 0 */
 } msdd_initial;
 
 /** Loads a model. `source`: NULL or "builtin" for the default model compiled into the library ("builtin:increment";
@@ -309,6 +313,9 @@ typedef struct msdd_plugin_start {
     const double *stress_xx;           /**< reduced, compression positive; NULL = not known; all or none */
     const double *stress_yy;
     const double *stress_xy;
+    const double *conductivity_xx;     /**< K_xx/k; NULL = not known; all or none */
+    const double *conductivity_yy;
+    const double *conductivity_xy;
     double *const *state;              /**< out: state_size columns; the first two are the given porosity and
                                             fabric_index, which a plug-in may not change */
 } msdd_plugin_start;

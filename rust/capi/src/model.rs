@@ -48,6 +48,10 @@ pub(crate) struct Start<'a> {
     pub stress: Option<[Input<'a>; 2]>,
     /// σ_xy [Pa].
     pub stress_xy: Option<Input<'a>>,
+    /// K_xx, K_yy [W/(m K)].
+    pub conductivity: Option<[Input<'a>; 2]>,
+    /// K_xy [W/(m K)].
+    pub conductivity_xy: Option<Input<'a>>,
 }
 
 /// A model of the crate [`msdd_surrogate`].
@@ -115,6 +119,10 @@ impl BatchModel for Own {
                 reduced_stress: start.stress.map(|[xx, yy]| {
                     let xy = start.stress_xy.map_or(0.0, |column| column.at(cell));
                     [xx.at(cell), yy.at(cell), xy].map(|stress| si.reduced(stress))
+                }),
+                conductivity: start.conductivity.map(|[xx, yy]| {
+                    let xy = start.conductivity_xy.map_or(0.0, |column| column.at(cell));
+                    [xx.at(cell), yy.at(cell), xy].map(|k| si.of_grains(k))
                 }),
             };
             for (column, value) in state.iter().zip(self.0.initial_state(&known)) {
@@ -193,12 +201,19 @@ impl BatchModel for Plugin {
             let xy = start.stress_xy.as_ref().map_or_else(|| vec![0.0; start.cells], reduced);
             [reduced(&xx), reduced(&yy), xy]
         });
+        let of_grains =
+            |input: &Input| column(input).iter().map(|k| si.of_grains(*k)).collect::<Vec<f64>>();
+        let conductivity = start.conductivity.map(|[xx, yy]| {
+            let xy = start.conductivity_xy.as_ref().map_or_else(|| vec![0.0; start.cells], of_grains);
+            [of_grains(&xx), of_grains(&yy), xy]
+        });
         let fabric_xy = start.fabric_xy.as_ref().map(column);
         let known = msdd_plugin::Start {
             porosity: &column(&start.porosity),
             fabric_index: &column(&start.fabric_index),
             fabric_xy: fabric_xy.as_deref(),
             stress: stress.as_ref().map(|stress| stress.each_ref().map(Vec::as_slice)),
+            conductivity: conductivity.as_ref().map(|k| k.each_ref().map(Vec::as_slice)),
         };
         for (output, values) in state.iter().zip(Plugin::initial_state(self, &known)?) {
             output.write_all(&values);

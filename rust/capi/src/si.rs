@@ -32,6 +32,11 @@ impl Si {
         dimensionless.map(|value| self.conductivity * value)
     }
 
+    /// K/k; finite for K up to [`LARGEST_STRESS`].
+    pub fn of_grains(&self, conductivity: f64) -> f64 {
+        conductivity / self.conductivity
+    }
+
     /// Reduced stress σ̃ = σ ℓ/(E r) with the initial radius r [-]; finite for |σ| up to [`LARGEST_STRESS`].
     pub fn reduced(&self, stress: f64) -> f64 {
         stress / self.stress

@@ -9,6 +9,8 @@ pub enum FieldKind {
     Ratio,
     /// A symmetric tensor [Pa], tension positive as everywhere in OpenFOAM.
     Stress,
+    /// A symmetric tensor [W/(m K)].
+    Conductivity,
 }
 
 impl FieldKind {
@@ -17,6 +19,7 @@ impl FieldKind {
         match self {
             Self::Ratio => ["volScalarField", "scalar", "[0 0 0 0 0 0 0]"],
             Self::Stress => ["volSymmTensorField", "symmTensor", "[1 -1 -2 0 0 0 0]"],
+            Self::Conductivity => ["volSymmTensorField", "symmTensor", "[1 1 -3 -1 0 0 0]"],
         }
     }
 }

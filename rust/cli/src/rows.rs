@@ -64,7 +64,15 @@ fn thermal_rows(records: &[&Record]) -> Vec<StateRow> {
     rows
 }
 
+/// Largest (σ_xx − σ_yy)/(σ_xx + σ_yy) of packings whose friction at walls counts: grains that bear more slide past each other
+/// before they slide along a wall, so that the friction is theirs.
+const FAR_FROM_SLIDING: f64 = 0.2;
+
 fn wall_slip(record: &Record) -> Option<WallSlip> {
+    let (xx, yy) = (record.initial_stress_xx?, record.initial_stress_yy?);
+    if (xx - yy).abs() > FAR_FROM_SLIDING * (xx + yy) {
+        return None;
+    }
     // The slip of the grains at the wall alone: the deformation of the bed behind them is computed by the solver.
     let slip = record.wall_slip_of_grains? / record.mean_radius?;
     Some(WallSlip { slip, friction: record.wall_friction? })

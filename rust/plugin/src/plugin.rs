@@ -131,9 +131,11 @@ impl Plugin {
             .into_iter()
             .chain(start.fabric_xy)
             .chain(start.stress.into_iter().flatten())
+            .chain(start.conductivity.into_iter().flatten())
             .collect();
         let inputs = Inputs::new(&columns, cells);
         let stress = 2 + usize::from(start.fabric_xy.is_some());
+        let conductivity = stress + if start.stress.is_some() { 3 } else { 0 };
         let given = |known: bool, column: usize| if known { inputs.pointer(column) } else { null() };
         let mut state = vec![unwritten(cells); self.state_names.len()];
         let to = pointers(&mut state);
@@ -146,6 +148,9 @@ impl Plugin {
             stress_xx: given(start.stress.is_some(), stress),
             stress_yy: given(start.stress.is_some(), stress + 1),
             stress_xy: given(start.stress.is_some(), stress + 2),
+            conductivity_xx: given(start.conductivity.is_some(), conductivity),
+            conductivity_yy: given(start.conductivity.is_some(), conductivity + 1),
+            conductivity_xy: given(start.conductivity.is_some(), conductivity + 2),
             state: to.as_ptr(),
         };
         // SAFETY: columns of `cells` values, and `state` of as many columns as the table says.

@@ -20,6 +20,8 @@ pub struct Start<'a> {
     pub fabric_xy: Option<&'a [f64]>,
     /// σ_xx, σ_yy, σ_xy.
     pub stress: Option<[&'a [f64]; 3]>,
+    /// K_xx/k, K_yy/k, K_xy/k.
+    pub conductivity: Option<[&'a [f64]; 3]>,
 }
 
 /// One step of cells: columns of equal length, finite. Strains extension positive.

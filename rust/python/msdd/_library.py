@@ -33,6 +33,7 @@ InitialStruct = _struct(
     "msdd_initial",
     ("cells", c.c_size_t),
     *_each(Doubles, "porosity fabric_index fabric_xy stress_xx stress_yy stress_xy"),
+    *_each(Doubles, "conductivity_xx conductivity_yy conductivity_xy"),
 )
 BatchStruct = _struct(
     "msdd_batch",

@@ -149,18 +149,31 @@ class Model:
         stress_xx: Optional[ArrayLike] = None,
         stress_yy: Optional[ArrayLike] = None,
         stress_xy: Optional[ArrayLike] = None,
+        conductivity_xx: Optional[ArrayLike] = None,
+        conductivity_yy: Optional[ArrayLike] = None,
+        conductivity_xy: Optional[ArrayLike] = None,
     ) -> State:
         """State of cells at the start. What is not given is the mean of the packings that the model was trained on.
 
         porosity: 0 to 1. fabric_index: F_xx - F_yy, -1 to 1.
         fabric_xy: F_xy, -1 to 1; None = 0.
         stress_xx, stress_yy: [Pa], compression positive, both or none. stress_xy: [Pa]; None = 0.
+        conductivity_xx, conductivity_yy: [W/(m K)], both or none: a packing that conducts better than others of its state
+            keeps doing so. conductivity_xy: [W/(m K)]; None = 0.
         Arrays of any shapes that broadcast to one; the state has that shape.
         Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
         """
         shape, columns = aligned(
             {"porosity": porosity, "fabric_index": fabric_index},
-            {"fabric_xy": fabric_xy, "stress_xx": stress_xx, "stress_yy": stress_yy, "stress_xy": stress_xy},
+            {
+                "fabric_xy": fabric_xy,
+                "stress_xx": stress_xx,
+                "stress_yy": stress_yy,
+                "stress_xy": stress_xy,
+                "conductivity_xx": conductivity_xx,
+                "conductivity_yy": conductivity_yy,
+                "conductivity_xy": conductivity_xy,
+            },
         )
         initial = InitialStruct(c.sizeof(InitialStruct), _count(shape))
         for name, column in columns.items():

@@ -56,8 +56,9 @@ fn bands(simulation: &Simulation, window: f64) -> Vec<Simulation> {
     (0..count).map(band).collect()
 }
 
-/// The files of the fields: name and text. `note` says where the values come from.
-pub fn files(averages: &[Averages], note: &str) -> Vec<(&'static str, String)> {
+/// The files of the fields: name and text. `grains`: conductivity of the grains [W/(m K)]; `note` says where the values come
+/// from.
+pub fn files(averages: &[Averages], grains: f64, note: &str) -> Vec<(&'static str, String)> {
     let scalar = |name, what: &str, value: fn(&Averages) -> f64| {
         let lines = averages.iter().map(|a| format!("{:.6}", value(a)));
         (name, list(name, FieldKind::Ratio, &format!("{what}. {note}"), lines))
@@ -67,20 +68,19 @@ pub fn files(averages: &[Averages], note: &str) -> Vec<(&'static str, String)> {
         let [xx, xy, yy] = [a.stress_xx, shear_stress(a), a.stress_yy].map(|stress| -stress);
         format!("({xx:.2} {xy:.2} 0 {yy:.2} 0 0)")
     });
+    let conductivity = averages.iter().map(|a| {
+        let network =
+            [a.conductivity_network_xx, a.conductivity_network_xy, a.conductivity_network_yy].map(|k| k * grains);
+        format!("({:.4} {:.4} 0 {:.4} 0 0)", network[0], network[1], network[2])
+    });
+    let conductivity_note = format!("Initial conductivity [W/(m K)], resistor network of the contacts solved. {note}");
     let stress_note = format!("Initial stress [Pa], tension positive. {note}");
     vec![
         scalar("porosity", "Initial porosity, overlaps counted once", |a| a.porosity),
         scalar("fabricIndex", "Initial fabric index F_xx - F_yy", |a| a.fabric_index),
-        scalar("fabricConductivity", "Initial (K_xx - K_yy)/(K_xx + K_yy), network", network_anisotropy),
+        ("conductivity", list("conductivity", FieldKind::Conductivity, &conductivity_note, conductivity)),
         ("stress", list("stress", FieldKind::Stress, &stress_note, stress)),
     ]
-}
-
-/// (K_xx − K_yy)/(K_xx + K_yy) of the solved resistor network, which is a state variable of the default model; 0 without
-/// conduction.
-fn network_anisotropy(a: &Averages) -> f64 {
-    let (xx, yy) = (a.conductivity_network_xx, a.conductivity_network_yy);
-    if xx + yy > 0.0 { (xx - yy) / (xx + yy) } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -114,7 +114,7 @@ mod tests {
     fn stress_is_written_tension_positive() {
         let heap = heap();
         let averages = around(&heap, &[[0.2, 0.2]], 0.2, 1).unwrap();
-        let files = files(&averages, "note");
+        let files = files(&averages, 100.0, "note");
         let text = &files.iter().find(|file| file.0 == "stress").unwrap().1;
         let line = text.lines().skip_while(|line| *line != "(").nth(1).unwrap();
         let values: Vec<f64> =

@@ -38,6 +38,7 @@ pub fn state_of(model: &dyn Surrogate, row: &StateRow) -> [f64; MAX_STATE] {
         fabric_index: row.fabric_index,
         fabric_xy: 0.0,
         reduced_stress: Some([row.stress_xx, row.stress_yy, 0.0]),
+        conductivity: model.conductivity_kind().of(row).map(|[xx, yy]| [xx, yy, 0.0]),
     })
 }
 

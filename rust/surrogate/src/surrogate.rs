@@ -9,7 +9,7 @@ use crate::options::TrainingOptions;
 use crate::wall_friction::WallFriction;
 
 /// Largest number of state variables of any model.
-pub const MAX_STATE: usize = 10;
+pub const MAX_STATE: usize = 13;
 
 /// State columns of a block of cells; those beyond the model's [`Surrogate::state_names`] are zero.
 pub type StateLanes = [Lanes; MAX_STATE];
@@ -46,6 +46,8 @@ pub struct Known {
     pub fabric_xy: f64,
     /// σ_xx, σ_yy, σ_xy [-].
     pub reduced_stress: Option<[f64; 3]>,
+    /// K_xx/k, K_yy/k, K_xy/k.
+    pub conductivity: Option<[f64; 3]>,
 }
 
 /// Answer for a block of cells.

@@ -95,6 +95,10 @@ unsafe extern "C" fn initial_state(start: *const msdd_plugin_start) -> i32 {
                     .zip(optional(start.stress_yy))
                     .zip(optional(start.stress_xy))
                     .map(|((xx, yy), xy)| [xx, yy, xy]),
+                conductivity: optional(start.conductivity_xx)
+                    .zip(optional(start.conductivity_yy))
+                    .zip(optional(start.conductivity_xy))
+                    .map(|((xx, yy), xy)| [xx, yy, xy]),
             };
             write_state(start.state, cell, &EXPORTED.model.initial_state(&known));
         }

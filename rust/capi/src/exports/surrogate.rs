@@ -226,12 +226,24 @@ unsafe fn start<'a>(initial: &msdd_initial) -> Result<Start<'a>, Failure> {
         false => needed(name, start).map(Some),
     };
     let stress = [optional("stress_xx", initial.stress_xx)?, optional("stress_yy", initial.stress_yy)?];
+    let conductivity = [
+        optional("conductivity_xx", initial.conductivity_xx)?,
+        optional("conductivity_yy", initial.conductivity_yy)?,
+    ];
     let start = Start {
         cells,
         porosity: needed("porosity", initial.porosity)?,
         fabric_index: needed("fabric_index", initial.fabric_index)?,
         fabric_xy: optional("fabric_xy", initial.fabric_xy)?,
         stress_xy: optional("stress_xy", initial.stress_xy)?,
+        conductivity: match conductivity {
+            [Some(xx), Some(yy)] => Some([xx, yy]),
+            [None, None] => None,
+            _ => {
+                return Err(Failure::argument("conductivity_xx, conductivity_yy", "one of them", "both or none"));
+            }
+        },
+        conductivity_xy: optional("conductivity_xy", initial.conductivity_xy)?,
         stress: match stress {
             [Some(xx), Some(yy)] => Some([xx, yy]),
             [None, None] => None,
@@ -239,11 +251,22 @@ unsafe fn start<'a>(initial: &msdd_initial) -> Result<Start<'a>, Failure> {
         },
     };
     let given = [start.porosity, start.fabric_index].into_iter().chain(start.fabric_xy).chain(start.stress_xy);
+    let given = given.chain(start.conductivity.into_iter().flatten()).chain(start.conductivity_xy);
     given.chain(start.stress.into_iter().flatten()).try_for_each(|column| column.check_finite())?;
     start.porosity.check_range(0.0, 1.0, "0 to 1")?;
     start.fabric_index.check_range(-1.0, 1.0, "-1 to 1")?;
     if let Some(column) = &start.fabric_xy {
         column.check_range(-1.0, 1.0, "-1 to 1")?;
+    }
+    if start.conductivity.is_none() && start.conductivity_xy.is_some() {
+        let allowed = "NULL without conductivity_xx and conductivity_yy";
+        return Err(Failure::argument("conductivity_xy", "not NULL", allowed));
+    }
+    for column in start.conductivity.iter().flatten() {
+        column.check_range(f64::MIN_POSITIVE, LARGEST_STRESS, "above 0, to 1e30 W/(m K)")?;
+    }
+    if let Some(column) = &start.conductivity_xy {
+        column.check_range(-LARGEST_STRESS, LARGEST_STRESS, "-1e30 to 1e30 W/(m K)")?;
     }
     if start.stress.is_none() && start.stress_xy.is_some() {
         return Err(Failure::argument("stress_xy", "not NULL", "NULL without stress_xx and stress_yy"));

@@ -18,10 +18,18 @@ pub struct Expected {
 }
 
 /// The fields. T, porosity and fabricIndex are required; for the others the solver uses the model's mean when they are missing.
-pub const FIELDS: [Expected; 4] = [
+pub const FIELDS: [Expected; 5] = [
     expected("0/T", true, "[ 0 0 0 1 0 0 0 ]", "K", [0.0, 1e6]),
     expected("0/porosity", true, "[ 0 0 0 0 0 0 0 ]", "", [0.0, 1.0]),
     expected("0/fabricIndex", true, "[ 0 0 0 0 0 0 0 ]", "", [-1.0, 1.0]),
+    Expected {
+        file: "0/conductivity",
+        required: false,
+        dimensions: "[ 1 1 -3 -1 0 0 0 ]",
+        unit: "W/(m K)",
+        range: [-1e30, 1e30],
+        components: 6,
+    },
     Expected {
         file: "0/stress",
         required: false,

@@ -29,7 +29,7 @@ use rayon::prelude::*;
 use std::path::Path;
 
 /// Files that are read through `foamDictionary`, and whether the solver needs them.
-const FILES: [(&str, bool); 10] = [
+const FILES: [(&str, bool); 11] = [
     (control::CONTROL, true),
     (control::SOLUTION, true),
     ("system/fvSchemes", true),
@@ -39,6 +39,7 @@ const FILES: [(&str, bool); 10] = [
     ("0/T", true),
     ("0/porosity", true),
     ("0/fabricIndex", true),
+    ("0/conductivity", false),
     ("0/stress", false),
 ];
 
@@ -66,13 +67,14 @@ pub fn check(folder: &Path) -> Findings {
     let values = FIELDS.each_ref().map(|field| {
         file(field.file).and_then(|dictionary| fields::check(field, dictionary, &mesh, &mut found))
     });
-    let [temperature, porosity, fabric_index, stress] = &values;
+    let [temperature, porosity, fabric_index, conductivity, stress] = &values;
     let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), file(scales::SOURCES), &mesh, times);
     scene.check_walls(&mut found);
     let grains = properties.and_then(numbers);
     if let (Some(grains), Some(porosity), Some(fabric_index)) = (grains, porosity, fabric_index) {
         scene.check_cells(&grains, porosity.mean(0), &mut found);
-        let start = state::Start { porosity, fabric_index, stress: stress.as_ref() };
+        let (conductivity, stress) = (conductivity.as_ref(), stress.as_ref());
+        let start = state::Start { porosity, fabric_index, conductivity, stress };
         if let (Some(model), Some(properties)) = (&model, properties) {
             let bed = state::check(model.as_ref(), &start, &grains, properties, &mut found);
             scene.check_strains(&grains, &bed, &mut found, |strain, found| {

@@ -19,6 +19,9 @@ const WALK: usize = 50;
 /// a doubt. Packings that were prepared with another friction differ by less than this.
 const USUAL_PRESSURE: [f64; 2] = [0.6, 1.6];
 
+/// Of stress [Pa] and conductivity [W/(m K)], by which the model's answers are multiplied.
+type Scales = (f64, f64);
+
 /// Places of xx, yy and xy in OpenFOAM's symmetric tensors.
 const PLANE: [usize; 3] = [0, 3, 1];
 
@@ -26,30 +29,33 @@ const PLANE: [usize; 3] = [0, 3, 1];
 pub struct Start<'a> {
     pub porosity: &'a Values,
     pub fabric_index: &'a Values,
+    pub conductivity: Option<&'a Values>,
     pub stress: Option<&'a Values>,
 }
 
 impl Start<'_> {
-    fn known(&self, scale: f64, cell: usize) -> Known {
+    fn known(&self, (scale, grains): Scales, cell: usize) -> Known {
         Known {
             porosity: self.porosity.at(cell)[0],
             fabric_index: self.fabric_index.at(cell)[0],
             fabric_xy: 0.0,
             reduced_stress: self.stress.map(|values| PLANE.map(|k| -values.at(cell)[k] / scale)),
+            conductivity: self.conductivity.map(|values| PLANE.map(|k| values.at(cell)[k] / grains)),
         }
     }
 
-    fn mean(&self, scale: f64) -> Known {
+    fn mean(&self, (scale, grains): Scales) -> Known {
         Known {
             porosity: self.porosity.mean(0),
             fabric_index: self.fabric_index.mean(0),
             fabric_xy: 0.0,
             reduced_stress: self.stress.map(|values| PLANE.map(|k| -values.mean(k) / scale)),
+            conductivity: self.conductivity.map(|values| PLANE.map(|k| values.mean(k) / grains)),
         }
     }
 
     fn cells(&self) -> usize {
-        let all = [Some(self.porosity), Some(self.fabric_index), self.stress];
+        let all = [Some(self.porosity), Some(self.fabric_index), self.conductivity, self.stress];
         all.into_iter().flatten().map(|values| values.numbers.len()).max().unwrap_or(1)
     }
 }
@@ -72,7 +78,7 @@ pub fn check(
     file: &Dictionary,
     found: &mut Findings,
 ) -> Bed {
-    let scale = grains.stress_scale();
+    let scale = (grains.stress_scale(), grains.thermal_conductivity);
     let outside = outside_at_start(model, start, scale);
     let loose = check_loose(start, file, found);
     for (column, name) in
@@ -101,7 +107,7 @@ fn columns(model: &dyn Surrogate) -> Vec<String> {
 }
 
 /// For each state column and each side of the trained range: how many cells are outside, and by how much at most.
-fn outside_at_start(model: &dyn Surrogate, start: &Start, scale: f64) -> Vec<[[f64; 2]; 2]> {
+fn outside_at_start(model: &dyn Surrogate, start: &Start, scale: Scales) -> Vec<[[f64; 2]; 2]> {
     let count = model.state_names().len();
     let mut all = vec![[[0.0; 2]; 2]; count + 1];
     for cell in 0..start.cells() {
@@ -207,7 +213,7 @@ fn check_loose(start: &Start, file: &Dictionary, found: &mut Findings) -> bool {
 }
 
 /// Checks the initial pressure against that of packings of the same porosity.
-fn check_stress(model: &dyn Surrogate, start: &Start, scale: f64, found: &mut Findings) {
+fn check_stress(model: &dyn Surrogate, start: &Start, scales: Scales, found: &mut Findings) {
     let Some(stress) = start.stress else { return };
     let pressure = -0.5 * (stress.mean(0) + stress.mean(3));
     let place = ["0/stress", "internalField"];
@@ -216,9 +222,9 @@ fn check_stress(model: &dyn Surrogate, start: &Start, scale: f64, found: &mut Fi
         found.error(place, "tension in some cells", "xx and yy of 0 and below", advice);
         return;
     }
-    let without = Known { reduced_stress: None, ..start.mean(scale) };
+    let without = Known { reduced_stress: None, ..start.mean(scales) };
     let answer = model.evaluate(&model.initial_state(&without), 0.0);
-    let usual = 0.5 * scale * (answer.stress[0][0] + answer.stress[1][0]);
+    let usual = 0.5 * scales.0 * (answer.stress[0][0] + answer.stress[1][0]);
     let ratio = pressure / usual;
     if !(USUAL_PRESSURE[0]..=USUAL_PRESSURE[1]).contains(&ratio) {
         let value = format!("a mean pressure of {} Pa", number(rounded(pressure, 3)));
@@ -244,7 +250,7 @@ pub fn walk(
     found: &mut Findings,
 ) {
     let names = columns(model);
-    let mut state: [f64; MAX_STATE] = model.initial_state(&start.mean(grains.stress_scale()));
+    let mut state: [f64; MAX_STATE] = model.initial_state(&start.mean((grains.stress_scale(), grains.thermal_conductivity)));
     for step in 0..WALK {
         let part = |k: usize| strain * k as f64 / WALK as f64;
         let increment = (1.0 + part(step + 1)) / (1.0 + part(step)) - 1.0;

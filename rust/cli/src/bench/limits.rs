@@ -216,6 +216,7 @@ fn composed(model: &dyn Surrogate, start: &Averages) -> Vec<[f64; 2]> {
         fabric_index: start.fabric_index,
         fabric_xy: start.fabric_xy,
         reduced_stress: Some(reduced),
+        conductivity: None,
     };
     let mut state = model.initial_state(&known);
     let mut answer = model.evaluate(&state, 0.0);

@@ -296,7 +296,7 @@ fn write_fields(arguments: &FieldsArguments) -> Result<(), CliError> {
         arguments.model.seed
     );
     let out = arguments.out.clone().unwrap_or_else(|| case.folder.join("0"));
-    for (name, text) in fields::files(&averages, &note) {
+    for (name, text) in fields::files(&averages, case.thermal.conductivity, &note) {
         write(&out.join(name), text.as_bytes())?;
     }
     outln!(

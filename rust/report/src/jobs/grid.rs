@@ -54,8 +54,9 @@ impl Field {
 
     /// The text of an OpenFOAM field file.
     pub fn to_text(&self, name: &str) -> String {
-        let (class, list, dimensions) = match self.values.first().map_or(1, Vec::len) {
-            1 => ("volScalarField", "scalar", "[0 0 0 0 0 0 0]"),
+        let (class, list, dimensions) = match (self.values.first().map_or(1, Vec::len), name) {
+            (1, _) => ("volScalarField", "scalar", "[0 0 0 0 0 0 0]"),
+            (_, "conductivity") => ("volSymmTensorField", "symmTensor", "[1 1 -3 -1 0 0 0]"),
             _ => ("volSymmTensorField", "symmTensor", "[1 -1 -2 0 0 0 0]"),
         };
         let mut text = format!(

@@ -7,7 +7,7 @@ use crate::{ReportError, read_text, write_text};
 use std::path::Path;
 
 /// Fields whose initial values are taken from the windows of a packing.
-pub const FIELDS: [&str; 3] = ["porosity", "fabricIndex", "stress"];
+pub const FIELDS: [&str; 4] = ["porosity", "fabricIndex", "conductivity", "stress"];
 /// Time between two values of a series [s], unless steps are longer.
 const INTERVAL: f64 = 0.1;
 

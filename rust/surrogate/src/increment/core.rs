@@ -5,7 +5,7 @@ use super::number::{Dual, Number, Plain};
 use super::readout::{Conductivity, Features, Readout};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::Vector;
-use crate::kernel::{Lanes, Task, dispatch};
+use crate::kernel::{LANES, Lanes, Task, dispatch};
 use crate::surrogate::{Answer, Increment, MAX_STATE, StateLanes, Tangent};
 
 /// Columns of the state.
@@ -17,9 +17,12 @@ pub const COMPRESSION: usize = 4;
 /// First of the elements' shear strains, two columns for each element.
 pub const SHEAR: usize = 5;
 /// Number of columns.
-pub const COLUMNS: usize = STRENGTH + 1;
-/// The last column.
+pub const COLUMNS: usize = OWN_SHEAR + 1;
 pub const STRENGTH: usize = SHEAR + 2 * ELEMENTS;
+/// The packing's own conductivity, see [`Conductivity::at`]: mean, then direction.
+pub const OWN_MEAN: usize = STRENGTH + 1;
+pub const OWN_INDEX: usize = STRENGTH + 2;
+pub const OWN_SHEAR: usize = STRENGTH + 3;
 
 /// Names of the columns.
 pub const NAMES: [&str; COLUMNS] = [
@@ -33,6 +36,9 @@ pub const NAMES: [&str; COLUMNS] = [
     "elastic_shear_2",
     "elastic_shear_2_xy",
     "strength",
+    "own_conductivity",
+    "own_conductivity_index",
+    "own_conductivity_shear",
 ];
 
 /// What answers queries.
@@ -65,6 +71,20 @@ impl Core {
         let conductivity =
             Conductivity { kind: ConductivityKind::Network, mean: [0.0; 11], direction: [0.0; 2] };
         Self { law, readout: Readout::default(), conductivity }
+    }
+
+    /// Lets a state have this conductivity, K_xx/k, K_yy/k, K_xy/k, as the packing's own. One that no packing has is taken as
+    /// the nearest that one may have.
+    pub fn give(&self, state: &mut [f64; MAX_STATE], [xx, yy, xy]: [f64; 3]) {
+        state[OWN_MEAN..COLUMNS].fill(0.0);
+        let mut answer = Answer::default();
+        self.advance(&state.map(|value| [value; LANES]), &Increment::default(), &mut answer, None);
+        let [kxx, kyy, kxy] = answer.conductivity.map(|column| column[0]);
+        let (known, found) = (xx + yy, kxx + kyy);
+        let limited = |value: f64, most: f64| if value.is_finite() { value.clamp(-most, most) } else { 0.0 };
+        state[OWN_MEAN] = limited(known / found - 1.0, MOST_GIVEN);
+        state[OWN_INDEX] = limited((xx - yy) / known - (kxx - kyy) / found, MOST_GIVEN);
+        state[OWN_SHEAR] = limited(2.0 * xy / known - 2.0 * kxy / found, MOST_GIVEN);
     }
 
     /// Strains a block of cells. Without strain the state stays as it is, bit for bit. A lane's answer depends on that lane
@@ -187,12 +207,18 @@ impl Core {
             keep(SHEAR + 2 * k, next.shear[k][0].0);
             keep(SHEAR + 2 * k + 1, next.shear[k][1].0);
         }
+        let own = [OWN_INDEX, OWN_SHEAR].map(|k| read::<V>(&state[k], MOST_FABRIC));
+        let own = turned_twice(own, turn);
+        keep(OWN_INDEX, own[0]);
+        keep(OWN_SHEAR, own[1]);
         after.state[STRENGTH] = state[STRENGTH];
+        after.state[OWN_MEAN] = state[OWN_MEAN];
         let [Plain(p), Plain(q1), Plain(q2)] = stress;
         (p + q1).write(&mut after.stress[0]);
         (p - q1).write(&mut after.stress[1]);
         q2.write(&mut after.stress[2]);
-        let conductivity = self.conductivity.at(&features, porosity, fabric);
+        let own = (read::<V>(&state[OWN_MEAN], MOST_OWN), own);
+        let conductivity = self.conductivity.at(&features, porosity, fabric, own);
         for k in 0..3 {
             conductivity[k].write(&mut after.conductivity[k]);
         }
@@ -218,6 +244,9 @@ const LEAST_STRENGTH: f64 = 0.01;
 const MOST_STRENGTH: f64 = 3.0;
 const MOST_STRAIN: f64 = 0.5;
 const MOST_TURN: f64 = 1.0;
+const MOST_OWN: f64 = 0.9;
+/// Largest difference of a packing's own conductivity that is taken over.
+const MOST_GIVEN: f64 = 0.5;
 
 /// A column, limited on both sides.
 #[inline(always)]

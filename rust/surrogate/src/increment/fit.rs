@@ -201,6 +201,8 @@ const LEAST_PRESSURE: f64 = 1e-3;
 /// A state of the database beside the law's.
 struct Seen<'a> {
     point: &'a Point,
+    /// Number of the state of its packing in the list.
+    start: usize,
     features: Features<f64>,
     /// Elements' shear strains, without and with G/A, minus those of the packing; component along, across.
     sheared: [[[f64; 2]; 2]; ELEMENTS],
@@ -223,16 +225,21 @@ pub fn readouts(
 ) -> (Readout, Vec<Conductivity>) {
     let mut all = Vec::new();
     for (track, states) in tracks.iter().zip(states) {
-        let start = sheared(law, &states[0]);
+        let (start, first) = (sheared(law, &states[0]), all.len());
+        let usable = |point: &Point| point.load_bearing && point.invariants()[0] >= LEAST_PRESSURE;
+        if !usable(&track.packed) {
+            continue;
+        }
         for (k, state) in states.iter().enumerate() {
             let point = track.point(k);
-            if !point.load_bearing || point.invariants()[0] < LEAST_PRESSURE {
+            if !usable(point) {
                 continue;
             }
             let now = sheared(law, state);
             let difference = |e: usize, kind: usize, c: usize| now[e][kind][c] - start[e][kind][c];
             all.push(Seen {
                 point,
+                start: first,
                 features: features(point, looseness(state)),
                 sheared: std::array::from_fn(|e| [0, 1].map(|kind| [0, 1].map(|c| difference(e, kind, c)))),
                 fabric: [
@@ -261,22 +268,56 @@ pub fn readouts(
     (readout, kinds.iter().map(|kind| conductivity(&all, *kind)).collect())
 }
 
+/// Number of rounds in which the packings' own conductivities and the coefficients are found in turn.
+const ROUNDS: usize = 5;
+
+/// The change of the conductivity from that of the packing counts, because a packing's own conductivity stays.
 fn conductivity(all: &[Seen], kind: ConductivityKind) -> Conductivity {
-    let mean = all.iter().filter_map(|seen| {
-        let ([xx, yy, _], x) = (seen.point.conductivity(kind)?, &seen.features);
-        let mean = 0.5 * (xx + yy);
-        let row = conductivity_row(&x.everywhere(), Portable::all(seen.point.porosity));
-        Some((row.map(|value| value.into_first() * x.root / mean), 1.0, 1.0))
-    });
+    // Mean conductivity over √p̃, and the terms.
+    let terms = |seen: &Seen| -> Option<(f64, [f64; 11])> {
+        let [xx, yy, _] = seen.point.conductivity(kind)?;
+        let row = conductivity_row(&seen.features.everywhere(), Portable::all(seen.point.porosity));
+        Some((0.5 * (xx + yy) / seen.features.root, row.map(Portable::into_first)))
+    };
+    let known: Vec<Option<(f64, [f64; 11])>> = all.iter().map(terms).collect();
+    let of_row = |mean: &[f64; 11], row: &[f64; 11]| mean.iter().zip(row).map(|(c, x)| c * x).sum::<f64>();
+    let (mut own, mut mean) = (vec![1.0; all.len()], [0.0; 11]);
+    for _ in 0..ROUNDS {
+        let samples = all.iter().zip(&known).filter_map(|(seen, known)| {
+            let (found, row) = (*known)?;
+            Some((row.map(|value| value * own[seen.start] / found), 1.0, 1.0))
+        });
+        mean = least_squares::fit(samples);
+        for (k, known) in known.iter().enumerate().filter(|(k, _)| all[*k].start == *k) {
+            own[k] = known.as_ref().map_or(1.0, |(found, row)| found / of_row(&mean, row));
+        }
+    }
+    // Of a packing whose conductivity is not known, the mean one is expected.
+    let starts: Vec<f64> = (0..all.len()).filter(|k| all[*k].start == *k).map(|k| own[k]).collect();
+    let usual = starts.iter().sum::<f64>() / starts.len().max(1) as f64;
     let direction = all.iter().flat_map(|seen| {
-        let [xx, yy, xy] = seen.point.conductivity(kind).unwrap_or([0.0; 3]);
-        let (x, mean) = (&seen.features, 0.5 * (xx + yy));
-        let directions = [0.5 * (xx - yy), xy].map(|part| if mean > 0.0 { part / mean } else { 0.0 });
-        let fabric = [Some(seen.point.fabric_index), seen.point.fabric_shear];
-        let row = move |c: usize| Some(([x.ratio[c], fabric[c]?], directions[c], 1.0));
+        let first = &all[seen.start];
+        let now = directions(seen, kind);
+        let before = directions(first, kind);
+        let row = move |c: usize| {
+            let (here, [r, f]) = now[c]?;
+            let (there, [r0, f0]) = before[c]?;
+            // The packing itself counts as it is, later states by their difference from it.
+            let part = if std::ptr::eq(seen, first) { 0.0 } else { 1.0 };
+            Some(([r - part * r0, f - part * f0], here - part * there, 1.0))
+        };
         [row(0), row(1)].into_iter().flatten()
     });
-    Conductivity { kind, mean: least_squares::fit(mean), direction: least_squares::fit(direction) }
+    Conductivity { kind, mean: mean.map(|c| c * usual), direction: least_squares::fit(direction) }
+}
+
+/// For both components of (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy): it, and q̃/p̃ and fabric.
+fn directions(seen: &Seen, kind: ConductivityKind) -> [Option<(f64, [f64; 2])>; 2] {
+    let [xx, yy, xy] = seen.point.conductivity(kind).unwrap_or([0.0; 3]);
+    let (x, mean) = (&seen.features, 0.5 * (xx + yy));
+    let parts = [0.5 * (xx - yy), xy].map(|part| if mean > 0.0 { part / mean } else { 0.0 });
+    let fabric = [Some(seen.point.fabric_index), seen.point.fabric_shear];
+    [0, 1].map(|c| Some((parts[c], [x.ratio[c], fabric[c]?])))
 }
 
 fn looseness(state: &[f64; MAX_STATE]) -> f64 {

@@ -123,7 +123,22 @@ impl Ranges {
     fn columns(&self) -> [Range; COLUMNS] {
         let Self { porosity, fabric, jamming_fraction, elastic_compression, elastic_shear: shear, .. } = *self;
         let strength = self.strength;
-        [porosity, fabric, fabric, jamming_fraction, elastic_compression, shear, shear, shear, shear, strength]
+        let (own, wide) = (OWN, Range { min: -1.0, max: 1.0 });
+        [
+            porosity,
+            fabric,
+            fabric,
+            jamming_fraction,
+            elastic_compression,
+            shear,
+            shear,
+            shear,
+            shear,
+            strength,
+            own,
+            wide,
+            wide,
+        ]
     }
 
     /// Porosity, length of the fabric, √p̃ and length of q̃/p̃, about from −1 to 1: they do not depend on the axes.
@@ -160,6 +175,8 @@ impl Ranges {
     }
 }
 
+/// Range of a packing's own mean conductivity over that of the model, less 1, beyond which something is wrong.
+const OWN: Range = Range { min: -0.2, max: 0.2 };
 /// Number of coordinates of [`Ranges::coordinates`].
 pub(crate) const COORDINATES: usize = 4;
 /// About the largest q̃/p̃ of a packing.
@@ -281,7 +298,11 @@ impl Surrogate for IncrementModel {
             || self.file.mean_stress.at(known.porosity, fabric),
             |[xx, yy, xy]| [0.5 * (xx + yy), 0.5 * (xx - yy), xy],
         );
-        self.state(known.porosity, fabric, stress)
+        let mut state = self.state(known.porosity, fabric, stress);
+        if let Some(conductivity) = known.conductivity {
+            self.core.give(&mut state, conductivity);
+        }
+        state
     }
 
     fn advance(

@@ -1,7 +1,6 @@
 //! Paths of strain in periodic boxes, on which the law is fitted and judged.
 
 use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR, STRENGTH};
-use super::law::Law;
 use super::start::start_of_solid;
 use crate::dataset::ConductivityKind;
 use crate::kernel::{LANES, Lanes};
@@ -93,9 +92,9 @@ impl Track {
 pub type States = Vec<[f64; MAX_STATE]>;
 
 /// The state of a packing whose porosity, fabric, solid fraction and stress are known.
-pub fn packed(law: &Law, point: &Point) -> [f64; MAX_STATE] {
+pub fn packed(core: &Core, point: &Point) -> [f64; MAX_STATE] {
     let [p, q1, q2] = point.invariants();
-    let found = start_of_solid(law, point.solid, p.max(0.0), [q1, q2]);
+    let found = start_of_solid(&core.law, point.solid, p.max(0.0), [q1, q2]);
     let mut state = [0.0; MAX_STATE];
     state[POROSITY] = point.porosity;
     state[FABRIC_INDEX] = point.fabric_index;
@@ -104,6 +103,9 @@ pub fn packed(law: &Law, point: &Point) -> [f64; MAX_STATE] {
     state[COMPRESSION] = found.compression;
     state[SHEAR..STRENGTH].copy_from_slice(found.shear.as_flattened());
     state[STRENGTH] = found.strength;
+    if let Some(known) = point.conductivity(core.conductivity.kind) {
+        core.give(&mut state, known);
+    }
     state
 }
 
@@ -113,7 +115,7 @@ pub fn follow(core: &Core, tracks: &[Track]) -> Vec<States> {
 }
 
 fn follow_block(core: &Core, tracks: &[Track]) -> Vec<States> {
-    let mut states: Vec<States> = tracks.iter().map(|track| vec![packed(&core.law, &track.packed)]).collect();
+    let mut states: Vec<States> = tracks.iter().map(|track| vec![packed(core, &track.packed)]).collect();
     let longest = tracks.iter().map(|track| track.steps.len()).max().unwrap_or(0);
     for k in 0..longest {
         let step = |lane: usize| tracks.get(lane).and_then(|track| track.steps.get(k));

@@ -137,18 +137,26 @@ impl Readout {
 
 impl Conductivity {
     /// K_xx/k, K_yy/k, K_xy/k at a porosity and a fabric (F_xx − F_yy, 2 F_xy).
+    /// `own`: mean conductivity of the packing over that of packings in the same state, less 1; and what is added to the
+    /// direction (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy). They stay as they are when the packing is strained.
     #[inline(always)]
-    pub fn at<V: Vector>(&self, x: &Features<V>, porosity: V, fabric: [V; 2]) -> [V; 3] {
+    pub fn at<V: Vector>(
+        &self,
+        x: &Features<V>,
+        porosity: V,
+        fabric: [V; 2],
+        (own, direction): (V, [V; 2]),
+    ) -> [V; 3] {
         let row = conductivity_row(x, porosity);
         let mut share = V::all(self.mean[0]);
         for k in 1..row.len() {
             share = row[k].fused(V::all(self.mean[k]), share);
         }
         let share = share.at_least(V::all(LEAST_CONDUCTIVITY));
-        let mean = x.root.fused(share, V::all(CONDUCTIVITY_FLOOR));
+        let mean = (x.root * share).fused(V::all(1.0) + own, V::all(CONDUCTIVITY_FLOOR));
         let [of_stress, of_fabric] = self.direction.map(V::all);
-        let along = of_stress.fused(x.ratio[0], of_fabric * fabric[0]);
-        let across = of_stress.fused(x.ratio[1], of_fabric * fabric[1]);
+        let along = of_stress.fused(x.ratio[0], of_fabric.fused(fabric[0], direction[0]));
+        let across = of_stress.fused(x.ratio[1], of_fabric.fused(fabric[1], direction[1]));
         let length = along.fused(along, across * across).sqrt();
         let most = V::all(LARGEST_ANISOTROPY);
         let kept = length.where_greater(most, most / length.at_least(most), V::all(1.0));

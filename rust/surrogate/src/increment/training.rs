@@ -41,21 +41,6 @@ pub(crate) fn train_without(
     let problem = PathFit { tracks: &seen, threads: options.threads_used(), fixed };
     let (law, minimum) = fit(&problem, options.max_epochs, |_, _| ());
     let states = follow(&Core::of(law.clone()), &seen);
-    if let Ok(path) = std::env::var("MSDD_DUMP") {
-        let mut text = String::from("packing,name,k,discs,probe,eta0,p,q1,q2,z,v,F1,F2,kxx,kyy,kxy,axx,ayy,eta,solid,pl\n");
-        let found: Vec<_> = states.iter().map(|s| stresses(&Core::of(law.clone()), s)).collect();
-        for ((track, states), found) in seen.iter().zip(&states).zip(&found) {
-            for (k, state) in states.iter().enumerate() {
-                let point = track.point(k);
-                if !point.load_bearing { continue; }
-                let probe = k > 0 && track.steps[k - 1].probe;
-                let [p, q1, q2] = point.invariants();
-                let [a, b, c] = point.network.unwrap_or([f64::NAN; 3]);
-                text += &format!("{},{},{k},{},{},{},{p},{q1},{q2},{},{},{},{},{a},{b},{c},{},{},{},{},{}\n", track.packing, track.name, track.discs, u8::from(probe), track.packed.porosity, 0.83 - state[JAMMING], state[COMPRESSION], point.fabric_index, point.fabric_shear.unwrap_or(f64::NAN), point.affine[0], point.affine[1], point.porosity, point.solid, found[k][0]);
-            }
-        }
-        std::fs::write(path, text).expect("dump");
-    }
     let kinds = kinds(&seen);
     let (readout, conductivities) = readouts(&law, &seen, &states, &kinds);
     let packed: Vec<Point> = seen.iter().map(|track| track.packed).collect();
