@@ -39,6 +39,10 @@ static const scalar leastStiffness = 0.01;
 static const scalar leastPivot = 0.05;
 static const scalar reduction = 0.8;
 
+//- The same for grains that do not slide, and their shear modulus over c11
+static const scalar cautiousPivot = 0.8;
+static const scalar cautiousShear = 0.35;
+
 //- The linear equations of a Newton iteration are solved until their residual
 //- is this share of the imbalance
 static const scalar linearTolerance = 0.1;
@@ -60,9 +64,14 @@ void Foam::granularMechanicsModels::equilibrium::findTangent()
 }
 
 
-void Foam::granularMechanicsModels::equilibrium::findStiffness()
+void Foam::granularMechanicsModels::equilibrium::findStiffness
+(
+    const label caution
+)
 {
     const scalar least = leastStiffness*scale_;
+    const scalar leastRatio = caution ? cautiousPivot : leastPivot;
+    const scalar factor = caution ? std::pow(2.0, caution - 1) : 1;
     forAll(C_, celli)
     {
         // Symmetric part: conjugate gradients need it, and where grains slide
@@ -75,13 +84,19 @@ void Foam::granularMechanicsModels::equilibrium::findStiffness()
         c[4] = 0.5*(tangent_[2][celli] + tangent_[6][celli]);
         c[5] = 0.5*(tangent_[5][celli] + tangent_[7][celli]);
 
+        if (caution)
+        {
+            c[0] = c[1] = factor*max(c[0], c[1]);
+            c[2] = max(factor*c[2], cautiousShear*c[0]);
+        }
+
         // Pivots of the Cholesky factorisation
         for (label k = 0; k < 20; ++k)
         {
             const scalar second = c[1] - sqr(c[3])/c[0];
             const scalar other = c[5] - c[3]*c[4]/c[0];
             const scalar third = c[2] - sqr(c[4])/c[0] - sqr(other)/second;
-            if (second > leastPivot*c[1] && third > leastPivot*c[2])
+            if (second > leastRatio*c[1] && third > leastRatio*c[2])
             {
                 break;
             }

@@ -27,6 +27,9 @@ namespace Foam
 //- Number of step lengths that the line search tries: 1, 1/2, 1/4, 1/8
 static const label mostCuts = 4;
 
+//- Largest caution, see findStiffness()
+static const label mostCaution = 8;
+
 } // End namespace Foam
 
 
@@ -166,14 +169,14 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
 }
 
 
-Foam::scalar Foam::granularMechanicsModels::equilibrium::search
+bool Foam::granularMechanicsModels::equilibrium::search
 (
     nodeField& du,
     const nodeField& d,
-    const scalar last
+    const bool moved
 )
 {
-    scalar share = 1, now = GREAT;
+    scalar share = 1;
     nodeField tried(du);
     for (label cut = 0; cut < mostCuts; ++cut)
     {
@@ -181,15 +184,22 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::search
         {
             tried[i] = du[i] + share*d[i];
         }
-        now = imbalance(tried, true);
-        if (now < last)
+        const scalar now = imbalance(tried, true);
+        if (now < left_)
         {
-            break;
+            du = tried;
+            left_ = now;
+            return true;
         }
         share *= 0.5;
     }
-    du = tried;
-    return now;
+    // Stress, tangent and imbalance are those after du again
+    left_ = imbalance(du, moved);
+    if (!moved)
+    {
+        findTangent();
+    }
+    return false;
 }
 
 
@@ -225,11 +235,12 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
     if (moved)
     {
-        findStiffness();
+        findStiffness(0);
         follow(du);
     }
 
     nodeField d;
+    label caution = 0;
     for
     (
         label iteration = 0;
@@ -237,12 +248,19 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         ++iteration
     )
     {
-        findStiffness();
+        findStiffness(caution);
         findDiagonal();
         conjugateGradients(r_, d);
-        left_ = search(du, d, left_);
-        moved = true;
         ++counters_.iterations;
+        if (search(du, d, moved))
+        {
+            moved = true;
+            caution = max(caution - 1, label(0));
+        }
+        else if (++caution > mostCaution)
+        {
+            break;
+        }
     }
     return left_ <= maxResidual_;
 }
