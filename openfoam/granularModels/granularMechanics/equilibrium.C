@@ -118,6 +118,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     r_(u_),
     before_(0),
     left_(0),
+    norm_(0),
     broken_(-1),
     placed_(false),
     diagonal_(u_),

@@ -131,6 +131,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
     placed_ = !moved;
     if (returnReduce(broken_ >= 0, orOp<bool>()))
     {
+        norm_ = GREAT;
         return GREAT;
     }
 
@@ -150,6 +151,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
     );
 
     scalar most = 0;
+    nodeField scaled(r_.size(), vector2D(Zero));
     forAll(r_, i)
     {
         for (label k = 0; k < 2; ++k)
@@ -163,9 +165,12 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
             r *= walls_.free()[i][k];
             const scalar here = mag(r)/std::sqrt(nodeArea_[i]);
             most = here < GREAT ? max(most, here) : GREAT;
+            scaled[i][k] = r/std::sqrt(nodeArea_[i]);
         }
     }
-    return returnReduce(most, maxOp<scalar>());
+    most = returnReduce(most, maxOp<scalar>());
+    norm_ = most < GREAT ? quads_.dot(scaled, scaled) : GREAT;
+    return most;
 }
 
 
@@ -176,6 +181,7 @@ bool Foam::granularMechanicsModels::equilibrium::search
     const bool moved
 )
 {
+    const scalar last = norm_;
     scalar share = 1;
     nodeField tried(du);
     for (label cut = 0; cut < mostCuts; ++cut)
@@ -185,7 +191,7 @@ bool Foam::granularMechanicsModels::equilibrium::search
             tried[i] = du[i] + share*d[i];
         }
         const scalar now = imbalance(tried, true);
-        if (now < left_)
+        if (norm_ < last)
         {
             du = tried;
             left_ = now;

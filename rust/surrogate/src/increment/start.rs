@@ -14,9 +14,11 @@ pub struct Start {
     pub strength: f64,
 }
 
-/// Number of bisections: the interval becomes smaller than rounding.
-const HALVINGS: usize = 60;
-/// Number of rounds in which φ_s and v, which depend on each other by the overlaps, are found.
+/// Largest number of trials for v; about ten are enough.
+const TRIALS: usize = 100;
+/// Relative error of p̃ that is rounding.
+const ROUNDING: f64 = 1e-14;
+/// Largest number of rounds in which φ_s and v, which depend on each other by the overlaps, are found.
 const ROUNDS: usize = 20;
 /// Largest factor of the strengths: grains that bear twice as much are not known.
 const MOST_STRENGTH: f64 = 2.0;
@@ -39,7 +41,12 @@ pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviato
     for _ in 0..ROUNDS {
         let (state, stress) = loaded(law, solid, pressure, deviator);
         let features = Features::of(&stress, state.looseness().0);
-        solid = 1.0 - porosity + number(Plain(readout.overlap(&features)));
+        let found = 1.0 - porosity + number(Plain(readout.overlap(&features)));
+        let change = (found - solid).abs();
+        solid = found;
+        if change < ROUNDING {
+            break;
+        }
     }
     start_of_solid(law, solid, pressure, deviator)
 }
@@ -60,8 +67,8 @@ pub fn start_of_solid(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) 
 fn loaded(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> (Elastic<Cell>, [Cell; 3]) {
     let size = deviator[0].hypot(deviator[1]);
     let direction = if size > 0.0 { deviator.map(|q| q / size) } else { [0.0; 2] };
-    let reaches = |v: f64| number(at(law, solid, v, size, direction).1[0]) < pressure;
-    let compression = if pressure > 0.0 { halved([0.0, LARGEST], reaches) } else { 0.0 };
+    let beyond = |v: f64| number(at(law, solid, v, size, direction).1[0]) - pressure;
+    let compression = if pressure > 0.0 { root(beyond, LARGEST, ROUNDING * pressure) } else { 0.0 };
     at(law, solid, compression, size, direction)
 }
 
@@ -74,22 +81,57 @@ fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -
     let all: f64 = law.elements.iter().map(|element| element.strength).sum();
     let strength = if pressure > 0.0 { (size / (all * pressure)).clamp(1.0, MOST_STRENGTH) } else { 1.0 };
     let limits = law.elements.map(|element| strength * element.strength / (element.share * ratio));
-    let stiffness = ratio * pressure;
-    let borne = |common: f64| -> f64 {
-        let parts = law.elements.iter().zip(limits);
-        parts.map(|(element, limit)| element.share * stiffness * common.min(limit)).sum()
-    };
-    let common = if size > 0.0 { halved([0.0, 1.0], |common| borne(common) < size) } else { 0.0 };
+    let common = shared(law, limits, ratio * pressure, size);
     let shear = limits.map(|limit| direction.map(|d| cell(d * common.min(limit))));
     let state = Elastic { shear, strength: cell(strength), ..unsheared };
     (state, law.stress(&state, &moduli))
 }
 
-/// The end of the part of an interval, from its beginning, in which `low` holds.
-fn halved([mut from, mut to]: [f64; 2], low: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (from + to);
-        if low(middle) { from = middle } else { to = middle }
+/// The shear strain that all elements have which do not slide, when together they bear a deviator of this size.
+fn shared(law: &Law, limits: [f64; ELEMENTS], stiffness: f64, size: f64) -> f64 {
+    let mut order: [usize; ELEMENTS] = std::array::from_fn(|k| k);
+    order.sort_by(|a, b| limits[*a].total_cmp(&limits[*b]));
+    let mut rest = if stiffness > 0.0 { size / stiffness } else { 0.0 };
+    let mut shares: f64 = law.elements.iter().map(|element| element.share).sum();
+    let mut common = 0.0;
+    for k in order {
+        common = rest / shares;
+        if common <= limits[k] {
+            break;
+        }
+        rest -= law.elements[k].share * limits[k];
+        shares -= law.elements[k].share;
+        common = limits[k];
     }
-    0.5 * (from + to)
+    common
+}
+
+/// The root of an increasing function in [0, `most`] within `error`, else the end that is nearer to it: regula falsi with the
+/// end that stays weighted less and less (Dowell and Jarratt, 1971).
+fn root(function: impl Fn(f64) -> f64, most: f64, error: f64) -> f64 {
+    let ([mut low, mut high], mut below, mut above) = ([0.0, most], function(0.0), function(most));
+    if below >= 0.0 {
+        return low;
+    }
+    if above <= 0.0 {
+        return high;
+    }
+    let mut side = 0;
+    for _ in 0..TRIALS {
+        let between = (low * above - high * below) / (above - below);
+        let value = function(between);
+        if value.abs() <= error || between <= low || between >= high {
+            return between;
+        }
+        if value > 0.0 {
+            (high, above) = (between, value);
+            below *= if side > 0 { 0.5 } else { 1.0 };
+            side = 1;
+        } else {
+            (low, below) = (between, value);
+            above *= if side < 0 { 0.5 } else { 1.0 };
+            side = -1;
+        }
+    }
+    0.5 * (low + high)
 }
