@@ -73,13 +73,13 @@ impl Answer {
 
     /// Which lanes had an input outside the trained range.
     pub fn lanes_outside(&self) -> [bool; LANES] {
-        let mut outside = [false; LANES];
+        let mut all = [0.0; LANES];
         for column in &self.outside {
-            for (outside, beyond) in outside.iter_mut().zip(column) {
-                *outside |= *beyond != 0.0;
+            for (sum, beyond) in all.iter_mut().zip(column) {
+                *sum += beyond.abs();
             }
         }
-        outside
+        all.map(|sum| sum != 0.0)
     }
 }
 

@@ -6,6 +6,7 @@ use super::readout::{Conductivity, Features, Readout};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::Vector;
 use crate::kernel::{LANES, Lanes, Task, dispatch};
+use crate::scaling::Range;
 use crate::surrogate::{Answer, Increment, MAX_STATE, StateLanes, Tangent};
 
 /// Columns of the state.
@@ -47,7 +48,12 @@ pub struct Core {
     pub law: Law,
     pub readout: Readout,
     pub conductivity: Conductivity,
+    /// Known ranges of the state columns and of the thermal strain.
+    pub ranges: [Range; COLUMNS + 1],
 }
+
+/// A range without ends.
+pub const ANY: Range = Range { min: f64::NEG_INFINITY, max: f64::INFINITY };
 
 struct Query<'a> {
     core: &'a Core,
@@ -70,7 +76,7 @@ impl Core {
     pub fn of(law: Law) -> Self {
         let conductivity =
             Conductivity { kind: ConductivityKind::Network, mean: [0.0; 11], direction: [0.0; 2] };
-        Self { law, readout: Readout::default(), conductivity }
+        Self { law, readout: Readout::default(), conductivity, ranges: [ANY; COLUMNS + 1] }
     }
 
     /// Lets a state have this conductivity, K_xx/k, K_yy/k, K_xy/k, as the packing's own. One that no packing has is taken as
@@ -110,7 +116,8 @@ impl Core {
         let turn = rotation(read::<V>(&strain.rotation, MOST_TURN));
         let before = elastic::<V>(state);
         let thermal = read::<V>(&strain.thermal, MOST_STRAIN);
-        let [xx, yy, xy] = [&strain.xx, &strain.yy, &strain.xy].map(|part| read::<V>(part, MOST_STRAIN));
+        let (xx, yy) = (read::<V>(&strain.xx, MOST_STRAIN), read::<V>(&strain.yy, MOST_STRAIN));
+        let xy = read::<V>(&strain.xy, MOST_STRAIN);
         let (next, moduli) = match tangent {
             None => {
                 let strain = Strain { thermal: Plain(thermal), xx: Plain(xx), yy: Plain(yy), xy: Plain(xy) };
@@ -126,6 +133,10 @@ impl Core {
                 self.with_tangent::<V>(&before, &strain, turn, tangent)
             }
         };
+        for k in 0..COLUMNS {
+            beyond::<V>(&state[k], &self.ranges[k], &mut after.outside[k]);
+        }
+        beyond::<V>(&strain.thermal, &self.ranges[COLUMNS], &mut after.outside[MAX_STATE]);
         let moved = thermal.abs() + xx.abs() + yy.abs() + xy.abs() + V::read(&strain.rotation).abs();
         self.write::<V>(state, &before, (&next, &moduli), (turn, moved), after);
     }
@@ -190,29 +201,31 @@ impl Core {
         let old = self.law.moduli(before.compression, before.looseness());
         let from = self.readout.fabric(before, old.ratio.0);
         let to = self.readout.fabric(next, moduli.ratio.0);
-        let [along, across] = [FABRIC_INDEX, FABRIC_SHEAR].map(|k| read::<V>(&state[k], MOST_FABRIC));
-        let rest = [along - from[0], across - from[1]];
+        let along = read::<V>(&state[FABRIC_INDEX], MOST_FABRIC) - from[0];
+        let rest = [along, read::<V>(&state[FABRIC_SHEAR], MOST_FABRIC) - from[1]];
         let rest = turned_twice(rest, turn);
         let (low, high) = (V::all(-MOST_FABRIC), V::all(MOST_FABRIC));
         let fabric = [(rest[0] + to[0]).within(low, high), (rest[1] + to[1]).within(low, high)];
-        let mut keep = |column: usize, value: V| {
-            moved.where_greater(V::zero(), value, V::read(&state[column])).write(&mut after.state[column]);
-        };
-        keep(POROSITY, porosity);
-        keep(FABRIC_INDEX, fabric[0]);
-        keep(FABRIC_SHEAR, fabric[1]);
-        keep(JAMMING, next.jamming.0);
-        keep(COMPRESSION, next.compression.0);
-        for k in 0..ELEMENTS {
-            keep(SHEAR + 2 * k, next.shear[k][0].0);
-            keep(SHEAR + 2 * k + 1, next.shear[k][1].0);
-        }
-        let own = [OWN_INDEX, OWN_SHEAR].map(|k| read::<V>(&state[k], MOST_FABRIC));
+        let own = [read::<V>(&state[OWN_INDEX], MOST_FABRIC), read::<V>(&state[OWN_SHEAR], MOST_FABRIC)];
         let own = turned_twice(own, turn);
-        keep(OWN_INDEX, own[0]);
-        keep(OWN_SHEAR, own[1]);
-        after.state[STRENGTH] = state[STRENGTH];
-        after.state[OWN_MEAN] = state[OWN_MEAN];
+        let mut values = [V::zero(); COLUMNS];
+        values[POROSITY] = porosity;
+        values[FABRIC_INDEX] = fabric[0];
+        values[FABRIC_SHEAR] = fabric[1];
+        values[JAMMING] = next.jamming.0;
+        values[COMPRESSION] = next.compression.0;
+        for k in 0..ELEMENTS {
+            values[SHEAR + 2 * k] = next.shear[k][0].0;
+            values[SHEAR + 2 * k + 1] = next.shear[k][1].0;
+        }
+        values[STRENGTH] = V::read(&state[STRENGTH]);
+        values[OWN_MEAN] = V::read(&state[OWN_MEAN]);
+        values[OWN_INDEX] = own[0];
+        values[OWN_SHEAR] = own[1];
+        for k in 0..COLUMNS {
+            let kept = moved.where_greater(V::zero(), values[k], V::read(&state[k]));
+            kept.write(&mut after.state[k]);
+        }
         let [Plain(p), Plain(q1), Plain(q2)] = stress;
         (p + q1).write(&mut after.stress[0]);
         (p - q1).write(&mut after.stress[1]);
@@ -227,8 +240,16 @@ impl Core {
 
 #[inline(always)]
 fn turned_twice<V: Vector>(vector: [V; 2], [cosine, sine]: [V; 2]) -> [V; 2] {
-    let turned = |[a, b]: [V; 2]| [cosine * a - sine * b, sine * a + cosine * b];
-    turned(turned(vector))
+    let [a, b] = vector;
+    let (a, b) = (cosine * a - sine * b, sine * a + cosine * b);
+    [cosine * a - sine * b, sine * a + cosine * b]
+}
+
+/// How far values are outside of a range.
+#[inline(always)]
+fn beyond<V: Vector>(values: &Lanes, range: &Range, outside: &mut Lanes) {
+    let value = V::read(values);
+    (value - value.within(V::all(range.min), V::all(range.max))).write(outside);
 }
 
 /// Largest porosity and fabric that a state may reach.
@@ -256,17 +277,16 @@ fn read<V: Vector>(lanes: &Lanes, most: f64) -> V {
 
 #[inline(always)]
 fn elastic<V: Vector>(state: &StateLanes) -> Elastic<Plain<V>> {
-    let between = |column: usize, low: f64, high: f64| {
-        Plain(V::read(&state[column]).within(V::all(low), V::all(high)))
-    };
-    let jamming = between(JAMMING, LEAST_JAMMING, MOST_JAMMING);
-    let compression = between(COMPRESSION, LEAST_COMPRESSION, MOST_COMPRESSION);
-    let shear = |column: usize| between(column, -MOST_SHEAR, MOST_SHEAR);
+    let jamming = Plain(V::read(&state[JAMMING]).within(V::all(LEAST_JAMMING), V::all(MOST_JAMMING)));
+    let compression = V::read(&state[COMPRESSION]).within(V::all(LEAST_COMPRESSION), V::all(MOST_COMPRESSION));
+    let compression = Plain(compression);
     let mut all = [[jamming; 2]; ELEMENTS];
     for k in 0..ELEMENTS {
-        all[k] = [shear(SHEAR + 2 * k), shear(SHEAR + 2 * k + 1)];
+        let along = read::<V>(&state[SHEAR + 2 * k], MOST_SHEAR);
+        all[k] = [Plain(along), Plain(read::<V>(&state[SHEAR + 2 * k + 1], MOST_SHEAR))];
     }
-    let strength = between(STRENGTH, LEAST_STRENGTH, MOST_STRENGTH);
+    let strength = V::read(&state[STRENGTH]).within(V::all(LEAST_STRENGTH), V::all(MOST_STRENGTH));
+    let strength = Plain(strength);
     Elastic { jamming, compression, shear: all, strength }
 }
 

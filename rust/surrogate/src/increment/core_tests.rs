@@ -30,6 +30,7 @@ pub(crate) fn core() -> Core {
             mean: [1.3, 0.5, -0.5, -0.5, 0.0, -4.0, 3.0, 0.0, 0.0, 0.0, 0.0],
             direction: [0.335, 1.0],
         },
+        ranges: [ANY; COLUMNS + 1],
     }
 }
 

@@ -99,6 +99,7 @@ impl IncrementModel {
             law: file.law.clone(),
             readout: file.readout.clone(),
             conductivity: file.conductivities[0].clone(),
+            ranges: file.ranges.columns(),
         };
         let hash = hash(&(json(&file) + "\n"));
         Self { core, file, hash }
@@ -119,8 +120,8 @@ impl IncrementModel {
 }
 
 impl Ranges {
-    /// For each state column.
-    fn columns(&self) -> [Range; COLUMNS] {
+    /// For each state column, and for the thermal strain.
+    fn columns(&self) -> [Range; COLUMNS + 1] {
         let Self { porosity, fabric, jamming_fraction, elastic_compression, elastic_shear: shear, .. } = *self;
         let strength = self.strength;
         let (own, wide) = (OWN, Range { min: -1.0, max: 1.0 });
@@ -138,6 +139,7 @@ impl Ranges {
             own,
             wide,
             wide,
+            self.thermal_strain,
         ]
     }
 
@@ -313,12 +315,6 @@ impl Surrogate for IncrementModel {
         tangent: Option<&mut Tangent>,
     ) {
         self.core.advance(state, strain, answer, tangent);
-        let beyond = |value: f64, range: &Range| value - range.clamp(value);
-        for ((outside, column), range) in answer.outside.iter_mut().zip(state).zip(self.file.ranges.columns()) {
-            *outside = column.map(|value| beyond(value, &range));
-        }
-        let range = self.file.ranges.thermal_strain;
-        answer.outside[MAX_STATE] = strain.thermal.map(|value| beyond(value, &range));
     }
 
     fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt> {

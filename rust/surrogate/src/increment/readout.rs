@@ -109,7 +109,8 @@ impl Readout {
     /// o [-]: the part of the plane that overlaps cover.
     #[inline(always)]
     pub fn overlap<V: Vector>(&self, x: &Features<V>) -> V {
-        let [one, s, p, sz, sr] = self.overlap.map(V::all);
+        let [one, s, p, sz, sr] = self.overlap;
+        let (one, s, p, sz, sr) = (V::all(one), V::all(s), V::all(p), V::all(sz), V::all(sr));
         let of_root = sr.fused(x.square, sz.fused(x.loose, s));
         x.pressure * of_root.fused(x.root, p.fused(x.pressure, one))
     }
@@ -154,7 +155,7 @@ impl Conductivity {
         }
         let share = share.at_least(V::all(LEAST_CONDUCTIVITY));
         let mean = (x.root * share).fused(V::all(1.0) + own, V::all(CONDUCTIVITY_FLOOR));
-        let [of_stress, of_fabric] = self.direction.map(V::all);
+        let (of_stress, of_fabric) = (V::all(self.direction[0]), V::all(self.direction[1]));
         let along = of_stress.fused(x.ratio[0], of_fabric.fused(fabric[0], direction[0]));
         let across = of_stress.fused(x.ratio[1], of_fabric.fused(fabric[1], direction[1]));
         let length = along.fused(along, across * across).sqrt();

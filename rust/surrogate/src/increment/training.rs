@@ -44,7 +44,7 @@ pub(crate) fn train_without(
     let kinds = kinds(&seen);
     let (readout, conductivities) = readouts(&law, &seen, &states, &kinds);
     let packed: Vec<Point> = seen.iter().map(|track| track.packed).collect();
-    let core = Core { law, readout, conductivity: conductivities[0].clone() };
+    let core = Core { readout, conductivity: conductivities[0].clone(), ..Core::of(law) };
     let ranges = ranges(&seen, &states);
     let judged: &[Track] = if unseen.len() < LEAST_TRACKS { &seen } else { &unseen };
     let report = Report {
