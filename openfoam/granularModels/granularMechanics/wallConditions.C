@@ -25,9 +25,11 @@ License
 namespace Foam
 {
 
-//- Width of the layer beside a wall, in mean radii, and strength of its grains
+//- Width of the layer beside a wall, in mean radii
 static const scalar usualLayer = 13;
-static const scalar usualLayerStrength = 1.5;
+
+//- Largest deviator over pressure of grains far from walls
+static const scalar usualRatio = 0.25;
 
 } // End namespace Foam
 
@@ -164,7 +166,11 @@ void Foam::wallConditions::read
         );
         w.layerStrength = granularProperties::ranged
         (
-            dict, "layerStrength", usualLayerStrength, 0.1, 3
+            dict,
+            "layerStrength",
+            max(scalar(1), min(scalar(3), w.friction/usualRatio)),
+            0.1,
+            3
         );
     }
     if (w.type == kind::pressure)

@@ -35,7 +35,8 @@ impl Fit<'_> {
     /// Residual and its derivatives with respect to μ_∞ and s_0.
     fn residual(p: &DVector<f64>, sample: &WallSlip) -> (f64, [f64; 2]) {
         let share = sample.slip / (sample.slip + p[1].abs());
-        (p[0] * share - sample.friction, [share, -p[0] * share / (sample.slip + p[1].abs())])
+        let by_slip = -p[0] * share / (sample.slip + p[1].abs()) * p[1].signum();
+        (p[0] * share - sample.friction, [share, by_slip])
     }
 }
 
@@ -67,7 +68,7 @@ impl WallFriction {
             return None;
         }
         let limits = Limits { max_epochs: 200, gradient: 1e-14 };
-        let start = DVector::from_vec(vec![0.3, 1.0]);
+        let start = DVector::from_vec(vec![0.4, 0.3]);
         let minimum = minimise(&Fit(&moved), start, limits, |_, _, _| ControlFlow::Continue(()));
         Some(Self {
             limit: minimum.parameters[0],
