@@ -73,8 +73,8 @@ fn fields() -> Set {
 
 /// Columns that the built-in models carry.
 fn state_columns() -> Vec<String> {
-    const VARIABLES: &str = "rust/surrogate/src/state/variables.rs";
-    let names = between(&crate::sources::text(VARIABLES), r"pub fn names\(self\)", r"^    \}", VARIABLES);
+    const CORE: &str = "rust/surrogate/src/increment/core.rs";
+    let names = between(&crate::sources::text(CORE), r"^pub const NAMES: [^=]*= \[", r"^\];", CORE);
     strings(&names)
 }
 

@@ -108,7 +108,7 @@ fn other_files() -> Vec<Set> {
     let names = state.iter().flat_map(|name| structure("rust/rve/src/state", name));
     vec![
         Set::new(DATABASE, "state file", "rust/rve/src/state.rs", names),
-        fields_of(DATABASE, "state model", "rust/surrogate/src/state", "File"),
+        fields_of(DATABASE, "increment model", "rust/surrogate/src/increment", "File"),
         fields_of(DATABASE, "paper model", "rust/surrogate/src", "ModelFile"),
         fields_of(DATABASE, "reference results", "rust/reference/src", "Results"),
         fields_of(DATABASE, "reference model", "rust/reference/src", "Statistics"),

@@ -5,15 +5,14 @@ use crate::sources::{all, firsts, text};
 
 const PAGE: &str = "reference/c-interface.md";
 const HEADER: &str = "rust/capi/include/msdd.h";
-const STRUCTURES: [&str; 8] = [
+const STRUCTURES: [&str; 7] = [
     "msdd_material",
     "msdd_batch",
     "msdd_initial",
     "msdd_averages",
     "msdd_plugin_start",
     "msdd_plugin_step",
-    "msdd_plugin_tangent",
-    "msdd_plugin_v1",
+    "msdd_plugin_v2",
 ];
 /// Beginnings of the functions' names, and the table that has them.
 const GROUPS: [(&str, &str); 5] = [
