@@ -34,8 +34,7 @@ Usage
     refused with both values, and the names to accept.
 
     Reads   T, porosity, fabricIndex; at the start also stress (tension
-            positive), fabricConductivity, leastThermalStrain and
-            mostThermalStrain, if there are such files;
+            positive) and conductivity, if there are such files;
             constant/granularProperties (keys: cases/common);
             constant/fvOptions, if there is one: heat sources [W/m^3];
             system/fvSolution, msddFoam, if there is one (keys: timeScheme.H)
@@ -43,11 +42,9 @@ Usage
     Writes  T, porosity, fabricIndex, conductivity, stress (tension positive),
             pressure (compression positive), bulkDensity, particleDensity,
             thermalStrain, inRegion, spread if the model knows; for restarts
-            initialTemperature, thermalStrainIncrement, leastThermalStrain and
-            mostThermalStrain (the range that a cell's grains have been strained
-            to and back, for networks), the rest of the model's state and
-            uniform/msddFoam, the last file of a time: what the run was
-            computed with, and the checksums of the other files;
+            initialTemperature, thermalStrainIncrement, the rest of the model's
+            state and uniform/msddFoam, the last file of a time: what the run
+            was computed with, and the checksums of the other files;
             postProcessing/msddFoam/summary.json, and offenders.json if cells
             were outside the model's region
 

@@ -170,7 +170,7 @@ void Foam::regionPolicy::act
     {
         Info<< when.c_str() << ' ' << cells << " cells have " << name << ' '
             << sides[side] << " the region of the model, by up to " << farthest
-            << ": the nearest value in the region is used" << nl << endl;
+            << ": the model answers as well as it can" << nl << endl;
     }
     if (actions_[column][side] == action::warn && !warned_[column][side])
     {
@@ -178,7 +178,7 @@ void Foam::regionPolicy::act
         Warning
             << when.c_str() << ' ' << cells << " cells have " << name << ' '
             << sides[side] << " the region of the model, by up to " << farthest
-            << ": the nearest value in the region is used" << endl;
+            << ": the model answers as well as it can" << endl;
     }
 }
 

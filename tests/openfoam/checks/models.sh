@@ -66,7 +66,7 @@ grains 'mechanics equilibrium; surrogate { type network; }'
 mesh_is '12 6 1'
 logged msddFoam
 own_fields() {
-    local name columns='porosity fabricIndex reducedPressure fabricConductivity reducedDeviator'
+    local name columns='porosity fabricIndex fabricShear jammingFraction elasticCompression elasticShear1 elasticShear1Xy elasticShear2 elasticShear2Xy strength ownConductivity ownConductivityIndex ownConductivityShear'
     for name in $(ls 1); do
         grep -qw -- "$name" <<< "$columns $(grep 'Allowed: any name but' ../log.bad)" || { echo "$name is not refused" >&2; return 1; }
     done

@@ -47,7 +47,7 @@ fn scored(arguments: &[&str], inputs: &[&str], limit: u64) -> Job {
 }
 
 pub fn score() -> Job {
-    let models = ["rust/surrogate/models/state.json", "rust/surrogate/models/paper.json"];
+    let models = ["rust/surrogate/models/increment.json", "rust/surrogate/models/paper.json"];
     let database = "cases/database/full.csv.gz";
     let arguments = ["score", "--model", models[0], "--model", models[1], "--database", database];
     scored(&[&arguments[..], &["--json", "WORK/score.json"]].concat(), &[models[0], models[1], database], 600)
@@ -58,7 +58,7 @@ fn sized([hidden, readout]: [usize; 2]) -> Job {
     let database = "cases/database/periodic.csv.gz";
     let (hidden, readout) = (hidden.to_string(), readout.to_string());
     let train =
-        ["train", "--model", "state", "--name", "state", "--database", database, "--out", "WORK/model.json"];
+        ["train", "--model", "increment", "--name", "increment", "--database", database, "--out", "WORK/model.json"];
     let size = ["--hidden", &hidden, "--readout", &readout, THEN];
     let score = ["score", "--model", "WORK/model.json", "--database", database, "--json", "WORK/score.json"];
     scored(&[&train[..], &size, &score].concat(), &[database], 1200)
@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn scores_are_read() {
         let score =
-            r#"[{"name": "state", "composed": [{"strain": -0.02, "increments": 5, "stress": 0.02}]}]"#;
+            r#"[{"name": "increment", "composed": [{"strain": -0.02, "increments": 5, "stress": 0.02}]}]"#;
         assert_eq!(drift(score)[1].stress, [[5.0, 2.0]]);
     }
 }

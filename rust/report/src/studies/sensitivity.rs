@@ -30,14 +30,13 @@ pub struct Sensitivity {
 /// Name and keys of each change; the first is the case as shipped.
 fn changes() -> Vec<(&'static str, String)> {
     let keys = |text: &str| format!("equilibriumCoeffs {{ {text} }}");
-    let walls = |limit: f64| keys(&format!("walls {{ \"left|right|bottom|top\" {{ friction {limit}; }} }}"));
+    let walls = |text: &str| keys(&format!("walls {{ \"left|right|bottom|top\" {{ {text} }} }}"));
     vec![
         ("as shipped", String::new()),
-        ("wall friction 0.25", walls(0.25)),
-        ("wall friction 0.55", walls(0.55)),
-        ("shear modulus x 0.8", keys("shearFactor 0.8;")),
-        ("shear modulus x 1.25", keys("shearFactor 1.25;")),
-        ("sinPhi 0.45", keys("sinPhi 0.45;")),
+        ("wall friction 0.25", walls("friction 0.25;")),
+        ("wall friction 0.55", walls("friction 0.55;")),
+        ("no stronger grains beside walls", walls("layerStrength 1;")),
+        ("layers beside walls half as wide", walls("layer 0.0325;")),
     ]
 }
 

@@ -136,7 +136,7 @@ pub fn unjamming(made: &Made) -> Result<String, ReportError> {
     let Some(limits) = &made.report.failures.limits else { return Ok(String::new()) };
     let styles = [
         ("discrete elements", Style { size: 4, ..Style::marker(0, Marker::Circle) }),
-        ("state", Style::line(1, Line::Solid)),
+        ("increment", Style::line(1, Line::Solid)),
         ("paper", Style::line(2, Line::Dashed)),
     ];
     let x = from_data("thermal strain [%]", false);
@@ -168,7 +168,7 @@ pub fn unjamming(made: &Made) -> Result<String, ReportError> {
          network {}. The state network starts from the stress of the packings; its K/k is kept above zero, at 1e-4 or more.",
         limits.packings,
         said("discrete elements"),
-        said("state"),
+        said("increment"),
         said("paper")
     );
     let keys = styles.map(|(name, style)| (style, name.to_string())).to_vec();

@@ -13,7 +13,7 @@ pub fn drift(made: &Made) -> Result<String, ReportError> {
     let marks = [(0.02, Marker::Circle), (-0.02, Marker::Square), (-0.05, Marker::Triangle)];
     let (mut drawn, mut keys) = (Vec::new(), Vec::new());
     for one in all {
-        let (colour, line) = if one.model == "state" { (1, Line::Solid) } else { (2, Line::Dashed) };
+        let (colour, line) = if one.model == "increment" { (1, Line::Solid) } else { (2, Line::Dashed) };
         let marker = marks.iter().find(|m| m.0 == one.strain).map_or(Marker::Cross, |m| m.1);
         let style = Style { line, ..Style::marker(colour, marker) };
         drawn.push(series(one.stress.iter().map(|p| (p[0], p[1])).collect(), style));
@@ -32,7 +32,7 @@ pub fn drift(made: &Made) -> Result<String, ReportError> {
     let caption = format!(
         "Fig. #. The same strain divided into more and more increments, on packings that were not used in training: the errors of neither network grow. Largest error of the \
          stress with the most increments: {:.0} % (state) and {:.0} % (paper).",
-        last("state"),
+        last("increment"),
         last("paper")
     );
     Figure {
