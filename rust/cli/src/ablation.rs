@@ -57,7 +57,10 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         law = ablation::increments(&data, &options).map_err(failed)?;
         for line in &law {
             outln!();
-            outln!("law of the increments, {}", line.without.map_or("all".into(), |part| format!("without {part}")));
+            outln!(
+                "law of the increments, {}",
+                line.without.map_or("all".into(), |part| format!("without {part}"))
+            );
             print_paths(&line.scores);
         }
     }

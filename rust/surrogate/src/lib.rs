@@ -12,7 +12,6 @@
 //! | [`models`] | the kinds of models by name, and those compiled in |
 //! | [`increment`] | the default model: one law for thermal and mechanical strain |
 //! | [`paper`], [`constant`] | the paper's network and the trivial model as implementations of the trait |
-//! | [`perceptron`] | small tanh networks of any shape, of which the state model is made |
 //! | [`network`] | the paper's 3-16-16-6 network and its gradient |
 //! | [`levenberg_marquardt`] | the minimiser |
 //! | [`fit`] | the fit of the paper's network to samples as a least-squares problem |
@@ -48,7 +47,6 @@ pub mod network;
 pub mod noise;
 pub mod options;
 pub mod paper;
-pub mod perceptron;
 pub mod predictor;
 pub mod region;
 pub mod report;

@@ -91,8 +91,10 @@ pub fn kind(name: &str) -> Result<&'static Kind, SurrogateError> {
 pub const BUILTIN: &str = "builtin";
 
 /// Models compiled into the library: name and text of the file, the default first.
-const SHIPPED: [(&str, &str); 2] =
-    [("increment", include_str!("../models/increment.json")), ("paper", include_str!("../models/paper.json"))];
+const SHIPPED: [(&str, &str); 2] = [
+    ("increment", include_str!("../models/increment.json")),
+    ("paper", include_str!("../models/paper.json")),
+];
 
 /// A model compiled into the library: `builtin`, `builtin:increment` or `builtin:paper`.
 ///
@@ -133,10 +135,9 @@ mod tests {
     use crate::synthetic;
 
     fn trained(name: &str) -> Box<dyn Surrogate> {
-        let data = TrainingData { rows: synthetic::rows(10, 4), ..TrainingData::default() };
-        let mut options = StateOptions::default();
-        options.common.max_epochs = 12;
-        options.common.restarts = 2;
+        let tracks = increment::synthetic::tracks(10, 4);
+        let data = TrainingData { rows: synthetic::rows(10, 4), tracks, ..TrainingData::default() };
+        let options = TrainingOptions { max_epochs: 12, restarts: 2, ..TrainingOptions::default() };
         (kind(name).expect("listed").train)(&data, &options).expect("good rows")
     }
 
@@ -159,11 +160,11 @@ mod tests {
     #[test]
     fn unknown_names_and_files_are_refused() {
         assert!(kind("best").err().expect("unknown").to_string().contains("model = best"));
-        let text = trained("state").to_json();
-        let newer = text.replace("msdd-state-model-1", "msdd-state-model-2");
+        let text = trained("increment").to_json();
+        let newer = text.replace("msdd-increment-model-1", "msdd-increment-model-2");
         let message = |text: &str| read(text).err().expect("unsound").to_string();
-        assert!(message(&newer).contains("msdd-state-model-2"), "{}", message(&newer));
-        assert!(message(&text.replace("msdd-state-model-1", "other")).contains("\"other\""));
+        assert!(message(&newer).contains("msdd-increment-model-2"), "{}", message(&newer));
+        assert!(message(&text.replace("msdd-increment-model-1", "other")).contains("\"other\""));
         assert!(message(&text[..text.len() / 2]).contains("damaged"));
     }
 }

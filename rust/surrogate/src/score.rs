@@ -3,12 +3,12 @@
 use crate::SurrogateError;
 use crate::composition::{self, Composed, Path, composed, state_of, states_of};
 use crate::dataset::{self, Ramp, StateRow, strain_between};
-use crate::kernel::LANES;
-use crate::noise;
-use crate::scores::r_squared;
 use crate::increment::errors::PathErrors;
 use crate::increment::paths::Track;
+use crate::kernel::LANES;
 use crate::models::TrainingData;
+use crate::noise;
+use crate::scores::r_squared;
 use crate::surrogate::{Answer, Surrogate};
 use serde::Serialize;
 

@@ -158,9 +158,7 @@ fn print(score: &Score) {
     }
     if !score.way_back.is_empty() {
         outln!();
-        outln!(
-            "Errors on ramps back to the packed radii"
-        );
+        outln!("Errors on ramps back to the packed radii");
         outln!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
         for way in &score.way_back {
             row(&way.errors);
@@ -168,7 +166,9 @@ fn print(score: &Score) {
     }
     if !score.paths.is_empty() {
         outln!();
-        outln!("Along paths of strain; rms error, p and q in % of the path's mean pressure; f_K, eta, f absolute");
+        outln!(
+            "Along paths of strain; rms error, p and q in % of the path's mean pressure; f_K, eta, f absolute"
+        );
         print_paths(&score.paths);
     }
 }

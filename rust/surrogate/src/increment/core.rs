@@ -2,7 +2,7 @@
 
 use super::law::{ELEMENTS, Elastic, Law, Moduli, Strain, rotation};
 use super::number::{Dual, Number, Plain};
-use super::readout::{Conductivity, Features, Readout};
+use super::readout::{CONDUCTIVITY_FLOOR, Conductivity, Features, Readout};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::Vector;
 use crate::kernel::{LANES, Lanes, Task, dispatch};
@@ -82,7 +82,13 @@ impl Core {
         let [kxx, kyy, kxy] = answer.conductivity.map(|column| column[0]);
         let (known, found) = (xx + yy, kxx + kyy);
         let limited = |value: f64, most: f64| if value.is_finite() { value.clamp(-most, most) } else { 0.0 };
-        state[OWN_MEAN] = limited(known / found - 1.0, MOST_GIVEN);
+        // The floor is the same for all packings; one without contacts has nothing of its own. No denominator is 0.
+        let floor = 2.0 * CONDUCTIVITY_FLOOR;
+        if found > floor {
+            let contacts = (found - floor).max(f64::EPSILON * floor);
+            state[OWN_MEAN] = limited((known - floor) / contacts - 1.0, MOST_GIVEN);
+        }
+        let known = known.max(f64::MIN_POSITIVE);
         state[OWN_INDEX] = limited((xx - yy) / known - (kxx - kyy) / found, MOST_GIVEN);
         state[OWN_SHEAR] = limited(2.0 * xy / known - 2.0 * kxy / found, MOST_GIVEN);
     }
@@ -219,8 +225,8 @@ impl Core {
         q2.write(&mut after.stress[2]);
         let own = (read::<V>(&state[OWN_MEAN], MOST_OWN), own);
         let conductivity = self.conductivity.at(&features, porosity, fabric, own);
-        for k in 0..3 {
-            conductivity[k].write(&mut after.conductivity[k]);
+        for (value, column) in conductivity.into_iter().zip(&mut after.conductivity) {
+            value.write(column);
         }
     }
 }
@@ -256,15 +262,14 @@ fn read<V: Vector>(lanes: &Lanes, most: f64) -> V {
 
 #[inline(always)]
 fn elastic<V: Vector>(state: &StateLanes) -> Elastic<Plain<V>> {
-    let between = |column: usize, low: f64, high: f64| {
-        Plain(V::read(&state[column]).within(V::all(low), V::all(high)))
-    };
+    let between =
+        |column: usize, low: f64, high: f64| Plain(V::read(&state[column]).within(V::all(low), V::all(high)));
     let jamming = between(JAMMING, LEAST_JAMMING, MOST_JAMMING);
     let compression = between(COMPRESSION, LEAST_COMPRESSION, MOST_COMPRESSION);
     let shear = |column: usize| between(column, -MOST_SHEAR, MOST_SHEAR);
     let mut all = [[jamming; 2]; ELEMENTS];
-    for k in 0..ELEMENTS {
-        all[k] = [shear(SHEAR + 2 * k), shear(SHEAR + 2 * k + 1)];
+    for (k, both) in all.iter_mut().enumerate() {
+        *both = [shear(SHEAR + 2 * k), shear(SHEAR + 2 * k + 1)];
     }
     let strength = between(STRENGTH, LEAST_STRENGTH, MOST_STRENGTH);
     Elastic { jamming, compression, shear: all, strength }

@@ -34,7 +34,8 @@ pub fn path_errors(core: &Core, tracks: &[Track]) -> Vec<PathErrors> {
     let mut all = Vec::new();
     for (name, discs) in kinds {
         let (mut sums, mut count, mut paths) = ([0.0; 6], 0, 0);
-        for (track, states) in tracks.iter().zip(&states).filter(|(t, _)| t.name == name && t.discs == discs) {
+        for (track, states) in tracks.iter().zip(&states).filter(|(t, _)| t.name == name && t.discs == discs)
+        {
             let (found, means) = (stresses(core, states), conductivities(core, states));
             let over = 1.0 / track.pressure().max(f64::MIN_POSITIVE);
             paths += 1;

@@ -177,14 +177,14 @@ impl Law {
             shear[k] = [along * kept, across * kept];
             lengths[k] = length * kept;
         }
-        // Grains that do not touch do not climb.
+        // Sliding ends where the grains lose contact, and those that do not touch do not climb.
+        let loss = loss.where_greater(tried, tried, loss);
         let loss = tried.where_greater(zero, loss, zero);
         let compression = tried - loss;
         let jamming = state.jamming * (tried.plus(1.0) * compression.plus(1.0).inverse());
         let next = Elastic { jamming, compression, shear, strength: state.strength };
         // The strength changes with the compression.
         let moduli = self.moduli(compression, next.looseness());
-        let mut shear = shear;
         for k in 0..ELEMENTS {
             let Element { share, strength, .. } = self.elements[k];
             let load = (moduli.ratio * lengths[k] * weaker).times(share / strength);
@@ -245,6 +245,12 @@ impl Law {
         }
         Ok(())
     }
+}
+
+/// Least k₂ with which the bulk modulus stays positive up to the largest compression, as [`Law::check`] wants it.
+pub fn least_third_bulk(first: f64, second: f64) -> f64 {
+    let least = |v: f64| -(0.99 * LEAST_BULK * first + second * v) / (v * v);
+    (1..=60).map(|k| least(0.01 * f64::from(k))).fold(-1e6, f64::max)
 }
 
 /// A shear strain turned by the angle of this cosine and sine.

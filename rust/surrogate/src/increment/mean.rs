@@ -28,7 +28,8 @@ const RATIO_LIMIT: f64 = 0.5;
 impl MeanStress {
     /// The fits to states as packed.
     pub fn fit(packed: &[Point]) -> Self {
-        let loaded: Vec<&Point> = packed.iter().filter(|p| p.load_bearing && p.invariants()[0] > 0.0).collect();
+        let loaded: Vec<&Point> =
+            packed.iter().filter(|p| p.load_bearing && p.invariants()[0] > 0.0).collect();
         let pressure = loaded.iter().map(|point| {
             let eta = point.porosity;
             ([1.0, eta, eta * eta, eta * eta * eta], point.invariants()[0], 1.0)

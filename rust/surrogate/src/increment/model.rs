@@ -1,6 +1,8 @@
 //! The law of the increments with all that a case needs besides, as a [`Surrogate`].
 
-use super::core::{COLUMNS, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, NAMES, POROSITY, SHEAR, STRENGTH};
+use super::core::{
+    COLUMNS, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, NAMES, POROSITY, SHEAR, STRENGTH,
+};
 use super::errors::{PathErrors, path_errors};
 use super::mean::MeanStress;
 use super::number::Plain;
@@ -121,7 +123,8 @@ impl IncrementModel {
 impl Ranges {
     /// For each state column.
     fn columns(&self) -> [Range; COLUMNS] {
-        let Self { porosity, fabric, jamming_fraction, elastic_compression, elastic_shear: shear, .. } = *self;
+        let Self { porosity, fabric, jamming_fraction, elastic_compression, elastic_shear: shear, .. } =
+            *self;
         let strength = self.strength;
         let (own, wide) = (OWN, Range { min: -1.0, max: 1.0 });
         [
@@ -144,10 +147,8 @@ impl Ranges {
     /// Porosity, length of the fabric, √p̃ and length of q̃/p̃, about from −1 to 1: they do not depend on the axes.
     pub(crate) fn coordinates(&self, state: &[f64; MAX_STATE], features: &Features<f64>) -> Coordinates {
         let mut point = [0.0; MOST_COORDINATES];
-        let over = |value: f64, range: &Range| {
-            (2.0 * value - range.min - range.max) / range.width().max(f64::MIN_POSITIVE)
-        };
-        point[0] = over(state[POROSITY], &self.porosity);
+        let Range { min, max } = self.porosity;
+        point[0] = (2.0 * state[POROSITY] - min - max) / (max - min).max(f64::MIN_POSITIVE);
         point[1] = 2.0 * state[FABRIC_INDEX].hypot(state[FABRIC_SHEAR]) / self.fabric.max - 1.0;
         point[2] = 2.0 * features.root / self.pressure.max.sqrt() - 1.0;
         point[3] = 2.0 * features.square.sqrt() / LARGEST_RATIO - 1.0;
@@ -165,7 +166,8 @@ impl Ranges {
             ("thermal_strain", self.thermal_strain, -0.5, 0.5),
             ("pressure", self.pressure, 0.0, 1e3),
         ];
-        match all.iter().find(|(_, Range { min, max }, low, high)| !(low <= min && min < max && max <= high)) {
+        match all.iter().find(|(_, Range { min, max }, low, high)| !(low <= min && min < max && max <= high))
+        {
             Some((key, Range { min, max }, low, high)) => {
                 let found = format!("{min} to {max}, within {low} to {high}");
                 field(&format!("ranges.{key}"), found, "min < max, within what grains can have")
@@ -314,7 +316,8 @@ impl Surrogate for IncrementModel {
     ) {
         self.core.advance(state, strain, answer, tangent);
         let beyond = |value: f64, range: &Range| value - range.clamp(value);
-        for ((outside, column), range) in answer.outside.iter_mut().zip(state).zip(self.file.ranges.columns()) {
+        for ((outside, column), range) in answer.outside.iter_mut().zip(state).zip(self.file.ranges.columns())
+        {
             *outside = column.map(|value| beyond(value, &range));
         }
         let range = self.file.ranges.thermal_strain;
@@ -337,3 +340,7 @@ impl Surrogate for IncrementModel {
         self.file.solid_fraction.at(porosity)
     }
 }
+
+#[cfg(test)]
+#[path = "model_tests.rs"]
+mod tests;

@@ -126,7 +126,7 @@ fn follow_block(core: &Core, tracks: &[Track]) -> Vec<States> {
         for lane in 0..LANES {
             let from = step(lane).map_or(0, |step| step.from);
             let state = states.get(lane).unwrap_or(&states[0])[from];
-            (0..MAX_STATE).for_each(|column| block[column][lane] = state[column]);
+            block.iter_mut().zip(state).for_each(|(column, value)| column[lane] = value);
         }
         let mut after = Answer::default();
         for part in 0..parts as u32 {
