@@ -314,8 +314,8 @@ fn shear_and_rotation() {
         let (sine, cosine) = (2.0 * angle).sin_cos();
         for cell in 0..47 {
             for [xx, yy, xy] in [[2, 3, 5], [0, 1, 4]] {
-                let (a, b) =
-                    ([xx, yy, xy].map(|o| at_rest[o][cell]), [xx, yy, xy].map(|o| turned.outputs[o][cell]));
+                let tensor = |outputs: &[Vec<f64>]| [xx, yy, xy].map(|output| outputs[output][cell]);
+                let (a, b) = (tensor(&at_rest), tensor(&turned.outputs));
                 let half = 0.5 * (a[0] - a[1]);
                 let (along, across) = (cosine * half - sine * a[2], sine * half + cosine * a[2]);
                 let near = |found: f64, expected: f64| (found - expected).abs() < 2e-4 * a[0];

@@ -5,17 +5,16 @@
 
 use crate::SurrogateError;
 use crate::dataset::{self, Sample, StateRow};
-use crate::increment::errors::PathErrors;
-use crate::increment::paths::Track;
 use crate::increment::training::train_without;
-use crate::models::TrainingData;
 use crate::network::INPUTS;
 use crate::options::TrainingOptions;
 use crate::report::Parts;
 use crate::scaling;
 use crate::scores::Scores;
 use crate::surrogate::Surrogate;
+use crate::tracks::{PathErrors, Track};
 use crate::training;
+use crate::training_data::TrainingData;
 use serde::Serialize;
 
 /// Inputs of the paper's network.

@@ -3,13 +3,12 @@
 use crate::SurrogateError;
 use crate::composition::{self, Composed, Path, composed, state_of, states_of};
 use crate::dataset::{self, Ramp, StateRow, strain_between};
-use crate::increment::errors::PathErrors;
-use crate::increment::paths::Track;
 use crate::kernel::LANES;
-use crate::models::TrainingData;
 use crate::noise;
 use crate::scores::r_squared;
 use crate::surrogate::{Answer, Surrogate};
+use crate::tracks::{PathErrors, Track};
+use crate::training_data::TrainingData;
 use serde::Serialize;
 
 /// R² (Eq. 12) of single queries over pairs of jammed stops, mirror images included.

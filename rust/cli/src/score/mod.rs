@@ -10,10 +10,11 @@ use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
 use msdd_surrogate::composition::Composed;
-use msdd_surrogate::increment::errors::PathErrors;
-use msdd_surrogate::models::{self, TrainingData};
+use msdd_surrogate::models;
 use msdd_surrogate::score::{OneStep, Score, ramps, score};
 use msdd_surrogate::surrogate::Surrogate;
+use msdd_surrogate::tracks::PathErrors;
+use msdd_surrogate::training_data::TrainingData;
 use std::path::PathBuf;
 
 #[derive(Args)]

@@ -47,7 +47,7 @@ fn scored(arguments: &[&str], inputs: &[&str], limit: u64) -> Job {
 }
 
 pub fn score() -> Job {
-    let models = ["rust/surrogate/models/state.json", "rust/surrogate/models/paper.json"];
+    let models = ["rust/surrogate/models/increment.json", "rust/surrogate/models/paper.json"];
     let database = "cases/database/full.csv.gz";
     let arguments = ["score", "--model", models[0], "--model", models[1], "--database", database];
     scored(&[&arguments[..], &["--json", "WORK/score.json"]].concat(), &[models[0], models[1], database], 600)

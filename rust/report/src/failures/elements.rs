@@ -84,7 +84,7 @@ pub fn stability(quick: bool) -> Job {
 }
 
 pub fn limits(quick: bool) -> Job {
-    let models = ["rust/surrogate/models/state.json", "rust/surrogate/models/paper.json"];
+    let models = ["rust/surrogate/models/increment.json", "rust/surrogate/models/paper.json"];
     let packings = if quick { "1" } else { "8" };
     let file = "WORK/limits.json";
     let arguments = [

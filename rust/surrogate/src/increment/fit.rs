@@ -3,13 +3,14 @@
 use super::core::{COMPRESSION, Core, JAMMING, SHEAR, STRENGTH};
 use super::law::{ELEMENTS, Elastic, Element, Law, least_third_bulk};
 use super::number::Plain;
-use super::paths::{Point, States, Track, follow, stresses};
+use super::paths::{States, follow, stresses};
 use super::readout::{Conductivity, Features, Readout, conductivity_row};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::{Portable, Vector};
 use crate::least_squares;
 use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};
 use crate::surrogate::MAX_STATE;
+use crate::tracks::{Point, Track};
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 

@@ -1,11 +1,11 @@
 //! The mean packed state as a function of porosity and fabric, which is assumed where the stress at the start is not known.
 
-use super::paths::Point;
 use crate::SurrogateError;
 use crate::document::field;
 use crate::least_squares;
 use crate::network::WEIGHT_LIMIT;
 use crate::scaling::Range;
+use crate::tracks::Point;
 use serde::{Deserialize, Serialize};
 
 /// Least-squares fits over packed states.

@@ -3,10 +3,9 @@
 use super::core::{
     COLUMNS, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, NAMES, POROSITY, SHEAR, STRENGTH,
 };
-use super::errors::{PathErrors, path_errors};
+use super::errors::path_errors;
 use super::mean::MeanStress;
 use super::number::Plain;
-use super::paths::Track;
 use super::readout::{Conductivity, Features};
 use super::start::start;
 use crate::SurrogateError;
@@ -20,6 +19,7 @@ use crate::region::{Coordinates, MOST_COORDINATES, Region, Spread};
 use crate::scaling::Range;
 use crate::solid_fraction::SolidFraction;
 use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
+use crate::tracks::{PathErrors, Track};
 use crate::wall_friction::WallFriction;
 use serde::{Deserialize, Serialize};
 

@@ -4,8 +4,8 @@ use super::*;
 use crate::increment::synthetic;
 use crate::increment::training::train;
 use crate::kernel::{Lanes, with_every_set};
-use crate::models::TrainingData;
 use crate::surrogate::{Batch, evaluate_batch};
+use crate::training_data::TrainingData;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 

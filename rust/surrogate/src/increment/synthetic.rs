@@ -2,12 +2,12 @@
 
 use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR, STRENGTH};
 use super::law::{Element, Law};
-use super::paths::{Point, Step, Track};
 use super::readout::{Conductivity, Readout};
 use super::start::start;
 use crate::dataset::ConductivityKind;
 use crate::kernel::LANES;
 use crate::surrogate::{Answer, Increment, MAX_STATE};
+use crate::tracks::{Point, Step, Track};
 
 /// A law like the shipped one.
 pub fn core() -> Core {

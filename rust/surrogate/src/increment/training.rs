@@ -4,17 +4,21 @@ use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSI
 use super::fit::{PathFit, fit, parameters, readouts};
 use super::mean::MeanStress;
 use super::model::{COORDINATES, File, IncrementModel, Provenance, Ranges, Report, SCHEMA, features};
-use super::paths::{Point, States, Track, conductivities, follow, stresses};
+use super::paths::{States, conductivities, follow, stresses};
 use crate::SurrogateError;
 use crate::dataset::ConductivityKind;
-use crate::models::TrainingData;
 use crate::options::TrainingOptions;
 use crate::region::{Coordinates, Region, Spread};
 use crate::scaling::Range;
 use crate::solid_fraction::SolidFraction;
 use crate::surrogate::MAX_STATE;
+use crate::tracks::{Point, Track};
+use crate::training_data::TrainingData;
 use crate::wall_friction::WallFriction;
 use std::collections::BTreeSet;
+
+/// Usual number of epochs, after which the fit is at its minimum for all practical purposes.
+pub const USUAL_EPOCHS: u32 = 60;
 
 /// Trains on paths of periodic boxes; wall friction is fitted when the data for it is there.
 ///
