@@ -136,7 +136,7 @@ pub fn unjamming(made: &Made) -> Result<String, ReportError> {
     let Some(limits) = &made.report.failures.limits else { return Ok(String::new()) };
     let styles = [
         ("discrete elements", Style { size: 4, ..Style::marker(0, Marker::Circle) }),
-        ("state", Style::line(1, Line::Solid)),
+        ("increment", Style::line(1, Line::Solid)),
         ("paper", Style::line(2, Line::Dashed)),
     ];
     let x = from_data("thermal strain [%]", false);
@@ -164,11 +164,11 @@ pub fn unjamming(made: &Made) -> Result<String, ReportError> {
         _ => "never".to_string(),
     };
     let caption = format!(
-        "Fig. #. Grains that shrink until they lose contact, mean of {} packings. The pressure falls below 1 Pa: discrete elements {}, the state network {}, the paper's \
-         network {}. The state network starts from the stress of the packings; its K/k is kept above zero, at 1e-4 or more.",
+        "Fig. #. Grains that shrink until they lose contact, mean of {} packings. The pressure falls below 1 Pa: discrete elements {}, the law of the increments {}, the paper's \
+         network {}. The law starts from the stress of the packings; its K/k is kept above zero, at 1e-4 or more.",
         limits.packings,
         said("discrete elements"),
-        said("state"),
+        said("increment"),
         said("paper")
     );
     let keys = styles.map(|(name, style)| (style, name.to_string())).to_vec();
