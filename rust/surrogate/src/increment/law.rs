@@ -112,10 +112,21 @@ impl Law {
         let stiffer = (loose * loose.times(l1).plus(l0)).plus(1.0);
         let first = stiffer.where_greater(least, stiffer, least).times(first);
         let stiffer = loose.times(l2).plus(1.0);
-        let second = stiffer.where_greater(least, stiffer, least).times(second);
+        let stiffer = stiffer.where_greater(least, stiffer, least);
+        // A second term that softens does not soften more than the file says.
+        let limit = if second < 0.0 { N::all(1.0) } else { stiffer };
+        let second = stiffer.where_greater(limit, limit, stiffer).times(second);
+        // The bulk modulus stays positive up to the largest compression, however loose the packing is.
+        let softest = (first.times(0.5) + second.times(MOST_COMPRESSION))
+            .times(-1.0 / (MOST_COMPRESSION * MOST_COMPRESSION));
+        let limited = |third: f64, softest: N| {
+            let third = N::all(third);
+            third.where_greater(softest, third, softest)
+        };
+        let (third, a_third) = (limited(third, softest), limited(third / 3.0, softest.times(1.0 / 3.0)));
         let share = v * v.plus(self.onset).inverse();
-        let pressure = v * (first * share + v * (v.times(third / 3.0) + second.times(0.5)));
-        let bulk = first * share * share.times(-1.0).plus(2.0) + v * (v.times(third) + second);
+        let pressure = v * (first * share + v * (v * a_third + second.times(0.5)));
+        let bulk = first * share * share.times(-1.0).plus(2.0) + v * (v * third + second);
         let [g0, a, g1] = self.shear;
         let inverse = pressure.plus(a).inverse();
         Moduli {
