@@ -17,7 +17,7 @@ static void check(int good, const char *what)
 
 int main(int argc, char **argv)
 {
-    enum { cells = 3, most = 8 };
+    enum { cells = 3, most = 64 };
     const double porosity[cells] = {0.14, 0.14, 0.14};
     const double fabric[cells] = {0.02, 0.02, 0.02};
     const double strain[cells] = {-0.01, 0.0, 0.02};

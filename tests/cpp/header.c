@@ -16,7 +16,7 @@ static int failures = 0;
 
 static void surrogates(void)
 {
-    enum { most = 8 };
+    enum { most = 64 };
     const double porosity = 0.125, fabric_index = 0.05, strain = 1e-3;
     double columns[most], conductivity = -1, stress = -1, solid = -1;
     double *state[most];

@@ -27,13 +27,15 @@ fn in_rust(model: &dyn Surrogate, cells: &Cells) -> Cells {
     let mut after = cells.clone();
     let state: Vec<&[f64]> = cells.state.chunks(COUNT).collect();
     let mut next: Vec<&mut [f64]> = after.state.chunks_mut(COUNT).collect();
+    let (mut kxy, mut sxy) = (vec![0.0; COUNT], vec![0.0; COUNT]);
     let mut batch = Batch {
         strain: &cells.thermal_strain,
         state: &state,
         next_state: &mut next,
-        conductivity: Some([&mut after.conductivity_xx, &mut after.conductivity_yy]),
-        stress: Some([&mut after.stress_xx, &mut after.stress_yy]),
+        conductivity: Some([&mut after.conductivity_xx, &mut after.conductivity_yy, &mut kxy]),
+        stress: Some([&mut after.stress_xx, &mut after.stress_yy, &mut sxy]),
         outside: None,
+        tangent: None,
     };
     after.clamped_cells = evaluate_batch(model, &mut batch);
     after

@@ -10,19 +10,19 @@ module msdd
 
   type, bind(c) :: msdd_initial
     integer(c_size_t) :: struct_size = 0, cells = 0
-    type(c_ptr) :: porosity = c_null_ptr, fabric_index = c_null_ptr, fabric_conductivity = c_null_ptr
-    type(c_ptr) :: stress_xx = c_null_ptr, stress_yy = c_null_ptr
+    type(c_ptr) :: porosity = c_null_ptr, fabric_index = c_null_ptr, fabric_xy = c_null_ptr
+    type(c_ptr) :: stress_xx = c_null_ptr, stress_yy = c_null_ptr, stress_xy = c_null_ptr
+    type(c_ptr) :: conductivity_xx = c_null_ptr, conductivity_yy = c_null_ptr, conductivity_xy = c_null_ptr
   end type
 
   type, bind(c) :: msdd_batch
     integer(c_size_t) :: struct_size = 0, cells = 0
     type(c_ptr) :: state = c_null_ptr, thermal_strain = c_null_ptr, total_thermal_strain = c_null_ptr
-    type(c_ptr) :: strain_xx = c_null_ptr, strain_yy = c_null_ptr, virgin_share = c_null_ptr
+    type(c_ptr) :: strain_xx = c_null_ptr, strain_yy = c_null_ptr, strain_xy = c_null_ptr, rotation = c_null_ptr
     type(c_ptr) :: next_state = c_null_ptr
-    type(c_ptr) :: conductivity_xx = c_null_ptr, conductivity_yy = c_null_ptr
-    type(c_ptr) :: stress_xx = c_null_ptr, stress_yy = c_null_ptr
-    type(c_ptr) :: c11 = c_null_ptr, c22 = c_null_ptr, c12 = c_null_ptr
-    type(c_ptr) :: porosity_rate = c_null_ptr, fabric_index_rate = c_null_ptr
+    type(c_ptr) :: conductivity_xx = c_null_ptr, conductivity_yy = c_null_ptr, conductivity_xy = c_null_ptr
+    type(c_ptr) :: stress_xx = c_null_ptr, stress_yy = c_null_ptr, stress_xy = c_null_ptr
+    type(c_ptr) :: tangent = c_null_ptr
     type(c_ptr) :: clamped = c_null_ptr, outside = c_null_ptr, spread = c_null_ptr
     integer(c_size_t) :: clamped_cells = 0
   end type

@@ -54,7 +54,7 @@ int main(int argc, char **argv)
     for (k = 0; k < most; k++) given[k] = state[k] = &values[k];
     msdd_initial initial = {.struct_size = sizeof initial, .cells = 1, .porosity = &before.porosity,
                             .fabric_index = &before.fabric_index, .stress_xx = &before.stress_xx,
-                            .stress_yy = &before.stress_yy, .fabric_conductivity = &before.fabric_conductivity};
+                            .stress_yy = &before.stress_yy, .stress_xy = &before.stress_xy};
     msdd_batch batch = {.struct_size = sizeof batch, .cells = 1, .state = given, .next_state = state,
                         .thermal_strain = &strain, .total_thermal_strain = &strain, .stress_xx = &pressure[0],
                         .stress_yy = &pressure[1]};

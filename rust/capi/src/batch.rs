@@ -102,7 +102,8 @@ impl<'a> Columns<'a> {
                 ],
                 rotation: optional("rotation", batch.rotation)?,
                 next_state: several("next_state", batch.next_state, names.len())?,
-                conductivity: [batch.conductivity_xx, batch.conductivity_yy, batch.conductivity_xy].map(output),
+                conductivity: [batch.conductivity_xx, batch.conductivity_yy, batch.conductivity_xy]
+                    .map(output),
                 stress: [batch.stress_xx, batch.stress_yy, batch.stress_xy].map(output),
                 tangent: several("tangent", batch.tangent, TANGENT)?,
                 clamped: Output::new(batch.clamped, cells),
@@ -122,10 +123,7 @@ impl<'a> Columns<'a> {
 
     fn check(&self, name: &str, has_tangent: bool) -> Result<(), Failure> {
         let inputs = self.state.iter().chain([&self.thermal_strain]).chain(&self.total_thermal_strain);
-        inputs
-            .chain(self.strain.iter().flatten())
-            .chain(&self.rotation)
-            .try_for_each(Input::check_finite)?;
+        inputs.chain(self.strain.iter().flatten()).chain(&self.rotation).try_for_each(Input::check_finite)?;
         // The lower end does not belong to these ranges.
         let range = |column: &Input, low: f64, high: f64, allowed: &str| {
             let Some(cell) = column.position(|value| value <= low || value > high) else { return Ok(()) };

@@ -7,8 +7,8 @@ use crate::si::Si;
 use crate::status::Failure;
 use msdd_plugin::Plugin;
 use msdd_surrogate::Surrogate;
-use msdd_surrogate::kernel::LANES;
 use msdd_surrogate::dataset::ConductivityKind;
+use msdd_surrogate::kernel::LANES;
 use msdd_surrogate::surrogate::Known;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -201,8 +201,7 @@ impl BatchModel for Plugin {
             let xy = start.stress_xy.as_ref().map_or_else(|| vec![0.0; start.cells], reduced);
             [reduced(&xx), reduced(&yy), xy]
         });
-        let of_grains =
-            |input: &Input| column(input).iter().map(|k| si.of_grains(*k)).collect::<Vec<f64>>();
+        let of_grains = |input: &Input| column(input).iter().map(|k| si.of_grains(*k)).collect::<Vec<f64>>();
         let conductivity = start.conductivity.map(|[xx, yy]| {
             let xy = start.conductivity_xy.as_ref().map_or_else(|| vec![0.0; start.cells], of_grains);
             [of_grains(&xx), of_grains(&yy), xy]

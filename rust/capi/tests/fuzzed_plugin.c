@@ -53,33 +53,23 @@ static int32_t advance(const msdd_plugin_step *step)
         step->conductivity_xx[i] = step->conductivity_yy[i] = 0.3;
         step->stress_xx[i] = step->stress_yy[i] = 0.05;
     }
-    broken(step->conductivity_xx, step->cells, 30);
-    broken(step->stress_yy, step->cells, 30);
-    return below(40) == 0;
-}
-
-static int32_t tangent(const msdd_plugin_tangent *wanted)
-{
-    size_t i;
-    for (i = 0; i < wanted->cells; i++) {
-        wanted->c11[i] = wanted->c22[i] = 1;
-        wanted->c12[i] = wanted->porosity_rate[i] = wanted->fabric_index_rate[i] = 0.5;
-    }
-    broken(wanted->c11, wanted->cells, 10);
-    broken(wanted->c12, wanted->cells, 10);
-    return 0;
-}
-
-static int32_t deform(size_t cells, const double *const *state, const double *xx, const double *yy, double *const *next)
-{
-    size_t i, k;
-    for (k = 0; k < state_size; k++) {
-        for (i = 0; i < cells; i++) {
-            next[k][i] = state[k][i] + (k == 0 ? xx[i] + yy[i] : 0);
+    for (k = 0; step->tangent && k < 9; k++) {
+        for (i = 0; i < step->cells; i++) {
+            step->tangent[k][i] = k % 4 == 0;
         }
-        broken(next[k], cells, 60);
+        broken(step->tangent[k], step->cells, 60);
     }
-    return 0;
+    if (step->strain_xx) {
+        for (i = 0; i < step->cells; i++) {
+            step->next_state[0][i] += step->strain_xx[i] + step->strain_yy[i];
+        }
+        broken((double *)step->rotation, step->cells, 8);
+    }
+    broken(step->conductivity_xx, step->cells, 30);
+    broken(step->conductivity_xy, step->cells, 30);
+    broken(step->stress_yy, step->cells, 30);
+    broken(step->stress_xy, step->cells, 30);
+    return below(40) == 0;
 }
 
 static int32_t spread(size_t cells, const double *const *state, double *result)
@@ -94,12 +84,12 @@ static const char *last_error(void)
     return below(2) ? "\xff is no UTF-8" : NULL;
 }
 
-const msdd_plugin_v1 *msdd_plugin_v1_table(void)
+const msdd_plugin_v2 *msdd_plugin_v2_table(void)
 {
     static const char *const words[] = {"porosity", "fabric_index", "a", "b2", "c_", "porosity_", "../x", "", "\xff",
                                         "FabricIndex", "d d", "e", "f", "g", "h", "i", "j", NULL};
     static const char *names[80];
-    static msdd_plugin_v1 table;
+    static msdd_plugin_v2 table;
     const size_t count = sizeof words / sizeof words[0];
     size_t k;
     memset(&table, 0, sizeof table);
@@ -120,8 +110,7 @@ const msdd_plugin_v1 *msdd_plugin_v1_table(void)
     table.state_names = below(30) ? names : NULL;
     table.initial_state = below(30) ? initial_state : NULL;
     table.advance = below(30) ? advance : NULL;
-    table.tangent = below(3) ? tangent : NULL;
-    table.deform = table.tangent && below(30) ? deform : NULL;
+    table.has_tangent = below(30) ? (uint32_t)below(2) : (uint32_t)number();
     table.spread = below(2) ? spread : NULL;
     table.last_error = below(2) ? last_error : NULL;
     table.wall_friction_limit = below(5) ? 0 : value();

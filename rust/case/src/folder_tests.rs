@@ -61,7 +61,7 @@ fn every_place_of_every_template_is_filled_and_every_dictionary_is_read() {
             scene.heat_source = Some(3000.0);
             scene.tolerance = Some(0.05);
         });
-        assert_eq!(files.len(), 15);
+        assert_eq!(files.len(), 14);
         for File { path, text, program } in &files {
             assert!(!place.is_match(text), "{path}: {text}");
             assert_eq!(*program, path.starts_with("All"));

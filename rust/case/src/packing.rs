@@ -54,7 +54,6 @@ pub struct Packing {
     pub porosity: Spread,
     /// f = F_xx − F_yy [-].
     pub fabric_index: Spread,
-    /// (K_xx − K_yy)/(K_xx + K_yy) [-], resistor network of the contacts solved.
     /// σ_xx, σ_yy [Pa].
     pub stress: [Spread; 2],
     /// p [Pa].

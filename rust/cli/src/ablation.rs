@@ -9,6 +9,7 @@ use msdd_files::{check_target, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::TrainingOptions;
 use msdd_surrogate::ablation::{self, Line};
+use msdd_surrogate::increment::training::USUAL_EPOCHS;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -32,9 +33,6 @@ pub struct Arguments {
     json: Option<PathBuf>,
 }
 
-/// The law's fit is at its minimum after about as many steps.
-const LAW_EPOCHS: u32 = 60;
-
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     arguments.json.iter().try_for_each(|json| check_target(json))?;
     warn_without_checksum(&arguments.database)?;
@@ -53,11 +51,14 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     }
     let mut law = Vec::new();
     if !data.tracks.is_empty() {
-        options.max_epochs = options.max_epochs.max(LAW_EPOCHS);
+        options.max_epochs = options.max_epochs.max(USUAL_EPOCHS);
         law = ablation::increments(&data, &options).map_err(failed)?;
         for line in &law {
             outln!();
-            outln!("law of the increments, {}", line.without.map_or("all".into(), |part| format!("without {part}")));
+            outln!(
+                "law of the increments, {}",
+                line.without.map_or("all".into(), |part| format!("without {part}"))
+            );
             print_paths(&line.scores);
         }
     }

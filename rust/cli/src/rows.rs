@@ -3,7 +3,7 @@
 use crate::tracks::tracks;
 use msdd_rve::database::{Kind, RampName, Record};
 use msdd_surrogate::StateRow;
-use msdd_surrogate::models::TrainingData;
+use msdd_surrogate::training_data::TrainingData;
 use msdd_surrogate::wall_friction::WallSlip;
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! Converts rows of a database to paths of strain, on which the law of the increments is fitted.
 
 use msdd_rve::database::{Kind, RampName, Record};
-use msdd_surrogate::increment::paths::{Point, Step, Track};
+use msdd_surrogate::tracks::{Point, Step, Track};
 use std::collections::BTreeMap;
 
 /// A state of a periodic box; `None` for a stop that was not reached.

@@ -29,10 +29,11 @@ pub struct Arguments {
     /// Seed of the random split into training, validation and held-out packings, and of the starting weights.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Number of trainings from different starting weights; the one with the least validation error is kept.
+    /// Number of trainings from different starting weights; the one with the least validation error is kept. Default: 1; the
+    /// model increment has one start.
     #[arg(long)]
     restarts: Option<u32>,
-    /// Largest number of epochs, that is of Levenberg–Marquardt steps.
+    /// Largest number of epochs, that is of Levenberg–Marquardt steps. Default: 60 for increment, 200 for paper.
     #[arg(long)]
     epochs: Option<u32>,
     /// Number of epochs without a smaller validation error after which a training ends.
@@ -47,7 +48,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let data = training_data(&dataset.records);
     let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
     let kind = models::kind(&arguments.model).map_err(failed)?;
-    let options = options(arguments, &dataset)?;
+    let options = options(arguments, kind, &dataset)?;
     let begin = Instant::now();
     let model = (kind.train)(&data, &options).map_err(failed)?;
     let seconds = begin.elapsed().as_secs_f64();
@@ -57,12 +58,16 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     Ok(())
 }
 
-fn options(arguments: &Arguments, dataset: &Dataset) -> Result<TrainingOptions, CliError> {
+fn options(
+    arguments: &Arguments,
+    kind: &models::Kind,
+    dataset: &Dataset,
+) -> Result<TrainingOptions, CliError> {
     let mut options = TrainingOptions::default();
     options.name = arguments.name.clone().unwrap_or_else(|| arguments.model.clone());
     options.seed = arguments.seed;
     options.restarts = arguments.restarts.unwrap_or(options.restarts);
-    options.max_epochs = arguments.epochs.unwrap_or(options.max_epochs);
+    options.max_epochs = arguments.epochs.unwrap_or(kind.epochs);
     options.patience = arguments.patience.unwrap_or(options.patience);
     options.database = provenance(arguments, dataset)?;
     Ok(options)

@@ -132,7 +132,12 @@ impl Question<'_> {
         };
         if let Some(cell) = bad(&answer.conductivity, 1.0 - 1e-12) {
             let value = answer.conductivity[2][cell];
-            return self.refused("conductivity_xy", cell, value, "conductivity_xy^2 below that of xx times yy");
+            return self.refused(
+                "conductivity_xy",
+                cell,
+                value,
+                "conductivity_xy^2 below that of xx times yy",
+            );
         }
         match bad(&answer.stress, 1.0 + 1e-9) {
             None => Ok(()),

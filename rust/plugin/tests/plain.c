@@ -24,58 +24,31 @@ static const char *text(void) { return "the table of isotherms is empty"; }
 
 static int32_t advance(const msdd_plugin_step *step)
 {
-    size_t i;
+    size_t i, k;
     calls++;
     for (i = 0; i < step->cells; i++) {
-        step->next_state[0][i] = step->state[0][i] - step->thermal_strain[i];
-        step->next_state[1][i] = step->state[1][i];
+        /* Volume and shear strain of the cell. */
+        const double grown = step->strain_xx ? step->strain_xx[i] + step->strain_yy[i] : 0;
+        const double sheared = step->strain_xy ? step->strain_xy[i] : 0;
+        step->next_state[0][i] = step->state[0][i] - step->thermal_strain[i] + 0.5 * grown;
+        step->next_state[1][i] = step->state[1][i] + (step->rotation ? step->rotation[i] : 0);
         step->conductivity_xx[i] = step->conductivity_yy[i] = 0.3;
-        step->stress_xx[i] = 0.05;
+        step->stress_xx[i] = 0.05 - grown;
 #ifndef LEAVES_STRESS
-        step->stress_yy[i] = 0.05;
+        step->stress_yy[i] = 0.05 - grown;
 #endif
+        if (sheared != 0) {
+            step->stress_xy[i] = -0.5 * sheared;
+        }
+        for (k = 0; step->tangent && k < 9; k++) {
+            step->tangent[k][i] = k == 8 ? 0.5 : k == 0 || k == 1 || k == 3 || k == 4 ? 1 : 0;
+        }
     }
 #ifdef FAILS
     return FAILS;
 #endif
 #ifdef ANSWERS
     ANSWERS;
-#endif
-    return 0;
-}
-
-#ifndef TANGENT
-#define TANGENT NULL
-#endif
-#ifndef DEFORM
-#define DEFORM NULL
-#endif
-#ifndef C12
-#define C12 0.5
-#endif
-static int32_t tangent(const msdd_plugin_tangent *wanted)
-{
-    size_t i;
-    for (i = 0; i < wanted->cells; i++) {
-        wanted->c11[i] = wanted->c22[i] = 1;
-        wanted->c12[i] = C12;
-        wanted->porosity_rate[i] = wanted->fabric_index_rate[i] = 0.5;
-    }
-#ifdef STIFFENS
-    STIFFENS;
-#endif
-    return 0;
-}
-
-static int32_t deform(size_t cells, const double *const *state, const double *xx, const double *yy, double *const *next)
-{
-    size_t i;
-    for (i = 0; i < cells; i++) {
-        next[0][i] = state[0][i] + 0.5 * (xx[i] + yy[i]);
-        next[1][i] = state[1][i] + 0.5 * (xx[i] - yy[i]);
-    }
-#ifdef DEFORMS
-    DEFORMS;
 #endif
     return 0;
 }
@@ -102,7 +75,13 @@ static int32_t spread(size_t cells, const double *const *state, double *result)
     return 0;
 }
 
-const msdd_plugin_v1 *msdd_plugin_v1_table(void)
+#ifdef OLD
+/* What a plug-in of version 1 defines. */
+const void *msdd_plugin_v1_table(void);
+const void *msdd_plugin_v1_table(void) { return "a table of version 1"; }
+#endif
+
+const msdd_plugin_v2 *msdd_plugin_v2_table(void)
 {
     static const char *const names[] = {
 #ifdef NAMES
@@ -111,7 +90,7 @@ const msdd_plugin_v1 *msdd_plugin_v1_table(void)
         "porosity", "fabric_index"
 #endif
     };
-    static msdd_plugin_v1 table;
+    static msdd_plugin_v2 table;
     table.struct_size = sizeof table;
     table.version = MSDD_PLUGIN_VERSION;
     table.name = "plain";
@@ -119,14 +98,13 @@ const msdd_plugin_v1 *msdd_plugin_v1_table(void)
     table.state_names = names;
     table.initial_state = initial_state;
     table.advance = advance;
-    table.tangent = TANGENT;
-    table.deform = DEFORM;
     table.last_error = text;
 #ifdef HAS_ALL
+    table.has_tangent = 1;
     table.solid_fraction = solid_fraction;
     table.spread = spread;
 #endif
-    (void)tangent, (void)deform, (void)solid_fraction, (void)spread;
+    (void)solid_fraction, (void)spread;
 #ifdef CHANGE
     CHANGE;
 #endif

@@ -27,9 +27,12 @@ fn refused(path: &Path) -> String {
 const STEP: Step = Step {
     state: &[&[0.12, 0.13, 0.14], &[0.0, 0.01, 0.02]],
     thermal_strain: &[0.0, 0.01, -0.01],
-    virgin_share: None,
     strain: None,
+    wants_tangent: false,
 };
+
+const START: Start =
+    Start { porosity: &[0.1], fabric_index: &[0.2], fabric_xy: None, stress: None, conductivity: None };
 
 #[test]
 fn a_plain_plugin_answers() {
@@ -42,27 +45,36 @@ fn a_plain_plugin_answers() {
     assert_eq!((answer.conductivity[1][2], answer.stress[0][1]), (0.3, 0.05));
     assert_eq!(answer.outside, vec![vec![0.0; 3]; 3]);
     assert_eq!(plugin.spread(STEP.state).expect("none"), None);
-    assert_eq!(plugin.tangent(STEP.state).expect("none"), None);
-    let start = Start { porosity: &[0.1], fabric_index: &[0.2], fabric_conductivity: None, stress: None };
-    assert_eq!(plugin.initial_state(&start).expect("good"), [[0.1], [0.2]]);
-    let nothing = Step { state: &[&[], &[]], thermal_strain: &[], virgin_share: None, strain: None };
+    // Without a tangent it is neither asked for one nor told of strains.
+    let strained = Step { wants_tangent: true, ..DEFORMED };
+    assert_eq!(plugin.advance(&strained).expect("good"), answer);
+    assert_eq!(answer.tangent, None);
+    assert_eq!((&answer.conductivity[2], &answer.stress[2]), (&vec![0.0; 3], &vec![0.0; 3]));
+    assert_eq!(plugin.initial_state(&START).expect("good"), [[0.1], [0.2]]);
+    let nothing = Step { state: &[&[], &[]], thermal_strain: &[], ..STEP };
     assert_eq!(plugin.advance(&nothing).expect("nothing to do").state, vec![vec![0.0; 0]; 2]);
 }
 
 #[test]
 fn each_bad_table_has_its_own_text() {
-    let size = size_of::<msdd_abi::msdd_plugin_v1>();
+    let size = size_of::<msdd_abi::msdd_plugin_v2>();
     for (name, macros, expected) in [
         (
             "symbol",
-            &["msdd_plugin_v1_table=other_table"][..],
-            "has no function msdd_plugin_v1_table".to_string(),
+            &["msdd_plugin_v2_table=other_table"][..],
+            "has no function msdd_plugin_v2_table".to_string(),
         ),
-        ("null", &["RETURNS=NULL"], "msdd_plugin_v1_table returned NULL".to_string()),
+        (
+            "old",
+            &["msdd_plugin_v2_table=other_table", "OLD"],
+            "has version 1 of the plug-in interface, which knows no shear; this library has version 2"
+                .to_string(),
+        ),
+        ("null", &["RETURNS=NULL"], "msdd_plugin_v2_table returned NULL".to_string()),
         (
             "version",
-            &["CHANGE=table.version=2"],
-            "has version 2 of the plug-in table, this library has 1".to_string(),
+            &["CHANGE=table.version=3"],
+            "has version 3 of the plug-in table, this library has 2".to_string(),
         ),
         (
             "size",
@@ -71,7 +83,7 @@ fn each_bad_table_has_its_own_text() {
         ),
         ("advance", &["CHANGE=table.advance=NULL"], "advance is NULL".to_string()),
         ("initial", &["CHANGE=table.initial_state=NULL"], "initial_state is NULL".to_string()),
-        ("deform", &["TANGENT=tangent"], "deform is NULL, but tangent is not".to_string()),
+        ("tangent", &["CHANGE=table.has_tangent=2"], "has_tangent = 2, allowed: 0, 1".to_string()),
         ("name", &["CHANGE=table.name=NULL"], "name is NULL".to_string()),
         ("empty", &["CHANGE=table.name=\"\""], "name is empty".to_string()),
         ("utf8", &["CHANGE=table.name=\"\\xff\""], "is not UTF-8".to_string()),
@@ -195,6 +207,17 @@ fn answers_that_no_grains_have_are_named_by_column_and_cell() {
             "ANSWERS=step->stress_yy[2]=-5e7",
             "stress_yy[2] = -50000000, allowed: 0 to 1e30: compression",
         ),
+        (
+            "crosswise",
+            "ANSWERS=step->conductivity_xy[1]=-0.4",
+            "conductivity_xy[1] = -0.4, allowed: conductivity_xy^2 below that of xx times yy",
+        ),
+        (
+            "oblique",
+            "ANSWERS=step->stress_xy[2]=0.06",
+            "stress_xy[2] = 0.06, allowed: stress_xy^2 up to that of xx times yy: loose grains do not pull",
+        ),
+        ("unlike", "ANSWERS=step->stress_xy[0]=0.0/0.0", "stress_xy[0] = "),
         ("dense", "ANSWERS=step->next_state[0][1]=-3", "state porosity[1] = -3, allowed: 0 to 1"),
         ("loose", "ANSWERS=step->next_state[0][1]=5", "state porosity[1] = 5, allowed: 0 to 1"),
         ("fabric", "ANSWERS=step->next_state[1][2]=7", "state fabric_index[2] = 7, allowed: -1 to 1"),
@@ -215,7 +238,7 @@ fn answers_that_no_grains_have_are_named_by_column_and_cell() {
     }
     let plugin = Plugin::load(&compiled("start", &["CHANGES_THE_START"])).expect("fit");
     let known = [0.1, 0.2];
-    let start = Start { porosity: &known, fabric_index: &known, fabric_conductivity: None, stress: None };
+    let start = Start { porosity: &known, fabric_index: &known, ..START };
     let message = plugin.initial_state(&start).expect_err("changed").to_string();
     assert!(
         message.contains("initial_state answered fabric_index[1] = 0.5, allowed: that given"),
@@ -223,46 +246,49 @@ fn answers_that_no_grains_have_are_named_by_column_and_cell() {
     );
 }
 
-const DEFORMED: Step = Step { strain: Some([&[0.0, 0.01, 0.0], &[0.0, 0.0, -0.01]]), ..STEP };
+/// Strains xx, yy, xy and rotation.
+const DEFORMED: Step = Step {
+    strain: Some([&[0.0, 0.01, 0.0], &[0.0, 0.0, -0.01], &[0.0, 0.02, 0.0], &[0.0, 0.0, 0.03]]),
+    ..STEP
+};
 
 /// Compiles `plain.c` with a tangent and all other optional functions of a plug-in.
 fn whole(name: &str, more: &str) -> Plugin {
-    let macros = ["TANGENT=tangent", "DEFORM=deform", "HAS_ALL", more];
-    Plugin::load(&compiled(&format!("whole-{name}"), &macros)).expect("fit")
+    Plugin::load(&compiled(&format!("whole-{name}"), &["HAS_ALL", more])).expect("fit")
 }
 
 #[test]
-fn a_tangent_and_a_deformation_are_those_of_a_medium() {
+fn strains_of_the_cell_and_the_tangent_reach_the_plugin_and_come_back() {
     let plugin = whole("good", "GOOD");
+    assert!(plugin.has_tangent());
     let answer = plugin.advance(&DEFORMED).expect("good");
     assert_eq!(answer.state[0], [0.12, 0.13 - 0.01 + 0.005, 0.14 + 0.01 - 0.005]);
-    assert!(plugin.tangent(STEP.state).expect("good").is_some());
+    assert_eq!(answer.state[1], [0.0, 0.01, 0.02 + 0.03]);
+    assert_eq!(
+        answer.stress,
+        [vec![0.05, 0.04, 0.05 + 0.01], vec![0.05, 0.04, 0.05 + 0.01], vec![0.0, -0.01, 0.0]]
+    );
+    assert_eq!(answer.tangent, None, "not wanted");
+    let wanted = plugin.advance(&Step { wants_tangent: true, ..DEFORMED }).expect("good");
+    let tangent = wanted.tangent.clone().expect("wanted");
+    let rows = [[1.0; 3], [1.0; 3], [0.0; 3], [1.0; 3], [1.0; 3], [0.0; 3], [0.0; 3], [0.0; 3], [0.5; 3]];
+    assert_eq!(tangent, rows.map(|row| row.to_vec()));
+    assert_eq!((wanted.state, wanted.stress), (answer.state, answer.stress));
+    // Strains that are not given are none.
+    assert_eq!(plugin.advance(&STEP).expect("good").state[0], [0.12, 0.13 - 0.01, 0.14 + 0.01]);
     for (name, macros, expected) in [
-        (
-            "soft",
-            "STIFFENS=wanted->c11[1]=-2",
-            "tangent answered c11[1] = -2, allowed: 1e-30 to 1e30: above 0",
-        ),
-        ("none", "STIFFENS=wanted->c22[2]=0", "tangent answered c22[2] = 0, allowed: 1e-30 to 1e30"),
-        ("shear", "C12=1", "tangent answered c12[0] = 1, allowed: c12^2 below c11 c22"),
-        ("pulls", "C12=-1.5", "tangent answered c12[0] = -1.5, allowed: c12^2 below c11 c22"),
-        ("infinite", "C12=1e300", "tangent answered c12[0] = 1e300, allowed: c12^2"),
-        ("rate", "STIFFENS=wanted->porosity_rate[0]=0.0/0.0", "tangent answered porosity_rate[0] = "),
+        ("soft", "ANSWERS=step->tangent[4][1]=-1e31", "tangent[4][1] = -1e31, allowed: -1e30 to 1e30"),
+        ("undefined", "ANSWERS=step->tangent[8][2]=0.0/0.0", "tangent[8][2] = "),
+        ("creeps", "ANSWERS=step->next_state[1][0]=0.1", "state fabric_index[0] = 0.1, allowed: that before"),
+        ("tears", "ANSWERS=step->next_state[0][1]=2", "state porosity[1] = 2, allowed: 0 to 1"),
     ] {
-        let message = whole(name, macros).tangent(STEP.state).expect_err(name).to_string();
-        assert!(message.contains(expected), "{name}: {message}");
+        let step = Step { wants_tangent: true, ..DEFORMED };
+        let message = whole(name, macros).advance(&step).expect_err(name).to_string();
+        assert!(message.contains(&format!("advance answered {expected}")), "{name}: {message}");
     }
-    for (name, macros, expected) in [
-        (
-            "creeps",
-            "DEFORMS=next[1][0]=0.1",
-            "deform answered state fabric_index[0] = 0.1, allowed: that before",
-        ),
-        ("tears", "DEFORMS=next[0][1]=2", "advance answered state porosity[1] = 2, allowed: 0 to 1"),
-    ] {
-        let message = whole(name, macros).advance(&DEFORMED).expect_err(name).to_string();
-        assert!(message.contains(expected), "{name}: {message}");
-    }
+    // A cell that turns is not at rest.
+    let turning = Step { strain: Some([&[0.0; 3], &[0.0; 3], &[0.0; 3], &[0.1, 0.0, 0.0]]), ..STEP };
+    assert_eq!(plugin.advance(&turning).expect("good").state[1][0], 0.1);
 }
 
 #[test]
@@ -285,8 +311,7 @@ fn spreads_and_solid_fractions_are_those_of_grains() {
 fn a_start_that_depends_on_the_number_of_calls_is_refused() {
     let names = "NAMES=\"porosity\",\"fabric_index\",\"age\"";
     let plugin = Plugin::load(&compiled("ages", &[names, "STARTS=start->state[2][0]=calls"])).expect("fit");
-    let start = Start { porosity: &[0.1], fabric_index: &[0.2], fabric_conductivity: None, stress: None };
-    let message = plugin.initial_state(&start).expect_err("ages").to_string();
+    let message = plugin.initial_state(&START).expect_err("ages").to_string();
     assert!(
         message.contains("initial_state answered state age[0] = 2, allowed: the result of the call before"),
         "{message}"
@@ -306,27 +331,46 @@ fn states_outside_are_the_callers() {
 #[test]
 fn inputs_are_copies() {
     let write = |what: &str| format!("((double *){what})[1]=0.5");
-    let advances = format!("ANSWERS={},{}", write("step->state[0]"), write("step->thermal_strain"));
-    let deforms = format!("DEFORMS={},{}", write("state[1]"), write("xx"));
-    let stiffens = format!("STIFFENS={}", write("wanted->state[0]"));
-    let starts = format!("STARTS={},{}", write("start->porosity"), write("start->stress_xx"));
-    let macros = ["TANGENT=tangent", "DEFORM=deform", &advances, &deforms, &stiffens, &starts];
-    let plugin = Plugin::load(&compiled("writes", &macros)).expect("fit");
-    let [porosity, fabric, strain, xx, yy, share] =
-        [[0.12, 0.13], [0.0, 0.01], [0.0, 0.01], [0.0, 0.02], [0.0, 0.0], [1.0, 1.0]]
+    let inputs = ["step->state[0]", "step->thermal_strain", "step->strain_xx", "step->rotation"].map(write);
+    let advances = format!("ANSWERS={}", inputs.join(","));
+    let known =
+        ["start->porosity", "start->fabric_xy", "start->stress_xy", "start->conductivity_yy"].map(write);
+    let starts = format!("STARTS={}", known.join(","));
+    let plugin = Plugin::load(&compiled("writes", &["HAS_ALL", &advances, &starts])).expect("fit");
+    let [porosity, fabric, strain, xx, yy, xy, turn] =
+        [[0.12, 0.13], [0.0, 0.01], [0.0, 0.01], [0.0, 0.02], [0.0, 0.0], [0.0, 0.01], [0.0, 0.0]]
             .map(|c: [f64; 2]| c.to_vec());
-    let given = [&porosity, &fabric, &strain, &xx, &yy, &share].map(|column| column.clone());
+    let given = [&porosity, &fabric, &strain, &xx, &yy, &xy, &turn].map(|column| column.clone());
     let state: [&[f64]; 2] = [&porosity, &fabric];
-    let (virgin_share, strains) = (Some(share.as_slice()), Some([xx.as_slice(), yy.as_slice()]));
-    let step = Step { state: &state, thermal_strain: &strain, virgin_share, strain: strains };
+    let strains: Option<[&[f64]; 4]> = Some([&xx, &yy, &xy, &turn]);
+    let step = Step { state: &state, thermal_strain: &strain, strain: strains, wants_tangent: true };
     let answer = plugin.advance(&step).expect("good");
     assert_eq!(answer.state[0], [0.12, 0.13 - 0.01 + 0.01]);
-    let before = answer.clone();
-    let after: Vec<&[f64]> = answer.state.iter().map(Vec::as_slice).collect();
-    plugin.tangent(&after).expect("good");
-    assert_eq!(answer, before);
-    let stress = Some([xx.as_slice(), yy.as_slice()]);
-    let start = Start { porosity: &porosity, fabric_index: &fabric, fabric_conductivity: None, stress };
+    let start = Start {
+        porosity: &porosity,
+        fabric_index: &fabric,
+        fabric_xy: Some(&xy),
+        stress: Some([&xx, &yy, &xy]),
+        conductivity: Some([&strain, &turn, &xy]),
+    };
     assert_eq!(plugin.initial_state(&start).expect("good"), [[0.12, 0.13], [0.0, 0.01]]);
-    assert_eq!([porosity, fabric, strain, xx, yy, share], given);
+    assert_eq!([porosity, fabric, strain, xx, yy, xy, turn], given);
+}
+
+/// All that is known at the start reaches the plug-in in its place; what is not known is NULL.
+#[test]
+fn a_start_passes_on_what_is_known() {
+    let names = "NAMES=\"porosity\",\"fabric_index\",\"known\"";
+    let sum = "STARTS=start->state[2][0]=(start->fabric_xy?start->fabric_xy[0]:0)\
+        +(start->stress_xx?10*start->stress_xx[0]+100*start->stress_yy[0]+1e3*start->stress_xy[0]:0)\
+        +(start->conductivity_xx?1e4*start->conductivity_xx[0]+1e5*start->conductivity_yy[0]+1e6*start->conductivity_xy[0]:0)";
+    let plugin = Plugin::load(&compiled("knows", &[names, sum])).expect("fit");
+    let known = |start: &Start| plugin.initial_state(start).expect("good")[2][0];
+    let stress: Option<[&[f64]; 3]> = Some([&[2.0], &[3.0], &[4.0]]);
+    let conductivity: Option<[&[f64]; 3]> = Some([&[5.0], &[6.0], &[7.0]]);
+    assert_eq!(known(&START), 0.0);
+    assert_eq!(known(&Start { fabric_xy: Some(&[1.0]), ..START }), 1.0);
+    assert_eq!(known(&Start { stress, ..START }), 4320.0);
+    assert_eq!(known(&Start { conductivity, ..START }), 7_650_000.0);
+    assert_eq!(known(&Start { fabric_xy: Some(&[1.0]), stress, conductivity, ..START }), 7_654_321.0);
 }

@@ -69,11 +69,12 @@ pub fn files(averages: &[Averages], grains: f64, note: &str) -> Vec<(&'static st
         format!("({xx:.2} {xy:.2} 0 {yy:.2} 0 0)")
     });
     let conductivity = averages.iter().map(|a| {
-        let network =
-            [a.conductivity_network_xx, a.conductivity_network_xy, a.conductivity_network_yy].map(|k| k * grains);
+        let network = [a.conductivity_network_xx, a.conductivity_network_xy, a.conductivity_network_yy]
+            .map(|k| k * grains);
         format!("({:.4} {:.4} 0 {:.4} 0 0)", network[0], network[1], network[2])
     });
-    let conductivity_note = format!("Initial conductivity [W/(m K)], resistor network of the contacts solved. {note}");
+    let conductivity_note =
+        format!("Initial conductivity [W/(m K)], resistor network of the contacts solved. {note}");
     let stress_note = format!("Initial stress [Pa], tension positive. {note}");
     vec![
         scalar("porosity", "Initial porosity, overlaps counted once", |a| a.porosity),

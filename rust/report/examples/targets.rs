@@ -7,9 +7,9 @@ use msdd_report::failures::cycles;
 use msdd_report::jobs::cache::Cache;
 use msdd_report::jobs::execute::{Place, Stamp};
 use msdd_report::jobs::pool::{self, Asked};
+use msdd_report::plan::{self, CHARTED};
 use msdd_report::settings::Settings;
 use msdd_report::studies::{other_cases, targets, validation};
-use msdd_report::plan::{self, CHARTED};
 use std::collections::BTreeMap;
 
 fn main() {
@@ -47,18 +47,29 @@ fn main() {
         let errors = one.errors.as_ref().expect("filtered");
         println!(
             "{} {}: T {:.2?} p {:.2} inner {:.2?} displacement {:.1?}",
-            one.case, one.configuration, errors.temperature, errors.pressure, errors.pressure_inner, errors.displacement
+            one.case,
+            one.configuration,
+            errors.temperature,
+            errors.pressure,
+            errors.pressure_inner,
+            errors.displacement
         );
         for f in &errors.fields {
             println!("   {} rms {:.4} inner {:.4} means {:.4?}", f.quantity, f.rms, f.rms_inner, f.means);
         }
     }
     for target in targets::targets(&found, false) {
-        println!("{:3} {:50} {:6.2} {:6.2?} {}", target.case, target.what, target.target, target.reached, target.beside);
+        println!(
+            "{:3} {:50} {:6.2} {:6.2?} {}",
+            target.case, target.what, target.target, target.reached, target.beside
+        );
     }
     let others = other_cases::read(&settings, &records, &references).expect("others");
     for row in others.rows {
-        println!("{} {}: T {:.2?} p {:.2?} {}", row.case, row.what, row.temperature, row.pressure, row.outcome);
+        println!(
+            "{} {}: T {:.2?} p {:.2?} {}",
+            row.case, row.what, row.temperature, row.pressure, row.outcome
+        );
     }
     for c in cycles::read(&settings, &records) {
         println!("{c:?}");

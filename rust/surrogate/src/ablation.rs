@@ -5,17 +5,16 @@
 
 use crate::SurrogateError;
 use crate::dataset::{self, Sample, StateRow};
+use crate::increment::training::train_without;
 use crate::network::INPUTS;
 use crate::options::TrainingOptions;
 use crate::report::Parts;
 use crate::scaling;
-use crate::increment::errors::PathErrors;
-use crate::increment::paths::Track;
-use crate::increment::training::train_without;
-use crate::models::TrainingData;
 use crate::scores::Scores;
 use crate::surrogate::Surrogate;
+use crate::tracks::{PathErrors, Track};
 use crate::training;
+use crate::training_data::TrainingData;
 use serde::Serialize;
 
 /// Inputs of the paper's network.
@@ -84,8 +83,9 @@ fn shuffled(samples: &Parts<Vec<Sample>>, seed: u64) -> Parts<Vec<Sample>> {
 const LEFT_OUT: [(&str, &[(usize, f64)]); 5] = [
     // Strengths of a thousand pressures.
     ("sliding", &[(8, 6.9), (9, 6.9), (10, 0.0), (11, 0.0), (12, 0.0)]),
-    // One element, which has the whole modulus: it knows the stress, but not where the grains have been.
-    ("second element (memory)", &[(7, 16.0), (9, 6.9), (11, 0.0)]),
+    // One element, which has the whole modulus but for two millionths, the least that a file may have: it knows the stress,
+    // but not where the grains have been.
+    ("second element (memory)", &[(7, 13.0), (9, 6.9), (11, 0.0)]),
     ("dilatancy", &[(10, 0.0), (11, 0.0), (12, 0.0)]),
     ("looseness", &[(1, 0.0), (12, 0.0), (13, 0.0), (14, 0.0)]),
     ("growth of G with p", &[(4, -16.0), (5, 0.0)]),
@@ -129,5 +129,23 @@ mod tests {
         // As in the paper, the porosity increment needs the strain and the conductivity needs the porosity.
         assert!(find(Some("thermal_strain"), false).delta_porosity < 0.5, "{lines:?}");
         assert!(find(Some("porosity"), false).conductivity < all.conductivity - 0.05, "{lines:?}");
+    }
+
+    #[test]
+    fn a_law_without_one_of_its_parts_errs_more() {
+        let tracks = crate::increment::synthetic::tracks(10, 6);
+        let data = TrainingData { tracks, ..TrainingData::default() };
+        let options = TrainingOptions { max_epochs: 15, threads: 2, ..TrainingOptions::default() };
+        let lines = increments(&data, &options).expect("good paths");
+        let error = |without: Option<&str>, path: &str| {
+            let line = lines.iter().find(|line| line.without == without).expect("there");
+            let errors = line.scores.iter().find(|errors| errors.name == path).expect("there");
+            errors.pressure.hypot(errors.deviator)
+        };
+        let all = error(None, "shear");
+        assert!(all < 0.02, "{lines:?}");
+        for part in ["sliding", "second element (memory)", "dilatancy"] {
+            assert!(error(Some(part), "shear") > 2.0 * all, "{part}: {lines:?}");
+        }
     }
 }

@@ -89,9 +89,7 @@ pub fn paths(ramps: &[Ramp], strain: f64) -> Vec<Path<'_>> {
         Some((from, to))
     };
     let found = ramps.iter().filter_map(|ramp| Some((ramp, path(ramp)?)));
-    found
-        .map(|(ramp, (from, to))| Path { from: &ramp.states[from], to: &ramp.states[to] })
-        .collect()
+    found.map(|(ramp, (from, to))| Path { from: &ramp.states[from], to: &ramp.states[to] }).collect()
 }
 
 /// Paths along the whole length of the ramps with this name.

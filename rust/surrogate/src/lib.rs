@@ -9,10 +9,11 @@
 //! | [`scaling`] | trained range (clamping) and scales of inputs and outputs |
 //! | [`kernel`] | the network's arithmetic, vectorised |
 //! | [`surrogate`] | the trait that all models implement; batches of cells |
+//! | [`tracks`] | paths of strain, and errors along them |
+//! | [`training_data`] | rows and paths of a database for training |
 //! | [`models`] | the kinds of models by name, and those compiled in |
 //! | [`increment`] | the default model: one law for thermal and mechanical strain |
 //! | [`paper`], [`constant`] | the paper's network and the trivial model as implementations of the trait |
-//! | [`perceptron`] | small tanh networks of any shape, of which the state model is made |
 //! | [`network`] | the paper's 3-16-16-6 network and its gradient |
 //! | [`levenberg_marquardt`] | the minimiser |
 //! | [`fit`] | the fit of the paper's network to samples as a least-squares problem |
@@ -48,7 +49,6 @@ pub mod network;
 pub mod noise;
 pub mod options;
 pub mod paper;
-pub mod perceptron;
 pub mod predictor;
 pub mod region;
 pub mod report;
@@ -59,7 +59,9 @@ pub mod solid_fraction;
 pub mod surrogate;
 #[cfg(test)]
 mod synthetic;
+pub mod tracks;
 pub mod training;
+pub mod training_data;
 pub mod wall_friction;
 
 pub use dataset::StateRow;

@@ -1,44 +1,17 @@
 //! The kinds of models by name. To add a kind, write a file beside this one and a line in [`MODELS`].
 
-use crate::dataset::{self, PackingSplit, StateRow};
 use crate::document::schema;
-use crate::increment::paths::Track;
 use crate::options::TrainingOptions;
 use crate::surrogate::Surrogate;
-use crate::wall_friction::WallSlip;
+use crate::training_data::TrainingData;
 use crate::{Model, SurrogateError, constant, increment, training};
-
-/// Rows of a database for training.
-#[derive(Clone, Debug, Default)]
-pub struct TrainingData {
-    /// States on thermal ramps.
-    pub rows: Vec<StateRow>,
-    /// All paths of strain, thermal and mechanical, of periodic boxes.
-    pub tracks: Vec<Track>,
-    pub wall_slips: Vec<WallSlip>,
-}
-
-impl TrainingData {
-    /// The packings for training, validation and test.
-    ///
-    /// # Errors
-    /// [`SurrogateError::Data`] for fewer than three packings.
-    pub fn split(&self, seed: u64) -> Result<PackingSplit, SurrogateError> {
-        let rows = self.rows.iter().map(|row| row.packing);
-        dataset::split_packings(rows.chain(self.tracks.iter().map(|track| track.packing)), seed)
-    }
-}
-
-impl From<Vec<StateRow>> for TrainingData {
-    fn from(rows: Vec<StateRow>) -> Self {
-        Self { rows, ..Self::default() }
-    }
-}
 
 /// A kind of model.
 pub struct Kind {
     pub name: &'static str,
     pub about: &'static str,
+    /// Largest number of epochs when none is given.
+    pub epochs: u32,
     /// Schema of its files, without the version.
     schema: &'static str,
     pub train: fn(&TrainingData, &TrainingOptions) -> Trained,
@@ -55,6 +28,7 @@ pub const MODELS: [Kind; 3] = [
     Kind {
         name: "constant",
         about: "nothing changes: mean conductivity and pressure of the packed states",
+        epochs: 1,
         schema: "msdd-constant-model-",
         train: |data, options| Ok(Box::new(constant::train(&data.rows, options)?)),
         read: |text| Ok(Box::new(constant::read(text)?)),
@@ -62,6 +36,7 @@ pub const MODELS: [Kind; 3] = [
     Kind {
         name: "paper",
         about: "the paper's network, 3-16-16-6: increments of porosity and fabric; conductivity and stress as outputs",
+        epochs: 200,
         schema: "msdd-model-",
         train: |data, options| Ok(Box::new(training::train(data, options, |_| ())?.0)),
         read: |text| Ok(Box::new(Model::from_json(text)?)),
@@ -69,6 +44,7 @@ pub const MODELS: [Kind; 3] = [
     Kind {
         name: "increment",
         about: "one law for thermal and mechanical strain: elastic energy, and sliding that remembers; 35 numbers",
+        epochs: increment::training::USUAL_EPOCHS,
         schema: "msdd-increment-model-",
         train: |data, options| Ok(Box::new(increment::training::train(data, options)?)),
         read: |text| Ok(Box::new(increment::model::read(text)?)),
@@ -91,8 +67,10 @@ pub fn kind(name: &str) -> Result<&'static Kind, SurrogateError> {
 pub const BUILTIN: &str = "builtin";
 
 /// Models compiled into the library: name and text of the file, the default first.
-const SHIPPED: [(&str, &str); 2] =
-    [("increment", include_str!("../models/increment.json")), ("paper", include_str!("../models/paper.json"))];
+const SHIPPED: [(&str, &str); 2] = [
+    ("increment", include_str!("../models/increment.json")),
+    ("paper", include_str!("../models/paper.json")),
+];
 
 /// A model compiled into the library: `builtin`, `builtin:increment` or `builtin:paper`.
 ///
@@ -133,10 +111,9 @@ mod tests {
     use crate::synthetic;
 
     fn trained(name: &str) -> Box<dyn Surrogate> {
-        let data = TrainingData { rows: synthetic::rows(10, 4), ..TrainingData::default() };
-        let mut options = StateOptions::default();
-        options.common.max_epochs = 12;
-        options.common.restarts = 2;
+        let tracks = increment::synthetic::tracks(10, 4);
+        let data = TrainingData { rows: synthetic::rows(10, 4), tracks, ..TrainingData::default() };
+        let options = TrainingOptions { max_epochs: 12, restarts: 2, ..TrainingOptions::default() };
         (kind(name).expect("listed").train)(&data, &options).expect("good rows")
     }
 
@@ -159,11 +136,11 @@ mod tests {
     #[test]
     fn unknown_names_and_files_are_refused() {
         assert!(kind("best").err().expect("unknown").to_string().contains("model = best"));
-        let text = trained("state").to_json();
-        let newer = text.replace("msdd-state-model-1", "msdd-state-model-2");
+        let text = trained("increment").to_json();
+        let newer = text.replace("msdd-increment-model-1", "msdd-increment-model-2");
         let message = |text: &str| read(text).err().expect("unsound").to_string();
-        assert!(message(&newer).contains("msdd-state-model-2"), "{}", message(&newer));
-        assert!(message(&text.replace("msdd-state-model-1", "other")).contains("\"other\""));
+        assert!(message(&newer).contains("msdd-increment-model-2"), "{}", message(&newer));
+        assert!(message(&text.replace("msdd-increment-model-1", "other")).contains("\"other\""));
         assert!(message(&text[..text.len() / 2]).contains("damaged"));
     }
 }

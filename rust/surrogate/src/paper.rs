@@ -1,9 +1,9 @@
 //! The paper's network as a [`Surrogate`]: its state is (η, f), and K and σ are outputs of each step.
 
+use crate::increment::readout::CONDUCTIVITY_FLOOR;
 use crate::kernel::LANES;
 use crate::model::Model;
 use crate::options::TrainingOptions;
-use crate::increment::readout::CONDUCTIVITY_FLOOR;
 use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
 
 impl Surrogate for Model {
@@ -37,13 +37,7 @@ impl Surrogate for Model {
         state
     }
 
-    fn advance(
-        &self,
-        state: &StateLanes,
-        strain: &Increment,
-        answer: &mut Answer,
-        _: Option<&mut Tangent>,
-    ) {
+    fn advance(&self, state: &StateLanes, strain: &Increment, answer: &mut Answer, _: Option<&mut Tangent>) {
         let block = Model::block(self, &[state[0], state[1], strain.thermal]);
         let zero = [0.0; LANES];
         // The network's own lower limit is zero, but the heat equation needs a positive conductivity.
@@ -84,14 +78,17 @@ mod tests {
     fn gives_the_networks_answers() {
         let model = Model::builtin().expect("the shipped model is sound");
         let direct = Model::evaluate(&model, 0.13, 0.02, 0.001);
-        let answer = Surrogate::evaluate(&model, &[0.13, 0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.001);
+        let state = |porosity, fabric_index| {
+            Surrogate::initial_state(&model, &Known { porosity, fabric_index, ..Known::default() })
+        };
+        let answer = Surrogate::evaluate(&model, &state(0.13, 0.02), 0.001);
         assert_eq!(answer.state[0][3], 0.13 + direct.delta_porosity);
         assert_eq!(
             (answer.conductivity[1][0], answer.stress[0][7]),
             (direct.conductivity_yy, direct.stress_xx)
         );
         assert!(answer.inside(0));
-        let far = Surrogate::evaluate(&model, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], -0.2);
+        let far = Surrogate::evaluate(&model, &state(0.5, 0.0), -0.2);
         assert!(far.outside[0][0] > 0.2 && far.outside[MAX_STATE][0] < -0.1 && !far.inside(0));
     }
 }

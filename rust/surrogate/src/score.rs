@@ -6,10 +6,9 @@ use crate::dataset::{self, Ramp, StateRow, strain_between};
 use crate::kernel::LANES;
 use crate::noise;
 use crate::scores::r_squared;
-use crate::increment::errors::PathErrors;
-use crate::increment::paths::Track;
-use crate::models::TrainingData;
 use crate::surrogate::{Answer, Surrogate};
+use crate::tracks::{PathErrors, Track};
+use crate::training_data::TrainingData;
 use serde::Serialize;
 
 /// R² (Eq. 12) of single queries over pairs of jammed stops, mirror images included.

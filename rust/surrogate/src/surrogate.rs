@@ -2,10 +2,9 @@
 //! it at the same time.
 
 use crate::dataset::ConductivityKind;
-use crate::increment::errors::PathErrors;
-use crate::increment::paths::Track;
 use crate::kernel::{LANES, Lanes};
 use crate::options::TrainingOptions;
+use crate::tracks::{PathErrors, Track};
 use crate::wall_friction::WallFriction;
 
 /// Largest number of state variables of any model.

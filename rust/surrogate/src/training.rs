@@ -1,7 +1,6 @@
 //! Training of the paper's network (section 3.1.2) on database rows.
 
 use crate::dataset::{self, Ramp, Sample};
-use crate::models::TrainingData;
 use crate::drift::drifts;
 use crate::fit::NetworkFit;
 use crate::levenberg_marquardt::{LeastSquares, Limits, Stopping, minimise};
@@ -12,6 +11,7 @@ use crate::report::{Parts, Provenance, Report};
 use crate::scaling::{self, OutputScales, TrainedRange};
 use crate::scores::{Scores, scores};
 use crate::solid_fraction::SolidFraction;
+use crate::training_data::TrainingData;
 use crate::{Model, SurrogateError};
 use nalgebra::DVector;
 use std::ops::ControlFlow;
@@ -156,11 +156,14 @@ mod tests {
         TrainingOptions { max_epochs: 25, threads, ..TrainingOptions::default() }
     }
 
+    fn data(packings: i64, stops: i64) -> TrainingData {
+        TrainingData::from(synthetic::rows(packings, stops))
+    }
+
     #[test]
     fn learns_a_smooth_law_on_packings_it_never_saw() {
-        let rows = synthetic::rows(24, 3);
         let mut epochs = Vec::new();
-        let (model, report) = train(&rows, &options(0), |p| epochs.push(p)).expect("good rows");
+        let (model, report) = train(&data(24, 3), &options(0), |p| epochs.push(p)).expect("good rows");
         assert_eq!((report.packings.training, report.packings.validation, report.packings.test), (16, 4, 4));
         assert_eq!(report.samples.test, 4 * 2 * 20);
         assert!(report.scores.test.delta_porosity > 0.999, "{report:?}");
@@ -179,8 +182,7 @@ mod tests {
 
     #[test]
     fn same_seed_gives_the_same_bytes_whatever_the_thread_count() {
-        let rows = synthetic::rows(6, 2);
-        let text = |options| train(&rows, &options, |_| ()).expect("good rows").0.to_json();
+        let text = |options| train(&data(6, 2), &options, |_| ()).expect("good rows").0.to_json();
         assert_eq!(text(options(1)), text(options(2)));
         assert_ne!(text(options(1)), text(TrainingOptions { seed: 2, ..options(1) }));
     }
@@ -188,7 +190,7 @@ mod tests {
     #[test]
     fn options_are_checked() {
         let bad = TrainingOptions { patience: 0, ..options(1) };
-        let message = train(&synthetic::rows(6, 2), &bad, |_| ()).expect_err("patience 0").to_string();
+        let message = train(&data(6, 2), &bad, |_| ()).expect_err("patience 0").to_string();
         assert!(message.contains("patience = 0"), "{message}");
     }
 }

@@ -27,7 +27,8 @@ impl Columns<'_> {
         let slice = |column: &'s Input<'_>| unsafe { column.slice() };
         let state: Vec<&[f64]> = self.state.iter().map(slice).collect();
         let [xx, yy, xy] = self.strain.each_ref();
-        let strain = [xx, yy, xy, &self.rotation].map(|column| column.as_ref().map_or(zero.as_slice(), slice));
+        let strain =
+            [xx, yy, xy, &self.rotation].map(|column| column.as_ref().map_or(zero.as_slice(), slice));
         let step = Step {
             state: &state,
             thermal_strain: slice(&self.thermal_strain),

@@ -240,7 +240,11 @@ unsafe fn start<'a>(initial: &msdd_initial) -> Result<Start<'a>, Failure> {
             [Some(xx), Some(yy)] => Some([xx, yy]),
             [None, None] => None,
             _ => {
-                return Err(Failure::argument("conductivity_xx, conductivity_yy", "one of them", "both or none"));
+                return Err(Failure::argument(
+                    "conductivity_xx, conductivity_yy",
+                    "one of them",
+                    "both or none",
+                ));
             }
         },
         conductivity_xy: optional("conductivity_xy", initial.conductivity_xy)?,
@@ -250,7 +254,8 @@ unsafe fn start<'a>(initial: &msdd_initial) -> Result<Start<'a>, Failure> {
             _ => return Err(Failure::argument("stress_xx, stress_yy", "one of them", "both or none")),
         },
     };
-    let given = [start.porosity, start.fabric_index].into_iter().chain(start.fabric_xy).chain(start.stress_xy);
+    let given =
+        [start.porosity, start.fabric_index].into_iter().chain(start.fabric_xy).chain(start.stress_xy);
     let given = given.chain(start.conductivity.into_iter().flatten()).chain(start.conductivity_xy);
     given.chain(start.stress.into_iter().flatten()).try_for_each(|column| column.check_finite())?;
     start.porosity.check_range(0.0, 1.0, "0 to 1")?;

@@ -1,8 +1,9 @@
 //! Results of a loaded model through the C functions.
 
 use super::{Cells, Handle, MATERIAL, MSDD_INVALID_ARGUMENT, MSDD_OK, last_error, text};
-use crate::abi;
+use crate::abi::{self, msdd_initial};
 use crate::exports::*;
+use ::msdd_surrogate::surrogate::MAX_STATE;
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 
@@ -17,7 +18,7 @@ fn answers_are_the_models_in_si() {
         assert_eq!(cells.advance(&handle), MSDD_OK, "{}", last_error());
         let model = ::msdd_surrogate::models::builtin(name.to_str().expect("ASCII")).expect("shipped");
         for cell in 0..11 {
-            let mut state = [0.0; 6];
+            let mut state = [0.0; MAX_STATE];
             state.iter_mut().zip(&cells.state).for_each(|(value, column)| *value = column[cell]);
             let expected = model.evaluate(&state, cells.strain[cell]);
             let scale = 1e7 * 5e-3 * (1.0 + cells.total[cell]);
@@ -32,6 +33,8 @@ fn answers_are_the_models_in_si() {
                 close(k, 100.0 * expected.conductivity[k][0]);
                 close(2 + k, scale * expected.stress[k][0]);
             }
+            close(4, 100.0 * expected.conductivity[2][0]);
+            close(5, scale * expected.stress[2][0]);
             assert_eq!(cells.clamped[cell], u8::from(cell == 9), "{name:?} {cell} {expected:?}");
             assert_eq!(cells.outside[0][cell] > 1.0, cell == 9);
         }
@@ -70,28 +73,55 @@ fn a_state_may_advance_in_place() {
     assert_eq!(shared.outputs, apart.outputs);
 }
 
+/// A start whose stress, conductivity and fabric are known answers with them; a cell that turns takes them with it.
 #[test]
-fn virgin_strains_slide_and_others_hardly() {
+fn what_is_known_of_a_start_is_answered_and_turns_with_the_cell() {
     let handle = Handle::builtin();
-    let with = |share: Option<f64>| {
-        let mut cells = Cells::new(&handle, 19);
-        let column = share.map(|share| vec![share; 19]);
-        let status = cells.with_batch(|batch| {
-            batch.virgin_share = column.as_ref().map_or(null(), |column| column.as_ptr());
-            // SAFETY: live handle, full structs, columns of `cells` values.
-            unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
-        });
-        assert_eq!(status, MSDD_OK, "{}", last_error());
-        cells.next
+    let columns = [0.12, 0.03, 0.004, 3500.0, 2500.0, 200.0, 31.0, 27.0, 1.0].map(|value| [value; 2]);
+    let [porosity, fabric_index, fabric_xy, sxx, syy, sxy, kxx, kyy, kxy] =
+        columns.each_ref().map(|column| column.as_ptr());
+    let mut cells = Cells::new(&handle, 2);
+    let state: Vec<*mut f64> = cells.state.iter_mut().map(|c| c.as_mut_ptr()).collect();
+    let initial = msdd_initial {
+        struct_size: size_of::<msdd_initial>(),
+        cells: 2,
+        porosity,
+        fabric_index,
+        fabric_xy,
+        stress_xx: sxx,
+        stress_yy: syy,
+        stress_xy: sxy,
+        conductivity_xx: kxx,
+        conductivity_yy: kyy,
+        conductivity_xy: kxy,
     };
-    let [all, half, none] = [1.0, 0.5, 0.0].map(|share| with(Some(share)));
-    assert_eq!(with(None), all);
-    // The virgin share does not change porosity and pressure; it changes fabric index, f_K and deviator.
-    assert!(none[0] == all[0] && none[2] == all[2]);
-    for column in [1, 3, 4] {
-        let cell = 3;
-        let [all, half, none] = [&all, &half, &none].map(|next| next[column][cell]);
-        assert!((none - all).abs() > 1e-8 && (half - 0.5 * (all + none)).abs() < 1e-12, "{column}");
+    // SAFETY: live handle, full structs, columns of two values.
+    let status = unsafe { msdd_surrogate_initial_state(handle.0, &MATERIAL, &initial, state.as_ptr()) };
+    assert_eq!(status, MSDD_OK, "{}", last_error());
+    (cells.strain, cells.total) = (vec![0.0; 2], vec![0.0; 2]);
+    // The second cell turns by 0.1 rad.
+    let angle: f64 = 0.1;
+    let rotation = [0.0, angle];
+    let status = cells.with_batch(|batch| {
+        batch.rotation = rotation.as_ptr();
+        // SAFETY: live handle, full structs, columns of `cells` values.
+        unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
+    });
+    assert_eq!(status, MSDD_OK, "{}", last_error());
+    let (sine, cosine) = (2.0 * angle).sin_cos();
+    for ([xx, yy, xy], [o, p, q]) in [([3500.0, 2500.0, 200.0], [2, 3, 5]), ([31.0, 27.0, 1.0], [0, 1, 4])] {
+        let close = |found: f64, expected: f64| {
+            assert!((found - expected).abs() < 2e-4 * xx, "{found} {expected}");
+        };
+        let of = |output: usize, cell: usize| -> f64 { cells.outputs[output][cell] };
+        close(of(o, 0), xx);
+        close(of(p, 0), yy);
+        close(of(q, 0), xy);
+        let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+        let (along, across) = (cosine * half - sine * xy, sine * half + cosine * xy);
+        close(of(o, 1), mean + along);
+        close(of(p, 1), mean - along);
+        close(of(q, 1), across);
     }
 }
 
@@ -117,38 +147,55 @@ fn zero_strain_and_unwanted_columns() {
     assert_eq!(none, MSDD_OK);
 }
 
-/// Compression along x raises stress and stiffness and lowers the porosity by what the tangent says. The paper's model has
-/// no tangent, and the message says so.
+/// The tangent is the derivative of the stress that is answered, for all three strains. The paper's model has no tangent, and
+/// the message says so.
 #[test]
-fn mechanical_strain_follows_the_tangent() {
+fn the_tangent_is_the_derivative_of_the_stress() {
     let handle = Handle::builtin();
     // SAFETY: live.
     assert_eq!(unsafe { msdd_surrogate_has_tangent(handle.0) }, 1);
-    let mut cells = Cells::new(&handle, 5);
-    (cells.strain, cells.total) = (vec![0.0; 5], vec![0.0; 5]);
-    let mut start = cells.clone();
-    assert_eq!(start.advance(&handle), MSDD_OK);
-    let (closing, mut tangent) = ([-1e-4; 5], [[0.0; 5]; 5]);
+    let start = {
+        let mut cells = Cells::new(&handle, 5);
+        (cells.strain, cells.total) = (vec![0.0; 5], vec![0.0; 5]);
+        cells
+    };
+    let base = [[-1e-4; 5], [2e-4; 5], [3e-4; 5]];
+    let mut tangent = vec![[-7.0; 5]; 9];
     let mut spread = [-7.0; 5];
-    let status = cells.with_batch(|batch| {
-        batch.strain_xx = closing.as_ptr();
-        let [c11, c22, c12, porosity_rate, fabric_index_rate] = tangent.each_mut().map(|c| c.as_mut_ptr());
-        (batch.c11, batch.c22, batch.c12) = (c11, c22, c12);
-        (batch.porosity_rate, batch.fabric_index_rate) = (porosity_rate, fabric_index_rate);
-        batch.spread = spread.as_mut_ptr();
-        // SAFETY: live handle, full structs, columns of `cells` values.
-        unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
+    let mut strained = |moved: [[f64; 5]; 3], wants: bool| {
+        let mut cells = start.clone();
+        let columns: Vec<*mut f64> = tangent.iter_mut().map(|column| column.as_mut_ptr()).collect();
+        let status = cells.with_batch(|batch| {
+            [batch.strain_xx, batch.strain_yy, batch.strain_xy] = moved.each_ref().map(|c| c.as_ptr());
+            batch.tangent = if wants { columns.as_ptr() } else { null() };
+            batch.spread = if wants { spread.as_mut_ptr() } else { null_mut() };
+            // SAFETY: live handle, full structs, columns of `cells` values.
+            unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
+        });
+        assert_eq!(status, MSDD_OK, "{}", last_error());
+        [2, 3, 5].map(|output| cells.outputs[output].clone())
+    };
+    let here = strained(base, true);
+    assert_eq!(here, strained(base, false), "the same stress with and without tangent");
+    let h = 1e-8;
+    let sides = [0, 1, 2].map(|j| {
+        [-h, h].map(|by| {
+            let mut moved = base;
+            moved[j].iter_mut().for_each(|value| *value += by);
+            strained(moved, false)
+        })
     });
-    assert_eq!(status, MSDD_OK, "{}", last_error());
-    for cell in 0..5 {
-        let rise = cells.outputs[2][cell] - start.outputs[2][cell];
-        let expected = 1e-4 * tangent[0][cell];
-        assert!((rise / expected - 1.0).abs() < 0.02, "{rise} {expected}");
-        let lateral = cells.outputs[3][cell] - start.outputs[3][cell];
-        assert!((lateral / (1e-4 * tangent[2][cell]) - 1.0).abs() < 0.02, "{lateral}");
-        assert!(cells.next[0][cell] < start.next[0][cell] && tangent[1][cell] > 0.0);
-        assert!(spread[cell] > 0.0 && spread[cell] < 1.0);
+    for (j, [low, high]) in sides.iter().enumerate() {
+        for i in 0..3 {
+            for cell in 0..5 {
+                let (found, slope) = (tangent[3 * i + j][cell], -(high[i][cell] - low[i][cell]) / (2.0 * h));
+                assert!((found - slope).abs() < 1.0 + 1e-4 * slope.abs(), "{i} {j} {cell}: {found} {slope}");
+            }
+        }
     }
+    assert!((0..5).all(|cell| tangent[0][cell] > 1e3 && tangent[4][cell] > 1e3), "stiff in Pa: {tangent:?}");
+    assert!(spread.iter().all(|s| *s > 0.0 && *s < 1.0));
+    let closing = [-1e-4; 5];
     let paper = Handle::load(c"builtin:paper");
     let mut cells = Cells::new(&paper, 5);
     let status = cells.with_batch(|batch| {

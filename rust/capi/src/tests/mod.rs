@@ -72,8 +72,8 @@ struct Cells {
     strain: Vec<f64>,
     total: Vec<f64>,
     next: Vec<Vec<f64>>,
-    /// K_xx, K_yy, σ_xx, σ_yy.
-    outputs: [Vec<f64>; 4],
+    /// K_xx, K_yy, σ_xx, σ_yy, K_xy, σ_xy.
+    outputs: [Vec<f64>; 6],
     outside: Vec<Vec<f64>>,
     clamped: Vec<u8>,
     clamped_cells: usize,
@@ -92,9 +92,13 @@ impl Cells {
             cells,
             porosity: porosity.as_ptr(),
             fabric_index: fabric_index.as_ptr(),
-            fabric_conductivity: null(),
+            fabric_xy: null(),
             stress_xx: null(),
             stress_yy: null(),
+            stress_xy: null(),
+            conductivity_xx: null(),
+            conductivity_yy: null(),
+            conductivity_xy: null(),
         };
         // SAFETY: live handle, full structs, columns of `cells` values.
         let status =
@@ -118,7 +122,7 @@ impl Cells {
         let state: Vec<*const f64> = self.state.iter().map(|c| c.as_ptr()).collect();
         let next: Vec<*mut f64> = self.next.iter_mut().map(|c| c.as_mut_ptr()).collect();
         let outside: Vec<*mut f64> = self.outside.iter_mut().map(|c| c.as_mut_ptr()).collect();
-        let [conductivity_xx, conductivity_yy, stress_xx, stress_yy] =
+        let [conductivity_xx, conductivity_yy, stress_xx, stress_yy, conductivity_xy, stress_xy] =
             self.outputs.each_mut().map(|c| c.as_mut_ptr());
         let mut batch = msdd_batch {
             struct_size: size_of::<msdd_batch>(),
@@ -128,17 +132,16 @@ impl Cells {
             total_thermal_strain: self.total.as_ptr(),
             strain_xx: null(),
             strain_yy: null(),
-            virgin_share: null(),
+            strain_xy: null(),
+            rotation: null(),
             next_state: next.as_ptr(),
             conductivity_xx,
             conductivity_yy,
+            conductivity_xy,
             stress_xx,
             stress_yy,
-            c11: null_mut(),
-            c22: null_mut(),
-            c12: null_mut(),
-            porosity_rate: null_mut(),
-            fabric_index_rate: null_mut(),
+            stress_xy,
+            tangent: null(),
             clamped: self.clamped.as_mut_ptr(),
             outside: outside.as_ptr(),
             spread: null_mut(),

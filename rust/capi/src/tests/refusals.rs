@@ -80,19 +80,25 @@ fn scales_keep_answers_numbers_or_are_refused() {
             unsafe { msdd_surrogate_advance(handle.0, &material, batch) }
         });
         assert_eq!(status, MSDD_OK, "{}", last_error());
-        assert!(cells.outputs.iter().flatten().all(|value| value.is_normal() && *value > 0.0), "{cells:?}");
+        let positive = cells.outputs[..4].iter().flatten().all(|value| value.is_normal() && *value > 0.0);
+        assert!(positive && cells.outputs[4..].iter().flatten().all(|value| value.is_finite()), "{cells:?}");
         let (mut porosity, mut fabric_index) = ([0.12; 2], [0.0; 2]);
-        let (stress, mut rest) = ([-1e30, 1e30], [[0.0; 2]; 3]);
+        let (stress, conductivity) = ([-1e30, 1e30], [1e-30, 1e30]);
+        let mut rest = vec![[0.0; 2]; handle.columns() - 2];
         let state = [&mut porosity, &mut fabric_index].map(|column| column.as_mut_ptr());
-        let state: Vec<*mut f64> = state.into_iter().chain(rest.each_mut().map(|c| c.as_mut_ptr())).collect();
+        let state: Vec<*mut f64> = state.into_iter().chain(rest.iter_mut().map(|c| c.as_mut_ptr())).collect();
         let initial = msdd_initial {
             struct_size: size_of::<msdd_initial>(),
             cells: 2,
             porosity: state[0],
             fabric_index: state[1],
-            fabric_conductivity: null(),
+            fabric_xy: null(),
             stress_xx: stress.as_ptr(),
             stress_yy: stress.as_ptr(),
+            stress_xy: stress.as_ptr(),
+            conductivity_xx: conductivity.as_ptr(),
+            conductivity_yy: conductivity.as_ptr(),
+            conductivity_xy: stress.as_ptr(),
         };
         // SAFETY: live handle, full structs, columns of two values.
         let status = unsafe { msdd_surrogate_initial_state(handle.0, &material, &initial, state.as_ptr()) };
@@ -135,7 +141,8 @@ fn a_start_that_no_packing_has_is_refused() {
     for source in [c"builtin", c"builtin:paper"] {
         let handle = Handle::load(source);
         let refused = |column: usize, value: f64, expected: &str| {
-            let mut columns = [vec![0.12; 11], vec![0.0; 11], vec![0.1; 11], vec![1e3; 11], vec![1e3; 11]];
+            let usual = [0.12, 0.0, 0.01, 1e3, 1e3, 10.0, 30.0, 30.0, 0.5];
+            let mut columns = usual.map(|value| vec![value; 11]);
             columns[column][7] = value;
             let mut state = vec![vec![-7.0; 11]; handle.columns()];
             let pointers: Vec<*mut f64> = state.iter_mut().map(|c| c.as_mut_ptr()).collect();
@@ -144,9 +151,13 @@ fn a_start_that_no_packing_has_is_refused() {
                 cells: 11,
                 porosity: columns[0].as_ptr(),
                 fabric_index: columns[1].as_ptr(),
-                fabric_conductivity: columns[2].as_ptr(),
+                fabric_xy: columns[2].as_ptr(),
                 stress_xx: columns[3].as_ptr(),
                 stress_yy: columns[4].as_ptr(),
+                stress_xy: columns[5].as_ptr(),
+                conductivity_xx: columns[6].as_ptr(),
+                conductivity_yy: columns[7].as_ptr(),
+                conductivity_xy: columns[8].as_ptr(),
             };
             // SAFETY: live handle, full structs, columns of eleven values.
             let status =
@@ -167,9 +178,14 @@ fn a_start_that_no_packing_has_is_refused() {
         refused(0, 2.0, "porosity[7] = 2, allowed: 0 to 1");
         refused(0, 1e300, "porosity[7] = 1e300, allowed: 0 to 1");
         refused(1, -1.5, "fabric_index[7] = -1.5, allowed: -1 to 1");
-        refused(2, 1.5, "fabric_conductivity[7] = 1.5, allowed: -1 to 1");
+        refused(2, 1.5, "fabric_xy[7] = 1.5, allowed: -1 to 1");
         refused(3, -2e30, "stress_xx[7] = -2e30, allowed: -1e30 to 1e30 Pa");
         refused(4, 1e300, "stress_yy[7] = 1e300, allowed: -1e30 to 1e30 Pa");
+        refused(5, -2e30, "stress_xy[7] = -2e30, allowed: -1e30 to 1e30 Pa");
+        refused(6, -1.0, "conductivity_xx[7] = -1, allowed: above 0, to 1e30 W/(m K)");
+        refused(7, 0.0, "conductivity_yy[7] = 0, allowed: above 0, to 1e30 W/(m K)");
+        refused(7, 1e31, "conductivity_yy[7] = 1e31, allowed: above 0, to 1e30 W/(m K)");
+        refused(8, 1e31, "conductivity_xy[7] = 1e31, allowed: -1e30 to 1e30 W/(m K)");
     }
 }
 

@@ -75,12 +75,11 @@ pub struct Cells {
     pub state: Vec<Vec<f64>>,
     pub thermal_strain: Vec<f64>,
     pub total: Vec<f64>,
-    pub virgin_share: Vec<f64>,
-    /// Mechanical strains, given to models that have a tangent.
-    pub strain: [Vec<f64>; 2],
+    /// Mechanical strains xx, yy, xy and the rotation, given to models that have a tangent.
+    pub strain: [Vec<f64>; 4],
     pub next: Vec<Vec<f64>>,
-    /// K_xx, K_yy, σ_xx, σ_yy, and the five columns of the tangent.
-    pub outputs: [Vec<f64>; 9],
+    /// K_xx, K_yy, σ_xx, σ_yy, K_xy, σ_xy, and the nine columns of the tangent.
+    pub outputs: [Vec<f64>; 15],
     pub outside: Vec<Vec<f64>>,
     pub spread: Vec<f64>,
     pub clamped: Vec<u8>,
@@ -101,9 +100,13 @@ impl Cells {
             cells,
             porosity: porosity.as_ptr(),
             fabric_index: fabric_index.as_ptr(),
-            fabric_conductivity: null(),
+            fabric_xy: null(),
             stress_xx: null(),
             stress_yy: null(),
+            stress_xy: null(),
+            conductivity_xx: null(),
+            conductivity_yy: null(),
+            conductivity_xy: null(),
         };
         // SAFETY: live handle, full structs, columns of `cells` values.
         let status = unsafe { msdd_surrogate_initial_state(model.0, &MATERIAL, &initial, pointers.as_ptr()) };
@@ -121,8 +124,12 @@ impl Cells {
             state,
             thermal_strain: column(1e-3, -1e-4, 23),
             total: column(0.01, 1e-3, 11),
-            virgin_share: column(1.0, -0.25, 5),
-            strain: [column(1e-4, -1e-5, 13), column(-1e-4, 1e-5, 17)],
+            strain: [
+                column(1e-4, -1e-5, 13),
+                column(-1e-4, 1e-5, 17),
+                column(2e-4, -3e-5, 14),
+                column(-1e-4, 2e-5, 12),
+            ],
             next: vec![vec![-7.0; cells]; model.columns()],
             outputs: std::array::from_fn(|_| vec![-7.0; cells]),
             outside: vec![vec![-7.0; cells]; model.columns() + 1],
@@ -137,9 +144,15 @@ impl Cells {
         let state: Vec<*const f64> = self.state.iter().map(|c| c.as_ptr()).collect();
         let next: Vec<*mut f64> = self.next.iter_mut().map(|c| c.as_mut_ptr()).collect();
         let outside: Vec<*mut f64> = self.outside.iter_mut().map(|c| c.as_mut_ptr()).collect();
-        let [conductivity_xx, conductivity_yy, stress_xx, stress_yy, tangent @ ..] =
-            self.outputs.each_mut().map(|c| c.as_mut_ptr());
-        let tangent = if model.has_tangent() { tangent } else { [null_mut(); 5] };
+        let [
+            conductivity_xx,
+            conductivity_yy,
+            stress_xx,
+            stress_yy,
+            conductivity_xy,
+            stress_xy,
+            tangent @ ..,
+        ] = self.outputs.each_mut().map(|c| c.as_mut_ptr());
         let strain = |k: usize| if model.has_tangent() { self.strain[k].as_ptr() } else { null() };
         let mut batch = msdd_batch {
             struct_size: size_of::<msdd_batch>(),
@@ -149,17 +162,16 @@ impl Cells {
             total_thermal_strain: self.total.as_ptr(),
             strain_xx: strain(0),
             strain_yy: strain(1),
-            virgin_share: self.virgin_share.as_ptr(),
+            strain_xy: strain(2),
+            rotation: strain(3),
             next_state: next.as_ptr(),
             conductivity_xx,
             conductivity_yy,
+            conductivity_xy,
             stress_xx,
             stress_yy,
-            c11: tangent[0],
-            c22: tangent[1],
-            c12: tangent[2],
-            porosity_rate: tangent[3],
-            fabric_index_rate: tangent[4],
+            stress_xy,
+            tangent: if model.has_tangent() { tangent.as_ptr() } else { null() },
             clamped: self.clamped.as_mut_ptr(),
             outside: outside.as_ptr(),
             spread: self.spread.as_mut_ptr(),
@@ -184,7 +196,6 @@ impl Cells {
             state: self.state.iter().map(cut).collect(),
             thermal_strain: cut(&self.thermal_strain),
             total: cut(&self.total),
-            virgin_share: cut(&self.virgin_share),
             strain: self.strain.each_ref().map(cut),
             next: self.next.iter().map(|_| vec![-7.0; count]).collect(),
             outputs: std::array::from_fn(|_| vec![-7.0; count]),

@@ -22,9 +22,8 @@ pub fn batch(model: &Model, trial: usize) -> Result<bool, String> {
     let mut cells = Cells::new(model, 1 + random.below(20));
     for _ in 0..random.below(4) {
         let cell = random.below(cells.clamped.len());
-        let column = random.below(cells.state.len() + 5);
-        let [xx, yy] = &mut cells.strain;
-        let others = [&mut cells.thermal_strain, &mut cells.total, &mut cells.virgin_share, xx, yy];
+        let column = random.below(cells.state.len() + 6);
+        let others = [&mut cells.thermal_strain, &mut cells.total].into_iter().chain(&mut cells.strain);
         let column = cells.state.iter_mut().chain(others).nth(column).expect("a column");
         column[cell] = number(&mut random, column[cell]);
     }
@@ -32,10 +31,12 @@ pub fn batch(model: &Model, trial: usize) -> Result<bool, String> {
     let status = cells.advance_with(model, |batch| {
         let absent = |bit: u32| drop >> bit & 1 == 1;
         batch.total_thermal_strain = if absent(0) { null() } else { batch.total_thermal_strain };
-        batch.virgin_share = if absent(1) { null() } else { batch.virgin_share };
+        batch.strain_xy = if absent(1) { null() } else { batch.strain_xy };
         batch.strain_xx = if absent(2) { null() } else { batch.strain_xx };
         batch.strain_yy = if absent(3) { null() } else { batch.strain_yy };
-        batch.c12 = if absent(4) { null_mut() } else { batch.c12 };
+        batch.tangent = if absent(4) { null() } else { batch.tangent };
+        batch.rotation = if absent(7) { null() } else { batch.rotation };
+        batch.stress_xy = if absent(8) { null_mut() } else { batch.stress_xy };
         batch.stress_yy = if absent(5) { null_mut() } else { batch.stress_yy };
         batch.next_state = if absent(6) { batch.state.cast() } else { batch.next_state };
     });

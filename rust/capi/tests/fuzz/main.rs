@@ -88,7 +88,7 @@ fn fuzz(name: &str, corpus: &[Vec<u8>], count: usize, check: fn(&str) -> Result<
 #[test]
 fn model_files() {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../surrogate/models");
-    let corpus = corpus("models", &[models.join("state.json"), models.join("paper.json")]);
+    let corpus = corpus("models", &[models.join("increment.json"), models.join("paper.json")]);
     assert!(fuzz("models", &corpus, trials(500), model) > 50);
 }
 

@@ -47,11 +47,11 @@ pub fn model(text: &str) -> Result<bool, String> {
             OK => (),
             _ => return Err(last_error()),
         }
-        let finite = cells.next.iter().chain(&cells.outputs[..4]).flatten().all(|value| value.is_finite());
+        let finite = cells.next.iter().chain(&cells.outputs[..6]).flatten().all(|value| value.is_finite());
         let grains = cells.outputs[..2].iter().flatten().all(|k| *k > 0.0)
             && cells.outputs[2..4].iter().flatten().all(|s| *s >= 0.0);
         let tangent =
-            !model.has_tangent() || cells.outputs[4..].iter().flatten().all(|value| value.is_finite());
+            !model.has_tangent() || cells.outputs[6..].iter().flatten().all(|value| value.is_finite());
         let spread = cells.spread.iter().all(|s| s.is_nan() || *s >= 0.0);
         if !(finite && grains && tangent && spread) {
             let found = (finite, grains, tangent, spread);

@@ -104,22 +104,20 @@ pub const OUT_OF_REGION: &[Key] = &[
     may("maxFraction", Kind::Range(0.0, 1.0, "")),
     may("porosity", Kind::Dictionary),
     may("fabricIndex", Kind::Dictionary),
-    may("reducedPressure", Kind::Dictionary),
     may("fabricShear", Kind::Dictionary),
-    may("reducedDeviator", Kind::Dictionary),
+    may("jammingFraction", Kind::Dictionary),
+    may("elasticCompression", Kind::Dictionary),
     may("thermalStrain", Kind::Dictionary),
 ];
 
 /// The dictionary of a column in `outOfRegion`.
 pub const SIDES: &[Key] = &[may("below", POLICY), may("above", POLICY)];
 
-/// `equilibriumCoeffs`; the ranges of residual, maxResidual and slip depend on the grains.
+/// `equilibriumCoeffs`; the ranges of residual, maxResidual, slip and layer depend on the grains.
 pub const EQUILIBRIUM: &[Key] = &[
     may("residual", Kind::Any),
     may("maxIterations", Kind::Range(1.0, 1000.0, "")),
     may("maxResidual", Kind::Any),
-    may("sinPhi", Kind::Range(0.01, 1.0, "")),
-    may("shearFactor", Kind::Range(0.01, 10.0, "")),
     may("walls", Kind::Dictionary),
 ];
 
@@ -128,6 +126,8 @@ pub const WALL: &[Key] = &[
     may("type", Kind::Word(&["rigid", "frictionless", "symmetry", "displacement", "pressure"])),
     may("friction", Kind::Range(0.0, 10.0, "")),
     may("slip", Kind::Any),
+    may("layer", Kind::Any),
+    may("layerStrength", Kind::Range(0.1, 3.0, "")),
     may("displacement", Kind::Any),
     may("pressure", Kind::Any),
     may("displacementCoeffs", Kind::Dictionary),

@@ -250,7 +250,8 @@ pub fn walk(
     found: &mut Findings,
 ) {
     let names = columns(model);
-    let mut state: [f64; MAX_STATE] = model.initial_state(&start.mean((grains.stress_scale(), grains.thermal_conductivity)));
+    let mut state: [f64; MAX_STATE] =
+        model.initial_state(&start.mean((grains.stress_scale(), grains.thermal_conductivity)));
     for step in 0..WALK {
         let part = |k: usize| strain * k as f64 / WALK as f64;
         let increment = (1.0 + part(step + 1)) / (1.0 + part(step)) - 1.0;

@@ -210,7 +210,8 @@ fn of_elements(a: &Averages) -> [f64; 2] {
 /// Results of a model at the stops of the contraction, from the averages of the packed state on.
 fn composed(model: &dyn Surrogate, start: &Averages) -> Vec<[f64; 2]> {
     let unit = |radius: f64| Material::default().young_modulus * radius;
-    let reduced = [start.stress_xx, start.stress_yy, start.stress_xy].map(|stress| stress / unit(start.mean_radius));
+    let reduced =
+        [start.stress_xx, start.stress_yy, start.stress_xy].map(|stress| stress / unit(start.mean_radius));
     let known = Known {
         porosity: start.porosity,
         fabric_index: start.fabric_index,

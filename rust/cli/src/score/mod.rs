@@ -10,10 +10,11 @@ use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
 use msdd_surrogate::composition::Composed;
-use msdd_surrogate::increment::errors::PathErrors;
-use msdd_surrogate::models::{self, TrainingData};
+use msdd_surrogate::models;
 use msdd_surrogate::score::{OneStep, Score, ramps, score};
 use msdd_surrogate::surrogate::Surrogate;
+use msdd_surrogate::tracks::PathErrors;
+use msdd_surrogate::training_data::TrainingData;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -158,9 +159,7 @@ fn print(score: &Score) {
     }
     if !score.way_back.is_empty() {
         outln!();
-        outln!(
-            "Errors on ramps back to the packed radii"
-        );
+        outln!("Errors on ramps back to the packed radii");
         outln!(" strain    in  ramps       K   sigma       p      eta        f  mean K  mean p");
         for way in &score.way_back {
             row(&way.errors);
@@ -168,7 +167,9 @@ fn print(score: &Score) {
     }
     if !score.paths.is_empty() {
         outln!();
-        outln!("Along paths of strain; rms error, p and q in % of the path's mean pressure; f_K, eta, f absolute");
+        outln!(
+            "Along paths of strain; rms error, p and q in % of the path's mean pressure; f_K, eta, f absolute"
+        );
         print_paths(&score.paths);
     }
 }

@@ -1,13 +1,10 @@
-//! Errors of the neural networks when a strain is divided into many increments, by the number of increments and of neurons.
+//! Errors of the models when a strain is divided into many increments, by the number of increments.
 
-use crate::jobs::execute::{Outcome, THEN};
 use crate::jobs::job::{Job, ToolJob};
-use crate::jobs::pool::Records;
-use crate::settings::Settings;
 use serde::Serialize;
 use serde_json::Value;
 
-/// Error of a network by the number of increments. If it grows, the network drifts: errors of increments add up.
+/// Error of a model by the number of increments. If it grows, the model drifts: errors of increments add up.
 #[derive(Clone, Debug, Serialize)]
 pub struct Drift {
     pub model: String,
@@ -16,52 +13,20 @@ pub struct Drift {
     pub stress: Vec<[f64; 2]>,
 }
 
-/// Errors of state networks of one size, on packings that were not used in training.
-#[derive(Clone, Debug, Serialize)]
-pub struct Depth {
-    /// Neurons in the hidden layers of the network for the rates, and of the readout.
-    pub neurons: [usize; 2],
-    pub strain: f64,
-    /// Rms error of the stress [%] in one increment, and in the largest number of increments.
-    pub once: f64,
-    pub composed: f64,
-}
-
 const STRAINS: [f64; 3] = [0.02, -0.02, -0.05];
-/// Sizes of the networks; the shipped model has the second one.
-const SIZES: [[usize; 2]; 4] = [[2, 2], [4, 4], [8, 8], [16, 16]];
-
-pub fn jobs() -> Vec<Job> {
-    std::iter::once(score()).chain(SIZES.map(sized)).collect()
-}
-
-/// Runs `msdd` with these arguments; the result are the scores that it writes.
-fn scored(arguments: &[&str], inputs: &[&str], limit: u64) -> Job {
-    let sources = ["rust/surrogate/src", "rust/rve/src"];
-    Job::Tool(ToolJob {
-        arguments: arguments.iter().map(|text| (*text).to_string()).collect(),
-        inputs: inputs.iter().chain(&sources).map(|text| (*text).to_string()).collect(),
-        output: Some("score.json".to_string()),
-        limit,
-    })
-}
-
+/// Scores of the shipped models.
 pub fn score() -> Job {
     let models = ["rust/surrogate/models/increment.json", "rust/surrogate/models/paper.json"];
     let database = "cases/database/full.csv.gz";
     let arguments = ["score", "--model", models[0], "--model", models[1], "--database", database];
-    scored(&[&arguments[..], &["--json", "WORK/score.json"]].concat(), &[models[0], models[1], database], 600)
-}
-
-/// Trains a network of this size, then scores it.
-fn sized([hidden, readout]: [usize; 2]) -> Job {
-    let database = "cases/database/periodic.csv.gz";
-    let (hidden, readout) = (hidden.to_string(), readout.to_string());
-    let train =
-        ["train", "--model", "increment", "--name", "increment", "--database", database, "--out", "WORK/model.json"];
-    let size = ["--hidden", &hidden, "--readout", &readout, THEN];
-    let score = ["score", "--model", "WORK/model.json", "--database", database, "--json", "WORK/score.json"];
-    scored(&[&train[..], &size, &score].concat(), &[database], 1200)
+    let arguments = [&arguments[..], &["--json", "WORK/score.json"]].concat();
+    let inputs = [models[0], models[1], database, "rust/surrogate/src", "rust/rve/src"];
+    Job::Tool(ToolJob {
+        arguments: arguments.iter().map(|text| (*text).to_string()).collect(),
+        inputs: inputs.map(str::to_string).to_vec(),
+        output: Some("score.json".to_string()),
+        limit: 600,
+    })
 }
 
 fn rows(model: &Value, strain: f64) -> Vec<[f64; 2]> {
@@ -78,20 +43,6 @@ pub fn drift(text: &str) -> Vec<Drift> {
         STRAINS.map(|strain| Drift { model: name(model), strain, stress: rows(model, strain) })
     };
     models.iter().flat_map(of).collect()
-}
-
-pub fn depth(settings: &Settings, records: &Records) -> Vec<Depth> {
-    let mut list = Vec::new();
-    for neurons in SIZES {
-        let record = settings.record(records, &sized(neurons)).filter(|r| r.outcome == Outcome::Done);
-        let text = record.and_then(|record| record.file.as_deref()).unwrap_or("[]");
-        for one in drift(text) {
-            if let (Some(first), Some(last)) = (one.stress.first(), one.stress.last()) {
-                list.push(Depth { neurons, strain: one.strain, once: first[1], composed: last[1] });
-            }
-        }
-    }
-    list
 }
 
 #[cfg(test)]

@@ -30,7 +30,6 @@ pub struct Failures {
     pub slant: Vec<solver::Slant>,
     pub cycles: Vec<cycles::Cycles>,
     pub drift: Vec<drift::Drift>,
-    pub depth: Vec<drift::Depth>,
 }
 
 pub fn jobs(quick: bool) -> Vec<Asked> {
@@ -39,7 +38,7 @@ pub fn jobs(quick: bool) -> Vec<Asked> {
     jobs.push(elements::limits(quick));
     jobs.extend(solver::jobs(quick));
     if !quick {
-        jobs.extend(drift::jobs());
+        jobs.push(drift::score());
         jobs.extend(cycles::jobs());
     }
     jobs.into_iter().map(|job| Asked { guess: 2.0, job }).collect()
@@ -61,6 +60,5 @@ pub fn read(settings: &Settings, records: &Records) -> Failures {
         slant: solver::slant(settings, records),
         cycles: if settings.quick { Vec::new() } else { cycles::read(settings, records) },
         drift: done(&drift::score()).and_then(|r| r.file.as_deref().map(drift::drift)).unwrap_or_default(),
-        depth: drift::depth(settings, records),
     }
 }

@@ -1,11 +1,11 @@
-//! The states that the shipped state model was trained with: the thermal states of its database.
+//! The states that the shipped model was trained with: the thermal states of its database.
 
 use crate::ReportError;
 use msdd_rve::database::{Kind, read};
 use msdd_rve::region::Polygon;
 use std::path::Path;
 
-/// Database of the shipped state model.
+/// Database of thermal ramps of the shipped model.
 pub const DATABASE: &str = "cases/database/periodic.csv.gz";
 
 /// Convex hulls of the states that bear load. Models are trained with these and with the same states turned by 90° (f with the

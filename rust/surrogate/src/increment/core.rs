@@ -2,7 +2,7 @@
 
 use super::law::{ELEMENTS, Elastic, Law, Moduli, Strain, rotation};
 use super::number::{Dual, Number, Plain};
-use super::readout::{Conductivity, Features, Readout};
+use super::readout::{CONDUCTIVITY_FLOOR, Conductivity, Features, Readout};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::Vector;
 use crate::kernel::{LANES, Lanes, Task, dispatch};
@@ -88,7 +88,13 @@ impl Core {
         let [kxx, kyy, kxy] = answer.conductivity.map(|column| column[0]);
         let (known, found) = (xx + yy, kxx + kyy);
         let limited = |value: f64, most: f64| if value.is_finite() { value.clamp(-most, most) } else { 0.0 };
-        state[OWN_MEAN] = limited(known / found - 1.0, MOST_GIVEN);
+        // The floor is the same for all packings; one without contacts has nothing of its own. No denominator is 0.
+        let floor = 2.0 * CONDUCTIVITY_FLOOR;
+        if found > floor {
+            let contacts = (found - floor).max(f64::EPSILON * floor);
+            state[OWN_MEAN] = limited((known - floor) / contacts - 1.0, MOST_GIVEN);
+        }
+        let known = known.max(f64::MIN_POSITIVE);
         state[OWN_INDEX] = limited((xx - yy) / known - (kxx - kyy) / found, MOST_GIVEN);
         state[OWN_SHEAR] = limited(2.0 * xy / known - 2.0 * kxy / found, MOST_GIVEN);
     }
@@ -223,17 +229,22 @@ impl Core {
         values[OWN_INDEX] = own[0];
         values[OWN_SHEAR] = own[1];
         for k in 0..COLUMNS {
-            let kept = moved.where_greater(V::zero(), values[k], V::read(&state[k]));
-            kept.write(&mut after.state[k]);
+            values[k] = moved.where_greater(V::zero(), values[k], V::read(&state[k]));
+            values[k].write(&mut after.state[k]);
         }
         let [Plain(p), Plain(q1), Plain(q2)] = stress;
         (p + q1).write(&mut after.stress[0]);
         (p - q1).write(&mut after.stress[1]);
         q2.write(&mut after.stress[2]);
-        let own = (read::<V>(&state[OWN_MEAN], MOST_OWN), own);
+        // The conductivity is that of the state that is answered, so that it is the same, to the last bit, when that state is
+        // evaluated again.
+        let porosity = values[POROSITY].within(V::zero(), V::all(MOST_POROSITY));
+        let fabric = [values[FABRIC_INDEX].within(low, high), values[FABRIC_SHEAR].within(low, high)];
+        let own = [values[OWN_INDEX].within(low, high), values[OWN_SHEAR].within(low, high)];
+        let own = (values[OWN_MEAN].within(V::all(-MOST_OWN), V::all(MOST_OWN)), own);
         let conductivity = self.conductivity.at(&features, porosity, fabric, own);
-        for k in 0..3 {
-            conductivity[k].write(&mut after.conductivity[k]);
+        for (value, column) in conductivity.into_iter().zip(&mut after.conductivity) {
+            value.write(column);
         }
     }
 }

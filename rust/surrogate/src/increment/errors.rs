@@ -1,29 +1,8 @@
 //! Errors of the law along paths of strain.
 
 use super::core::{Core, FABRIC_INDEX, POROSITY};
-use super::paths::{Track, conductivities, follow, stresses};
-use serde::Serialize;
-
-/// Errors along the paths of one kind, root mean squares over all states but probes: p and q over the mean pressure of the
-/// path, K over its mean.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct PathErrors {
-    pub name: String,
-    /// Number of grains in the boxes.
-    pub discs: usize,
-    pub paths: usize,
-    pub states: usize,
-    pub pressure: f64,
-    /// Of both components of the deviator together.
-    pub deviator: f64,
-    pub conductivity: f64,
-    /// Of (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy), both components together, absolute.
-    pub anisotropy: f64,
-    /// Absolute.
-    pub porosity: f64,
-    /// Absolute.
-    pub fabric_index: f64,
-}
+use super::paths::{conductivities, follow, stresses};
+use crate::tracks::{PathErrors, Track};
 
 /// Errors by name of the path and number of grains.
 pub fn path_errors(core: &Core, tracks: &[Track]) -> Vec<PathErrors> {
@@ -34,7 +13,8 @@ pub fn path_errors(core: &Core, tracks: &[Track]) -> Vec<PathErrors> {
     let mut all = Vec::new();
     for (name, discs) in kinds {
         let (mut sums, mut count, mut paths) = ([0.0; 6], 0, 0);
-        for (track, states) in tracks.iter().zip(&states).filter(|(t, _)| t.name == name && t.discs == discs) {
+        for (track, states) in tracks.iter().zip(&states).filter(|(t, _)| t.name == name && t.discs == discs)
+        {
             let (found, means) = (stresses(core, states), conductivities(core, states));
             let over = 1.0 / track.pressure().max(f64::MIN_POSITIVE);
             paths += 1;

@@ -1,15 +1,16 @@
 //! Fit of the law to paths of strain: least squares of the stress along them.
 
 use super::core::{COMPRESSION, Core, JAMMING, SHEAR, STRENGTH};
-use super::law::{ELEMENTS, Elastic, Element, Law};
+use super::law::{ELEMENTS, Elastic, Element, Law, least_third_bulk};
 use super::number::Plain;
-use super::paths::{Point, States, Track, follow, stresses};
+use super::paths::{States, follow, stresses};
 use super::readout::{Conductivity, Features, Readout, conductivity_row};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::{Portable, Vector};
 use crate::least_squares;
 use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};
 use crate::surrogate::MAX_STATE;
+use crate::tracks::{Point, Track};
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 
@@ -58,19 +59,24 @@ pub fn parameters(law: &Law) -> DVector<f64> {
     ])
 }
 
-/// The law of these parameters.
+/// The law of these parameters, with the nearest numbers that [`Law::check`] allows.
 pub fn law(x: &DVector<f64>) -> Law {
-    let share = 1.0 / (1.0 + (-x[7]).exp());
-    let element = |share, strength: f64, dilatancy| Element { share, strength: strength.exp(), dilatancy };
+    let positive = |k: usize, least: f64, most: f64| x[k].exp().clamp(least, most);
+    let share = (1.0 / (1.0 + (-x[7]).exp())).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+    let element = |share, k, dilatancy| Element { share, strength: positive(k, 1e-6, 1e3), dilatancy };
+    let (first, second) = (positive(0, 1e-6, 1e6), x[2].clamp(-1e6, 1e6));
     Law {
-        bulk: [x[0].exp(), x[2], x[3]],
-        looseness: [SIZE * x[1], SIZE * SIZE * x[13], SIZE * x[14]],
+        bulk: [first, second, x[3].min(1e6).max(least_third_bulk(first, second))],
+        looseness: [SIZE * x[1], SIZE * SIZE * x[13], SIZE * x[14]].map(|l| l.clamp(-1e4, 1e4)),
         onset: ONSET,
-        shear: [x[4].exp(), x[5].exp(), x[6].exp()],
-        elements: [element(share, x[8], x[10]), element(1.0 - share, x[9], x[11])],
+        shear: [positive(4, 0.0, 1e6), positive(5, 1e-9, 1e6), positive(6, 0.0, 1e6)],
+        elements: [element(share, 8, x[10]), element(1.0 - share, 9, x[11])],
         dilatancy_of_looseness: SIZE * x[12],
     }
 }
+
+/// Least part of the shear modulus that an element has.
+const LEAST_SHARE: f64 = 2e-6;
 
 /// Where the fit begins: values of the grains of the paper, to one digit.
 pub fn beginning() -> Law {
@@ -147,7 +153,8 @@ impl LeastSquares for PathFit<'_> {
         for (n, &residual) in here.iter().enumerate() {
             for k in 0..PARAMETERS {
                 // A fixed parameter has no influence, and so does not move.
-                row[k] = if fixed(k) { 0.0 } else { (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]) };
+                row[k] =
+                    if fixed(k) { 0.0 } else { (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]) };
             }
             let [weight, _] = robust(residual);
             for a in 0..PARAMETERS {
@@ -243,7 +250,7 @@ pub fn readouts(
                 features: features(point, looseness(state)),
                 sheared: std::array::from_fn(|e| [0, 1].map(|kind| [0, 1].map(|c| difference(e, kind, c)))),
                 fabric: [
-                    (k > 0).then(|| point.fabric_index - track.packed.fabric_index),
+                    (k > 0).then_some(point.fabric_index - track.packed.fabric_index),
                     point.fabric_shear.zip(track.packed.fabric_shear).filter(|_| k > 0).map(|(a, b)| a - b),
                 ],
             });

@@ -46,6 +46,9 @@ const LEAST_BULK: f64 = 0.1;
 const MOST_COMPRESSION: f64 = 0.6;
 /// Largest work of dilatancy over that of friction: less than 1, so that sliding always dissipates.
 const MOST_CLIMBING: f64 = 0.9;
+/// Load over strength from which an element slides: so little above 1 that a state which slides stays as it is, to the last
+/// bit, when it is evaluated again.
+const SLACK: f64 = 1.0 + 1e-9;
 /// Added to squares of lengths before their root is taken, so that its derivative exists.
 const TINY: f64 = 1e-30;
 
@@ -112,10 +115,21 @@ impl Law {
         let stiffer = (loose * loose.times(l1).plus(l0)).plus(1.0);
         let first = stiffer.where_greater(least, stiffer, least).times(first);
         let stiffer = loose.times(l2).plus(1.0);
-        let second = stiffer.where_greater(least, stiffer, least).times(second);
+        let stiffer = stiffer.where_greater(least, stiffer, least);
+        // A second term that softens does not soften more than the file says.
+        let limit = if second < 0.0 { N::all(1.0) } else { stiffer };
+        let second = stiffer.where_greater(limit, limit, stiffer).times(second);
+        // The bulk modulus stays positive up to the largest compression, however loose the packing is.
+        let softest = (first.times(0.5) + second.times(MOST_COMPRESSION))
+            .times(-1.0 / (MOST_COMPRESSION * MOST_COMPRESSION));
+        let limited = |third: f64, softest: N| {
+            let third = N::all(third);
+            third.where_greater(softest, third, softest)
+        };
+        let (third, a_third) = (limited(third, softest), limited(third / 3.0, softest.times(1.0 / 3.0)));
         let share = v * v.plus(self.onset).inverse();
-        let pressure = v * (first * share + v * (v.times(third / 3.0) + second.times(0.5)));
-        let bulk = first * share * share.times(-1.0).plus(2.0) + v * (v.times(third) + second);
+        let pressure = v * (first * share + v * (v * a_third + second.times(0.5)));
+        let bulk = first * share * share.times(-1.0).plus(2.0) + v * (v * third + second);
         let [g0, a, g1] = self.shear;
         let inverse = pressure.plus(a).inverse();
         Moduli {
@@ -141,7 +155,7 @@ impl Law {
     }
 
     /// State after a strain, and its moduli. `turn` is the cosine and sine of the angle by which the cell turns. Zero strain
-    /// may change the last bits of a state that slides.
+    /// changes nothing, but in a state that no strain leads to.
     #[inline(always)]
     pub fn advanced<N: Number>(
         &self,
@@ -149,7 +163,7 @@ impl Law {
         strain: &Strain<N>,
         turn: [N; 2],
     ) -> (Elastic<N>, Moduli<N>) {
-        let (zero, one) = (N::all(0.0), N::all(1.0));
+        let (zero, one, slack) = (N::all(0.0), N::all(1.0), N::all(SLACK));
         let Strain { thermal, xx, yy, xy } = *strain;
         let half = xy.times(0.5);
         // Growth of the area of the grains, and of the cell.
@@ -171,24 +185,24 @@ impl Law {
             let length = (along * along + across * across).plus(TINY).sqrt();
             // Elastic load of the element over its strength.
             let load = (moduli.ratio * length * weaker).times(share / strength);
-            let kept = load.where_greater(one, load.inverse(), one);
+            let kept = load.where_greater(slack, load.inverse(), one);
             let (climbing, least) = (more.plus(dilatancy), state.strength.times(-MOST_CLIMBING * strength));
             loss = loss + length * (one - kept) * climbing.where_greater(least, climbing, least);
             shear[k] = [along * kept, across * kept];
             lengths[k] = length * kept;
         }
-        // Grains that do not touch do not climb.
+        // Sliding ends where the grains lose contact, and those that do not touch do not climb.
+        let loss = loss.where_greater(tried, tried, loss);
         let loss = tried.where_greater(zero, loss, zero);
         let compression = tried - loss;
-        let jamming = state.jamming * (tried.plus(1.0) * compression.plus(1.0).inverse());
+        let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         let next = Elastic { jamming, compression, shear, strength: state.strength };
         // The strength changes with the compression.
         let moduli = self.moduli(compression, next.looseness());
-        let mut shear = shear;
         for k in 0..ELEMENTS {
             let Element { share, strength, .. } = self.elements[k];
             let load = (moduli.ratio * lengths[k] * weaker).times(share / strength);
-            let kept = load.where_greater(one, load.inverse(), one);
+            let kept = load.where_greater(slack, load.inverse(), one);
             shear[k] = [shear[k][0] * kept, shear[k][1] * kept];
         }
         (Elastic { shear, ..next }, moduli)
@@ -245,6 +259,12 @@ impl Law {
         }
         Ok(())
     }
+}
+
+/// Least k₂ with which the bulk modulus stays positive up to the largest compression, as [`Law::check`] wants it.
+pub fn least_third_bulk(first: f64, second: f64) -> f64 {
+    let least = |v: f64| -(0.99 * LEAST_BULK * first + second * v) / (v * v);
+    (1..=60).map(|k| least(0.01 * f64::from(k))).fold(-1e6, f64::max)
 }
 
 /// A shear strain turned by the angle of this cosine and sine.

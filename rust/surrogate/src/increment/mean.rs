@@ -1,11 +1,11 @@
 //! The mean packed state as a function of porosity and fabric, which is assumed where the stress at the start is not known.
 
-use super::paths::Point;
 use crate::SurrogateError;
 use crate::document::field;
 use crate::least_squares;
 use crate::network::WEIGHT_LIMIT;
 use crate::scaling::Range;
+use crate::tracks::Point;
 use serde::{Deserialize, Serialize};
 
 /// Least-squares fits over packed states.
@@ -28,7 +28,8 @@ const RATIO_LIMIT: f64 = 0.5;
 impl MeanStress {
     /// The fits to states as packed.
     pub fn fit(packed: &[Point]) -> Self {
-        let loaded: Vec<&Point> = packed.iter().filter(|p| p.load_bearing && p.invariants()[0] > 0.0).collect();
+        let loaded: Vec<&Point> =
+            packed.iter().filter(|p| p.load_bearing && p.invariants()[0] > 0.0).collect();
         let pressure = loaded.iter().map(|point| {
             let eta = point.porosity;
             ([1.0, eta, eta * eta, eta * eta * eta], point.invariants()[0], 1.0)

@@ -34,4 +34,6 @@ pub mod number;
 pub mod paths;
 pub mod readout;
 pub mod start;
+#[cfg(test)]
+pub(crate) mod synthetic;
 pub mod training;

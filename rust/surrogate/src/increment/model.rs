@@ -1,10 +1,11 @@
 //! The law of the increments with all that a case needs besides, as a [`Surrogate`].
 
-use super::core::{COLUMNS, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, NAMES, POROSITY, SHEAR, STRENGTH};
-use super::errors::{PathErrors, path_errors};
+use super::core::{
+    COLUMNS, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, NAMES, POROSITY, SHEAR, STRENGTH,
+};
+use super::errors::path_errors;
 use super::mean::MeanStress;
 use super::number::Plain;
-use super::paths::Track;
 use super::readout::{Conductivity, Features};
 use super::start::start;
 use crate::SurrogateError;
@@ -18,6 +19,7 @@ use crate::region::{Coordinates, MOST_COORDINATES, Region, Spread};
 use crate::scaling::Range;
 use crate::solid_fraction::SolidFraction;
 use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
+use crate::tracks::{PathErrors, Track};
 use crate::wall_friction::WallFriction;
 use serde::{Deserialize, Serialize};
 
@@ -146,10 +148,8 @@ impl Ranges {
     /// Porosity, length of the fabric, √p̃ and length of q̃/p̃, about from −1 to 1: they do not depend on the axes.
     pub(crate) fn coordinates(&self, state: &[f64; MAX_STATE], features: &Features<f64>) -> Coordinates {
         let mut point = [0.0; MOST_COORDINATES];
-        let over = |value: f64, range: &Range| {
-            (2.0 * value - range.min - range.max) / range.width().max(f64::MIN_POSITIVE)
-        };
-        point[0] = over(state[POROSITY], &self.porosity);
+        let Range { min, max } = self.porosity;
+        point[0] = (2.0 * state[POROSITY] - min - max) / (max - min).max(f64::MIN_POSITIVE);
         point[1] = 2.0 * state[FABRIC_INDEX].hypot(state[FABRIC_SHEAR]) / self.fabric.max - 1.0;
         point[2] = 2.0 * features.root / self.pressure.max.sqrt() - 1.0;
         point[3] = 2.0 * features.square.sqrt() / LARGEST_RATIO - 1.0;
@@ -167,7 +167,8 @@ impl Ranges {
             ("thermal_strain", self.thermal_strain, -0.5, 0.5),
             ("pressure", self.pressure, 0.0, 1e3),
         ];
-        match all.iter().find(|(_, Range { min, max }, low, high)| !(low <= min && min < max && max <= high)) {
+        match all.iter().find(|(_, Range { min, max }, low, high)| !(low <= min && min < max && max <= high))
+        {
             Some((key, Range { min, max }, low, high)) => {
                 let found = format!("{min} to {max}, within {low} to {high}");
                 field(&format!("ranges.{key}"), found, "min < max, within what grains can have")
@@ -333,3 +334,7 @@ impl Surrogate for IncrementModel {
         self.file.solid_fraction.at(porosity)
     }
 }
+
+#[cfg(test)]
+#[path = "model_tests.rs"]
+mod tests;

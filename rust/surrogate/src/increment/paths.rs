@@ -1,92 +1,15 @@
-//! Paths of strain in periodic boxes, on which the law is fitted and judged.
+//! The law along paths of strain.
 
 use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR, STRENGTH};
 use super::start::start_of_solid;
-use crate::dataset::ConductivityKind;
 use crate::kernel::{LANES, Lanes};
 use crate::surrogate::{Answer, Increment, MAX_STATE, StateLanes};
-
-/// A state of a packing. Stresses are reduced by E and the present mean radius, compression positive.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
-    /// η, overlaps counted once [-].
-    pub porosity: f64,
-    /// φ_s: sum of the grains' areas over the area [-].
-    pub solid: f64,
-    /// σ̃_xx, σ̃_yy, σ̃_xy.
-    pub stress: [f64; 3],
-    /// K_xx/k, K_yy/k, K_xy/k: affine, and of the network; the latter is none when the database lacks it.
-    pub affine: [f64; 3],
-    pub network: Option<[f64; 3]>,
-    /// F_xx − F_yy and 2 F_xy; none when the database lacks F_xy.
-    pub fabric_index: f64,
-    pub fabric_shear: Option<f64>,
-    /// False without force chains.
-    pub load_bearing: bool,
-}
-
-impl Point {
-    /// K/k of a kind.
-    pub fn conductivity(&self, kind: ConductivityKind) -> Option<[f64; 3]> {
-        match kind {
-            ConductivityKind::Affine => Some(self.affine),
-            ConductivityKind::Network => self.network,
-        }
-    }
-
-    /// p̃, q̃₁, q̃₂.
-    pub fn invariants(&self) -> [f64; 3] {
-        let [xx, yy, xy] = self.stress;
-        [0.5 * (xx + yy), 0.5 * (xx - yy), xy]
-    }
-}
-
-/// An increment from an earlier state of the track.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
-    /// Number of the state from which it starts: 0 is the packing, k + 1 the state after step k.
-    pub from: usize,
-    /// Growth of the radii, then xx, yy and 2 xy of the box; extension positive.
-    pub strain: [f64; 4],
-    /// The state after it.
-    pub to: Point,
-    /// Whether it is a small strain of a copy, of which only the difference counts.
-    pub probe: bool,
-}
-
-/// A packing and what was done with it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Track {
-    pub packing: i64,
-    pub name: String,
-    /// Number of grains.
-    pub discs: usize,
-    pub packed: Point,
-    pub steps: Vec<Step>,
-}
+use crate::tracks::{Point, Track};
 
 /// Largest strain that is applied in one part.
 const PART: f64 = 1e-3;
 /// Largest number of parts of a step.
 const MOST_PARTS: f64 = 20.0;
-
-impl Track {
-    /// The state number `k`, see [`Step::from`].
-    pub fn point(&self, k: usize) -> &Point {
-        if k == 0 { &self.packed } else { &self.steps[k - 1].to }
-    }
-
-    /// Mean p̃ of the states that bear load.
-    pub fn pressure(&self) -> f64 {
-        let all = std::iter::once(&self.packed).chain(self.steps.iter().map(|step| &step.to));
-        let (mut sum, mut count) = (0.0, 0.0);
-        for point in all.filter(|point| point.load_bearing) {
-            sum += point.invariants()[0];
-            count += 1.0;
-        }
-        if count > 0.0 { sum / count } else { 0.0 }
-    }
-}
 
 /// The law's states of one track: number k as [`Step::from`].
 pub type States = Vec<[f64; MAX_STATE]>;
@@ -126,7 +49,7 @@ fn follow_block(core: &Core, tracks: &[Track]) -> Vec<States> {
         for lane in 0..LANES {
             let from = step(lane).map_or(0, |step| step.from);
             let state = states.get(lane).unwrap_or(&states[0])[from];
-            (0..MAX_STATE).for_each(|column| block[column][lane] = state[column]);
+            block.iter_mut().zip(state).for_each(|(column, value)| column[lane] = value);
         }
         let mut after = Answer::default();
         for part in 0..parts as u32 {

@@ -1,9 +1,9 @@
 //! What is computed from the elastic state: conductivity, overlaps of the grains, fabric.
 
-use crate::dataset::ConductivityKind;
 use super::law::{ELEMENTS, Elastic, Stress};
 use super::number::Plain;
 use crate::SurrogateError;
+use crate::dataset::ConductivityKind;
 use crate::document::field;
 use crate::kernel::vector::{Portable, Vector};
 use serde::{Deserialize, Serialize};
@@ -150,8 +150,8 @@ impl Conductivity {
     ) -> [V; 3] {
         let row = conductivity_row(x, porosity);
         let mut share = V::all(self.mean[0]);
-        for k in 1..row.len() {
-            share = row[k].fused(V::all(self.mean[k]), share);
+        for (term, coefficient) in row.iter().zip(self.mean).skip(1) {
+            share = term.fused(V::all(coefficient), share);
         }
         let share = share.at_least(V::all(LEAST_CONDUCTIVITY));
         let mean = (x.root * share).fused(V::all(1.0) + own, V::all(CONDUCTIVITY_FLOOR));

@@ -22,6 +22,8 @@ const ROUNDING: f64 = 1e-14;
 const ROUNDS: usize = 20;
 /// Largest factor of the strengths: grains that bear twice as much are not known.
 const MOST_STRENGTH: f64 = 2.0;
+/// Far below all pressures, and such that no quotient overflows.
+const LEAST_PRESSURE: f64 = 1e-100;
 /// Largest v that is looked for.
 const LARGEST: f64 = 0.6;
 
@@ -41,7 +43,8 @@ pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviato
     for _ in 0..ROUNDS {
         let (state, stress) = loaded(law, solid, pressure, deviator);
         let features = Features::of(&stress, state.looseness().0);
-        let found = 1.0 - porosity + number(Plain(readout.overlap(&features)));
+        // Overlaps that no packing has are limited, because the rounds would diverge.
+        let found = 1.0 - porosity + number(Plain(readout.overlap(&features))).clamp(0.0, 1.0);
         let change = (found - solid).abs();
         solid = found;
         if change < ROUNDING {
@@ -66,7 +69,9 @@ pub fn start_of_solid(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) 
 
 fn loaded(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> (Elastic<Cell>, [Cell; 3]) {
     let size = deviator[0].hypot(deviator[1]);
-    let direction = if size > 0.0 { deviator.map(|q| q / size) } else { [0.0; 2] };
+    // Denominators are never 0, not even where the quotient is not used: compilers divide in advance, and callers may trap
+    // floating-point exceptions.
+    let direction = deviator.map(|q| q / size.max(f64::MIN_POSITIVE));
     let beyond = |v: f64| number(at(law, solid, v, size, direction).1[0]) - pressure;
     let compression = if pressure > 0.0 { root(beyond, LARGEST, ROUNDING * pressure) } else { 0.0 };
     at(law, solid, compression, size, direction)
@@ -75,11 +80,13 @@ fn loaded(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> (Elastic<
 /// State and stress at a compression whose elements bear a deviator of this size.
 fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -> (Elastic<Cell>, [Cell; 3]) {
     let (jamming, v) = (cell(solid / (1.0 + compression)), cell(compression));
-    let unsheared = Elastic { jamming, compression: v, shear: [[cell(0.0); 2]; ELEMENTS], strength: cell(1.0) };
+    let unsheared =
+        Elastic { jamming, compression: v, shear: [[cell(0.0); 2]; ELEMENTS], strength: cell(1.0) };
     let moduli = law.moduli(v, unsheared.looseness());
     let (ratio, pressure) = (number(moduli.ratio), number(moduli.pressure));
     let all: f64 = law.elements.iter().map(|element| element.strength).sum();
-    let strength = if pressure > 0.0 { (size / (all * pressure)).clamp(1.0, MOST_STRENGTH) } else { 1.0 };
+    let load = size / (all * pressure.max(LEAST_PRESSURE));
+    let strength = if pressure > 0.0 { load.clamp(1.0, MOST_STRENGTH) } else { 1.0 };
     let limits = law.elements.map(|element| strength * element.strength / (element.share * ratio));
     let common = shared(law, limits, ratio * pressure, size);
     let shear = limits.map(|limit| direction.map(|d| cell(d * common.min(limit))));
@@ -91,7 +98,7 @@ fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -
 fn shared(law: &Law, limits: [f64; ELEMENTS], stiffness: f64, size: f64) -> f64 {
     let mut order: [usize; ELEMENTS] = std::array::from_fn(|k| k);
     order.sort_by(|a, b| limits[*a].total_cmp(&limits[*b]));
-    let mut rest = if stiffness > 0.0 { size / stiffness } else { 0.0 };
+    let mut rest = size / stiffness.max(LEAST_PRESSURE);
     let mut shares: f64 = law.elements.iter().map(|element| element.share).sum();
     let mut common = 0.0;
     for k in order {

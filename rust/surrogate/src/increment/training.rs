@@ -4,17 +4,21 @@ use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSI
 use super::fit::{PathFit, fit, parameters, readouts};
 use super::mean::MeanStress;
 use super::model::{COORDINATES, File, IncrementModel, Provenance, Ranges, Report, SCHEMA, features};
-use super::paths::{Point, States, Track, conductivities, follow, stresses};
+use super::paths::{States, conductivities, follow, stresses};
 use crate::SurrogateError;
 use crate::dataset::ConductivityKind;
-use crate::models::TrainingData;
 use crate::options::TrainingOptions;
 use crate::region::{Coordinates, Region, Spread};
 use crate::scaling::Range;
 use crate::solid_fraction::SolidFraction;
 use crate::surrogate::MAX_STATE;
+use crate::tracks::{Point, Track};
+use crate::training_data::TrainingData;
 use crate::wall_friction::WallFriction;
 use std::collections::BTreeSet;
+
+/// Usual number of epochs, after which the fit is at its minimum for all practical purposes.
+pub const USUAL_EPOCHS: u32 = 60;
 
 /// Trains on paths of periodic boxes; wall friction is fitted when the data for it is there.
 ///
@@ -93,9 +97,8 @@ fn packings(tracks: &[Track]) -> usize {
 /// Kinds of conductivity that all states have, the default one first.
 fn kinds(tracks: &[Track]) -> Vec<ConductivityKind> {
     let network = |point: &Point| point.network.is_some();
-    let all = tracks
-        .iter()
-        .all(|track| network(&track.packed) && track.steps.iter().all(|step| network(&step.to)));
+    let all =
+        tracks.iter().all(|track| network(&track.packed) && track.steps.iter().all(|step| network(&step.to)));
     if all {
         vec![ConductivityKind::Network, ConductivityKind::Affine]
     } else {
@@ -107,7 +110,9 @@ fn ranges(tracks: &[Track], states: &[States]) -> Ranges {
     let all = || states.iter().flatten();
     let of = |column: usize| Range::of(all().map(|state| state[column]));
     let symmetric = |columns: &[usize]| {
-        let largest = all().flat_map(|state| columns.iter().map(|k| state[*k].abs())).fold(0.0, f64::max);
+        let values = all().flat_map(|state| columns.iter().map(|k| state[*k].abs()));
+        // Shear strains and fabrics beyond 1 are taken as 1, see `Core`.
+        let largest = values.fold(0.0, f64::max).min(1.0);
         Range { min: -largest, max: largest }
     };
     let (mut strain, mut pressure) = (Range { min: 0.0, max: 0.0 }, Range { min: 0.0, max: 0.0 });
@@ -152,7 +157,9 @@ fn spread(core: &Core, ranges: &Ranges, tracks: &[Track]) -> Spread {
     let (mut conductivity, mut rate) = (Vec::new(), Vec::new());
     for (track, states) in tracks.iter().zip(follow(core, tracks)) {
         let (found, means) = (stresses(core, &states), conductivities(core, &states));
-        for (k, step) in track.steps.iter().enumerate().filter(|(_, step)| step.to.load_bearing && !step.probe) {
+        for (k, step) in
+            track.steps.iter().enumerate().filter(|(_, step)| step.to.load_bearing && !step.probe)
+        {
             let (before, after) = (track.point(step.from).invariants()[0], step.to.invariants()[0]);
             if step.strain[0].abs() > LEAST_STRAIN {
                 let error = (found[k + 1][0] - found[step.from][0]) - (after - before);

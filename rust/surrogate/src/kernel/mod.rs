@@ -1,11 +1,11 @@
-//! The networks' arithmetic in blocks of cells, compiled once per instruction set.
+//! The models' arithmetic in blocks of cells, compiled once per instruction set.
 //!
 //! Every operation acts on each lane separately and in one fixed order, and multiplications are fused with additions
 //! exactly where the source says so. So all instruction sets give the same bits, and a cell's answer does not depend on
 //! the other cells of its block. On a processor without fused multiply-add (x86-64 before 2013) the mathematical
 //! library does it, slowly. No operation raises the floating-point exceptions invalid, divide-by-zero or overflow for
 //! finite inputs and weights up to [`WEIGHT_LIMIT`](crate::network::WEIGHT_LIMIT).
-#![allow(unsafe_code)] // calls of functions compiled for an instruction set, and buffers without values
+#![allow(unsafe_code)] // calls of functions compiled for an instruction set
 
 mod dispatch;
 mod elementary;
@@ -18,6 +18,6 @@ mod x86;
 #[cfg(test)]
 pub(crate) use dispatch::with_every_set;
 pub use dispatch::{Task, dispatch, limit, simd};
-pub use layers::{Buffers, LayerValues, MAX_LAYERS, WIDTH, all_layers, buffers, forward, layer, outputs};
+pub use layers::layer;
 pub use products::add_outer_products;
 pub use vector::{LANES, Lanes};

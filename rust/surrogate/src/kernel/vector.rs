@@ -1,6 +1,5 @@
 //! A block of cells, arithmetic on it, and its portable implementation.
 
-use std::mem::MaybeUninit;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Cells in a block. They fill two AVX-512 registers of f64, so that the chains of dependent operations of the two
@@ -17,8 +16,6 @@ pub trait Vector:
 {
     fn read(lanes: &Lanes) -> Self;
     fn write(self, lanes: &mut Lanes);
-    /// As [`Vector::write`], to uninitialised memory.
-    fn write_new(self, lanes: &mut MaybeUninit<Lanes>);
     /// The same value in all lanes.
     fn all(value: f64) -> Self;
     /// self · factor + addend, rounded once.
@@ -87,10 +84,6 @@ impl Vector for Portable {
     #[inline(always)]
     fn write(self, lanes: &mut Lanes) {
         *lanes = self.0;
-    }
-    #[inline(always)]
-    fn write_new(self, lanes: &mut MaybeUninit<Lanes>) {
-        lanes.write(self.0);
     }
     #[inline(always)]
     fn all(value: f64) -> Self {

@@ -6,7 +6,6 @@
 
 use super::vector::{LANES, Lanes, Vector};
 use std::arch::x86_64::*;
-use std::mem::MaybeUninit;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Applies an expression to the registers of some vectors, one by one.
@@ -42,12 +41,6 @@ macro_rules! vector {
             fn write(self, lanes: &mut Lanes) {
                 // SAFETY: see the module; the registers' lanes are those of `lanes`.
                 $(unsafe { $store(lanes.as_mut_ptr().add($width * $k), self.0[$k]) };)*
-            }
-            #[inline(always)]
-            fn write_new(self, lanes: &mut MaybeUninit<Lanes>) {
-                let start = lanes.as_mut_ptr().cast::<f64>();
-                // SAFETY: as above.
-                $(unsafe { $store(start.add($width * $k), self.0[$k]) };)*
             }
             #[inline(always)]
             fn all(value: f64) -> Self {

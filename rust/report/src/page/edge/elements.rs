@@ -164,8 +164,8 @@ pub fn unjamming(made: &Made) -> Result<String, ReportError> {
         _ => "never".to_string(),
     };
     let caption = format!(
-        "Fig. #. Grains that shrink until they lose contact, mean of {} packings. The pressure falls below 1 Pa: discrete elements {}, the state network {}, the paper's \
-         network {}. The state network starts from the stress of the packings; its K/k is kept above zero, at 1e-4 or more.",
+        "Fig. #. Grains that shrink until they lose contact, mean of {} packings. The pressure falls below 1 Pa: discrete elements {}, the law of the increments {}, the paper's \
+         network {}. The law starts from the stress of the packings; its K/k is kept above zero, at 1e-4 or more.",
         limits.packings,
         said("discrete elements"),
         said("increment"),

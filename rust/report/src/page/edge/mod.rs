@@ -32,6 +32,5 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
     html += &solver::discretisation(made)?;
     html += &solver::cycles(made)?;
     html += &networks::drift(made)?;
-    html += &networks::depth(made)?;
     Ok(html)
 }
