@@ -25,6 +25,9 @@ const LEAST_PRESSURE: f64 = 1e-100;
 /// Largest v that is looked for.
 const LARGEST: f64 = 0.6;
 
+/// Relative difference up to which a pressure counts as the known one.
+const NEAR: f64 = 0.01;
+
 type Cell = Plain<Portable>;
 
 fn cell(value: f64) -> Cell {
@@ -40,7 +43,10 @@ pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviato
     let mut solid = 1.0 - porosity;
     for _ in 0..ROUNDS {
         let (state, stress) = loaded(law, solid, pressure, deviator);
-        let features = Features::of(&stress, state.looseness().0);
+        // In the first rounds the solid fraction may be one with which no compression has this pressure.
+        let near = (number(stress[0]) - pressure).abs() <= NEAR * pressure || pressure <= 0.0;
+        let known = [pressure, deviator[0], deviator[1]].map(cell);
+        let features = Features::of(if near { &stress } else { &known }, state.looseness().0);
         // Overlaps that no packing has are limited, because the rounds would diverge.
         solid = 1.0 - porosity + number(Plain(readout.overlap(&features))).clamp(0.0, 1.0);
     }
@@ -66,9 +72,26 @@ fn loaded(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> (Elastic<
     // floating-point exceptions.
     let direction = deviator.map(|q| q / size.max(f64::MIN_POSITIVE));
     let reaches = |v: f64| number(at(law, solid, v, size, direction).1[0]) < pressure;
-    let compression = if pressure > 0.0 { halved([0.0, LARGEST], reaches) } else { 0.0 };
+    let compression = if pressure > 0.0 { least_compression(reaches) } else { 0.0 };
     at(law, solid, compression, size, direction)
 }
+
+/// The compression up to which the pressure is `low`. In a law that softens with looseness the pressure falls again at large
+/// compressions, since a packing of the same solid fraction is then looser without stress: the least one counts.
+fn least_compression(low: impl Fn(f64) -> bool) -> f64 {
+    let found = halved([0.0, LARGEST], &low);
+    if found < LARGEST * (1.0 - 1e-9) {
+        return found;
+    }
+    let place = |k: u32| LARGEST * f64::from(k) / f64::from(PLACES);
+    match (1..=PLACES).find(|k| !low(place(*k))) {
+        Some(k) => halved([place(k - 1), place(k)], low),
+        None => found,
+    }
+}
+
+/// Number of compressions at which a pressure is looked for that the largest compression does not have.
+const PLACES: u32 = 60;
 
 /// State and stress at a compression whose elements bear a deviator of this size.
 fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -> (Elastic<Cell>, [Cell; 3]) {
