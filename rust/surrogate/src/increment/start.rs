@@ -27,6 +27,9 @@ const LEAST_PRESSURE: f64 = 1e-100;
 /// Largest v that is looked for.
 const LARGEST: f64 = 0.6;
 
+/// Relative difference up to which a pressure counts as the known one.
+const NEAR: f64 = 0.01;
+
 type Cell = Plain<Portable>;
 
 fn cell(value: f64) -> Cell {
@@ -42,7 +45,10 @@ pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviato
     let mut solid = 1.0 - porosity;
     for _ in 0..ROUNDS {
         let (state, stress) = loaded(law, solid, pressure, deviator);
-        let features = Features::of(&stress, state.looseness().0);
+        // In the first rounds the solid fraction may be one with which no compression has this pressure.
+        let near = (number(stress[0]) - pressure).abs() <= NEAR * pressure || pressure <= 0.0;
+        let known = [pressure, deviator[0], deviator[1]].map(cell);
+        let features = Features::of(if near { &stress } else { &known }, state.looseness().0);
         // Overlaps that no packing has are limited, because the rounds would diverge.
         let found = 1.0 - porosity + number(Plain(readout.overlap(&features))).clamp(0.0, 1.0);
         let change = (found - solid).abs();
@@ -73,9 +79,25 @@ fn loaded(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> (Elastic<
     // floating-point exceptions.
     let direction = deviator.map(|q| q / size.max(f64::MIN_POSITIVE));
     let beyond = |v: f64| number(at(law, solid, v, size, direction).1[0]) - pressure;
-    let compression = if pressure > 0.0 { root(beyond, LARGEST, ROUNDING * pressure) } else { 0.0 };
+    let compression = if pressure > 0.0 { least_compression(beyond, ROUNDING * pressure) } else { 0.0 };
     at(law, solid, compression, size, direction)
 }
+
+/// The compression up to which the pressure is `low`. In a law that softens with looseness the pressure falls again at large
+/// compressions, since a packing of the same solid fraction is then looser without stress: the least one counts.
+fn least_compression(beyond: impl Fn(f64) -> f64, error: f64) -> f64 {
+    if beyond(LARGEST) > 0.0 {
+        return root(beyond, [0.0, LARGEST], error);
+    }
+    let place = |k: u32| LARGEST * f64::from(k) / f64::from(PLACES);
+    match (1..=PLACES).find(|k| beyond(place(*k)) > 0.0) {
+        Some(k) => root(beyond, [place(k - 1), place(k)], error),
+        None => LARGEST,
+    }
+}
+
+/// Number of compressions at which a pressure is looked for that the largest compression does not have.
+const PLACES: u32 = 60;
 
 /// State and stress at a compression whose elements bear a deviator of this size.
 fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -> (Elastic<Cell>, [Cell; 3]) {
@@ -113,10 +135,10 @@ fn shared(law: &Law, limits: [f64; ELEMENTS], stiffness: f64, size: f64) -> f64 
     common
 }
 
-/// The root of an increasing function in [0, `most`] within `error`, else the end that is nearer to it: regula falsi with the
+/// The root of an increasing function in an interval within `error`, else the end that is nearer to it: regula falsi with the
 /// end that stays weighted less and less (Dowell and Jarratt, 1971).
-fn root(function: impl Fn(f64) -> f64, most: f64, error: f64) -> f64 {
-    let ([mut low, mut high], mut below, mut above) = ([0.0, most], function(0.0), function(most));
+fn root(function: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2], error: f64) -> f64 {
+    let (mut below, mut above) = (function(low), function(high));
     if below >= 0.0 {
         return low;
     }
