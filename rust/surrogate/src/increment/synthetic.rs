@@ -22,6 +22,7 @@ pub fn core() -> Core {
             dilatancy_of_looseness: 7.68,
         },
         readout: Readout { overlap: [0.045, 1.85, -0.6, 0.5, 1.2], fabric: [[-0.5, 0.1], [-0.3, 0.1]] },
+        ranges: [super::core::ANY; super::core::COLUMNS + 1],
         conductivity: Conductivity {
             kind: ConductivityKind::Network,
             mean: [1.3, 0.5, -0.5, -0.5, 0.0, -4.0, 3.0, 0.0, 0.0, 0.0, 0.0],
