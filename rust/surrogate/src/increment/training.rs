@@ -132,14 +132,14 @@ fn ranges(tracks: &[Track], states: &[States]) -> Ranges {
         jamming_fraction: of(JAMMING),
         elastic_compression: of(COMPRESSION),
         elastic_shear: symmetric(&shears),
-        strength: Range { min: 1.0, max: of(STRENGTH).max.max(USUAL_STRENGTH) },
+        strength: KNOWN_STRENGTH,
         thermal_strain: strain,
         pressure,
     }
 }
 
-/// Factors of the strengths up to this one count as known.
-const USUAL_STRENGTH: f64 = 1.2;
+/// Factors of the strengths that the law takes: they scale the sliding alone, as users may wish.
+const KNOWN_STRENGTH: Range = Range { min: 0.01, max: 3.0 };
 
 /// About this many states describe the region.
 const REGION_STATES: usize = 20_000;
