@@ -84,7 +84,7 @@ void Foam::granularState::refresh()
         // Compression positive becomes tension positive
         sigma[celli].xx() = -stressXX_[celli];
         sigma[celli].yy() = -stressYY_[celli];
-        sigma[celli].xy() = -stressXY_[celli];
+        sigma[celli].xy() = 0 - stressXY_[celli];    // not -0
         p[celli] = -0.5*(sigma[celli].xx() + sigma[celli].yy());
     }
     forAll(K_.xy, celli)
