@@ -66,6 +66,18 @@ impl Strains {
     pub fn thermal(strain: f64) -> Self {
         Self { thermal: strain, ..Self::default() }
     }
+
+    /// The strains relative to the start after these and then `next`, which is relative to the state in between.
+    pub fn then(self, next: Self) -> Self {
+        let compound = |a: f64, b: f64| a + b + a * b;
+        Self {
+            thermal: compound(self.thermal, next.thermal),
+            xx: compound(self.xx, next.xx),
+            yy: compound(self.yy, next.yy),
+            // The shear offset is stretched along with the width, and `next.xy` counts over the height in between.
+            xy: self.xy * (1.0 + next.xx) + next.xy * (1.0 + self.yy),
+        }
+    }
 }
 
 /// The state at one stop of a path.

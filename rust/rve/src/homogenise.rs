@@ -22,6 +22,8 @@ pub struct Averages {
     /// F_xx, F_yy [-]: mean of n n over the contacts (Eq. 8); 1 in sum.
     pub fabric_xx: f64,
     pub fabric_yy: f64,
+    /// F_xy [-]: mean of n_x n_y over the contacts; positive when more of them point up to the right than down to it.
+    pub fabric_xy: f64,
     /// f_K = (K_xx − K_yy)/(K_xx + K_yy) [-].
     pub fabric_conductivity: f64,
     /// K/k [-], affine estimate (Eq. 9: all temperatures linear in the position).
@@ -56,6 +58,7 @@ struct Sums {
     contacts: u64,
     fabric: f64,
     fabric_squares: [f64; 2],
+    fabric_product: f64,
     conductance: [f64; 3],
     stress: [f64; 4],
 }
@@ -69,6 +72,7 @@ impl Sums {
         self.fabric += nx * nx - ny * ny;
         self.fabric_squares[0] += nx * nx;
         self.fabric_squares[1] += ny * ny;
+        self.fabric_product += nx * ny;
         // k A |d| n⊗n with k = 1, where A is the common chord of the two circles times 1 m.
         let strength = weight * chord(radii, dx.hypot(dy)) * dx.hypot(dy);
         self.conductance[0] += strength * nx * nx;
@@ -129,6 +133,7 @@ pub fn homogenise_affine_in(simulation: &Simulation, region: &Polygon, cut: Cut)
         fabric_index: sums.fabric / (sums.contacts.max(1)) as f64,
         fabric_xx: sums.fabric_squares[0] / (sums.contacts.max(1)) as f64,
         fabric_yy: sums.fabric_squares[1] / (sums.contacts.max(1)) as f64,
+        fabric_xy: sums.fabric_product / (sums.contacts.max(1)) as f64,
         fabric_conductivity: if kxx + kyy > 0.0 { (kxx - kyy) / (kxx + kyy) } else { 0.0 },
         conductivity_xx: kxx,
         conductivity_yy: kyy,

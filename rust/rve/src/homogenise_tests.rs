@@ -76,3 +76,16 @@ fn chains_along_x() {
     close(averages.stress_xx, 1e7 * R * (2.0 * R - d) / (2.5 * R));
     assert_eq!(averages.stress_yy, 0.0);
 }
+
+/// Chains along the direction (cos α, sin α): F_xy = cos α sin α.
+#[test]
+fn slanting_chains_have_the_fabric_of_their_direction() {
+    for (x, y) in [(0.8, 0.6), (0.8, -0.6), (-0.6, 0.8)] {
+        let (a, b) = ([SPACING * x, SPACING * y], [-2.5 * R * y, 2.5 * R * x]);
+        let averages =
+            homogenise_in(&lattice(a, b), &Polygon::rectangle([-1.0, -1.0], [1.0, 1.0]), Cut::Clip);
+        assert!(averages.contacts > 100);
+        close(averages.fabric_xy, x * y);
+        close(averages.fabric_index, x * x - y * y);
+    }
+}

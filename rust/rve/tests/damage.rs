@@ -329,6 +329,86 @@ fn an_older_csv_without_a_column_can_be_sealed() {
     assert!(read(&csv).unwrap().records.iter().all(|record| record.wall_friction.is_none()));
 }
 
+/// The columns that files of schema 2 do not have.
+const LATER: [&str; 7] = ["from_stop", "step_thermal", "step_xx", "step_yy", "step_xy", "probe", "fabric_xy"];
+
+/// A database as the program before those columns wrote it: its rows have the same checksum without them.
+fn of_schema_two(file: &Path) {
+    for column in LATER {
+        execute(file, &format!("ALTER TABLE states DROP COLUMN {column}"));
+        execute(file, &format!("DELETE FROM columns WHERE name = '{column}'"));
+    }
+    execute(file, "UPDATE provenance SET value = '2' WHERE key = 'schema'");
+    execute(file, "DELETE FROM provenance WHERE key LIKE '%_sha256'");
+}
+
+#[test]
+fn databases_from_before_paths_are_read_merged_exported_and_sealed() {
+    let (file, now) = copy("schema");
+    of_schema_two(&file);
+    let mut expected = now.records;
+    expected.iter_mut().for_each(|record| record.fabric_xy = None);
+    assert_eq!(read(&file).unwrap().records, expected);
+    // It is not continued: further rows would have columns that the first have not.
+    let plan = Plan::parse(PLAN, "plan").unwrap();
+    let error = generate(&plan, &file, &Run::default(), |_| ControlFlow::Continue(())).unwrap_err();
+    assert!(error.to_string().contains("was made with schema = 2, now it is 3"), "{error}");
+    let merged = file.with_file_name("merged.msdd");
+    assert_eq!(merge(std::slice::from_ref(&file), &merged).unwrap(), 6);
+    let merged = read(&merged).unwrap();
+    assert_eq!((merged.records, merged.provenance["schema"].as_str()), (expected.clone(), "3"));
+    let csv = file.with_file_name("a.csv");
+    export_csv(&file, &csv, None).unwrap();
+    assert_eq!(read(&csv).unwrap().records, expected);
+    assert_eq!(seal(&file).unwrap(), 6);
+    assert_eq!(read(&file).unwrap().records, expected);
+    // Both schemas at once, or a schema that the tables do not have, are none.
+    let (file, _) = copy("schema-mixed");
+    execute(&file, "ALTER TABLE states DROP COLUMN fabric_xy");
+    assert!(message(&file).contains("table states does not belong to a database or was changed"));
+    let (file, _) = copy("schema-number");
+    execute(&file, "UPDATE provenance SET value = '2' WHERE key = 'schema'");
+    assert!(message(&file).contains("was made with schema = 2, now it is 3"));
+}
+
+/// A CSV that was sealed before the later columns existed still agrees with its checksum; one that was sealed with them
+/// does not when they are taken away.
+#[test]
+fn the_checksum_of_a_csv_from_before_paths_still_agrees() {
+    let (file, _) = copy("schema-csv");
+    let older = file.with_file_name("older.msdd");
+    std::fs::copy(&file, &older).unwrap();
+    of_schema_two(&older);
+    for (database, agrees) in [(&older, true), (&file, false)] {
+        let csv = file.with_file_name("a.csv");
+        export_csv(database, &csv, Some(9)).unwrap();
+        let whole = read(&csv).unwrap();
+        let text = std::fs::read_to_string(&csv).unwrap();
+        let head: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+        let cut = |line: &str| {
+            let fields = line.split(',').zip(&head).filter(|(_, name)| !LATER.contains(name));
+            fields.map(|(field, _)| field).collect::<Vec<_>>().join(",")
+        };
+        std::fs::write(&csv, text.lines().map(cut).collect::<Vec<_>>().join("\n")).unwrap();
+        match agrees {
+            true => assert_eq!(read(&csv).unwrap(), whole),
+            false => assert!(message(&csv).contains("its rows are not what was written")),
+        }
+    }
+}
+
+/// The committed databases are older than the columns of paths.
+#[test]
+fn the_committed_databases_are_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/database");
+    for (name, rows) in [("full", 19488), ("periodic", 19706)] {
+        let dataset = read(&folder.join(format!("{name}.csv.gz"))).unwrap();
+        assert!(dataset.has_checksum());
+        assert_eq!(dataset.records.len(), rows);
+        assert!(dataset.records.iter().all(|r| r.fabric_xy.is_none() && r.increment().is_none()));
+    }
+}
+
 #[test]
 fn names_are_names_of_files() {
     let folder = folder("names");

@@ -1,7 +1,7 @@
 //! Generation, storage, continuation, shards and export of small databases.
 
 use msdd_rve::database::{
-    DatabaseError, Kind, Plan, RampName, Run, export_csv, generate, merge, read, record::COLUMNS,
+    DatabaseError, Kind, Plan, RampName, Run, check, export_csv, generate, merge, read, record::COLUMNS,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -10,8 +10,12 @@ const PLAN: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\
     [[thermal]]\ndiscs = 60\nporosities = [0.14, 0.16]\ncompressions = [\"isotropic\", \"intermediate\"]\n\
     packing_friction_angles = [0.3]\nrepeats = 1\nramps = [\"up\", \"down\", \"up_down\"]\nstops = [0.01, 0.02]\n\
     [[mechanics]]\ndiscs = 60\nporosities = [0.13]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.01]\n\
-    [[wall_shear]]\ndiscs = 60\nporosities = [0.13]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.002]\n";
-const ROWS: usize = 4 * 7 + 5 + 2;
+    [[wall_shear]]\ndiscs = 60\nporosities = [0.13]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.002]\n\
+    [[paths]]\ndiscs = 40\nporosities = [0.12]\ncompressions = [\"isotropic\"]\nrepeats = 1\n\
+    paths = [\"biaxial\", \"equivalence\"]\nstep = 2e-3\nprobes = [1e-3]\nprobe_every = 30\n";
+/// The path has 55 increments, and six probes at the packed state and after the 30th.
+const PATH_ROWS: usize = 1 + 55 + 12 + 12;
+const ROWS: usize = 4 * 7 + 5 + 2 + PATH_ROWS;
 
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -55,7 +59,7 @@ fn rows_do_not_depend_on_threads_and_csv_reads_back() {
     assert_eq!(strains, [0.0, 0.01, 0.02, -0.01, -0.02, 0.01, 0.0]);
     assert_eq!((records[6].ramp, records[6].stop), (RampName::UpDown, 2));
     assert_eq!(records[1].initial_porosity, records[0].porosity);
-    assert!(records.iter().all(|r| r.failure.is_none() && r.porosity.is_some()));
+    assert!(records.iter().all(|r| r.failure.is_none() && r.porosity.is_some() && r.fabric_xy.is_some()));
     // Because of friction the way back passes through other states, but not very different ones.
     let (there, back) = (records[1].pressure.unwrap(), records[5].pressure.unwrap());
     assert!(there != back && (back / there - 1.0).abs() < 0.3, "{there} {back}");
@@ -120,7 +124,7 @@ fn a_stopped_run_resumes_to_the_same_bytes_and_another_plan_is_refused() {
         ControlFlow::Continue(())
     })
     .unwrap();
-    assert_eq!(seen, [3, 4, 5, 6]);
+    assert_eq!(seen, [3, 4, 5, 6, 7]);
     assert_eq!(bytes(&whole), bytes(&halved));
     make(&plan(), &halved, 1);
     assert_eq!(bytes(&whole), bytes(&halved));
@@ -152,7 +156,7 @@ fn shards_merge_to_the_bytes_of_one_process_and_gaps_and_duplicates_are_found() 
 
     let error = |shards: &[PathBuf]| merge(shards, &folder.join("bad.msdd")).unwrap_err().to_string();
     let gap = error(&shards[..2]);
-    assert!(gap.contains("2 of 6 packings are missing: 2, 5"), "{gap}");
+    assert!(gap.contains("2 of 7 packings are missing: 2, 5"), "{gap}");
     let twice = error(&[shards[0].clone(), shards[1].clone(), whole.clone()]);
     assert!(twice.contains("whole.msdd: packing 0 stands in") && twice.contains("1-3.msdd too"), "{twice}");
     execute(&shards[2], "DELETE FROM states WHERE packing = 5 AND ramp = 'wall_shear'");
@@ -163,6 +167,77 @@ fn shards_merge_to_the_bytes_of_one_process_and_gaps_and_duplicates_are_found() 
     let hole = error(&shards);
     assert!(hole.contains("3-3.msdd: packing 5 has not the rows of the plan"), "{hole}");
     assert!(!folder.join("bad.msdd").exists());
+}
+
+/// The rows of a path by what stands in them; a row further on starts from the last that is no probe.
+#[test]
+fn paths_go_on_from_row_to_row_and_probes_leave_them_alone() {
+    let database = folder("paths").join("a.msdd");
+    make(&plan(), &database, 2);
+    let records = read(&database).unwrap().records;
+    let of = |ramp: RampName| {
+        records.iter().filter(move |r| r.kind == Kind::Paths && r.ramp == ramp).collect::<Vec<_>>()
+    };
+    let packed = of(RampName::Packed);
+    assert_eq!((packed.len(), packed[0].from_stop, packed[0].probe), (1, None, None));
+    assert!(records.iter().all(|r| (r.ramp.is_path()) == r.step_xx.is_some()));
+    let path = of(RampName::Biaxial);
+    assert!(path.iter().zip(1..).all(|(row, stop)| row.stop == stop) && path.len() == 67);
+    assert!(path.iter().all(|row| row.region == "cell" && row.outcome == "settled"), "{path:?}");
+    let mut here = 0;
+    for row in &path {
+        assert_eq!(row.from_stop, Some(here), "{}", row.name());
+        here = if row.probe == Some(0) { row.stop } else { here };
+    }
+    // Two probes of opposite sense stand about the state that they start from.
+    let pressure = |stop: usize| path[stop - 1].pressure.unwrap();
+    let (open, closed) = (pressure(1), pressure(4));
+    assert!(open < packed[0].pressure.unwrap() && packed[0].pressure.unwrap() < closed, "{open} {closed}");
+    let equivalence = of(RampName::Equivalence);
+    assert!(equivalence.len() == 12 && equivalence.iter().all(|row| row.from_stop == Some(0)));
+}
+
+/// The same path without probes has the same states: what is tried on a copy leaves no trace.
+#[test]
+fn probes_change_nothing_on_the_path() {
+    let folder = folder("probes");
+    let states = |text: &str, name: &str| {
+        let database = folder.join(name);
+        make(&Plan::parse(text, "plan").unwrap(), &database, 2);
+        let mut records = read(&database).unwrap().records;
+        records.retain(|r| r.ramp == RampName::Biaxial && r.probe == Some(0));
+        records.iter().map(|r| (r.porosity, r.stress_xy, r.fabric_xy, r.steps)).collect::<Vec<_>>()
+    };
+    let without = PLAN.replace("probes = [1e-3]", "probes = []");
+    let with = states(PLAN, "with.msdd");
+    assert_eq!(with.len(), 55);
+    assert_eq!(with, states(&without, "without.msdd"));
+}
+
+/// A loose box that opens bears no load in the end: the path ends there, and the rows after it say so.
+#[test]
+fn a_path_ends_where_the_box_bears_no_load() {
+    let text = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\
+        [[paths]]\ndiscs = 60\nporosities = [0.17]\ncompressions = [\"isotropic\"]\nrepeats = 4\n\
+        paths = [\"isotropic\", \"thermal\"]\nstep = 1e-2\n";
+    let folder = folder("ended");
+    let (database, csv) = (folder.join("a.msdd"), folder.join("a.csv"));
+    make(&Plan::parse(text, "plan").unwrap(), &database, 2);
+    export_csv(&database, &csv, Some(7)).unwrap();
+    let dataset = read(&csv).unwrap();
+    assert_eq!(check::violations(&dataset), []);
+    let mut ended = 0;
+    for path in dataset.records.chunk_by(|a, b| (a.packing, a.ramp) == (b.packing, b.ramp)) {
+        let Some(end) = path.iter().position(|row| row.outcome == "unjammed") else { continue };
+        ended += 1;
+        let reason = format!("the path ended at stop {}, which bears no load", path[end].stop);
+        assert!(path[end].porosity.is_some() && path[end].failure.is_none());
+        for row in &path[end + 1..] {
+            assert_eq!((row.outcome.as_str(), row.failure.as_ref()), ("failed", Some(&reason)));
+            assert!(row.porosity.is_none() && row.step_thermal.is_some());
+        }
+    }
+    assert!(ended > 2, "{ended} paths have ended");
 }
 
 #[test]

@@ -14,7 +14,9 @@ use std::path::{Path, PathBuf};
 
 const PLAN: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\
     [[thermal]]\ndiscs = 20\nporosities = [0.16]\ncompressions = [\"isotropic\"]\nrepeats = 2\nstops = [0.01]\n\
-    [[wall_shear]]\ndiscs = 30\nporosities = [0.14]\ncompressions = [\"horizontal\"]\nrepeats = 1\nstops = [0.002]\n";
+    [[wall_shear]]\ndiscs = 30\nporosities = [0.14]\ncompressions = [\"horizontal\"]\nrepeats = 1\nstops = [0.002]\n\
+    [[paths]]\ndiscs = 30\nporosities = [0.14]\ncompressions = [\"horizontal\"]\nrepeats = 1\npaths = [\"equivalence\"]\n\
+    step = 1e-3\nprobes = [1e-3]\nprobe_every = 4\n";
 const OFFENDERS: &str = "{\"schema\": \"msdd-offenders-1\", \"model_hash\": \"00\", \"state_names\": [\"porosity\", \
     \"fabric_index\"], \"rows\": [{\"state\": [0.078, 0.0], \"strain\": 1e-5, \"column\": \"porosity\", \"side\": \"below\", \
     \"distance\": 0.03, \"cell\": 0, \"time\": 0.1}]}";

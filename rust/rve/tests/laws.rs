@@ -75,12 +75,36 @@ fn quarter_turn_permutes_the_averages() {
         expected.conductivity_network_xy = b.conductivity_network_xy;
         expected.fabric_index = -a.fabric_index;
         (expected.fabric_xx, expected.fabric_yy) = (a.fabric_yy, a.fabric_xx);
+        expected.fabric_xy = -a.fabric_xy;
         expected.fabric_conductivity = -a.fabric_conductivity;
         (expected.conductivity_xx, expected.conductivity_yy) = (a.conductivity_yy, a.conductivity_xx);
         expected.conductivity_xy = -a.conductivity_xy;
         (expected.stress_xx, expected.stress_yy) = (a.stress_yy, a.stress_xx);
         (expected.stress_xy, expected.stress_yx) = (-a.stress_yx, -a.stress_xy);
         assert_eq!(b, expected);
+    }
+}
+
+/// The mirror image x → −x has the opposite F_xy and K_xy, to the last bit: contacts keep their order. Friction forces
+/// turn the other way.
+#[test]
+fn a_mirror_turns_the_sign_of_what_leans() {
+    let state = packed(Compression::Horizontal, &Material::default()).simulation;
+    let [left, right, bottom, top] = state.walls.position;
+    let walls = Walls { position: [-right, -left, bottom, top], ..state.walls.clone() };
+    let disc = |d: &Disc| Disc { x: -d.x, vx: -d.vx, angular_velocity: -d.angular_velocity, ..*d };
+    let side = |side| match side {
+        Side::Left => Side::Right,
+        Side::Right => Side::Left,
+        other => other,
+    };
+    let image = mapped(&state, state.material.clone(), walls, disc, side, -1.0);
+    for kind in KINDS {
+        let (a, b) = (homogenise(&state, kind), homogenise(&image, kind));
+        assert!(a.fabric_xy != 0.0 && a.fabric_xy.abs() < 0.5, "{a:?}");
+        assert_eq!((b.fabric_xy, b.contacts), (-a.fabric_xy, a.contacts));
+        assert_eq!((b.fabric_xx, b.fabric_yy, b.fabric_index), (a.fabric_xx, a.fabric_yy, a.fabric_index));
+        close("K_xy", b.conductivity_xy, -a.conductivity_xy, 1.0);
     }
 }
 

@@ -21,6 +21,7 @@ fn plan() -> Vec<Set> {
         .with_words("compressions", "allowed", &compressions)
         .with_words("boundary", "allowed", &variants(RVE, "Boundary"))
         .with_words("slide", "allowed", &variants(RVE, "Slide"));
+    let paths = path_block(&compressions);
     let relaxations = variants(RVE, "Relaxation");
     let plan = with_required(fields_of(PLAN, "plan", RVE, "Plan"), RVE, "Plan")
         .with_words("relaxation", "allowed", &relaxations)
@@ -37,6 +38,7 @@ fn plan() -> Vec<Set> {
     vec![
         plan,
         block,
+        paths,
         with_ranges(
             material,
             "rust/dem/src",
@@ -46,6 +48,26 @@ fn plan() -> Vec<Set> {
         Set::new(PLAN, "ramps", RVE, ramps),
         with_ranges(specification, RVE, r#"parameter\("(\w+)", [^"]*, "([^"]*)"\)()()"#),
     ]
+}
+
+/// Defaults are what functions return, ranges are constants.
+fn path_block(compressions: &[String]) -> Set {
+    const SOURCE: &str = "rust/rve/src/database/block.rs";
+    let text = crate::sources::text(SOURCE);
+    let mut set = with_required(fields_of(PLAN, "path block", RVE, "PathBlock"), RVE, "PathBlock")
+        .with_words("compressions", "allowed", compressions);
+    for (key, name) in [("step", "usual_step"), ("probe_every", "usual_probe_every")] {
+        let found = firsts(&format!(r"fn {name}\(\) -> \w+ \{{\s+(\S+)\s"), &text);
+        let number = found.first().and_then(|number| number.parse().ok());
+        let number = number.unwrap_or_else(|| panic!("{SOURCE}: no number in {name}"));
+        set = set.with(key, "default", Cell::Number(number));
+    }
+    for (key, name) in [("step", "STEPS"), ("probes", "PROBES")] {
+        let found = all(&format!(r"const {name}: \[f64; 2\] = \[(\S+), (\S+)\];"), &text);
+        assert!(found.len() == 1, "{SOURCE}: {} times {name}", found.len());
+        set = set.with_range(key, &format!("{} {}", found[0][1], found[0][2]));
+    }
+    set
 }
 
 fn database() -> Vec<Set> {

@@ -2,7 +2,7 @@
 //! bit of a number, a name or the plan is detected.
 
 use super::Dataset;
-use super::record::{COLUMNS, Record};
+use super::record::{COLUMNS, LATER, Record};
 use rusqlite::types::Value;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -74,17 +74,30 @@ pub(super) fn dictionary_damage(provenance: &Provenance, rows: &[[String; 3]]) -
 
 /// Exclusive or of the hashes of all rows. It does not depend on the order of rows, so it can be extended packing by
 /// packing, and shards combine to the checksum of the whole. No two rows are alike, because each has its own packing,
-/// ramp and stop.
+/// ramp and stop. A column that older files do not have counts, with its name, where it has a value only, so that their
+/// checksums stay what they were.
 fn of_rows(records: &[Record]) -> [u8; 32] {
     let mut sum = [0; 32];
     let mut text = Vec::new();
     for record in records {
         text.clear();
-        record.values().iter().for_each(|value| append(&mut text, value));
+        for (column, value) in COLUMNS.iter().zip(record.values()) {
+            if LATER.contains(&column.0) {
+                if value == Value::Null {
+                    continue;
+                }
+                text.push(LATER_COLUMN);
+                append_text(&mut text, column.0);
+            }
+            append(&mut text, &value);
+        }
         sum.iter_mut().zip(Sha256::digest(&text)).for_each(|(sum, byte)| *sum ^= byte);
     }
     sum
 }
+
+/// Stands before the name of a column of [`LATER`]; the kinds of values have the bytes 0 to 4.
+const LATER_COLUMN: u8 = 5;
 
 fn append(text: &mut Vec<u8>, value: &Value) {
     match value {

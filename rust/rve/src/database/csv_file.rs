@@ -1,6 +1,6 @@
 //! Reading CSV: all columns, each row once, with limits on the size.
 
-use super::record::{COLUMNS, Record};
+use super::record::{COLUMNS, LATER, Record};
 use super::{DatabaseError, Dataset, checksum};
 use crate::message::shortened;
 use msdd_files::{FileError, MOST_BYTES};
@@ -62,17 +62,18 @@ pub(super) fn provenance(csv: &Path) -> Result<BTreeMap<String, String>, Databas
     })
 }
 
-/// Names of columns that the file does not have.
+/// Names of columns that the file does not have, and that are not among those that any older file may lack.
 pub(super) fn missing(path: &Path) -> Result<Vec<&'static str>, DatabaseError> {
     let file =
         std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
     let mut reader = reader(path, file)?;
     let head = reader.byte_headers().map_err(csv_error(path))?;
     let absent = |name: &&str| !head.iter().any(|known| known == name.as_bytes());
-    Ok(COLUMNS.iter().map(|column| column.0).filter(absent).collect())
+    Ok(COLUMNS.iter().map(|column| column.0).filter(|name| !LATER.contains(name)).filter(absent).collect())
 }
 
-/// Reads rows from a plain or compressed text. `path` names the file in errors; the columns `absent` may be missing.
+/// Reads rows from a plain or compressed text. `path` names the file in errors; the columns `absent` and those that files
+/// of an older schema do not have may be missing.
 ///
 /// # Errors
 /// [`DatabaseError::Format`] for columns that are missing or unknown; [`DatabaseError::Value`] for a value of the wrong
@@ -137,7 +138,7 @@ fn columns(
     }
     let place = |column: &super::record::Column| {
         let found = head.iter().position(|name| name == column.0.as_bytes());
-        match found.is_some() || absent.contains(&column.0) {
+        match found.is_some() || absent.contains(&column.0) || LATER.contains(&column.0) {
             true => Ok(found),
             false => Err(problem(format!(
                 "column {} is missing; every column is needed, unless an older program wrote the rows and the file was sealed without it",

@@ -1,9 +1,14 @@
-//! The offline database: many packings, each taken through ramps of thermal strain, wall strain or wall slip.
+//! The offline database: many packings, each taken through ramps of thermal strain, wall strain or wall slip, or along
+//! paths of strain.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`plan`] | the packings and ramps to make, as a TOML file |
+//! | `block` | the blocks of a plan |
+//! | `kind` | names of kinds, ramps and paths |
+//! | [`paths`] | the increments of each path |
 //! | `rows` | the rows of one packing |
+//! | `path_rows` | the rows of one path |
 //! | [`record`] | one row: one state of one packing |
 //! | [`store`] | the SQLite file: schema, provenance, resume |
 //! | [`generate`](mod@generate) | makes the rows, on several threads |
@@ -18,6 +23,7 @@
 //! | `checksum` | checksums over rows and provenance |
 //! | [`check`] | exact laws on every row, statistics, noise floor |
 
+mod block;
 mod cell;
 pub mod check;
 mod checksum;
@@ -25,8 +31,11 @@ pub mod csv_file;
 pub mod dataset;
 pub mod export;
 pub mod generate;
+mod kind;
 pub mod merge;
 pub mod offenders;
+mod path_rows;
+pub mod paths;
 pub mod plan;
 mod read;
 pub mod record;

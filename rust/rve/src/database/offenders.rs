@@ -2,7 +2,7 @@
 //! new RVEs.
 
 use super::{DatabaseError, Plan, plan::Block};
-use crate::{Boundary, Compression};
+use crate::Compression;
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -129,7 +129,8 @@ impl Offenders {
             wanted.entry(kind).or_default().push(class);
         }
         let kinds = [Compression::Isotropic, Compression::Intermediate, Compression::Horizontal];
-        let boundary = like.thermal.first().map_or_else(Boundary::default, |block| block.boundary);
+        let paths = || like.paths.first().map(|block| block.boundary);
+        let boundary = like.thermal.first().map(|block| block.boundary).or_else(paths).unwrap_or_default();
         let thermal = wanted.into_iter().map(|(kind, mut classes)| {
             classes.sort_unstable();
             classes.dedup();
@@ -153,6 +154,7 @@ impl Offenders {
             thermal: thermal.collect(),
             mechanics: Vec::new(),
             wall_shear: Vec::new(),
+            paths: Vec::new(),
             text: String::new(),
             ..like.clone()
         };
@@ -171,6 +173,7 @@ impl Offenders {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Boundary;
 
     const LIKE: &str = "radius_min = 2e-3\nradius_max = 6e-3\nseed = 7\n[[thermal]]\ndiscs = 500\nboundary = \"periodic\"\n\
         porosities = [0.1]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.01]\n";
@@ -207,6 +210,14 @@ mod tests {
         assert!(plan.thermal.iter().all(|block| block.boundary == Boundary::Periodic));
         assert_ne!(plan.seed, like.seed);
         assert_eq!(Plan::parse(&plan.text, "again").expect("own text"), plan);
+        // Paths are in periodic boxes, too; the new plan has none.
+        let (head, _) = LIKE.split_once("[[thermal]]").expect("a block");
+        let paths = "[[paths]]\ndiscs = 50\nporosities = [0.1]\ncompressions = [\"isotropic\"]\nrepeats = 1\n\
+            paths = [\"mixed\"]\n";
+        let like = Plan::parse(&format!("{head}{paths}"), "like").expect("sound");
+        let plan = offenders.plan(&like, Effort { discs: 200, repeats: 3 }).expect("plan");
+        assert!(plan.paths.is_empty());
+        assert!(plan.thermal.iter().all(|block| block.boundary == Boundary::Periodic));
     }
 
     #[test]

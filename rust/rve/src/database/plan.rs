@@ -1,10 +1,15 @@
-//! A plan of packings and ramps: a TOML file with blocks `[[thermal]]`, `[[mechanics]]` and `[[wall_shear]]`.
+//! A plan of packings and ramps: a TOML file with blocks `[[thermal]]`, `[[mechanics]]`, `[[wall_shear]]` and `[[paths]]`.
 
 use super::DatabaseError;
+use super::block::AnyBlock;
+use super::paths::{Planned, Steps, planned};
 use crate::slide::Slide;
-use crate::{Boundary, Compression, Material, PackingSpec, Preparation, Relaxation};
+use crate::{Compression, Material, PackingSpec, Preparation, Relaxation};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+
+pub use super::block::{Block, PathBlock};
+pub use super::kind::{Kind, RampName};
 
 /// Width over height of the boxes of `[[wall_shear]]`.
 const SHEAR_ASPECT: f64 = 2.0;
@@ -33,75 +38,12 @@ pub struct Plan {
     /// Bottom and top of a box twice as wide as high slip along the grains.
     #[serde(default)]
     pub wall_shear: Vec<Block>,
+    /// Paths of strain in periodic boxes.
+    #[serde(default)]
+    pub paths: Vec<PathBlock>,
     /// The text that the plan was read from; [`Plan::hash`] is its hash.
     #[serde(skip)]
     pub text: String,
-}
-
-/// Packings of one size: every porosity with every compression and packing friction, `repeats` of each.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Block {
-    /// Discs in a packing.
-    pub discs: usize,
-    /// Target porosities of the packings, whole box, overlaps counted once [-].
-    pub porosities: Vec<f64>,
-    pub compressions: Vec<Compression>,
-    /// Friction angles of the grains while the walls close [rad]; default: the material's alone.
-    #[serde(default)]
-    pub packing_friction_angles: Vec<f64>,
-    /// Packings for each porosity, compression and packing friction.
-    pub repeats: u32,
-    /// Ramps of each packing; default: `up` and `down`, or `xx` and `yy`, or `wall_shear`, by the kind of the block.
-    #[serde(default)]
-    pub ramps: Vec<RampName>,
-    /// Magnitudes at which a ramp stops, growing: strain [-], or slip [m] of `wall_shear`.
-    pub stops: Vec<f64>,
-    /// Magnitudes at which the return of `up_down` and `down_up` stops, falling; 0 is the packed strain and negative
-    /// values lie beyond it. Default: the stops in reverse order, then 0.
-    #[serde(default)]
-    pub return_stops: Vec<f64>,
-    /// Boundary of the boxes; default: walls. Periodic boxes are averaged over their whole cell.
-    #[serde(default)]
-    pub boundary: Boundary,
-    /// Directions in which the walls of `wall_shear` move; default: same.
-    #[serde(default)]
-    pub slide: Option<Slide>,
-}
-
-/// What is moved in the ramps of a block: radii, walls, or walls along the grains.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    #[default]
-    Thermal,
-    Mechanics,
-    WallShear,
-}
-
-/// A ramp: a path through states of one packing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RampName {
-    /// The packed state itself: stop 0 of every ramp that starts there.
-    #[default]
-    Packed,
-    /// Radii grow.
-    Up,
-    /// Radii shrink.
-    Down,
-    /// Back from the last stop of `up`.
-    UpDown,
-    /// Back from the last stop of `down`.
-    DownUp,
-    /// x walls close (stops −1, −2, …), and from the packed state again, open (1, 2, …).
-    Xx,
-    /// As `xx`, with the y walls.
-    Yy,
-    /// A periodic box is sheared along x, one way (stops −1, −2, …) and, from the packed state again, the other.
-    Xy,
-    /// Bottom and top move along x.
-    WallShear,
 }
 
 /// One packing of a plan.
@@ -112,36 +54,14 @@ pub struct Job {
     pub kind: Kind,
     pub spec: PackingSpec,
     pub preparation: Preparation,
+    /// Ramps, or paths.
     pub ramps: Vec<RampName>,
-    /// Magnitudes, growing; see [`Block`].
+    /// Magnitudes, growing; see [`Block`]. Empty for paths.
     pub stops: Vec<f64>,
     pub return_stops: Vec<f64>,
     pub slide: Slide,
-}
-
-impl Kind {
-    /// The ramps of a block that names none; and the further ramps that a block of this kind may name.
-    fn ramps(self) -> (&'static [RampName], &'static [RampName]) {
-        match self {
-            Self::Thermal => (&[RampName::Up, RampName::Down], &[RampName::UpDown, RampName::DownUp]),
-            Self::Mechanics => (&[RampName::Xx, RampName::Yy], &[RampName::Xy]),
-            Self::WallShear => (&[RampName::WallShear], &[]),
-        }
-    }
-
-    /// The name in plans and rows.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Thermal => "thermal",
-            Self::Mechanics => "mechanics",
-            Self::WallShear => "wall_shear",
-        }
-    }
-
-    /// Largest stop: strain [-] or slip [m].
-    fn largest_stop(self) -> f64 {
-        if self == Self::WallShear { 1.0 } else { 0.2 }
-    }
+    /// How paths are followed; none for ramps.
+    pub steps: Option<Steps>,
 }
 
 impl Job {
@@ -154,7 +74,14 @@ impl Job {
         rows
     }
 
-    /// Stops of a ramp: index and signed value.
+    /// The rows of a path, in the order in which they are made; none of a ramp. The packed state is probed in the first
+    /// path only, since the others would find the same.
+    pub fn path(&self, path: RampName) -> Vec<Planned> {
+        let first = self.ramps.first() == Some(&path);
+        self.steps.as_ref().map_or_else(Vec::new, |steps| planned(path, self.spec.seed, steps, first))
+    }
+
+    /// Stops of a ramp: index and signed value, which is 0 for paths ([`Job::path`] has their strains).
     pub fn stops_of(&self, ramp: RampName) -> Vec<(i64, f64)> {
         let numbered = |values: &[f64], sign: f64| -> Vec<(i64, f64)> {
             values.iter().zip(1..).map(|(&value, stop)| (stop, sign * value + 0.0)).collect()
@@ -169,6 +96,7 @@ impl Job {
                 let closing = numbered(&self.stops, -1.0).into_iter().map(|(stop, strain)| (-stop, strain));
                 closing.chain(numbered(&self.stops, 1.0)).collect()
             }
+            path => self.path(path).iter().map(|planned| (planned.stop, 0.0)).collect(),
         }
     }
 }
@@ -191,25 +119,27 @@ impl Plan {
         Sha256::digest(self.text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// All blocks with their kind, and their number among the blocks of that kind.
-    fn blocks(&self) -> impl Iterator<Item = (Kind, usize, &Block)> {
+    /// All blocks, with their number among the blocks of the same kind.
+    fn blocks(&self) -> impl Iterator<Item = (usize, AnyBlock<'_>)> {
         let lists = [
             (Kind::Thermal, &self.thermal),
             (Kind::Mechanics, &self.mechanics),
             (Kind::WallShear, &self.wall_shear),
         ];
-        lists
-            .into_iter()
-            .flat_map(|(kind, list)| list.iter().enumerate().map(move |(k, block)| (kind, k + 1, block)))
+        let ramps = lists.into_iter().flat_map(|(kind, list)| {
+            list.iter().enumerate().map(move |(k, block)| (k + 1, AnyBlock::Ramps(kind, block)))
+        });
+        let paths = self.paths.iter().enumerate().map(|(k, block)| (k + 1, AnyBlock::Paths(block)));
+        ramps.chain(paths)
     }
 
     fn check(&self) -> Result<(), String> {
         self.material.check().map_err(|error| error.to_string())?;
-        for (kind, number, block) in self.blocks() {
-            let within = |problem| format!("[[{}]] {number}: {problem}", kind.as_str());
-            block.check(kind).map_err(within)?;
+        for (number, block) in self.blocks() {
+            let within = |problem| format!("[[{}]] {number}: {problem}", block.kind().as_str());
+            block.check().map_err(within)?;
         }
-        let packings = self.blocks().map(|(_, _, block)| block.packings()).fold(0, u64::saturating_add);
+        let packings = self.blocks().map(|(_, block)| block.packings().count()).fold(0, u64::saturating_add);
         if packings > MOST_PACKINGS {
             return Err(format!("{packings} packings, allowed: {MOST_PACKINGS}"));
         }
@@ -223,13 +153,14 @@ impl Plan {
     /// The packings, in order of block, porosity, compression, packing friction, repeat.
     pub fn jobs(&self) -> Vec<Job> {
         let mut jobs = Vec::new();
-        for (kind, _, block) in self.blocks() {
-            for &porosity in &block.porosities {
-                for &compression in &block.compressions {
-                    for &friction in &block.frictions(&self.material) {
-                        for _ in 0..block.repeats {
+        for (_, block) in self.blocks() {
+            let packings = block.packings();
+            for &porosity in packings.porosities {
+                for &compression in packings.compressions {
+                    for &friction in &packings.frictions(&self.material) {
+                        for _ in 0..packings.repeats {
                             let packing = jobs.len() as u64;
-                            jobs.push(self.job(packing, (kind, block), porosity, compression, friction));
+                            jobs.push(self.job(packing, block, (porosity, compression, friction)));
                         }
                     }
                 }
@@ -241,36 +172,47 @@ impl Plan {
     fn job(
         &self,
         packing: u64,
-        (kind, block): (Kind, &Block),
-        porosity: f64,
-        compression: Compression,
-        friction_angle: f64,
+        block: AnyBlock,
+        (porosity, compression, friction_angle): (f64, Compression, f64),
     ) -> Job {
+        let kind = block.kind();
         let spec = PackingSpec {
-            discs: block.discs,
+            discs: block.packings().discs,
             seed: packing_seed(self.seed, packing),
             porosity,
             compression,
             radius_min: self.radius_min,
             radius_max: self.radius_max,
-            boundary: block.boundary,
+            boundary: block.packings().boundary,
             relaxation: self.relaxation,
         };
         let aspect = if kind == Kind::WallShear { SHEAR_ASPECT } else { 1.0 };
-        let back = || block.stops.iter().rev().skip(1).copied().chain([0.0]).collect();
-        Job {
+        let preparation =
+            Preparation { friction_angle: Some(friction_angle), aspect, ..Preparation::default() };
+        let job = Job {
             packing: packing as i64,
             kind,
             spec,
-            preparation: Preparation {
-                friction_angle: Some(friction_angle),
-                aspect,
-                ..Preparation::default()
-            },
-            ramps: block.ramps(kind).to_vec(),
-            stops: block.stops.clone(),
-            return_stops: if block.return_stops.is_empty() { back() } else { block.return_stops.clone() },
-            slide: block.slide.unwrap_or_default(),
+            preparation,
+            ramps: Vec::new(),
+            stops: Vec::new(),
+            return_stops: Vec::new(),
+            slide: Slide::default(),
+            steps: None,
+        };
+        match block {
+            AnyBlock::Paths(block) => Job { ramps: block.paths.clone(), steps: Some(block.steps()), ..job },
+            AnyBlock::Ramps(kind, block) => {
+                let back = || block.stops.iter().rev().skip(1).copied().chain([0.0]).collect();
+                let given = !block.return_stops.is_empty();
+                Job {
+                    ramps: block.ramps(kind).to_vec(),
+                    stops: block.stops.clone(),
+                    return_stops: if given { block.return_stops.clone() } else { back() },
+                    slide: block.slide.unwrap_or_default(),
+                    ..job
+                }
+            }
         }
     }
 
@@ -282,108 +224,6 @@ impl Plan {
     /// Mean of the radius distribution [m].
     pub fn mean_radius(&self) -> f64 {
         0.5 * (self.radius_min + self.radius_max)
-    }
-}
-
-impl Block {
-    /// Number of packings of the block.
-    fn packings(&self) -> u64 {
-        let frictions = self.packing_friction_angles.len().max(1);
-        let factors = [self.porosities.len(), self.compressions.len(), frictions].map(|count| count as u64);
-        factors.into_iter().fold(u64::from(self.repeats), u64::saturating_mul)
-    }
-
-    fn frictions(&self, material: &Material) -> Vec<f64> {
-        match self.packing_friction_angles.as_slice() {
-            [] => vec![material.friction_angle],
-            list => list.to_vec(),
-        }
-    }
-
-    fn ramps(&self, kind: Kind) -> &[RampName] {
-        if self.ramps.is_empty() { kind.ramps().0 } else { &self.ramps }
-    }
-
-    fn check(&self, kind: Kind) -> Result<(), String> {
-        if self.porosities.is_empty() || self.compressions.is_empty() || self.repeats == 0 {
-            return Err("porosities, compressions and repeats: at least one of each is needed".into());
-        }
-        if let Some(angle) =
-            self.packing_friction_angles.iter().find(|a| !(0.0..std::f64::consts::FRAC_PI_2).contains(*a))
-        {
-            return Err(format!("packing_friction_angles: {angle}, allowed: 0 <= angle < pi/2 rad"));
-        }
-        let largest = kind.largest_stop();
-        let inside = self.stops.iter().all(|s| (1e-9..=largest).contains(s));
-        if !(inside && self.stops.windows(2).all(|pair| pair[0] < pair[1])) {
-            return Err(format!("stops: {:?}, allowed: growing, above 0, at most {largest}", self.stops));
-        }
-        self.check_returns()?;
-        if self.slide.is_some() && kind != Kind::WallShear {
-            return Err("slide: allowed in [[wall_shear]] only".into());
-        }
-        if self.boundary == Boundary::Periodic && kind == Kind::WallShear {
-            return Err("boundary: periodic: allowed in [[thermal]] and [[mechanics]] only".into());
-        }
-        self.check_ramps(kind)
-    }
-
-    fn check_returns(&self) -> Result<(), String> {
-        let turn = self.stops.last().copied().unwrap_or(0.0);
-        let falling = self.return_stops.windows(2).all(|pair| pair[0] > pair[1]);
-        let inside = self.return_stops.iter().all(|&s| s < turn && s >= -0.2);
-        if falling && inside {
-            return Ok(());
-        }
-        Err(format!("return_stops: {:?}, allowed: falling, below {turn}, at least -0.2", self.return_stops))
-    }
-
-    fn check_ramps(&self, kind: Kind) -> Result<(), String> {
-        let (usual, more) = kind.ramps();
-        let ramps = self.ramps(kind);
-        for (k, ramp) in ramps.iter().enumerate() {
-            let problem = |problem| Err(format!("ramps: {}: {problem}", ramp.as_str()));
-            if !(usual.contains(ramp) || more.contains(ramp)) {
-                let allowed: Vec<&str> = usual.iter().chain(more).map(|r| r.as_str()).collect();
-                return problem(format!("allowed: {}", allowed.join(", ")));
-            }
-            if *ramp == RampName::Xy && self.boundary != Boundary::Periodic {
-                return problem("needs boundary = \"periodic\"".to_string());
-            }
-            if ramps[..k].contains(ramp) {
-                return problem("is named twice".to_string());
-            }
-            if let Some(first) = ramp.starts_from().filter(|first| !ramps[..k].contains(first)) {
-                return problem(format!("{} must stand before it", first.as_str()));
-            }
-        }
-        Ok(())
-    }
-}
-
-impl RampName {
-    /// The ramp from whose last stop this one starts; none when it starts from the packed state.
-    pub fn starts_from(self) -> Option<Self> {
-        match self {
-            Self::UpDown => Some(Self::Up),
-            Self::DownUp => Some(Self::Down),
-            _ => None,
-        }
-    }
-
-    /// The name in plans and rows.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Packed => "packed",
-            Self::Up => "up",
-            Self::Down => "down",
-            Self::UpDown => "up_down",
-            Self::DownUp => "down_up",
-            Self::Xx => "xx",
-            Self::Yy => "yy",
-            Self::Xy => "xy",
-            Self::WallShear => "wall_shear",
-        }
     }
 }
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::Boundary;
 
 const GOOD: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 1\n\
     [[thermal]]\ndiscs = 100\nporosities = [0.1, 0.15]\ncompressions = [\"isotropic\", \"intermediate\"]\n\
@@ -50,4 +51,53 @@ fn bad_plans_name_file_key_value_and_range() {
     let empty = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 1\n";
     assert!(error(empty).contains("at least one block"));
     assert!(error(&format!("{GOOD}[material]\nfriction_angle = 2.0\n")).contains("material"));
+}
+
+const PATHS: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 1\n\
+    [[paths]]\ndiscs = 100\nporosities = [0.1]\ncompressions = [\"isotropic\", \"sheared\"]\nrepeats = 2\n\
+    paths = [\"shear\", \"thermal\"]\nstep = 2e-3\nprobes = [1e-4, 1e-3]\nprobe_every = 10\n";
+
+#[test]
+fn a_block_of_paths_lists_its_rows() {
+    let plan = Plan::parse(PATHS, "plan.toml").unwrap();
+    let jobs = plan.jobs();
+    assert_eq!(jobs.len(), 4);
+    assert!(jobs.iter().all(|job| job.kind == Kind::Paths && job.spec.boundary == Boundary::Periodic));
+    // 55 and 70 increments, and twelve probes at the packed state, once, and after each tenth increment.
+    assert_eq!(plan.rows(), 4 * (1 + 55 + 70 + (1 + 5 + 7) * 12));
+    let rows = jobs[0].rows();
+    assert_eq!(rows[..2], [(RampName::Packed, 0), (RampName::Shear, 1)]);
+    assert_eq!(rows.last(), Some(&(RampName::Thermal, 70 + 7 * 12)));
+    let step = |job: &Job| job.path(RampName::Thermal)[0].increment.step.thermal;
+    assert_eq!(step(&jobs[0]).abs(), 2e-3);
+    assert!(jobs.iter().any(|job| step(job) > 0.0) && jobs.iter().any(|job| step(job) < 0.0));
+    let given = PATHS.replace("repeats = 2", "repeats = 2\nboundary = \"periodic\"");
+    assert_eq!(Plan::parse(&given, "plan.toml").unwrap().jobs(), jobs);
+    let usual = PATHS.split("step").next().unwrap();
+    let block = &Plan::parse(usual, "plan.toml").unwrap().paths[0];
+    assert_eq!((block.step, block.probes.len(), block.probe_every), (1e-3, 0, 20));
+}
+
+#[test]
+fn bad_blocks_of_paths_name_key_value_and_range() {
+    for (good, bad, problem) in [
+        ("\"thermal\"]", "\"up\"]", "[[paths]] 1: paths: up: allowed: uniaxial, biaxial, shear, isotropic,"),
+        ("\"thermal\"]", "\"sideways\"]", "unknown variant `sideways`"),
+        ("\"thermal\"]", "\"shear\"]", "[[paths]] 1: paths: shear: is named twice"),
+        ("[\"shear\", \"thermal\"]", "[]", "[[paths]] 1: paths: at least one is needed"),
+        ("repeats = 2", "repeats = 2\nboundary = \"walls\"", "boundary: walls, allowed: periodic"),
+        ("repeats = 2", "repeats = 0", "[[paths]] 1: porosities, compressions and repeats"),
+        ("step = 2e-3", "step = 2e-2", "step: 0.02, allowed: 1e-5 to 1e-2"),
+        ("step = 2e-3", "step = 9e-6", "step: 0.000009, allowed: 1e-5 to 1e-2"),
+        ("step = 2e-3", "step = nan", "step: NaN, allowed"),
+        ("1e-3]", "1e-4]", "probes: [0.0001, 0.0001], allowed: growing, 1e-6 to 1e-2"),
+        ("1e-3]", "0.02]", "probes: [0.0001, 0.02], allowed: growing"),
+        ("probe_every = 10", "probe_every = 0", "probe_every: 0, allowed: at least 1"),
+        ("probe_every = 10", "stops = [0.01]", "unknown field `stops`"),
+    ] {
+        let found = error(&PATHS.replace(good, bad));
+        assert!(found.starts_with("plan.toml: ") && found.contains(problem), "{bad}: {found}");
+    }
+    let found = error(&GOOD.replace("\"up\", \"down\", \"up_down\"", "\"shear\""));
+    assert!(found.contains("ramps: shear: allowed: up, down, up_down, down_up"), "{found}");
 }

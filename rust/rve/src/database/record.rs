@@ -1,7 +1,9 @@
 //! One row of the database: one state of one packing.
 
 use super::cell::Cell;
-use super::plan::{Job, Kind, RampName};
+use super::kind::{Kind, RampName};
+use super::paths::Increment;
+use super::plan::Job;
 use crate::slide::Sliding;
 use crate::{Averages, Boundary, Compression, Material, Outcome, RegionKind, Settled, Strains};
 use rusqlite::types::{Value, ValueRef};
@@ -50,18 +52,24 @@ macro_rules! record {
 #[rustfmt::skip]
 record! {
     packing: i64, "INTEGER", "-", "index of the packing in the plan";
-    kind: Kind, "TEXT", "-", "thermal: radii change in fixed walls; mechanics: walls move; wall_shear: bottom and top slip along the grains";
+    kind: Kind, "TEXT", "-", "thermal: radii change in fixed walls; mechanics: walls move; wall_shear: bottom and top slip along the grains; paths: a periodic box follows paths of strain";
     discs: u64, "INTEGER", "-", "discs in the packing";
     seed: u64, "INTEGER", "-", "seed of the packing";
     compression: Compression, "TEXT", "-", "isotropic: walls close in x and y; horizontal: in x only; intermediate: twice as fast in x as in y; sheared: in x, while those of y open an eighth as fast";
     target_porosity: f64, "REAL", "-", "porosity of the whole box at which the walls stopped, overlaps counted once";
     packing_friction_angle: f64, "REAL", "rad", "friction angle of the grains while the walls closed; the material's own afterwards";
-    ramp: RampName, "TEXT", "-", "packed: before any strain; up, down: radii grow, shrink; up_down, down_up: back from the last stop of up, down; xx, yy: walls move along x, y; xy: shear of a periodic box; wall_shear: bottom and top move along x";
-    stop: i64, "INTEGER", "-", "place on the ramp from 1; 0 is the packed state; of xx, yy and xy: negative closing or shear against x, positive opening or shear along x, both from the packed state";
+    ramp: RampName, "TEXT", "-", "packed: before any strain; up, down: radii grow, shrink; up_down, down_up: back from the last stop of up, down; xx, yy: walls move along x, y; xy: shear of a periodic box; wall_shear: bottom and top move along x; others: paths of strain of a periodic box";
+    stop: i64, "INTEGER", "-", "place on the ramp from 1; 0 is the packed state; of xx, yy and xy: negative closing or shear against x, positive opening or shear along x, both from the packed state; of paths: running number";
     strain: f64, "REAL", "-", "radial thermal strain relative to the packed state, growth positive";
     strain_xx: f64, "REAL", "-", "extension of the box along x relative to the packed state, extension positive";
     strain_yy: f64, "REAL", "-", "extension of the box along y relative to the packed state, extension positive";
     strain_xy: f64, "REAL", "-", "shear of the box, displacement along x over height, relative to the packed state";
+    from_stop: Option<i64>, "INTEGER", "-", "of a path: stop from whose state the increment starts; 0 is the packed state";
+    step_thermal: Option<f64>, "REAL", "-", "of a path: increment of the radii relative to the state at from_stop, growth positive";
+    step_xx: Option<f64>, "REAL", "-", "of a path: increment of the box along x relative to the state at from_stop, extension positive";
+    step_yy: Option<f64>, "REAL", "-", "of a path: increment of the box along y relative to the state at from_stop, extension positive";
+    step_xy: Option<f64>, "REAL", "-", "of a path: shear increment, displacement along x over height, relative to the state at from_stop";
+    probe: Option<u64>, "INTEGER", "-", "of a path: 1: tried on a copy of the box, the path goes on from from_stop; 0: the path goes on from here";
     wall_slip: f64, "REAL", "m", "way of bottom and top along x since the packed state";
     wall_slip_of_grains: Option<f64>, "REAL", "m", "wall_slip less the way of the grains that touch bottom or top, which the assembly behind them lets give way; weighted by normal force";
     wall_friction: Option<f64>, "REAL", "-", "mobilised friction: tangential over normal force on the grains, along the motion, mean of bottom and top";
@@ -89,6 +97,7 @@ record! {
     fabric_index: Option<f64>, "REAL", "-", "F_xx - F_yy, Eq. 8";
     fabric_xx: Option<f64>, "REAL", "-", "F_xx, Eq. 8";
     fabric_yy: Option<f64>, "REAL", "-", "F_yy, Eq. 8";
+    fabric_xy: Option<f64>, "REAL", "-", "F_xy: mean of n_x n_y over the contacts";
     fabric_conductivity: Option<f64>, "REAL", "-", "(K_xx - K_yy)/(K_xx + K_yy), affine";
     conductivity_xx: Option<f64>, "REAL", "-", "K_xx / k, affine, Eq. 9";
     conductivity_yy: Option<f64>, "REAL", "-", "K_yy / k, affine, Eq. 9";
@@ -111,6 +120,10 @@ record! {
     mean_radius: Option<f64>, "REAL", "m", "mean disc radius, current";
 }
 
+/// Columns that files of schema 2 do not have; they are null there.
+pub(super) const LATER: [&str; 7] =
+    ["from_stop", "step_thermal", "step_xx", "step_yy", "step_xy", "probe", "fabric_xy"];
+
 /// Copies averages into the columns of the same name.
 macro_rules! copy {
     ($from:ident => $to:ident: $($name:ident)*) => {
@@ -126,6 +139,8 @@ pub(crate) struct Place {
     pub strains: Strains,
     /// Slip of bottom and top [m].
     pub slip: f64,
+    /// Of a path: what leads to the stop.
+    pub increment: Option<Increment>,
 }
 
 /// Results at one stop.
@@ -173,6 +188,12 @@ impl Record {
             strain_xx: place.strains.xx,
             strain_yy: place.strains.yy,
             strain_xy: place.strains.xy,
+            from_stop: place.increment.map(|increment| increment.from_stop),
+            step_thermal: place.increment.map(|increment| increment.step.thermal),
+            step_xx: place.increment.map(|increment| increment.step.xx),
+            step_yy: place.increment.map(|increment| increment.step.yy),
+            step_xy: place.increment.map(|increment| increment.step.xy),
+            probe: place.increment.map(|increment| u64::from(increment.probe)),
             wall_slip: place.slip,
             region: match job.spec.boundary {
                 Boundary::Walls => RegionKind::default(),
@@ -205,7 +226,7 @@ impl Record {
 
     fn set_averages(&mut self, a: &Averages, young_modulus: f64) {
         copy!(a => self: porosity porosity_sum_of_areas overlap_fraction);
-        copy!(a => self: fabric_index fabric_xx fabric_yy fabric_conductivity);
+        copy!(a => self: fabric_index fabric_xx fabric_yy fabric_xy fabric_conductivity);
         copy!(a => self: conductivity_xx conductivity_yy conductivity_xy);
         copy!(a => self: conductivity_network_xx conductivity_network_yy conductivity_network_xy);
         copy!(a => self: stress_xx stress_yy stress_xy stress_yx pressure);
@@ -215,6 +236,18 @@ impl Record {
         self.stress_yy_reduced = Some(a.stress_yy / reduced);
         self.stress_xx_over_young_modulus = Some(a.stress_xx / young_modulus);
         self.stress_yy_over_young_modulus = Some(a.stress_yy / young_modulus);
+    }
+
+    /// Of a path: the increment that leads to the state; none in other rows.
+    pub fn increment(&self) -> Option<Increment> {
+        let step =
+            Strains { thermal: self.step_thermal?, xx: self.step_xx?, yy: self.step_yy?, xy: self.step_xy? };
+        Some(Increment { from_stop: self.from_stop?, step, probe: self.probe? != 0 })
+    }
+
+    /// Strains relative to the packed state.
+    pub fn strains(&self) -> Strains {
+        Strains { thermal: self.strain, xx: self.strain_xx, yy: self.strain_yy, xy: self.strain_xy }
     }
 
     /// Whether the state was reached and bears load.

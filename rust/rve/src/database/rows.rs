@@ -1,6 +1,8 @@
 //! The rows of one packing: every stop of every ramp of its job.
 
-use super::plan::{Job, Kind, Plan, RampName};
+use super::kind::{Kind, RampName};
+use super::path_rows;
+use super::plan::{Job, Plan};
 use super::record::{Place, Record, State};
 use crate::slide::{Sliding, at_rest};
 use crate::{
@@ -21,9 +23,9 @@ pub(super) fn rows(plan: &Plan, job: &Job) -> Vec<Record> {
     });
     let shear = (job.kind == Kind::WallShear).then(|| at_rest(&packed.simulation, job.slide));
     let state = State { settled: packed.settled, averages, sliding: shear };
-    let place = place(RampName::Packed, (0, 0.0));
     let mut walk = Walk { plan, job, packed: &packed, initial: &averages, ends: BTreeMap::new() };
-    let mut records = vec![Record::new(job, material, place, Ok(&state), Some(&averages))];
+    let start = place(RampName::Packed, (0, 0.0));
+    let mut records = vec![Record::new(job, material, start, Ok(&state), Some(&averages))];
     for &ramp in &job.ramps {
         records.extend(walk.ramp(ramp));
     }
@@ -32,20 +34,29 @@ pub(super) fn rows(plan: &Plan, job: &Job) -> Vec<Record> {
 
 fn unreached(plan: &Plan, job: &Job, reason: &str) -> Vec<Record> {
     let ramps = std::iter::once(RampName::Packed).chain(job.ramps.iter().copied());
-    let places = ramps.flat_map(|ramp| job.stops_of(ramp).into_iter().map(move |stop| place(ramp, stop)));
+    let places = ramps.flat_map(|ramp| places(job, ramp));
     places.map(|place| Record::new(job, &plan.material, place, Err(reason), None)).collect()
 }
 
-/// The place of a stop: `value` as the strain or slip that the ramp varies.
+/// The places of a ramp or path, in the order in which they are reached.
+fn places(job: &Job, ramp: RampName) -> Vec<Place> {
+    match ramp.is_path() {
+        true => job.path(ramp).into_iter().map(|planned| path_rows::place(ramp, planned)).collect(),
+        false => job.stops_of(ramp).into_iter().map(|stop| place(ramp, stop)).collect(),
+    }
+}
+
+/// The place of a stop of a ramp: `value` as the strain or slip that the ramp varies.
 fn place(ramp: RampName, (stop, value): (i64, f64)) -> Place {
-    let mut place = Place { ramp, stop, strains: Strains::default(), slip: 0.0 };
+    let mut place = Place { ramp, stop, strains: Strains::default(), slip: 0.0, increment: None };
     match ramp {
-        RampName::Packed => (),
         RampName::Up | RampName::Down | RampName::UpDown | RampName::DownUp => place.strains.thermal = value,
         RampName::Xx => place.strains.xx = value,
         RampName::Yy => place.strains.yy = value,
         RampName::Xy => place.strains.xy = value,
         RampName::WallShear => place.slip = value,
+        // The packed state; and the paths, whose strains follow from their increments.
+        _ => (),
     }
     place
 }
@@ -66,7 +77,7 @@ impl Walk<'_> {
     }
 
     fn ramp(&mut self, ramp: RampName) -> Vec<Record> {
-        let stops: Vec<Place> = self.job.stops_of(ramp).into_iter().map(|stop| place(ramp, stop)).collect();
+        let stops = places(self.job, ramp);
         match self.job.kind {
             Kind::Thermal => self.thermal(ramp, &stops),
             Kind::Mechanics => {
@@ -75,6 +86,7 @@ impl Walk<'_> {
                 [closing, opening].into_iter().flat_map(|branch| self.strain(branch)).collect()
             }
             Kind::WallShear => self.slide(&stops),
+            Kind::Paths => self.path(&stops),
         }
     }
 
@@ -111,6 +123,15 @@ impl Walk<'_> {
         let path: Vec<Strains> = stops.iter().map(|place| place.strains).collect();
         let mut simulation = self.packed.simulation.clone();
         self.records(stops, &follow(&mut simulation, &path, self.protocol(), |_, _| ()), &[])
+    }
+
+    fn path(&self, stops: &[Place]) -> Vec<Record> {
+        let results = path_rows::follow_all(self.packed, self.plan.relaxation, stops);
+        let row = |(place, result): (&Place, Result<State, String>)| {
+            let state = result.as_ref().map_err(String::as_str);
+            Record::new(self.job, &self.plan.material, *place, state, Some(self.initial))
+        };
+        stops.iter().zip(results).map(row).collect()
     }
 
     fn slide(&self, stops: &[Place]) -> Vec<Record> {

@@ -1,7 +1,7 @@
 //! Checks of an SQLite file before anything is read from it: it must have exactly our tables, and pass SQLite's own
 //! integrity check.
 
-use super::record::COLUMNS;
+use super::record::{COLUMNS, Column, LATER};
 use rusqlite::limits::Limit;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags};
@@ -11,9 +11,36 @@ use std::sync::OnceLock;
 /// Longest value that is read [bytes]: far longer than any plan.
 const LONGEST: i32 = 1 << 24;
 
+/// Number of the schema of a file; raised when a table changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Schema {
+    /// Without the columns of [`LATER`].
+    Two,
+    Three,
+}
+
+impl Schema {
+    /// That of new files.
+    pub const NOW: Self = Self::Three;
+
+    /// The number in the provenance.
+    pub fn number(self) -> &'static str {
+        match self {
+            Self::Two => "2",
+            Self::Three => "3",
+        }
+    }
+
+    /// Whether the table of rows has the column.
+    pub fn has(self, column: &Column) -> bool {
+        self == Self::Three || !LATER.contains(&column.0)
+    }
+}
+
 /// The statements that make the tables.
-pub(super) fn tables() -> String {
-    let columns: Vec<String> = COLUMNS.iter().map(|c| format!("{} {}", c.0, c.1)).collect();
+pub(super) fn tables(schema: Schema) -> String {
+    let columns: Vec<String> =
+        COLUMNS.iter().filter(|column| schema.has(column)).map(|c| format!("{} {}", c.0, c.1)).collect();
     format!(
         "CREATE TABLE states ({}, PRIMARY KEY (packing, ramp, stop));
              CREATE TABLE provenance (key TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -58,15 +85,20 @@ fn entries(connection: &Connection) -> rusqlite::Result<Vec<Entry>> {
     statement.query_map([], entry)?.collect()
 }
 
-fn expected() -> rusqlite::Result<&'static [Entry]> {
-    static EXPECTED: OnceLock<Vec<Entry>> = OnceLock::new();
-    if let Some(known) = EXPECTED.get() {
+fn expected(schema: Schema) -> rusqlite::Result<&'static [Entry]> {
+    static TWO: OnceLock<Vec<Entry>> = OnceLock::new();
+    static THREE: OnceLock<Vec<Entry>> = OnceLock::new();
+    let known = match schema {
+        Schema::Two => &TWO,
+        Schema::Three => &THREE,
+    };
+    if let Some(known) = known.get() {
         return Ok(known);
     }
     let connection = Connection::open_in_memory()?;
-    connection.execute_batch(&tables())?;
+    connection.execute_batch(&tables(schema))?;
     let made = entries(&connection)?;
-    Ok(EXPECTED.get_or_init(|| made))
+    Ok(known.get_or_init(|| made))
 }
 
 /// Whether the file has no tables, so that nothing was ever stored in it.
@@ -74,19 +106,21 @@ pub(super) fn is_empty(connection: &Connection) -> rusqlite::Result<bool> {
     Ok(entries(connection)?.is_empty())
 }
 
-/// What is wrong with the file, if anything. All objects are compared by name and statement before anything is read, so
-/// that a malicious view, which could run for ever, is never evaluated.
-pub(super) fn problem(connection: &Connection) -> rusqlite::Result<Option<String>> {
-    let (found, expected) = (entries(connection)?, expected()?);
+/// The schema of the file, or what is wrong with it. All objects are compared by name and statement before anything is
+/// read, so that a malicious view, which could run for ever, is never evaluated.
+pub(super) fn of(connection: &Connection) -> rusqlite::Result<Result<Schema, String>> {
+    let found = entries(connection)?;
+    let schema = if found == expected(Schema::Two)? { Schema::Two } else { Schema::NOW };
+    let expected = expected(schema)?;
     if let Some([kind, name, ..]) = found.iter().find(|entry| !expected.contains(entry)) {
         let name = crate::message::shortened(name);
-        return Ok(Some(format!("{kind} {name} does not belong to a database or was changed")));
+        return Ok(Err(format!("{kind} {name} does not belong to a database or was changed")));
     }
     if let Some([kind, name, ..]) = expected.iter().find(|entry| !found.contains(entry)) {
-        return Ok(Some(format!("{kind} {name} is missing")));
+        return Ok(Err(format!("{kind} {name} is missing")));
     }
     let report = connection.query_row("PRAGMA integrity_check(1)", [], |row| {
         Ok(String::from_utf8_lossy(row.get_ref(0)?.as_bytes().unwrap_or_default()).into_owned())
     })?;
-    Ok((report != "ok").then(|| crate::message::shortened(&report)))
+    Ok(if report == "ok" { Ok(schema) } else { Err(crate::message::shortened(&report)) })
 }

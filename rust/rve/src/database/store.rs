@@ -4,6 +4,7 @@ use super::cell::Cell;
 use super::dataset::undamaged;
 use super::plan::Plan;
 use super::record::{COLUMNS, Column, Record};
+use super::schema::Schema;
 use super::{DatabaseError, Dataset, ENGINE_VERSION, Shard, checksum, schema};
 use msdd_files::Part;
 use rusqlite::types::ValueRef;
@@ -11,8 +12,6 @@ use rusqlite::{Connection, Row, params_from_iter};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Number of the schema; raised when a table changes.
-pub const SCHEMA: i64 = 2;
 /// Provenance key that only finished files have; their rows stand in plan order.
 pub(super) const COMPLETE: &str = "complete";
 
@@ -20,6 +19,7 @@ pub(super) const COMPLETE: &str = "complete";
 pub struct Store {
     connection: Connection,
     path: PathBuf,
+    schema: Schema,
 }
 
 impl Store {
@@ -31,16 +31,16 @@ impl Store {
     /// check fails, [`DatabaseError::Mismatch`] for another schema version, [`DatabaseError::Sqlite`].
     pub fn open(path: &Path) -> Result<Self, DatabaseError> {
         let connection = schema::open(path, false).map_err(|s| sqlite(path, s))?;
-        let store = Self { connection, path: path.to_path_buf() };
+        let mut store = Self { connection, path: path.to_path_buf(), schema: Schema::NOW };
         store.check()?;
         Ok(store)
     }
 
-    fn check(&self) -> Result<(), DatabaseError> {
-        if let Some(problem) = schema::problem(&self.connection).map_err(|s| sqlite(&self.path, s))? {
-            return Err(DatabaseError::Format { path: self.path.clone(), problem });
-        }
-        self.expect("schema", &SCHEMA.to_string())
+    /// Finds the schema of the file, which its provenance has to name.
+    fn check(&mut self) -> Result<(), DatabaseError> {
+        let found = schema::of(&self.connection).map_err(|s| sqlite(&self.path, s))?;
+        self.schema = found.map_err(|problem| DatabaseError::Format { path: self.path.clone(), problem })?;
+        self.expect("schema", self.schema.number())
     }
 
     /// Opens the database of a plan's shard, or makes an empty one. Existing content must agree with its checksums.
@@ -52,11 +52,12 @@ impl Store {
         commit: &str,
     ) -> Result<Self, DatabaseError> {
         let connection = schema::open(path, true).map_err(|s| sqlite(path, s))?;
-        let mut store = Self { connection, path: path.to_path_buf() };
+        let mut store = Self { connection, path: path.to_path_buf(), schema: Schema::NOW };
         if schema::is_empty(&store.connection).map_err(|s| sqlite(path, s))? {
             store.create(provenance(plan, shard, commit), &[]).map_err(|s| sqlite(path, s))?;
         }
         store.check()?;
+        store.expect("schema", Schema::NOW.number())?;
         store.expect("engine_version", &ENGINE_VERSION.to_string())?;
         store.expect("plan_hash", &plan.hash())?;
         store.expect("shard", &shard.to_string())?;
@@ -73,13 +74,15 @@ impl Store {
         records: &[Record],
     ) -> Result<(), DatabaseError> {
         provenance.insert(COMPLETE.to_string(), "yes".to_string());
+        // Rows of an older schema are written with the columns of this one.
+        provenance.insert("schema".to_string(), Schema::NOW.number().to_string());
         let part = Part::beside(path)?;
         let failed = |source| sqlite(path, source);
         let connection = schema::open(part.path(), false).map_err(failed)?;
         // The temporary file is written to disk before it is renamed, so SQLite's journal for restoring older contents
         // is not needed.
         connection.execute_batch("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;").map_err(failed)?;
-        let mut store = Self { connection, path: part.path().to_path_buf() };
+        let mut store = Self { connection, path: part.path().to_path_buf(), schema: Schema::NOW };
         store.create(provenance, records).map_err(failed)?;
         store.connection.close().map_err(|(_, source)| failed(source))?;
         Ok(part.put()?)
@@ -104,7 +107,7 @@ impl Store {
     ) -> rusqlite::Result<()> {
         checksum::seal(&mut provenance, records);
         let transaction = self.connection.transaction()?;
-        transaction.execute_batch(&schema::tables())?;
+        transaction.execute_batch(&schema::tables(Schema::NOW))?;
         write_provenance(&transaction, &provenance)?;
         for Column(name, _, unit, meaning) in COLUMNS {
             transaction.execute("INSERT INTO columns VALUES (?1, ?2, ?3)", [name, unit, meaning])?;
@@ -186,7 +189,8 @@ impl Store {
     /// # Errors
     /// [`DatabaseError::Value`] for a value of the wrong kind for its column, [`DatabaseError::Sqlite`].
     pub fn records(&self) -> Result<Vec<Record>, DatabaseError> {
-        let names: Vec<&str> = COLUMNS.iter().map(|c| c.0).collect();
+        let names: Vec<&str> =
+            COLUMNS.iter().map(|c| if self.schema.has(c) { c.0 } else { "NULL" }).collect();
         let query = format!("SELECT {} FROM states ORDER BY packing, rowid", names.join(", "));
         self.rows(&query, |row, number| {
             let cell = |column| row.get_ref(column).map_err(|error| error.to_string());
@@ -259,7 +263,7 @@ pub(super) fn sqlite(path: &Path, source: rusqlite::Error) -> DatabaseError {
 
 fn provenance(plan: &Plan, shard: Shard, commit: &str) -> BTreeMap<String, String> {
     let pairs = [
-        ("schema", SCHEMA.to_string()),
+        ("schema", Schema::NOW.number().to_string()),
         ("engine_version", ENGINE_VERSION.to_string()),
         ("commit", commit.to_string()),
         ("shard", shard.to_string()),

@@ -1,9 +1,10 @@
 //! Exact laws (definitions, bounds and conservation of mass) that every row of a database must obey.
 
 use crate::database::dataset::DIGITS;
-use crate::database::plan::RampName;
+use crate::database::kind::RampName;
+use crate::database::plan::Job;
 use crate::database::record::FAILED;
-use crate::database::{Dataset, Plan, Record, Shard};
+use crate::database::{DatabaseError, Dataset, Plan, Record, Shard};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
@@ -13,7 +14,7 @@ const TOLERANCE: f64 = 1e-9;
 const FEW_DIGITS: i32 = 8;
 
 /// The tolerance for this file. When it was exported with few digits: half a unit of the last digit.
-fn tolerance(dataset: &Dataset) -> f64 {
+pub(super) fn tolerance(dataset: &Dataset) -> f64 {
     match dataset.provenance.get(DIGITS).and_then(|digits| digits.parse().ok()) {
         Some(digits @ 3..=FEW_DIGITS) => 0.5 * 10f64.powi(1 - digits),
         _ => TOLERANCE,
@@ -80,7 +81,7 @@ fn row_laws(record: &Record, packed: Option<&Record>, tolerance: f64) -> Found {
 }
 
 /// Whether |off| is at most the tolerance; false for NaN.
-fn within(off: f64, tolerance: f64) -> bool {
+pub(super) fn within(off: f64, tolerance: f64) -> bool {
     off.abs() <= tolerance
 }
 
@@ -103,6 +104,8 @@ struct State {
     porosity_sum: f64,
     overlap: f64,
     fabric: [f64; 3],
+    /// Absent in files of older programs.
+    fabric_xy: Option<f64>,
     conductivity: [f64; 3],
     fabric_conductivity: f64,
     stress: [f64; 2],
@@ -118,6 +121,7 @@ impl State {
             porosity_sum: record.porosity_sum_of_areas?,
             overlap: record.overlap_fraction?,
             fabric: [record.fabric_xx?, record.fabric_yy?, record.fabric_index?],
+            fabric_xy: record.fabric_xy,
             conductivity: [record.conductivity_xx?, record.conductivity_yy?, record.conductivity_xy?],
             fabric_conductivity: record.fabric_conductivity?,
             stress: [record.stress_xx?, record.stress_yy?],
@@ -130,6 +134,7 @@ impl State {
     fn violations(&self, tolerance: f64) -> Found {
         let [fxx, fyy, f] = self.fabric;
         let [kxx, kyy, kxy] = self.conductivity;
+        let fxy = self.fabric_xy.unwrap_or(0.0);
         let size = kxx.abs() + kyy.abs();
         let stress = self.stress[0].abs() + self.stress[1].abs();
         // Without contacts the fabric tensor is zero.
@@ -145,6 +150,7 @@ impl State {
         let holds = [
             ("porosity is 0 to 1", (0.0..=1.0).contains(&self.porosity), self.porosity),
             ("overlaps are counted", self.overlap >= -tolerance, self.overlap),
+            ("F is positive", fxx * fyy - fxy * fxy >= -4.0 * tolerance, fxx * fyy - fxy * fxy),
             ("K is positive", kxx >= 0.0 && kyy >= 0.0, kxx.min(kyy)),
             ("K is positive", kxx * kyy - kxy * kxy >= -tolerance * size * size, kxx * kyy - kxy * kxy),
         ];
@@ -156,16 +162,21 @@ impl State {
     }
 }
 
+/// The packings of the plan in the provenance, as far as they belong to the shard of this file.
+pub(super) fn jobs(dataset: &Dataset) -> Result<Vec<Job>, DatabaseError> {
+    let text = dataset.provenance.get("plan").map_or("", String::as_str);
+    let plan = Plan::parse(text, "the plan in the provenance")?;
+    let shard: Shard = dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or_default();
+    Ok(plan.jobs().into_iter().filter(|job| shard.holds(job.packing)).collect())
+}
+
 /// Rows and seeds must be those of the plan in the provenance, as far as it belongs to the shard of this file.
 fn plan_laws(dataset: &Dataset) -> Vec<Violation> {
     let violation = |row: String, law, found: &str| Violation { row, law, found: found.to_string() };
-    let text = dataset.provenance.get("plan").map_or("", String::as_str);
-    let plan = match Plan::parse(text, "the plan in the provenance") {
-        Ok(plan) => plan,
+    let jobs = match jobs(dataset) {
+        Ok(jobs) => jobs,
         Err(error) => return vec![violation("provenance".to_string(), "has a plan", &error.to_string())],
     };
-    let shard: Shard = dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or_default();
-    let jobs: Vec<_> = plan.jobs().into_iter().filter(|job| shard.holds(job.packing)).collect();
     let seeds: BTreeMap<i64, u64> = jobs.iter().map(|job| (job.packing, job.spec.seed)).collect();
     let expected: BTreeSet<_> = jobs
         .iter()

@@ -67,6 +67,13 @@ pub fn variance(values: &[f64]) -> f64 {
     values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len().saturating_sub(1).max(1) as f64
 }
 
+/// Median, the upper one of an even number; 0 for an empty list.
+pub fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}
+
 /// Gaussian elimination with pivoting for three equations; the last column is the right-hand side.
 fn solve(mut a: [[f64; 4]; 3]) -> Option<[f64; 3]> {
     let size = a.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));

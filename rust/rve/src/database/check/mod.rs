@@ -3,14 +3,18 @@
 //! | module | what |
 //! |---|---|
 //! | `laws` | exact laws that every row must obey |
+//! | `increments` | laws of the rows of paths, each against the row that it starts from |
+//! | `twins` | equal packings that were reached by strain of the grains and of the box |
 //! | `statistics` | mirror symmetry of isotropic packings; small packings against large ones |
 //! | `noise` | scatter of the outputs at equal inputs |
 //! | `local` | local linear regression |
 
+mod increments;
 mod laws;
 mod local;
 mod noise;
 mod statistics;
+mod twins;
 
 use super::{DatabaseError, Dataset};
 pub use laws::Violation;
@@ -39,6 +43,8 @@ const NAMED: usize = 3;
 /// All violated laws of a dataset, those of symmetry included.
 pub fn violations(dataset: &Dataset) -> Vec<Violation> {
     let mut violations = laws::violations(dataset);
+    violations.extend(increments::violations(dataset));
+    violations.extend(twins::violations(dataset));
     violations.extend(statistics::symmetry(&dataset.records).iter().filter_map(Mean::violation));
     violations
 }

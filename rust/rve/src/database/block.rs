@@ -1,0 +1,262 @@
+//! Blocks of a plan: which packings to make, and what to do to each.
+
+use super::kind::{Kind, RampName};
+use super::paths::Steps;
+use crate::slide::Slide;
+use crate::{Boundary, Compression, Material};
+use serde::{Deserialize, Serialize};
+
+/// Largest strain at which a ramp may stop [-], and largest slip [m].
+const LARGEST_STRAIN: f64 = 0.2;
+const LARGEST_SLIP: f64 = 1.0;
+/// Sizes that an increment of a path and a probe may have [-].
+const STEPS: [f64; 2] = [1e-5, 1e-2];
+const PROBES: [f64; 2] = [1e-6, 1e-2];
+
+/// Packings of one size: every porosity with every compression and packing friction, `repeats` of each.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Block {
+    /// Discs in a packing.
+    pub discs: usize,
+    /// Target porosities of the packings, whole box, overlaps counted once [-].
+    pub porosities: Vec<f64>,
+    pub compressions: Vec<Compression>,
+    /// Friction angles of the grains while the walls close [rad]; default: the material's alone.
+    #[serde(default)]
+    pub packing_friction_angles: Vec<f64>,
+    /// Packings for each porosity, compression and packing friction.
+    pub repeats: u32,
+    /// Ramps of each packing; default: `up` and `down`, or `xx` and `yy`, or `wall_shear`, by the kind of the block.
+    #[serde(default)]
+    pub ramps: Vec<RampName>,
+    /// Magnitudes at which a ramp stops, growing: strain [-], or slip [m] of `wall_shear`.
+    pub stops: Vec<f64>,
+    /// Magnitudes at which the return of `up_down` and `down_up` stops, falling; 0 is the packed strain and negative
+    /// values lie beyond it. Default: the stops in reverse order, then 0.
+    #[serde(default)]
+    pub return_stops: Vec<f64>,
+    /// Boundary of the boxes; default: walls. Periodic boxes are averaged over their whole cell.
+    #[serde(default)]
+    pub boundary: Boundary,
+    /// Directions in which the walls of `wall_shear` move; default: same.
+    #[serde(default)]
+    pub slide: Option<Slide>,
+}
+
+/// Packings of one size, each of which follows paths of strain from its packed state. The boxes are periodic.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PathBlock {
+    /// Discs in a packing.
+    pub discs: usize,
+    /// Target porosities of the packings, whole box, overlaps counted once [-].
+    pub porosities: Vec<f64>,
+    pub compressions: Vec<Compression>,
+    /// Friction angles of the grains while the box closes [rad]; default: the material's alone.
+    #[serde(default)]
+    pub packing_friction_angles: Vec<f64>,
+    /// Packings for each porosity, compression and packing friction.
+    pub repeats: u32,
+    /// Boundary of the boxes: periodic.
+    #[serde(default = "periodic")]
+    pub boundary: Boundary,
+    /// Paths that every packing follows, each from the packed state.
+    pub paths: Vec<RampName>,
+    /// Size of an increment [-].
+    #[serde(default = "usual_step")]
+    pub step: f64,
+    /// Magnitudes of small strains, growing, that are tried on copies of the box [-].
+    #[serde(default)]
+    pub probes: Vec<f64>,
+    /// Number of increments between two states that are probed.
+    #[serde(default = "usual_probe_every")]
+    pub probe_every: u32,
+}
+
+fn periodic() -> Boundary {
+    Boundary::Periodic
+}
+
+fn usual_step() -> f64 {
+    1e-3
+}
+
+fn usual_probe_every() -> u32 {
+    20
+}
+
+/// What every block says about its packings.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Packings<'a> {
+    pub discs: usize,
+    pub porosities: &'a [f64],
+    pub compressions: &'a [Compression],
+    pub packing_friction_angles: &'a [f64],
+    pub repeats: u32,
+    pub boundary: Boundary,
+}
+
+impl Packings<'_> {
+    /// Number of packings.
+    pub fn count(&self) -> u64 {
+        let frictions = self.packing_friction_angles.len().max(1);
+        let factors = [self.porosities.len(), self.compressions.len(), frictions].map(|count| count as u64);
+        factors.into_iter().fold(u64::from(self.repeats), u64::saturating_mul)
+    }
+
+    /// Friction angles while the box closes [rad].
+    pub fn frictions(&self, material: &Material) -> Vec<f64> {
+        match self.packing_friction_angles {
+            [] => vec![material.friction_angle],
+            list => list.to_vec(),
+        }
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if self.porosities.is_empty() || self.compressions.is_empty() || self.repeats == 0 {
+            return Err("porosities, compressions and repeats: at least one of each is needed".into());
+        }
+        let allowed = 0.0..std::f64::consts::FRAC_PI_2;
+        match self.packing_friction_angles.iter().find(|angle| !allowed.contains(*angle)) {
+            Some(angle) => Err(format!("packing_friction_angles: {angle}, allowed: 0 <= angle < pi/2 rad")),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A block of any kind.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum AnyBlock<'a> {
+    Ramps(Kind, &'a Block),
+    Paths(&'a PathBlock),
+}
+
+impl AnyBlock<'_> {
+    pub fn kind(&self) -> Kind {
+        match self {
+            Self::Ramps(kind, _) => *kind,
+            Self::Paths(_) => Kind::Paths,
+        }
+    }
+
+    pub fn packings(&self) -> Packings<'_> {
+        macro_rules! of {
+            ($block:expr) => {
+                Packings {
+                    discs: $block.discs,
+                    porosities: &$block.porosities,
+                    compressions: &$block.compressions,
+                    packing_friction_angles: &$block.packing_friction_angles,
+                    repeats: $block.repeats,
+                    boundary: $block.boundary,
+                }
+            };
+        }
+        match self {
+            Self::Ramps(_, block) => of!(block),
+            Self::Paths(block) => of!(block),
+        }
+    }
+
+    /// The error names key, value and allowed range.
+    pub fn check(&self) -> Result<(), String> {
+        self.packings().check()?;
+        match self {
+            Self::Ramps(kind, block) => block.check(*kind),
+            Self::Paths(block) => block.check(),
+        }
+    }
+}
+
+impl Block {
+    /// The ramps of a packing, in the order in which they are made.
+    pub(super) fn ramps(&self, kind: Kind) -> &[RampName] {
+        if self.ramps.is_empty() { kind.ramps().0 } else { &self.ramps }
+    }
+
+    fn check(&self, kind: Kind) -> Result<(), String> {
+        let largest = if kind == Kind::WallShear { LARGEST_SLIP } else { LARGEST_STRAIN };
+        let inside = self.stops.iter().all(|s| (1e-9..=largest).contains(s));
+        if !(inside && self.stops.windows(2).all(|pair| pair[0] < pair[1])) {
+            return Err(format!("stops: {:?}, allowed: growing, above 0, at most {largest}", self.stops));
+        }
+        self.check_returns()?;
+        if self.slide.is_some() && kind != Kind::WallShear {
+            return Err("slide: allowed in [[wall_shear]] only".into());
+        }
+        if self.boundary == Boundary::Periodic && kind == Kind::WallShear {
+            return Err("boundary: periodic: allowed in [[thermal]] and [[mechanics]] only".into());
+        }
+        self.check_ramps(kind)
+    }
+
+    fn check_returns(&self) -> Result<(), String> {
+        let turn = self.stops.last().copied().unwrap_or(0.0);
+        let falling = self.return_stops.windows(2).all(|pair| pair[0] > pair[1]);
+        let inside = self.return_stops.iter().all(|&s| s < turn && s >= -0.2);
+        if falling && inside {
+            return Ok(());
+        }
+        Err(format!("return_stops: {:?}, allowed: falling, below {turn}, at least -0.2", self.return_stops))
+    }
+
+    fn check_ramps(&self, kind: Kind) -> Result<(), String> {
+        let (usual, more) = kind.ramps();
+        let ramps = self.ramps(kind);
+        for (k, ramp) in ramps.iter().enumerate() {
+            let problem = |problem| Err(format!("ramps: {}: {problem}", ramp.as_str()));
+            if !(usual.contains(ramp) || more.contains(ramp)) {
+                let allowed: Vec<&str> = usual.iter().chain(more).map(|r| r.as_str()).collect();
+                return problem(format!("allowed: {}", allowed.join(", ")));
+            }
+            if *ramp == RampName::Xy && self.boundary != Boundary::Periodic {
+                return problem("needs boundary = \"periodic\"".to_string());
+            }
+            if ramps[..k].contains(ramp) {
+                return problem("is named twice".to_string());
+            }
+            if let Some(first) = ramp.starts_from().filter(|first| !ramps[..k].contains(first)) {
+                return problem(format!("{} must stand before it", first.as_str()));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl PathBlock {
+    pub(super) fn steps(&self) -> Steps {
+        Steps { size: self.step, probes: self.probes.clone(), probe_every: self.probe_every as usize }
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if self.boundary != Boundary::Periodic {
+            return Err("boundary: walls, allowed: periodic".into());
+        }
+        if self.paths.is_empty() {
+            return Err("paths: at least one is needed".into());
+        }
+        for (k, path) in self.paths.iter().enumerate() {
+            let problem = |problem| Err(format!("paths: {}: {problem}", path.as_str()));
+            if !path.is_path() {
+                return problem(format!("allowed: {}", RampName::PATHS.map(RampName::as_str).join(", ")));
+            }
+            if self.paths[..k].contains(path) {
+                return problem("is named twice".to_string());
+            }
+        }
+        let [least, most] = STEPS;
+        if !(least..=most).contains(&self.step) {
+            return Err(format!("step: {}, allowed: {least:e} to {most:e}", self.step));
+        }
+        let [least, most] = PROBES;
+        let inside = self.probes.iter().all(|probe| (least..=most).contains(probe));
+        if !(inside && self.probes.windows(2).all(|pair| pair[0] < pair[1])) {
+            return Err(format!("probes: {:?}, allowed: growing, {least:e} to {most:e}", self.probes));
+        }
+        if self.probe_every == 0 {
+            return Err("probe_every: 0, allowed: at least 1".into());
+        }
+        Ok(())
+    }
+}
