@@ -7,8 +7,11 @@ use crate::database::Record;
 use crate::database::plan::{Kind, RampName};
 use std::collections::BTreeMap;
 
-/// A mean that is more than this many standard errors off 0 counts as a violation.
+/// A mean over many packings that is more than this many standard errors off 0 counts as a violation: chance gives that once
+/// in 16 000.
 const LARGEST_DEVIATION: f64 = 4.0;
+/// With fewer packings the standard error itself is not known well enough to judge by it.
+const LEAST_PACKINGS: usize = 10;
 
 /// A mean over packings with its standard error.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +27,9 @@ impl Mean {
     /// A violation when the mean is farther off zero than chance explains.
     pub(super) fn violation(&self) -> Option<Violation> {
         let off = self.mean / self.standard_error;
-        (off.abs() > LARGEST_DEVIATION).then(|| Violation {
+        // Student's t: with few packings the same chance allows more standard errors, 6.6 with ten.
+        let largest = LARGEST_DEVIATION * (1.0 + 6.0 / (self.packings.max(2) - 1) as f64);
+        (self.packings >= LEAST_PACKINGS && off.abs() > largest).then(|| Violation {
             row: format!("isotropic packings of {} discs", self.discs),
             law: "x and y are alike",
             found: format!("mean {} {:.3e}, {off:.1} standard errors off 0", self.quantity, self.mean),
