@@ -334,6 +334,29 @@ void Foam::heatEquation::addAligned
 }
 
 
+void Foam::heatEquation::insulateWalls()
+{
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if (patch.coupled() || T_.boundaryField()[patchi].fixesValue())
+        {
+            continue;
+        }
+        const vectorField n(patch.nf());
+        fvPatchSymmTensorField& Kp = K_().boundaryFieldRef()[patchi];
+        forAll(Kp, facei)
+        {
+            // Without the part that leads heat through the wall when T changes
+            // along it: K - (n t + t n), with t the tangential part of K.n
+            const vector normal(Kp[facei] & n[facei]);
+            const vector t(normal - n[facei]*(n[facei] & normal));
+            Kp[facei] -= twoSymm(n[facei]*t);
+        }
+    }
+}
+
+
 void Foam::heatEquation::addTensor(const granularState::conductivityColumns& K)
 {
     symmTensorField& cells = K_().primitiveFieldRef();
@@ -347,6 +370,7 @@ void Foam::heatEquation::addTensor(const granularState::conductivityColumns& K)
         cells[celli].xy() = K.xy[celli];
     }
     K_().correctBoundaryConditions();
+    insulateWalls();
 
     // The explicit gradients below read T at walls and in cells of other
     // processes, where it is still the one before the last solution
