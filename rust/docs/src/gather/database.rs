@@ -7,8 +7,11 @@ use crate::results::Section;
 use std::path::Path;
 
 /// Name, what is in it.
-const DATABASES: [(&str, &str); 2] =
-    [("periodic", "periodic boxes"), ("full", "boxes between walls, as in the paper")];
+const DATABASES: [(&str, &str); 3] = [
+    ("periodic", "periodic boxes"),
+    ("full", "boxes between walls, as in the paper"),
+    ("paths", "periodic boxes on paths of strain, there and back and around"),
+];
 
 /// # Errors
 /// Files that are missing or lack an entry.
