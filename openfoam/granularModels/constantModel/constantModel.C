@@ -51,6 +51,7 @@ Foam::granularModels::constant::constant
     stress_(Zero)
 {
     stateNames_.resize(2);
+    columnNames_.resize(2);
     if (&coeffs_ != &properties.surrogateDict())
     {
         granularProperties::checkKeys

@@ -38,7 +38,8 @@ Foam::granularModel::granularModel
     properties_(properties),
     mesh_(mesh),
     coeffs_(properties.surrogateDict().optionalSubDict(type + "Coeffs")),
-    stateNames_({"porosity", "fabricIndex"})
+    stateNames_({"porosity", "fabricIndex"}),
+    columnNames_({"porosity", "fabric_index"})
 {}
 
 

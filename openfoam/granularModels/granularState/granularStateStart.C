@@ -82,7 +82,14 @@ Foam::granularState::granularState
     properties_(properties),
     mesh_(T.mesh()),
     model_(granularModel::New(properties, mesh_)),
-    policy_(properties, mesh_, model_->stateNames(), model_->hash()),
+    policy_
+    (
+        properties,
+        mesh_,
+        model_->stateNames(),
+        model_->columnNames(),
+        model_->hash()
+    ),
     record_(mesh_),
     bound_(0),
     initialTemperature_(io("initialTemperature", IOobject::READ_IF_PRESENT), T),

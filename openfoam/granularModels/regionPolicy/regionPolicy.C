@@ -18,7 +18,6 @@ License
 #include "wholeFile.H"
 #include "Time.H"
 
-#include <cctype>
 #include <sstream>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -41,22 +40,6 @@ static const label maxOffenders = 10000;
 
 static const FixedList<word, 2> sides({"below", "above"});
 
-
-//- reducedPressure becomes reduced_pressure, as model and database call it
-static string columnName(const word& field)
-{
-    string name;
-    for (const char c : field)
-    {
-        if (std::isupper(c))
-        {
-            name += '_';
-        }
-        name += char(std::tolower(c));
-    }
-    return name;
-}
-
 } // End namespace Foam
 
 
@@ -67,6 +50,7 @@ Foam::regionPolicy::regionPolicy
     const granularProperties& properties,
     const fvMesh& mesh,
     const wordList& stateNames,
+    const wordList& columnNames,
     const std::string& modelHash
 )
 :
@@ -74,22 +58,31 @@ Foam::regionPolicy::regionPolicy
     dict_(properties.outOfRegionDict()),
     hash_(modelHash),
     names_(stateNames),
+    columns_(columnNames),
     maxFraction_(granularProperties::ranged(dict_, "maxFraction", 1, 0, 1)),
     looseGiven_(dict_.subOrEmptyDict("porosity").found("above")),
     cells_(mesh.nCells())
 {
     names_.append("thermalStrain");
+    columns_.append("thermal_strain");
     actions_.resize(names_.size());
     warned_.resize(names_.size());
 
     // Columns that only other models have are accepted, so that a case can
     // change its model without changing the policy
-    wordList allowed
-    ({
-        "maxFraction", "porosity", "fabricIndex", "fabricShear",
-        "jammingFraction", "elasticCompression"
-    });
-    allowed.append(names_);
+    wordList allowed(names_);
+    allowed.append("maxFraction");
+    for
+    (
+        const char* other
+      : {"fabricIndex", "fabricShear", "jammingFraction", "elasticCompression"}
+    )
+    {
+        if (!allowed.found(other))
+        {
+            allowed.append(other);
+        }
+    }
     granularProperties::checkKeys(dict_, allowed);
 
     forAll(names_, i)
@@ -100,7 +93,9 @@ Foam::regionPolicy::regionPolicy
         const FixedList<action, 2> dense
         ({
             name == "porosity" ? action::error : other,
-            name == "elasticCompression" ? action::error : other
+            name == "jammingFraction" || name == "elasticCompression"
+          ? action::error
+          : other
         });
         const dictionary dict(dict_.subOrEmptyDict(name));
 
@@ -338,7 +333,7 @@ void Foam::regionPolicy::write() const
         }
         rows<< "], \"strain\": " << row.strain
             << ", \"side\": \"" << sides[row.distance > 0].c_str()
-            << "\", \"column\": \"" << columnName(names_[row.column]).c_str()
+            << "\", \"column\": \"" << columns_[row.column]
             << "\", \"distance\": " << mag(row.distance)
             << ", \"cell\": " << row.cell << ", \"time\": " << row.time << '}';
     }
@@ -362,7 +357,7 @@ void Foam::regionPolicy::write() const
             << hash_.c_str() << "\",\n \"state_names\": [";
         for (label k = 0; k < names_.size() - 1; ++k)
         {
-            os  << (k ? ", \"" : "\"") << columnName(names_[k]).c_str() << '"';
+            os  << (k ? ", \"" : "\"") << columns_[k] << '"';
         }
         os  << "],\n \"rows\": [" << text.substr(1).c_str() << "\n]}\n";
     };

@@ -93,9 +93,11 @@ Foam::granularModels::surrogateModel::surrogateModel
     )
 {
     stateNames_.resize(label(model_.stateSize()));
+    columnNames_.resize(stateNames_.size());
     forAll(stateNames_, i)
     {
-        stateNames_[i] = fieldName(model_.stateName(i));
+        columnNames_[i] = model_.stateName(i);
+        stateNames_[i] = fieldName(columnNames_[i]);
     }
     checkHash();
     checkNames();

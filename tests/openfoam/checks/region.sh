@@ -10,10 +10,10 @@ hot() { # folder, policy: a case whose grains swell by a fifth
 hot region-error
 check "dense side: error by default" refused 'of outOfRegion in constant/granularProperties is error'
 check "offenders.json is written before" grep -q '"schema": "msdd-offenders-1"' postProcessing/msddFoam/offenders.json
-check "offenders.json has rows" grep -q '"side": "below", "column": "porosity"\|"side": "above", "column": "reduced_pressure"' \
+check "offenders.json has rows" grep -q '"side": "below", "column": "porosity"\|"side": "above", "column": "elastic_compression"' \
     postProcessing/msddFoam/offenders.json
 
-hot region-clamp 'porosity { below clamp; } reducedPressure { above clamp; } thermalStrain { above clamp; }'
+hot region-clamp 'porosity { below clamp; } elasticCompression { above clamp; } thermalStrain { above clamp; }'
 logged msddFoam
 check "clamp: goes on, and inRegion shows the cells" \
     test "$(field 1/inRegion | awk '$1 == 0 { out++ } $1 == 1 { in_++ } END { print (out > 0 && in_ > 0) }')" = 1
@@ -22,19 +22,19 @@ check "clamp: the end of the run says how many states were outside, and how many
     "- Range: .* % of the states .* lay outside .* At the end $(field 1/inRegion | grep -cx 0) of 72 cells are outside" log
 check "clamp: no warning" test "$(grep -c 'FOAM Warning' log)" = 0
 
-hot region-warn 'porosity { below warn; } reducedPressure { above warn; } thermalStrain { above clamp; }'
+hot region-warn 'porosity { below warn; } elasticCompression { above warn; } thermalStrain { above clamp; }'
 logged msddFoam
 check "warn: said once a column" test "$(grep -c 'below the region\|above the region' log)" -ge 1 -a \
     "$(grep -c 'below the region\|above the region' log)" -le 2
 
-hot region-cap 'maxFraction 0.01; porosity { below clamp; } reducedPressure { above clamp; } thermalStrain { above clamp; }'
+hot region-cap 'maxFraction 0.01; porosity { below clamp; } elasticCompression { above clamp; } thermalStrain { above clamp; }'
 check "maxFraction: too many cells outside" refused "Entry 'maxFraction'"
 
 hot region-fixed 'thermalStrain { above cutStep; }'
 controls 'deltaT 1; endTime 2;'
 check "cutStep with fixed steps: error" refused 'cannot be cut'
 
-hot region-cut 'porosity { below clamp; } reducedPressure { above clamp; }'
+hot region-cut 'porosity { below clamp; } elasticCompression { above clamp; }'
 controls 'adjustTimeStep yes; deltaT 1; writeControl runTime; writeInterval 1;'
 scheme 'timeScheme secondOrder; temperatureTolerance 1000; stateTolerance 100;'
 logged msddFoam
@@ -44,7 +44,7 @@ check "cutStep with adaptive steps: repeated" \
 changed region-start
 sed -i 's/^#include.*porosity.*/&\ninternalField uniform 0.02;/' 0/porosity
 mesh_is '12 6 1'
-check "the start is judged before the first step" refused 'At the start 72 cells have porosity below'
+check "the start is judged before the first step" refused 'At the start 72 cells have jammingFraction above'
 
 loose_start() { # folder, porosity, policy
     changed "$1"

@@ -117,7 +117,6 @@ static void ask(const granularProperties& properties, volScalarField& T)
     (
         granularMechanics::New(properties, grains)
     );
-    grains.tangent();
 }
 
 
