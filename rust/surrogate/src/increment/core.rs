@@ -75,7 +75,7 @@ impl Core {
     /// A core that answers with stress and state, but not with overlaps, fabric and conductivity.
     pub fn of(law: Law) -> Self {
         let conductivity =
-            Conductivity { kind: ConductivityKind::Network, mean: [0.0; 11], direction: [0.0; 2] };
+            Conductivity { kind: ConductivityKind::Network, mean: [0.0; 11], direction: [0.0; 3] };
         Self { law, readout: Readout::default(), conductivity, ranges: [ANY; COLUMNS + 1] }
     }
 
@@ -203,10 +203,12 @@ impl Core {
         let features = Features::of(&stress, next.looseness().0);
         let porosity = V::all(1.0) - next.solid().0 + self.readout.overlap(&features);
         let porosity = porosity.within(V::zero(), V::all(MOST_POROSITY));
-        // The fabric follows the elastic state; the rest of it turns with the cell, by twice its angle.
-        let old = self.law.moduli(before.compression, before.looseness());
-        let from = self.readout.fabric(before, old.ratio.0);
-        let to = self.readout.fabric(next, moduli.ratio.0);
+        // Part of the fabric follows the stress; the rest of it turns with the cell, by twice its angle.
+        let old = self.law.stress(before, &self.law.moduli(before.compression, before.looseness()));
+        let old = Features::of(&old, before.looseness().0);
+        let from =
+            self.readout.fabric(&old, V::read(&state[POROSITY]).within(V::zero(), V::all(MOST_POROSITY)));
+        let to = self.readout.fabric(&features, porosity);
         let along = read::<V>(&state[FABRIC_INDEX], MOST_FABRIC) - from[0];
         let rest = [along, read::<V>(&state[FABRIC_SHEAR], MOST_FABRIC) - from[1]];
         let rest = turned_twice(rest, turn);
@@ -289,7 +291,8 @@ fn read<V: Vector>(lanes: &Lanes, most: f64) -> V {
 #[inline(always)]
 fn elastic<V: Vector>(state: &StateLanes) -> Elastic<Plain<V>> {
     let jamming = Plain(V::read(&state[JAMMING]).within(V::all(LEAST_JAMMING), V::all(MOST_JAMMING)));
-    let compression = V::read(&state[COMPRESSION]).within(V::all(LEAST_COMPRESSION), V::all(MOST_COMPRESSION));
+    let compression =
+        V::read(&state[COMPRESSION]).within(V::all(LEAST_COMPRESSION), V::all(MOST_COMPRESSION));
     let compression = Plain(compression);
     let mut all = [[jamming; 2]; ELEMENTS];
     for k in 0..ELEMENTS {

@@ -4,7 +4,7 @@ use super::core::{COMPRESSION, Core, JAMMING, SHEAR, STRENGTH};
 use super::law::{ELEMENTS, Elastic, Element, Law, least_third_bulk};
 use super::number::Plain;
 use super::paths::{States, follow, stresses};
-use super::readout::{Conductivity, Features, Readout, conductivity_row};
+use super::readout::{Conductivity, Features, Readout, conductivity_row, direction_rows, fabric_rows};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::{Portable, Vector};
 use crate::least_squares;
@@ -211,8 +211,6 @@ struct Seen<'a> {
     /// Number of the state of its packing in the list.
     start: usize,
     features: Features<f64>,
-    /// Elements' shear strains, without and with G/A, minus those of the packing; component along, across.
-    sheared: [[[f64; 2]; 2]; ELEMENTS],
     /// Fabric minus that of the packing.
     fabric: [Option<f64>; 2],
 }
@@ -225,14 +223,13 @@ fn features(point: &Point, loose: f64) -> Features<f64> {
 
 /// Fits overlaps and fabric, and each kind of conductivity, to the states of tracks that the law has followed.
 pub fn readouts(
-    law: &Law,
     tracks: &[Track],
     states: &[States],
     kinds: &[ConductivityKind],
 ) -> (Readout, Vec<Conductivity>) {
     let mut all = Vec::new();
     for (track, states) in tracks.iter().zip(states) {
-        let (start, first) = (sheared(law, &states[0]), all.len());
+        let first = all.len();
         let usable = |point: &Point| point.load_bearing && point.invariants()[0] >= LEAST_PRESSURE;
         if !usable(&track.packed) {
             continue;
@@ -242,13 +239,10 @@ pub fn readouts(
             if !usable(point) {
                 continue;
             }
-            let now = sheared(law, state);
-            let difference = |e: usize, kind: usize, c: usize| now[e][kind][c] - start[e][kind][c];
             all.push(Seen {
                 point,
                 start: first,
                 features: features(point, looseness(state)),
-                sheared: std::array::from_fn(|e| [0, 1].map(|kind| [0, 1].map(|c| difference(e, kind, c)))),
                 fabric: [
                     (k > 0).then_some(point.fabric_index - track.packed.fabric_index),
                     point.fabric_shear.zip(track.packed.fabric_shear).filter(|_| k > 0).map(|(a, b)| a - b),
@@ -256,6 +250,7 @@ pub fn readouts(
             });
         }
     }
+    let all = all.as_slice();
     let overlap = all.iter().map(|seen| {
         let x = &seen.features;
         let found = seen.point.solid - (1.0 - seen.point.porosity);
@@ -264,21 +259,30 @@ pub fn readouts(
         (row.map(|value| value * x.pressure), found, weight)
     });
     let fabric = all.iter().flat_map(|seen| {
-        let row = |c: usize| {
-            let [first, second] = seen.sheared;
-            Some(([first[0][c], first[1][c], second[0][c], second[1][c]], seen.fabric[c]?, 1.0))
-        };
-        [row(0), row(1)].into_iter().flatten()
+        let rows = |seen: &Seen| fabric_rows(&seen.features.everywhere(), Portable::all(seen.point.porosity));
+        let (now, before) = (rows(seen), rows(&all[seen.start]));
+        [0, 1].into_iter().filter_map(move |c| {
+            let row = std::array::from_fn(|k| (now[c][k] - before[c][k]).into_first());
+            Some((row, seen.fabric[c]?, weight(seen, all)))
+        })
     });
-    let [a, b, c, d] = least_squares::fit(fabric);
-    let readout = Readout { overlap: least_squares::fit(overlap), fabric: [[a, b], [c, d]] };
-    (readout, kinds.iter().map(|kind| conductivity(&all, *kind)).collect())
+    let readout = Readout { overlap: least_squares::fit(overlap), fabric: least_squares::fit(fabric) };
+    (readout, kinds.iter().map(|kind| conductivity(all, *kind)).collect())
 }
 
 /// Number of rounds in which the packings' own conductivities and the coefficients are found in turn.
-const ROUNDS: usize = 5;
+const ROUNDS: usize = 10;
+/// A state of a path counts as much as the logarithm of its pressure over that of its packing, but within these bounds: most
+/// of the states are near their packing, and what matters is how far they are right on the way.
+const LEAST_WEIGHT: f64 = 0.1;
+const MOST_WEIGHT: f64 = 1.0;
 
-/// The change of the conductivity from that of the packing counts, because a packing's own conductivity stays.
+fn weight(seen: &Seen, all: &[Seen]) -> f64 {
+    let pressures = seen.features.pressure / all[seen.start].features.pressure;
+    (LEAST_WEIGHT + pressures.ln().abs()).min(MOST_WEIGHT)
+}
+
+/// Fits the conductivities of the packings, and how they change along the paths: a packing's own conductivity stays.
 fn conductivity(all: &[Seen], kind: ConductivityKind) -> Conductivity {
     // Mean conductivity over √p̃, and the terms.
     let terms = |seen: &Seen| -> Option<(f64, [f64; 11])> {
@@ -288,43 +292,41 @@ fn conductivity(all: &[Seen], kind: ConductivityKind) -> Conductivity {
     };
     let known: Vec<Option<(f64, [f64; 11])>> = all.iter().map(terms).collect();
     let of_row = |mean: &[f64; 11], row: &[f64; 11]| mean.iter().zip(row).map(|(c, x)| c * x).sum::<f64>();
+    let packing = |k: usize| all[k].start == k;
     let (mut own, mut mean) = (vec![1.0; all.len()], [0.0; 11]);
     for _ in 0..ROUNDS {
-        let samples = all.iter().zip(&known).filter_map(|(seen, known)| {
+        let samples = all.iter().zip(&known).enumerate().filter_map(|(k, (seen, known))| {
             let (found, row) = (*known)?;
-            Some((row.map(|value| value * own[seen.start] / found), 1.0, 1.0))
+            let (own, weight) = if packing(k) { (1.0, 1.0) } else { (own[seen.start], weight(seen, all)) };
+            Some((row.map(|value| value * own / found), 1.0, weight))
         });
         mean = least_squares::fit(samples);
-        for (k, known) in known.iter().enumerate().filter(|(k, _)| all[*k].start == *k) {
+        for (k, known) in known.iter().enumerate().filter(|(k, _)| packing(*k)) {
             own[k] = known.as_ref().map_or(1.0, |(found, row)| found / of_row(&mean, row));
         }
     }
-    // Of a packing whose conductivity is not known, the mean one is expected.
-    let starts: Vec<f64> = (0..all.len()).filter(|k| all[*k].start == *k).map(|k| own[k]).collect();
-    let usual = starts.iter().sum::<f64>() / starts.len().max(1) as f64;
-    let direction = all.iter().flat_map(|seen| {
-        let first = &all[seen.start];
-        let now = directions(seen, kind);
-        let before = directions(first, kind);
-        let row = move |c: usize| {
-            let (here, [r, f]) = now[c]?;
-            let (there, [r0, f0]) = before[c]?;
-            // The packing itself counts as it is, later states by their difference from it.
-            let part = if std::ptr::eq(seen, first) { 0.0 } else { 1.0 };
-            Some(([r - part * r0, f - part * f0], here - part * there, 1.0))
-        };
-        [row(0), row(1)].into_iter().flatten()
+    let direction = all.iter().enumerate().flat_map(|(k, seen)| {
+        let (now, before) = (directions(seen, kind), directions(&all[seen.start], kind));
+        // The packing itself counts as it is, later states by their difference from it.
+        let (part, weight) = if packing(k) { (0.0, 1.0) } else { (1.0, weight(seen, all)) };
+        [0, 1].into_iter().filter_map(move |c| {
+            let (here, row) = now[c]?;
+            let (there, first) = before[c]?;
+            Some((std::array::from_fn(|n| row[n] - part * first[n]), here - part * there, weight))
+        })
     });
-    Conductivity { kind, mean: mean.map(|c| c * usual), direction: least_squares::fit(direction) }
+    Conductivity { kind, mean, direction: least_squares::fit(direction) }
 }
 
-/// For both components of (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy): it, and q̃/p̃ and fabric.
-fn directions(seen: &Seen, kind: ConductivityKind) -> [Option<(f64, [f64; 2])>; 2] {
+/// For both components of (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy): it, and its terms.
+fn directions(seen: &Seen, kind: ConductivityKind) -> [Option<(f64, [f64; 3])>; 2] {
     let [xx, yy, xy] = seen.point.conductivity(kind).unwrap_or([0.0; 3]);
-    let (x, mean) = (&seen.features, 0.5 * (xx + yy));
+    let mean = 0.5 * (xx + yy);
     let parts = [0.5 * (xx - yy), xy].map(|part| if mean > 0.0 { part / mean } else { 0.0 });
     let fabric = [Some(seen.point.fabric_index), seen.point.fabric_shear];
-    [0, 1].map(|c| Some((parts[c], [x.ratio[c], fabric[c]?])))
+    let known = fabric.map(|part| Portable::all(part.unwrap_or(0.0)));
+    let rows = direction_rows(&seen.features.everywhere(), Portable::all(seen.point.porosity), known);
+    [0, 1].map(|c| fabric[c].map(|_| (parts[c], rows[c].map(Portable::into_first))))
 }
 
 fn looseness(state: &[f64; MAX_STATE]) -> f64 {
@@ -339,14 +341,4 @@ fn elastic(state: &[f64; MAX_STATE]) -> Elastic<Plain<Portable>> {
         shear: std::array::from_fn(|k| [column(SHEAR + 2 * k), column(SHEAR + 2 * k + 1)]),
         strength: column(STRENGTH),
     }
-}
-
-/// Shear strains of the elements, without and with the factor G/A.
-fn sheared(law: &Law, state: &[f64; MAX_STATE]) -> [[[f64; 2]; 2]; ELEMENTS] {
-    let cell = elastic(state);
-    let ratio = law.moduli(cell.compression, cell.looseness()).ratio.0.into_first();
-    std::array::from_fn(|k| {
-        let own = [state[SHEAR + 2 * k], state[SHEAR + 2 * k + 1]];
-        [own, own.map(|part| ratio * part)]
-    })
 }

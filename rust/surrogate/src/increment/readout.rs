@@ -1,6 +1,6 @@
 //! What is computed from the elastic state: conductivity, overlaps of the grains, fabric.
 
-use super::law::{ELEMENTS, Elastic, Stress};
+use super::law::Stress;
 use super::number::Plain;
 use crate::SurrogateError;
 use crate::dataset::ConductivityKind;
@@ -8,27 +8,25 @@ use crate::document::field;
 use crate::kernel::vector::{Portable, Vector};
 use serde::{Deserialize, Serialize};
 
-/// Overlaps and fabric. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`].
+/// Overlaps and fabric. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`], porosity x above [`USUAL_POROSITY`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
     /// Overlaps of the grains over the area, o/p̃: coefficients of 1, s, p̃, s z, s r².
     pub overlap: [f64; 5],
-    /// Direction of the contacts, (F_xx − F_yy, 2 F_xy), as far as it follows the elastic state: for each element the
-    /// coefficients of its shear strain and of its shear strain times G/A.
-    pub fabric: [[f64; 2]; ELEMENTS],
+    /// Direction of the contacts, (F_xx − F_yy, 2 F_xy), as far as it follows the stress, over q̃/p̃: coefficients of 1, x, s, z.
+    pub fabric: [f64; 4],
 }
 
-/// Conductivity of one kind, with s, r², z as in [`Readout`].
+/// Conductivity of one kind, with s, r², z, x as in [`Readout`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Conductivity {
     pub kind: ConductivityKind,
-    /// Mean conductivity over that of the grains, K/(k s): coefficients of 1, s, p̃, r², s r², x, x s, x p̃, x r², x², s x², with
-    /// the porosity x above [`USUAL_POROSITY`].
+    /// Mean conductivity over that of the grains, K/(k s): coefficients of 1, s, p̃, r², s r², x, x s, x p̃, x r², x², s x².
     pub mean: [f64; 11],
-    /// (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy): coefficients of q̃/p̃ and of the fabric.
-    pub direction: [f64; 2],
+    /// (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy): coefficients of q̃/p̃, of x q̃/p̃ and of the fabric.
+    pub direction: [f64; 3],
 }
 
 /// Added to p̃ in q̃/p̃, so that the ratio tends to zero where the grains lose contact: a hundredth of p̃ of the loosest
@@ -105,6 +103,32 @@ pub fn conductivity_row<V: Vector>(features: &Features<V>, porosity: V) -> [V; 1
 /// Porosity from which that of the packings is measured [-].
 const USUAL_POROSITY: f64 = 0.12;
 
+/// Terms of the fabric, see [`Readout::fabric`], for each component.
+#[inline(always)]
+pub fn fabric_rows<V: Vector>(features: &Features<V>, porosity: V) -> [[V; 4]; 2] {
+    let Features { root, loose, ratio: [along, across], .. } = *features;
+    let x = porosity - V::all(USUAL_POROSITY);
+    [[along, along * x, along * root, along * loose], [across, across * x, across * root, across * loose]]
+}
+
+/// Terms of the direction of the conductivity, see [`Conductivity::direction`], for each component.
+#[inline(always)]
+pub fn direction_rows<V: Vector>(features: &Features<V>, porosity: V, fabric: [V; 2]) -> [[V; 3]; 2] {
+    let [along, across] = features.ratio;
+    let x = porosity - V::all(USUAL_POROSITY);
+    [[along, along * x, fabric[0]], [across, across * x, fabric[1]]]
+}
+
+/// Sum of terms times coefficients.
+#[inline(always)]
+fn sum<V: Vector, const N: usize>(terms: [V; N], coefficients: [f64; N]) -> V {
+    let mut sum = V::zero();
+    for k in 0..N {
+        sum = terms[k].fused(V::all(coefficients[k]), sum);
+    }
+    sum
+}
+
 impl Readout {
     /// o [-]: the part of the plane that overlaps cover.
     #[inline(always)]
@@ -115,24 +139,18 @@ impl Readout {
         x.pressure * of_root.fused(x.root, p.fused(x.pressure, one))
     }
 
-    /// The part of the fabric that follows the elastic state.
+    /// The part of the fabric that follows the stress.
     #[inline(always)]
-    pub fn fabric<V: Vector>(&self, state: &Elastic<Plain<V>>, ratio: V) -> [V; 2] {
-        let (mut along, mut across) = (V::zero(), V::zero());
-        for k in 0..ELEMENTS {
-            let [own, loaded] = self.fabric[k];
-            let factor = ratio.fused(V::all(loaded), V::all(own));
-            along = factor.fused(state.shear[k][0].0, along);
-            across = factor.fused(state.shear[k][1].0, across);
-        }
-        [along, across]
+    pub fn fabric<V: Vector>(&self, x: &Features<V>, porosity: V) -> [V; 2] {
+        let [along, across] = fabric_rows(x, porosity);
+        [sum(along, self.fabric), sum(across, self.fabric)]
     }
 
     /// # Errors
     /// [`SurrogateError::Field`] for numbers that are not finite or absurdly large.
     pub fn check(&self) -> Result<(), SurrogateError> {
         check("readout.overlap", &self.overlap)?;
-        check("readout.fabric", self.fabric.as_flattened())
+        check("readout.fabric", &self.fabric)
     }
 }
 
@@ -148,16 +166,11 @@ impl Conductivity {
         fabric: [V; 2],
         (own, direction): (V, [V; 2]),
     ) -> [V; 3] {
-        let row = conductivity_row(x, porosity);
-        let mut share = V::all(self.mean[0]);
-        for (term, coefficient) in row.iter().zip(self.mean).skip(1) {
-            share = term.fused(V::all(coefficient), share);
-        }
-        let share = share.at_least(V::all(LEAST_CONDUCTIVITY));
+        let share = sum(conductivity_row(x, porosity), self.mean).at_least(V::all(LEAST_CONDUCTIVITY));
         let mean = (x.root * share).fused(V::all(1.0) + own, V::all(CONDUCTIVITY_FLOOR));
-        let (of_stress, of_fabric) = (V::all(self.direction[0]), V::all(self.direction[1]));
-        let along = of_stress.fused(x.ratio[0], of_fabric.fused(fabric[0], direction[0]));
-        let across = of_stress.fused(x.ratio[1], of_fabric.fused(fabric[1], direction[1]));
+        let rows = direction_rows(x, porosity, fabric);
+        let along = sum(rows[0], self.direction) + direction[0];
+        let across = sum(rows[1], self.direction) + direction[1];
         let length = along.fused(along, across * across).sqrt();
         let most = V::all(LARGEST_ANISOTROPY);
         let kept = length.where_greater(most, most / length.at_least(most), V::all(1.0));

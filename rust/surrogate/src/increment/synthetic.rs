@@ -21,12 +21,12 @@ pub fn core() -> Core {
             elements: [element(0.6, 0.05, -0.034), element(0.4, 0.245, -0.196)],
             dilatancy_of_looseness: 7.68,
         },
-        readout: Readout { overlap: [0.045, 1.85, -0.6, 0.5, 1.2], fabric: [[-0.5, 0.1], [-0.3, 0.1]] },
+        readout: Readout { overlap: [0.045, 1.85, -0.6, 0.5, 1.2], fabric: [0.15, 1.0, -0.7, -2.0] },
         ranges: [super::core::ANY; super::core::COLUMNS + 1],
         conductivity: Conductivity {
             kind: ConductivityKind::Network,
             mean: [1.3, 0.5, -0.5, -0.5, 0.0, -4.0, 3.0, 0.0, 0.0, 0.0, 0.0],
-            direction: [0.335, 1.0],
+            direction: [0.335, 0.0, 1.0],
         },
     }
 }

@@ -46,7 +46,7 @@ pub(crate) fn train_without(
     let (law, minimum) = fit(&problem, options.max_epochs, |_, _| ());
     let states = follow(&Core::of(law.clone()), &seen);
     let kinds = kinds(&seen);
-    let (readout, conductivities) = readouts(&law, &seen, &states, &kinds);
+    let (readout, conductivities) = readouts(&seen, &states, &kinds);
     let packed: Vec<Point> = seen.iter().map(|track| track.packed).collect();
     let core = Core { readout, conductivity: conductivities[0].clone(), ..Core::of(law) };
     let ranges = ranges(&seen, &states);
