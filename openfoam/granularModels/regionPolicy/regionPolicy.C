@@ -93,9 +93,7 @@ Foam::regionPolicy::regionPolicy
         const FixedList<action, 2> dense
         ({
             name == "porosity" ? action::error : other,
-            name == "jammingFraction" || name == "elasticCompression"
-          ? action::error
-          : other
+            name == "elasticCompression" ? action::error : other
         });
         const dictionary dict(dict_.subOrEmptyDict(name));
 

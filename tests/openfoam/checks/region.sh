@@ -44,7 +44,7 @@ check "cutStep with adaptive steps: repeated" \
 changed region-start
 sed -i 's/^#include.*porosity.*/&\ninternalField uniform 0.02;/' 0/porosity
 mesh_is '12 6 1'
-check "the start is judged before the first step" refused 'At the start 72 cells have jammingFraction above'
+check "the start is judged before the first step" refused 'At the start 72 cells have porosity below'
 
 loose_start() { # folder, porosity, policy
     changed "$1"

@@ -132,7 +132,7 @@ fn policy(file: &Dictionary, column: &str, side: &str) -> String {
         .and_then(|surrogate| surrogate.dictionary_at("outOfRegion").ok());
     let given = given.and_then(|all| all.dictionary_at(column).ok()).and_then(|sides| sides.text(side).ok());
     given.unwrap_or_else(|| match (column, side) {
-        ("porosity", "below") | ("jammingFraction" | "elasticCompression", "above") => "error".to_string(),
+        ("porosity", "below") | ("elasticCompression", "above") => "error".to_string(),
         ("thermalStrain", _) => "cutStep".to_string(),
         _ => "clamp".to_string(),
     })

@@ -40,6 +40,9 @@ pub struct Element {
 
 /// Porosity without stress of the packing for which k₀ and the dilatancies are given: z is measured from it.
 const USUAL_POROSITY: f64 = 0.17;
+/// Between these lie all packings of the training, and the polynomials in z make sense.
+const LEAST_LOOSENESS: f64 = -0.035;
+const MOST_LOOSENESS: f64 = 0.05;
 /// Least k₀ (1 + looseness·z) over k₀.
 const LEAST_BULK: f64 = 0.1;
 /// Largest elastic compression: that of grains which overlap by a third of their radius.
@@ -72,10 +75,13 @@ impl<N: Number> Elastic<N> {
         self.jamming + self.jamming * self.compression
     }
 
-    /// z: the porosity without stress, less the usual one.
+    /// z: the porosity without stress, less the usual one; for packings denser or looser than all that are known, theirs.
     #[inline(always)]
     pub fn looseness(&self) -> N {
-        self.jamming.times(-1.0).plus(1.0 - USUAL_POROSITY)
+        let (least, most) = (N::all(LEAST_LOOSENESS), N::all(MOST_LOOSENESS));
+        let loose = self.jamming.times(-1.0).plus(1.0 - USUAL_POROSITY);
+        let loose = loose.where_greater(least, loose, least);
+        loose.where_greater(most, most, loose)
     }
 }
 

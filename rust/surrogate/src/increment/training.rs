@@ -1,6 +1,6 @@
 //! Training: the law is fitted to the stress along paths, then everything else to the states that it follows.
 
-use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, POROSITY, SHEAR, STRENGTH};
+use super::core::{COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, SHEAR, STRENGTH};
 use super::fit::{PathFit, fit, parameters, readouts};
 use super::mean::MeanStress;
 use super::model::{COORDINATES, File, IncrementModel, Provenance, Ranges, Report, SCHEMA, features};
@@ -127,7 +127,9 @@ fn ranges(tracks: &[Track], states: &[States]) -> Ranges {
     }
     let shears: Vec<usize> = (SHEAR..STRENGTH).collect();
     Ranges {
-        porosity: of(POROSITY),
+        porosity: Range::of(
+            tracks.iter().flat_map(|track| (0..=track.steps.len()).map(|k| track.point(k).porosity)),
+        ),
         fabric: symmetric(&[FABRIC_INDEX, FABRIC_SHEAR]),
         jamming_fraction: of(JAMMING),
         elastic_compression: of(COMPRESSION),
