@@ -44,9 +44,10 @@ static const scalar cautiousPivot = 0.8;
 static const scalar cautiousShear = 0.35;
 
 //- The linear equations of a Newton iteration are solved until their residual
-//- is this share of the imbalance
+//- is this share of the imbalance, or after so many pairs of products: some
+//- tangents of cells that lose contact are nearly singular
 static const scalar linearTolerance = 0.1;
-static const label maxLinear = 500;
+static const label maxLinear = 100;
 
 } // End namespace Foam
 
