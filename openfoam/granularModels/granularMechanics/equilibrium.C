@@ -113,6 +113,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     friction_(u_),
     newTraction_(u_),
     stick_(u_),
+    coupled_(false),
     slide_(u_),
     share_(1),
     r_(u_),

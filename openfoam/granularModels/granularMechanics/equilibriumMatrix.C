@@ -31,8 +31,8 @@ static const scalar uniformG = 0.3;
 static const scalar uniformPressure = 0.05;
 
 //- Least stiffness of a cell, divided by E r/l: grains that do not touch have
-//- none, but the equations need some
-static const scalar leastStiffness = 0.01;
+//- none, but soon meet others when they are moved
+static const scalar leastStiffness = 0.05;
 
 //- Least ratio of a pivot to its diagonal of a cell's stiffness matrix, and
 //- factor by which the other components are reduced until it is reached
@@ -44,9 +44,10 @@ static const scalar cautiousPivot = 0.8;
 static const scalar cautiousShear = 0.35;
 
 //- The linear equations of a Newton iteration are solved until their residual
-//- is this share of the imbalance
+//- is this share of the imbalance, or after so many pairs of products: some
+//- tangents of cells that lose contact are nearly singular
 static const scalar linearTolerance = 0.1;
-static const label maxLinear = 500;
+static const label maxLinear = 100;
 
 } // End namespace Foam
 
@@ -70,39 +71,48 @@ void Foam::granularMechanicsModels::equilibrium::findStiffness
 )
 {
     const scalar least = leastStiffness*scale_;
-    const scalar leastRatio = caution ? cautiousPivot : leastPivot;
-    const scalar factor = caution ? std::pow(2.0, caution - 1) : 1;
+    const scalar leastRatio = caution > 1 ? cautiousPivot : leastPivot;
+    const scalar factor = caution > 1 ? std::pow(2.0, caution - 2) : 1;
+    coupled_ = !caution;
     forAll(C_, celli)
     {
-        // Symmetric part: conjugate gradients need it, and where grains slide
-        // the tangent has no other
-        FixedList<scalar, 6>& c = C_[celli];
-        c[0] = max(tangent_[0][celli], least);
-        c[1] = max(tangent_[4][celli], least);
-        c[2] = max(tangent_[8][celli], 0.5*least);
-        c[3] = 0.5*(tangent_[1][celli] + tangent_[3][celli]);
-        c[4] = 0.5*(tangent_[2][celli] + tangent_[6][celli]);
-        c[5] = 0.5*(tangent_[5][celli] + tangent_[7][celli]);
-
-        if (caution)
+        FixedList<scalar, 9>& c = C_[celli];
+        forAll(c, k)
         {
-            c[0] = c[1] = factor*max(c[0], c[1]);
-            c[2] = max(factor*c[2], cautiousShear*c[0]);
+            c[k] = tangent_[k][celli];
+        }
+        c[0] = max(c[0], least);
+        c[4] = max(c[4], least);
+        c[8] = max(c[8], 0.5*least);
+        if (!caution)
+        {
+            continue;
+        }
+
+        // A matrix that is symmetric and positive
+        c[1] = c[3] = 0.5*(c[1] + c[3]);
+        c[2] = c[6] = 0.5*(c[2] + c[6]);
+        c[5] = c[7] = 0.5*(c[5] + c[7]);
+        if (caution > 1)
+        {
+            c[0] = c[4] = factor*max(c[0], c[4]);
+            c[8] = max(factor*c[8], cautiousShear*c[0]);
         }
 
         // Pivots of the Cholesky factorisation
         for (label k = 0; k < 20; ++k)
         {
-            const scalar second = c[1] - sqr(c[3])/c[0];
-            const scalar other = c[5] - c[3]*c[4]/c[0];
-            const scalar third = c[2] - sqr(c[4])/c[0] - sqr(other)/second;
-            if (second > leastRatio*c[1] && third > leastRatio*c[2])
+            const scalar second = c[4] - sqr(c[1])/c[0];
+            const scalar other = c[5] - c[1]*c[2]/c[0];
+            const scalar third = c[8] - sqr(c[2])/c[0] - sqr(other)/second;
+            if (second > leastRatio*c[4] && third > leastRatio*c[8])
             {
                 break;
             }
-            c[3] *= reduction;
-            c[4] *= reduction;
-            c[5] *= reduction;
+            for (const label j : {1, 2, 3, 5, 6, 7})
+            {
+                c[j] *= reduction;
+            }
         }
     }
 }
@@ -113,9 +123,9 @@ void Foam::granularMechanicsModels::equilibrium::setUniform()
     forAll(C_, celli)
     {
         C_[celli] = Zero;
-        C_[celli][0] = C_[celli][1] = scale_*uniformC11;
-        C_[celli][2] = scale_*uniformG;
-        C_[celli][3] = scale_*uniformC12;
+        C_[celli][0] = C_[celli][4] = scale_*uniformC11;
+        C_[celli][1] = C_[celli][3] = scale_*uniformC12;
+        C_[celli][8] = scale_*uniformG;
     }
     stick_ = walls_.stiffness(scale_*uniformPressure);
     quads_.sum(stick_);
@@ -129,8 +139,8 @@ void Foam::granularMechanicsModels::equilibrium::setUniform()
     {
         const quadMesh::shape& s = shapes_[celli];
         const quadMesh::quad& q = quads_.quads()[celli];
-        const scalar c11 = s.area*C_[celli][0], c12 = s.area*C_[celli][3];
-        const scalar G = s.area*C_[celli][2];
+        const scalar c11 = s.area*C_[celli][0], c12 = s.area*C_[celli][1];
+        const scalar G = s.area*C_[celli][8];
         for (label a = 0; a < 4; ++a)
         {
             for (label b = 0; b < 4; ++b)
@@ -178,16 +188,14 @@ void Foam::granularMechanicsModels::equilibrium::cellDiagonal
     {
         const quadMesh::shape& s = shapes_[celli];
         const quadMesh::quad& q = quads_.quads()[celli];
-        const FixedList<scalar, 6>& C = C_[celli];
+        const FixedList<scalar, 9>& C = C_[celli];
         for (label a = 0; a < 4; ++a)
         {
             const scalar b = s.b[a], c = s.c[a];
             const scalar hg =
                 hourglass*scale_*sqr(reference_[celli].gamma[a]);
-            diagonal[q[a]].x() +=
-                s.area*(b*(C[0]*b + 2*C[4]*c) + C[2]*c*c) + hg;
-            diagonal[q[a]].y() +=
-                s.area*(c*(C[1]*c + 2*C[5]*b) + C[2]*b*b) + hg;
+            diagonal[q[a]].x() += s.area*(C[0]*b*b + C[8]*c*c) + hg;
+            diagonal[q[a]].y() += s.area*(C[4]*c*c + C[8]*b*b) + hg;
         }
     }
 }
@@ -210,10 +218,8 @@ void Foam::granularMechanicsModels::equilibrium::multiply
     nodeField& result
 ) const
 {
-    forAll(result, i)
-    {
-        result[i] = vector2D(Zero);
-    }
+    result = nodeField(d.size(), vector2D(Zero));
+    scalarField stressXX(C_.size()), stressYY(C_.size());
     forAll(shapes_, celli)
     {
         const quadMesh::shape& s = shapes_[celli];
@@ -229,16 +235,27 @@ void Foam::granularMechanicsModels::equilibrium::multiply
             exy += s.c[a]*v.x() + s.b[a]*v.y();
             pattern += gamma[a]*v;
         }
-        const FixedList<scalar, 6>& C = C_[celli];
-        const scalar xx = s.area*(C[0]*exx + C[3]*eyy + C[4]*exy);
-        const scalar yy = s.area*(C[3]*exx + C[1]*eyy + C[5]*exy);
-        const scalar xy = s.area*(C[4]*exx + C[5]*eyy + C[2]*exy);
+        const FixedList<scalar, 9>& C = C_[celli];
+        const scalar xx = s.area*(C[0]*exx + C[1]*eyy + C[2]*exy);
+        const scalar yy = s.area*(C[3]*exx + C[4]*eyy + C[5]*exy);
+        const scalar xy = s.area*(C[6]*exx + C[7]*eyy + C[8]*exy);
+        stressXX[celli] = xx/s.area;
+        stressYY[celli] = yy/s.area;
         pattern *= hourglass*scale_;
         for (label a = 0; a < 4; ++a)
         {
             vector2D& f = result[q[a]];
             f.x() += s.b[a]*xx + s.c[a]*xy + gamma[a]*pattern.x();
             f.y() += s.c[a]*yy + s.b[a]*xy + gamma[a]*pattern.y();
+        }
+    }
+    if (coupled_)
+    {
+        nodeField change(d.size(), vector2D(Zero));
+        walls_.addGrip(stressXX, stressYY, change);
+        forAll(result, i)
+        {
+            result[i] -= change[i];
         }
     }
     quads_.sum(result);
@@ -283,41 +300,64 @@ void Foam::granularMechanicsModels::equilibrium::precondition
 }
 
 
-void Foam::granularMechanicsModels::equilibrium::conjugateGradients
+void Foam::granularMechanicsModels::equilibrium::solveLinear
 (
     const nodeField& r0,
     nodeField& d
 )
 {
-    nodeField r(r0), z(r0), Ap(r0);
-    d = nodeField(r0.size(), vector2D(Zero));
-    precondition(r, z);
-    nodeField p(z);
-    scalar rz = quads_.dot(r, z);
-    const scalar enough = rz*sqr(linearTolerance);
+    const nodeField none(r0.size(), vector2D(Zero));
+    nodeField r(r0), p(r0), v(none), direction(none), along(none), t(none);
+    d = none;
+    scalar rho = quads_.dot(r0, r);
+    const scalar enough = rho*sqr(linearTolerance);
 
-    for (label i = 0; i < maxLinear && rz > enough && rz > VSMALL; ++i)
+    for (label i = 0; i < maxLinear; ++i)
     {
-        multiply(p, Ap);
-        const scalar pAp = quads_.dot(p, Ap);
-        if (!(pAp > 0))
+        precondition(p, direction);
+        multiply(direction, v);
+        const scalar curvature = quads_.dot(r0, v);
+        if (mag(curvature) <= VSMALL)
         {
             break;      // what remains is rounding error
         }
-        const scalar alpha = rz/pAp;
-        forAll(d, n)
+        const scalar alpha = rho/curvature;
+        forAll(r, n)
         {
-            d[n] += alpha*p[n];
-            r[n] -= alpha*Ap[n];
+            r[n] -= alpha*v[n];
+            d[n] += alpha*direction[n];
         }
-        precondition(r, z);
-        const scalar next = quads_.dot(r, z);
+        ++counters_.linear;
+        if (quads_.dot(r, r) <= enough)
+        {
+            break;
+        }
+
+        precondition(r, along);
+        multiply(along, t);
+        const scalar tt = quads_.dot(t, t);
+        if (tt <= VSMALL)
+        {
+            break;
+        }
+        const scalar omega = quads_.dot(t, r)/tt;
+        forAll(r, n)
+        {
+            r[n] -= omega*t[n];
+            d[n] += omega*along[n];
+        }
+        ++counters_.linear;
+        const scalar next = quads_.dot(r0, r);
+        if (quads_.dot(r, r) <= enough || mag(rho*omega) <= VSMALL)
+        {
+            break;
+        }
+        const scalar beta = next/rho*alpha/omega;
         forAll(p, n)
         {
-            p[n] = z[n] + (next/rz)*p[n];
+            p[n] = r[n] + beta*(p[n] - omega*v[n]);
         }
-        rz = next;
-        ++counters_.linear;
+        rho = next;
     }
 }
 

@@ -24,11 +24,15 @@ License
 namespace Foam
 {
 
-//- Number of step lengths that the line search tries: 1, 1/2, 1/4, 1/8
-static const label mostCuts = 4;
+//- Number of step lengths that the line search tries: 1, 1/2, 1/4, ...
+static const label mostCuts = 6;
+
+//- Share of the work of the imbalance on the way ahead at which a step is good
+//- enough: along a way that lowers the energy this work falls to zero
+static const scalar enoughWork = 0.8;
 
 //- Largest caution, see findStiffness()
-static const label mostCaution = 8;
+static const label mostCaution = 9;
 
 } // End namespace Foam
 
@@ -182,6 +186,7 @@ bool Foam::granularMechanicsModels::equilibrium::search
 )
 {
     const scalar last = norm_;
+    const scalar work = quads_.dot(r_, d);
     scalar share = 1;
     nodeField tried(du);
     for (label cut = 0; cut < mostCuts; ++cut)
@@ -191,7 +196,11 @@ bool Foam::granularMechanicsModels::equilibrium::search
             tried[i] = du[i] + share*d[i];
         }
         const scalar now = imbalance(tried, true);
-        if (norm_ < last)
+        if
+        (
+            norm_ < last
+         || (now < GREAT && mag(quads_.dot(r_, d)) < enoughWork*work)
+        )
         {
             du = tried;
             left_ = now;
@@ -218,7 +227,7 @@ void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
         r_[i] -= resisted[i];
     }
     findDiagonal();
-    conjugateGradients(r_, d);
+    solveLinear(r_, d);
     forAll(du, i)
     {
         du[i] += d[i];
@@ -256,7 +265,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     {
         findStiffness(caution);
         findDiagonal();
-        conjugateGradients(r_, d);
+        solveLinear(r_, d);
         ++counters_.iterations;
         if (search(du, d, moved))
         {

@@ -143,6 +143,7 @@ void Foam::wallConditions::findLimits
 {
     limit_ = List<vector2D>(mesh_.size(), vector2D(Zero));
     length_ = limit_;
+    contacts_.clear();
 
     forAll(walls_, patchi)
     {
@@ -159,8 +160,12 @@ void Foam::wallConditions::findLimits
             const scalar half = 0.5*mag(at[e.second][t] - at[e.first][t]);
             for (const label node : {e.first, e.second})
             {
-                limit_[node][t] += w.friction*max(scalar(0), normal)*half;
                 length_[node][t] += half;
+                if (normal > 0)
+                {
+                    limit_[node][t] += w.friction*normal*half;
+                    contacts_.append({node, e.cell, w.axis, w.friction*half});
+                }
             }
         }
     }
@@ -174,12 +179,14 @@ Foam::scalar Foam::wallConditions::mobilised
     const scalar before,
     const scalar slip,
     const scalar half,
-    scalar& slope
+    scalar& slope,
+    scalar& memory
 )
 {
     scalar m = max(scalar(-0.999), min(scalar(0.999), before));
     scalar rest = slip;
     slope = 1;
+    memory = 1;
     if (m*slip < 0)
     {
         const scalar back = min(mag(slip), mag(m)*half)*sign(slip);
@@ -188,10 +195,12 @@ Foam::scalar Foam::wallConditions::mobilised
     }
     if (rest != 0 || slip == 0)
     {
+        memory = rest == slip ? 1/sqr(1 - mag(m)) : 1;
         const scalar virgin = half*mag(m)/(1 - mag(m)) + mag(rest);
         const scalar direction = rest != 0 ? sign(rest) : sign(m);
         m = direction*virgin/(virgin + half);
         slope = sqr(1 - mag(m));
+        memory *= slope;
     }
     return m;
 }
@@ -212,6 +221,7 @@ void Foam::wallConditions::friction
     force = List<vector2D>(mesh_.size(), vector2D(Zero));
     traction = force;
     stiffness = force;
+    grip_ = force;
 
     forAll(force, i)
     {
@@ -222,18 +232,31 @@ void Foam::wallConditions::friction
             {
                 continue;
             }
-            scalar slope;
-            const scalar m = mobilised
-            (
-               -oldTraction[i][t]*length_[i][t]/most,
-                slip[i][t],
-                slip_[i][t],
-                slope
-            );
+            scalar slope, memory;
+            const scalar before = -oldTraction[i][t]*length_[i][t]/most;
+            const scalar m =
+                mobilised(before, slip[i][t], slip_[i][t], slope, memory);
             force[i][t] = -m*most;
             traction[i][t] = -m*most/length_[i][t];
             stiffness[i][t] = slope*most/slip_[i][t];
+            grip_[i][t] = (mag(before) < 0.999 ? memory*before : 0) - m;
         }
+    }
+}
+
+
+void Foam::wallConditions::addGrip
+(
+    const scalarField& xx,
+    const scalarField& yy,
+    List<vector2D>& force
+) const
+{
+    for (const contact& c : contacts_)
+    {
+        const scalar normal = c.axis == 0 ? -xx[c.cell] : -yy[c.cell];
+        force[c.node][1 - c.axis] +=
+            grip_[c.node][1 - c.axis]*c.share*normal;
     }
 }
 

@@ -52,9 +52,9 @@ mesh_is '12 6 1'
 same_answer "second order, adaptive" 1e-10
 
 several rows-equilibrium
-grains 'mechanics equilibrium; equilibriumCoeffs { residual 1e-3; }'
+grains 'mechanics equilibrium; equilibriumCoeffs { residual 1e-5; }'
 mesh_is '12 6 1'
-same_answer "equilibrium" 1e-6
+same_answer "equilibrium" 1e-7
 
 several rows-equilibrium-adaptive
 controls 'adjustTimeStep yes; deltaT 1e-3; writeControl runTime; writeInterval 0.5;'

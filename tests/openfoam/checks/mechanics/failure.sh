@@ -4,7 +4,7 @@ jump() { # folder: the right wall of the box of small closes by 0.48 m, a strain
     changed "$1"
     uniform_temperature
     mesh_is '12 6 1'
-    grains "$(sed -n '/^surrogate/,/^}/p' "$checkout/cases/common/granularProperties" | sed 's/maxFraction.*/maxFraction 1; reducedPressure { above clamp; }/; s/below error/below clamp/')"
+    grains "$(sed -n '/^surrogate/,/^}/p' "$checkout/cases/common/granularProperties" | sed 's/maxFraction.*/maxFraction 1; elasticCompression { above clamp; }/; s/below error/below clamp/')"
     equilibrium "residual 1e-3; walls { \".*\" { type frictionless; } right { type frictionless; displacement table ((0 (0 0 0)) (0.05 (-0.48 0 0))); } }"
     logged foamDictionary -entry endTime -set 0.05 system/controlDict
 }
