@@ -248,11 +248,10 @@ fn floor(model: &dyn Surrogate, ramps: &[Ramp], strain: f64) -> Floor {
     }
 }
 
-/// A state variable transformed so that distances between states are comparable.
+/// A state variable, of the packing turned by 90° if `sign` is negative: what has a direction changes its sign.
 fn coordinate(name: &str, value: f64, sign: f64) -> f64 {
     match name {
-        "porosity" => value,
-        "jamming_fraction" | "elastic_compression" => value,
+        "porosity" | "jamming_fraction" | "elastic_compression" | "strength" | "own_conductivity" => value,
         _ => sign * value,
     }
 }

@@ -289,7 +289,8 @@ fn read<V: Vector>(lanes: &Lanes, most: f64) -> V {
 #[inline(always)]
 fn elastic<V: Vector>(state: &StateLanes) -> Elastic<Plain<V>> {
     let jamming = Plain(V::read(&state[JAMMING]).within(V::all(LEAST_JAMMING), V::all(MOST_JAMMING)));
-    let compression = V::read(&state[COMPRESSION]).within(V::all(LEAST_COMPRESSION), V::all(MOST_COMPRESSION));
+    let compression =
+        V::read(&state[COMPRESSION]).within(V::all(LEAST_COMPRESSION), V::all(MOST_COMPRESSION));
     let compression = Plain(compression);
     let mut all = [[jamming; 2]; ELEMENTS];
     for k in 0..ELEMENTS {

@@ -124,7 +124,8 @@ impl IncrementModel {
 impl Ranges {
     /// For each state column, and for the thermal strain.
     fn columns(&self) -> [Range; COLUMNS + 1] {
-        let Self { porosity, fabric, jamming_fraction, elastic_compression, elastic_shear: shear, .. } = *self;
+        let Self { porosity, fabric, jamming_fraction, elastic_compression, elastic_shear: shear, .. } =
+            *self;
         let strength = self.strength;
         let (own, wide) = (OWN, Range { min: -1.0, max: 1.0 });
         [
