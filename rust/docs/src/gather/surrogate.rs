@@ -138,9 +138,9 @@ fn paths(section: &mut Section, score: &Json) -> Result<(), DocsError> {
         rows.push(row);
     }
     for (key, sum, what) in
-        [("paths", sums[0], "paths of strain"), ("increments", sums[1], "increments on them")]
+        [("paths", sums[0], "paths of strain"), ("increments", sums[1], "increments on paths of strain")]
     {
-        let meaning = format!("{what}, of packings that the training of the model 'increment' never saw");
+        let meaning = format!("{what} of packings that the training of the model 'increment' never saw");
         section.number(&format!("increment.{key}"), grouped(sum), "1", &meaning, "msdd score");
     }
     let columns = ["path", "discs", "paths", "increments", "pressure [%]", "deviator [%]", "K [%]"];
