@@ -59,8 +59,8 @@ Foam::string Foam::runSummary::range() const
         returnReduce(grains_.mesh().nCells(), sumOp<label>());
     return
         "Range: " + brief(share) + " % of the states that the model was asked"
-        " about lay outside the range that it was made for, and were answered"
-        " as if they lay at its edge. At the end "
+        " about lay outside the range that it was made for, where it answers as"
+        " well as it can. At the end "
       + Foam::name(grains_.cellsOutside()) + " of " + Foam::name(cells)
       + " cells are outside (field inRegion is 0 there). Such cells, at most"
         " 10000 of each process, are listed in"

@@ -63,10 +63,9 @@ enum Command {
     Bench(bench::Command),
     /// Train a surrogate model on a database.
     Train(train::Arguments),
-    /// Temporary: fit of the law.
     /// Measure the errors of a trained model on packings that were not used in its training: table, JSON, plots.
     Score(score::Arguments),
-    /// Measure how much each input of the networks contributes, by training without it.
+    /// Measure how much each input of the paper's network, and each part of the law, contributes, by training without it.
     Ablation(ablation::Arguments),
     /// Write the report on speed and accuracy, a page with figures; runs the simulations that are missing.
     Report(report::Arguments),

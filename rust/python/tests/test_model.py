@@ -38,7 +38,7 @@ class Description(WithModel):
         self.assertEqual(self.model.state_names[:2], ("porosity", "fabric_index"))
         self.assertEqual(tuple(self.model.info["state"]), self.model.state_names)
         self.assertTrue(self.model.has_tangent)
-        self.assertIn("state", repr(self.model))
+        self.assertIn("increment", repr(self.model))
 
     def test_range_is_where_answers_are_not_clamped(self) -> None:
         low, high = self.model.trained_range["porosity"]

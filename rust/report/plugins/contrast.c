@@ -42,11 +42,11 @@ static int32_t solid_fraction(size_t cells, const double *porosity, double *resu
     return 0;
 }
 
-const msdd_plugin_v1 *msdd_plugin_v1_table(void)
+const msdd_plugin_v2 *msdd_plugin_v2_table(void)
 {
     static const char *const names[] = {"porosity", "fabric_index"};
-    static const msdd_plugin_v1 table = {
-        .struct_size = sizeof(msdd_plugin_v1),
+    static const msdd_plugin_v2 table = {
+        .struct_size = sizeof(msdd_plugin_v2),
         .version = MSDD_PLUGIN_VERSION,
         .name = "conductivity contrast",
         .state_size = 2,

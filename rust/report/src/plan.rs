@@ -5,8 +5,8 @@ use crate::jobs::pool::Asked;
 
 /// Kinds of configurations, which are drawn with different markers and colours.
 pub const FAMILIES: [&str; 9] = [
-    "state network",
-    "state network, grains move",
+    "law of the increments",
+    "law of the increments, grains move",
     "paper's network",
     "effective medium (plug-in)",
     "constant conductivity",
@@ -84,7 +84,7 @@ impl Configuration {
 /// The cases of the chart.
 pub const CHARTED: [&str; 3] = ["H", "C", "HC"];
 
-/// The paper's scheme with fixed steps of `step` [s], the state network, and grains that stay where they are.
+/// The paper's scheme with fixed steps of `step` [s], the law of the increments, and grains that stay where they are.
 fn fixed(step: &str, guess: f64) -> Configuration {
     let milliseconds = 1e3 * step.parse::<f64>().unwrap_or(0.0);
     Configuration {
@@ -136,22 +136,22 @@ fn model(name: &str, family: &'static str, keys: &str, guess: f64) -> Configurat
 const PAPER: &str = "surrogate { model builtin:paper; }";
 const MEDIUM: &str = "surrogate { type plugin; pluginCoeffs { library plugin.so; } }";
 
-/// The configurations of the validation: the paper's algorithm with both networks and with boxes of grains in all cells, and the
-/// state network with grains that move.
+/// The configurations of the validation: the paper's algorithm with the law, the paper's network and boxes of
+/// grains in all cells, and the law with grains that move.
 pub fn validated(quick: bool) -> Vec<Configuration> {
     let all: Vec<&'static str> = msdd_reference::packings::CASES.iter().map(|case| case.0).collect();
-    let mut state = fixed("1e-2", 2.0).named("state network", FAMILIES[0]).only(&all);
+    let mut law = fixed("1e-2", 2.0).named("law of the increments", FAMILIES[0]).only(&all);
     let mut paper = model("paper's network", FAMILIES[2], PAPER, 3.0).only(&all);
-    let mut moves = moving("2e-2", 25.0).named("state network, grains move", FAMILIES[1]);
+    let mut moves = moving("2e-2", 25.0).named("law of the increments, grains move", FAMILIES[1]);
     paper.affine = true;
     if quick {
         // On a coarser mesh, and fewer of them
-        (state, paper, moves) =
-            (state.on([25, 8]).only(&CHARTED), paper.on([25, 8]).only(&["HC"]), moves.on([10, 3]));
+        (law, paper, moves) =
+            (law.on([25, 8]).only(&CHARTED), paper.on([25, 8]).only(&["HC"]), moves.on([10, 3]));
         moves = moves.change(|job| job.control("deltaT 0.1;"));
         moves.guess = 2.0;
     }
-    let mut list = vec![state, moves, paper];
+    let mut list = vec![law, moves, paper];
     if !quick {
         list.push(all_boxes().only(&all));
     }

@@ -37,10 +37,10 @@ mod tests {
         let mut row = Cheapest {
             case: "HC".to_string(),
             error: 0.5,
-            configuration: Some("state network: adaptive".to_string()),
+            configuration: Some("law of the increments: adaptive".to_string()),
             core_seconds: Some(0.3),
         };
-        assert_eq!(line(&row), "HC   0.5 %     0.30 core-s  state network: adaptive");
+        assert_eq!(line(&row), "HC   0.5 %     0.30 core-s  law of the increments: adaptive");
         row.configuration = None;
         assert_eq!(line(&row), "HC   0.5 %  none reaches it");
     }

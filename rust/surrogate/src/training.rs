@@ -39,7 +39,7 @@ pub fn train(
 ) -> Result<(Model, Report), SurrogateError> {
     options.check()?;
     let rows = &data.rows;
-    let split = data.split(options.seed)?.of(dataset::ramps(rows)?);
+    let split = dataset::split(dataset::ramps(rows)?, options.seed)?;
     let samples = Parts::of(&split, samples);
     let (range, scales) = scaling::measure(&samples.training)?;
     let solid_fraction = SolidFraction::fit(rows)?;

@@ -16,7 +16,8 @@ pub struct TrainingData {
 }
 
 impl TrainingData {
-    /// The packings for training, validation and test.
+    /// The packings for training, validation and test of a model that is trained on rows and tracks. Models that are trained
+    /// on rows alone split by the packings of the rows.
     ///
     /// # Errors
     /// [`SurrogateError::Data`] for fewer than three packings.

@@ -2,13 +2,13 @@
 
 use crate::error::DocsError;
 use crate::gather::json::{INPUTS, Json};
-use crate::gather::print::{NONE, decimals, grouped, or_none};
+use crate::gather::print::{decimals, grouped, or_none};
 use crate::results::Section;
 use std::path::Path;
 
 /// Key, file of the scores, words.
 const MODELS: [(&str, &str, &str); 2] = [
-    ("state", "score_state.json", "state network (shipped), periodic boxes"),
+    ("increment", "score_increment.json", "law of the increments (shipped), periodic boxes"),
     ("paper", "score_paper.json", "the paper's network, boxes between walls"),
 ];
 /// Strains of the tables, and the number of increments.
@@ -27,19 +27,13 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
         section.number(&format!("{key}.packings"), packings, "1", &meaning, "msdd score");
         one_step_rows.push(one_step(&score, words)?);
         composed_rows.extend(composed(&mut section, &score, key, words)?);
-        if key == "state" {
+        if key == "increment" {
             way_back(&mut section, &score)?;
             means(&mut section, &score)?;
+            paths(&mut section, &score)?;
         }
     }
-    let columns = [
-        "model",
-        "porosity increment",
-        "fabric increment",
-        "conductive fabric increment",
-        "conductivity",
-        "stress",
-    ];
+    let columns = ["model", "porosity increment", "fabric increment", "conductivity", "stress"];
     let meaning = "coefficient of determination of one step on packings that training never saw";
     section.add_table("surrogate-one-step", meaning, "msdd score", &columns, one_step_rows);
     let columns = ["model", "strain", "K [%]", "stress [%]", "pressure [%]", "porosity", "fabric index"];
@@ -50,13 +44,11 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
 }
 
 fn one_step(score: &Json, words: &str) -> Result<Vec<String>, DocsError> {
-    let names =
-        ["delta_porosity", "delta_fabric_index", "delta_fabric_conductivity", "conductivity", "stress"];
-    let cells = names.map(|name| or_none(score.maybe(&format!("/unseen/{name}")), |v| decimals(v, 4)));
-    if cells[0] == NONE {
-        return Err(score.wrong("/unseen/delta_porosity", "is not a number"));
+    let mut row = vec![words.to_string()];
+    for name in ["delta_porosity", "delta_fabric_index", "conductivity", "stress"] {
+        row.push(decimals(score.number(&format!("/unseen/{name}"))?, 4));
     }
-    Ok([vec![words.to_string()], cells.to_vec()].concat())
+    Ok(row)
 }
 
 fn composed(
@@ -106,30 +98,54 @@ fn means(section: &mut Section, score: &Json) -> Result<(), DocsError> {
         let meaning = format!(
             "largest error of the mean {words} of 30 packings after a strain of up to 5 % in 500 increments"
         );
-        section.number(&format!("state.{entry}"), worst, "%", &meaning, "msdd score");
+        section.number(&format!("increment.{entry}"), worst, "%", &meaning, "msdd score");
     }
     Ok(())
 }
 
-/// Strains of the database that are taken back, by the model that knows it and by one that takes them for virgin.
+/// Strains of the database that are taken back.
 fn way_back(section: &mut Section, score: &Json) -> Result<(), DocsError> {
     let mut rows = Vec::new();
     for way in score.list("/way_back")? {
-        let errors = |name: &str, factor: f64, digits: usize| -> Result<String, DocsError> {
-            let value =
-                |part: &str| way.number(&format!("/{part}/{name}")).map(|v| decimals(factor * v, digits));
-            Ok(format!("{} ({})", value("errors")?, value("taken_for_virgin")?))
+        let error = |name: &str, factor: f64, digits: usize| {
+            way.number(&format!("/errors/{name}")).map(|value| decimals(factor * value, digits))
         };
         rows.push(vec![
             format!("{:+.0} %", -100.0 * way.number("/errors/strain")?),
             grouped(way.number("/errors/ramps")?),
-            errors("conductivity", 100.0, 1)?,
-            errors("stress", 100.0, 1)?,
-            errors("fabric_index", 1.0, 3)?,
+            error("conductivity", 100.0, 1)?,
+            error("stress", 100.0, 1)?,
+            error("fabric_index", 1.0, 3)?,
         ]);
     }
     let columns = ["back from about", "ramps", "K [%]", "stress [%]", "fabric index"];
-    let meaning = "rms error after the way back to the packed radii in 500 increments; in brackets by a model that takes it for the first";
+    let meaning = "rms error after the way back to the packed radii in 500 increments";
     section.add_table("surrogate-way-back", meaning, "msdd score", &columns, rows);
+    Ok(())
+}
+
+/// Errors along paths of strain, by kind of path and size of the boxes.
+fn paths(section: &mut Section, score: &Json) -> Result<(), DocsError> {
+    let (mut rows, mut sums) = (Vec::new(), [0.0; 2]);
+    for kind in score.list("/paths")? {
+        let counts = [kind.number("/paths")?, kind.number("/states")?];
+        sums = [sums[0] + counts[0], sums[1] + counts[1]];
+        let mut row = vec![format!("`{}`", kind.text("/name")?), grouped(kind.number("/discs")?)];
+        row.extend(counts.map(grouped));
+        for name in ["pressure", "deviator", "conductivity"] {
+            row.push(decimals(100.0 * kind.number(&format!("/{name}"))?, 1));
+        }
+        rows.push(row);
+    }
+    for (key, sum, what) in
+        [("paths", sums[0], "paths of strain"), ("increments", sums[1], "increments on paths of strain")]
+    {
+        let meaning = format!("{what} of packings that the training of the model 'increment' never saw");
+        section.number(&format!("increment.{key}"), grouped(sum), "1", &meaning, "msdd score");
+    }
+    let columns = ["path", "discs", "paths", "increments", "pressure [%]", "deviator [%]", "K [%]"];
+    let meaning = "rms error along paths of strain of packings that training never saw: pressure and deviator over the mean pressure of \
+                   the path, mean conductivity over that of the state";
+    section.add_table("surrogate-paths", meaning, "msdd score", &columns, rows);
     Ok(())
 }

@@ -6,7 +6,7 @@
 //! | [`elements`] | discrete elements: time steps, strain rates, limits of equilibrium, loss of contacts |
 //! | [`solver`] | long time steps, contrasts of conductivity, slanted cells |
 //! | [`cycles`] | thermal cycles |
-//! | [`drift`] | networks when a strain is divided into many increments |
+//! | [`drift`] | models when a strain is divided into many increments |
 
 pub mod cycles;
 pub mod drift;

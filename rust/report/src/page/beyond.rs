@@ -78,8 +78,8 @@ fn sensitivity(made: &Made) -> String {
     let heads =
         ["'changed", "T in H [%]", "C [%]", "HC [%]", "pressure in H [%]", "C [%]", "displacement in HC [%]"];
     format!(
-        "<h3>Sensitivity</h3>\n<p>Nothing is fitted to these runs: wall friction, shear modulus and stiffness come from the database of small boxes, sinPhi is the default of 0.35. \
-         In each row one of them is changed; packing 1. Largest errors of T at P1 to P3 and of the pressure in the inner region, without \
+        "<h3>Sensitivity</h3>\n<p>Nothing is fitted to these runs: stiffness, strength and wall friction come from the databases of small boxes. \
+         In each row one setting of the walls is changed; packing 1. Largest errors of T at P1 to P3 and of the pressure in the inner region, without \
          two mean radii along each wall (% of the ranges), and of the displacement (% of the largest).</p>\n{}",
         table(&heads, &rows)
     )
@@ -159,7 +159,7 @@ fn other_table(made: &Made) -> String {
     table(&heads, &rows)
 }
 
-/// Table that shows why the state network has p ℓ/(E r̄) in its state and not the paper's p/E.
+/// Table that shows why the law has stresses over E r̄/ℓ and not, as the paper has them, over E.
 fn scalings(made: &Made) -> String {
     let all = &made.other_cases.scalings;
     let row = |s: &crate::studies::other_cases::Scaling| {
@@ -186,7 +186,7 @@ fn scalings(made: &Made) -> String {
         )
     });
     format!(
-        "<p>The stress in the state of the state network is σ ℓ/(E r̄), ℓ = 1 m; that in the paper is σ/E.{said}</p>\n{}",
+        "<p>The law of the increments has stresses σ ℓ/(E r̄), ℓ = 1 m; the paper has σ/E.{said}</p>\n{}",
         table(&heads, &rows)
     )
 }

@@ -198,7 +198,7 @@ fn ledger(made: &Made) -> String {
     ];
     format!(
         "<h2>No more than a case needs</h2>\n<p>What can be left out of the computation of each case, and the error that this causes. Change of T: largest difference at \
-         P1 to P3 from 1 s on, from the run that computes all. Error of T: against discrete elements, over all 20 s. State network, cells keep \
+         P1 to P3 from 1 s on, from the run that computes all. Error of T: against discrete elements, over all 20 s. Law of the increments, cells keep \
          their place. A half and a quarter of the box have the initial fields of their part. Processor time was measured with two jobs at \
          a time.</p>\n{}",
         table(&heads, &rows)

@@ -111,9 +111,9 @@ fn queries(made: &Made) -> Result<String, ReportError> {
         said.push(format!("{}: {} %, {clamped:.1} %", case_name(case), shares.join(", ")));
     }
     let caption = format!(
-        "Fig. #. States at which the solver evaluates the model (paper, Fig. 12): state of 10 × 3 sub-regions over 20 s, packing 1, grains that move. In each step the model computes the \
-         rates at these states, and multiplies them by the strain of the step. Line: hull of the {} thermal states of the database that bear load, with the same states turned by \
-         90°. Share of the states inside the three hulls, and share of the evaluations for single cells that are outside of the model's trained range in any variable and are made at its nearest end: {}.",
+        "Fig. #. States at which the solver evaluates the model (paper, Fig. 12): state of 10 × 3 sub-regions over 20 s, packing 1, grains that move. In each step the model \
+         strains these states. Line: hull of the {} thermal states of the database that bear load, with the same states turned by \
+         90°. Share of the states inside the three hulls, and share of the evaluations for single cells that are outside of the range of the model's training in any variable: {}.",
         made.known.states,
         said.join("; ")
     );

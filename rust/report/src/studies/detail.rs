@@ -50,7 +50,7 @@ fn watched(quick: bool) -> impl Iterator<Item = Configuration> {
     plan::validated(quick).into_iter().filter(|c| c.family == FAMILIES[1])
 }
 
-/// The configurations with both networks, whose initial conductivities differ.
+/// The configurations with the law and with the paper's network, whose initial conductivities differ.
 fn started(quick: bool) -> impl Iterator<Item = Configuration> {
     plan::validated(quick).into_iter().filter(|c| [FAMILIES[0], FAMILIES[2]].contains(&c.family))
 }

@@ -1,4 +1,4 @@
-//! The states that the shipped model was trained with: the thermal states of its database.
+//! Thermal states among those that the shipped model was trained with.
 
 use crate::ReportError;
 use msdd_rve::database::{Kind, read};

@@ -139,8 +139,8 @@ impl Core {
                 self.with_tangent::<V>(&before, &strain, turn, tangent)
             }
         };
-        for k in 0..COLUMNS {
-            beyond::<V>(&state[k], &self.ranges[k], &mut after.outside[k]);
+        for ((values, range), outside) in state.iter().zip(&self.ranges[..COLUMNS]).zip(&mut after.outside) {
+            beyond::<V>(values, range, outside);
         }
         beyond::<V>(&strain.thermal, &self.ranges[COLUMNS], &mut after.outside[MAX_STATE]);
         let moved = thermal.abs() + xx.abs() + yy.abs() + xy.abs() + V::read(&strain.rotation).abs();

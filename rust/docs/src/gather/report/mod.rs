@@ -11,16 +11,16 @@ use edges::FILE;
 use std::path::Path;
 
 const CASES: [&str; 3] = ["H", "C", "HC"];
-const STATE: &str = "state network";
-const MOVING: &str = "state network, grains move";
+const LAW: &str = "law of the increments";
+const MOVING: &str = "law of the increments, grains move";
 
 /// Family and name of a configuration in the report, and words for the table.
 const CHART: [(&str, &str, &str); 20] = [
-    (STATE, "fixed steps 1 ms", "paper's scheme, steps of 1 ms"),
-    (STATE, "fixed steps 10 ms", "paper's scheme, steps of 10 ms"),
-    (STATE, "adaptive, 0.5 K, 25x8", "adaptive steps, 25 × 8 cells"),
-    (STATE, "adaptive, 0.05 K, 50x15", "adaptive steps, 50 × 15 cells"),
-    (STATE, "adaptive, 0.05 K", "adaptive steps"),
+    (LAW, "fixed steps 1 ms", "paper's scheme, steps of 1 ms"),
+    (LAW, "fixed steps 10 ms", "paper's scheme, steps of 10 ms"),
+    (LAW, "adaptive, 0.5 K, 25x8", "adaptive steps, 25 × 8 cells"),
+    (LAW, "adaptive, 0.05 K, 50x15", "adaptive steps, 50 × 15 cells"),
+    (LAW, "adaptive, 0.05 K", "adaptive steps"),
     (MOVING, "equilibrium, adaptive, 0.5 K, 25x8", "grains move, adaptive steps, 25 × 8 cells"),
     (MOVING, "equilibrium, adaptive, 0.05 K, 50x15", "grains move, adaptive steps, 50 × 15 cells"),
     (MOVING, "equilibrium, adaptive, 0.05 K", "grains move, adaptive steps"),
@@ -133,7 +133,7 @@ fn validation(section: &mut Section, report: &Json) -> Result<(), DocsError> {
     let mut rows = Vec::new();
     for case in ["H", "C", "HC", "Hstar", "Cstar", "HCstar"] {
         for (family, key, words) in [
-            (STATE, "stay", "stay"),
+            (LAW, "stay", "stay"),
             (MOVING, "move", "move"),
             ("paper's network", "network", "stay; the paper's network"),
         ] {

@@ -1,7 +1,7 @@
 //! Section of the page with the failure map.
 
+mod drift;
 mod elements;
-mod networks;
 mod solver;
 
 use super::html::table;
@@ -31,6 +31,6 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
     html += &solver::coupling(made)?;
     html += &solver::discretisation(made)?;
     html += &solver::cycles(made)?;
-    html += &networks::drift(made)?;
+    html += &drift::drift(made)?;
     Ok(html)
 }
