@@ -9,6 +9,7 @@ use msdd_files::{check_target, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::TrainingOptions;
 use msdd_surrogate::ablation::{self, Line};
+use msdd_surrogate::increment::forms::Form;
 use msdd_surrogate::increment::training::USUAL_EPOCHS;
 use serde_json::json;
 use std::path::PathBuf;
@@ -49,7 +50,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         let s = &line.scores;
         print(line, [s.delta_porosity, s.delta_fabric_index, s.conductivity, s.stress]);
     }
-    let mut law = Vec::new();
+    let (mut law, mut forms) = (Vec::new(), Vec::new());
     if !data.tracks.is_empty() {
         options.max_epochs = options.max_epochs.max(USUAL_EPOCHS);
         law = ablation::increments(&data, &options).map_err(failed)?;
@@ -61,13 +62,36 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
             );
             print_paths(&line.scores);
         }
+        forms.extend(ablation::forms(&data, &options).map_err(failed)?);
+        forms.iter().for_each(print_form);
     }
     if let Some(path) = &arguments.json {
-        let text = serde_json::to_string_pretty(&json!({ "paper": paper, "increment": law }))
+        let text = serde_json::to_string_pretty(&json!({ "paper": paper, "increment": law, "forms": forms }))
             .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
         write(path, (text + "\n").as_bytes())?;
     }
     Ok(())
+}
+
+fn print_form(form: &Form) {
+    outln!();
+    outln!(
+        "{} form: {} numbers, trained in {:.0} s, {:.0} ns for an increment of a cell",
+        form.name,
+        form.numbers,
+        form.training_seconds,
+        form.nanoseconds
+    );
+    print_paths(&form.paths);
+    for cycles in &form.cycles {
+        outln!(
+            "  {} closed cycles up to {:.0e}, many times: {:>5.1} % create energy, p changes by {:.2} %",
+            cycles.cycles,
+            cycles.amplitude,
+            100.0 * cycles.creating,
+            100.0 * cycles.drift
+        );
+    }
 }
 
 fn print<T>(line: &Line<T>, values: [f64; 4]) {

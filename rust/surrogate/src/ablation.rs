@@ -5,6 +5,8 @@
 
 use crate::SurrogateError;
 use crate::dataset::{self, Sample, StateRow};
+use crate::increment::forms::{self, Form};
+use crate::increment::learned;
 use crate::increment::training::train_without;
 use crate::network::INPUTS;
 use crate::options::TrainingOptions;
@@ -16,6 +18,7 @@ use crate::tracks::{PathErrors, Track};
 use crate::training;
 use crate::training_data::TrainingData;
 use serde::Serialize;
+use std::time::Instant;
 
 /// Inputs of the paper's network.
 pub const PAPER_INPUTS: [&str; INPUTS] = ["porosity", "fabric_index", "thermal_strain"];
@@ -99,9 +102,7 @@ pub fn increments(
     data: &TrainingData,
     options: &TrainingOptions,
 ) -> Result<Vec<Line<Vec<PathErrors>>>, SurrogateError> {
-    let held_out = data.split(options.seed)?.test;
-    let tracks: Vec<Track> =
-        data.tracks.iter().filter(|track| held_out.contains(&track.packing)).cloned().collect();
+    let (tracks, _) = held_out(data, options)?;
     let whole: (Option<&'static str>, &[(usize, f64)]) = (None, &[]);
     let all = std::iter::once(whole).chain(LEFT_OUT.iter().map(|(name, fixed)| (Some(*name), *fixed)));
     all.map(|(without, fixed)| {
@@ -109,6 +110,28 @@ pub fn increments(
         Ok(Line { without, random_split: false, scores: model.path_errors(&tracks) })
     })
     .collect()
+}
+
+/// The classical form of the law of the increments, and a learned one for comparison, on held-out paths.
+///
+/// # Errors
+/// [`SurrogateError::Data`] for unusable data.
+pub fn forms(data: &TrainingData, options: &TrainingOptions) -> Result<[Form; 2], SurrogateError> {
+    let (tracks, seen) = held_out(data, options)?;
+    let begin = Instant::now();
+    let core = train_without(data, options, &[])?.core;
+    let seconds = begin.elapsed().as_secs_f64();
+    let how = (options.seed, learned::training::USUAL_EPOCHS, options.threads_used());
+    Ok([forms::classical(&core, &tracks, seconds), forms::learned(&core, &seen, &tracks, how)])
+}
+
+/// The tracks that the fits do not see, and those that they do.
+fn held_out(
+    data: &TrainingData,
+    options: &TrainingOptions,
+) -> Result<(Vec<Track>, Vec<Track>), SurrogateError> {
+    let held_out = data.split(options.seed)?.test;
+    Ok(data.tracks.iter().cloned().partition(|track| held_out.contains(&track.packing)))
 }
 
 #[cfg(test)]

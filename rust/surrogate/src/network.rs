@@ -128,7 +128,7 @@ fn fill(part: &mut [f64], delta: f64, input: impl Fn(usize) -> f64) {
 }
 
 /// Uniform in [-1, 1).
-fn symmetric_unit(random: &mut ChaCha8Rng) -> f64 {
+pub(crate) fn symmetric_unit(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 

@@ -1,21 +1,32 @@
-//! Errors of the law along paths of strain.
+//! Errors of a law along paths of strain.
 
 use super::core::{Core, FABRIC_INDEX, POROSITY};
-use super::paths::{conductivities, follow, stresses};
+use super::paths::{States, conductivities, follow, stresses};
 use crate::tracks::{PathErrors, Track};
 
 /// Errors by name of the path and number of grains.
 pub fn path_errors(core: &Core, tracks: &[Track]) -> Vec<PathErrors> {
     let states = follow(core, tracks);
+    let found: Vec<Vec<[f64; 3]>> = states.iter().map(|states| stresses(core, states)).collect();
+    errors_of(core, tracks, &states, &found)
+}
+
+/// As [`path_errors`], with the states along each track and their stress (p̃, q̃₁, q̃₂) from elsewhere.
+pub fn errors_of(
+    core: &Core,
+    tracks: &[Track],
+    states: &[States],
+    stress: &[Vec<[f64; 3]>],
+) -> Vec<PathErrors> {
     let mut kinds: Vec<(&str, usize)> = tracks.iter().map(|t| (t.name.as_str(), t.discs)).collect();
     kinds.sort_unstable();
     kinds.dedup();
     let mut all = Vec::new();
     for (name, discs) in kinds {
         let (mut sums, mut count, mut paths) = ([0.0; 6], 0, 0);
-        for (track, states) in tracks.iter().zip(&states).filter(|(t, _)| t.name == name && t.discs == discs)
-        {
-            let (found, means) = (stresses(core, states), conductivities(core, states));
+        let followed = tracks.iter().zip(states).zip(stress);
+        for ((track, states), found) in followed.filter(|((t, _), _)| t.name == name && t.discs == discs) {
+            let means = conductivities(core, states);
             let over = 1.0 / track.pressure().max(f64::MIN_POSITIVE);
             paths += 1;
             for (k, step) in track.steps.iter().enumerate().filter(|(_, s)| s.to.load_bearing && !s.probe) {

@@ -18,15 +18,15 @@ use std::ops::ControlFlow;
 const ONSET: f64 = 1e-3;
 /// Added to the mean pressure of a track, over which its errors are taken: a fifth of that of the loosest packings, so that
 /// these do not dominate.
-const PRESSURE_SCALE: f64 = 0.003;
+pub(super) const PRESSURE_SCALE: f64 = 0.003;
 /// Error above which a residual counts less than by its square, since some packings rearrange suddenly.
 const ROBUST: f64 = 0.03;
 /// Weight of the differences of probes over their strain.
-const PROBE_WEIGHT: f64 = 0.15;
+pub(super) const PROBE_WEIGHT: f64 = 0.15;
 /// Number of grains of a packing whose errors have the weight 1; that of others goes with the root of their number.
-const USUAL_DISCS: f64 = 500.0;
+pub(super) const USUAL_DISCS: f64 = 500.0;
 /// Largest residual.
-const MOST: f64 = 1.0;
+pub(super) const MOST: f64 = 1.0;
 /// Relative step of the numerical derivatives.
 const STEP: f64 = 1e-4;
 /// Usual size of the coefficients of z, by which they are divided so that all parameters are of about equal size: z varies by
@@ -123,7 +123,7 @@ impl PathFit<'_> {
 }
 
 /// Weight of a residual's square, and its share of the sum: that of a large residual grows less than with its square.
-fn robust(residual: f64) -> [f64; 2] {
+pub(super) fn robust(residual: f64) -> [f64; 2] {
     let ratio = residual / ROBUST;
     let root = (1.0 + ratio * ratio).sqrt();
     [1.0 / root, 2.0 * ROBUST * ROBUST * (root - 1.0)]

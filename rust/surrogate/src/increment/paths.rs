@@ -11,6 +11,12 @@ const PART: f64 = 1e-3;
 /// Largest number of parts of a step.
 const MOST_PARTS: f64 = 20.0;
 
+/// Number of parts in which the largest of these strains is applied.
+pub(super) fn parts(strains: impl IntoIterator<Item = f64>) -> f64 {
+    let largest = strains.into_iter().fold(0.0f64, |a, b| a.max(b.abs()));
+    (largest / PART).ceil().clamp(1.0, MOST_PARTS)
+}
+
 /// The law's states of one track: number k as [`Step::from`].
 pub type States = Vec<[f64; MAX_STATE]>;
 
@@ -42,9 +48,7 @@ fn follow_block(core: &Core, tracks: &[Track]) -> Vec<States> {
     let longest = tracks.iter().map(|track| track.steps.len()).max().unwrap_or(0);
     for k in 0..longest {
         let step = |lane: usize| tracks.get(lane).and_then(|track| track.steps.get(k));
-        let largest =
-            (0..LANES).filter_map(step).flat_map(|step| step.strain).fold(0.0f64, |a, b| a.max(b.abs()));
-        let parts = (largest / PART).ceil().clamp(1.0, MOST_PARTS);
+        let parts = parts((0..LANES).filter_map(step).flat_map(|step| step.strain));
         let mut block: StateLanes = [[0.0; LANES]; MAX_STATE];
         for lane in 0..LANES {
             let from = step(lane).map_or(0, |step| step.from);
