@@ -266,7 +266,7 @@ fn nanoseconds(mut round: impl FnMut()) -> f64 {
 
 /// Strains of both signs, as small as in a step of the solver.
 fn small_strain(cell: usize) -> f64 {
-    1e-6 * (1.0 + (cell % 7) as f64) * if cell % 2 == 0 { 1.0 } else { -1.0 }
+    1e-6 * (1.0 + (cell % 7) as f64) * if cell.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
 fn time_of_classical(core: &Core, tracks: &[Track]) -> f64 {

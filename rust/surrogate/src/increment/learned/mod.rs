@@ -153,20 +153,14 @@ impl LearnedLaw {
         next.pressure += size * (BULK * compression + y[0]);
         next.solid += state.solid * motion.denser;
         next.angle += motion.angle;
-        for c in 0..2 {
-            let memories: f64 = (0..MEMORIES).map(|i| y[3 + i] * state.memory[i][c]).sum();
-            next.ratio[c] += size
-                * ((SHEAR + RATIO_SIZE * y[1]) * shear[c]
-                    + (RATIO_SIZE * y[2] - LOSS * shear_size) * state.ratio[c]
-                    + RATIO_SIZE * memories);
-            for i in 0..MEMORIES {
-                let [along, own, ratio] = of_memory(y, i);
-                next.memory[i][c] += size
-                    * MEMORY_RATES[i]
-                    * ((1.0 + along) * shear[c]
-                        + (own - shear_size) * state.memory[i][c]
-                        + ratio * state.ratio[c]);
-            }
+        add(&mut next.ratio, size * (SHEAR + RATIO_SIZE * y[1]), shear);
+        add(&mut next.ratio, size * (RATIO_SIZE * y[2] - LOSS * shear_size), state.ratio);
+        for (i, memory) in state.memory.iter().enumerate() {
+            add(&mut next.ratio, size * RATIO_SIZE * y[3 + i], *memory);
+            let ([along, own, ratio], rate) = (of_memory(y, i), size * MEMORY_RATES[i]);
+            add(&mut next.memory[i], rate * (1.0 + along), shear);
+            add(&mut next.memory[i], rate * (own - shear_size), *memory);
+            add(&mut next.memory[i], rate * ratio, state.ratio);
         }
         (next.turned(motion.turn), Tape { state, answered })
     }
@@ -176,29 +170,22 @@ impl LearnedLaw {
     fn backward(&self, motion: &Motion, tape: &Tape, after: &State, gradient: &mut [f64]) -> State {
         let back = [motion.turn[0], -motion.turn[1]];
         let (state, y, after) = (&tape.state, &tape.answered.outputs, after.turned(back));
-        let Motion { size, compression: _, shear, shear_size, .. } = *motion;
+        let Motion { size, shear, shear_size, .. } = *motion;
         let (mut before, mut by_y) = (after, [0.0; OUTPUTS]);
         before.solid += after.solid * motion.denser;
         by_y[0] = size * after.pressure;
-        for c in 0..2 {
-            let by = size * after.ratio[c];
-            by_y[1] += RATIO_SIZE * shear[c] * by;
-            by_y[2] += RATIO_SIZE * state.ratio[c] * by;
-            before.ratio[c] += (RATIO_SIZE * y[2] - LOSS * shear_size) * by;
-            for i in 0..MEMORIES {
-                by_y[3 + i] += RATIO_SIZE * state.memory[i][c] * by;
-                before.memory[i][c] += RATIO_SIZE * y[3 + i] * by;
-            }
-            for i in 0..MEMORIES {
-                let by = size * MEMORY_RATES[i] * after.memory[i][c];
-                let [_, own, ratio] = of_memory(y, i);
-                let k = FIRST_OF_MEMORY + 3 * i;
-                by_y[k] += shear[c] * by;
-                by_y[k + 1] += state.memory[i][c] * by;
-                by_y[k + 2] += state.ratio[c] * by;
-                before.memory[i][c] += (own - shear_size) * by;
-                before.ratio[c] += ratio * by;
-            }
+        let by = after.ratio.map(|by| size * by);
+        by_y[1] = RATIO_SIZE * dot(shear, by);
+        by_y[2] = RATIO_SIZE * dot(state.ratio, by);
+        add(&mut before.ratio, RATIO_SIZE * y[2] - LOSS * shear_size, by);
+        for (i, memory) in state.memory.iter().enumerate() {
+            by_y[3 + i] = RATIO_SIZE * dot(*memory, by);
+            add(&mut before.memory[i], RATIO_SIZE * y[3 + i], by);
+            let by = after.memory[i].map(|by| size * MEMORY_RATES[i] * by);
+            let ([_, own, ratio], k) = (of_memory(y, i), FIRST_OF_MEMORY + 3 * i);
+            by_y[k..k + 3].copy_from_slice(&[dot(shear, by), dot(*memory, by), dot(state.ratio, by)]);
+            add(&mut before.memory[i], own - shear_size, by);
+            add(&mut before.ratio, ratio, by);
         }
         let by_inputs = perceptron::backward(&self.numbers, &tape.answered, &by_y, gradient);
         add_inputs_back(state, motion, &by_inputs, &mut before);
@@ -236,14 +223,19 @@ fn add_inputs_back(state: &State, motion: &Motion, by: &[f64; INPUTS], into: &mu
         into.pressure += 2.5 * by[0] / (state.pressure + PRESSURE_FLOOR).sqrt();
     }
     into.solid += 15.0 * by[1];
-    for c in 0..2 {
-        into.ratio[c] += 20.0 * r[c] * by[2] + 4.0 * e[c] * by[4];
-        for (i, by) in by[5..].chunks_exact(3).enumerate() {
-            let h = state.memory[i][c];
-            into.memory[i][c] += 2.0 * h * by[0] + 4.0 * r[c] * by[1] + 1.5 * e[c] * by[2];
-            into.ratio[c] += 4.0 * h * by[1];
-        }
+    add(&mut into.ratio, 20.0 * by[2], r);
+    add(&mut into.ratio, 4.0 * by[4], e);
+    for (i, by) in by[5..].chunks_exact(3).enumerate() {
+        let h = state.memory[i];
+        add(&mut into.memory[i], 2.0 * by[0], h);
+        add(&mut into.memory[i], 4.0 * by[1], r);
+        add(&mut into.memory[i], 1.5 * by[2], e);
+        add(&mut into.ratio, 4.0 * by[1], h);
     }
+}
+
+fn add(into: &mut Plane, factor: f64, vector: Plane) {
+    into.iter_mut().zip(vector).for_each(|(into, component)| *into += factor * component);
 }
 
 fn dot(a: Plane, b: Plane) -> f64 {

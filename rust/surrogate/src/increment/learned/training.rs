@@ -181,10 +181,8 @@ fn add_stress_back(state: &State, by: [f64; 3], into: &mut State) {
 fn add(into: &mut State, more: &State) {
     into.pressure += more.pressure;
     into.solid += more.solid;
-    for c in 0..2 {
-        into.ratio[c] += more.ratio[c];
-        into.memory.iter_mut().zip(&more.memory).for_each(|(into, more)| into[c] += more[c]);
-    }
+    super::add(&mut into.ratio, 1.0, more.ratio);
+    into.memory.iter_mut().zip(more.memory).for_each(|(into, more)| super::add(into, 1.0, more));
 }
 
 fn largest(strain: [f64; 4]) -> f64 {
