@@ -33,6 +33,7 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
             paths(&mut section, &score)?;
         }
     }
+    forms(&mut section, &Json::read(root, &format!("{INPUTS}/score_forms.json"))?)?;
     let columns = ["model", "porosity increment", "fabric increment", "conductivity", "stress"];
     let meaning = "coefficient of determination of one step on packings that training never saw";
     section.add_table("surrogate-one-step", meaning, "msdd score", &columns, one_step_rows);
@@ -147,5 +148,42 @@ fn paths(section: &mut Section, score: &Json) -> Result<(), DocsError> {
     let meaning = "rms error along paths of strain of packings that training never saw: pressure and deviator over the mean pressure of \
                    the path, mean conductivity over that of the state";
     section.add_table("surrogate-paths", meaning, "msdd score", &columns, rows);
+    Ok(())
+}
+
+/// Amplitude of the closed cycles of the table.
+const AMPLITUDE: f64 = 1e-3;
+
+/// The classical and the learned form of the law: means over the kinds of paths, and closed cycles.
+fn forms(section: &mut Section, score: &Json) -> Result<(), DocsError> {
+    let mut rows = Vec::new();
+    for form in score.list("/forms")? {
+        let kinds = form.list("/paths")?;
+        let mut row = vec![form.text("/name")?, grouped(form.number("/numbers")?)];
+        for name in ["pressure", "deviator", "conductivity"] {
+            let all = kinds.iter().map(|kind| kind.number(&format!("/{name}")));
+            let sum: f64 = all.sum::<Result<f64, _>>()?;
+            row.push(decimals(100.0 * sum / kinds.len() as f64, 1));
+        }
+        let cycles = form
+            .find("/cycles", "cycles up to 0.1 %", |cycles| cycles.maybe("/amplitude") == Some(AMPLITUDE))?;
+        for (name, digits) in [("creating", 1), ("drift", 2)] {
+            row.push(decimals(100.0 * cycles.number(&format!("/{name}"))?, digits));
+        }
+        rows.push(row);
+    }
+    let columns = [
+        "form",
+        "fitted numbers",
+        "pressure [%]",
+        "deviator [%]",
+        "K [%]",
+        "cycles that create energy [%]",
+        "drift of the pressure [%]",
+    ];
+    let meaning = "forms of the law on packings that training never saw: rms errors, means over all kinds of paths and sizes of boxes; \
+                   and after 30 repeats of random closed cycles of strain up to 0.1 %, share of the cycles that give energy, and rms \
+                   of the change of the pressure";
+    section.add_table("surrogate-forms", meaning, "msdd ablation --forms", &columns, rows);
     Ok(())
 }
