@@ -214,10 +214,9 @@ impl Law {
         let most = moduli.under_shear(square).plus(LEAST_PRESSURE).inverse();
         let most = most * moduli.pressure.plus(LEAST_PRESSURE) * state.strength.times(-MOST_CLIMBING);
         let mut loss = zero;
-        for k in 0..ELEMENTS {
-            let Element { strength, dilatancy, .. } = self.elements[k];
-            let (climbing, least) = (more.plus(dilatancy), most.times(strength));
-            loss = loss + slid[k] * climbing.where_greater(least, climbing, least);
+        for (slid, element) in slid.into_iter().zip(&self.elements) {
+            let (climbing, least) = (more.plus(element.dilatancy), most.times(element.strength));
+            loss = loss + slid * climbing.where_greater(least, climbing, least);
         }
         // Sliding ends where the grains lose contact, and those that do not touch do not climb.
         let loss = loss.where_greater(tried, tried, loss);
