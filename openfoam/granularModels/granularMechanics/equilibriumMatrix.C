@@ -30,10 +30,6 @@ static const scalar uniformC12 = 0.25;
 static const scalar uniformG = 0.3;
 static const scalar uniformPressure = 0.05;
 
-//- Least stiffness of a cell, divided by E r/l: grains that do not touch have
-//- none, but soon meet others when they are moved
-static const scalar leastStiffness = 0.05;
-
 //- Least ratio of a pivot to its diagonal of a cell's stiffness matrix, and
 //- factor by which the other components are reduced until it is reached
 static const scalar leastPivot = 0.05;
@@ -67,10 +63,11 @@ void Foam::granularMechanicsModels::equilibrium::findTangent()
 
 void Foam::granularMechanicsModels::equilibrium::findStiffness
 (
-    const label caution
+    const label caution,
+    const scalar leastShare
 )
 {
-    const scalar least = leastStiffness*scale_;
+    const scalar least = leastShare*scale_;
     const scalar leastRatio = caution > 1 ? cautiousPivot : leastPivot;
     const scalar factor = caution > 1 ? std::pow(2.0, caution - 2) : 1;
     coupled_ = !caution;

@@ -31,6 +31,14 @@ static const label mostCuts = 6;
 //- enough: along a way that lowers the energy this work falls to zero
 static const scalar enoughWork = 0.8;
 
+//- Least stiffness of a cell, divided by E r/l: grains that do not touch have
+//- none, but the equations need some. Much of it keeps steps short where grains
+//- come into contact, and slows the last iterations where none do: after a
+//- whole step that lowers norm_ by less than 'slow' it is halved
+static const scalar mostOfLeast = 0.05;
+static const scalar leastOfLeast = 0.005;
+static const scalar slow = 0.5;
+
 //- Largest caution, see findStiffness()
 static const label mostCaution = 9;
 
@@ -178,7 +186,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
 }
 
 
-bool Foam::granularMechanicsModels::equilibrium::search
+Foam::scalar Foam::granularMechanicsModels::equilibrium::search
 (
     nodeField& du,
     const nodeField& d,
@@ -204,7 +212,7 @@ bool Foam::granularMechanicsModels::equilibrium::search
         {
             du = tried;
             left_ = now;
-            return true;
+            return share;
         }
         share *= 0.5;
     }
@@ -214,7 +222,7 @@ bool Foam::granularMechanicsModels::equilibrium::search
     {
         findTangent();
     }
-    return false;
+    return 0;
 }
 
 
@@ -250,12 +258,13 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
     if (moved)
     {
-        findStiffness(0);
+        findStiffness(0, mostOfLeast);
         follow(du);
     }
 
     nodeField d;
     label caution = 0;
+    scalar least = mostOfLeast;
     for
     (
         label iteration = 0;
@@ -263,14 +272,19 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         ++iteration
     )
     {
-        findStiffness(caution);
+        findStiffness(caution, least);
         findDiagonal();
         solveLinear(r_, d);
         ++counters_.iterations;
-        if (search(du, d, moved))
+        const scalar last = norm_;
+        const scalar share = search(du, d, moved);
+        if (share > 0)
         {
             moved = true;
             caution = max(caution - 1, label(0));
+            least = share < 1 ? mostOfLeast
+                  : norm_ > slow*last ? max(0.5*least, leastOfLeast)
+                  : least;
         }
         else if (++caution > mostCaution)
         {

@@ -70,17 +70,16 @@ Foam::regionPolicy::regionPolicy
 
     // Columns that only other models have are accepted, so that a case can
     // change its model without changing the policy
-    wordList allowed(names_);
-    allowed.append("maxFraction");
-    for
-    (
-        const char* other
-      : {"fabricIndex", "fabricShear", "jammingFraction", "elasticCompression"}
-    )
+    wordList allowed
+    ({
+        "maxFraction", "porosity", "fabricIndex", "fabricShear",
+        "jammingFraction", "elasticCompression"
+    });
+    for (const word& name : names_)
     {
-        if (!allowed.found(other))
+        if (!allowed.found(name))
         {
-            allowed.append(other);
+            allowed.append(name);
         }
     }
     granularProperties::checkKeys(dict_, allowed);

@@ -224,25 +224,29 @@ fn cycles<L: Stressed>(law: &L, tracks: &[Track], amplitude: f64) -> Cycles {
     Cycles { amplitude, cycles: count, creating: creating as f64 * over, drift: (drift * over).sqrt() }
 }
 
-/// Work that is done on a cell, per area, and largest change of its stress.
+/// Work that is done on the grains of a cell, over the area of the cell before the cycle, and largest change of the stress.
 #[derive(Clone, Copy, Default)]
 struct Energy {
     work: f64,
     change: f64,
 }
 
-/// One cycle from corner to corner, the last of which is 0; logarithmic strains, so that the cycle is closed.
+/// One cycle from corner to corner, the last of which is 0: logarithmic growth of the area, half the difference of xx and yy, and
+/// 2 xy. These add up, so the cycle is closed.
 fn cycle<L: Stressed>(law: &L, mut state: L::State, corners: &[[f64; 3]; 4]) -> (L::State, Energy) {
     let (mut at, mut energy) = ([0.0; 3], Energy::default());
     let start = law.stress(&state);
     let mut before = start;
     for corner in corners {
-        let [xx, yy, xy] = [0, 1, 2].map(|c| (corner[c] - at[c]) / PARTS as f64);
-        for _ in 0..PARTS {
-            state = law.strained(&state, [xx.exp_m1(), yy.exp_m1(), xy]);
+        let step = [0, 1, 2].map(|c| (corner[c] - at[c]) / PARTS as f64);
+        let [growth, half, shear] = step;
+        let mean = (growth.exp() + half * half + 0.25 * shear * shear).sqrt() - 1.0;
+        for part in 0..PARTS {
+            state = law.strained(&state, [mean + half, mean - half, shear]);
             let after = law.stress(&state);
             let [p, q1, q2] = [0, 1, 2].map(|c| 0.5 * (before[c] + after[c]));
-            energy.work -= p * (xx + yy) + q1 * (xx - yy) + q2 * xy;
+            let area = (at[0] + growth * (part as f64 + 0.5)).exp();
+            energy.work -= area * (p * growth + 2.0 * q1 * half + q2 * shear);
             energy.change = (0..3).fold(energy.change, |most, c| most.max((after[c] - start[c]).abs()));
             before = after;
         }

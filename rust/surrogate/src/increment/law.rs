@@ -47,6 +47,10 @@ const MOST_LOOSENESS: f64 = 0.05;
 const LEAST_BULK: f64 = 0.1;
 /// Largest elastic compression: that of grains which overlap by a third of their radius.
 const MOST_COMPRESSION: f64 = 0.6;
+/// Least p/A, which only packings far beyond all known ones reach. The largest deviator over A is smaller.
+const LEAST_SHARE: f64 = 0.75;
+/// Far below all pressures, and such that no quotient overflows.
+const LEAST_PRESSURE: f64 = 1e-100;
 /// Largest work of dilatancy over that of friction: less than 1, so that sliding always dissipates.
 const MOST_CLIMBING: f64 = 0.9;
 /// Load over strength from which an element slides: so little above 1 that a state which slides stays as it is, to the last
@@ -92,8 +96,18 @@ pub struct Moduli<N> {
     pub pressure: N,
     /// G/A, finite also where the grains do not touch.
     pub ratio: N,
-    /// dG/d ln(1 + v), the growth of G with a compression of the cell.
+    /// (1 + v)² d(G/(1 + v))/dv = (1 + v) dG/dv − G: how the elastic energy of shear, over the area without load, grows with a
+    /// compression of the cell.
     pub growth: N,
+}
+
+impl<N: Number> Moduli<N> {
+    /// p of a packing with this Σ w γ². It is never so small that a direction is in tension.
+    #[inline(always)]
+    fn under_shear(&self, square: N) -> N {
+        let (shear, least) = ((self.growth * square).times(0.5), self.pressure.times(LEAST_SHARE - 1.0));
+        self.pressure + shear.where_greater(least, shear, least)
+    }
 }
 
 /// p, and (σ_xx − σ_yy)/2 and σ_xy.
@@ -138,11 +152,9 @@ impl Law {
         let bulk = first * share * share.times(-1.0).plus(2.0) + v * (v * third + second);
         let [g0, a, g1] = self.shear;
         let inverse = pressure.plus(a).inverse();
-        Moduli {
-            pressure,
-            ratio: inverse.times(g0).plus(g1),
-            growth: (inverse * inverse).times(g0 * a).plus(g1) * bulk * v.plus(1.0),
-        }
+        let ratio = inverse.times(g0).plus(g1);
+        let stiffer = (inverse * inverse).times(g0 * a).plus(g1) * bulk * v.plus(1.0);
+        Moduli { pressure, ratio, growth: stiffer - pressure * ratio }
     }
 
     /// Stress of a state with these moduli.
@@ -157,7 +169,7 @@ impl Law {
             across = across + b.times(share);
         }
         let shear = moduli.pressure * moduli.ratio;
-        [moduli.pressure + (moduli.growth * square).times(0.5), shear * along, shear * across]
+        [moduli.under_shear(square), shear * along, shear * across]
     }
 
     /// State after a strain, and its moduli. `turn` is the cosine and sine of the angle by which the cell turns. Zero strain
@@ -181,9 +193,10 @@ impl Law {
         let moduli = self.moduli(tried, loose);
         let more = loose.times(self.dilatancy_of_looseness);
         let weaker = state.strength.inverse();
-        let (mut shear, mut lengths, mut loss) = (state.shear, [zero; ELEMENTS], zero);
+        let (mut shear, mut lengths, mut slid) = (state.shear, [zero; ELEMENTS], [zero; ELEMENTS]);
+        let mut square = zero;
         for k in 0..ELEMENTS {
-            let Element { share, strength, dilatancy } = self.elements[k];
+            let Element { share, strength, .. } = self.elements[k];
             // The shear strains turn by twice the angle of the cell: half of it before the strain, half after.
             let [along, across] = turned(shear[k], turn);
             shear[k] = turned([along + yy - xx, across - xy], turn);
@@ -192,10 +205,18 @@ impl Law {
             // Elastic load of the element over its strength.
             let load = (moduli.ratio * length * weaker).times(share / strength);
             let kept = load.where_greater(slack, load.inverse(), one);
-            let (climbing, least) = (more.plus(dilatancy), state.strength.times(-MOST_CLIMBING * strength));
-            loss = loss + length * (one - kept) * climbing.where_greater(least, climbing, least);
             shear[k] = [along * kept, across * kept];
             lengths[k] = length * kept;
+            slid[k] = length * (one - kept);
+            square = square + (lengths[k] * lengths[k]).times(share);
+        }
+        // Grains that climb work against the pressure, at most as much as friction lets them.
+        let most = moduli.under_shear(square).plus(LEAST_PRESSURE).inverse();
+        let most = most * moduli.pressure.plus(LEAST_PRESSURE) * state.strength.times(-MOST_CLIMBING);
+        let mut loss = zero;
+        for (slid, element) in slid.into_iter().zip(&self.elements) {
+            let (climbing, least) = (more.plus(element.dilatancy), most.times(element.strength));
+            loss = loss + slid * climbing.where_greater(least, climbing, least);
         }
         // Sliding ends where the grains lose contact, and those that do not touch do not climb.
         let loss = loss.where_greater(tried, tried, loss);

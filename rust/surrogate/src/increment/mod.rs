@@ -7,12 +7,13 @@
 //! **Elastic energy.** A packing with the solid fraction φ_s (sum of the grains' areas over the area) bears no load at the
 //! fraction φ_J. Its elastic compression is v = φ_s/φ_J − 1. Its deviator is borne by parallel elements i with elastic
 //! shear strains γ_i = (e_yy − e_xx, −2 e_xy), which are vectors that turn by 2θ when the cell turns by θ. With z, the
-//! porosity 1 − φ_J less 0.17, the energy is
+//! porosity 1 − φ_J less 0.17, the energy over the area that the packing has without load is
 //!
-//! ψ = ∫ A(v, z) dv/(1 + v) + ½ G(A) Σ w_i |γ_i|²,
+//! ψ = ∫ A(v, z) dv/(1 + v)² + G(A)/(2 (1 + v)) Σ w_i |γ_i|²,
 //!
-//! and the stress is its derivative by the strains: p = A + ½ (1 + v) dG/dv Σ w_i |γ_i|², q = (½(σ_xx − σ_yy), σ_xy) = G Σ w_i γ_i. So the elastic
-//! tangent is symmetric, and closed elastic paths do no work.
+//! and the stress times the area, 1/(1 + v), is its derivative by the strains:
+//! p = A + ½ ((1 + v) dG/dv − G) Σ w_i |γ_i|², q = (½(σ_xx − σ_yy), σ_xy) = G Σ w_i γ_i. So closed elastic paths do no work, and
+//! the elastic tangent of stress times area is symmetric.
 //!
 //! **Sliding.** An element slides when its part of the deviator exceeds its strength: G w_i |γ_i| ≤ m_i A. Sliding by s
 //! changes the elastic compression by −(b_i + b_z z) s: φ_J changes, which is dilatancy. The elements' shear strains are the

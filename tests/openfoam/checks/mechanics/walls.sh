@@ -5,7 +5,7 @@ uniaxial() { # folder, entries of the right wall: the box of the case small with
     changed "$1"
     uniform_temperature
     mesh_is '12 6 1'
-    equilibrium "residual 1e-6; walls { \".*\" { type frictionless; } right { $2 } }"
+    equilibrium "residual 1e-5; walls { \".*\" { type frictionless; } right { $2 } }"
     logged foamDictionary -entry endTime -set 0.05 system/controlDict
     logged msddFoam
 }
