@@ -32,6 +32,20 @@ static const scalar alignedSine = 1e-7;
 //- Non-orthogonality above which the user is warned, as by checkMesh [degrees]
 static const scalar largestAngle = 70;
 
+//- A field that the registry does not know
+static IOobject unregistered(const word& name, const fvMesh& mesh)
+{
+    return IOobject
+    (
+        name,
+        mesh.time().timeName(),
+        mesh,
+        IOobject::NO_READ,
+        IOobject::NO_WRITE,
+        false
+    );
+}
+
 } // End namespace Foam
 
 
@@ -61,10 +75,19 @@ Foam::heatEquation::heatEquation
         extrapolatedCalculatedFvPatchScalarField::typeName
     ),
     Kyy_(IOobject("Kyy", mesh_.time().timeName(), mesh_), Kxx_),
+    Kxy_(unregistered("Kxy", mesh_), Kxx_),
     TEqn_(T, dimPower),
     controls_(mesh_.solverDict(T.name())),
     correctors_(correctors),
-    aligned_(isAligned(grains)),
+    aligned_(isAligned()),
+    crossed_(!grains.diagonal()),
+    gradX_
+    (
+        unregistered("gradX", mesh_),
+        mesh_,
+        dimensionedScalar(T.dimensions()/dimLength, Zero)
+    ),
+    gradY_(unregistered("gradY", mesh_), gradX_),
     slanted_(false),
     patchHeat_(mesh_.boundary().size(), Zero),
     sourceHeat_(0)
@@ -94,7 +117,9 @@ Foam::heatEquation::heatEquation
         findFeet();
     }
     Info<< "Conduction: "
-        << (aligned_ ? "n.K.n on the faces (exact here)" : "tensor laplacian")
+        << (!aligned_ ? "tensor laplacian"
+          : crossed_ ? "n.K.n on the faces, Kxy explicitly"
+          : "n.K.n on the faces (exact here)")
         << nl << endl;
     if (!aligned_)
     {
@@ -105,9 +130,9 @@ Foam::heatEquation::heatEquation
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-bool Foam::heatEquation::isAligned(const granularState& grains) const
+bool Foam::heatEquation::isAligned() const
 {
-    bool aligned = grains.diagonal();
+    bool aligned = true;
 
     const surfaceVectorField& Sf = mesh_.Sf();
     const surfaceVectorField delta(mesh_.delta());
@@ -233,21 +258,34 @@ void Foam::heatEquation::setStorage(const scalarField& Tstar, const scalar tau)
 }
 
 
+bool Foam::heatEquation::anyCoupled() const
+{
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        if (patch.coupled())
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+
 void Foam::heatEquation::exchange(const granularState::conductivityColumns& K)
 {
     // Exchanged once for all patches and not in a loop over patches: every
     // process must take part equally often, however many neighbours it has
-    bool any = false;
-    for (const fvPatch& patch : mesh_.boundary())
-    {
-        any = any || patch.coupled();
-    }
-    if (any)
+    if (anyCoupled())
     {
         Kxx_.primitiveFieldRef() = K.xx;
         Kyy_.primitiveFieldRef() = K.yy;
         Kxx_.correctBoundaryConditions();
         Kyy_.correctBoundaryConditions();
+        if (crossed_)
+        {
+            Kxy_.primitiveFieldRef() = K.xy;
+            Kxy_.correctBoundaryConditions();
+        }
     }
 }
 
@@ -329,6 +367,126 @@ void Foam::heatEquation::addAligned
                 internal[facei] *= -gamma;
                 boundary[facei] *= gamma;
             }
+        }
+    }
+}
+
+
+void Foam::heatEquation::findGradient()
+{
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    const scalarField& weights = mesh_.weights();
+    const vectorField& Sf = mesh_.Sf();
+    const scalarField& V = mesh_.V();
+    scalarField& x = gradX_.primitiveFieldRef();
+    scalarField& y = gradY_.primitiveFieldRef();
+    x = 0;
+    y = 0;
+
+    forAll(owner, facei)
+    {
+        const label P = owner[facei], N = neighbour[facei];
+        const scalar T = weights[facei]*(T_[P] - T_[N]) + T_[N];
+        x[P] += Sf[facei].x()*T;
+        y[P] += Sf[facei].y()*T;
+        x[N] -= Sf[facei].x()*T;
+        y[N] -= Sf[facei].y()*T;
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        const fvPatchScalarField& pT = T_.boundaryField()[patchi];
+        const vectorField& S = mesh_.Sf().boundaryField()[patchi];
+        const labelUList& cells = patch.faceCells();
+        scalarField T(pT);
+        if (pT.coupled())
+        {
+            const scalarField& w = patch.weights();
+            T = w*pT.patchInternalField() + (1 - w)*pT.patchNeighbourField();
+        }
+        forAll(cells, facei)
+        {
+            x[cells[facei]] += S[facei].x()*T[facei];
+            y[cells[facei]] += S[facei].y()*T[facei];
+        }
+    }
+    x /= V;
+    y /= V;
+    if (anyCoupled())
+    {
+        gradX_.correctBoundaryConditions();
+        gradY_.correctBoundaryConditions();
+    }
+}
+
+
+void Foam::heatEquation::addCrossed
+(
+    const granularState::conductivityColumns& K
+)
+{
+    // Gradients read T at walls and in cells of other processes, where it is
+    // still the one before the last solution
+    T_.correctBoundaryConditions();
+    findGradient();
+
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    const scalarField& weights = mesh_.weights();
+    const vectorField& Sf = mesh_.Sf();
+    scalarField& source = TEqn_.source();
+
+    forAll(owner, facei)
+    {
+        const label P = owner[facei], N = neighbour[facei];
+        const scalar w = weights[facei];
+        const scalar Kxy = w*(K.xy[P] - K.xy[N]) + K.xy[N];
+        const scalar x = w*(gradX_[P] - gradX_[N]) + gradX_[N];
+        const scalar y = w*(gradY_[P] - gradY_[N]) + gradY_[N];
+        const scalar heat = Kxy*(Sf[facei].x()*y + Sf[facei].y()*x);
+        source[P] += heat;
+        source[N] -= heat;
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        const bool coupled = patch.coupled();
+        // No heat passes a wall of given gradient because of a change of T
+        // along it: the gradient normal to such a wall stands for its heat
+        if (!coupled && !T_.boundaryField()[patchi].fixesValue())
+        {
+            continue;
+        }
+        const vectorField& S = mesh_.Sf().boundaryField()[patchi];
+        const labelUList& cells = patch.faceCells();
+        const auto onFaces = [&](const volScalarField& field)
+        {
+            const fvPatchScalarField& values = field.boundaryField()[patchi];
+            tmp<scalarField> inner(values.patchInternalField());
+            if (!coupled)
+            {
+                return inner;
+            }
+            const scalarField& w = patch.weights();
+            return w*inner + (1 - w)*values.patchNeighbourField();
+        };
+        scalarField Kxy(cells.size());
+        forAll(cells, facei)
+        {
+            Kxy[facei] = K.xy[cells[facei]];
+        }
+        if (coupled)
+        {
+            Kxy = onFaces(Kxy_);
+        }
+        const scalarField x(onFaces(gradX_)), y(onFaces(gradY_));
+        forAll(cells, facei)
+        {
+            const scalar heat =
+                Kxy[facei]*(S[facei].x()*y[facei] + S[facei].y()*x[facei]);
+            source[cells[facei]] += heat;
+            patchHeat_[patchi] += coupled ? 0 : heat;
         }
     }
 }
@@ -461,6 +619,10 @@ void Foam::heatEquation::solve
         if (aligned_)
         {
             addAligned(K);
+            if (crossed_)
+            {
+                addCrossed(K);
+            }
         }
         else
         {
@@ -469,7 +631,7 @@ void Foam::heatEquation::solve
         addSources();
         TEqn_.solve(controls_);
 
-        if (aligned_)
+        if (aligned_ && !crossed_)
         {
             break;
         }
