@@ -47,7 +47,7 @@ fn changed(work: &Path, file: &str, text: &str) {
             fs::write(work.join(folder).join(name), whole + more).unwrap();
         }
     }
-    fs::write(work.join("system/damaged.json"), "{\"schema\": \"msdd-state-model-1\", ").unwrap();
+    fs::write(work.join("system/damaged.json"), "{\"schema\": \"msdd-increment-model-1\", ").unwrap();
 }
 
 fn found_in(name: &str, file: &str, text: &str) -> Vec<String> {

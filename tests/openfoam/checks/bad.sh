@@ -5,7 +5,7 @@ bad_dictionaries() {
     local file wanted target
     changed bad
     mesh_is '12 6 1'
-    echo '{"schema": "msdd-state-model-1", ' > system/damaged.json
+    echo '{"schema": "msdd-increment-model-1", ' > system/damaged.json
     for file in "$here"/bad/*; do
         wanted=$(sed -n '1s,^// expect: ,,p' "$file")
         target=$(sed -n '2s,^// file: ,,p' "$file")
