@@ -329,7 +329,8 @@ fn directions(seen: &Seen, kind: ConductivityKind) -> [Option<(f64, [f64; 3])>; 
     [0, 1].map(|c| fabric[c].map(|_| (parts[c], rows[c].map(Portable::into_first))))
 }
 
-fn looseness(state: &[f64; MAX_STATE]) -> f64 {
+/// z of a state, see [`super::law`].
+pub(super) fn looseness(state: &[f64; MAX_STATE]) -> f64 {
     elastic(state).looseness().0.into_first()
 }
 

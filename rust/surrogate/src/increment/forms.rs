@@ -5,7 +5,7 @@ use super::core::{
     COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, OWN_INDEX, OWN_SHEAR, POROSITY, SHEAR, STRENGTH,
 };
 use super::errors::{errors_of, path_errors};
-use super::fit::parameters;
+use super::fit::{looseness, parameters};
 use super::learned::training::{self, motions};
 use super::learned::{LearnedLaw, Motion, NUMBERS, State};
 use super::number::Plain;
@@ -146,7 +146,7 @@ fn columns(core: &Core, track: &Track, states: &[State]) -> States {
     let first = stressed(core, &start, &states[0]);
     let features = |state: &[f64; MAX_STATE], learned: &State| {
         let stress = learned.stress().map(|value| Plain(Portable::all(value)));
-        Features::of(&stress, Portable::all(1.0 - USUAL_POROSITY - state[JAMMING]))
+        Features::of(&stress, Portable::all(looseness(state)))
     };
     let fabric = |features: &Features<Portable>, porosity: f64| {
         core.readout.fabric(features, Portable::all(porosity)).map(Portable::into_first)
@@ -170,9 +170,6 @@ fn columns(core: &Core, track: &Track, states: &[State]) -> States {
     };
     states.iter().map(of_state).collect()
 }
-
-/// Porosity without stress from which the looseness is measured, as in [`super::law`].
-const USUAL_POROSITY: f64 = 0.17;
 
 fn stressed(core: &Core, start: &[f64; MAX_STATE], learned: &State) -> [f64; MAX_STATE] {
     let [p, q1, q2] = learned.stress();
