@@ -42,15 +42,17 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
 :
     granularMechanics(grains),
     dict_(properties.subOrEmptyDict("equilibriumCoeffs")),
-    scale_
-    (
-        properties.youngModulus().value()*properties.meanRadius().value()
-    ),
+    nodes_(mesh_),
+    law_(stressLaw::New(dict_, properties, grains, nodes_)),
     tolerance_
     (
         granularProperties::ranged
         (
-            dict_, "residual", 1e-4*scale_, 2e-14*scale_, 2e4*scale_
+            dict_,
+            "residual",
+            1e-4*law_->scale(),
+            2e-14*law_->scale(),
+            2e4*law_->scale()
         )
     ),
     maxIterations_
@@ -61,18 +63,17 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     (
         granularProperties::ranged
         (
-            dict_, "maxResidual", 20*tolerance_, tolerance_, 2e7*scale_
+            dict_, "maxResidual", 20*tolerance_, tolerance_, 2e7*law_->scale()
         )
     ),
-    quads_(mesh_),
     walls_
     (
         dict_.subOrEmptyDict("walls"),
         grains.model(),
-        quads_,
-        properties.meanRadius().value()
+        nodes_,
+        properties.meanRadius().value(),
+        law_->elastic()
     ),
-    uniform_(quads_),
     nodeDisplacement_
     (
         io("nodeDisplacement", IOobject::READ_IF_PRESENT),
@@ -88,7 +89,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     initialStress_
     (
         io("initialStress", IOobject::READ_IF_PRESENT),
-        grains.stress()
+        law_->initialStress()
     ),
     D_
     (
@@ -104,27 +105,23 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         dimensionedScalar("one", dimless, 1),
         extrapolatedCalculatedFvPatchScalarField::typeName
     ),
-    u_(quads_.size(), vector2D(Zero)),
+    u_(nodes_.dim()*nodes_.size(), Zero),
     traction_(u_),
     start_(u_),
-    nodeArea_(u_.size(), Zero),
+    nodeSize_(nodes_.size(), Zero),
     lastTime_(mesh_.time().value()),
-    C_(mesh_.nCells()),
     friction_(u_),
     newTraction_(u_),
-    stick_(u_),
     coupled_(false),
     slide_(u_),
     share_(1),
     r_(u_),
     before_(0),
     left_(0),
-    norm_(0),
     broken_(-1),
+    norm_(0),
     placed_(false),
     diagonal_(u_),
-    uniformDiagonal_(u_),
-    metric_(mesh_.nCells()),
     steps_(0),
     largest_(0),
     everMoved_(false)
@@ -133,32 +130,28 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     (
         dict_,
         {
-            "residual", "maxIterations", "maxResidual", "walls"
+            "residual", "maxIterations", "maxResidual", "walls", "law",
+            "elasticCoeffs"
         }
     );
-    if (!grains.model().hasTangent())
-    {
-        FatalIOErrorInFunction(properties)
-            << "Entry 'mechanics' is equilibrium, but the model "
-            << grains.model().source() << " has no mechanical tangent"
-            << exit(FatalIOError);
-    }
 
-    grains_.letDeform(walls_.strength());
+    if (!law_->elastic())
+    {
+        grains_.letDeform(walls_.strength());
+    }
     readNodes(nodeDisplacement_, u_);
     readNodes(wallTraction_, traction_);
-    for
-    (
-        scalarField* column :
-        {&strain_.xx, &strain_.yy, &strain_.xy, &strain_.rotation}
-    )
+    broken_ = nodes_.findShapes(nodes_.points(), reference_);
+    if (returnReduce(broken_ >= 0, orOp<bool>()))
     {
-        column->resize(mesh_.nCells(), Zero);
+        FatalErrorInFunction
+            << "The mesh has cells that are turned inside out or have no"
+            << " volume, such as " << failure().c_str()
+            << "; checkMesh tells more" << exit(FatalError);
     }
-    quads_.shapes(quads_.points(), reference_);
     shapes_ = reference_;
     setStart();
-    setUniform();
+    setSolver();
     findMetric();
     grains_.follow([this]() { makeFields(); });
     grains_.refresh();
@@ -182,45 +175,86 @@ Foam::IOobject Foam::granularMechanicsModels::equilibrium::io
 
 void Foam::granularMechanicsModels::equilibrium::setStart()
 {
-    List<vector2D> area(u_.size(), vector2D(Zero));
-    forAll(reference_, celli)
+    scalarField size(nodes_.size(), Zero);
+    nodes_.each([&](const auto& e)
     {
-        for (const label node : quads_.quads()[celli])
+        for (label a = 0; a < e.size(); ++a)
         {
-            area[node].x() += 0.25*reference_[celli].area;
+            size[e.nodes[a]] += reference_.volume[e.cell]/e.size();
+        }
+    });
+    nodes_.sum(size, 1);
+    // The stress that acts on a face of the node's volume balances its force
+    forAll(size, node)
+    {
+        const label r = nodes_.radial();
+        nodeSize_[node] =
+            nodes_.dim() == 3 ? sqr(std::cbrt(size[node]))
+          : r < 0 ? std::sqrt(size[node])
+          : std::sqrt(size[node]*max(nodes_.points()[2*node + r], VSMALL));
+        if (r >= 0)
+        {
+            // On the axis: of the volume alone
+            nodeSize_[node] =
+                max(nodeSize_[node], sqr(std::cbrt(size[node])));
         }
     }
-    quads_.sum(area);
 
     // Imbalance of the initial fields: it is the reference for all later steps
     // and so is never relaxed
-    granularState::stressColumns initial
+    if (!law_->elastic())
     {
-        initialStress_.primitiveField().component(symmTensor::XX),
-        initialStress_.primitiveField().component(symmTensor::YY),
-        initialStress_.primitiveField().component(symmTensor::XY)
-    };
-    addStress(initial, start_);
-    quads_.sum(start_);
-
+        const symmTensorField& sigma = initialStress_.primitiveField();
+        addStress
+        (
+            List<scalarField>
+            ({
+                sigma.component(symmTensor::XX),
+                sigma.component(symmTensor::YY),
+                sigma.component(symmTensor::XY)
+            }),
+            start_
+        );
+        nodes_.sum(start_);
+    }
+    const label dim = nodes_.dim();
+    nodeField free(start_);
+    walls_.release(free);
     scalar most = 0;
     forAll(start_, i)
     {
-        nodeArea_[i] = area[i].x();
-        for (label k = 0; k < 2; ++k)
-        {
-            start_[i][k] *= walls_.balanced()[i][k];
-            most = max
-            (
-                most,
-                walls_.free()[i][k]*mag(start_[i][k])/std::sqrt(nodeArea_[i])
-            );
-        }
+        start_[i] *= walls_.balanced()[i/dim];
+        most = max
+        (
+            most, mag(walls_.balanced()[i/dim]*free[i])/nodeSize_[i/dim]
+        );
     }
     Info<< "Equilibrium: residual " << tolerance_
         << " Pa; initial fields are out of balance by "
         << returnReduce(most, maxOp<scalar>()) << " Pa, which is kept" << nl
         << endl;
+}
+
+
+Foam::List<Foam::vector>
+Foam::granularMechanicsModels::equilibrium::directions
+(
+    const label pointi
+) const
+{
+    List<vector> result(nodes_.dim(), vector(Zero));
+    forAll(result, k)
+    {
+        result[k][k] = 1;
+    }
+    const label r = nodes_.radial();
+    if (r >= 0)
+    {
+        vector out(mesh_.points()[pointi]);
+        out[1 - r] = 0;
+        result[r] = mag(out) > VSMALL ? out/mag(out) : result[r];
+    }
+    return result;
 }
 
 
@@ -230,10 +264,15 @@ void Foam::granularMechanicsModels::equilibrium::readNodes
     nodeField& to
 ) const
 {
-    forAll(to, i)
+    const label dim = nodes_.dim();
+    forAll(nodes_.front(), node)
     {
-        const vector& v = from[quads_.front()[i]];
-        to[i] = vector2D(v.x(), v.y());
+        const label pointi = nodes_.front()[node];
+        const List<vector> along(directions(pointi));
+        for (label k = 0; k < dim; ++k)
+        {
+            to[dim*node + k] = from[pointi] & along[k];
+        }
     }
 }
 
@@ -244,51 +283,96 @@ void Foam::granularMechanicsModels::equilibrium::writeNodes
     pointVectorField& to
 ) const
 {
+    const label dim = nodes_.dim();
     vectorField& values = to.primitiveFieldRef();
-    forAll(from, i)
+    for (const labelList* points : {&nodes_.front(), &nodes_.back()})
     {
-        const vector v(from[i].x(), from[i].y(), 0);
-        values[quads_.front()[i]] = v;
-        values[quads_.back()[i]] = v;
+        forAll(*points, node)
+        {
+            const label pointi = (*points)[node];
+            const List<vector> along(directions(pointi));
+            values[pointi] = Zero;
+            for (label k = 0; k < dim; ++k)
+            {
+                values[pointi] += from[dim*node + k]*along[k];
+            }
+        }
     }
 }
 
 
 void Foam::granularMechanicsModels::equilibrium::addStress
 (
-    const granularState::stressColumns& stress,
+    const List<scalarField>& stress,
     nodeField& force
 ) const
 {
-    forAll(shapes_, celli)
+    const label r = nodes_.radial();
+    nodes_.each([&](const auto& e)
     {
-        const quadMesh::shape& s = shapes_[celli];
-        const quadMesh::quad& q = quads_.quads()[celli];
-        const scalar xx = s.area*stress.xx[celli];
-        const scalar yy = s.area*stress.yy[celli];
-        const scalar xy = s.area*stress.xy[celli];
-        for (label a = 0; a < 4; ++a)
+        constexpr label dim = std::decay<decltype(e)>::type::dim;
+        const scalar V = shapes_.volume[e.cell];
+        const scalar* B = shapes_.gradient.cdata() + dim*e.start;
+        scalar s[dim][dim];
+        if (dim == 2)
         {
-            force[q[a]].x() += s.b[a]*xx + s.c[a]*xy;
-            force[q[a]].y() += s.c[a]*yy + s.b[a]*xy;
+            s[0][0] = V*stress[0][e.cell];
+            s[1][1] = V*stress[1][e.cell];
+            s[0][1] = s[1][0] = V*stress[2][e.cell];
         }
-    }
+        else
+        {
+            for (label k = 0; k < dim; ++k)
+            {
+                const label next = (k + 1) % dim;
+                s[k][k] = V*stress[k][e.cell];
+                s[k][next] = s[next][k] = V*stress[dim + k][e.cell];
+            }
+        }
+        const scalar ring = r < 0 ? 0 : V*stress[3][e.cell];
+        for (label a = 0; a < e.size(); ++a)
+        {
+            scalar* f = force.data() + dim*e.nodes[a];
+            for (label i = 0; i < dim; ++i)
+            {
+                for (label j = 0; j < dim; ++j)
+                {
+                    f[i] += s[i][j]*B[dim*a + j];
+                }
+            }
+            if (r >= 0)
+            {
+                f[r] += ring*shapes_.hoop[e.start + a];
+            }
+        }
+    });
 }
 
 
-Foam::FixedList<Foam::scalar, 4>
+Foam::tensor
 Foam::granularMechanicsModels::equilibrium::gradient(const label celli) const
 {
-    const quadMesh::shape& s = reference_[celli];
-    const quadMesh::quad& q = quads_.quads()[celli];
-    FixedList<scalar, 4> F({1, 0, 0, 1});
-    for (label a = 0; a < 4; ++a)
+    const label dim = nodes_.dim(), r = nodes_.radial();
+    tensor F(tensor::I);
+    for
+    (
+        label i = nodes_.cellStarts()[celli];
+        i < nodes_.cellStarts()[celli + 1];
+        ++i
+    )
     {
-        const vector2D& v = u_[q[a]];
-        F[0] += s.b[a]*v.x();
-        F[1] += s.c[a]*v.x();
-        F[2] += s.b[a]*v.y();
-        F[3] += s.c[a]*v.y();
+        const label node = nodes_.cellNodes()[i];
+        for (label j = 0; j < dim; ++j)
+        {
+            for (label k = 0; k < dim; ++k)
+            {
+                F(j, k) += u_[dim*node + j]*reference_.gradient[dim*i + k];
+            }
+        }
+        if (r >= 0)
+        {
+            F.zz() += u_[2*node + r]*reference_.hoop[i];
+        }
     }
     return F;
 }
@@ -296,14 +380,19 @@ Foam::granularMechanicsModels::equilibrium::gradient(const label celli) const
 
 void Foam::granularMechanicsModels::equilibrium::findMetric()
 {
+    if (law_->elastic())
+    {
+        return;
+    }
+    metric_.resize(mesh_.nCells());
     forAll(metric_, celli)
     {
-        const FixedList<scalar, 4> F(gradient(celli));
-        const scalar root = std::sqrt(F[0]*F[3] - F[1]*F[2]);
-        forAll(F, k)
-        {
-            metric_[celli][k] = F[k]/root;
-        }
+        const tensor F(gradient(celli));
+        const scalar root = std::sqrt(F.xx()*F.yy() - F.xy()*F.yx());
+        metric_[celli][0] = F.xx()/root;
+        metric_[celli][1] = F.xy()/root;
+        metric_[celli][2] = F.yx()/root;
+        metric_[celli][3] = F.yy()/root;
     }
 }
 
@@ -316,6 +405,10 @@ Foam::granularMechanicsModels::equilibrium::pulledBack
     const granularState::conductivityColumns& K
 )
 {
+    if (law_->elastic())
+    {
+        return K;
+    }
     pulledBack_ = K;
     forAll(metric_, celli)
     {

@@ -16,50 +16,18 @@ License
 
 #include "equilibrium.H"
 
-#include <cmath>
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
 
-//- Uniform medium for the preconditioner: c11, c12, shear modulus and
-//- pressure, divided by E r/l, with values of densely packed grains
-static const scalar uniformC11 = 0.8;
-static const scalar uniformC12 = 0.25;
-static const scalar uniformG = 0.3;
+//- Pressure of the uniform medium for the preconditioner, divided by E r/l
 static const scalar uniformPressure = 0.05;
-
-//- Least ratio of a pivot to its diagonal of a cell's stiffness matrix, and
-//- factor by which the other components are reduced until it is reached
-static const scalar leastPivot = 0.05;
-static const scalar reduction = 0.8;
-
-//- The same for grains that do not slide, and their shear modulus over c11
-static const scalar cautiousPivot = 0.8;
-static const scalar cautiousShear = 0.35;
-
-//- The linear equations of a Newton iteration are solved until their residual
-//- is this share of the imbalance, or after so many pairs of products: some
-//- tangents of cells that lose contact are nearly singular
-static const scalar linearTolerance = 0.1;
-static const label maxLinear = 100;
 
 } // End namespace Foam
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::granularMechanicsModels::equilibrium::findTangent()
-{
-    strain_.xx = 0;
-    strain_.yy = 0;
-    strain_.xy = 0;
-    strain_.rotation = 0;
-    granularState::stressColumns unused;
-    grains_.tryStrain(strain_, unused, tangent_);
-}
-
 
 void Foam::granularMechanicsModels::equilibrium::findStiffness
 (
@@ -67,145 +35,149 @@ void Foam::granularMechanicsModels::equilibrium::findStiffness
     const scalar leastShare
 )
 {
-    const scalar least = leastShare*scale_;
-    const scalar leastRatio = caution > 1 ? cautiousPivot : leastPivot;
-    const scalar factor = caution > 1 ? std::pow(2.0, caution - 2) : 1;
     coupled_ = !caution;
-    forAll(C_, celli)
-    {
-        FixedList<scalar, 9>& c = C_[celli];
-        forAll(c, k)
-        {
-            c[k] = tangent_[k][celli];
-        }
-        c[0] = max(c[0], least);
-        c[4] = max(c[4], least);
-        c[8] = max(c[8], 0.5*least);
-        if (!caution)
-        {
-            continue;
-        }
-
-        // A matrix that is symmetric and positive
-        c[1] = c[3] = 0.5*(c[1] + c[3]);
-        c[2] = c[6] = 0.5*(c[2] + c[6]);
-        c[5] = c[7] = 0.5*(c[5] + c[7]);
-        if (caution > 1)
-        {
-            c[0] = c[4] = factor*max(c[0], c[4]);
-            c[8] = max(factor*c[8], cautiousShear*c[0]);
-        }
-
-        // Pivots of the Cholesky factorisation
-        for (label k = 0; k < 20; ++k)
-        {
-            const scalar second = c[4] - sqr(c[1])/c[0];
-            const scalar other = c[5] - c[1]*c[2]/c[0];
-            const scalar third = c[8] - sqr(c[2])/c[0] - sqr(other)/second;
-            if (second > leastRatio*c[4] && third > leastRatio*c[8])
-            {
-                break;
-            }
-            for (const label j : {1, 2, 3, 5, 6, 7})
-            {
-                c[j] *= reduction;
-            }
-        }
-    }
+    law_->stiffen(caution, leastShare);
 }
 
 
-void Foam::granularMechanicsModels::equilibrium::setUniform()
+void Foam::granularMechanicsModels::equilibrium::setSolver()
 {
-    forAll(C_, celli)
-    {
-        C_[celli] = Zero;
-        C_[celli][0] = C_[celli][4] = scale_*uniformC11;
-        C_[celli][1] = C_[celli][3] = scale_*uniformC12;
-        C_[celli][8] = scale_*uniformG;
-    }
-    stick_ = walls_.stiffness(scale_*uniformPressure);
-    quads_.sum(stick_);
-    findDiagonal();
-    uniformDiagonal_ = diagonal_;
+    const scalar lambda = law_->lambda(), G = law_->shear();
+    const label r = nodes_.radial();
+    walls_.setStiffness(law_->scale()*uniformPressure);
 
-    const nodeField& free = walls_.free();
-    nodeField local(diagonal_.size());
-    cellDiagonal(local);
-    forAll(shapes_, celli)
+    nodeField uniform(u_.size(), Zero);
+    nodes_.each([&](const auto& e)
     {
-        const quadMesh::shape& s = shapes_[celli];
-        const quadMesh::quad& q = quads_.quads()[celli];
-        const scalar c11 = s.area*C_[celli][0], c12 = s.area*C_[celli][1];
-        const scalar G = s.area*C_[celli][8];
-        for (label a = 0; a < 4; ++a)
+        constexpr label dim = std::decay<decltype(e)>::type::dim;
+        const scalar V = reference_.volume[e.cell];
+        const scalar s =
+            unfitted*G*nodes_.unfittedScale(e.cell, reference_);
+        for (label a = 0; a < e.size(); ++a)
         {
-            for (label b = 0; b < 4; ++b)
+            const scalar* B = reference_.gradient.cdata() + dim*(e.start + a);
+            scalar square = 0;
+            for (label k = 0; k < dim; ++k)
             {
-                const scalar hg =
-                    hourglass*scale_
-                   *reference_[celli].gamma[a]*reference_[celli].gamma[b];
-                const scalar xx = c11*s.b[a]*s.b[b] + G*s.c[a]*s.c[b] + hg;
-                const scalar yy = c11*s.c[a]*s.c[b] + G*s.b[a]*s.b[b] + hg;
-                const scalar xy = c12*s.b[a]*s.c[b] + G*s.c[a]*s.b[b];
-                const scalar yx = c12*s.c[a]*s.b[b] + G*s.b[a]*s.c[b];
-                const vector2D& fa = free[q[a]];
-                const vector2D& fb = free[q[b]];
-                uniform_.add(q[a], 0, q[b], 0, fa.x()*fb.x()*xx);
-                uniform_.add(q[a], 1, q[b], 1, fa.y()*fb.y()*yy);
-                uniform_.add(q[a], 0, q[b], 1, fa.x()*fb.y()*xy);
-                uniform_.add(q[a], 1, q[b], 0, fa.y()*fb.x()*yx);
+                square += sqr(B[k]);
+            }
+            for (label k = 0; k < dim; ++k)
+            {
+                uniform[dim*e.nodes[a] + k] +=
+                    V*(G*square + (lambda + G)*sqr(B[k]))
+                  + s*nodes_.unfitted(e, a, a);
+            }
+            if (r >= 0)
+            {
+                const scalar h = reference_.hoop[e.start + a];
+                uniform[dim*e.nodes[a] + r] +=
+                    V*((lambda + 2*G)*h*h + 2*lambda*h*B[r]);
             }
         }
-    }
-    // Contributions of other processes to a node's diagonal; components held
-    // by walls
-    forAll(local, i)
+    });
+    nodes_.sum(uniform);
+    walls_.eachStick([&](const label node, const scalar* t, const scalar k)
     {
-        for (label k = 0; k < 2; ++k)
-        {
-            const scalar more = diagonal_[i][k] - local[i][k];
-            uniform_.add(i, k, i, k, free[i][k] > 0 ? more : 1);
-        }
-    }
-    uniform_.factorise();
-}
-
-
-void Foam::granularMechanicsModels::equilibrium::cellDiagonal
-(
-    nodeField& diagonal
-) const
-{
-    forAll(diagonal, i)
-    {
-        diagonal[i] = vector2D(Zero);
-    }
-    forAll(shapes_, celli)
-    {
-        const quadMesh::shape& s = shapes_[celli];
-        const quadMesh::quad& q = quads_.quads()[celli];
-        const FixedList<scalar, 9>& C = C_[celli];
-        for (label a = 0; a < 4; ++a)
-        {
-            const scalar b = s.b[a], c = s.c[a];
-            const scalar hg =
-                hourglass*scale_*sqr(reference_[celli].gamma[a]);
-            diagonal[q[a]].x() += s.area*(C[0]*b*b + C[8]*c*c) + hg;
-            diagonal[q[a]].y() += s.area*(C[4]*c*c + C[8]*b*b) + hg;
-        }
-    }
+        uniform[2*node] += k*sqr(t[0]);
+        uniform[2*node + 1] += k*sqr(t[1]);
+    });
+    diagonal_ = uniform;
+    solver_.reset
+    (
+        new equilibriumSolver
+        (
+            nodes_, walls_, law_(), reference_, unfitted, uniform,
+            [this](const nodeField& d, nodeField& f) { multiply(d, f); }
+        )
+    );
 }
 
 
 void Foam::granularMechanicsModels::equilibrium::findDiagonal()
 {
-    cellDiagonal(diagonal_);
-    quads_.sum(diagonal_);
-    forAll(diagonal_, i)
+    if (law_->elastic())
     {
-        diagonal_[i] += stick_[i];
+        return;     // that of the preconditioner, which does not change
     }
+    const granularState::tangentColumns& C = law_->tangent();
+    const scalar s = unfitted*law_->shear();
+    diagonal_ = 0;
+    nodes_.each([&](const auto& e)
+    {
+        constexpr label dim = std::decay<decltype(e)>::type::dim;
+        const scalar V = shapes_.volume[e.cell];
+        for (label a = 0; a < e.size(); ++a)
+        {
+            const scalar b = shapes_.gradient[dim*(e.start + a)];
+            const scalar c = shapes_.gradient[dim*(e.start + a) + 1];
+            const scalar own = s*nodes_.unfitted(e, a, a);
+            scalar* to = diagonal_.data() + dim*e.nodes[a];
+            to[0] += V*(C[0][e.cell]*b*b + C[8][e.cell]*c*c) + own;
+            to[1] += V*(C[4][e.cell]*c*c + C[8][e.cell]*b*b) + own;
+        }
+    });
+    nodes_.sum(diagonal_);
+    walls_.eachStick([&](const label node, const scalar* t, const scalar k)
+    {
+        diagonal_[2*node] += k*sqr(t[0]);
+        diagonal_[2*node + 1] += k*sqr(t[1]);
+    });
+}
+
+
+template<class Element, class Stress>
+inline void Foam::granularMechanicsModels::equilibrium::multiply
+(
+    const Element& e,
+    const scalar resistance,
+    const Stress& stress,
+    const nodeField& d,
+    nodeField& result
+) const
+{
+    constexpr label dim = Element::dim;
+    const label n = e.size();
+    const label r = dim == 2 && shapes_.hoop.size() ? nodes_.radial() : -1;
+    const scalar* __restrict__ B = shapes_.gradient.cdata() + dim*e.start;
+    const scalar* __restrict__ hoop =
+        r < 0 ? nullptr : shapes_.hoop.cdata() + e.start;
+    const scalar* __restrict__ from = d.cdata();
+    scalar* __restrict__ to = result.data();
+
+    scalar g[dim][dim] = {}, s[dim][dim] = {}, ring = 0;
+    for (label a = 0; a < n; ++a)
+    {
+        for (label i = 0; i < dim; ++i)
+        {
+            for (label j = 0; j < dim; ++j)
+            {
+                g[i][j] += from[dim*e.nodes[a] + i]*B[dim*a + j];
+            }
+        }
+        if (r >= 0)
+        {
+            ring += from[dim*e.nodes[a] + r]*hoop[a];
+        }
+    }
+    stress(e.cell, g, ring, s);
+    const scalar V = shapes_.volume[e.cell];
+    for (label a = 0; a < n; ++a)
+    {
+        for (label i = 0; i < dim; ++i)
+        {
+            scalar f = 0;
+            for (label j = 0; j < dim; ++j)
+            {
+                f += s[i][j]*B[dim*a + j];
+            }
+            to[dim*e.nodes[a] + i] += V*f;
+        }
+        if (r >= 0)
+        {
+            to[dim*e.nodes[a] + r] += V*ring*hoop[a];
+        }
+    }
+    nodes_.addUnfitted(e, resistance, from, to);
 }
 
 
@@ -215,147 +187,133 @@ void Foam::granularMechanicsModels::equilibrium::multiply
     nodeField& result
 ) const
 {
-    result = nodeField(d.size(), vector2D(Zero));
-    scalarField stressXX(C_.size()), stressYY(C_.size());
-    forAll(shapes_, celli)
-    {
-        const quadMesh::shape& s = shapes_[celli];
-        const quadMesh::quad& q = quads_.quads()[celli];
-        const scalar* gamma = reference_[celli].gamma;
-        scalar exx = 0, eyy = 0, exy = 0;
-        vector2D pattern(Zero);
-        for (label a = 0; a < 4; ++a)
-        {
-            const vector2D& v = d[q[a]];
-            exx += s.b[a]*v.x();
-            eyy += s.c[a]*v.y();
-            exy += s.c[a]*v.x() + s.b[a]*v.y();
-            pattern += gamma[a]*v;
-        }
-        const FixedList<scalar, 9>& C = C_[celli];
-        const scalar xx = s.area*(C[0]*exx + C[1]*eyy + C[2]*exy);
-        const scalar yy = s.area*(C[3]*exx + C[4]*eyy + C[5]*exy);
-        const scalar xy = s.area*(C[6]*exx + C[7]*eyy + C[8]*exy);
-        stressXX[celli] = xx/s.area;
-        stressYY[celli] = yy/s.area;
-        pattern *= hourglass*scale_;
-        for (label a = 0; a < 4; ++a)
-        {
-            vector2D& f = result[q[a]];
-            f.x() += s.b[a]*xx + s.c[a]*xy + gamma[a]*pattern.x();
-            f.y() += s.c[a]*yy + s.b[a]*xy + gamma[a]*pattern.y();
-        }
-    }
-    if (coupled_)
-    {
-        nodeField change(d.size(), vector2D(Zero));
-        walls_.addGrip(stressXX, stressYY, change);
-        forAll(result, i)
-        {
-            result[i] -= change[i];
-        }
-    }
-    quads_.sum(result);
-    forAll(result, i)
-    {
-        for (label k = 0; k < 2; ++k)
-        {
-            result[i][k] =
-                walls_.free()[i][k]*(result[i][k] + stick_[i][k]*d[i][k]);
-        }
-    }
-}
+    result.resize(d.size());
+    result = 0;
+    const scalar s = unfitted*law_->shear();
 
-
-void Foam::granularMechanicsModels::equilibrium::precondition
-(
-    const nodeField& r,
-    nodeField& z
-) const
-{
-    const auto scaled = [this](nodeField& values)
+    if (law_->elastic())
     {
-        forAll(values, i)
+        const scalar lambda = law_->lambda(), G = law_->shear();
+        nodes_.each([&](const auto& e)
         {
-            for (label k = 0; k < 2; ++k)
+            constexpr label dim = std::decay<decltype(e)>::type::dim;
+            multiply
+            (
+                e,
+                s*nodes_.unfittedScale(e.cell, reference_),
+                [&]
+                (
+                    const label,
+                    const scalar (&g)[dim][dim],
+                    scalar& ring,
+                    scalar (&sigma)[dim][dim]
+                )
+                {
+                    scalar volume = ring;
+                    for (label i = 0; i < dim; ++i)
+                    {
+                        volume += g[i][i];
+                    }
+                    for (label i = 0; i < dim; ++i)
+                    {
+                        for (label j = 0; j < dim; ++j)
+                        {
+                            sigma[i][j] =
+                                G*(g[i][j] + g[j][i])
+                              + (i == j ? lambda*volume : 0);
+                        }
+                    }
+                    ring = lambda*volume + 2*G*ring;
+                },
+                d,
+                result
+            );
+        });
+    }
+    else
+    {
+        const granularState::tangentColumns& columns = law_->tangent();
+        const scalar* C[9];
+        for (label k = 0; k < 9; ++k)
+        {
+            C[k] = columns[k].cdata();
+        }
+        const auto strained = [&C]
+        (
+            const label celli,
+            const scalar exx,
+            const scalar eyy,
+            const scalar exy
+        )
+        {
+            FixedList<scalar, 3> sigma;
+            for (label k = 0; k < 3; ++k)
             {
-                values[i][k] *=
-                    walls_.free()[i][k]
-                   *std::sqrt
-                    (
-                        quads_.weight()[i]
-                       *uniformDiagonal_[i][k]/diagonal_[i][k]
-                    );
+                sigma[k] =
+                    C[3*k][celli]*exx + C[3*k + 1][celli]*eyy
+                  + C[3*k + 2][celli]*exy;
             }
-        }
-    };
-    z = r;
-    scaled(z);
-    uniform_.solve(z);
-    scaled(z);
-    quads_.sum(z);
-}
-
-
-void Foam::granularMechanicsModels::equilibrium::solveLinear
-(
-    const nodeField& r0,
-    nodeField& d
-)
-{
-    const nodeField none(r0.size(), vector2D(Zero));
-    nodeField r(r0), p(r0), v(none), direction(none), along(none), t(none);
-    d = none;
-    scalar rho = quads_.dot(r0, r);
-    const scalar enough = rho*sqr(linearTolerance);
-
-    for (label i = 0; i < maxLinear; ++i)
-    {
-        precondition(p, direction);
-        multiply(direction, v);
-        const scalar curvature = quads_.dot(r0, v);
-        if (mag(curvature) <= VSMALL)
+            return sigma;
+        };
+        nodes_.each([&](const auto& e)
         {
-            break;      // what remains is rounding error
-        }
-        const scalar alpha = rho/curvature;
-        forAll(r, n)
+            constexpr label dim = std::decay<decltype(e)>::type::dim;
+            multiply
+            (
+                e,
+                s,
+                [&]
+                (
+                    const label celli,
+                    const scalar (&g)[dim][dim],
+                    scalar&,
+                    scalar (&sigma)[dim][dim]
+                )
+                {
+                    const FixedList<scalar, 3> all
+                    (
+                        strained(celli, g[0][0], g[1][1], g[0][1] + g[1][0])
+                    );
+                    sigma[0][0] = all[0];
+                    sigma[1][1] = all[1];
+                    sigma[0][1] = sigma[1][0] = all[2];
+                },
+                d,
+                result
+            );
+        });
+        if (coupled_ && walls_.grips())
         {
-            r[n] -= alpha*v[n];
-            d[n] += alpha*direction[n];
+            nodeField change(d.size(), Zero);
+            walls_.addGrip
+            (
+                [&](const label celli)
+                {
+                    scalar xx = 0, yy = 0, xy = 0;
+                    for
+                    (
+                        label i = nodes_.cellStarts()[celli];
+                        i < nodes_.cellStarts()[celli + 1];
+                        ++i
+                    )
+                    {
+                        const scalar* v = d.cdata() + 2*nodes_.cellNodes()[i];
+                        const scalar b = shapes_.gradient[2*i];
+                        const scalar c = shapes_.gradient[2*i + 1];
+                        xx += b*v[0];
+                        yy += c*v[1];
+                        xy += c*v[0] + b*v[1];
+                    }
+                    return strained(celli, xx, yy, xy);
+                },
+                change
+            );
+            result -= change;
         }
-        ++counters_.linear;
-        if (quads_.dot(r, r) <= enough)
-        {
-            break;
-        }
-
-        precondition(r, along);
-        multiply(along, t);
-        const scalar tt = quads_.dot(t, t);
-        if (tt <= VSMALL)
-        {
-            break;
-        }
-        const scalar omega = quads_.dot(t, r)/tt;
-        forAll(r, n)
-        {
-            r[n] -= omega*t[n];
-            d[n] += omega*along[n];
-        }
-        ++counters_.linear;
-        const scalar next = quads_.dot(r0, r);
-        if (quads_.dot(r, r) <= enough || mag(rho*omega) <= VSMALL)
-        {
-            break;
-        }
-        const scalar beta = next/rho*alpha/omega;
-        forAll(p, n)
-        {
-            p[n] = r[n] + beta*(p[n] - omega*v[n]);
-        }
-        rho = next;
     }
+    nodes_.sum(result);
+    walls_.addStick(d, result);
+    walls_.release(result);
 }
 
 

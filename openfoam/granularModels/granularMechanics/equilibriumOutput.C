@@ -35,7 +35,7 @@ static const scalar roundOff = 1e-9;
 Foam::stringList Foam::granularMechanicsModels::equilibrium::warnings() const
 {
     DynamicList<string> all;
-    if (!everMoved_ && largest_ > roundOff*scale_)
+    if (!everMoved_ && largest_ > roundOff*law_->scale())
     {
         OStringStream text;
         text<< "The grains were never moved: at most " << largest_ << " Pa were"
@@ -52,20 +52,39 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
 {
     vectorField& D = D_.primitiveFieldRef();
     scalarField& J = areaRatio_.primitiveFieldRef();
+    const label dim = nodes_.dim(), r = nodes_.radial();
     forAll(D, celli)
     {
-        vector2D sum(Zero);
-        for (const label node : quads_.quads()[celli])
+        // Mean of the nodes, moved to the centre of the cell with the gradient
+        const label start = nodes_.cellStarts()[celli];
+        const label count = nodes_.cellStarts()[celli + 1] - start;
+        vector sum(Zero), place(Zero);
+        for (label i = start; i < start + count; ++i)
         {
-            sum += 0.25*u_[node];
+            const label node = nodes_.cellNodes()[i];
+            sum += nodes_.vectorAt(u_, node)/count;
+            place += nodes_.vectorAt(nodes_.points(), node)/count;
         }
-        D[celli] = vector(sum.x(), sum.y(), 0);
-        const FixedList<scalar, 4> F(gradient(celli));
-        J[celli] = F[0]*F[3] - F[1]*F[2];
+        const tensor F(gradient(celli));
+        tensor slope(F - tensor::I);
+        vector away(mesh_.cellCentres()[celli] - place);
+        if (dim == 2)
+        {
+            slope.zz() = 0;
+            away.z() = 0;
+        }
+        if (r >= 0)
+        {
+            // Points of a wedge lie off its middle plane
+            away[r] = 0;
+        }
+        D[celli] = sum + (slope & away);
+        J[celli] = det(F);
     }
     D_.correctBoundaryConditions();
     areaRatio_.correctBoundaryConditions();
     grains_.setAreaRatio(J);
+    law_->output();
 
     writeNodes(u_, nodeDisplacement_);
     writeNodes(traction_, wallTraction_);
@@ -80,11 +99,11 @@ Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
     scalar most = 0;
     forAll(r_, i)
     {
-        const scalar here = cmptMax(cmptMag(r_[i]))/std::sqrt(nodeArea_[i]);
+        const scalar here = mag(r_[i])/nodeSize_[i/nodes_.dim()];
         if (!(here <= most))
         {
             most = here;
-            worst = i;
+            worst = i/nodes_.dim();
         }
     }
     const bool torn = returnReduce(broken_ >= 0, orOp<bool>());
@@ -94,10 +113,13 @@ Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
     stringList texts(Pstream::nProcs());
     if (here)
     {
-        forAll(quads_.quads(), c)
+        nodes_.each([&](const auto& e)
         {
-            celli = celli < 0 && quads_.quads()[c].found(worst) ? c : celli;
-        }
+            for (label a = 0; a < e.size(); ++a)
+            {
+                celli = celli < 0 && e.nodes[a] == worst ? e.cell : celli;
+            }
+        });
         OStringStream text;
         if (torn)
         {

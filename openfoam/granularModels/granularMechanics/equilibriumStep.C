@@ -39,8 +39,20 @@ static const scalar mostOfLeast = 0.05;
 static const scalar leastOfLeast = 0.005;
 static const scalar slow = 0.5;
 
-//- Largest caution, see findStiffness()
+//- The same share, of the norm after a whole step, at which another stiffness
+//- is tried
+static const scalar verySlow = 0.8;
+
+//- Largest caution, see stressLaw::stiffen()
 static const label mostCaution = 9;
+
+//- Cautions in the order in which they are tried: the symmetric part, with which
+//- the linear equations are solved in a few iterations; the whole tangent, which
+//- grains need that lose contact; then stiffer ones
+static label cautionOf(const label rung)
+{
+    return rung == 0 ? 1 : rung == 1 ? 0 : rung;
+}
 
 } // End namespace Foam
 
@@ -54,7 +66,7 @@ Foam::granularMechanicsModels::equilibrium::at
     const scalar share
 ) const
 {
-    nodeField result(quads_.points());
+    nodeField result(nodes_.points());
     forAll(result, i)
     {
         result[i] += u_[i] + share*du[i];
@@ -63,67 +75,99 @@ Foam::granularMechanicsModels::equilibrium::at
 }
 
 
+void Foam::granularMechanicsModels::equilibrium::findGradient
+(
+    const elementMesh::shapes& shapes,
+    const nodeField& d
+)
+{
+    UPtrList<scalarField>& gradient = law_->gradient();
+    const label r = nodes_.radial();
+    nodes_.each([&](const auto& e)
+    {
+        constexpr label dim = std::decay<decltype(e)>::type::dim;
+        const scalar* B = shapes.gradient.cdata() + dim*e.start;
+        scalar g[dim][dim] = {}, ring = 0;
+        for (label a = 0; a < e.size(); ++a)
+        {
+            const scalar* v = d.cdata() + dim*e.nodes[a];
+            for (label i = 0; i < dim; ++i)
+            {
+                for (label j = 0; j < dim; ++j)
+                {
+                    g[i][j] += v[i]*B[dim*a + j];
+                }
+            }
+            ring += r < 0 ? 0 : v[r]*shapes.hoop[e.start + a];
+        }
+        scalar most = mag(ring);
+        for (label i = 0; i < dim; ++i)
+        {
+            for (label j = 0; j < dim; ++j)
+            {
+                gradient[dim*i + j][e.cell] = g[i][j];
+                most += mag(g[i][j]);
+            }
+        }
+        if (r >= 0)
+        {
+            gradient[4][e.cell] = ring;
+        }
+        // This also finds NaN
+        if (!(most < largestStrain) && broken_ < 0)
+        {
+            broken_ = e.cell;
+        }
+    });
+}
+
+
 bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
 {
-    // The strain of the displacement du is computed from gradients on the
-    // geometry half-way, at u + du/2: as a midpoint rule this is accurate to
-    // second order in du, while the geometry at u or u + du gives first order
-    broken_ = quads_.shapes(at(du, 0.5), shapes_);
+    if (law_->elastic())
+    {
+        broken_ = -1;
+        findGradient(reference_, nodeField(u_ + du));
+    }
+    else
+    {
+        // The strain of the displacement du is computed from gradients on the
+        // geometry half-way, at u + du/2: as a midpoint rule this is accurate
+        // to second order in du, while the geometry at u or u + du gives first
+        // order
+        broken_ = nodes_.findShapes(at(du, 0.5), shapes_);
+        if (broken_ < 0)
+        {
+            findGradient(shapes_, du);
+        }
+    }
     if (broken_ >= 0)
     {
         return false;
     }
-    forAll(shapes_, celli)
-    {
-        const quadMesh::shape& s = shapes_[celli];
-        const quadMesh::quad& q = quads_.quads()[celli];
-        // Gradient of the displacement: xx is du_x/dx, xy is du_x/dy
-        scalar xx = 0, yy = 0, xy = 0, yx = 0;
-        for (label a = 0; a < 4; ++a)
-        {
-            const vector2D& v = du[q[a]];
-            xx += s.b[a]*v.x();
-            yy += s.c[a]*v.y();
-            xy += s.c[a]*v.x();
-            yx += s.b[a]*v.y();
-        }
-        strain_.xx[celli] = xx;
-        strain_.yy[celli] = yy;
-        strain_.xy[celli] = xy + yx;
-        strain_.rotation[celli] = 0.5*(yx - xy);
-
-        // This also finds NaN
-        if (!(mag(xx) + mag(yy) + mag(xy) + mag(yx) < largestStrain))
-        {
-            broken_ = celli;
-            return false;
-        }
-    }
-    grains_.tryStrain(strain_, stress_, tangent_);
+    law_->find();
     return true;
 }
 
 
-void Foam::granularMechanicsModels::equilibrium::addHourglass
+void Foam::granularMechanicsModels::equilibrium::addUnfitted
 (
     const nodeField& du,
     nodeField& force
 ) const
 {
-    forAll(reference_, celli)
+    const nodeField u(u_ + du);
+    const scalar s = unfitted*law_->shear();
+    nodes_.each([&](const auto& e)
     {
-        const scalar* gamma = reference_[celli].gamma;
-        const quadMesh::quad& q = quads_.quads()[celli];
-        vector2D pattern(Zero);
-        for (label a = 0; a < 4; ++a)
-        {
-            pattern += gamma[a]*(u_[q[a]] + du[q[a]]);
-        }
-        for (label a = 0; a < 4; ++a)
-        {
-            force[q[a]] += (hourglass*scale_*gamma[a])*pattern;
-        }
-    }
+        nodes_.addUnfitted
+        (
+            e,
+            s*nodes_.unfittedScale(e.cell, reference_),
+            u.cdata(),
+            force.data()
+        );
+    });
 }
 
 
@@ -134,11 +178,18 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
 )
 {
     const nodeField now(at(du, 1));
-    stress_ = grains_.presentStress();
     broken_ = -1;
-    if ((!moved || strain(du)) && (moved || !placed_))
+    if (!moved && !law_->elastic())
     {
-        broken_ = quads_.shapes(now, shapes_);
+        law_->present();
+    }
+    else
+    {
+        strain(du);
+    }
+    if (broken_ < 0 && (moved || !placed_))
+    {
+        broken_ = nodes_.findShapes(now, shapes_);
     }
     placed_ = !moved;
     if (returnReduce(broken_ >= 0, orOp<bool>()))
@@ -147,41 +198,34 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
         return GREAT;
     }
 
-    nodeField inner(u_.size(), vector2D(Zero)), outer(inner), slip(du);
-    addStress(stress_, inner);
-    addHourglass(du, inner);
+    nodeField inner(u_.size(), Zero), outer(inner), slip(du - slide_);
+    addStress(law_->stress(), inner);
+    addUnfitted(du, inner);
     walls_.addPressure(mesh_.time().value(), now, outer);
-    forAll(inner, i)
-    {
-        inner[i] -= outer[i];
-        slip[i] -= slide_[i];
-    }
-    quads_.sum(inner);
+    inner -= outer;
+    nodes_.sum(inner);
     walls_.friction
     (
-        stress_, now, slip, traction_, friction_, newTraction_, stick_
+        law_->stress(), now, slip, traction_, friction_, newTraction_
     );
 
+    r_ = start_ - inner + friction_;
+    if (share_ < 1)
+    {
+        r_ -= (1 - share_)*outset_;
+    }
+    walls_.release(r_);
+    const label dim = nodes_.dim();
     scalar most = 0;
-    nodeField scaled(r_.size(), vector2D(Zero));
+    nodeField scaled(r_.size());
     forAll(r_, i)
     {
-        for (label k = 0; k < 2; ++k)
-        {
-            scalar& r = r_[i][k];
-            r = start_[i][k] - inner[i][k] + friction_[i][k];
-            if (share_ < 1)
-            {
-                r -= (1 - share_)*outset_[i][k];
-            }
-            r *= walls_.free()[i][k];
-            const scalar here = mag(r)/std::sqrt(nodeArea_[i]);
-            most = here < GREAT ? max(most, here) : GREAT;
-            scaled[i][k] = r/std::sqrt(nodeArea_[i]);
-        }
+        scaled[i] = r_[i]/nodeSize_[i/dim];
+        const scalar here = mag(scaled[i]);
+        most = here < GREAT ? max(most, here) : GREAT;
     }
     most = returnReduce(most, maxOp<scalar>());
-    norm_ = most < GREAT ? quads_.dot(scaled, scaled) : GREAT;
+    norm_ = most < GREAT ? nodes_.dot(scaled, scaled) : GREAT;
     return most;
 }
 
@@ -194,20 +238,17 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::search
 )
 {
     const scalar last = norm_;
-    const scalar work = quads_.dot(r_, d);
+    const scalar work = nodes_.dot(r_, d);
     scalar share = 1;
     nodeField tried(du);
     for (label cut = 0; cut < mostCuts; ++cut)
     {
-        forAll(tried, i)
-        {
-            tried[i] = du[i] + share*d[i];
-        }
+        tried = du + share*d;
         const scalar now = imbalance(tried, true);
         if
         (
             norm_ < last
-         || (now < GREAT && mag(quads_.dot(r_, d)) < enoughWork*work)
+         || (now < GREAT && mag(nodes_.dot(r_, d)) < enoughWork*work)
         )
         {
             du = tried;
@@ -220,7 +261,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::search
     left_ = imbalance(du, moved);
     if (!moved)
     {
-        findTangent();
+        law_->findTangent();
     }
     return 0;
 }
@@ -230,16 +271,10 @@ void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
 {
     nodeField d, resisted(du.size());
     multiply(du, resisted);
-    forAll(r_, i)
-    {
-        r_[i] -= resisted[i];
-    }
+    r_ -= resisted;
     findDiagonal();
-    solveLinear(r_, d);
-    forAll(du, i)
-    {
-        du[i] += d[i];
-    }
+    counters_.linear += solver_->solve(diagonal_, r_, d);
+    du += d;
     left_ = imbalance(du, true);
 }
 
@@ -250,11 +285,11 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     bool& moved
 )
 {
-    moved = quads_.dot(du, du) > 0;
-    before_ = left_ = imbalance(nodeField(du.size(), vector2D(Zero)), false);
+    moved = nodes_.dot(du, du) > 0;
+    before_ = left_ = imbalance(nodeField(du.size(), Zero), false);
     if (moved || left_ > tolerance_)
     {
-        findTangent();
+        law_->findTangent();
     }
     if (moved)
     {
@@ -263,7 +298,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
 
     nodeField d;
-    label caution = 0;
+    label rung = 0;
     scalar least = mostOfLeast;
     for
     (
@@ -272,24 +307,26 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         ++iteration
     )
     {
-        findStiffness(caution, least);
+        findStiffness(cautionOf(rung), least);
         findDiagonal();
-        solveLinear(r_, d);
+        counters_.linear += solver_->solve(diagonal_, r_, d);
         ++counters_.iterations;
         const scalar last = norm_;
         const scalar share = search(du, d, moved);
         if (share > 0)
         {
             moved = true;
-            caution = max(caution - 1, label(0));
+            rung = norm_ > verySlow*last ? rung + 1 : max(rung - 1, label(0));
             least = share < 1 ? mostOfLeast
                   : norm_ > slow*last ? max(0.5*least, leastOfLeast)
                   : least;
         }
-        else if (++caution > mostCaution)
+        else if (++rung > mostCaution)
         {
             break;
         }
+        if (std::getenv("DBG")) Info<< "  it " << iteration << " caution " << cautionOf(rung) << " least " << least << " linear " << counters_.linear << " share " << share << " norm " << std::sqrt(last) << " -> " << std::sqrt(norm_) << " left " << left_ << nl;
+
     }
     return left_ <= maxResidual_;
 }
@@ -308,26 +345,17 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     {
         before = grains_.remember();
         const nodeField slide(slide_);
-        slide_ = vector2D(Zero);
+        slide_ = 0;
         imbalance(slide_, false);
         outset_ = r_;
-        forAll(slide_, i)
-        {
-            slide_[i] = slide[i]/parts;
-        }
+        slide_ = slide/parts;
     }
     for (label part = 1; part <= parts; ++part)
     {
         share_ = scalar(part)/parts;
-        nodeField du(way);
-        forAll(du, i)
-        {
-            for (label k = 0; k < 2; ++k)
-            {
-                const scalar held = 1 - walls_.free()[i][k];
-                du[i][k] = share_*way[i][k] - held*(u_[i][k] - u[i][k]);
-            }
-        }
+        nodeField done(u_ - u);
+        walls_.restrict(done);
+        nodeField du(share_*way - done);
         bool moved;
         if (!balance(du, moved))
         {
@@ -357,12 +385,9 @@ void Foam::granularMechanicsModels::equilibrium::keep
     if (moved)
     {
         // The state after du is that of the last imbalance
-        forAll(u_, i)
-        {
-            u_[i] += du[i];
-        }
+        u_ += du;
         everMoved_ = true;
-        grains_.acceptStrain();
+        law_->accept();
         findMetric();
     }
     placed_ = true;

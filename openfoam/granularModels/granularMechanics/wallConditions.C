@@ -15,12 +15,19 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "wallConditions.H"
+#include "granularProperties.H"
 #include "emptyPolyPatch.H"
+#include "wedgePolyPatch.H"
 #include "symmetryPolyPatch.H"
 #include "symmetryPlanePolyPatch.H"
 #include "processorPolyPatch.H"
+#include "patchDistMethod.H"
+#include "regionSplit.H"
+#include "rigidMotion.H"
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+#include <cmath>
+
+// * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
@@ -30,6 +37,18 @@ static const scalar usualLayer = 13;
 
 //- Largest deviator over pressure of grains far from walls
 static const scalar usualRatio = 0.25;
+
+//- Faces around a node that meet at 45 degrees or more hold it along two
+//- directions: the square of the tangent of half of this angle
+static const scalar sharpEdge = 0.1716;
+
+//- Sine of the angle to an axis below which a face counts as aligned with it:
+//- mesh points are given with about ten digits
+static const scalar alignedSine = 1e-9;
+
+//- Share of the largest resistance to a rigid motion below which a piece of the
+//- mesh counts as free
+static const scalar floating = 1e-9;
 
 } // End namespace Foam
 
@@ -53,25 +72,27 @@ Foam::wallConditions::wallConditions
 (
     const dictionary& dict,
     const granularModel& model,
-    const quadMesh& mesh,
-    const scalar radius
+    const elementMesh& mesh,
+    const scalar radius,
+    const bool elastic
 )
 :
     mesh_(mesh),
     radius_(radius),
+    elastic_(elastic),
     walls_(mesh.mesh().boundary().size()),
-    free_(mesh.size(), vector2D(1, 1)),
-    balanced_(mesh.size(), vector2D(1, 1)),
-    slip_(mesh.size(), vector2D(1, 1))
+    balanced_(mesh.size(), 1)
 {
     checkNames(dict);
-    findSides();
     forAll(walls_, patchi)
     {
         walls_.set(patchi, new wall);
         read(dict, model, patchi);
     }
-    findFree();
+    findNormals();
+    findHeld();
+    findRubbing();
+    findFloating();
 }
 
 
@@ -96,6 +117,26 @@ void Foam::wallConditions::checkNames(const dictionary& dict) const
                 << exit(FatalIOError);
         }
     }
+    wordList missing;
+    for (const polyPatch& patch : mesh_.mesh().boundaryMesh())
+    {
+        const bool ruled =
+            isA<emptyPolyPatch>(patch) || isA<wedgePolyPatch>(patch)
+         || isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch)
+         || patch.coupled() || dict.found(patch.name(), keyType::REGEX);
+        if (elastic_ && !ruled)
+        {
+            missing.append(patch.name());
+        }
+    }
+    if (missing.size())
+    {
+        FatalIOErrorInFunction(dict)
+            << "No rule in 'walls' of equilibriumCoeffs for the patches "
+            << granularProperties::listed(missing).c_str() << ", allowed"
+            << " types: rigid, frictionless, symmetry, displacement, pressure"
+            << exit(FatalIOError);
+    }
 }
 
 
@@ -113,9 +154,6 @@ void Foam::wallConditions::read
     {
         return;
     }
-    const bool empty = isA<emptyPolyPatch>(patch);
-    const bool symmetric =
-        isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch);
     if (patch.coupled())
     {
         FatalErrorInFunction
@@ -123,11 +161,18 @@ void Foam::wallConditions::read
             << ", which mechanics equilibrium does not support"
             << exit(FatalError);
     }
-    if (empty || symmetric)
+    if (isA<wedgePolyPatch>(patch))
     {
-        // Sides of one-dimensional meshes, which are empty in y
+        return;
+    }
+    if
+    (
+        isA<emptyPolyPatch>(patch)
+     || isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch)
+    )
+    {
+        // Patches that are empty: the sides of meshes of one dimension
         w.type = kind::symmetry;
-        findAxis(patchi, walls);
         return;
     }
 
@@ -141,12 +186,12 @@ void Foam::wallConditions::read
         }
     );
     w.type = kindNames.getOrDefault("type", dict, kind::rigid);
-    findAxis(patchi, dict);
 
     if (w.type == kind::rigid)
     {
-        scalar limit = 0, slip = 0;
-        const bool known = model.wallFriction(limit, slip);
+        scalar limit = 0, slip = radius_;
+        const bool known =
+            elastic_ ? !dict.found("friction") : model.wallFriction(limit, slip);
         if (!known && !(dict.found("friction") && dict.found("slip")))
         {
             FatalIOErrorInFunction(walls)
@@ -172,6 +217,13 @@ void Foam::wallConditions::read
             0.1,
             3
         );
+        if (w.friction > 0 && mesh_.dim() == 3)
+        {
+            FatalIOErrorInFunction(walls)
+                << "Patch " << patch.name() << " has friction " << w.friction
+                << ", allowed in meshes of three dimensions: 0"
+                << exit(FatalIOError);
+        }
     }
     if (w.type == kind::pressure)
     {
@@ -184,134 +236,284 @@ void Foam::wallConditions::read
 }
 
 
-void Foam::wallConditions::findSides()
+void Foam::wallConditions::findNormals()
 {
-    // Patches that are not between processes come first, in the same order on
-    // all processes
-    sides_ = List<vector>(mesh_.mesh().boundaryMesh().nNonProcessor(), Zero);
-    const List<vector2D>& points = mesh_.points();
-
-    forAll(sides_, patchi)
+    const label dim = mesh_.dim();
+    scalarField weights;
+    normals_.resize(walls_.size());
+    forAll(walls_, patchi)
     {
-        vector& sum = sides_[patchi];
-        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        scalarField& normals = normals_[patchi];
+        normals.resize(dim*faces.size());
+        for (label i = 0; i < faces.size(); ++i)
         {
-            const vector2D t(points[e.second] - points[e.first]);
-            const vector2D m(0.5*(points[e.second] + points[e.first]));
-            const point& C = mesh_.mesh().cellCentres()[e.cell];
-            const label axis = mag(t.x()) > mag(t.y());
-            const scalar out = (axis ? m.y() - C.y() : m.x() - C.x());
-            sum[axis] += out > 0 ? 1 : -1;
-            sum.z() += 1;
-            if (min(mag(t.x()), mag(t.y())) > 1e-6*mag(t))
+            const label start = faces.start[i];
+            const label count = faces.start[i + 1] - start;
+            weights.resize(max(weights.size(), 3*count));
+            mesh_.faceWeights
+            (
+                mesh_.points(), faces.nodes.cdata() + start, count,
+                weights.data()
+            );
+            scalar square = 0;
+            for (label k = 0; k < dim; ++k)
             {
-                sum.z() = GREAT;
+                scalar& n = normals[dim*i + k];
+                n = 0;
+                for (label a = 0; a < count; ++a)
+                {
+                    n += weights[dim*a + k];
+                }
+                square += sqr(n);
+            }
+            for (label k = 0; k < dim; ++k)
+            {
+                scalar& n = normals[dim*i + k];
+                n /= max(std::sqrt(square), VSMALL);
+                n = mag(n) < alignedSine ? 0 : n;
             }
         }
     }
-    Pstream::listCombineGather(sides_, plusEqOp<vector>());
-    Pstream::listCombineScatter(sides_);
 }
 
 
-void Foam::wallConditions::findAxis(const label patchi, const dictionary& dict)
+void Foam::wallConditions::findHeld()
 {
-    const polyPatch& patch = mesh_.mesh().boundaryMesh()[patchi];
-    const vector& sum = sides_[patchi];
-    wall& w = walls_[patchi];
-
-    w.axis = mag(sum.y()) > mag(sum.x());
-    w.outwards = sum[w.axis] < 0 ? -1 : 1;
-
-    // Empty patches of one-dimensional meshes have two sides
-    if (!isA<emptyPolyPatch>(patch) && mag(sum[w.axis]) < sum.z() - 0.5)
-    {
-        FatalIOErrorInFunction(dict)
-            << "Patch " << patch.name() << " is not plane and along x or y,"
-            << " as mechanics equilibrium needs" << exit(FatalIOError);
-    }
-    if (isA<emptyPolyPatch>(patch))
-    {
-        w.axis = 1;
-    }
-}
-
-
-void Foam::wallConditions::findFree()
-{
-    // Add the marks of all processes: a process may have a node of a wall
-    // without having an edge of that wall
-    List<vector2D> held(mesh_.size(), vector2D(Zero));
-    List<vector2D> pressed(held), slip(held), count(held);
+    // Sum of the dyads n n of the walls of all processes: a process may have a
+    // node of a wall without having a face of that wall
+    const label dim = mesh_.dim(), size = mesh_.size();
+    scalarField diagonal(3*size, Zero), other(3*size, Zero);
+    scalarField pressed(size, Zero);
 
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
-        if (w.type == kind::none)
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        for (label i = 0; i < faces.size(); ++i)
         {
-            continue;
-        }
-        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
-        {
-            for (const label node : {e.first, e.second})
+            const scalar* n = normals_[patchi].cdata() + dim*i;
+            for (label j = faces.start[i]; j < faces.start[i + 1]; ++j)
             {
+                const label node = faces.nodes[j];
                 if (w.type == kind::pressure)
                 {
-                    pressed[node] = vector2D(1, 1);
-                    continue;
+                    pressed[node] = 1;
                 }
-                held[node][w.axis] = 1;
-                if (w.type == kind::displacement)
+                else if (w.fixes())
                 {
-                    held[node] = vector2D(1, 1);
+                    for (label k = 0; k < dim; ++k)
+                    {
+                        diagonal[3*node + k] += 1;
+                    }
                 }
-                if (w.friction > 0)
+                else if (w.holds())
                 {
-                    slip[node][1 - w.axis] += w.slip;
-                    count[node][1 - w.axis] += 1;
+                    for (label k = 0; k < dim; ++k)
+                    {
+                        const label next = (k + 1) % dim;
+                        diagonal[3*node + k] += sqr(n[k]);
+                        if (k < next || dim == 3)
+                        {
+                            other[3*node + k] += n[k]*n[next];
+                        }
+                    }
                 }
             }
         }
     }
-    for (List<vector2D>* field : {&held, &pressed, &slip, &count})
+    mesh_.sum(diagonal, 3);
+    mesh_.sum(other, 3);
+    mesh_.sum(pressed, 1);
+
+    // The axis of a body of revolution stays where it is
+    const label r = mesh_.radial();
+    if (r >= 0)
     {
-        mesh_.sum(*field);
-    }
-    forAll(free_, i)
-    {
-        for (label k = 0; k < 2; ++k)
+        const scalar tiny = 1e-9*max(mesh_.points());
+        for (label node = 0; node < size; ++node)
         {
-            free_[i][k] = held[i][k] > 0 ? 0 : 1;
-            balanced_[i][k] = pressed[i][k] > 0 ? 0 : 1;
-            slip_[i][k] = count[i][k] > 0 ? slip[i][k]/count[i][k] : 1;
+            diagonal[3*node + r] += mesh_.points()[2*node + r] < tiny;
         }
+    }
+
+    DynamicList<label> held, directions;
+    DynamicList<scalar> basis, squares;
+    for (label node = 0; node < size; ++node)
+    {
+        balanced_[node] = pressed[node] > 0 ? 0 : 1;
+        const scalar* d = diagonal.cdata() + 3*node;
+        const scalar* o = other.cdata() + 3*node;
+        if (!(d[0] + d[1] + d[2] > 0))
+        {
+            continue;
+        }
+        scalarField M(dim*dim), values(dim);
+        for (label k = 0; k < dim; ++k)
+        {
+            M[dim*k + k] = d[k];
+        }
+        M[1] = M[dim] = o[0];
+        if (dim == 3)
+        {
+            M[5] = M[7] = o[1];
+            M[2] = M[6] = o[2];
+        }
+        symmetricEigen(M, values);      // rows of M: vectors; values ascend
+        label count = 0;
+        for (label k = dim - 1; k >= 0; --k)
+        {
+            count += values[k] > sharpEdge*values[dim - 1];
+            for (label j = 0; j < dim; ++j)
+            {
+                basis.append(M[dim*k + j]);
+            }
+            squares.append(values[k]);
+        }
+        held.append(node);
+        directions.append(count);
+    }
+    held_ = held;
+    directions_ = directions;
+    basis_ = scalarField(basis);
+    squares_ = scalarField(squares);
+}
+
+
+void Foam::wallConditions::findRubbing()
+{
+    const label size = mesh_.size();
+    scalarField slip(size, Zero), count(size, Zero);
+    rubs_ = labelList(size, -1);
+
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        if (w.friction > 0)
+        {
+            for (const label node : faces.nodes)
+            {
+                slip[node] += w.slip;
+                count[node] += 1;
+            }
+        }
+    }
+    mesh_.sum(slip, 1);
+    mesh_.sum(count, 1);
+
+    DynamicList<label> rubbing;
+    DynamicList<scalar> along, half, number;
+    forAll(held_, i)
+    {
+        const label node = held_[i];
+        if (count[node] > 0 && mesh_.dim() == 2 && directions_[i] == 1)
+        {
+            rubs_[node] = rubbing.size();
+            rubbing.append(node);
+            along.append(basis_[4*i + 2]);
+            along.append(basis_[4*i + 3]);
+            half.append(slip[node]/count[node]);
+            number.append(count[node]);
+        }
+    }
+    rubbing_ = rubbing;
+    along_ = scalarField(along);
+    slip_ = scalarField(half);
+    faces_ = scalarField(number);
+    limit_.resize(rubbing_.size(), Zero);
+    length_ = limit_;
+    stiffness_ = limit_;
+    grip_ = limit_;
+}
+
+
+void Foam::wallConditions::findFloating() const
+{
+    const regionSplit regions(mesh_.mesh());
+    const label pieces = regions.nRegions();
+    rigidMotion motion(mesh_, regions, pieces);
+
+    forAll(held_, i)
+    {
+        for (label k = 0; k < directions_[i]; ++k)
+        {
+            motion.hold(held_[i], basis_.cdata() + mesh_.dim()*mesh_.dim()*i + mesh_.dim()*k);
+        }
+    }
+    forAll(rubbing_, i)
+    {
+        motion.hold(rubbing_[i], along_.cdata() + 2*i);
+    }
+    const string what(motion.free(floating));
+    if (!what.empty())
+    {
+        FatalErrorInFunction
+            << what.c_str() << ". Allowed: pieces that walls of type rigid,"
+            << " frictionless, symmetry or displacement hold; see 'walls' of"
+            << " equilibriumCoeffs" << exit(FatalError);
     }
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+void Foam::wallConditions::release(scalarField& values) const
+{
+    const label dim = mesh_.dim();
+    forAll(held_, i)
+    {
+        scalar* v = values.data() + dim*held_[i];
+        for (label k = 0; k < directions_[i]; ++k)
+        {
+            const scalar* e = basis_.cdata() + dim*dim*i + dim*k;
+            scalar along = 0;
+            for (label j = 0; j < dim; ++j)
+            {
+                along += e[j]*v[j];
+            }
+            for (label j = 0; j < dim; ++j)
+            {
+                v[j] = directions_[i] == dim ? 0 : v[j] - along*e[j];
+            }
+        }
+    }
+}
+
+
+void Foam::wallConditions::restrict(scalarField& values) const
+{
+    scalarField free(values);
+    release(free);
+    values -= free;
+}
+
+
 Foam::scalarField Foam::wallConditions::strength() const
 {
-    const vectorField& C = mesh_.mesh().cellCentres();
-    scalarField result(C.size(), 1);
+    const fvMesh& mesh = mesh_.mesh();
+    scalarField result(mesh.nCells(), 1);
+    dictionary method;
+    method.add("method", "meshWave");
 
-    forAll(sides_, patchi)
+    forAll(walls_, patchi)
     {
+        // All processes take part, whether or not they have faces of the patch
         const wall& w = walls_[patchi];
-        if (w.friction <= 0)
+        if (w.friction <= 0 || w.layer <= 0)
         {
             continue;
         }
-        scalar place = -GREAT;
-        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
-        {
-            place = max(place, w.outwards*mesh_.points()[e.first][w.axis]);
-        }
-        reduce(place, maxOp<scalar>());
+        volScalarField y
+        (
+            IOobject("y", mesh.time().timeName(), mesh),
+            mesh,
+            dimensionedScalar(dimLength, Zero)
+        );
+        patchDistMethod::New(method, mesh, labelHashSet({patchi}))->correct(y);
         forAll(result, celli)
         {
-            if (place - w.outwards*C[celli][w.axis] < w.layer)
+            if (y[celli] < w.layer)
             {
                 result[celli] = max(result[celli], w.layerStrength);
             }

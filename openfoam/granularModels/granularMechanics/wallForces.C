@@ -16,91 +16,139 @@ License
 
 #include "wallConditions.H"
 
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+#include <cmath>
 
-Foam::List<Foam::vector2D>
-Foam::wallConditions::positions(const scalar time) const
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalarField Foam::wallConditions::positions(const scalar time) const
 {
-    List<vector2D> sum(mesh_.size(), vector2D(Zero)), count(sum);
+    const label dim = mesh_.dim();
+    scalarField sum(dim*mesh_.size(), Zero), result(sum);
 
+    bool moving = false;
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
-        if (w.type == kind::none || w.type == kind::pressure)
+        if (!w.holds() || !w.displacement.valid())
         {
             continue;
         }
-        const vector p
-        (
-            w.displacement.valid() ? w.displacement().value(time) : vector(Zero)
-        );
-        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        moving = true;
+        const vector p(w.displacement().value(time));
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        for (label i = 0; i < faces.size(); ++i)
         {
-            for (const label node : {e.first, e.second})
+            const scalar* n = normals_[patchi].cdata() + dim*i;
+            scalar along = 0;
+            for (label k = 0; k < dim; ++k)
             {
-                for (label k = 0; k < 2; ++k)
+                along += n[k]*p[k];
+            }
+            for (label j = faces.start[i]; j < faces.start[i + 1]; ++j)
+            {
+                for (label k = 0; k < dim; ++k)
                 {
-                    // At a corner, a component that one wall holds follows that
-                    // wall; a wall that only rubs along it has no weight
-                    const bool holds =
-                        k == w.axis || w.type == kind::displacement;
-                    const scalar weight = holds ? 1 : 1e-9;
-                    sum[node][k] += weight*p[k];
-                    count[node][k] += weight;
+                    sum[dim*faces.nodes[j] + k] += w.fixes() ? p[k] : along*n[k];
                 }
             }
         }
     }
-    mesh_.sum(sum);
-    mesh_.sum(count);
-    forAll(sum, i)
+    if (!moving)
     {
-        for (label k = 0; k < 2; ++k)
-        {
-            sum[i][k] /= max(count[i][k], VSMALL);
-        }
+        return result;
     }
-    return sum;
-}
-
-
-Foam::List<Foam::vector2D> Foam::wallConditions::way
-(
-    const scalar time,
-    const List<vector2D>& u
-) const
-{
-    List<vector2D> result(positions(time));
-    forAll(result, i)
+    mesh_.sum(sum);
+    forAll(held_, i)
     {
-        for (label k = 0; k < 2; ++k)
+        const label node = held_[i];
+        for (label k = 0; k < directions_[i]; ++k)
         {
-            result[i][k] = (1 - free_[i][k])*(result[i][k] - u[i][k]);
+            const scalar* e = basis_.cdata() + dim*dim*i + dim*k;
+            scalar along = 0;
+            for (label j = 0; j < dim; ++j)
+            {
+                along += e[j]*sum[dim*node + j];
+            }
+            for (label j = 0; j < dim; ++j)
+            {
+                result[dim*node + j] += along/squares_[dim*i + k]*e[j];
+            }
         }
     }
     return result;
 }
 
 
-Foam::List<Foam::vector2D> Foam::wallConditions::slide
+void Foam::wallConditions::sumRubbing(scalarField& values) const
+{
+    if (!Pstream::parRun())
+    {
+        return;
+    }
+    scalarField all(mesh_.size(), Zero);
+    forAll(rubbing_, i)
+    {
+        all[rubbing_[i]] = values[i];
+    }
+    mesh_.sum(all, 1);
+    forAll(rubbing_, i)
+    {
+        values[i] = all[rubbing_[i]];
+    }
+}
+
+
+Foam::scalarField Foam::wallConditions::way
+(
+    const scalar time,
+    const scalarField& u
+) const
+{
+    scalarField result(positions(time) - u);
+    restrict(result);
+    return result;
+}
+
+
+Foam::scalarField Foam::wallConditions::slide
 (
     const scalar before,
     const scalar time
 ) const
 {
-    List<vector2D> result(mesh_.size(), vector2D(Zero));
+    scalarField result(mesh_.dim()*mesh_.size(), Zero);
+    scalarField motion(rubbing_.size(), Zero);
     bool moving = false;
     forAll(walls_, patchi)
     {
-        moving = moving || walls_[patchi].displacement.valid();
+        const wall& w = walls_[patchi];
+        if (w.friction > 0 && w.displacement.valid())
+        {
+            moving = true;
+            const vector d
+            (
+                w.displacement().value(time) - w.displacement().value(before)
+            );
+            for (const label node : mesh_.wall(patchi).nodes)
+            {
+                const label i = rubs_[node];
+                if (i >= 0)
+                {
+                    motion[i] += along_[2*i]*d.x() + along_[2*i + 1]*d.y();
+                }
+            }
+        }
     }
     if (moving)
     {
-        result = positions(time);
-        const List<vector2D> start(positions(before));
-        forAll(result, i)
+        sumRubbing(motion);
+        forAll(rubbing_, i)
         {
-            result[i] -= start[i];
+            for (label k = 0; k < 2; ++k)
+            {
+                result[2*rubbing_[i] + k] =
+                    motion[i]/faces_[i]*along_[2*i + k];
+            }
         }
     }
     return result;
@@ -110,10 +158,12 @@ Foam::List<Foam::vector2D> Foam::wallConditions::slide
 void Foam::wallConditions::addPressure
 (
     const scalar time,
-    const List<vector2D>& at,
-    List<vector2D>& force
+    const scalarField& at,
+    scalarField& force
 ) const
 {
+    const label dim = mesh_.dim();
+    scalarField weights;
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
@@ -121,15 +171,23 @@ void Foam::wallConditions::addPressure
         {
             continue;
         }
+        // The pressure acts on the grains, against the outward normal
         const scalar p = w.pressure().value(time);
-        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        for (label i = 0; i < faces.size(); ++i)
         {
-            const vector2D t(at[e.second] - at[e.first]);
-            // The pressure acts on the grains, against the outward normal
-            vector2D n(t.y(), -t.x());
-            n *= n[w.axis]*w.outwards < 0 ? -1 : 1;
-            force[e.first] -= 0.5*p*n;
-            force[e.second] -= 0.5*p*n;
+            const label start = faces.start[i];
+            const label count = faces.start[i + 1] - start;
+            const label* nodes = faces.nodes.cdata() + start;
+            weights.resize(max(weights.size(), 3*count));
+            mesh_.faceWeights(at, nodes, count, weights.data());
+            for (label a = 0; a < count; ++a)
+            {
+                for (label k = 0; k < dim; ++k)
+                {
+                    force[dim*nodes[a] + k] -= p*weights[dim*a + k];
+                }
+            }
         }
     }
 }
@@ -137,13 +195,14 @@ void Foam::wallConditions::addPressure
 
 void Foam::wallConditions::findLimits
 (
-    const granularState::stressColumns& stress,
-    const List<vector2D>& at
+    const List<scalarField>& stress,
+    const scalarField& at
 )
 {
-    limit_ = List<vector2D>(mesh_.size(), vector2D(Zero));
-    length_ = limit_;
+    limit_ = 0;
+    length_ = 0;
     contacts_.clear();
+    bool any = false;
 
     forAll(walls_, patchi)
     {
@@ -152,25 +211,42 @@ void Foam::wallConditions::findLimits
         {
             continue;
         }
-        const label t = 1 - w.axis;
-        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        any = true;
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        scalar weights[4];
+        for (label i = 0; i < faces.size(); ++i)
         {
+            const scalar nx = normals_[patchi][2*i];
+            const scalar ny = normals_[patchi][2*i + 1];
+            const label celli = faces.cells[i];
             const scalar normal =
-                w.axis == 0 ? -stress.xx[e.cell] : -stress.yy[e.cell];
-            const scalar half = 0.5*mag(at[e.second][t] - at[e.first][t]);
-            for (const label node : {e.first, e.second})
+              - nx*nx*stress[0][celli] - ny*ny*stress[1][celli]
+              - 2*nx*ny*stress[2][celli];
+            const label* nodes = faces.nodes.cdata() + faces.start[i];
+            mesh_.faceWeights(at, nodes, 2, weights);
+            for (label a = 0; a < 2; ++a)
             {
-                length_[node][t] += half;
+                const label index = rubs_[nodes[a]];
+                if (index < 0)
+                {
+                    continue;
+                }
+                const scalar part =
+                    mag(nx*weights[2*a] + ny*weights[2*a + 1]);
+                length_[index] += part;
                 if (normal > 0)
                 {
-                    limit_[node][t] += w.friction*normal*half;
-                    contacts_.append({node, e.cell, w.axis, w.friction*half});
+                    limit_[index] += w.friction*normal*part;
+                    contacts_.append({index, celli, nx, ny, w.friction*part});
                 }
             }
         }
     }
-    mesh_.sum(limit_);
-    mesh_.sum(length_);
+    if (any)
+    {
+        sumRubbing(limit_);
+        sumRubbing(length_);
+    }
 }
 
 
@@ -206,81 +282,89 @@ Foam::scalar Foam::wallConditions::mobilised
 }
 
 
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
 void Foam::wallConditions::friction
 (
-    const granularState::stressColumns& stress,
-    const List<vector2D>& at,
-    const List<vector2D>& slip,
-    const List<vector2D>& oldTraction,
-    List<vector2D>& force,
-    List<vector2D>& traction,
-    List<vector2D>& stiffness
+    const List<scalarField>& stress,
+    const scalarField& at,
+    const scalarField& slip,
+    const scalarField& oldTraction,
+    scalarField& force,
+    scalarField& traction
 )
 {
     findLimits(stress, at);
-    force = List<vector2D>(mesh_.size(), vector2D(Zero));
-    traction = force;
-    stiffness = force;
-    grip_ = force;
+    force = 0;
+    traction = 0;
+    stiffness_ = 0;
+    grip_ = 0;
 
-    forAll(force, i)
+    forAll(rubbing_, i)
     {
-        for (label t = 0; t < 2; ++t)
+        const scalar most = limit_[i];
+        if (most <= VSMALL)
         {
-            const scalar most = limit_[i][t];
-            if (free_[i][t] == 0 || most <= VSMALL)
-            {
-                continue;
-            }
-            scalar slope, memory;
-            const scalar before = -oldTraction[i][t]*length_[i][t]/most;
-            const scalar m =
-                mobilised(before, slip[i][t], slip_[i][t], slope, memory);
-            force[i][t] = -m*most;
-            traction[i][t] = -m*most/length_[i][t];
-            stiffness[i][t] = slope*most/slip_[i][t];
-            grip_[i][t] = (mag(before) < 0.999 ? memory*before : 0) - m;
+            continue;
         }
+        const label node = rubbing_[i];
+        const scalar tx = along_[2*i], ty = along_[2*i + 1];
+        const auto along = [&](const scalarField& v)
+        {
+            return tx*v[2*node] + ty*v[2*node + 1];
+        };
+        scalar slope, memory;
+        const scalar before = -along(oldTraction)*length_[i]/most;
+        const scalar m = mobilised(before, along(slip), slip_[i], slope, memory);
+        force[2*node] = -m*most*tx;
+        force[2*node + 1] = -m*most*ty;
+        traction[2*node] = force[2*node]/length_[i];
+        traction[2*node + 1] = force[2*node + 1]/length_[i];
+        stiffness_[i] = slope*most/slip_[i];
+        grip_[i] = (mag(before) < 0.999 ? memory*before : 0) - m;
     }
 }
 
 
-void Foam::wallConditions::addGrip
-(
-    const scalarField& xx,
-    const scalarField& yy,
-    List<vector2D>& force
-) const
+void Foam::wallConditions::setStiffness(const scalar pressure)
 {
-    for (const contact& c : contacts_)
-    {
-        const scalar normal = c.axis == 0 ? -xx[c.cell] : -yy[c.cell];
-        force[c.node][1 - c.axis] +=
-            grip_[c.node][1 - c.axis]*c.share*normal;
-    }
-}
-
-
-Foam::List<Foam::vector2D>
-Foam::wallConditions::stiffness(const scalar pressure) const
-{
-    List<vector2D> result(mesh_.size(), vector2D(Zero));
+    stiffness_ = 0;
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
-        const label t = 1 - w.axis;
-        for (const quadMesh::edgeOfWall& e : mesh_.wall(patchi))
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        scalar weights[4];
+        for (label i = 0; i < faces.size() && w.friction > 0; ++i)
         {
-            const scalar half =
-                0.5*mag(mesh_.points()[e.second] - mesh_.points()[e.first]);
-            for (const label node : {e.first, e.second})
+            const label* nodes = faces.nodes.cdata() + faces.start[i];
+            mesh_.faceWeights(mesh_.points(), nodes, 2, weights);
+            for (label a = 0; a < 2; ++a)
             {
-                result[node][t] +=
-                    free_[node][t]*w.friction*pressure*half/w.slip;
+                if (rubs_[nodes[a]] >= 0)
+                {
+                    stiffness_[rubs_[nodes[a]]] +=
+                        w.friction*pressure/w.slip
+                       *std::hypot(weights[2*a], weights[2*a + 1]);
+                }
             }
         }
     }
-    return result;
+    sumRubbing(stiffness_);
+}
+
+
+void Foam::wallConditions::addStick
+(
+    const scalarField& d,
+    scalarField& force
+) const
+{
+    eachStick([&](const label node, const scalar* t, const scalar k)
+    {
+        const scalar along = k*(t[0]*d[2*node] + t[1]*d[2*node + 1]);
+        force[2*node] += along*t[0];
+        force[2*node + 1] += along*t[1];
+    });
 }
 
 

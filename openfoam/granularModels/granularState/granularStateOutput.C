@@ -85,6 +85,10 @@ void Foam::granularState::refresh()
         sigma[celli].xx() = -stressXX_[celli];
         sigma[celli].yy() = -stressYY_[celli];
         sigma[celli].xy() = 0 - stressXY_[celli];    // not -0
+        if (otherStress_.size())
+        {
+            sigma[celli] = otherStress_[celli];
+        }
         p[celli] = -0.5*(sigma[celli].xx() + sigma[celli].yy());
     }
     forAll(K_.xy, celli)

@@ -1,0 +1,862 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "equilibriumSolver.H"
+#include "granularProperties.H"
+#include "syncTools.H"
+#include "globalIndex.H"
+#include "OStringStream.H"
+
+#include <cfenv>
+#include <cmath>
+#include <cstdlib>
+#include <dlfcn.h>
+
+#include <petscksp.h>
+
+// * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Floating point exceptions are no errors inside PETSc and LAPACK
+class quietArithmetic
+{
+    fenv_t before_;
+public:
+    quietArithmetic() { feholdexcept(&before_); }
+    ~quietArithmetic() { fesetenv(&before_); }
+};
+
+
+//- FatalError if a call of PETSc failed
+static void check(const PetscErrorCode code)
+{
+    if (code)
+    {
+        const char* text = nullptr;
+        PetscErrorMessage(code, &text, nullptr);
+        FatalErrorInFunction
+            << "PETSc: error " << label(code) << ", "
+            << (text ? text : "unknown") << ". The lines above tell more"
+            << exit(FatalError);
+    }
+}
+
+
+//- Start PETSc, once in a process
+static void startPetsc()
+{
+    PetscBool started = PETSC_FALSE;
+    check(PetscInitialized(&started));
+    if (started)
+    {
+        return;
+    }
+    if (!Pstream::parRun())
+    {
+        // A process by itself needs no daemon and no network: without these,
+        // Open MPI takes 0.3 s to start
+        setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+        setenv("OMPI_MCA_pml", "ob1", 0);
+        setenv("OMPI_MCA_btl", "self", 0);
+    }
+    // The blocks of linear algebra here are too small for threads, which would
+    // only wait for each other
+    using setter = void(*)(int);
+    if
+    (
+        const auto threads = reinterpret_cast<setter>
+        (
+            dlsym(RTLD_DEFAULT, "openblas_set_num_threads")
+        )
+    )
+    {
+        threads(1);
+    }
+    // The signals belong to OpenFOAM
+    check(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
+    check(PetscInitializeNoArguments());
+}
+
+
+struct equilibriumSolver::objects
+{
+    KSP solver = nullptr;
+    Mat shell = nullptr;
+    Vec r = nullptr, d = nullptr;
+
+    //- One for all components, or one for each; their vectors
+    List<Mat> matrices;
+    List<PC> preconditioners;
+    List<Vec> from, to;
+};
+
+
+//- Callbacks of PETSc
+static PetscErrorCode shellMultiply(Mat A, Vec x, Vec y)
+{
+    equilibriumSolver* self;
+    MatShellGetContext(A, &self);
+    const double* from;
+    double* to;
+    VecGetArrayRead(x, &from);
+    VecGetArray(y, &to);
+    self->multiply(from, to);
+    VecRestoreArrayRead(x, &from);
+    VecRestoreArray(y, &to);
+    return 0;
+}
+
+
+static PetscErrorCode shellPrecondition(PC pc, Vec x, Vec y)
+{
+    equilibriumSolver* self;
+    PCShellGetContext(pc, &self);
+    const double* from;
+    double* to;
+    VecGetArrayRead(x, &from);
+    VecGetArray(y, &to);
+    self->precondition(from, to);
+    VecRestoreArrayRead(x, &from);
+    VecRestoreArray(y, &to);
+    return 0;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::equilibriumSolver::equilibriumSolver
+(
+    const elementMesh& mesh,
+    const wallConditions& walls,
+    const stressLaw& law,
+    const elementMesh::shapes& reference,
+    const scalar unfitted,
+    const scalarField& uniformDiagonal,
+    const product& multiply
+)
+:
+    mesh_(mesh),
+    walls_(walls),
+    multiply_(multiply),
+    scaling_(uniformDiagonal.size(), 1),
+    uniformDiagonal_(uniformDiagonal),
+    in_(uniformDiagonal.size(), Zero),
+    out_(uniformDiagonal.size(), Zero),
+    petsc_(new objects)
+{
+    const dictionary& solvers =
+        mesh.mesh().solutionDict().subOrEmptyDict("solvers");
+    const dictionary controls
+    (
+        solvers.found("equilibrium", keyType::LITERAL)
+      ? solvers.subDict("equilibrium")
+      : dictionary()
+    );
+    granularProperties::checkKeys
+    (
+        controls, {"solver", "preconditioner", "relTol", "maxIter", "petsc"}
+    );
+    const auto chosen = [&]
+    (
+        const word& key,
+        const word& usual,
+        const wordList& allowed
+    )
+    {
+        const word value(controls.getOrDefault<word>(key, usual));
+        if (!allowed.found(value))
+        {
+            FatalIOErrorInFunction(controls)
+                << "Entry '" << key << "' of solvers.equilibrium is " << value
+                << ", allowed: " << granularProperties::listed(allowed).c_str()
+                << exit(FatalIOError);
+        }
+        return value;
+    };
+    const word solver
+    (
+        chosen
+        (
+            "solver",
+            law.elastic() ? "PCG" : "GMRES",
+            {"PCG", "PBiCGStab", "GMRES"}
+        )
+    );
+    const word preconditioner
+    (
+        chosen
+        (
+            "preconditioner",
+            mesh.dim() == 3 ? "componentAMG" : "AMG",
+            {"AMG", "componentAMG", "Cholesky"}
+        )
+    );
+    relTol_ = granularProperties::ranged
+    (
+        controls, "relTol", law.elastic() ? 1e-6 : 0.1, 1e-14, 0.9
+    );
+    maxIter_ = label
+    (
+        granularProperties::ranged(controls, "maxIter", law.elastic() ? 1000 : 30, 1, 100000)
+    );
+
+    const quietArithmetic quiet;
+    startPetsc();
+    for (const entry& option : controls.subOrEmptyDict("petsc"))
+    {
+        OStringStream text;
+        for (const token& part : option.stream())
+        {
+            text<< part;
+        }
+        const string value(text.str());
+        check
+        (
+            PetscOptionsSetValue
+            (
+                nullptr,
+                ("-" + word(option.keyword())).c_str(),
+                value.c_str()
+            )
+        );
+    }
+    findNumbers();
+
+    const bool all = preconditioner != "componentAMG";
+    const label parts = all ? 1 : mesh.dim();
+    objects& p = *petsc_;
+    p.matrices.resize(parts, nullptr);
+    p.preconditioners.resize(parts, nullptr);
+    p.from.resize(parts, nullptr);
+    p.to.resize(parts, nullptr);
+    for (label part = 0; part < parts; ++part)
+    {
+        assemble(law, reference, unfitted, all ? -1 : part);
+    }
+    makePreconditioner(preconditioner);
+
+    const label rows = mesh.dim()*label(mesh.owned().count());
+    check(VecCreate(PETSC_COMM_WORLD, &p.r));
+    check(VecSetSizes(p.r, rows, PETSC_DECIDE));
+    check(VecSetFromOptions(p.r));
+    check(VecDuplicate(p.r, &p.d));
+    check
+    (
+        MatCreateShell
+        (
+            PETSC_COMM_WORLD, rows, rows, PETSC_DECIDE, PETSC_DECIDE, this,
+            &p.shell
+        )
+    );
+    check
+    (
+        MatShellSetOperation
+        (
+            p.shell, MATOP_MULT, reinterpret_cast<void(*)(void)>(shellMultiply)
+        )
+    );
+    check(KSPCreate(PETSC_COMM_WORLD, &p.solver));
+    check(KSPSetOptionsPrefix(p.solver, "equilibrium_"));
+    check(KSPSetOperators(p.solver, p.shell, p.shell));
+    check
+    (
+        KSPSetType
+        (
+            p.solver,
+            solver == "PCG" ? KSPCG : solver == "GMRES" ? KSPGMRES : KSPBCGS
+        )
+    );
+    if (solver != "PCG")
+    {
+        check(KSPSetPCSide(p.solver, PC_RIGHT));
+    }
+    check(KSPSetNormType(p.solver, KSP_NORM_UNPRECONDITIONED));
+    check(KSPSetTolerances(p.solver, relTol_, 0, 1e30, maxIter_));
+    PC shell;
+    check(KSPGetPC(p.solver, &shell));
+    check(PCSetType(shell, PCSHELL));
+    check(PCShellSetContext(shell, this));
+    check(PCShellSetApply(shell, shellPrecondition));
+    check(KSPSetFromOptions(p.solver));
+}
+
+
+Foam::equilibriumSolver::~equilibriumSolver()
+{
+    const quietArithmetic quiet;
+    objects& p = *petsc_;
+    forAll(p.matrices, i)
+    {
+        PCDestroy(&p.preconditioners[i]);
+        MatDestroy(&p.matrices[i]);
+        VecDestroy(&p.from[i]);
+        VecDestroy(&p.to[i]);
+    }
+    KSPDestroy(&p.solver);
+    MatDestroy(&p.shell);
+    VecDestroy(&p.r);
+    VecDestroy(&p.d);
+    PetscFinalize();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::equilibriumSolver::findNumbers()
+{
+    const bitSet& owned = mesh_.owned();
+    const globalIndex offsets(label(owned.count()));
+    number_.resize(mesh_.size(), -1);
+    label count = 0;
+    forAll(number_, node)
+    {
+        if (owned.test(node))
+        {
+            number_[node] = offsets.toGlobal(count++);
+        }
+    }
+    if (Pstream::parRun())
+    {
+        syncTools::syncPointList
+        (
+            mesh_.mesh(), mesh_.front(), number_, maxEqOp<label>(), label(-1)
+        );
+    }
+}
+
+
+void Foam::equilibriumSolver::assemble
+(
+    const stressLaw& law,
+    const elementMesh::shapes& reference,
+    const scalar unfitted,
+    const label component
+)
+{
+    const label dim = mesh_.dim(), each = component < 0 ? dim : 1;
+    const label rows = each*label(mesh_.owned().count());
+    Mat& A = petsc_->matrices[max(component, label(0))];
+
+    // Number of nodes around each node, of this process and of others
+    scalarField here(mesh_.size(), Zero);
+    {
+        labelList marked(mesh_.size(), -1);
+        labelListList cellsOfNode(mesh_.size());
+        labelList count(mesh_.size(), 0);
+        for (const label node : mesh_.cellNodes())
+        {
+            ++count[node];
+        }
+        forAll(count, node)
+        {
+            cellsOfNode[node].resize(count[node]);
+        }
+        count = 0;
+        mesh_.each([&](const auto& e)
+        {
+            for (label a = 0; a < e.size(); ++a)
+            {
+                const label node = e.nodes[a];
+                cellsOfNode[node][count[node]++] = e.cell;
+            }
+        });
+        forAll(cellsOfNode, node)
+        {
+            for (const label celli : cellsOfNode[node])
+            {
+                for
+                (
+                    label i = mesh_.cellStarts()[celli];
+                    i < mesh_.cellStarts()[celli + 1];
+                    ++i
+                )
+                {
+                    const label other = mesh_.cellNodes()[i];
+                    here[node] += marked[other] != node;
+                    marked[other] = node;
+                }
+            }
+        }
+    }
+    scalarField everywhere(here);
+    mesh_.sum(everywhere, 1);
+    List<PetscInt> inside, outside;
+    inside.resize(rows);
+    outside.resize(rows);
+    label row = 0;
+    forAll(here, node)
+    {
+        if (mesh_.owned().test(node))
+        {
+            for (label k = 0; k < each; ++k)
+            {
+                inside[row] = min(PetscInt(each*here[node]), PetscInt(rows));
+                outside[row++] =
+                    Pstream::parRun() ? PetscInt(each*everywhere[node]) : 0;
+            }
+        }
+    }
+
+    check(MatCreate(PETSC_COMM_WORLD, &A));
+    check(MatSetSizes(A, rows, rows, PETSC_DECIDE, PETSC_DECIDE));
+    check(MatSetBlockSize(A, each));
+    check(MatSetType(A, MATAIJ));
+    check(MatSeqAIJSetPreallocation(A, 0, inside.cdata()));
+    check(MatMPIAIJSetPreallocation(A, 0, inside.cdata(), 0, outside.cdata()));
+    check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
+    check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
+
+    // Projections on the components that are free, of nodes that are held
+    labelList heldIndex(mesh_.size(), -1);
+    forAll(walls_.held(), i)
+    {
+        heldIndex[walls_.held()[i]] = i;
+    }
+    const auto freed = [&](const label node, tensor& P)
+    {
+        P = tensor::I;
+        const label i = heldIndex[node];
+        for (label k = 0; i >= 0 && k < walls_.directions()[i]; ++k)
+        {
+            const scalar* e = walls_.basis().cdata() + dim*dim*i + dim*k;
+            const vector n(e[0], e[1], dim == 3 ? e[2] : 0);
+            P -= n*n;
+        }
+        return i >= 0;
+    };
+
+    const scalar lambda = law.lambda(), G = law.shear();
+    const label r = mesh_.radial();
+    List<PetscInt> indices;
+    List<PetscScalar> values;
+    List<tensor> projections;
+    List<bool> held;
+
+    mesh_.each([&](const auto& e)
+    {
+        constexpr label dim = std::decay<decltype(e)>::type::dim;
+        const label n = e.size();
+        const scalar V = reference.volume[e.cell];
+        const scalar* B = reference.gradient.cdata() + dim*e.start;
+        const scalar* hoop =
+            r < 0 ? nullptr : reference.hoop.cdata() + e.start;
+        const scalar s =
+            unfitted*G*mesh_.unfittedScale(e.cell, reference);
+        indices.resize(max(indices.size(), n));
+        values.resize(max(values.size(), n*dim*n*dim));
+        projections.resize(max(projections.size(), n));
+        held.resize(projections.size());
+        for (label a = 0; a < n; ++a)
+        {
+            indices[a] = number_[e.nodes[a]];
+            held[a] = freed(e.nodes[a], projections[a]);
+        }
+        for (label a = 0; a < n; ++a)
+        {
+            for (label b = 0; b < n; ++b)
+            {
+                const scalar* Ba = B + dim*a;
+                const scalar* Bb = B + dim*b;
+                scalar K[dim][dim], both = 0;
+                for (label k = 0; k < dim; ++k)
+                {
+                    both += Ba[k]*Bb[k];
+                }
+                const scalar diagonal =
+                    V*G*both + s*mesh_.unfitted(e, a, b);
+                for (label i = 0; i < dim; ++i)
+                {
+                    for (label j = 0; j < dim; ++j)
+                    {
+                        K[i][j] =
+                            V*(lambda*Ba[i]*Bb[j] + G*Ba[j]*Bb[i])
+                          + (i == j ? diagonal : 0);
+                        if (hoop)
+                        {
+                            K[i][j] +=
+                                V
+                               *(
+                                    lambda*(j == r)*Ba[i]*hoop[b]
+                                  + lambda*(i == r)*hoop[a]*Bb[j]
+                                  + (lambda + 2*G)*(i == r)*(j == r)
+                                   *hoop[a]*hoop[b]
+                                );
+                        }
+                    }
+                }
+                if (held[a] || held[b])
+                {
+                    scalar part[dim][dim] = {};
+                    for (label i = 0; i < dim; ++i)
+                    {
+                        for (label j = 0; j < dim; ++j)
+                        {
+                            for (label k = 0; k < dim; ++k)
+                            {
+                                part[i][j] += projections[a](i, k)*K[k][j];
+                            }
+                        }
+                    }
+                    for (label i = 0; i < dim; ++i)
+                    {
+                        for (label j = 0; j < dim; ++j)
+                        {
+                            K[i][j] = 0;
+                            for (label k = 0; k < dim; ++k)
+                            {
+                                K[i][j] += part[i][k]*projections[b](k, j);
+                            }
+                        }
+                    }
+                }
+                if (component >= 0)
+                {
+                    values[n*a + b] = K[component][component];
+                    continue;
+                }
+                for (label i = 0; i < dim; ++i)
+                {
+                    for (label j = 0; j < dim; ++j)
+                    {
+                        values[(dim*a + i)*n*dim + dim*b + j] = K[i][j];
+                    }
+                }
+            }
+        }
+        check
+        (
+            component < 0
+          ? MatSetValuesBlocked
+            (
+                A, n, indices.cdata(), n, indices.cdata(), values.cdata(),
+                ADD_VALUES
+            )
+          : MatSetValues
+            (
+                A, n, indices.cdata(), n, indices.cdata(), values.cdata(),
+                ADD_VALUES
+            )
+        );
+    });
+
+    // Friction; and components that walls hold, with a diagonal of the size of
+    // the others
+    const auto add = [&](const label node, const tensor& more)
+    {
+        if (!mesh_.owned().test(node))
+        {
+            return;
+        }
+        const PetscInt index = number_[node];
+        for (label i = 0; i < dim; ++i)
+        {
+            for (label j = 0; j < dim; ++j)
+            {
+                if (component < 0)
+                {
+                    check
+                    (
+                        MatSetValue
+                        (
+                            A, dim*index + i, dim*index + j, more(i, j),
+                            ADD_VALUES
+                        )
+                    );
+                }
+                else if (i == component && j == component)
+                {
+                    check(MatSetValue(A, index, index, more(i, j), ADD_VALUES));
+                }
+            }
+        }
+    };
+    walls_.eachStick([&](const label node, const scalar* t, const scalar k)
+    {
+        const vector along(t[0], t[1], 0);
+        add(node, k*(along*along));
+    });
+    for (const label node : walls_.held())
+    {
+        tensor P;
+        freed(node, P);
+        scalar size = 0;
+        for (label k = 0; k < dim; ++k)
+        {
+            size = max(size, uniformDiagonal_[dim*node + k]);
+        }
+        add(node, size*(tensor::I - P));
+    }
+    check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+}
+
+
+void Foam::equilibriumSolver::makePreconditioner(const word& name)
+{
+    const label dim = mesh_.dim();
+    objects& p = *petsc_;
+    const label rows = label(mesh_.owned().count());
+
+    // The rigid motions; for bodies of revolution uniform displacements
+    if (name == "AMG")
+    {
+        Mat& A = p.matrices[0];
+        Vec places;
+        check(MatCreateVecs(A, &places, nullptr));
+        check(VecSetBlockSize(places, dim));
+        MatNullSpace motions;
+        if (mesh_.radial() < 0)
+        {
+            double* x;
+            check(VecGetArray(places, &x));
+            toVector(mesh_.points(), x);
+            check(VecRestoreArray(places, &x));
+            check(MatNullSpaceCreateRigidBody(places, &motions));
+        }
+        else
+        {
+            Vec along[2];
+            for (label k = 0; k < 2; ++k)
+            {
+                check(VecDuplicate(places, &along[k]));
+                double* x;
+                check(VecGetArray(along[k], &x));
+                for (label i = 0; i < rows; ++i)
+                {
+                    x[2*i + k] = 1;
+                    x[2*i + 1 - k] = 0;
+                }
+                check(VecRestoreArray(along[k], &x));
+                check(VecNormalize(along[k], nullptr));
+            }
+            check
+            (
+                MatNullSpaceCreate
+                (
+                    PETSC_COMM_WORLD, PETSC_FALSE, 2, along, &motions
+                )
+            );
+            check(VecDestroy(&along[0]));
+            check(VecDestroy(&along[1]));
+        }
+        check(MatSetNearNullSpace(A, motions));
+        check(MatNullSpaceDestroy(&motions));
+        check(VecDestroy(&places));
+    }
+    forAll(p.matrices, i)
+    {
+        PC& pc = p.preconditioners[i];
+        check(PCCreate(PETSC_COMM_WORLD, &pc));
+        check(PCSetOperators(pc, p.matrices[i], p.matrices[i]));
+        if (name == "Cholesky")
+        {
+            check(PCSetType(pc, PCCHOLESKY));
+            check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+        }
+        else
+        {
+            check(PCSetType(pc, PCGAMG));
+        }
+        check(PCSetFromOptions(pc));
+        check(PCSetUp(pc));
+        check(MatCreateVecs(p.matrices[i], &p.to[i], &p.from[i]));
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::equilibriumSolver::toVector
+(
+    const scalarField& from,
+    double* to
+) const
+{
+    const label dim = mesh_.dim();
+    if (!Pstream::parRun())
+    {
+        std::copy(from.begin(), from.end(), to);
+        return;
+    }
+    label at = 0;
+    for (label node = 0; node < mesh_.size(); ++node)
+    {
+        if (mesh_.owned().test(node))
+        {
+            for (label k = 0; k < dim; ++k)
+            {
+                to[at++] = from[dim*node + k];
+            }
+        }
+    }
+}
+
+
+void Foam::equilibriumSolver::toField
+(
+    const double* from,
+    scalarField& to
+) const
+{
+    const label dim = mesh_.dim();
+    to.resize(dim*mesh_.size());
+    if (!Pstream::parRun())
+    {
+        std::copy(from, from + to.size(), to.begin());
+        return;
+    }
+    label at = 0;
+    for (label node = 0; node < mesh_.size(); ++node)
+    {
+        const bool mine = mesh_.owned().test(node);
+        for (label k = 0; k < dim; ++k)
+        {
+            to[dim*node + k] = mine ? from[at++] : 0;
+        }
+    }
+    mesh_.sum(to);
+}
+
+
+void Foam::equilibriumSolver::multiply(const double* from, double* to) const
+{
+    toField(from, in_);
+    multiply_(in_, out_);
+    toVector(out_, to);
+}
+
+
+void Foam::equilibriumSolver::precondition
+(
+    const double* from,
+    double* to
+) const
+{
+    // With the diagonals D of the matrix and U of the uniform medium M:
+    // sqrt(U/D) M^-1 sqrt(U/D)
+    objects& p = *petsc_;
+    const label dim = mesh_.dim(), parts = p.matrices.size();
+    const label rows = parts == 1 ? 0 : label(mesh_.owned().count());
+    toField(from, in_);
+    in_ *= scaling_;
+    walls_.release(in_);
+
+    double* x;
+    if (parts == 1)
+    {
+        VecGetArray(p.from[0], &x);
+        toVector(in_, x);
+        VecRestoreArray(p.from[0], &x);
+    }
+    else
+    {
+        scalarField all(dim*rows);
+        toVector(in_, all.data());
+        for (label k = 0; k < dim; ++k)
+        {
+            VecGetArray(p.from[k], &x);
+            for (label i = 0; i < rows; ++i)
+            {
+                x[i] = all[dim*i + k];
+            }
+            VecRestoreArray(p.from[k], &x);
+        }
+    }
+    for (label k = 0; k < parts; ++k)
+    {
+        check(PCApply(p.preconditioners[k], p.from[k], p.to[k]));
+    }
+    const double* y;
+    if (parts == 1)
+    {
+        VecGetArrayRead(p.to[0], &y);
+        toField(y, in_);
+        VecRestoreArrayRead(p.to[0], &y);
+    }
+    else
+    {
+        scalarField all(dim*rows);
+        for (label k = 0; k < dim; ++k)
+        {
+            VecGetArrayRead(p.to[k], &y);
+            for (label i = 0; i < rows; ++i)
+            {
+                all[dim*i + k] = y[i];
+            }
+            VecRestoreArrayRead(p.to[k], &y);
+        }
+        toField(all.cdata(), in_);
+    }
+    walls_.release(in_);
+    in_ *= scaling_;
+    toVector(in_, to);
+}
+
+
+Foam::label Foam::equilibriumSolver::solve
+(
+    const scalarField& diagonal,
+    const scalarField& r,
+    scalarField& d
+)
+{
+    const quietArithmetic quiet;
+    objects& p = *petsc_;
+    forAll(scaling_, i)
+    {
+        scaling_[i] = std::sqrt(uniformDiagonal_[i]/diagonal[i]);
+    }
+    // The same for all components of a node that a wall holds, so that none of
+    // them becomes one that is held
+    const label dim = mesh_.dim();
+    for (const label node : walls_.held())
+    {
+        scalar up = 0, down = 0;
+        for (label i = dim*node; i < dim*(node + 1); ++i)
+        {
+            up += uniformDiagonal_[i];
+            down += diagonal[i];
+        }
+        for (label i = dim*node; i < dim*(node + 1); ++i)
+        {
+            scaling_[i] = std::sqrt(up/down);
+        }
+    }
+    double* x;
+    check(VecGetArray(p.r, &x));
+    toVector(r, x);
+    check(VecRestoreArray(p.r, &x));
+    check(KSPSolve(p.solver, p.r, p.d));
+    const double* y;
+    check(VecGetArrayRead(p.d, &y));
+    toField(y, d);
+    check(VecRestoreArrayRead(p.d, &y));
+    PetscInt iterations;
+    KSPType type;
+    check(KSPGetIterationNumber(p.solver, &iterations));
+    check(KSPGetType(p.solver, &type));
+    KSPConvergedReason reason;
+    check(KSPGetConvergedReason(p.solver, &reason));
+    if (std::getenv("DBG")) Info<< "   linear " << iterations << " reason " << label(reason) << nl;
+    return word(type) == KSPBCGS ? 2*iterations : iterations;
+}
+
+
+// ************************************************************************* //
