@@ -107,7 +107,12 @@ Foam::heatEquation::heatEquation
             (
                 IOobject("K", mesh_.time().timeName(), mesh_),
                 mesh_,
-                dimensionedSymmTensor(Kxx_.dimensions(), Zero),
+                dimensionedSymmTensor
+                (
+                    "K",
+                    Kxx_.dimensions(),
+                    symmTensor(0, 0, 0, 0, 0, grains.model().conductivityZZ())
+                ),
                 extrapolatedCalculatedFvPatchSymmTensorField::typeName
             )
         );

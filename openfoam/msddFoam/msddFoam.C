@@ -158,14 +158,6 @@ int main(int argc, char *argv[])
 
     #include "createMesh.H"
 
-    if (mesh.solutionD()[vector::Z] != -1)
-    {
-        FatalErrorInFunction
-            << "The mesh " << mesh.objectRegistry::objectPath()
-            << " is three-dimensional, allowed: two-dimensional in x and y,"
-            << " with empty patches in z" << exit(FatalError);
-    }
-
     const granularProperties granular(runTime);
 
     Info<< "Reading field T\n" << endl;
@@ -180,6 +172,15 @@ int main(int argc, char *argv[])
     );
 
     granularState grains(granular, T);
+    if (mesh.solutionD()[vector::Z] != -1 && !grains.model().anyMesh())
+    {
+        FatalErrorInFunction
+            << "The mesh " << mesh.objectRegistry::objectPath()
+            << " is three-dimensional, allowed: two-dimensional in x and y,"
+            << " with empty patches in z. The models are made from discs and"
+            << " know no third direction; only surrogate type constant with the"
+            << " entry conductivity takes any mesh" << exit(FatalError);
+    }
     autoPtr<granularMechanics> mechanics
     (
         granularMechanics::New(granular, grains)

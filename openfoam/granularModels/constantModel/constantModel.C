@@ -63,11 +63,23 @@ Foam::granularModels::constant::constant
     if (coeffs_.readIfPresent("conductivity", conductivity_))
     {
         const symmTensor& K = conductivity_;
-        if (!(K.xx() > 0 && K.yy() > 0 && sqr(K.xy()) < K.xx()*K.yy()))
+        const bool plane = mesh.solutionD()[vector::Z] == -1;
+        if
+        (
+            !(K.xx() > 0 && K.yy() > 0 && sqr(K.xy()) < K.xx()*K.yy())
+         || !(plane || K.zz() > 0)
+        )
         {
             OStringStream value;
             value << K;
-            refuse("conductivity", value.str(), "positive definite [W/(m K)]");
+            refuse
+            (
+                "conductivity",
+                value.str(),
+                plane
+              ? "positive definite [W/(m K)]"
+              : "positive definite, with zz > 0 [W/(m K)]"
+            );
         }
     }
     if (coeffs_.readIfPresent("stress", stress_))

@@ -179,7 +179,7 @@ void Foam::granularMechanicsModels::equilibrium::writeReport() const
     const counters all(count());
     Info<< "Equilibrium: " << all.solves << " of " << steps_
         << " steps solved, " << all.iterations << " iterations, " << all.linear
-        << " linear; " << all.cut << " steps in parts; largest displacement "
+        << " linear, " << all.cut << " steps in parts; largest displacement "
         << all.displacement << " m; largest residual left " << all.residual
         << " Pa, in " << all.unconverged << " steps above " << tolerance_
         << " Pa" << nl;

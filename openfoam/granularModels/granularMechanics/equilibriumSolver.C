@@ -32,6 +32,10 @@ License
 namespace Foam
 {
 
+//- Numbers of nodes up to which factorising is faster than multigrid
+static const label smallPlane = 10000;
+static const label smallSolid = 3000;
+
 //- Floating point exceptions are no errors inside PETSc and LAPACK
 class quietArithmetic
 {
@@ -155,8 +159,11 @@ Foam::equilibriumSolver::equilibriumSolver
     mesh_(mesh),
     walls_(walls),
     multiply_(multiply),
+    unfitted_(unfitted),
+    lambda_(law.lambda()),
+    shear_(law.shear()),
+    mediumDiagonal_(uniformDiagonal),
     scaling_(uniformDiagonal.size(), 1),
-    uniformDiagonal_(uniformDiagonal),
     in_(uniformDiagonal.size(), Zero),
     out_(uniformDiagonal.size(), Zero),
     petsc_(new objects)
@@ -204,7 +211,9 @@ Foam::equilibriumSolver::equilibriumSolver
         chosen
         (
             "preconditioner",
-            mesh.dim() == 3 ? "componentAMG" : "AMG",
+            mesh.globalSize() < (mesh.dim() == 2 ? smallPlane : smallSolid)
+          ? "Cholesky"
+          : mesh.dim() == 3 ? "componentAMG" : "AMG",
             {"AMG", "componentAMG", "Cholesky"}
         )
     );
@@ -216,6 +225,21 @@ Foam::equilibriumSolver::equilibriumSolver
     (
         granularProperties::ranged(controls, "maxIter", law.elastic() ? 1000 : 30, 1, 100000)
     );
+
+    forAll(walls.held(), i)
+    {
+        bool aligned = true;
+        const label dim = mesh.dim();
+        for (label k = 0; k < dim*dim; ++k)
+        {
+            const scalar e = mag(walls.basis()[dim*dim*i + k]);
+            aligned = aligned && (e == 0 || e == 1);
+        }
+        if (!aligned)
+        {
+            slanted_.append(walls.held()[i]);
+        }
+    }
 
     const quietArithmetic quiet;
     startPetsc();
@@ -248,7 +272,7 @@ Foam::equilibriumSolver::equilibriumSolver
     p.to.resize(parts, nullptr);
     for (label part = 0; part < parts; ++part)
     {
-        assemble(law, reference, unfitted, all ? -1 : part);
+        assemble(reference, all ? -1 : part);
     }
     makePreconditioner(preconditioner);
 
@@ -344,15 +368,13 @@ void Foam::equilibriumSolver::findNumbers()
 
 void Foam::equilibriumSolver::assemble
 (
-    const stressLaw& law,
     const elementMesh::shapes& reference,
-    const scalar unfitted,
     const label component
 )
 {
     const label dim = mesh_.dim(), each = component < 0 ? dim : 1;
     const label rows = each*label(mesh_.owned().count());
-    Mat& A = petsc_->matrices[max(component, label(0))];
+    Mat& A = petsc_->matrices[component < 0 ? 0 : component];
 
     // Number of nodes around each node, of this process and of others
     scalarField here(mesh_.size(), Zero);
@@ -442,7 +464,7 @@ void Foam::equilibriumSolver::assemble
         return i >= 0;
     };
 
-    const scalar lambda = law.lambda(), G = law.shear();
+    const scalar lambda = lambda_, G = shear_;
     const label r = mesh_.radial();
     List<PetscInt> indices;
     List<PetscScalar> values;
@@ -458,7 +480,7 @@ void Foam::equilibriumSolver::assemble
         const scalar* hoop =
             r < 0 ? nullptr : reference.hoop.cdata() + e.start;
         const scalar s =
-            unfitted*G*mesh_.unfittedScale(e.cell, reference);
+            unfitted_*G*mesh_.unfittedScale(e.cell, reference);
         indices.resize(max(indices.size(), n));
         values.resize(max(values.size(), n*dim*n*dim));
         projections.resize(max(projections.size(), n));
@@ -599,7 +621,7 @@ void Foam::equilibriumSolver::assemble
         scalar size = 0;
         for (label k = 0; k < dim; ++k)
         {
-            size = max(size, uniformDiagonal_[dim*node + k]);
+            size = max(size, mediumDiagonal_[dim*node + k]);
         }
         add(node, size*(tensor::I - P));
     }
@@ -668,7 +690,13 @@ void Foam::equilibriumSolver::makePreconditioner(const word& name)
         if (name == "Cholesky")
         {
             check(PCSetType(pc, PCCHOLESKY));
-            check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+            check
+            (
+                PCFactorSetMatSolverType
+                (
+                    pc, Pstream::parRun() ? MATSOLVERMUMPS : MATSOLVERCHOLMOD
+                )
+            );
         }
         else
         {
@@ -821,17 +849,17 @@ Foam::label Foam::equilibriumSolver::solve
     objects& p = *petsc_;
     forAll(scaling_, i)
     {
-        scaling_[i] = std::sqrt(uniformDiagonal_[i]/diagonal[i]);
+        scaling_[i] = std::sqrt(mediumDiagonal_[i]/diagonal[i]);
     }
-    // The same for all components of a node that a wall holds, so that none of
-    // them becomes one that is held
+    // The same for all components of a node that a slanted wall holds, so that
+    // none of them becomes one that is held
     const label dim = mesh_.dim();
-    for (const label node : walls_.held())
+    for (const label node : slanted_)
     {
         scalar up = 0, down = 0;
         for (label i = dim*node; i < dim*(node + 1); ++i)
         {
-            up += uniformDiagonal_[i];
+            up += mediumDiagonal_[i];
             down += diagonal[i];
         }
         for (label i = dim*node; i < dim*(node + 1); ++i)
@@ -852,9 +880,6 @@ Foam::label Foam::equilibriumSolver::solve
     KSPType type;
     check(KSPGetIterationNumber(p.solver, &iterations));
     check(KSPGetType(p.solver, &type));
-    KSPConvergedReason reason;
-    check(KSPGetConvergedReason(p.solver, &reason));
-    if (std::getenv("DBG")) Info<< "   linear " << iterations << " reason " << label(reason) << nl;
     return word(type) == KSPBCGS ? 2*iterations : iterations;
 }
 

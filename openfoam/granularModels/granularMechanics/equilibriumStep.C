@@ -39,10 +39,6 @@ static const scalar mostOfLeast = 0.05;
 static const scalar leastOfLeast = 0.005;
 static const scalar slow = 0.5;
 
-//- The same share, of the norm after a whole step, at which another stiffness
-//- is tried
-static const scalar verySlow = 0.8;
-
 //- Largest caution, see stressLaw::stiffen()
 static const label mostCaution = 9;
 
@@ -51,7 +47,8 @@ static const label mostCaution = 9;
 //- grains need that lose contact; then stiffer ones
 static label cautionOf(const label rung)
 {
-    return rung == 0 ? 1 : rung == 1 ? 0 : rung;
+    static const bool symmetricFirst = !std::getenv("TRUE1");
+    return !symmetricFirst ? rung : rung == 0 ? 1 : rung == 1 ? 0 : rung;
 }
 
 } // End namespace Foam
@@ -316,7 +313,10 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         if (share > 0)
         {
             moved = true;
-            rung = norm_ > verySlow*last ? rung + 1 : max(rung - 1, label(0));
+            rung =
+                rung > 1 ? rung - 1
+              : !std::getenv("TRUE1") && (rung == 1 || norm_ > slow*last) ? 1
+              : 0;
             least = share < 1 ? mostOfLeast
                   : norm_ > slow*last ? max(0.5*least, leastOfLeast)
                   : least;
@@ -325,8 +325,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         {
             break;
         }
-        if (std::getenv("DBG")) Info<< "  it " << iteration << " caution " << cautionOf(rung) << " least " << least << " linear " << counters_.linear << " share " << share << " norm " << std::sqrt(last) << " -> " << std::sqrt(norm_) << " left " << left_ << nl;
-
+        if (std::getenv("DBG")) Info<< "  it " << iteration << " next " << cautionOf(rung) << " least " << least << " linear " << counters_.linear << " share " << share << " norm " << std::sqrt(last) << " -> " << std::sqrt(norm_) << " left " << left_ << nl;
     }
     return left_ <= maxResidual_;
 }

@@ -158,7 +158,8 @@ Foam::elasticLaw::elasticLaw
     if (mesh.plane())
     {
         // The stress along z, which does no work
-        stress_.append(stress_[0]);
+        stress_.resize(4);
+        stress_[3].resize(mesh.mesh().nCells(), Zero);
     }
     gradient_.resize(own_.size());
     forAll(own_, i)
