@@ -50,7 +50,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         (
             dict_,
             "residual",
-            1e-4*law_->scale(),
+            (law_->elastic() ? 1e-9 : 1e-4)*law_->scale(),
             2e-14*law_->scale(),
             2e4*law_->scale()
         )

@@ -376,7 +376,8 @@ void Foam::equilibriumSolver::assemble
     const label rows = each*label(mesh_.owned().count());
     Mat& A = petsc_->matrices[component < 0 ? 0 : component];
 
-    // Number of nodes around each node, of this process and of others
+    // Number of nodes around each node; where processes meet more than that,
+    // because they count common neighbours twice
     scalarField here(mesh_.size(), Zero);
     {
         labelList marked(mesh_.size(), -1);
@@ -429,7 +430,8 @@ void Foam::equilibriumSolver::assemble
         {
             for (label k = 0; k < each; ++k)
             {
-                inside[row] = min(PetscInt(each*here[node]), PetscInt(rows));
+                inside[row] =
+                    min(PetscInt(each*everywhere[node]), PetscInt(rows));
                 outside[row++] =
                     Pstream::parRun() ? PetscInt(each*everywhere[node]) : 0;
             }

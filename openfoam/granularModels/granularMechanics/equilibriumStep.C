@@ -47,8 +47,7 @@ static const label mostCaution = 9;
 //- grains need that lose contact; then stiffer ones
 static label cautionOf(const label rung)
 {
-    static const bool symmetricFirst = !std::getenv("TRUE1");
-    return !symmetricFirst ? rung : rung == 0 ? 1 : rung == 1 ? 0 : rung;
+    return rung == 0 ? 1 : rung == 1 ? 0 : rung;
 }
 
 } // End namespace Foam
@@ -290,7 +289,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
     if (moved)
     {
-        findStiffness(0, mostOfLeast);
+        findStiffness(1, mostOfLeast);
         follow(du);
     }
 
@@ -315,7 +314,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
             moved = true;
             rung =
                 rung > 1 ? rung - 1
-              : !std::getenv("TRUE1") && (rung == 1 || norm_ > slow*last) ? 1
+              : rung == 1 || norm_ > slow*last ? 1
               : 0;
             least = share < 1 ? mostOfLeast
                   : norm_ > slow*last ? max(0.5*least, leastOfLeast)
@@ -325,7 +324,6 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         {
             break;
         }
-        if (std::getenv("DBG")) Info<< "  it " << iteration << " next " << cautionOf(rung) << " least " << least << " linear " << counters_.linear << " share " << share << " norm " << std::sqrt(last) << " -> " << std::sqrt(norm_) << " left " << left_ << nl;
     }
     return left_ <= maxResidual_;
 }

@@ -1,0 +1,260 @@
+# Mechanics on meshes of any shape, with law elastic: patch test, thick-walled cylinder under pressure and heat against the closed
+# form, three processes, restart on another number of them, and meshes and walls that cannot work.
+
+start_field() { # name, dimensions, value
+    cat > "0/$1" <<-END
+	FoamFile { version 2.0; format ascii; class volScalarField; object $1; }
+	dimensions $2;
+	internalField uniform $3;
+	boundaryField
+	{
+	    #includeEtc "caseDicts/setConstraintTypes"
+	    ".*" { type zeroGradient; }
+	}
+	END
+}
+solid() { # folder, entries of equilibriumCoeffs: a case with an elastic body and steady heat
+    rm -rf "${work:?}/$1"
+    mkdir -p "$work/$1/0" "$work/$1/constant" "$work/$1/system"
+    cd "$work/$1"
+    start_field T '[0 0 0 1 0 0 0]' 0
+    start_field porosity '[0 0 0 0 0 0 0]' 0.16
+    start_field fabricIndex '[0 0 0 0 0 0 0]' 0
+    cat > constant/granularProperties <<-END
+	FoamFile { version 2.0; format ascii; class dictionary; object granularProperties; }
+	surrogate { type constant; constantCoeffs { conductivity (1 0 0 1 0 1); stress (0 0 0 0 0 0); } }
+	density 3000; youngModulus 1e7; thermalConductivity 1; heatCapacity 1; thermalExpansion 1e-6; meanRadius 5e-3;
+	mechanics equilibrium;
+	equilibriumCoeffs { law elastic; elasticCoeffs { youngModulus 1e7; poissonRatio 0.3; } $2 }
+	END
+    cat > system/controlDict <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
+	endTime 4e9; deltaT 1e9; writeInterval 4; writeFormat ascii; writePrecision 17; timePrecision 6;
+	END
+    cp "$here/small/system/fvSchemes" system
+    cat > system/fvSolution <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object fvSolution; }
+	solvers { T { solver PCG; preconditioner DIC; tolerance 1e-14; relTol 0; } }
+	msddFoam { nNonOrthogonalCorrectors 20; }
+	END
+}
+block_mesh() { # vertices, blocks, edges, patches
+    cat > system/blockMeshDict <<-END
+	FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; }
+	vertices ($1);
+	blocks ($2);
+	edges ($3);
+	boundary ($4);
+	END
+    logged blockMesh
+}
+awk_mesh() { # kind, n, irregular
+    awk -v kind="$1" -v n="$2" -v irregular="$3" -f "$here/mesh.awk" > mesh.msh
+    logged gmshToFoam mesh.msh
+}
+patch_type() { logged foamDictionary -entry "entry0.$1.type" -set "$2" constant/polyMesh/boundary; }
+cube() { # n: hexahedra, of which those inside are moved by hand in moved_points()
+    block_mesh '(0 0 0) (1 0 0) (1 1 0) (0 1 0) (0 0 1) (1 0 1) (1 1 1) (0 1 1)' "hex (0 1 2 3 4 5 6 7) ($1 $1 $1) simpleGrading (1 2 0.5)" '' '
+        bottom { type wall; faces ((0 3 2 1)); } top { type wall; faces ((4 5 6 7)); } front { type wall; faces ((0 1 5 4)); }
+        back { type wall; faces ((3 7 6 2)); } low { type wall; faces ((0 4 7 3)); } high { type wall; faces ((1 2 6 5)); }'
+}
+moved_points() { # moves the points inside the unit cube, so that no face is plane
+    awk '/^\(/ && NF == 3 && match($0, /^\(.*\)$/) { gsub(/[()]/, ""); n++
+            for (k = 1; k <= 3; k++) { x[k] = $k; inside = 1 }
+            for (k = 1; k <= 3; k++) if ($k < 1e-9 || $k > 1 - 1e-9) inside = 0
+            for (k = 1; k <= 3; k++) { s = sin(12.9898*(3*n + k))*43758.5453; x[k] += inside*0.06*(s - int(s)) }
+            printf "(%.17g %.17g %.17g)\n", x[1], x[2], x[3]; next } { print }' constant/polyMesh/points > points.new
+    mv points.new constant/polyMesh/points
+}
+
+stretched_walls() { # strains along x, y, z: walls that move so that all cells must have these strains
+    echo "residual 1e-5; walls { \".*\" { type frictionless; } high { type frictionless; displacement constant ($1 0 0); }
+        back { type frictionless; displacement constant (0 $2 0); } top { type frictionless; displacement constant (0 0 $3); } }"
+}
+uniform_stress() { # what: the stress must be the same in all cells
+    logged msddFoam
+    local e
+    e=$(field 4e+09/stress | awk '{ for (k = 1; k <= 6; k++) { if (NR == 1) first[k] = $k; if (first[k] > most) most = first[k]; e = $k - first[k]; if (e < 0) e = -e
+        if (!(e <= w)) w = e } } END { print (NR > 3 && most > 0 ? w/most : "nan") }')
+    check "patch test, $1: stress is uniform to $e <= 1e-8" below "$e" 1e-8
+}
+patch_tests() {
+    local walls plane
+    walls=$(stretched_walls 1e-4 -5e-5 2e-5) plane=$(stretched_walls 1e-4 -5e-5 0)
+    solid patch-triangles "${plane/top*\}/\}}"; awk_mesh tri 6 1; patch_type frontAndBack empty; uniform_stress "triangles"
+    solid patch-polygons "${plane/top*\}/\}}"; awk_mesh tri 6 1; patch_type frontAndBack empty
+    refine_some 2; uniform_stress "triangles and polygons with nodes within their sides"
+    solid patch-hexahedra "$walls"; cube 5; moved_points; uniform_stress "hexahedra whose faces are not plane"
+    solid patch-prisms "$walls"; awk_mesh prism 4 1; uniform_stress "prisms"
+    solid patch-tetrahedra "$walls"; awk_mesh tet 4 1; uniform_stress "tetrahedra"
+    solid patch-polyhedra "$walls"; awk_mesh tet 4 1; logged polyDualMesh 60 -overwrite; uniform_stress "polyhedra about the nodes of tetrahedra"
+    solid patch-snappy "$walls"; cube 6; snappy; uniform_stress "polyhedra of snappyHexMesh"
+}
+refine_some() { # dimensions: halves the cells in the corner near the origin
+    cat > system/topoSetDict <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object topoSetDict; }
+	actions ({ name corner; type cellSet; action new; source boxToCell; box (-1 -1 -1) (0.4 0.5 2); });
+	END
+    cat > system/refineMeshDict <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object refineMeshDict; }
+	set corner; coordinateSystem global; globalCoeffs { tan1 (1 0 0); tan2 (0 1 0); } directions (tan1 tan2);
+	useHexTopology no; geometricCut yes; writeMesh no;
+	END
+    logged topoSet
+    logged refineMesh -overwrite
+}
+snappy() { # refines a sphere within the cube
+    cat > system/snappyHexMeshDict <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object snappyHexMeshDict; }
+	castellatedMesh true; snap false; addLayers false;
+	geometry { ball { type searchableSphere; centre (0.3 0.4 0.5); radius 0.3; } }
+	castellatedMeshControls
+	{
+	    maxLocalCells 100000; maxGlobalCells 1000000; minRefinementCells 0; nCellsBetweenLevels 1; features (); refinementSurfaces {}
+	    resolveFeatureAngle 30; refinementRegions { ball { mode inside; levels ((1e15 1)); } } locationInMesh (0.511 0.523 0.537);
+	    allowFreeStandingZoneFaces false;
+	}
+	snapControls { nSmoothPatch 3; tolerance 2; nSolveIter 30; nRelaxIter 5; }
+	addLayersControls
+	{
+	    relativeSizes true; layers {} expansionRatio 1; finalLayerThickness 0.3; minThickness 0.1; nGrow 0; featureAngle 60; nRelaxIter 3;
+	    nSmoothSurfaceNormals 1; nSmoothNormals 3; nSmoothThickness 10; maxFaceThicknessRatio 0.5; maxThicknessToMedialRatio 0.3;
+	    minMedianAxisAngle 90; nBufferCellsNoExtrude 0; nLayerIter 50;
+	}
+	meshQualityControls
+	{
+	    maxNonOrtho 65; maxBoundarySkewness 20; maxInternalSkewness 4; maxConcave 80; minVol 1e-13; minTetQuality 1e-30; minArea -1; minTwist 0.02;
+	    minDeterminant 0.001; minFaceWeight 0.02; minVolRatio 0.01; minTriangleTwist -1; nSmoothScale 4; errorReduction 0.75;
+	}
+	mergeTolerance 1e-6;
+	END
+    logged snappyHexMesh -overwrite
+}
+
+# Radii 1 and 2, pressure and temperature inside; strains so small that Hooke's law holds. See Timoshenko and Goodier, Theory of
+# Elasticity, for the stresses; no strain along the axis.
+cylinder_walls='residual 1e-6; walls { inner { type pressure; pressure constant 10; } outer { type pressure; pressure constant 0; } }'
+hot_inside() { sed -i 's/^    "\.\*" { type zeroG/    inner { type fixedValue; value uniform 1; } outer { type fixedValue; value uniform 0; }\n&/' 0/T; }
+against_cylinder() { # angle from the middle plane to the points of a wedge: largest errors of displacement and stress
+    paste -d ' ' <(field 4e+09/D) <(field 4e+09/stress) <(field 0/C) | awk -v shrink="$(awk -v a="$1" 'BEGIN { print cos(a) }')" -v wedge="$1" '
+        function integral(r) { return (r*r/2*log(b/r) + r*r/4 - (1/2*log(b) + 1/4))/log(b) }
+        BEGIN { b = 2; nu = 0.3; E = 1e7; alpha = 1e-6; p = 10; A = p/(b*b - 1); B = A*b*b; all = integral(b)*(1)/(b*b - 1) }
+        { if (wedge > 0) { r = $11/shrink; u = $2; rr = $7; tt = $9 }
+          else { r = sqrt($10*$10 + $11*$11); x = $10/r; y = $11/r; u = $1*x + $2*y
+                 rr = $4*x*x + 2*$5*x*y + $7*y*y; tt = $4*y*y - 2*$5*x*y + $7*x*x }
+          I = integral(r); k = alpha*E/(1 - nu)/(r*r); T = log(b/r)/log(b)
+          srr = A - B/(r*r) + k*((r*r - 1)*all - I); stt = A + B/(r*r) + k*((r*r + 1)*all + I - T*r*r)
+          U = (1 + nu)/E*((1 - 2*nu)*A*r + B/r) + (1 + nu)*alpha/((1 - nu)*r)*(I + ((1 - 2*nu)*r*r + 1)*all)
+          e = u - U; f = rr - srr; g = tt - stt; if (e < 0) e = -e; if (f < 0) f = -f; if (g < 0) g = -g; if (f < g) f = g
+          if (!(e <= we)) we = e; if (!(f <= wf)) wf = f; if (U > mu) mu = U; s = stt < 0 ? -stt : stt; if (s > ms) ms = s }
+        END { print (NR > 3 ? we/mu " " wf/ms : "nan nan") }'
+}
+centres() { logged postProcess -func writeCellCentres -time 0; }
+ring_mesh() { # cells across
+    local z vertices='' edges='' o=0
+    for z in 0 0.1; do
+        vertices+="(1 0 $z) (2 0 $z) (0 2 $z) (0 1 $z) "
+        edges+="arc $o $((o + 3)) (0.70710678118654757 0.70710678118654757 $z) arc $((o + 1)) $((o + 2)) (1.4142135623730951 1.4142135623730951 $z) "
+        o=4
+    done
+    block_mesh "$vertices" "hex (0 1 2 3 4 5 6 7) ($1 $(($1*3/2)) 1) simpleGrading (1 1 1)" "$edges" '
+        inner { type wall; faces ((0 4 7 3)); } outer { type wall; faces ((1 2 6 5)); } low { type symmetryPlane; faces ((0 1 5 4)); }
+        left { type symmetryPlane; faces ((3 7 6 2)); } frontAndBack { type empty; faces ((0 3 2 1) (4 5 6 7)); }'
+}
+wedge_mesh() { # cells across
+    local vertices
+    vertices=$(awk 'BEGIN { t = atan2(0, -1)/72; for (s = -1; s < 2; s += 2) { split("0 1 1 1 1 2 0 2", v, " ")
+        for (i = 1; i < 8; i += 2) printf "(%d %.17g %.17g) ", v[i], v[i + 1]*cos(t), s*v[i + 1]*sin(t) } }')
+    block_mesh "$vertices" "hex (0 1 2 3 4 5 6 7) (4 $1 1) simpleGrading (1 1 1)" '' '
+        inner { type wall; faces ((0 1 5 4)); } outer { type wall; faces ((3 7 6 2)); } ends { type symmetry; faces ((0 4 7 3) (1 2 6 5)); }
+        front { type wedge; faces ((0 3 2 1)); } back { type wedge; faces ((4 5 6 7)); }'
+}
+triangle_ring() { # linear interpolation, on which Gauss gradients rely, is not consistent on triangles
+    echo 'gradSchemes { default leastSquares; }' >> system/fvSchemes
+    awk_mesh ring "$1" 0; patch_type frontAndBack empty; patch_type low symmetryPlane; patch_type left symmetryPlane
+}
+cylinder() { # what, mesh, angle, cells across, least order of the stress: error at 64 cells (with --full) and order
+    local n errors='' finest=$4
+    for n in $((finest/2)) "$finest"; do
+        solid "$2-$n" "$cylinder_walls"
+        hot_inside
+        "$2" "$n"
+        centres
+        logged msddFoam
+        errors+="$(against_cylinder "$3") "
+    done
+    set -- "$1" "$5" "$finest" $errors
+    local orders
+    orders=$(awk "BEGIN { print log($4/$6)/log(2), log($5/$7)/log(2) }")
+    check "cylinder, $1, $3 cells across: displacement within $6, stress within $7; orders $orders, at least 1.8 and $2" \
+        awk "BEGIN { split(\"$orders\", o, \" \"); exit !(o[1] >= 1.8 && o[2] >= $2 && ($3 < 64 || ($6 <= 1e-3 && ($2 < 1.5 || $7 <= 1e-3)))) }"
+}
+cylinders() {
+    local finest=32
+    [ $full = no ] || finest=64
+    cylinder "ring of quadrilaterals" ring_mesh 0 $finest 1.8
+    cylinder "wedge" wedge_mesh 0.043633231299858237 $finest 1.8
+    cylinder "ring of triangles" triangle_ring 0 $finest 0.8
+}
+
+processes_and_restarts() { # the cube between walls that move, on polyhedra, with multigrid and on three processes
+    local e
+    solid elastic-serial "$(stretched_walls 1e-4 -5e-5 2e-5)"
+    cube 6
+    snappy
+    logged foamDictionary -entry solvers.equilibrium -set '{ preconditioner AMG; }' system/fvSolution
+    sed -i 's/^    "\.\*" { type zeroG/    top { type fixedValue; value uniform 20; }\n&/' 0/T
+    logged foamDictionary -entry thermalExpansion -set 1e-5 constant/granularProperties
+    controls 'endTime 1; deltaT 0.25; writeInterval 2; startFrom latestTime;'
+    rm -rf "$work/elastic-parallel"
+    cp -r . "$work/elastic-parallel"
+    logged msddFoam
+    cd "$work/elastic-parallel"
+    cat > system/decomposeParDict <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }
+	numberOfSubdomains 3; method hierarchical; hierarchicalCoeffs { n (3 1 1); delta 0.001; order xyz; }
+	END
+    logged decomposePar
+    controls 'endTime 0.5;'
+    side_by_side 3
+    logged reconstructPar
+    rm -rf processor*
+    controls 'endTime 1;'
+    sed -i 's/numberOfSubdomains 3/numberOfSubdomains 2/; s/(3 1 1)/(1 2 1)/' system/decomposeParDict
+    logged decomposePar -latestTime
+    side_by_side 2
+    logged reconstructPar
+    for name in D stress; do
+        e=$(paste -d ' ' <(field 1/$name) <(field "$work/elastic-serial/1/$name") | awk '{ for (i = 1; i <= NF/2; i++) { e = $i - $(i + NF/2); if (e < 0) e = -e
+            a = $i < 0 ? -$i : $i; if (a > m) m = a; if (!(e <= w)) w = e } } END { print (NR > 3 && m > 0 ? w/m : "nan") }')
+        check "polyhedra: 3 processes, then 2, against one: $name differs by $e <= 1e-6" below "$e" 1e-6
+    done
+}
+
+refusals() {
+    solid floating 'walls { ".*" { type pressure; pressure constant 10; } }'
+    ring_mesh 4
+    sed -i 's/symmetryPlane/wall/' constant/polyMesh/boundary
+    check "refused: a piece that nothing holds" refused 'can move as a whole'
+    solid turning 'walls { inner { type frictionless; } outer { type frictionless; } }'
+    triangle_ring 4
+    sed -i 's/symmetryPlane/wall/' constant/polyMesh/boundary
+    check "refused: patches without a rule" refused "No rule in 'walls' of equilibriumCoeffs for the patches"
+    solid grains-in-space "walls { }"
+    cube 2
+    sed -i 's/law elastic;/law grains;/' constant/granularProperties
+    check "refused: grains in three dimensions" refused 'has three dimensions: the models of this version are made from discs'
+    solid friction-in-space 'walls { ".*" { type rigid; friction 0.3; slip 1e-3; } }'
+    cube 2
+    check "refused: friction in three dimensions" refused 'allowed in meshes of three dimensions: 0'
+    solid inside-out-cell 'walls { ".*" { type frictionless; } }'
+    cube 2
+    awk '/^\(/ && NF == 3 && match($0, /^\(.*\)$/) && ++n == 14 { print "(1.7 1.7 1.7)"; next } { print }' constant/polyMesh/points > points.new
+    mv points.new constant/polyMesh/points
+    check "refused: cells turned inside out" refused 'volume'
+}
+
+patch_tests
+cylinders
+processes_and_restarts
+refusals
