@@ -35,7 +35,7 @@ void Foam::granularMechanicsModels::equilibrium::findStiffness
     const scalar leastShare
 )
 {
-    coupled_ = !caution;
+    coupled_ = !caution && !law_->elastic();
     law_->stiffen(caution, leastShare);
 }
 

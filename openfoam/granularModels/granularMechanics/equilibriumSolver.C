@@ -99,7 +99,8 @@ static void startPetsc()
 
 struct equilibriumSolver::objects
 {
-    KSP solver = nullptr;
+    //- For matrices that are not symmetric, and for those that are
+    KSP solvers[2] = {nullptr, nullptr};
     Mat shell = nullptr;
     Vec r = nullptr, d = nullptr;
 
@@ -197,15 +198,7 @@ Foam::equilibriumSolver::equilibriumSolver
         }
         return value;
     };
-    const word solver
-    (
-        chosen
-        (
-            "solver",
-            law.elastic() ? "PCG" : "GMRES",
-            {"PCG", "PBiCGStab", "GMRES"}
-        )
-    );
+    solver_ = chosen("solver", "GMRES", {"GMRES", "PBiCGStab"});
     const word preconditioner
     (
         chosen
@@ -296,29 +289,6 @@ Foam::equilibriumSolver::equilibriumSolver
             p.shell, MATOP_MULT, reinterpret_cast<void(*)(void)>(shellMultiply)
         )
     );
-    check(KSPCreate(PETSC_COMM_WORLD, &p.solver));
-    check(KSPSetOptionsPrefix(p.solver, "equilibrium_"));
-    check(KSPSetOperators(p.solver, p.shell, p.shell));
-    check
-    (
-        KSPSetType
-        (
-            p.solver,
-            solver == "PCG" ? KSPCG : solver == "GMRES" ? KSPGMRES : KSPBCGS
-        )
-    );
-    if (solver != "PCG")
-    {
-        check(KSPSetPCSide(p.solver, PC_RIGHT));
-    }
-    check(KSPSetNormType(p.solver, KSP_NORM_UNPRECONDITIONED));
-    check(KSPSetTolerances(p.solver, relTol_, 0, 1e30, maxIter_));
-    PC shell;
-    check(KSPGetPC(p.solver, &shell));
-    check(PCSetType(shell, PCSHELL));
-    check(PCShellSetContext(shell, this));
-    check(PCShellSetApply(shell, shellPrecondition));
-    check(KSPSetFromOptions(p.solver));
 }
 
 
@@ -333,7 +303,8 @@ Foam::equilibriumSolver::~equilibriumSolver()
         VecDestroy(&p.from[i]);
         VecDestroy(&p.to[i]);
     }
-    KSPDestroy(&p.solver);
+    KSPDestroy(&p.solvers[0]);
+    KSPDestroy(&p.solvers[1]);
     MatDestroy(&p.shell);
     VecDestroy(&p.r);
     VecDestroy(&p.d);
@@ -711,6 +682,44 @@ void Foam::equilibriumSolver::makePreconditioner(const word& name)
 }
 
 
+Foam::equilibriumSolver::objects& Foam::equilibriumSolver::withSolver
+(
+    const bool symmetric
+)
+{
+    objects& p = *petsc_;
+    KSP& solver = p.solvers[symmetric];
+    if (solver)
+    {
+        return p;
+    }
+    check(KSPCreate(PETSC_COMM_WORLD, &solver));
+    check(KSPSetOptionsPrefix(solver, "equilibrium_"));
+    check(KSPSetOperators(solver, p.shell, p.shell));
+    check
+    (
+        KSPSetType
+        (
+            solver,
+            symmetric ? KSPCG : solver_ == "GMRES" ? KSPGMRES : KSPBCGS
+        )
+    );
+    if (!symmetric)
+    {
+        check(KSPSetPCSide(solver, PC_RIGHT));
+    }
+    check(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
+    check(KSPSetTolerances(solver, relTol_, 0, 1e30, maxIter_));
+    PC shell;
+    check(KSPGetPC(solver, &shell));
+    check(PCSetType(shell, PCSHELL));
+    check(PCShellSetContext(shell, this));
+    check(PCShellSetApply(shell, shellPrecondition));
+    check(KSPSetFromOptions(solver));
+    return p;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::equilibriumSolver::toVector
@@ -842,13 +851,14 @@ void Foam::equilibriumSolver::precondition
 
 Foam::label Foam::equilibriumSolver::solve
 (
+    const bool symmetric,
     const scalarField& diagonal,
     const scalarField& r,
     scalarField& d
 )
 {
     const quietArithmetic quiet;
-    objects& p = *petsc_;
+    objects& p = withSolver(symmetric);
     forAll(scaling_, i)
     {
         scaling_[i] = std::sqrt(mediumDiagonal_[i]/diagonal[i]);
@@ -873,16 +883,15 @@ Foam::label Foam::equilibriumSolver::solve
     check(VecGetArray(p.r, &x));
     toVector(r, x);
     check(VecRestoreArray(p.r, &x));
-    check(KSPSolve(p.solver, p.r, p.d));
+    check(KSPSolve(p.solvers[symmetric], p.r, p.d));
     const double* y;
     check(VecGetArrayRead(p.d, &y));
     toField(y, d);
     check(VecRestoreArrayRead(p.d, &y));
     PetscInt iterations;
-    KSPType type;
-    check(KSPGetIterationNumber(p.solver, &iterations));
-    check(KSPGetType(p.solver, &type));
-    return word(type) == KSPBCGS ? 2*iterations : iterations;
+    check(KSPGetIterationNumber(p.solvers[symmetric], &iterations));
+    return
+        symmetric || solver_ == "GMRES" ? iterations : 2*iterations;
 }
 
 

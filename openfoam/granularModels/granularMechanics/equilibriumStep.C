@@ -269,7 +269,7 @@ void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
     multiply(du, resisted);
     r_ -= resisted;
     findDiagonal();
-    counters_.linear += solver_->solve(diagonal_, r_, d);
+    counters_.linear += solver_->solve(true, diagonal_, r_, d);
     du += d;
     left_ = imbalance(du, true);
 }
@@ -305,7 +305,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     {
         findStiffness(cautionOf(rung), least);
         findDiagonal();
-        counters_.linear += solver_->solve(diagonal_, r_, d);
+        counters_.linear += solver_->solve(!coupled_, diagonal_, r_, d);
         ++counters_.iterations;
         const scalar last = norm_;
         const scalar share = search(du, d, moved);

@@ -134,6 +134,7 @@ bool Foam::granularState::judge
 
     // A second query gives the distances from the range. It repeats the first
     // without side effects: models with such a range keep no history
+    outside_.setSize(state_.size() + 1, mesh_.nCells());
     ask(before_, to, strain_, false, true);
     forAll(rows_, row)
     {
@@ -251,6 +252,11 @@ bool Foam::granularState::propose
     gather(strain, total);
 
     const bool twice = secondOrder && !model_->exactIncrements();
+    if (twice)
+    {
+        full_.setSize(state_.size(), mesh_.nCells());
+        half_.setSize(state_.size(), mesh_.nCells());
+    }
     columns& to = twice ? full_ : after_;
     const label outside = ask(before_, to, strain_, false);
     const string when("At time " + mesh_.time().timeName());

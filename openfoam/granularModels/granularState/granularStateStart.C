@@ -374,10 +374,7 @@ void Foam::granularState::allocate()
     askedXY_.resize(model_->diagonal() ? 0 : cells, Zero);
     rows_.setCapacity(cells);
     before_.setSize(count, cells);
-    full_.setSize(count, cells);
-    half_.setSize(count, cells);
     after_.setSize(count, cells);
-    outside_.setSize(count + 1, cells);
 }
 
 

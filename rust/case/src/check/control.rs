@@ -102,6 +102,11 @@ fn check_solution(solution: &Dictionary, found: &mut Findings) -> String {
         let allowed = "a dictionary with the linear solver of T, such as { solver PCG; preconditioner DIC; tolerance 1e-10; relTol 0; }";
         found.error([SOLUTION, "solvers/T"], "missing", allowed, "");
     }
+    if let Ok(Ok(linear)) =
+        solution.dictionary_at("solvers").map(|solvers| solvers.dictionary_at("equilibrium"))
+    {
+        keys::check(linear, SOLUTION, keys::LINEAR, &[], found);
+    }
     let Ok(own) = solution.dictionary_at("msddFoam") else { return "paper".to_string() };
     keys::check(own, SOLUTION, keys::SOLVER, &[], found);
     own.text("timeScheme").unwrap_or_else(|_| "paper".to_string())

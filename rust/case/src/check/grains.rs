@@ -196,7 +196,10 @@ fn check_mechanics(
     found: &mut Findings,
 ) {
     let equilibrium = file.text("mechanics").is_ok_and(|kind| kind == "equilibrium");
-    if equilibrium && model.is_some_and(|model| !model.has_tangent()) {
+    let elastic = matches!(
+        file.dictionary_at("equilibriumCoeffs"), Ok(settings) if settings.text("law").is_ok_and(|law| law == "elastic")
+    );
+    if equilibrium && !elastic && model.is_some_and(|model| !model.has_tangent()) {
         let advice = "The model has no mechanical tangent, which this needs; builtin has one";
         found.error([FILE, "mechanics"], "equilibrium", "none with this model", advice);
     }
@@ -207,10 +210,22 @@ fn check_mechanics(
     }
     keys::check(settings, FILE, keys::EQUILIBRIUM, &[], found);
     let value = |key: &str| keys::number(file, key, "").unwrap_or(0.0);
-    let scale = value("youngModulus") * value("meanRadius");
+    let mut scale = value("youngModulus") * value("meanRadius");
+    let mut usual = 1e-4;
+    if elastic {
+        let Ok(solid) = settings.dictionary_at("elasticCoeffs") else {
+            let allowed = "a dictionary with youngModulus and poissonRatio";
+            found.error([FILE, "equilibriumCoeffs/elasticCoeffs"], "missing", allowed, "");
+            return;
+        };
+        keys::check(solid, FILE, keys::ELASTIC, &[], found);
+        let number = |key: &str| keys::number(solid, key, "").unwrap_or(0.0);
+        scale = number("youngModulus") / (2.0 + 2.0 * number("poissonRatio")) / 0.3;
+        usual = 1e-9;
+    }
     if scale > 0.0 {
         between(settings, "residual", [2e-14 * scale, 2e4 * scale], "Pa", found);
-        let residual = keys::number(settings, "residual", "").unwrap_or(1e-4 * scale);
+        let residual = keys::number(settings, "residual", "").unwrap_or(usual * scale);
         between(settings, "maxResidual", [residual, 2e7 * scale], "Pa", found);
     }
     let Ok(walls) = settings.dictionary_at("walls") else { return };

@@ -115,10 +115,27 @@ pub const SIDES: &[Key] = &[may("below", POLICY), may("above", POLICY)];
 
 /// `equilibriumCoeffs`; the ranges of residual, maxResidual, slip and layer depend on the grains.
 pub const EQUILIBRIUM: &[Key] = &[
+    may("law", Kind::Word(&["grains", "elastic"])),
+    may("elasticCoeffs", Kind::Dictionary),
     may("residual", Kind::Any),
     may("maxIterations", Kind::Range(1.0, 1000.0, "")),
     may("maxResidual", Kind::Any),
     may("walls", Kind::Dictionary),
+];
+
+/// `elasticCoeffs` of `equilibriumCoeffs`.
+pub const ELASTIC: &[Key] = &[
+    must("youngModulus", Kind::Positive("Pa", "[1 -1 -2 0 0 0 0]")),
+    must("poissonRatio", Kind::Range(-0.99, 0.49999, "")),
+];
+
+/// `equilibrium` of `solvers` in `fvSolution`.
+pub const LINEAR: &[Key] = &[
+    may("solver", Kind::Word(&["GMRES", "PBiCGStab"])),
+    may("preconditioner", Kind::Word(&["Cholesky", "AMG", "componentAMG"])),
+    may("relTol", Kind::Range(1e-14, 0.9, "")),
+    may("maxIter", Kind::Range(1.0, 1e5, "")),
+    may("petsc", Kind::Dictionary),
 ];
 
 /// The dictionary of a wall in `walls` of `equilibriumCoeffs`.

@@ -29,6 +29,8 @@ fn tables_hold_exactly_the_keys_that_the_solver_allows() {
         ("onlineRveModel/onlineRveModel.C", "coeffs_", ONLINE_RVE),
         ("granularMechanics/equilibrium.C", "dict_", EQUILIBRIUM),
         ("granularMechanics/wallConditions.C", "dict", WALL),
+        ("granularMechanics/stressLaw.C", "dict", ELASTIC),
+        ("granularMechanics/equilibriumSolver.C", "controls", LINEAR),
         ("regionPolicy/regionPolicy.C", "dict", SIDES),
         ("../msddFoam/timeScheme/timeScheme.C", "dict", SOLVER),
     ] {
