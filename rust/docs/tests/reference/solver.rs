@@ -15,11 +15,17 @@ const MODEL: &str = "openfoam/granularModels/granularModel/granularModel.C";
 const REGION: &str = "openfoam/granularModels/regionPolicy/regionPolicy.C";
 const WALLS: &str = "openfoam/granularModels/granularMechanics/wallConditions.C";
 const EQUILIBRIUM: &str = "openfoam/granularModels/granularMechanics/equilibrium.C";
+const LAW: &str = "openfoam/granularModels/granularMechanics/stressLaw.C";
+const LINEAR: &str = "openfoam/granularModels/granularMechanics/equilibriumSolver.C";
 const SCHEME: &str = "openfoam/msddFoam/timeScheme/timeScheme.C";
 const SECOND: &str = "openfoam/msddFoam/timeScheme/secondOrderScheme.C";
 
 /// Texts that are looked up in the solver and are no keys of a user.
-pub const NO_KEYS: [(&str, &str); 1] = [("accept", "option of the command line, in the table of msddFoam")];
+pub const NO_KEYS: [(&str, &str); 3] = [
+    ("accept", "option of the command line, in the table of msddFoam"),
+    ("solvers", "dictionary of every fvSolution"),
+    ("equilibrium", "heading of the table solvers.equilibrium"),
+];
 
 /// Keys of controlDict that OpenFOAM's Time reads for us.
 const OF_TIME: [(&str, &str); 4] = [
@@ -59,6 +65,7 @@ pub fn page_of(file: &str) -> &'static str {
         ("openfoam/functionObjects", OBJECTS),
         ("openfoam/msddFoam", SYSTEM),
         ("openfoam/granularModels/granularState", SYSTEM),
+        (LINEAR, SYSTEM),
         ("openfoam/granularModels/runRecord", "reference/fields.md"),
     ];
     pages.iter().find(|(folder, _)| file.starts_with(folder)).map_or(GRAINS, |(_, page)| page)
@@ -130,6 +137,8 @@ fn equilibrium() -> Vec<Set> {
         ),
         with_literals(set, &walls),
         Set::new(GRAINS, "types of walls", WALLS, kinds),
+        Set::new(GRAINS, "elasticCoeffs", LAW, allowed_keys(&source(LAW), "dict")),
+        Set::new(SYSTEM, "solvers.equilibrium", LINEAR, allowed_keys(&source(LINEAR), "controls")),
     ]
 }
 
