@@ -160,6 +160,20 @@ int main(int argc, char *argv[])
 
     const granularProperties granular(runTime);
 
+    const word type
+    (
+        granular.surrogateDict().lookupOrDefault<word>("type", word::null)
+    );
+    if (mesh.solutionD()[vector::Z] != -1 && type != "constant")
+    {
+        FatalErrorInFunction
+            << "The mesh " << mesh.objectRegistry::objectPath()
+            << " is three-dimensional, allowed: two-dimensional in x and y,"
+            << " with empty patches in z. The models are made from discs and"
+            << " know no third direction; only surrogate type constant takes"
+            << " any mesh" << exit(FatalError);
+    }
+
     Info<< "Reading field T\n" << endl;
     volScalarField T
     (
@@ -172,15 +186,6 @@ int main(int argc, char *argv[])
     );
 
     granularState grains(granular, T);
-    if (mesh.solutionD()[vector::Z] != -1 && !grains.model().anyMesh())
-    {
-        FatalErrorInFunction
-            << "The mesh " << mesh.objectRegistry::objectPath()
-            << " is three-dimensional, allowed: two-dimensional in x and y,"
-            << " with empty patches in z. The models are made from discs and"
-            << " know no third direction; only surrogate type constant with the"
-            << " entry conductivity takes any mesh" << exit(FatalError);
-    }
     autoPtr<granularMechanics> mechanics
     (
         granularMechanics::New(granular, grains)

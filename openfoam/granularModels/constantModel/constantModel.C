@@ -60,10 +60,10 @@ Foam::granularModels::constant::constant
             {"model", "hash", "conductivity", "stress"}
         );
     }
-    if (coeffs_.readIfPresent("conductivity", conductivity_))
+    const bool plane = mesh.solutionD()[vector::Z] == -1;
+    if (coeffs_.readIfPresent("conductivity", conductivity_) || !plane)
     {
         const symmTensor& K = conductivity_;
-        const bool plane = mesh.solutionD()[vector::Z] == -1;
         if
         (
             !(K.xx() > 0 && K.yy() > 0 && sqr(K.xy()) < K.xx()*K.yy())

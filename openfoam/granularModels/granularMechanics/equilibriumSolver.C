@@ -93,6 +93,13 @@ static void startPetsc()
     }
     // The signals belong to OpenFOAM
     check(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
+    // The same bytes in each run on the same number of processes
+    check(PetscOptionsSetValue(nullptr, "-matstash_legacy", nullptr));
+    check(PetscOptionsSetValue(nullptr, "-matstash_reproduce", nullptr));
+    if (Pstream::parRun())
+    {
+        check(PetscOptionsSetValue(nullptr, "-matptap_via", "allatonce"));
+    }
     check(PetscInitializeNoArguments());
 }
 
@@ -204,7 +211,8 @@ Foam::equilibriumSolver::equilibriumSolver
         chosen
         (
             "preconditioner",
-            mesh.globalSize() < (mesh.dim() == 2 ? smallPlane : smallSolid)
+            !Pstream::parRun()
+         && mesh.size() < (mesh.dim() == 2 ? smallPlane : smallSolid)
           ? "Cholesky"
           : mesh.dim() == 3 ? "componentAMG" : "AMG",
             {"AMG", "componentAMG", "Cholesky"}
@@ -212,7 +220,7 @@ Foam::equilibriumSolver::equilibriumSolver
     );
     relTol_ = granularProperties::ranged
     (
-        controls, "relTol", law.elastic() ? 1e-6 : 0.1, 1e-14, 0.9
+        controls, "relTol", law.elastic() ? 1e-6 : 0.3, 1e-14, 0.9
     );
     maxIter_ = label
     (
@@ -308,7 +316,7 @@ Foam::equilibriumSolver::~equilibriumSolver()
     MatDestroy(&p.shell);
     VecDestroy(&p.r);
     VecDestroy(&p.d);
-    PetscFinalize();
+    // PETSc itself stays: it cannot be started twice in a process
 }
 
 

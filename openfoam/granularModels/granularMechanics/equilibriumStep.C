@@ -39,6 +39,11 @@ static const scalar mostOfLeast = 0.05;
 static const scalar leastOfLeast = 0.005;
 static const scalar slow = 0.5;
 
+//- The same share at which the whole tangent is tried in place of its symmetric
+//- part
+static const scalar stuck = 0.8;
+static const label patience = 6;
+
 //- Largest caution, see stressLaw::stiffen()
 static const label mostCaution = 9;
 
@@ -47,7 +52,8 @@ static const label mostCaution = 9;
 //- grains need that lose contact; then stiffer ones
 static label cautionOf(const label rung)
 {
-    return rung == 0 ? 1 : rung == 1 ? 0 : rung;
+    static const label first[] = {1, 2, 0};
+    return rung < 3 ? first[rung] : rung;
 }
 
 } // End namespace Foam
@@ -294,7 +300,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
 
     nodeField d;
-    label rung = 0;
+    label rung = 0, slowSteps = 0;
     scalar least = mostOfLeast;
     for
     (
@@ -312,10 +318,12 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         if (share > 0)
         {
             moved = true;
+            // Many slow steps: the whole tangent, to the end
+            slowSteps += norm_ > slow*last;
             rung =
-                rung > 1 ? rung - 1
-              : rung == 1 || norm_ > slow*last ? 1
-              : 0;
+                slowSteps > patience ? 2
+              : norm_ > stuck*last ? min(rung + 1, label(2))
+              : max(rung - 1, label(0));
             least = share < 1 ? mostOfLeast
                   : norm_ > slow*last ? max(0.5*least, leastOfLeast)
                   : least;
