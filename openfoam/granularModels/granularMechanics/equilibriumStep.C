@@ -44,12 +44,24 @@ static const scalar slow = 0.5;
 static const scalar stuck = 0.8;
 static const label patience = 6;
 
+//- An iteration that leaves more than this share of norm_ stalls. After as many
+//- of them the step ends, if its imbalance is nearly the residual; the whole
+//- tangent is not tried for so many iterations after its way was cut to less
+//- than this share
+static const scalar stalling = 0.95;
+static const label mostStalled = 5;
+static const scalar nearly = 2;
+static const scalar shortWay = 0.25;
+static const label longPause = 6;
+
 //- Largest caution, see stressLaw::stiffen()
 static const label mostCaution = 9;
 
 //- Cautions in the order in which they are tried: the symmetric part, with which
-//- the linear equations are solved in a few iterations; the whole tangent, which
-//- grains need that lose contact; then stiffer ones
+//- the linear equations are solved in a few iterations; that of grains that do
+//- not slide; the whole tangent, which grains need that lose contact; then
+//- stiffer ones
+static const label wholeTangent = 2;
 static label cautionOf(const label rung)
 {
     static const label first[] = {1, 2, 0};
@@ -300,7 +312,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
 
     nodeField d;
-    label rung = 0, slowSteps = 0;
+    label rung = 0, slowSteps = 0, stalled = 0, pause = 0;
     scalar least = mostOfLeast;
     for
     (
@@ -315,14 +327,24 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         ++counters_.iterations;
         const scalar last = norm_;
         const scalar share = search(du, d, moved);
+        stalled = norm_ > stalling*last ? stalled + 1 : 0;
+        if (stalled >= mostStalled && left_ <= min(nearly*tolerance_, maxResidual_))
+        {
+            break;
+        }
+        if (rung == wholeTangent && share < shortWay)
+        {
+            pause = iteration + longPause;
+        }
+        const bool pausing = iteration < pause;
         if (share > 0)
         {
             moved = true;
             // Many slow steps: the whole tangent, to the end
             slowSteps += norm_ > slow*last;
             rung =
-                slowSteps > patience ? 2
-              : norm_ > stuck*last ? min(rung + 1, label(2))
+                slowSteps > patience && !pausing ? wholeTangent
+              : norm_ > stuck*last ? min(rung + 1, wholeTangent - pausing)
               : max(rung - 1, label(0));
             least = share < 1 ? mostOfLeast
                   : norm_ > slow*last ? max(0.5*least, leastOfLeast)
@@ -332,6 +354,8 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         {
             break;
         }
+        rung += pausing && rung == wholeTangent;
+        if (std::getenv("DBG")) Info<< "  it " << iteration << " next " << cautionOf(rung) << " least " << least << " linear " << counters_.linear << " share " << share << " norm " << std::sqrt(last) << " -> " << std::sqrt(norm_) << " left " << left_ << " t " << mesh_.time().elapsedCpuTime() << nl;
     }
     return left_ <= maxResidual_;
 }
