@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "equilibrium.H"
+#include "stiffnessChoice.H"
 #include "solverPerformance.H"
 
 #include <cmath>
@@ -31,42 +32,9 @@ static const label mostCuts = 6;
 //- enough: along a way that lowers the energy this work falls to zero
 static const scalar enoughWork = 0.8;
 
-//- Least stiffness of a cell, divided by E r/l: grains that do not touch have
-//- none, but the equations need some. Much of it keeps steps short where grains
-//- come into contact, and slows the last iterations where none do: after a
-//- whole step that lowers norm_ by less than 'slow' it is halved
-static const scalar mostOfLeast = 0.05;
-static const scalar leastOfLeast = 0.005;
-static const scalar slow = 0.5;
-
-//- The same share at which the whole tangent is tried in place of its symmetric
-//- part
-static const scalar stuck = 0.8;
-static const label patience = 6;
-
-//- An iteration that leaves more than this share of norm_ stalls. After as many
-//- of them the step ends, if its imbalance is nearly the residual; the whole
-//- tangent is not tried for so many iterations after its way was cut to less
-//- than this share
-static const scalar stalling = 0.95;
-static const label mostStalled = 5;
+//- A step ends early if its iterations stall and its imbalance is below so many
+//- residuals
 static const scalar nearly = 2;
-static const scalar shortWay = 0.25;
-static const label longPause = 6;
-
-//- Largest caution, see stressLaw::stiffen()
-static const label mostCaution = 9;
-
-//- Cautions in the order in which they are tried: the symmetric part, with which
-//- the linear equations are solved in a few iterations; that of grains that do
-//- not slide; the whole tangent, which grains need that lose contact; then
-//- stiffer ones
-static const label wholeTangent = 2;
-static label cautionOf(const label rung)
-{
-    static const label first[] = {1, 2, 0};
-    return rung < 3 ? first[rung] : rung;
-}
 
 } // End namespace Foam
 
@@ -307,13 +275,13 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
     if (moved)
     {
-        findStiffness(1, mostOfLeast);
+        findStiffness(stiffnessChoice::firstCaution, stiffnessChoice::firstShare);
         follow(du);
     }
 
     nodeField d;
-    label rung = 0, slowSteps = 0, stalled = 0, pause = 0;
-    scalar least = mostOfLeast;
+    stiffnessChoice choice;
+    const scalar enough = min(nearly*tolerance_, maxResidual_);
     for
     (
         label iteration = 0;
@@ -321,41 +289,18 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         ++iteration
     )
     {
-        findStiffness(cautionOf(rung), least);
+        findStiffness(choice.caution(), choice.leastShare());
         findDiagonal();
         counters_.linear += solver_->solve(!coupled_, diagonal_, r_, d);
         ++counters_.iterations;
-        const scalar last = norm_;
-        const scalar share = search(du, d, moved);
-        stalled = norm_ > stalling*last ? stalled + 1 : 0;
-        if (stalled >= mostStalled && left_ <= min(nearly*tolerance_, maxResidual_))
+        const scalar before = norm_;
+        const scalar way = search(du, d, moved);
+        moved = moved || way > 0;
+        choice.learn(way, norm_/before);
+        if (choice.exhausted() || (choice.stalls() && left_ <= enough))
         {
             break;
         }
-        if (rung == wholeTangent && share < shortWay)
-        {
-            pause = iteration + longPause;
-        }
-        const bool pausing = iteration < pause;
-        if (share > 0)
-        {
-            moved = true;
-            // Many slow steps: the whole tangent, to the end
-            slowSteps += norm_ > slow*last;
-            rung =
-                slowSteps > patience && !pausing ? wholeTangent
-              : norm_ > stuck*last ? min(rung + 1, wholeTangent - pausing)
-              : max(rung - 1, label(0));
-            least = share < 1 ? mostOfLeast
-                  : norm_ > slow*last ? max(0.5*least, leastOfLeast)
-                  : least;
-        }
-        else if (++rung > mostCaution)
-        {
-            break;
-        }
-        rung += pausing && rung == wholeTangent;
-        if (std::getenv("DBG")) Info<< "  it " << iteration << " next " << cautionOf(rung) << " least " << least << " linear " << counters_.linear << " share " << share << " norm " << std::sqrt(last) << " -> " << std::sqrt(norm_) << " left " << left_ << " t " << mesh_.time().elapsedCpuTime() << nl;
     }
     return left_ <= maxResidual_;
 }
