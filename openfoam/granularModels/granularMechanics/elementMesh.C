@@ -56,7 +56,7 @@ Foam::elementMesh::elementMesh(const fvMesh& mesh)
             }
         }
     }
-    findWeights();
+    findOwned();
     findFits();
 }
 
@@ -213,12 +213,6 @@ Foam::label Foam::elementMesh::solidShapes
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::label Foam::elementMesh::globalSize() const
-{
-    return returnReduce(label(owned_.count()), sumOp<label>());
-}
-
-
 Foam::label Foam::elementMesh::findShapes
 (
     const scalarField& at,
@@ -232,7 +226,9 @@ Foam::label Foam::elementMesh::findShapes
         result.hoop.resize(nodes_.size());
     }
     return
-        kind_ == kind::solid ? solidShapes(at, result) : planeShapes(at, result);
+        kind_ == kind::solid
+      ? solidShapes(at, result)
+      : planeShapes(at, result);
 }
 
 

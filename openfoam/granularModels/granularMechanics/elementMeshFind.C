@@ -211,9 +211,8 @@ void Foam::elementMesh::findWalls(const labelList& nodeOfPoint)
 }
 
 
-void Foam::elementMesh::findWeights()
+void Foam::elementMesh::findOwned()
 {
-    weight_ = scalarField(size(), 1);
     owned_.resize(size(), true);
     if (!Pstream::parRun())
     {
@@ -229,7 +228,6 @@ void Foam::elementMesh::findWeights()
     DynamicList<label> shared, points;
     forAll(first, node)
     {
-        weight_[node] = 1/count[node];
         owned_.set(node, first[node] == Pstream::myProcNo());
         if (count[node] > 1.5)
         {

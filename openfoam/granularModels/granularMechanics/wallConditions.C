@@ -433,12 +433,13 @@ void Foam::wallConditions::findFloating() const
     const regionSplit regions(mesh_.mesh());
     const label pieces = regions.nRegions();
     rigidMotion motion(mesh_, regions, pieces);
+    const label dim = mesh_.dim();
 
     forAll(held_, i)
     {
         for (label k = 0; k < directions_[i]; ++k)
         {
-            motion.hold(held_[i], basis_.cdata() + mesh_.dim()*mesh_.dim()*i + mesh_.dim()*k);
+            motion.hold(held_[i], basis_.cdata() + dim*(dim*i + k));
         }
     }
     forAll(rubbing_, i)

@@ -1,0 +1,435 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "petscObjects.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::equilibriumSolver::assemble
+(
+    const elementMesh::shapes& reference,
+    const label component
+)
+{
+    const label dim = mesh_.dim(), each = component < 0 ? dim : 1;
+    const label rows = each*label(mesh_.owned().count());
+    Mat& A = petsc_->matrices[component < 0 ? 0 : component];
+
+    // Number of nodes around each node; where processes meet more than that,
+    // because they count common neighbours twice
+    scalarField here(mesh_.size(), Zero);
+    {
+        labelList marked(mesh_.size(), -1);
+        labelListList cellsOfNode(mesh_.size());
+        labelList count(mesh_.size(), 0);
+        for (const label node : mesh_.cellNodes())
+        {
+            ++count[node];
+        }
+        forAll(count, node)
+        {
+            cellsOfNode[node].resize(count[node]);
+        }
+        count = 0;
+        mesh_.each([&](const auto& e)
+        {
+            for (label a = 0; a < e.size(); ++a)
+            {
+                const label node = e.nodes[a];
+                cellsOfNode[node][count[node]++] = e.cell;
+            }
+        });
+        forAll(cellsOfNode, node)
+        {
+            for (const label celli : cellsOfNode[node])
+            {
+                for
+                (
+                    label i = mesh_.cellStarts()[celli];
+                    i < mesh_.cellStarts()[celli + 1];
+                    ++i
+                )
+                {
+                    const label other = mesh_.cellNodes()[i];
+                    here[node] += marked[other] != node;
+                    marked[other] = node;
+                }
+            }
+        }
+    }
+    scalarField everywhere(here);
+    mesh_.sum(everywhere, 1);
+    List<PetscInt> inside, outside;
+    inside.resize(rows);
+    outside.resize(rows);
+    label row = 0;
+    forAll(here, node)
+    {
+        if (mesh_.owned().test(node))
+        {
+            for (label k = 0; k < each; ++k)
+            {
+                inside[row] =
+                    min(PetscInt(each*everywhere[node]), PetscInt(rows));
+                outside[row++] =
+                    Pstream::parRun() ? PetscInt(each*everywhere[node]) : 0;
+            }
+        }
+    }
+
+    check(MatCreate(PETSC_COMM_WORLD, &A));
+    check(MatSetSizes(A, rows, rows, PETSC_DECIDE, PETSC_DECIDE));
+    check(MatSetBlockSize(A, each));
+    check(MatSetType(A, MATAIJ));
+    check(MatSeqAIJSetPreallocation(A, 0, inside.cdata()));
+    check(MatMPIAIJSetPreallocation(A, 0, inside.cdata(), 0, outside.cdata()));
+    check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
+    check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
+
+    // Projections on the components that are free, of nodes that are held
+    labelList heldIndex(mesh_.size(), -1);
+    forAll(walls_.held(), i)
+    {
+        heldIndex[walls_.held()[i]] = i;
+    }
+    const auto freed = [&](const label node, tensor& P)
+    {
+        P = tensor::I;
+        const label i = heldIndex[node];
+        for (label k = 0; i >= 0 && k < walls_.directions()[i]; ++k)
+        {
+            const scalar* e = walls_.basis().cdata() + dim*dim*i + dim*k;
+            const vector n(e[0], e[1], dim == 3 ? e[2] : 0);
+            P -= n*n;
+        }
+        return i >= 0;
+    };
+
+    const scalar lambda = lambda_, G = shear_;
+    const label r = mesh_.radial();
+    List<PetscInt> indices;
+    List<PetscScalar> values;
+    List<tensor> projections;
+    List<bool> held;
+
+    mesh_.each([&](const auto& e)
+    {
+        constexpr label dim = std::decay<decltype(e)>::type::dim;
+        const label n = e.size();
+        const scalar V = reference.volume[e.cell];
+        const scalar* B = reference.gradient.cdata() + dim*e.start;
+        const scalar* hoop =
+            r < 0 ? nullptr : reference.hoop.cdata() + e.start;
+        const scalar s =
+            unfitted_*G*mesh_.unfittedScale(e.cell, reference);
+        indices.resize(max(indices.size(), n));
+        values.resize(max(values.size(), n*dim*n*dim));
+        projections.resize(max(projections.size(), n));
+        held.resize(projections.size());
+        for (label a = 0; a < n; ++a)
+        {
+            indices[a] = number_[e.nodes[a]];
+            held[a] = freed(e.nodes[a], projections[a]);
+        }
+        for (label a = 0; a < n; ++a)
+        {
+            for (label b = 0; b < n; ++b)
+            {
+                const scalar* Ba = B + dim*a;
+                const scalar* Bb = B + dim*b;
+                scalar K[dim][dim], both = 0;
+                for (label k = 0; k < dim; ++k)
+                {
+                    both += Ba[k]*Bb[k];
+                }
+                const scalar diagonal =
+                    V*G*both + s*mesh_.unfitted(e, a, b);
+                for (label i = 0; i < dim; ++i)
+                {
+                    for (label j = 0; j < dim; ++j)
+                    {
+                        K[i][j] =
+                            V*(lambda*Ba[i]*Bb[j] + G*Ba[j]*Bb[i])
+                          + (i == j ? diagonal : 0);
+                        if (hoop)
+                        {
+                            K[i][j] +=
+                                V
+                               *(
+                                    lambda*(j == r)*Ba[i]*hoop[b]
+                                  + lambda*(i == r)*hoop[a]*Bb[j]
+                                  + (lambda + 2*G)*(i == r)*(j == r)
+                                   *hoop[a]*hoop[b]
+                                );
+                        }
+                    }
+                }
+                if (held[a] || held[b])
+                {
+                    scalar part[dim][dim] = {};
+                    for (label i = 0; i < dim; ++i)
+                    {
+                        for (label j = 0; j < dim; ++j)
+                        {
+                            for (label k = 0; k < dim; ++k)
+                            {
+                                part[i][j] += projections[a](i, k)*K[k][j];
+                            }
+                        }
+                    }
+                    for (label i = 0; i < dim; ++i)
+                    {
+                        for (label j = 0; j < dim; ++j)
+                        {
+                            K[i][j] = 0;
+                            for (label k = 0; k < dim; ++k)
+                            {
+                                K[i][j] += part[i][k]*projections[b](k, j);
+                            }
+                        }
+                    }
+                }
+                if (component >= 0)
+                {
+                    values[n*a + b] = K[component][component];
+                    continue;
+                }
+                for (label i = 0; i < dim; ++i)
+                {
+                    for (label j = 0; j < dim; ++j)
+                    {
+                        values[(dim*a + i)*n*dim + dim*b + j] = K[i][j];
+                    }
+                }
+            }
+        }
+        check
+        (
+            component < 0
+          ? MatSetValuesBlocked
+            (
+                A, n, indices.cdata(), n, indices.cdata(), values.cdata(),
+                ADD_VALUES
+            )
+          : MatSetValues
+            (
+                A, n, indices.cdata(), n, indices.cdata(), values.cdata(),
+                ADD_VALUES
+            )
+        );
+    });
+
+    // Friction; and components that walls hold, with a diagonal of the size of
+    // the others
+    const auto add = [&](const label node, const tensor& more)
+    {
+        if (!mesh_.owned().test(node))
+        {
+            return;
+        }
+        const PetscInt index = number_[node];
+        for (label i = 0; i < dim; ++i)
+        {
+            for (label j = 0; j < dim; ++j)
+            {
+                if (component < 0)
+                {
+                    check
+                    (
+                        MatSetValue
+                        (
+                            A, dim*index + i, dim*index + j, more(i, j),
+                            ADD_VALUES
+                        )
+                    );
+                }
+                else if (i == component && j == component)
+                {
+                    check(MatSetValue(A, index, index, more(i, j), ADD_VALUES));
+                }
+            }
+        }
+    };
+    walls_.eachStick([&](const label node, const scalar* t, const scalar k)
+    {
+        const vector along(t[0], t[1], 0);
+        add(node, k*(along*along));
+    });
+    for (const label node : walls_.held())
+    {
+        tensor P;
+        freed(node, P);
+        scalar size = 0;
+        for (label k = 0; k < dim; ++k)
+        {
+            size = max(size, mediumDiagonal_[dim*node + k]);
+        }
+        add(node, size*(tensor::I - P));
+    }
+    check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+}
+
+
+void Foam::equilibriumSolver::makePreconditioner(const word& name)
+{
+    const label dim = mesh_.dim();
+    objects& p = *petsc_;
+    const label rows = label(mesh_.owned().count());
+
+    // The rigid motions; for bodies of revolution uniform displacements
+    if (name == "AMG")
+    {
+        Mat& A = p.matrices[0];
+        Vec places;
+        check(MatCreateVecs(A, &places, nullptr));
+        check(VecSetBlockSize(places, dim));
+        MatNullSpace motions;
+        if (mesh_.radial() < 0)
+        {
+            double* x;
+            check(VecGetArray(places, &x));
+            toVector(mesh_.points(), x);
+            check(VecRestoreArray(places, &x));
+            check(MatNullSpaceCreateRigidBody(places, &motions));
+        }
+        else
+        {
+            Vec along[2];
+            for (label k = 0; k < 2; ++k)
+            {
+                check(VecDuplicate(places, &along[k]));
+                double* x;
+                check(VecGetArray(along[k], &x));
+                for (label i = 0; i < rows; ++i)
+                {
+                    x[2*i + k] = 1;
+                    x[2*i + 1 - k] = 0;
+                }
+                check(VecRestoreArray(along[k], &x));
+                check(VecNormalize(along[k], nullptr));
+            }
+            check
+            (
+                MatNullSpaceCreate
+                (
+                    PETSC_COMM_WORLD, PETSC_FALSE, 2, along, &motions
+                )
+            );
+            check(VecDestroy(&along[0]));
+            check(VecDestroy(&along[1]));
+        }
+        check(MatSetNearNullSpace(A, motions));
+        check(MatNullSpaceDestroy(&motions));
+        check(VecDestroy(&places));
+    }
+    forAll(p.matrices, i)
+    {
+        PC& pc = p.preconditioners[i];
+        check(PCCreate(PETSC_COMM_WORLD, &pc));
+        check(PCSetOperators(pc, p.matrices[i], p.matrices[i]));
+        if (name == "Cholesky")
+        {
+            check(PCSetType(pc, PCCHOLESKY));
+            check
+            (
+                PCFactorSetMatSolverType
+                (
+                    pc, Pstream::parRun() ? MATSOLVERMUMPS : MATSOLVERCHOLMOD
+                )
+            );
+        }
+        else
+        {
+            check(PCSetType(pc, PCGAMG));
+        }
+        check(PCSetFromOptions(pc));
+        check(PCSetUp(pc));
+        check(MatCreateVecs(p.matrices[i], &p.to[i], &p.from[i]));
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::equilibriumSolver::precondition
+(
+    const double* from,
+    double* to
+) const
+{
+    // With the diagonals D of the matrix and U of the uniform medium M:
+    // sqrt(U/D) M^-1 sqrt(U/D)
+    objects& p = *petsc_;
+    const label dim = mesh_.dim(), parts = p.matrices.size();
+    const label rows = parts == 1 ? 0 : label(mesh_.owned().count());
+    toField(from, in_);
+    in_ *= scaling_;
+    walls_.release(in_);
+
+    double* x;
+    if (parts == 1)
+    {
+        VecGetArray(p.from[0], &x);
+        toVector(in_, x);
+        VecRestoreArray(p.from[0], &x);
+    }
+    else
+    {
+        scalarField all(dim*rows);
+        toVector(in_, all.data());
+        for (label k = 0; k < dim; ++k)
+        {
+            VecGetArray(p.from[k], &x);
+            for (label i = 0; i < rows; ++i)
+            {
+                x[i] = all[dim*i + k];
+            }
+            VecRestoreArray(p.from[k], &x);
+        }
+    }
+    for (label k = 0; k < parts; ++k)
+    {
+        check(PCApply(p.preconditioners[k], p.from[k], p.to[k]));
+    }
+    const double* y;
+    if (parts == 1)
+    {
+        VecGetArrayRead(p.to[0], &y);
+        toField(y, in_);
+        VecRestoreArrayRead(p.to[0], &y);
+    }
+    else
+    {
+        scalarField all(dim*rows);
+        for (label k = 0; k < dim; ++k)
+        {
+            VecGetArrayRead(p.to[k], &y);
+            for (label i = 0; i < rows; ++i)
+            {
+                all[dim*i + k] = y[i];
+            }
+            VecRestoreArrayRead(p.to[k], &y);
+        }
+        toField(all.cdata(), in_);
+    }
+    walls_.release(in_);
+    in_ *= scaling_;
+    toVector(in_, to);
+}
+
+
+// ************************************************************************* //
