@@ -32,9 +32,18 @@ static const label mostCuts = 6;
 //- enough: along a way that lowers the energy this work falls to zero
 static const scalar enoughWork = 0.8;
 
-//- A step ends early if its iterations stall and its imbalance is below so many
-//- residuals
+//- Imbalance over the residual up to which a node does not count when steps are
+//- judged: on a million nodes, those that are in balance would else decide
+//- whether a step may mend the few that are not
+static const scalar balanced = 0.5;
+
+//- A step ends early if its imbalance is below so many residuals and its
+//- iterations stall, or leave more than this share while at most this share of
+//- the nodes is out of balance: where cells are small, single ones slide and
+//- stick in turn, and no motion of all nodes mends them
 static const scalar nearly = 2;
+static const scalar slow = 0.15;
+static const scalar few = 1e-4;
 
 } // End namespace Foam
 
@@ -199,15 +208,15 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
     walls_.release(r_);
     const label dim = nodes_.dim();
     scalar most = 0;
-    nodeField scaled(r_.size());
+    nodeField excess(r_.size());
     forAll(r_, i)
     {
-        scaled[i] = r_[i]/nodeSize_[i/dim];
-        const scalar here = mag(scaled[i]);
+        const scalar here = mag(r_[i])/nodeSize_[i/dim];
+        excess[i] = max(here - balanced*tolerance_, scalar(0));
         most = here < GREAT ? max(most, here) : GREAT;
     }
     most = returnReduce(most, maxOp<scalar>());
-    norm_ = most < GREAT ? nodes_.dot(scaled, scaled) : GREAT;
+    norm_ = most < GREAT ? nodes_.dot(excess, excess) : GREAT;
     return most;
 }
 
@@ -261,6 +270,28 @@ void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
 }
 
 
+Foam::scalar Foam::granularMechanicsModels::equilibrium::shareOut() const
+{
+    const label dim = nodes_.dim();
+    label all = 0, out = 0;
+    for (const label node : nodes_.owned())
+    {
+        ++all;
+        for (label i = dim*node; i < dim*(node + 1); ++i)
+        {
+            if (mag(r_[i]) > tolerance_*nodeSize_[node])
+            {
+                ++out;
+                break;
+            }
+        }
+    }
+    reduce(all, sumOp<label>());
+    reduce(out, sumOp<label>());
+    return scalar(out)/all;
+}
+
+
 bool Foam::granularMechanicsModels::equilibrium::balance
 (
     nodeField& du,
@@ -297,7 +328,10 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         const scalar way = search(du, d, moved);
         moved = moved || way > 0;
         choice.learn(way, norm_/before);
-        if (choice.exhausted() || (choice.stalls() && left_ <= enough))
+        const bool ends =
+            left_ <= enough
+         && (choice.stalls() || (norm_ > slow*before && shareOut() <= few));
+        if (choice.exhausted() || ends)
         {
             break;
         }

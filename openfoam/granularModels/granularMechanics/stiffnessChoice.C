@@ -45,7 +45,8 @@ void Foam::stiffnessChoice::learn(const scalar way, const scalar left)
     rung_ =
         slow_ > patience && !pauses ? wholeTangent
       : left > stuck ? min(rung_ + 1, wholeTangent - label(pauses))
-      : max(rung_ - 1, label(0));
+      : left > good ? max(rung_ - 1, label(0))
+      : rung_;
     least_ =
         way < 1 ? mostOfLeast
       : left > slow ? max(0.5*least_, leastOfLeast)

@@ -18,7 +18,7 @@ every_step() { # folder, fixed or adaptive: the case small with about 20 steps, 
 start() { # processes: starts the solver in the background; $solver is its process id
     local command=(msddFoam -case "$PWD")
     [ "$1" = 1 ] || command=(mpirun --oversubscribe -np "$1" "${command[@]}" -parallel)
-    (timeout 120 "${command[@]}"; exit $?) >> log 2>&1 &
+    (timeout 600 "${command[@]}"; exit $?) >> log 2>&1 &
     solver=$!
 }
 kill_all() { # kills all processes at once, as a power cut would: none sees another one end

@@ -89,7 +89,7 @@ stopped_process() { # one of three processes is stopped for a while: the others 
     scheme 'waitLimit 0.5;'
     mesh_is '12 6 1'
     in_parts '3 1'
-    timeout 120 mpirun --oversubscribe -np 3 msddFoam -case "$PWD" -parallel > log.stopped 2>&1 &
+    timeout 600 mpirun --oversubscribe -np 3 msddFoam -case "$PWD" -parallel > log.stopped 2>&1 &
     waiting=$!
     while ! grep -q '^Time = ' log.stopped && kill -0 $waiting 2> /dev/null; do sleep 0.05; done
     set -- $(pgrep -f -- "^msddFoam -case $PWD -parallel")
