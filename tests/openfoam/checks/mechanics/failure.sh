@@ -62,8 +62,11 @@ hopeless() { # shape: a single iteration is allowed for a residual that needs se
     check "$1: walls that meet are refused" refused 'is torn, turned inside out or strained'
 }
 
-# A long column, cold at one end, where the grains lose their contacts; at the other end the friction of the walls holds them
-unjammed() { # shape
+# A long column, cold at one end, where the grains lose their contacts; at the other end the friction of the walls holds them.
+# Triangles resist nothing once their grains have lost contact, while quadrilaterals keep the stiffness of their hourglass. With
+# several triangles across, single ones open wide, and the equilibrium is not found below the residual (see limits.md): there is
+# one across. 16 along the column have their centres as far from the cold wall as 24 quadrilaterals.
+unjammed() { # shape, "nx ny" quadrilaterals
     local loose packed bad
     both_ways "unjam-$1"
     grains 'thermalExpansion 2.5e-3;'
@@ -71,7 +74,7 @@ unjammed() { # shape
     sed -i '/left/,/}/ s/uniform 100/uniform 0/; /right/,/}/ s/uniform 0/uniform 50/; /bottom/,/}/{ s/fixedValue/zeroGradient/; /value /d }' 0/T
     sed -i 's/^#include.*common.porosity.*/&\ninternalField uniform 0.15;/' 0/porosity
     controls 'deltaT 0.01; endTime 8; writeInterval 400;'
-    box "$1" '24 3' '0.5 0.04'
+    box "$1" "$2" '0.5 0.04'
     logged msddFoam
     read -r loose packed bad < <(paste -d ' ' <(field 8/porosity) <(field 8/pressure) <(field 8/T) <(field 8/nodeDisplacement | head -$cells) | awk '
         { if ($1 > 0.19 && $2 < 120) loose++; if ($2 > 500) packed++
@@ -111,6 +114,7 @@ for shape in $shapes; do
     parts "$shape"
     halved "$shape"
     hopeless "$shape"
-    unjammed "$shape"
     audited_mechanics "$shape"
 done
+unjammed quadrilaterals '24 3'
+unjammed triangles '16 1'
