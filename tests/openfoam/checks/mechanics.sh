@@ -127,8 +127,8 @@ friction_column() { # shape, cells along the column
         { e = error($1, $7); if (!(e <= alone)) alone = e; V += $10; sum += $10*$1; x += $10*$7 }
         NR % '$((cells/$2))' == 0 { e = error(sum/V, x/V); if (!(e <= w)) w = e; V = sum = x = 0; sections++ }
         END { print (sections == '$2' ? w + 0 " " alone + 0 : "nan nan") }')
-    check "$1: friction column of $2 cells against the closed form: $section <= 0.01 of the push" below "$section" 0.01
-    [ "$1" = quadrilaterals ] || check "$1: friction column, a cell alone: $alone <= 5/$2 of the push" below "$alone" "$(awk "BEGIN { print 5/$2 }")"
+    check "$1: friction column against the closed form, $2 cells along: $section <= 0.01 of the push" below "$section" 0.01
+    [ "$1" = quadrilaterals ] || check "$1: friction column, $2 cells along, a cell alone: $alone <= 5/$2 of the push" below "$alone" "$(awk "BEGIN { print 5/$2 }")"
 }
 
 both_ways() { # folder: the case small with mechanics equilibrium
