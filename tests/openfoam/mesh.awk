@@ -1,5 +1,8 @@
 # Writes a mesh in the format of Gmsh (2.2) for gmshToFoam. Variables: kind, n (cells along a side), irregular (0 or 1: nodes
 # inside are moved).
+#   box    triangles in a rectangle of width x height, m across;      patches left right bottom top, frontAndBack
+#   beam   the same, m across a thickness of 1, n = 8 m along 8;     patches left above below free, frontAndBack: above is the
+#          upper side from 6 to 7, below the lower one from 7 to 8
 #   tri    triangles in the unit square, one layer of thickness 0.1;  patches low high front back, frontAndBack
 #   ring   triangles in a quarter of the ring from radius 1 to 2;     patches inner outer low left, frontAndBack
 #   prism  the triangles of tri in n layers of thickness 1/n;         patches low high front back bottom top
@@ -23,12 +26,12 @@ function layers(   i, j, k, q, a, b, c, t, s) { # triangles, and prisms between 
     }
     for (k = 0; k < depth; k++) {
         for (i = 0; i < n; i++) {
-            side(node(i, 0, 0), node(i + 1, 0, 0), k, kind == "ring" ? "low" : "front")
-            side(node(i, m, 0), node(i + 1, m, 0), k, kind == "ring" ? "left" : "back")
+            side(node(i, 0, 0), node(i + 1, 0, 0), k, kind == "beam" && i >= 7*m ? "below" : sides[1])
+            side(node(i, m, 0), node(i + 1, m, 0), k, kind == "beam" && i >= 6*m && i < 7*m ? "above" : sides[2])
         }
         for (j = 0; j < m; j++) {
-            side(node(0, j, 0), node(0, j + 1, 0), k, kind == "ring" ? "inner" : "low")
-            side(node(n, j, 0), node(n, j + 1, 0), k, kind == "ring" ? "outer" : "high")
+            side(node(0, j, 0), node(0, j + 1, 0), k, sides[3])
+            side(node(n, j, 0), node(n, j + 1, 0), k, sides[4])
         }
     }
 }
@@ -53,8 +56,10 @@ function tetrahedra(   i, j, k, p, d, v, x, s, o, f, axis, all, value, c, odd) {
 }
 BEGIN {
     pi = atan2(0, -1)
-    m = kind == "ring" ? int(1.5*n) : n
-    depth = kind == "tri" || kind == "ring" ? 1 : n
+    if (kind == "beam") { n = 8*m; width = 8; height = 1 }
+    else if (kind != "box") { m = kind == "ring" ? int(1.5*n) : n; width = height = 1 }
+    split(kind == "ring" ? "low left inner outer" : kind == "box" ? "bottom top left right" : kind == "beam" ? "free free left free" : "front back low high", sides, " ")
+    depth = kind == "prism" || kind == "tet" ? n : 1
     plane = (n + 1)*(m + 1)
     name[0, 0] = "low"; name[0, 1] = "high"; name[1, 0] = "front"; name[1, 1] = "back"; name[2, 0] = "bottom"; name[2, 1] = "top"
     kind == "tet" ? tetrahedra() : layers()
@@ -63,7 +68,7 @@ BEGIN {
     print "$EndPhysicalNames\n$Nodes\n" plane*(depth + 1)
     for (k = 0; k <= depth; k++) for (j = 0; j <= m; j++) for (i = 0; i <= n; i++) {
         seed = i + 31*j + (depth == n && kind == "tet" ? 1009*k : 0)
-        x = (i + moved(i, n, seed))/n; y = (j + moved(j, m, seed + 7))/m
+        x = width*(i + (kind == "beam" && i % m == 0 ? 0 : moved(i, n, seed)))/n; y = height*(j + moved(j, m, seed + 7))/m
         z = kind == "tet" ? (k + moved(k, n, seed + 13))/n : kind == "prism" ? k/n : 0.1*k
         if (kind == "ring") {
             r = 1 + x; t = 0.5*pi*y

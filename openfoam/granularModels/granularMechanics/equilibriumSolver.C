@@ -411,7 +411,8 @@ Foam::label Foam::equilibriumSolver::solve
     const bool symmetric,
     const scalarField& diagonal,
     const scalarField& r,
-    scalarField& d
+    scalarField& d,
+    const scalar mostLeft
 )
 {
     const quietArithmetic quiet;
@@ -440,13 +441,20 @@ Foam::label Foam::equilibriumSolver::solve
     check(VecGetArray(p.r, &x));
     toVector(r, x);
     check(VecRestoreArray(p.r, &x));
-    check(KSPSolve(p.solvers[symmetric], p.r, p.d));
+    KSP& solver = p.solvers[symmetric];
+    PetscReal relTol, absTol, most;
+    PetscInt maxIter;
+    check(KSPGetTolerances(solver, &relTol, &absTol, &most, &maxIter));
+    const scalar enough = min(relTol, mostLeft);
+    check(KSPSetTolerances(solver, enough, absTol, most, maxIter));
+    check(KSPSolve(solver, p.r, p.d));
+    check(KSPSetTolerances(solver, relTol, absTol, most, maxIter));
     const double* y;
     check(VecGetArrayRead(p.d, &y));
     toField(y, d);
     check(VecRestoreArrayRead(p.d, &y));
     PetscInt iterations;
-    check(KSPGetIterationNumber(p.solvers[symmetric], &iterations));
+    check(KSPGetIterationNumber(solver, &iterations));
     return
         symmetric || solver_ == "GMRES" ? iterations : 2*iterations;
 }

@@ -264,7 +264,17 @@ void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
     multiply(du, resisted);
     r_ -= resisted;
     findDiagonal();
-    counters_.linear += solver_->solve(true, diagonal_, r_, d);
+
+    // To the residual of the step if it can be: what is left lets the cells
+    // beside the walls take most of the motion, and on irregular cells Newton's
+    // method may not find the way back from there
+    scalar most = tolerance_;
+    forAll(r_, i)
+    {
+        most = max(most, mag(r_[i])/nodeSize_[i/nodes_.dim()]);
+    }
+    const scalar mostLeft = tolerance_/returnReduce(most, maxOp<scalar>());
+    counters_.linear += solver_->solve(true, diagonal_, r_, d, mostLeft);
     du += d;
     left_ = imbalance(du, true);
 }

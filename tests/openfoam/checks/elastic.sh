@@ -1,5 +1,6 @@
 # Mechanics on meshes of any shape, with law elastic: patch test, thick-walled cylinder under pressure and heat against the closed
-# form, three processes, restart on another number of them, and meshes and walls that cannot work.
+# form, bending of a body that is nearly incompressible, three processes, restart on another number of them, and meshes and walls
+# that cannot work.
 
 start_field() { # name, dimensions, value
     cat > "0/$1" <<-END
@@ -149,7 +150,6 @@ against_cylinder() { # angle from the middle plane to the points of a wedge: lar
           if (!(e <= we)) we = e; if (!(f <= wf)) wf = f; if (U > mu) mu = U; s = stt < 0 ? -stt : stt; if (s > ms) ms = s }
         END { print (NR > 3 ? we/mu " " wf/ms : "nan nan") }'
 }
-centres() { logged postProcess -func writeCellCentres -time 0; }
 ring_mesh() { # cells across
     local z vertices='' edges='' o=0
     for z in 0 0.1; do
@@ -179,7 +179,7 @@ cylinder() { # what, mesh, angle, cells across, least order of the stress: error
         solid "$2-$n" "$cylinder_walls"
         hot_inside
         "$2" "$n"
-        centres
+        cell_geometry
         logged msddFoam
         errors+="$(against_cylinder "$3") "
     done
@@ -195,6 +195,64 @@ cylinders() {
     cylinder "ring of quadrilaterals" ring_mesh 0 $finest 1.8
     cylinder "wedge" wedge_mesh 0.043633231299858237 $finest 1.8
     cylinder "ring of triangles" triangle_ring 0 $finest 0.8
+}
+
+# A beam of thickness 1 and length 8, held at its left end, is bent by two equal pressures p at the other end: from above between 6
+# and 7, from below between 7 and 8. From 1.5 to 4.5 the moment is p, and the lower side must be a parabola of the curvature
+# 12 (1 - nu^2) p/E, since nothing is strained along z.
+# The elements have a closed form of their own: of n square cells across, the stress at the centres bears 1 - 1/n^2 of the moment,
+# the stiffness against the hourglass r/n^2 with r = (1 - nu)/8, for cubes (1 - nu)/4. They bend too much by some 1/n^2, near
+# incompressibility as at nu = 0.3. Elements that lock bend too little: bilinear ones that are integrated fully, 4 across, by 0.013
+# of the closed form at nu = 0.4999.
+# Triangles lock there: with parallel diagonals, 16 across, the beam bends by 0.16 of the closed form. See limits.md.
+beam() { # mesh, cells across, Poisson's ratio: prints curvature over that of the closed form; largest error of the stress, over the
+    # largest stress, from what the elements must have at this curvature
+    solid "beam-$1-$2-$3" 'residual 1e-6; walls { left { type displacement; displacement constant (0 0 0); } free { type pressure; pressure constant 0; }
+        "above|below" { type pressure; pressure constant 10; } "front.*|back" { type frictionless; } }'
+    sed -i "s/poissonRatio 0.3/poissonRatio $3/" constant/granularProperties
+    "$1" "$2"
+    cell_geometry
+    logged msddFoam
+    paste -d ' ' <(sed -n '/^($/,/^)$/p' constant/polyMesh/points | tr -d '()' | grep .) <(field 4e+09/nodeDisplacement) > nodes
+    paste -d ' ' <(field 0/C) <(field 4e+09/stress) | awk -v nu="$3" -v p=10 -v E=1e7 '
+        function nearest(to,   d) { d = $1 > to ? $1 - to : to - $1; if (!(to in least) || d < least[to]) { least[to] = d; x[to] = $1; v[to] = $5 } }
+        function error(e) { if (e < 0) e = -e; if (!(e <= worst)) worst = e }
+        NR == FNR { if ($2 == 0 && $3 == 0) { nearest(1.5); nearest(3); nearest(4.5) }; next }
+        FNR == 1 { a = 1.5; b = 3; c = 4.5; k = 2*((v[c] - v[b])/(x[c] - x[b]) - (v[b] - v[a])/(x[b] - x[a]))/(x[c] - x[a])/(12*(1 - nu*nu)*p/E) }
+        $1 > a && $1 < c { error($4 + k*12*p*($2 - 0.5)); error($5); error($7) }
+        END { print (k > 0 && worst > 0 ? k " " worst/(6*p) : "nan nan") }' nodes -
+}
+beam_of_blocks() { # cells across, type of the patches front and back
+    local z x b vertices='' blocks=''
+    for z in 0 $(awk "BEGIN { print 1/$1 }"); do for x in 0 6 7 8; do vertices+="($x 0 $z) ($x 1 $z) "; done; done
+    for b in 0 2 4; do
+        blocks+="hex ($b $((b + 2)) $((b + 3)) $((b + 1)) $((b + 8)) $((b + 10)) $((b + 11)) $((b + 9))) ($(((b ? 1 : 6)*$1)) $1 1) simpleGrading (1 1 1) "
+    done
+    block_mesh "$vertices" "$blocks" '' "
+        left { type wall; faces ((0 8 9 1)); } above { type wall; faces ((3 11 13 5)); } below { type wall; faces ((4 6 14 12)); }
+        free { type wall; faces ((0 2 10 8) (2 4 12 10) (1 9 11 3) (5 13 15 7) (6 7 15 14)); }
+        back { type $2; faces ((0 1 3 2) (2 3 5 4) (4 5 7 6)); } front { type $2; faces ((8 10 11 9) (10 12 13 11) (12 14 15 13)); }"
+}
+quadrilateral_beam() { beam_of_blocks "$1" empty; }
+cube_beam() { beam_of_blocks "$1" wall; }
+triangle_beam() { awk -v kind=beam -v m="$1" -v irregular=1 -f "$here/mesh.awk" > mesh.msh; logged gmshToFoam mesh.msh; patch_type frontAndBack empty; }
+against_elements() { # mesh, cells across, r: the ends of the beam, which the closed form leaves out, disturb by 0.1/n^2, the stress by 0.2/n^2
+    local nu bent stress expected bound=$(awk "BEGIN { print 0.1/$2^2 }")
+    for nu in 0.3 0.4999; do
+        read -r bent stress < <(beam "$1" "$2" $nu)
+        expected=$(awk "BEGIN { print 1/(1 - (1 - $3*(1 - $nu))/$2^2) }")
+        check "bending, $1, $2 across, nu $nu: curvature $bent, of the elements $expected, to $bound; stress to $stress" \
+            awk "BEGIN { e = $bent/$expected - 1; exit !(e*e <= $bound^2 && $stress <= 2*$bound) }"
+    done
+}
+bending() {
+    local n coarse fine stress
+    for n in 2 4 8; do against_elements quadrilateral_beam $n 0.125; done
+    against_elements cube_beam 4 0.25
+    read -r coarse stress < <(beam triangle_beam 8 0.3)
+    read -r fine stress < <(beam triangle_beam 16 0.3)
+    check "bending, triangles, nu 0.3: curvature $coarse with 8 across, $fine with 16, within 0.01; order at least 1.8" \
+        awk "BEGIN { e = 1 - $coarse; f = 1 - $fine; exit !(f*f <= 1e-4 && e*e >= (f*2^1.8)^2) }"
 }
 
 processes_and_restarts() { # the cube between walls that move, on polyhedra, with multigrid and on three processes
@@ -256,5 +314,6 @@ refusals() {
 
 patch_tests
 cylinders
+bending
 processes_and_restarts
 refusals

@@ -117,15 +117,15 @@ blocked() { # a file stands where the folder of summary.json must be
     check "a file that cannot be written is named with the reason" refused 'msddFoam/summary.json": Not a directory'
 }
 
-other_processes() { # on 1, 3, 1 and 2 x 2 processes in turn, compared with 1 throughout; the sums of heat must be kept
+other_processes() { # shape: on 1, 3, 1 and 2 x 2 processes in turn, compared with 1 throughout; the sums of heat must be kept
     local e way end=0.5
-    changed moved-on-whole
+    changed "moved-on-$1-whole"
     controls "writeInterval 2; functions { #include \"$here/audits\" }"
-    mesh_is '12 6 1'
-    rm -rf "$work/moved-on"
-    cp -r . "$work/moved-on"
+    box "$1" '12 6'
+    rm -rf "$work/moved-on-$1"
+    cp -r . "$work/moved-on-$1"
     logged msddFoam
-    cd "$work/moved-on"
+    cd "$work/moved-on-$1"
     for way in '1 1' '3 1' '1 1' '2 2'; do
         controls "endTime $end;"
         if [ "$way" = '1 1' ]; then
@@ -137,13 +137,13 @@ other_processes() { # on 1, 3, 1 and 2 x 2 processes in turn, compared with 1 th
         fi
         end=$(awk "BEGIN { print $end + ($end < 0.65 ? 0.1 : 0.3) }")
     done
-    check "restarts on other numbers of processes say so" \
+    check "$1: restarts on other numbers of processes say so" \
         test "$(grep -c 'was written by another number of processes' log)" = 3
-    e=$(difference "$work/moved-on-whole/1" 1)
-    check "restarts on 1, 3, 1 and 4 processes: difference $e <= 1e-10" below "$e" 1e-10
+    e=$(difference "$work/moved-on-$1-whole/1" 1)
+    check "$1: restarts on 1, 3, 1 and 4 processes: difference $e <= 1e-10" below "$e" 1e-10
     for way in heatAudit massAudit; do
-        e=$(lines_differ "$work/moved-on-whole/postProcessing/$way/0/$way.dat" postProcessing/$way/0.7/$way.dat)
-        check "restarts on 1, 3, 1 and 4 processes: last line of $way differs by $e <= 1e-9" below "$e" 1e-9
+        e=$(lines_differ "$work/moved-on-$1-whole/postProcessing/$way/0/$way.dat" postProcessing/$way/0.7/$way.dat)
+        check "$1: restarts on 1, 3, 1 and 4 processes: last line of $way differs by $e <= 1e-9" below "$e" 1e-9
     done
 }
 
@@ -186,5 +186,5 @@ every_file "online RVEs"
 
 full_disk
 blocked
-other_processes
+for shape in $shapes; do other_processes "$shape"; done
 binary_and_compressed
