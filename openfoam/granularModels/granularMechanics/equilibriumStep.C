@@ -33,9 +33,11 @@ static const label mostCuts = 6;
 static const scalar enoughWork = 0.8;
 
 //- Imbalance over the residual up to which a node does not count when steps are
-//- judged: on a million nodes, those that are in balance would else decide
-//- whether a step may mend the few that are not
+//- judged while at most this share of the nodes is out of balance: on a million
+//- nodes, those that are in balance would else decide whether a step may mend
+//- the few that are not
 static const scalar balanced = 0.5;
+static const scalar some = 2e-3;
 
 //- A step ends early if its imbalance is below so many residuals and its
 //- iterations stall, or leave more than this share while at most this share of
@@ -162,6 +164,23 @@ void Foam::granularMechanicsModels::equilibrium::addUnfitted
 }
 
 
+Foam::scalar Foam::granularMechanicsModels::equilibrium::measure()
+{
+    const label dim = nodes_.dim();
+    scalar most = 0;
+    nodeField excess(r_.size());
+    forAll(r_, i)
+    {
+        const scalar here = mag(r_[i])/nodeSize_[i/dim];
+        excess[i] = max(here - ignored_, scalar(0));
+        most = here < GREAT ? max(most, here) : GREAT;
+    }
+    most = returnReduce(most, maxOp<scalar>());
+    norm_ = most < GREAT ? nodes_.dot(excess, excess) : GREAT;
+    return most;
+}
+
+
 Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
 (
     const nodeField& du,
@@ -206,18 +225,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
         r_ -= (1 - share_)*outset_;
     }
     walls_.release(r_);
-    const label dim = nodes_.dim();
-    scalar most = 0;
-    nodeField excess(r_.size());
-    forAll(r_, i)
-    {
-        const scalar here = mag(r_[i])/nodeSize_[i/dim];
-        excess[i] = max(here - balanced*tolerance_, scalar(0));
-        most = here < GREAT ? max(most, here) : GREAT;
-    }
-    most = returnReduce(most, maxOp<scalar>());
-    norm_ = most < GREAT ? nodes_.dot(excess, excess) : GREAT;
-    return most;
+    return measure();
 }
 
 
@@ -334,10 +342,13 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         findDiagonal();
         counters_.linear += solver_->solve(!coupled_, diagonal_, r_, d);
         ++counters_.iterations;
+        const bool local = shareOut() <= some;
+        ignored_ = local ? balanced*tolerance_ : 0;
+        measure();
         const scalar before = norm_;
         const scalar way = search(du, d, moved);
         moved = moved || way > 0;
-        choice.learn(way, norm_/before);
+        choice.learn(way, norm_/before, local);
         const bool ends =
             left_ <= enough
          && (choice.stalls() || (norm_ > slow*before && shareOut() <= few));

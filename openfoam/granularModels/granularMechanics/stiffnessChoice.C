@@ -25,7 +25,12 @@ Foam::label Foam::stiffnessChoice::caution() const
 }
 
 
-void Foam::stiffnessChoice::learn(const scalar way, const scalar left)
+void Foam::stiffnessChoice::learn
+(
+    const scalar way,
+    const scalar left,
+    const bool local
+)
 {
     stalled_ = left > stalling ? stalled_ + 1 : 0;
     if (rung_ == wholeTangent && way < shortWay)
@@ -45,8 +50,8 @@ void Foam::stiffnessChoice::learn(const scalar way, const scalar left)
     rung_ =
         slow_ > patience && !pauses ? wholeTangent
       : left > stuck ? min(rung_ + 1, wholeTangent - label(pauses))
-      : left > good ? max(rung_ - 1, label(0))
-      : rung_;
+      : local && left < good ? rung_
+      : max(rung_ - 1, label(0));
     least_ =
         way < 1 ? mostOfLeast
       : left > slow ? max(0.5*least_, leastOfLeast)
