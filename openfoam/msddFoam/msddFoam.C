@@ -91,6 +91,45 @@ static void checkPaths(const int argc, char* argv[])
 }
 
 
+//- If system/fvSolution names an accuracy, let the program msdd find out what
+//- the scene needs for it, and run that
+static void chooseSettings(const Time& runTime)
+{
+    const IOdictionary solution
+    (
+        IOobject
+        (
+            "fvSolution", runTime.system(), runTime,
+            IOobject::MUST_READ, IOobject::NO_WRITE, false
+        )
+    );
+    const dictionary own(solution.subOrEmptyDict("msddFoam"));
+    const scalar accuracy =
+        granularProperties::ranged(own, "accuracy", 0, 0, 100);
+    if (accuracy <= 0)
+    {
+        return;
+    }
+    if (Pstream::parRun())
+    {
+        FatalIOErrorInFunction(own)
+            << "Entry 'accuracy' is " << accuracy << ", allowed on several"
+            << " processes: none. Run msddFoam once on one process; then"
+            << " decompose and run the case that it has made, "
+            << runTime.path().name() << ".chosen" << exit(FatalIOError);
+    }
+    const string path(runTime.path());
+    ::execlp
+    (
+        "msdd", "msdd", "case", "solve", path.c_str(), static_cast<char*>(0)
+    );
+    FatalIOErrorInFunction(own)
+        << "Entry 'accuracy' is " << accuracy << ", and the program msdd, which"
+        << " finds the settings for it, is not in the path: . scripts/foam-env,"
+        << " after cargo build --release" << exit(FatalIOError);
+}
+
+
 int main(int argc, char *argv[])
 {
     argList::addNote
@@ -152,6 +191,7 @@ int main(int argc, char *argv[])
     #include "createTime.H"
 
     restart.setValue(runTime);
+    chooseSettings(runTime);
 
     // Six digits in the log, whatever the writePrecision of the fields
     Sout.precision(6);

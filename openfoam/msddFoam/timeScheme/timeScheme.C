@@ -88,7 +88,7 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
         (
             dict,
             {
-                "timeScheme", "nNonOrthogonalCorrectors",
+                "accuracy", "timeScheme", "nNonOrthogonalCorrectors",
                 "temperatureTolerance", "stateTolerance", "logInterval",
                 "waitLimit"
             }

@@ -153,6 +153,7 @@ pub const WALL: &[Key] = &[
 
 /// `msddFoam` of `system/fvSolution`.
 pub const SOLVER: &[Key] = &[
+    may("accuracy", Kind::Range(0.0, 100.0, "%")),
     may("timeScheme", Kind::Word(&["paper", "secondOrder"])),
     may("nNonOrthogonalCorrectors", Kind::Range(0.0, 100.0, "")),
     may("temperatureTolerance", Kind::Range(1e-12, 1e6, "K")),

@@ -4,6 +4,7 @@ mod ask;
 mod check;
 mod grain_wishes;
 mod new;
+mod solve;
 mod wishes;
 
 use crate::error::CliError;
@@ -15,11 +16,14 @@ pub enum Command {
     New(Box<new::Arguments>),
     /// Check a case folder before the run: lists what is missing, out of range or doubtful.
     Check(check::Arguments),
+    /// Find the cheapest settings of the solver for a wanted accuracy of T, by short runs on the case itself, and run them.
+    Solve(solve::Arguments),
 }
 
 pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::New(arguments) => new::run(arguments),
         Command::Check(arguments) => check::run(arguments),
+        Command::Solve(arguments) => solve::run(arguments),
     }
 }

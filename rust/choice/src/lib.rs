@@ -1,0 +1,35 @@
+//! Finds out what a scene needs for a wanted accuracy of T, by short runs of the solver on the scene itself.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`scene`] | what of the user's case can be chosen: mesh, times, whether grains move |
+//! | [`settings`] | one combination of choices |
+//! | [`series`] | temperatures at points and times, and how far two runs are apart |
+//! | [`trial`] | the case folder of a combination, and its run |
+//! | [`search`] | which combination is the cheapest that is accurate enough |
+//! | [`record`] | what was tried, chosen and estimated, for people and for programs |
+#![forbid(unsafe_code)]
+
+pub mod record;
+pub mod scene;
+pub mod search;
+pub mod series;
+pub mod settings;
+pub mod trial;
+
+use std::path::PathBuf;
+
+/// Why nothing can be chosen.
+#[derive(Debug, thiserror::Error)]
+pub enum ChoiceError {
+    #[error(transparent)]
+    Case(#[from] msdd_case::CaseError),
+    #[error(transparent)]
+    File(#[from] msdd_files::FileError),
+    #[error("cannot run {program} in {folder}: {problem}", folder = folder.display())]
+    Run { program: String, folder: PathBuf, problem: String },
+    #[error("{}: {problem}", file.display())]
+    Read { file: PathBuf, problem: String },
+    #[error("accuracy = {asked} %, allowed: at least {best:.2} % for this scene: {reason}")]
+    OutOfReach { asked: f64, best: f64, reason: String },
+}

@@ -1,0 +1,307 @@
+//! What of the user's case can be chosen.
+
+use crate::ChoiceError;
+use crate::settings::Level;
+use msdd_case::CaseError;
+use msdd_case::dictionary::{Dictionary, Entry, Token};
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Points along each direction at which runs are compared.
+const POINTS: [usize; 3] = [7, 5, 3];
+/// Times at which runs are compared, at least.
+const TIMES: f64 = 20.0;
+
+/// Numbers of cells of the blocks of `system/blockMeshDict`, and the text around them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Blocks {
+    tokens: Vec<String>,
+    /// Where the three numbers of each block stand in the text.
+    places: Vec<usize>,
+    /// Numbers of cells of each block.
+    pub counts: Vec<[usize; 3]>,
+}
+
+impl Blocks {
+    fn read(tokens: &[Token]) -> Option<Self> {
+        let tokens: Vec<String> = tokens.iter().map(|token| token.text.clone()).collect();
+        let (mut places, mut counts) = (Vec::new(), Vec::new());
+        let mut at = 0;
+        while let Some(hex) = tokens[at..].iter().position(|token| token == "hex") {
+            // The list of corners, perhaps the name of a zone, then the list of cells.
+            let corners = at + hex + tokens[at + hex..].iter().position(|token| token == ")")?;
+            let place = corners + 1 + tokens[corners + 1..].iter().position(|token| token == "(")? + 1;
+            let number = |k: usize| tokens.get(place + k)?.parse::<usize>().ok();
+            counts.push([number(0)?, number(1)?, number(2)?]);
+            places.push(place);
+            at = place;
+        }
+        (!counts.is_empty()).then_some(Self { tokens, places, counts })
+    }
+
+    /// The directions that can be chosen by themselves: those of a single block, else all together. Each is the list of places
+    /// in the counts of a block.
+    pub fn directions(&self) -> Vec<Vec<usize>> {
+        let many = |k: &usize| self.counts.iter().any(|count| count[*k] > 1);
+        let used: Vec<usize> = (0..3).filter(many).collect();
+        match self.counts.len() {
+            1 => used.into_iter().map(|k| vec![k]).collect(),
+            _ => vec![used],
+        }
+    }
+
+    /// Fewest cells of any block along a direction.
+    pub fn cells(&self, direction: &[usize]) -> usize {
+        self.counts.iter().flat_map(|count| direction.iter().map(|&k| count[k])).min().unwrap_or(1)
+    }
+
+    fn counts_at(&self, levels: &[Level]) -> Vec<[usize; 3]> {
+        let mut all = self.counts.clone();
+        for (direction, level) in self.directions().iter().zip(levels) {
+            for count in &mut all {
+                for &k in direction {
+                    count[k] = level.cells(count[k]);
+                }
+            }
+        }
+        all
+    }
+
+    /// Number of cells of the mesh at these levels.
+    pub fn total(&self, levels: &[Level]) -> usize {
+        self.counts_at(levels).iter().map(|count| count.iter().product::<usize>()).sum()
+    }
+
+    /// The entry `blocks` of blockMeshDict at these levels.
+    pub fn text(&self, levels: &[Level]) -> String {
+        let mut tokens = self.tokens.clone();
+        for (&place, count) in self.places.iter().zip(self.counts_at(levels)) {
+            for (k, cells) in count.iter().enumerate() {
+                tokens[place + k] = cells.to_string();
+            }
+        }
+        tokens.join(" ")
+    }
+}
+
+/// The user's case.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub folder: PathBuf,
+    /// Name of the folder with the initial fields.
+    pub start: String,
+    pub start_time: f64,
+    pub end: f64,
+    pub first_step: f64,
+    /// Interval of the times that the user writes [s].
+    pub write_interval: f64,
+    /// Wanted accuracy of T [% of its range], if the case names one.
+    pub accuracy: Option<f64>,
+    /// Whether grains move, if the case says so.
+    pub moves: Option<bool>,
+    /// An error if the mesh is not that of `system/blockMeshDict`; then it is taken as it is, for the reason beside.
+    pub blocks: Result<Blocks, String>,
+    pub cells: usize,
+    /// Points at which runs are compared [m].
+    pub points: Vec<[f64; 3]>,
+}
+
+impl Scene {
+    /// Reads a case folder.
+    ///
+    /// # Errors
+    /// [`ChoiceError::Case`] for files that are missing or wrong, [`ChoiceError::Run`] when the mesh cannot be checked.
+    pub fn read(folder: &Path) -> Result<Self, ChoiceError> {
+        let folder = std::fs::canonicalize(folder)
+            .map_err(|error| CaseError::Read { file: folder.to_path_buf(), problem: error.to_string() })?;
+        let expanded = |name: &str| Dictionary::expanded(&folder.join(name));
+        let control = expanded("system/controlDict")?;
+        let solution = expanded("system/fvSolution")?;
+        let grains = expanded("constant/granularProperties")?;
+        let positive = |key: &str| control.number(key, |value| value > 0.0, "> 0");
+        let (start, start_time) = first_time(&folder)?;
+        let end = control.number("endTime", |value| value > start_time, "after the first time")?;
+        let first_step = positive("deltaT")?;
+        let steps = control.text("writeControl").is_ok_and(|text| text == "timeStep");
+        let write_interval = positive("writeInterval")? * if steps { first_step } else { 1.0 };
+        let accuracy = match solution.get("msddFoam") {
+            Some(Entry::Dictionary(own)) if own.get("accuracy").is_some() => {
+                Some(own.number("accuracy", |value| (0.0..=100.0).contains(&value), "0 to 100 %")?)
+            }
+            _ => None,
+        };
+        let moves = grains.text("mechanics").ok().map(|text| text == "equilibrium");
+        let mesh = mesh(&folder)?;
+        let blocks = expanded("system/blockMeshDict")
+            .ok()
+            .and_then(|dictionary| Blocks::read(dictionary.value("blocks").ok()?))
+            .ok_or("there is no system/blockMeshDict with blocks of hexahedra")
+            .and_then(|blocks| {
+                let levels = vec![Level::Halved(0); blocks.directions().len()];
+                match blocks.total(&levels) == mesh.cells {
+                    true => Ok(blocks),
+                    false => Err("the mesh is not that of system/blockMeshDict"),
+                }
+            })
+            .map_err(str::to_string);
+        Ok(Self {
+            start,
+            start_time,
+            end,
+            first_step,
+            write_interval,
+            accuracy: accuracy.filter(|&value| value > 0.0),
+            moves,
+            blocks,
+            cells: mesh.cells,
+            points: mesh.points(),
+            folder,
+        })
+    }
+
+    /// Cells along each direction that can be chosen.
+    pub fn directions(&self) -> Vec<usize> {
+        self.blocks.as_ref().map_or(Vec::new(), |blocks| {
+            blocks.directions().iter().map(|direction| blocks.cells(direction)).collect()
+        })
+    }
+
+    /// Interval of the times at which runs are compared [s]: a part of the user's own interval, so that the times of the chosen
+    /// run are among those of all others.
+    pub fn interval(&self) -> f64 {
+        let span = (self.end - self.start_time) / TIMES;
+        let own = self.write_interval.min(self.end - self.start_time);
+        own / (own / span).ceil().max(1.0)
+    }
+
+    /// Checksum of all that a run depends on: the files of the case and those that they include.
+    ///
+    /// # Errors
+    /// [`ChoiceError::File`].
+    pub fn checksum(&self) -> Result<String, ChoiceError> {
+        let mut files: Vec<PathBuf> = Vec::new();
+        for part in [self.start.as_str(), "constant", "constant/polyMesh", "system"] {
+            for file in msdd_files::list(&self.folder.join(part)).unwrap_or_default() {
+                add(&file, &mut files);
+            }
+        }
+        files.sort();
+        let mut sum = Sha256::new();
+        for file in files {
+            sum.update(std::fs::read(&file).unwrap_or_default());
+            sum.update([0]);
+        }
+        Ok(sum.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    }
+}
+
+/// Adds a file and those that it includes.
+fn add(file: &Path, files: &mut Vec<PathBuf>) {
+    if !file.is_file() || files.iter().any(|known| known == file) {
+        return;
+    }
+    files.push(file.to_path_buf());
+    let text = String::from_utf8_lossy(&std::fs::read(file).unwrap_or_default()).into_owned();
+    let folder = file.parent().unwrap_or(Path::new(""));
+    for line in text.lines().map(str::trim).filter(|line| line.starts_with("#include")) {
+        if let Some(name) = line.split('"').nth(1) {
+            add(&folder.join(name), files);
+        }
+    }
+}
+
+/// Name and value of the earliest time folder.
+fn first_time(folder: &Path) -> Result<(String, f64), ChoiceError> {
+    let names = msdd_files::list(folder)?.into_iter().filter(|path| path.is_dir());
+    let times = names.filter_map(|path| {
+        let name = path.file_name()?.to_str()?.to_string();
+        let time: f64 = name.parse().ok()?;
+        Some((name, time))
+    });
+    times.min_by(|a, b| a.1.total_cmp(&b.1)).ok_or_else(|| {
+        let problem = "there is no folder with initial fields, such as 0".to_string();
+        CaseError::Read { file: folder.to_path_buf(), problem }.into()
+    })
+}
+
+/// The mesh of a case: number of cells, lowest and highest coordinates [m], and the directions in which it extends.
+struct Mesh {
+    cells: usize,
+    bounds: [[f64; 3]; 2],
+    directions: [bool; 3],
+}
+
+/// The mesh, as it is described by OpenFOAM's program checkMesh.
+fn mesh(folder: &Path) -> Result<Mesh, ChoiceError> {
+    let said = crate::trial::foam(folder, Command::new("checkMesh").args(["-noTopology", "-constant"]))?;
+    let wrong = |problem: &str| ChoiceError::Run {
+        program: "checkMesh".to_string(),
+        folder: folder.to_path_buf(),
+        problem: problem.to_string(),
+    };
+    let after = |name: &str| said.split_once(name).map(|(_, rest)| rest.lines().next().unwrap_or_default());
+    let cells = after("    cells:").and_then(|text| text.trim().parse().ok());
+    let bounds = after("Overall domain bounding box").and_then(|text| {
+        let words = text.split(|c: char| c.is_whitespace() || c == '(' || c == ')');
+        let numbers: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
+        <[f64; 6]>::try_from(numbers).ok()
+    });
+    let directions = after("geometric (non-empty/wedge) directions (").and_then(|text| {
+        let words: Vec<bool> = text.split([' ', ')']).take(3).map(|word| word == "1").collect();
+        <[bool; 3]>::try_from(words).ok()
+    });
+    match (cells, bounds, directions) {
+        (Some(cells), Some([a, b, c, d, e, f]), Some(directions)) => {
+            Ok(Mesh { cells, bounds: [[a, b, c], [d, e, f]], directions })
+        }
+        _ => Err(wrong("it did not print the number of cells, the bounding box and the directions")),
+    }
+}
+
+impl Mesh {
+    /// Points at which runs are compared [m].
+    fn points(&self) -> Vec<[f64; 3]> {
+        let [low, high] = self.bounds;
+        let count = |k: usize| if self.directions[k] { POINTS[k] } else { 1 };
+        let at = |k: usize, i: usize| low[k] + (high[k] - low[k]) * (i as f64 + 0.5) / count(k) as f64;
+        let mut all = Vec::new();
+        for z in 0..count(2) {
+            for y in 0..count(1) {
+                all.extend((0..count(0)).map(|x| [at(0, x), at(1, y), at(2, z)]));
+            }
+        }
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn blocks(text: &str) -> Blocks {
+        let dictionary = Dictionary::parse(Path::new("x"), text).unwrap();
+        Blocks::read(dictionary.value("blocks").unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_single_block_is_halved_along_each_direction_by_itself() {
+        let one = blocks("blocks ( hex ( 0 1 2 3 4 5 6 7 ) zone ( 100 30 1 ) simpleGrading ( 1 1 1 ) );");
+        assert_eq!(one.directions(), [[0], [1]]);
+        assert_eq!(
+            one.text(&[Level::Halved(2), Level::One]),
+            "( hex ( 0 1 2 3 4 5 6 7 ) zone ( 25 1 1 ) simpleGrading ( 1 1 1 ) )"
+        );
+        assert_eq!(one.total(&[Level::Halved(1), Level::Halved(1)]), 50 * 15);
+    }
+
+    #[test]
+    fn several_blocks_are_halved_together() {
+        let two = blocks(
+            "blocks ( hex ( 0 1 2 3 4 5 6 7 ) ( 8 30 1 ) simpleGrading ( 1 1 1 ) hex ( 1 2 3 4 5 6 7 8 ) ( 16 30 1 ) simpleGrading ( 1 1 1 ) );",
+        );
+        assert_eq!(two.directions(), [[0, 1]]);
+        assert_eq!(two.cells(&[0, 1]), 8);
+        assert_eq!(two.total(&[Level::Halved(1)]), 4 * 15 + 8 * 15);
+    }
+}

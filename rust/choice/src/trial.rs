@@ -1,0 +1,222 @@
+//! The case folder of a combination, and its run.
+
+use crate::ChoiceError;
+use crate::scene::Scene;
+use crate::series::Series;
+use crate::settings::{Level, Settings};
+use msdd_files::{list, read_text, write};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+/// OpenFOAM's programs have to be told where Debian's package has its `etc/`.
+const DEBIAN_PROJECT_DIR: &str = "/usr/share/openfoam";
+/// Name of the function objects whose results are compared.
+const WATCH: &str = "msddChoice";
+/// Largest number of characters of a program's message.
+const MESSAGE: usize = 600;
+
+/// What a case folder is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// To be compared with others: nothing is written but what that takes.
+    Trial,
+    /// The run that the user asked for, with all that he wants written.
+    Chosen,
+}
+
+/// What a run has given.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    pub series: Series,
+    /// Largest minus smallest T anywhere, the walls included [K].
+    pub range: f64,
+    pub cells: usize,
+    /// Wall time with the making of the mesh [s].
+    pub seconds: f64,
+}
+
+/// Runs one of OpenFOAM's programs, or the solver, in a case folder and returns what it prints.
+///
+/// # Errors
+/// [`ChoiceError::Run`] with the last lines that it printed.
+pub fn foam(folder: &Path, command: &mut Command) -> Result<String, ChoiceError> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let failed = |problem: String| ChoiceError::Run {
+        program: program.clone(),
+        folder: folder.to_path_buf(),
+        problem,
+    };
+    command.current_dir(folder).env("PWD", folder).stdin(std::process::Stdio::null());
+    if std::env::var_os("WM_PROJECT_DIR").is_none() {
+        command.env("WM_PROJECT_DIR", DEBIAN_PROJECT_DIR);
+    }
+    let output = command
+        .output()
+        .map_err(|error| failed(format!("{error} (. scripts/foam-env sets the paths of the solver)")))?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    if output.status.success() {
+        return Ok(text);
+    }
+    let all = format!("{text}\n{}", String::from_utf8_lossy(&output.stderr));
+    let fatal = all.find("FOAM FATAL").map_or(all.as_str(), |at| &all[at..]);
+    let body = fatal.lines().skip(usize::from(fatal.len() < all.len()));
+    let said: Vec<&str> = body.take_while(|line| !line.trim_start().starts_with("From ")).collect();
+    let said = said.join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
+    let tail: String = said.chars().take(MESSAGE).collect();
+    Err(failed(format!("{}: {tail}", output.status)))
+}
+
+/// Makes the case of `settings` in `folder`, which stands beside the user's, so that relative paths in its files mean the same.
+/// `range`: of T [K], once it is known.
+///
+/// # Errors
+/// When files cannot be read or written, or OpenFOAM cannot make the mesh or map the fields.
+pub fn make(
+    scene: &Scene,
+    settings: &Settings,
+    range: Option<f64>,
+    purpose: Purpose,
+    folder: &Path,
+) -> Result<(), ChoiceError> {
+    let _ = std::fs::remove_dir_all(folder);
+    for part in [scene.start.as_str(), "constant", "system"] {
+        for file in list(&scene.folder.join(part))?.into_iter().filter(|file| file.is_file()) {
+            let name = format!("{part}/{}", file.file_name().unwrap_or_default().to_string_lossy());
+            let mut bytes = read(&file)?;
+            let keys = overrides(scene, settings, range, purpose, &name);
+            if !keys.is_empty() {
+                bytes.extend(format!("\n// Chosen for the wanted accuracy\n{keys}").bytes());
+            }
+            write(&folder.join(&name), &bytes)?;
+        }
+    }
+    let whole = settings.levels.iter().all(|&level| level == Level::Halved(0));
+    if whole {
+        let mesh = scene.folder.join("constant/polyMesh");
+        return link(&mesh, &folder.join("constant/polyMesh"));
+    }
+    foam(folder, &mut Command::new("blockMesh"))?;
+    let fields = list(&folder.join(&scene.start))?;
+    let nonuniform: Vec<PathBuf> = fields
+        .into_iter()
+        .filter(|file| {
+            read(file).is_ok_and(|bytes| holds(&bytes, b"nonuniform") || holds(&bytes, b"#include"))
+        })
+        .collect();
+    if nonuniform.is_empty() {
+        return Ok(());
+    }
+    // Means over the cells of the coarser mesh. The fields of the target would be read, and have the wrong number of values.
+    for file in nonuniform {
+        remove(&file)?;
+    }
+    let arguments = ["-consistent", "-mapMethod", "cellVolumeWeight", "-sourceTime", &scene.start];
+    foam(folder, Command::new("mapFieldsPar").arg(&scene.folder).args(arguments))?;
+    Ok(())
+}
+
+/// Runs the solver in the folder of a combination, or goes on with a run that was killed.
+///
+/// # Errors
+/// [`ChoiceError::Run`] with the solver's message; [`ChoiceError::Read`] when its results cannot be read.
+pub fn run(folder: &Path) -> Result<Outcome, ChoiceError> {
+    let began = Instant::now();
+    let log = foam(folder, &mut Command::new("msddFoam"))?;
+    write(&folder.join("log.msddFoam"), log.as_bytes())?;
+    // A run that was killed and went on has one folder for each start.
+    let starts = |name: &str| list(&folder.join("postProcessing").join(name));
+    let mut series = Series::default();
+    for start in starts(WATCH)? {
+        series.add(Series::read(&start.join("T"))?);
+    }
+    let mut range = series.range();
+    for start in starts(&format!("{WATCH}Range"))? {
+        range = range.max(extremes(&start.join("fieldMinMax.dat"))?);
+    }
+    let summary = folder.join("postProcessing/msddFoam/summary.json");
+    let read = read_text(&summary)?;
+    let summary: serde_json::Value = serde_json::from_str(&read)
+        .map_err(|error| ChoiceError::Read { file: summary, problem: error.to_string() })?;
+    let cells = summary["cells"].as_u64().unwrap_or(0) as usize;
+    Ok(Outcome { series, range, cells, seconds: began.elapsed().as_secs_f64() })
+}
+
+/// Keys that are added at the end of a file of the case.
+fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Purpose, name: &str) -> String {
+    match name {
+        "system/controlDict" => control(scene, purpose),
+        "system/fvSolution" => {
+            let tolerance = range.map_or(String::new(), |range| {
+                format!(" temperatureTolerance {:e};", settings.tolerance * range)
+            });
+            format!("msddFoam {{ accuracy 0; timeScheme secondOrder;{tolerance} }}\n")
+        }
+        "constant/granularProperties" => {
+            format!("mechanics {};\n", if settings.moves { "equilibrium" } else { "none" })
+        }
+        "system/blockMeshDict" => match &scene.blocks {
+            Ok(blocks) => format!("blocks {};\n", blocks.text(&settings.levels)),
+            Err(_) => String::new(),
+        },
+        _ => String::new(),
+    }
+}
+
+fn control(scene: &Scene, purpose: Purpose) -> String {
+    let points: Vec<String> = scene.points.iter().map(|[x, y, z]| format!("({x} {y} {z})")).collect();
+    let watch = format!(
+        "functions\n{{\n    {WATCH}\n    {{\n        type probes; libs (\"libsampling.so\"); fields (T); interpolationScheme cellPoint;\n\
+         \x20       writeControl writeTime; probeLocations ({});\n    }}\n\
+         \x20   {WATCH}Range\n    {{\n        type fieldMinMax; libs (\"libfieldFunctionObjects.so\"); fields (T); location no;\n\
+         \x20       writeControl writeTime;\n    }}\n}}\n",
+        points.join(" ")
+    );
+    let mut keys = "adjustTimeStep yes;\nwriteControl adjustableRunTime;\n".to_string();
+    let span = scene.end - scene.start_time;
+    let _ = writeln!(keys, "deltaT {:e};", scene.first_step.min(span / 1000.0));
+    match purpose {
+        Purpose::Trial => {
+            let _ = writeln!(keys, "startFrom firstTime;\nwriteInterval {:e};", scene.interval());
+            keys + "writeFormat binary;\npurgeWrite 2;\n#remove functions\n" + &watch
+        }
+        Purpose::Chosen => {
+            let _ = writeln!(keys, "startFrom latestTime;\nwriteInterval {:e};", scene.write_interval);
+            keys + &watch
+        }
+    }
+}
+
+/// Largest minus smallest value in a file of OpenFOAM's function object `fieldMinMax`.
+fn extremes(file: &Path) -> Result<f64, ChoiceError> {
+    let text = read_text(file)?;
+    let rows = text.lines().filter(|line| !line.trim_start().starts_with('#'));
+    let values: Vec<f64> =
+        rows.flat_map(|line| line.split_whitespace().skip(1).filter_map(|word| word.parse().ok())).collect();
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    match high >= low {
+        true => Ok(high - low),
+        false => Err(ChoiceError::Read { file: file.to_path_buf(), problem: "no values".to_string() }),
+    }
+}
+
+fn holds(bytes: &[u8], word: &[u8]) -> bool {
+    bytes.windows(word.len()).any(|window| window == word)
+}
+
+fn read(file: &Path) -> Result<Vec<u8>, ChoiceError> {
+    std::fs::read(file)
+        .map_err(|error| ChoiceError::Read { file: file.to_path_buf(), problem: error.to_string() })
+}
+
+fn remove(file: &Path) -> Result<(), ChoiceError> {
+    std::fs::remove_file(file)
+        .map_err(|error| ChoiceError::Read { file: file.to_path_buf(), problem: error.to_string() })
+}
+
+fn link(from: &Path, to: &Path) -> Result<(), ChoiceError> {
+    std::os::unix::fs::symlink(from, to)
+        .map_err(|error| ChoiceError::Read { file: to.to_path_buf(), problem: error.to_string() })
+}

@@ -1,0 +1,158 @@
+//! `msdd case solve`.
+
+use crate::error::CliError;
+use clap::Args;
+use msdd_choice::ChoiceError;
+use msdd_choice::record::{Record, sentence};
+use msdd_choice::scene::Scene;
+use msdd_choice::search::{ORDER, Share, Wishes, find};
+use msdd_choice::settings::{Level, Settings};
+use msdd_choice::trial::{self, Outcome, Purpose};
+use msdd_files::Lock;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+#[derive(Args)]
+#[command(after_help = "msddFoam does the same when system/fvSolution says so:
+
+    msddFoam { accuracy 1; }
+
+Short runs on coarse meshes show what it changes to let the grains move, to take larger steps, and to halve the cells along each
+direction of system/blockMeshDict. The cheapest combination that stays below the wanted accuracy is then run in the folder
+FOLDER.chosen beside the case, a complete case of its own; its file choice.json and the key 'choice' of its summary.json hold what
+was tried, what it cost, and the estimates. A second call takes the choice without a search, and goes on with a run that was
+killed. What the model and the packing leave open is not part of the estimate.
+
+The case needs its mesh (blockMesh). If constant/granularProperties names 'mechanics', it stays as named.
+
+Example: msdd case solve cases/HC --accuracy 1")]
+pub struct Arguments {
+    /// The case folder.
+    folder: PathBuf,
+    /// Wanted accuracy of T [% of its range]; without it, that of system/fvSolution.
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    accuracy: Option<f64>,
+    /// Search again, even if the choice for this case and this accuracy is known.
+    #[arg(long)]
+    again: bool,
+    /// Only search; do not run what was chosen.
+    #[arg(long)]
+    choose_only: bool,
+}
+
+/// A wanted accuracy [%].
+fn percent(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value: &f64| *value > 0.0 && *value <= 100.0);
+    value.ok_or_else(|| "allowed: more than 0, at most 100 %".to_string())
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let failed = |error: ChoiceError| CliError::Message(error.to_string());
+    let scene = Scene::read(&arguments.folder).map_err(failed)?;
+    let Some(accuracy) = arguments.accuracy.or(scene.accuracy) else {
+        let file = scene.folder.join("system/fvSolution");
+        return Err(CliError::Message(format!(
+            "{}: msddFoam/accuracy = missing, allowed: more than 0, at most 100 [% of the range of T]; or give --accuracy",
+            file.display()
+        )));
+    };
+    solve(&scene, accuracy, arguments).map_err(failed)
+}
+
+/// A folder beside the case.
+fn beside(scene: &Scene, ending: &str) -> PathBuf {
+    let name = scene.folder.file_name().unwrap_or_default().to_string_lossy();
+    scene.folder.with_file_name(format!("{name}.{ending}"))
+}
+
+fn solve(scene: &Scene, accuracy: f64, arguments: &Arguments) -> Result<(), ChoiceError> {
+    let chosen = beside(scene, "chosen");
+    let _lock = Lock::take(&chosen)?;
+    let checksum = scene.checksum()?;
+    let earlier = Record::earlier(&chosen, &checksum, accuracy).filter(|_| !arguments.again);
+    let mut record = match earlier {
+        Some(record) => {
+            outln!("The choice for this case and {accuracy} % is known: no search.");
+            record
+        }
+        None => {
+            let record = search(scene, accuracy, checksum)?;
+            let range = Some(record.found.range).filter(|&range| range > 0.0);
+            trial::make(scene, &record.found.settings, range, Purpose::Chosen, &chosen)?;
+            record.write(&chosen)?;
+            record
+        }
+    };
+    outln!("\n{}", record.text(scene).trim_end());
+    if arguments.choose_only {
+        return Ok(());
+    }
+    if record.run_seconds.is_some() {
+        outln!("\nThe run is complete: {}", chosen.display());
+        return Ok(());
+    }
+    outln!("\nRunning it in {} ...", chosen.display());
+    let outcome = trial::run(&chosen)?;
+    record.checked = check(scene, &record, &outcome)?;
+    record.run_seconds = Some(outcome.seconds);
+    record.write(&chosen)?;
+    record.add_to_summary(&chosen)?;
+    outln!("Done in {:.1} s, after {:.1} s of search.", outcome.seconds, record.search_seconds);
+    if let Some(share) = &record.checked {
+        outln!("Error of the cells by {}: {:.3} % of the range of T.", share.how, share.percent);
+    }
+    Ok(())
+}
+
+fn search(scene: &Scene, accuracy: f64, checksum: String) -> Result<Record, ChoiceError> {
+    let began = Instant::now();
+    let wishes = Wishes { accuracy, cells: scene.directions(), moves: scene.moves };
+    let folder = beside(scene, "trial");
+    outln!("Looking for the cheapest run with an error of T of at most {accuracy} % of its range:");
+    let found = find(&wishes, &mut |settings: &Settings, range| {
+        let outcome = attempt(scene, settings, range, &folder);
+        match &outcome {
+            Ok(done) => {
+                outln!("  {:6.2} s  {}", done.seconds, sentence(settings, scene, range.unwrap_or(0.0)))
+            }
+            Err(error) => outln!("   failed  {}: {error}", sentence(settings, scene, range.unwrap_or(0.0))),
+        }
+        outcome
+    });
+    let _ = std::fs::remove_dir_all(&folder);
+    let search_seconds = began.elapsed().as_secs_f64();
+    Ok(Record { accuracy, checksum, found: found?, search_seconds, run_seconds: None, checked: None })
+}
+
+fn attempt(
+    scene: &Scene,
+    settings: &Settings,
+    range: Option<f64>,
+    folder: &Path,
+) -> Result<Outcome, ChoiceError> {
+    let began = Instant::now();
+    trial::make(scene, settings, range, Purpose::Trial, folder)?;
+    let outcome = trial::run(folder)?;
+    Ok(Outcome { seconds: began.elapsed().as_secs_f64(), ..outcome })
+}
+
+/// Compares the chosen run with one on half the cells along each direction.
+fn check(scene: &Scene, record: &Record, chosen: &Outcome) -> Result<Option<Share>, ChoiceError> {
+    let settings = &record.found.settings;
+    let cells = scene.directions();
+    let coarser = |(level, &cells): (&Level, &usize)| level.coarser(cells).unwrap_or(*level);
+    let levels: Vec<Level> = settings.levels.iter().zip(&cells).map(coarser).collect();
+    if levels == settings.levels {
+        return Ok(None);
+    }
+    let half = Settings { levels, ..settings.clone() };
+    let folder = beside(scene, "trial");
+    let other = attempt(scene, &half, Some(record.found.range), &folder);
+    let _ = std::fs::remove_dir_all(&folder);
+    let percent = 100.0 * chosen.series.distance(&other?.series) / record.found.range;
+    Ok(Some(Share {
+        source: "cells, checked".to_string(),
+        percent: percent / (2f64.powi(ORDER) - 1.0),
+        how: "the chosen run and one with half the cells along each direction".to_string(),
+    }))
+}
