@@ -10,6 +10,7 @@
 //! | [`record`] | what was tried, chosen and estimated, for people and for programs |
 #![forbid(unsafe_code)]
 
+mod program;
 pub mod record;
 pub mod scene;
 pub mod search;

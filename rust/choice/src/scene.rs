@@ -234,7 +234,7 @@ struct Mesh {
 
 /// The mesh, as it is described by OpenFOAM's program checkMesh.
 fn mesh(folder: &Path) -> Result<Mesh, ChoiceError> {
-    let said = crate::trial::foam(folder, Command::new("checkMesh").args(["-noTopology", "-constant"]))?;
+    let said = crate::program::foam(folder, Command::new("checkMesh").args(["-noTopology", "-constant"]))?;
     let wrong = |problem: &str| ChoiceError::Run {
         program: "checkMesh".to_string(),
         folder: folder.to_path_buf(),

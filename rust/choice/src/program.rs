@@ -1,0 +1,41 @@
+//! OpenFOAM's programs and the solver.
+
+use crate::ChoiceError;
+use std::path::Path;
+use std::process::Command;
+
+/// OpenFOAM's programs have to be told where Debian's package has its `etc/`.
+const DEBIAN_PROJECT_DIR: &str = "/usr/share/openfoam";
+/// Largest number of characters of a program's message.
+const MESSAGE: usize = 600;
+
+/// Runs one of OpenFOAM's programs, or the solver, in a case folder and returns what it prints.
+///
+/// # Errors
+/// [`ChoiceError::Run`] with the last lines that it printed.
+pub fn foam(folder: &Path, command: &mut Command) -> Result<String, ChoiceError> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let failed = |problem: String| ChoiceError::Run {
+        program: program.clone(),
+        folder: folder.to_path_buf(),
+        problem,
+    };
+    command.current_dir(folder).env("PWD", folder).stdin(std::process::Stdio::null());
+    if std::env::var_os("WM_PROJECT_DIR").is_none() {
+        command.env("WM_PROJECT_DIR", DEBIAN_PROJECT_DIR);
+    }
+    let output = command
+        .output()
+        .map_err(|error| failed(format!("{error} (. scripts/foam-env sets the paths of the solver)")))?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    if output.status.success() {
+        return Ok(text);
+    }
+    let all = format!("{text}\n{}", String::from_utf8_lossy(&output.stderr));
+    let fatal = all.find("FOAM FATAL").map_or(all.as_str(), |at| &all[at..]);
+    let body = fatal.lines().skip(usize::from(fatal.len() < all.len()));
+    let said: Vec<&str> = body.take_while(|line| !line.trim_start().starts_with("From ")).collect();
+    let said = said.join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
+    let tail: String = said.chars().take(MESSAGE).collect();
+    Err(failed(format!("{}: {tail}", output.status)))
+}
