@@ -37,7 +37,7 @@ static const scalar enoughWork = 0.8;
 //- nodes, those that are in balance would else decide whether a step may mend
 //- the few that are not
 static const scalar balanced = 0.5;
-static const scalar some = 2e-3;
+static const scalar some = 0.01;
 
 //- A step ends early if its imbalance is below so many residuals and its
 //- iterations stall, or leave more than this share while at most this share of
@@ -46,6 +46,9 @@ static const scalar some = 2e-3;
 static const scalar nearly = 2;
 static const scalar slow = 0.15;
 static const scalar few = 1e-4;
+
+//- Both for meshes with more nodes than this
+static const label large = 10000;
 
 } // End namespace Foam
 
@@ -288,7 +291,10 @@ void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
 }
 
 
-Foam::scalar Foam::granularMechanicsModels::equilibrium::shareOut() const
+bool Foam::granularMechanicsModels::equilibrium::outOfBalance
+(
+    const scalar share
+) const
 {
     const label dim = nodes_.dim();
     label all = 0, out = 0;
@@ -306,7 +312,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::shareOut() const
     }
     reduce(all, sumOp<label>());
     reduce(out, sumOp<label>());
-    return scalar(out)/all;
+    return all > large && out <= share*all;
 }
 
 
@@ -342,7 +348,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         findDiagonal();
         counters_.linear += solver_->solve(!coupled_, diagonal_, r_, d);
         ++counters_.iterations;
-        const bool local = shareOut() <= some;
+        const bool local = outOfBalance(some);
         ignored_ = local ? balanced*tolerance_ : 0;
         measure();
         const scalar before = norm_;
@@ -351,7 +357,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         choice.learn(way, norm_/before, local);
         const bool ends =
             left_ <= enough
-         && (choice.stalls() || (norm_ > slow*before && shareOut() <= few));
+         && (choice.stalls() || (norm_ > slow*before && outOfBalance(few)));
         if (choice.exhausted() || ends)
         {
             break;

@@ -86,7 +86,7 @@ pub fn sentence(settings: &Settings, scene: &Scene, range: f64) -> String {
             let total = blocks.total(&settings.levels);
             match settings.levels.iter().all(|&level| level == Level::Halved(0)) {
                 true => format!("the case's own {total} cells"),
-                false => format!("{total} of {} cells", scene.cells),
+                false => format!("{total} cells instead of {}", scene.cells),
             }
         }
         Err(why) => format!("the case's own {} cells ({why})", scene.cells),

@@ -16,14 +16,17 @@ const TOLERANCE: f64 = 1e-3;
 const LOOSE: f64 = 1e-2;
 /// Tolerances that can be chosen.
 const TOLERANCES: [f64; 7] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
-/// Shares of the wanted accuracy.
+/// Largest shares of the wanted accuracy; all that is left is for the cells.
 const MECHANICS: f64 = 0.3;
 const TIME: f64 = 0.2;
-const SPACE: f64 = 0.5;
 /// Estimates that are carried to other settings count so many times.
 const SAFETY: f64 = 1.5;
-/// A direction is dropped if the run without it is away by no more than this part of the direction's share.
-const DROP: f64 = 0.3;
+/// A direction is dropped if the run without it is away by no more than this share of the wanted accuracy.
+const DROP: f64 = 0.1;
+/// Finest level: the case's own cells doubled twice.
+const FINEST: Level = Level::Halved(-2);
+/// Source of the error of grains that stay although they might move.
+const STAY: &str = "grains stay";
 /// Order of the cell's size in the error of T.
 pub const ORDER: i32 = 2;
 
@@ -140,7 +143,7 @@ where
                     (at, base) = (other, moving);
                 } else {
                     let how = "runs with and without their motion".to_string();
-                    shares.push(Share { source: "grains stay".to_string(), percent, how });
+                    shares.push(Share { source: STAY.to_string(), percent, how });
                 }
             }
             Err(ChoiceError::Run { problem, .. }) => {
@@ -164,12 +167,25 @@ where
     let how = format!("runs with tolerances of {} and {} % of the range", 100.0 * LOOSE, 100.0 * TOLERANCE);
     shares.push(Share { source: "time".to_string(), percent: error(tolerance), how });
 
-    let mut levels = at.levels.clone();
+    // What is left for the cells. Directions along which nothing changes leave their share to the others.
+    let left: f64 = shares.iter().filter(|share| share.source == STAY).map(|share| share.percent).sum();
+    let mut left = accuracy * (1.0 - TIME) - left;
+    let mut directions = Vec::new();
     for (direction, &cells) in wishes.cells.iter().enumerate() {
-        let share = SPACE * accuracy / wishes.cells.len() as f64;
-        let (level, estimate) = space(&mut search, &at, &base, direction, cells, share)?;
-        if estimate.percent > share {
+        let found = direction_at(&mut search, &at, &base, direction, cells, DROP * accuracy)?;
+        if found.single {
+            left -= found.error;
+        }
+        directions.push(found);
+    }
+    let many = directions.iter().filter(|one| !one.single).count().max(1) as f64;
+    let mut levels = at.levels.clone();
+    let mut worst: f64 = 0.0;
+    for (direction, (known, &cells)) in directions.iter().zip(&wishes.cells).enumerate() {
+        let (level, estimate) = space(&mut search, &at, &base, direction, cells, known, left / many)?;
+        if estimate.percent > left / many && !known.single {
             out_of_reach.push("cells");
+            worst = worst.max(estimate.percent);
         }
         levels[direction] = level;
         shares.push(estimate);
@@ -182,15 +198,11 @@ where
     if out_of_reach.is_empty() {
         return Ok(found);
     }
-    // Each share at its smallest, and the whole divided as above.
-    let limit = |share: &Share| match share.source.as_str() {
-        "time" => share.percent / TIME,
-        "grains stay" => 0.0,
-        _ => share.percent * wishes.cells.len() as f64 / SPACE,
-    };
-    let best = found.shares.iter().map(limit).fold(0.0, f64::max);
+    let taken = accuracy * (1.0 - TIME) - left;
+    let time = found.shares.iter().find(|share| share.source == "time").map_or(0.0, |share| share.percent);
+    let best = (time / TIME).max((worst * many + taken) / (1.0 - TIME));
     let reason = match out_of_reach.contains(&"cells") {
-        true => "the mesh of the case is too coarse for less",
+        true => "four times the cells of the case along a direction are too few for less",
         false => "smaller steps than the smallest would be needed",
     };
     Err(ChoiceError::OutOfReach { asked: accuracy, best: 1.001 * best, reason: reason.to_string() })
@@ -205,52 +217,100 @@ fn coarse_level(cells: usize) -> Level {
     level
 }
 
-/// The coarsest level of one direction whose error is within its share, and that error.
+/// What the coarse mesh shows of one direction.
+struct Known {
+    /// Whether a single cell is enough.
+    single: bool,
+    /// Error at the coarse mesh's level, or with a single cell [% of the range]; infinite if there are too few cells to tell.
+    error: f64,
+    how: String,
+}
+
+fn with(at: &Settings, direction: usize, level: Level) -> Settings {
+    let mut settings = at.clone();
+    settings.levels[direction] = level;
+    settings
+}
+
+/// Compares the coarse mesh with one of half the cells along a direction, and with a single cell if that changes little.
+fn direction_at<R>(
+    search: &mut Search<'_, R>,
+    at: &Settings,
+    base: &Outcome,
+    direction: usize,
+    cells: usize,
+    drop: f64,
+) -> Result<Known, ChoiceError>
+where
+    R: FnMut(&Settings, Option<f64>) -> Result<Outcome, ChoiceError>,
+{
+    let here = at.levels[direction];
+    let Some(coarser) = here.coarser(cells) else {
+        return Ok(Known { single: false, error: f64::INFINITY, how: String::new() });
+    };
+    let ratio = here.cells(cells) as f64 / coarser.cells(cells) as f64;
+    let what = format!("{} cells along direction {}", coarser.cells(cells), direction + 1);
+    let halved = search.compare(&what, with(at, direction, coarser), Some(base))?;
+    let error = search.percent(&halved, base) / (ratio.powi(ORDER) - 1.0);
+    if error <= drop {
+        let what = format!("a single cell along direction {}", direction + 1);
+        if let Ok(single) = search.compare(&what, with(at, direction, Level::One), Some(base)) {
+            let error = search.percent(&single, base);
+            if error <= drop {
+                return Ok(Known { single: true, error, how: "a run without this direction".to_string() });
+            }
+        }
+    }
+    let how = format!("runs with {} and {} cells", coarser.cells(cells), here.cells(cells));
+    Ok(Known { single: false, error, how })
+}
+
+/// The coarsest level of one direction, among those that are run, whose error is within its share, and that error: that with half
+/// the cells of the coarse mesh, the coarse mesh, or finer levels, which are run one after the other until one is fine enough.
 fn space<R>(
     search: &mut Search<'_, R>,
     at: &Settings,
     base: &Outcome,
     direction: usize,
     cells: usize,
+    known: &Known,
     share: f64,
 ) -> Result<(Level, Share), ChoiceError>
 where
     R: FnMut(&Settings, Option<f64>) -> Result<Outcome, ChoiceError>,
 {
     let source = format!("cells, direction {}", direction + 1);
-    let with = |level: Level| {
-        let mut settings = at.clone();
-        settings.levels[direction] = level;
-        settings
-    };
-    let here = at.levels[direction];
-    let Some(coarser) = here.coarser(cells) else {
-        let how = "too few cells for a comparison".to_string();
-        return Ok((Level::Halved(0), Share { source, percent: 0.0, how }));
-    };
-    let ratio = |level: Level| here.cells(cells) as f64 / level.cells(cells) as f64;
-    let what = format!("{} cells along direction {}", coarser.cells(cells), direction + 1);
-    let halved = search.compare(&what, with(coarser), Some(base))?;
-    let percent = search.percent(&halved, base) / (ratio(coarser).powi(ORDER) - 1.0);
-    if percent <= DROP * share {
-        let what = format!("a single cell along direction {}", direction + 1);
-        if let Ok(single) = search.compare(&what, with(Level::One), Some(base)) {
-            let percent = search.percent(&single, base);
-            if percent <= DROP * share {
-                return Ok((
-                    Level::One,
-                    Share { source, percent, how: "a run without this direction".to_string() },
-                ));
-            }
+    if known.single {
+        return Ok((Level::One, Share { source, percent: known.error, how: known.how.clone() }));
+    }
+    let mut level = at.levels[direction];
+    let (mut error, mut how) = (SAFETY * known.error, known.how.clone());
+    if error <= share {
+        let ratio = |next: Level| (level.cells(cells) as f64 / next.cells(cells) as f64).powi(ORDER);
+        if let Some(next) = level.coarser(cells).filter(|&next| error * ratio(next) <= share) {
+            error *= ratio(next);
+            level = next;
+        }
+        return Ok((level, Share { source, percent: error, how }));
+    }
+    let mut last = base.clone();
+    while level > FINEST {
+        let finer = level.finer();
+        let what = format!("{} cells along direction {}", finer.cells(cells), direction + 1);
+        let next = search.compare(&what, with(at, direction, finer), Some(base))?;
+        let ratio = (finer.cells(cells) as f64 / level.cells(cells) as f64).powi(ORDER);
+        // Error of the finer of the two; that of the other is as many times larger.
+        let fine = SAFETY * search.percent(&next, &last) / (ratio - 1.0);
+        how = format!("runs with {} and {} cells", level.cells(cells), finer.cells(cells));
+        if fine * ratio <= share {
+            return Ok((level, Share { source, percent: fine * ratio, how }));
+        }
+        (error, level, last) = (fine, finer, next);
+        if error <= share {
+            break;
         }
     }
-    let how = format!("runs with {} and {} cells", coarser.cells(cells), here.cells(cells));
-    let error = |level: Level| SAFETY * percent * ratio(level).powi(ORDER);
-    let mut level = Level::Halved(0);
-    while let Some(next) = level.coarser(cells).filter(|&next| error(next) <= share) {
-        level = next;
-    }
-    Ok((level, Share { source, percent: error(level), how }))
+    Ok((level, Share { source, percent: error, how }))
 }
 
 #[cfg(test)]
@@ -259,14 +319,14 @@ mod tests {
     use crate::series::Series;
 
     /// A scene whose errors are known: `space[k]` at 1 cell along k, falling with the square; `time` at tolerance 1.
-    struct Known {
+    struct Scene {
         space: Vec<f64>,
         time: f64,
         motion: f64,
         cells: Vec<usize>,
     }
 
-    impl Known {
+    impl Scene {
         fn error(&self, settings: &Settings) -> f64 {
             let space = settings.levels.iter().zip(&self.cells).zip(&self.space);
             let space: f64 = space.map(|((l, &n), e)| e / (l.cells(n) as f64).powi(2)).sum();
@@ -287,7 +347,7 @@ mod tests {
 
     #[test]
     fn the_true_error_is_within_the_request_and_no_finer_than_it_needs() {
-        let scene = Known { space: vec![300.0, 100.0], time: 4.0, motion: 0.1, cells: vec![200, 100] };
+        let scene = Scene { space: vec![300.0, 100.0], time: 4.0, motion: 0.1, cells: vec![200, 100] };
         for accuracy in [5.0, 2.0, 1.0] {
             let found = scene.find(accuracy, None).unwrap();
             let error = scene.error(&found.settings);
@@ -302,7 +362,7 @@ mod tests {
 
     #[test]
     fn motion_counts_where_it_matters_and_where_the_user_says_so() {
-        let scene = Known { space: vec![10.0], time: 1.0, motion: 4.0, cells: vec![100] };
+        let scene = Scene { space: vec![10.0], time: 1.0, motion: 4.0, cells: vec![100] };
         assert!(scene.find(1.0, None).unwrap().settings.moves);
         assert!(!scene.find(20.0, None).unwrap().settings.moves);
         assert!(scene.find(20.0, Some(true)).unwrap().settings.moves);
@@ -311,13 +371,13 @@ mod tests {
 
     #[test]
     fn a_direction_along_which_nothing_changes_gets_one_cell() {
-        let scene = Known { space: vec![300.0, 0.0], time: 1.0, motion: 0.0, cells: vec![100, 50] };
+        let scene = Scene { space: vec![300.0, 0.0], time: 1.0, motion: 0.0, cells: vec![100, 50] };
         assert_eq!(scene.find(1.0, None).unwrap().settings.levels[1], Level::One);
     }
 
     #[test]
     fn a_request_out_of_reach_is_refused_with_the_best_that_can_be_had() {
-        let scene = Known { space: vec![300.0], time: 1.0, motion: 0.0, cells: vec![20] };
+        let scene = Scene { space: vec![30_000.0], time: 1.0, motion: 0.0, cells: vec![20] };
         let Err(ChoiceError::OutOfReach { best, .. }) = scene.find(0.5, None) else { panic!() };
         assert!(best > 0.5 && scene.find(best, None).is_ok(), "{best}");
     }

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
-    /// The user's cells, halved so many times.
-    Halved(u32),
+    /// The user's cells, halved so many times; doubled if the number is negative.
+    Halved(i32),
     /// A single cell: nothing changes along this direction.
     One,
 }
@@ -20,7 +20,16 @@ impl Level {
     pub fn cells(self, cells: usize) -> usize {
         match self {
             Self::One => 1,
+            Self::Halved(times) if times < 0 => cells << times.unsigned_abs(),
             Self::Halved(times) => cells.div_ceil(1 << times.min(30)).max(FEWEST.min(cells)),
+        }
+    }
+
+    /// The next finer level.
+    pub fn finer(self) -> Self {
+        match self {
+            Self::Halved(times) => Self::Halved(times - 1),
+            Self::One => Self::One,
         }
     }
 
@@ -56,6 +65,7 @@ mod tests {
         assert_eq!(counts, [30, 15, 8, 4, 4, 4]);
         assert_eq!(Level::Halved(2).coarser(30), Some(Level::Halved(3)));
         assert_eq!(Level::Halved(3).coarser(30), None);
+        assert_eq!((Level::Halved(-2).cells(30), Level::Halved(-1).finer()), (120, Level::Halved(-2)));
         assert_eq!((Level::One.cells(30), Level::One.coarser(30)), (1, None));
         assert_eq!((Level::Halved(0).cells(2), Level::Halved(0).coarser(2)), (2, None));
     }
