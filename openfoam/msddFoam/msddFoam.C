@@ -28,7 +28,6 @@ Description
     media with thermal expansion), in its order.
 
 Usage
-    msddFoam -cheapest prints the cheapest configuration for an accuracy.
     msddFoam -accept '(name ...)' goes on from a time that was computed with
     other settings: a restart with another model, material or mechanics is
     refused with both values, and the names to accept.
@@ -62,11 +61,6 @@ Usage
 
 #include <iostream>
 #include <unistd.h>
-
-// Written by msdd report --solver-table
-static const char* const cheapestConfigurations =
-    #include "cheapestConfigurations.H"
-    ;
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
@@ -140,13 +134,6 @@ int main(int argc, char *argv[])
 
     argList::addBoolOption
     (
-        "cheapest",
-        "Print the cheapest configuration for a wanted accuracy, as measured by"
-        " scripts/report, and exit; needs no case"
-    );
-
-    argList::addBoolOption
-    (
         "version",
         "Print the version and the commit that msddFoam was built from, and"
         " exit; needs no case"
@@ -169,11 +156,6 @@ int main(int argc, char *argv[])
         {
             Info<< "msddFoam " << msddVersion << ", OpenFOAM "
                 << OPENFOAM << endl;
-            return 0;
-        }
-        if (string(argv[i]) == "-cheapest")
-        {
-            Info<< cheapestConfigurations;
             return 0;
         }
     }

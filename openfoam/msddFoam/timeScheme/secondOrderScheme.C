@@ -45,6 +45,9 @@ static const scalar safety = 0.9;
 static const scalar largestGrowth = 3;
 static const scalar largestCut = 0.1;
 
+//- Shares of a step or an interval that are rounding errors
+static const scalar rounding = 1e-9;
+
 //- Defaults: the tolerance of T is toleranceShare of the range of T seen so
 //- far, but at least noiseShare of the largest T, which is above the error of
 //- the linear solver; the smallest step is smallestShare of the end time
@@ -177,10 +180,12 @@ Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
         {
             begin = time_.startTime().value();
         }
-        const scalar next = std::floor((now - begin)/interval + 1e-9) + 1;
+        const scalar next = std::floor((now - begin)/interval + rounding) + 1;
         left = min(left, begin + next*interval - now);
     }
-    return left > 0 ? left/std::ceil(left/deltaT - 1e-9) : deltaT;
+    // At the end of the run what is left may be a rounding error, not zero
+    const scalar share = left/deltaT - rounding;
+    return share > 0 ? left/std::ceil(share) : deltaT;
 }
 
 

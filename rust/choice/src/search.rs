@@ -19,8 +19,9 @@ const TOLERANCES: [f64; 7] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
 /// Largest shares of the wanted accuracy; all that is left is for the cells.
 const MECHANICS: f64 = 0.3;
 const TIME: f64 = 0.2;
-/// Estimates that are carried to other settings count so many times.
+/// Errors that are extrapolated count so many times, and those that are seen as the distance from a finer run.
 const SAFETY: f64 = 1.5;
+const SEEN: f64 = 1.1;
 /// A direction is dropped if the run without it is away by no more than this share of the wanted accuracy.
 const DROP: f64 = 0.1;
 /// Finest level: the case's own cells doubled twice.
@@ -299,13 +300,14 @@ where
         let what = format!("{} cells along direction {}", finer.cells(cells), direction + 1);
         let next = search.compare(&what, with(at, direction, finer), Some(base))?;
         let ratio = (finer.cells(cells) as f64 / level.cells(cells) as f64).powi(ORDER);
-        // Error of the finer of the two; that of the other is as many times larger.
-        let fine = SAFETY * search.percent(&next, &last) / (ratio - 1.0);
+        let away = search.percent(&next, &last);
         how = format!("runs with {} and {} cells", level.cells(cells), finer.cells(cells));
-        if fine * ratio <= share {
-            return Ok((level, Share { source, percent: fine * ratio, how }));
+        // The distance itself is most of the error of the coarser of the two.
+        let coarse = SEEN * away * ratio / (ratio - 1.0);
+        if coarse <= share {
+            return Ok((level, Share { source, percent: coarse, how }));
         }
-        (error, level, last) = (fine, finer, next);
+        (error, level, last) = (SAFETY * away / (ratio - 1.0), finer, next);
         if error <= share {
             break;
         }

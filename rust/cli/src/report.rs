@@ -29,10 +29,6 @@ pub struct Arguments {
     /// JSON file to write.
     #[arg(long, value_name = "FILE", default_value = "results/report.json")]
     json: PathBuf,
-    /// Also write the C++ source of the table of the cheapest configurations, which is built into msddFoam and which
-    /// `msddFoam -cheapest` prints.
-    #[arg(long, value_name = "FILE")]
-    solver_table: Option<PathBuf>,
     /// Folder of the cache for results of simulations.
     #[arg(long, value_name = "DIR", default_value = ".cache/report")]
     cache: PathBuf,
@@ -50,7 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         }
     }
     let page = arguments.out.join("index.html");
-    for file in [&page, &arguments.json].into_iter().chain(&arguments.solver_table) {
+    for file in [&page, &arguments.json] {
         msdd_files::check_target(file)?;
     }
     let settings = settings(arguments, &checkout)?;
@@ -73,9 +69,6 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     msdd_report::write_text(&arguments.json, &json)?;
     msdd_report::write_text(&page, &msdd_report::page::text(&made)?)?;
     let report = &made.report;
-    if let Some(file) = &arguments.solver_table {
-        msdd_report::write_text(file, &msdd_report::solver_table::text(report))?;
-    }
     outln!("{} jobs, {} from the cache", report.jobs, report.cached_jobs);
     outln!("{}", judged(report));
     outln!("page: {}   figures: {}", page.display(), arguments.json.display());

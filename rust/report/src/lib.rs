@@ -11,7 +11,6 @@
 //! | [`studies`] | studies: the jobs that each needs, and its results |
 //! | [`failures`] | where methods lose accuracy or fail, and what the programs do there |
 //! | [`report`] | all results as data: the JSON file |
-//! | [`solver_table`] | the cheapest configurations as `msddFoam -cheapest` prints them |
 //! | [`draw`] | figures as SVG |
 //! | [`page`] | the page |
 //!
@@ -25,7 +24,6 @@ pub mod page;
 pub mod plan;
 pub mod report;
 pub mod settings;
-pub mod solver_table;
 pub mod studies;
 
 use std::path::{Path, PathBuf};

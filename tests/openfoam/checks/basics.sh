@@ -74,5 +74,3 @@ formulas
 restarted
 parallel
 bulk_density
-
-check "-cheapest needs no case" test "$(cd "$work" && msddFoam -cheapest | grep -c ' core-s ')" -ge 4

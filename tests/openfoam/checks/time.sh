@@ -35,6 +35,13 @@ adaptive_restart() {
     check "adaptive: two processes: difference $e <= 1e-9" below "$e" 1e-9
 }
 
+last_step() { # the sum of these steps is below the end by a rounding error, which must not become a step of its own
+    adaptive rounded 0.1
+    controls 'endTime 0.11; writeInterval 0.0055;'
+    logged msddFoam
+    check "adaptive: ends where the sum of its steps is rounded" test -e 0.11/T -a "$(grep -c '^Time = 0.11$' log)" = 1
+}
+
 tolerance_counts() { # a tenth of the tolerance must give less than a third of the error
     local tolerance e
     adaptive fine 0.001
@@ -89,6 +96,7 @@ check "adaptive: a step too large is repeated" \
 
 rm -rf "$work"/{halves,two,second-half}
 adaptive_restart
+last_step
 tolerance_counts
 fixed_restart
 default_tolerance
