@@ -8,6 +8,7 @@ mod wishes;
 
 use crate::error::CliError;
 use clap::Subcommand;
+pub(crate) use new::checkout;
 
 #[derive(Subcommand)]
 pub enum Command {
