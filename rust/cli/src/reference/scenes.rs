@@ -15,8 +15,10 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 #[derive(Args)]
-#[command(after_help = "Example: msdd reference scenes --plan cases/scenes/plan.toml --out results/scenes --solver
-What is there already is not made again; results of a scene that has changed in the plan are replaced.")]
+#[command(
+    after_help = "Example: msdd reference scenes --plan cases/scenes/plan.toml --out results/scenes --solver
+What is there already is not made again; results of a scene that has changed in the plan are replaced."
+)]
 pub struct Arguments {
     /// The plan.
     #[arg(long, value_name = "FILE")]
@@ -28,7 +30,7 @@ pub struct Arguments {
     /// Only the scene of this name; may be given several times.
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// Run the solver in the case folders, too, and print its errors beside the scatter of the discs.
+    /// Run the solver in the case folders, too, always anew, and print its errors beside the scatter of the discs.
     #[arg(long)]
     solver: bool,
     /// Folder for the tables of all scenes, packings.csv, probes.csv.gz and windows.csv.gz; not with --only.
@@ -159,11 +161,8 @@ fn write_case(
     Ok(())
 }
 
-/// Runs the solver in a case folder, unless it has run there; the message if it fails.
+/// Runs the solver in a case folder, always anew, since the solver may have changed; the message if it fails.
 fn solve(folder: &Path, checkout: &Path) -> Result<(), String> {
-    if folder.join("postProcessing/msddFoam/summary.json").exists() {
-        return Ok(());
-    }
     let mut program = Command::new("bash");
     program.arg("Allrun").current_dir(folder).env("MSDD", checkout).stdin(Stdio::null());
     let output = program.output().map_err(|error| format!("cannot start bash: {error}"))?;
@@ -174,22 +173,32 @@ fn solve(folder: &Path, checkout: &Path) -> Result<(), String> {
 }
 
 fn print_table(all: &[Done], checkout: &Path) -> Result<(), CliError> {
-    outln!("mean and largest over probes or windows' mean, output times and packings; in % of the range of T or of the largest p");
     outln!(
-        "{:28} {:9} {:>5} {:>7}  {:>13}  {:>13}  {:>13}  {:>13}",
-        "scene", "use", "discs", "range", "T", "T scatter", "p", "p scatter"
+        "T: at the probes, in % of the scene's range of T; p: mean of the box, in % of the scene's largest p"
+    );
+    outln!("differences of solver and discs, and standard deviations between packings: mean and largest");
+    outln!(
+        "{:25} {:9} {:>5} {:>7}  {:>13}  {:>13}  {:>13}  {:>13}",
+        "scene",
+        "use",
+        "discs",
+        "range",
+        "T",
+        "T scatter",
+        "p",
+        "p scatter"
     );
     for (scene, packings) in all {
+        let head = format!("{:25} {:9}", scene.name, scene.purpose.as_str());
         let failed: Vec<String> =
             packings.iter().filter_map(|(_, folder)| solve(folder, checkout).err()).collect();
-        let head = format!("{:28} {:9}", scene.name, scene.purpose.as_str());
         if let Some(problem) = failed.first() {
             outln!("{head} the solver failed in {} of {}: {problem}", failed.len(), packings.len());
             continue;
         }
         let range = scene.case()?.temperature_range();
-        let list: Vec<(SceneResults, &Path)> =
-            packings.iter().map(|(results, folder)| (results.clone(), folder.as_path())).collect();
+        let list: Vec<(&SceneResults, &Path)> =
+            packings.iter().map(|(results, folder)| (results, folder.as_path())).collect();
         let Row { temperature, temperature_scatter, pressure, pressure_scatter } = row(&list, range)?;
         let sizes = [temperature, temperature_scatter, pressure, pressure_scatter];
         let cells = sizes.map(|size| format!("{:>6.2} {:>6.2}", size.mean, size.worst));

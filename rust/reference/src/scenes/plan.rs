@@ -2,11 +2,11 @@
 
 use crate::ReferenceError;
 use crate::model::{Filling, ModelSpec, SUM_POROSITY};
+use msdd_case::Case;
 use msdd_case::grains::Grains;
 use msdd_case::packing::{POROSITIES, RADIUS_RANGE, Start};
 use msdd_case::scene::{Mechanics, Scene, parse_wall, proposed_cells};
 use msdd_case::walls::WallOverTime;
-use msdd_case::Case;
 use msdd_dem::{Material, Thermal};
 use msdd_files::read_text;
 use msdd_rve::Compression;
@@ -156,22 +156,36 @@ impl PlannedScene {
         let word = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let good = !self.name.is_empty() && self.name.chars().all(word);
         allow("name", &self.name, good, "lower-case letters, digits and -")?;
-        allow("seeds", self.seeds.len(), self.seeds.len() > 1, "two at least, so that their scatter is known")?;
-        let good = (0.05..=0.2).contains(&self.porosity);
-        allow("porosity", self.porosity, good, "0.05 to 0.2")?;
+        allow(
+            "seeds",
+            self.seeds.len(),
+            self.seeds.len() > 1,
+            "two at least, so that their scatter is known",
+        )?;
+        let good = (0.0..=0.2).contains(&self.porosity);
+        allow("porosity", self.porosity, good, "0 to 0.2")?;
         let [low, high] = self.radii;
-        let good = low >= 0.1 && low <= 1.0 && (low + high - 2.0).abs() < 1e-9;
+        let good = (0.1..=1.0).contains(&low) && (low + high - 2.0).abs() < 1e-9;
         allow("radii", format!("[{low}, {high}]"), good, "two numbers from 0.1 on whose mean is 1")?;
         let friction = self.friction.unwrap_or_default();
         allow("friction", friction, (0.0..=10.0).contains(&friction), "0 to 10")?;
         self.scene(self.porosity)?.check()?;
         let discs = self.spec(0)?.discs;
-        allow("box", format!("{:?} mean radii", self.size), (100..=20_000).contains(&discs), "100 to 20000 discs")
+        allow(
+            "box",
+            format!("{:?} mean radii", self.size),
+            (100..=20_000).contains(&discs),
+            "100 to 20000 discs",
+        )
     }
 
     fn walls(&self) -> Result<[WallOverTime; 4], ReferenceError> {
         let wall = |key: &'static str, text: &String| {
-            parse_wall(text).map_err(|allowed| ReferenceError::Parameter { key, value: text.clone(), allowed })
+            parse_wall(text).map_err(|allowed| ReferenceError::Parameter {
+                key,
+                value: text.clone(),
+                allowed,
+            })
         };
         Ok([
             wall("left", &self.left)?,
@@ -258,4 +272,3 @@ impl PlannedScene {
         Ok(ModelSpec { discs: filling.discs(&self.case()?), seed, filling })
     }
 }
-

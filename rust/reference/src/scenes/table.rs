@@ -56,7 +56,7 @@ fn pressures(results: &SceneResults) -> Vec<[f64; 2]> {
 ///
 /// # Errors
 /// [`ReferenceError::File`], [`ReferenceError::Read`] for results of the solver that are missing.
-pub fn row(packings: &[(SceneResults, &Path)], range: f64) -> Result<Row, ReferenceError> {
+pub fn row(packings: &[(&SceneResults, &Path)], range: f64) -> Result<Row, ReferenceError> {
     let largest = packings.iter().flat_map(|(results, _)| pressures(results)).map(|row| row[1]);
     let largest = largest.fold(0.0, f64::max);
     let (mut temperature, mut pressure) = (Vec::new(), Vec::new());
@@ -73,11 +73,10 @@ pub fn row(packings: &[(SceneResults, &Path)], range: f64) -> Result<Row, Refere
     }
     let scatter = |values: Vec<Vec<f64>>, range: f64| {
         let count = values.iter().map(Vec::len).min().unwrap_or(0);
-        let deviation =
-            |k: usize| mean_and_deviation(&values.iter().map(|of| of[k]).collect::<Vec<_>>()).1;
+        let deviation = |k: usize| mean_and_deviation(&values.iter().map(|of| of[k]).collect::<Vec<_>>()).1;
         Size::of(&(0..count).map(|k| 100.0 * deviation(k) / range).collect::<Vec<_>>())
     };
-    let by_packing = |values: fn(&SceneResults) -> Vec<f64>| packings.iter().map(|p| values(&p.0)).collect();
+    let by_packing = |values: fn(&SceneResults) -> Vec<f64>| packings.iter().map(|p| values(p.0)).collect();
     Ok(Row {
         temperature: Size::of(&temperature),
         temperature_scatter: scatter(
