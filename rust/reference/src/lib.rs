@@ -13,6 +13,7 @@
 //! | [`solver`] | reads the solver's results from a case folder |
 //! | [`series`] | interpolation, means and deviations |
 //! | [`compare`] | the solver's errors against the discs |
+//! | [`scenes`] | reference scenes that differ in box, walls, heating, packing, expansion and grains |
 //!
 //! Case folders are read by [`msdd_case`].
 #![forbid(unsafe_code)]
@@ -25,6 +26,7 @@ pub mod observe;
 pub mod packings;
 pub mod results;
 pub mod run;
+pub mod scenes;
 pub mod series;
 pub mod solver;
 

@@ -41,20 +41,46 @@ const RUN: u64 = 50;
 pub const SUB_REGIONS: [usize; 2] = [10, 3];
 
 /// What to pack. The size of the box and the grains are those of the case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelSpec {
-    /// Number of discs. Unless it is that of [`discs_of`], the box is smaller or larger than the case's, of the same shape.
+    /// Number of discs. Unless it is that of [`Filling::discs`], the box is smaller or larger than the case's, of the same shape.
     pub discs: usize,
     pub seed: u64,
+    pub filling: Filling,
 }
 
-/// Number of discs that fill the case's box; [`DISCS`], as in the paper, if that is right within 1 %.
+/// How full the box is, of which radii, and from where it was closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Filling {
+    /// Porosity with overlaps counted twice [-].
+    pub porosity: f64,
+    /// Smallest and largest radius over the mean radius [-].
+    pub radii: [f64; 2],
+    /// Whether the box was closed along x and y by the same strain, instead of along x alone.
+    pub isotropic: bool,
+}
+
+impl Default for Filling {
+    /// That of the paper's cases.
+    fn default() -> Self {
+        Self { porosity: SUM_POROSITY, radii: RADIUS_RANGE, isotropic: false }
+    }
+}
+
+impl Filling {
+    /// Number of discs that fill the case's box; [`DISCS`], as in the paper, if that is right within 1 %.
+    pub fn discs(&self, case: &Case) -> usize {
+        let [low, high] = self.radii.map(|ratio| ratio * case.mean_radius);
+        // Mean of r² for radii that are uniformly distributed between the two.
+        let disc = PI * (low * low + low * high + high * high) / 3.0;
+        let filling = (1.0 - self.porosity) * case.size[0] * case.size[1] / disc;
+        if (filling / DISCS as f64 - 1.0).abs() < 0.01 { DISCS } else { filling.round() as usize }
+    }
+}
+
+/// Number of discs that fill the case's box as in the paper's cases.
 pub fn discs_of(case: &Case) -> usize {
-    let [low, high] = RADIUS_RANGE.map(|ratio| ratio * case.mean_radius);
-    // Mean of r² for radii that are uniformly distributed between the two.
-    let disc = PI * (low * low + low * high + high * high) / 3.0;
-    let filling = (1.0 - SUM_POROSITY) * case.size[0] * case.size[1] / disc;
-    if (filling / DISCS as f64 - 1.0).abs() < 0.01 { DISCS } else { filling.round() as usize }
+    Filling::default().discs(case)
 }
 
 /// A packed box at rest.
@@ -92,7 +118,7 @@ pub struct Statistics {
 impl ModelSpec {
     /// Size of the box over that of the case [-].
     pub fn scale(&self, case: &Case) -> f64 {
-        (self.discs as f64 / discs_of(case) as f64).sqrt()
+        (self.discs as f64 / self.filling.discs(case) as f64).sqrt()
     }
 
     fn check(&self) -> Result<(), ReferenceError> {
@@ -120,16 +146,20 @@ pub fn pack(
     let [width, height] = case.size.map(|length| length * spec.scale(case));
     let mut random = Random::new(spec.seed);
     let radii = fitting_radii(&mut random, spec, case, width * height)?;
-    let start_width = (1.0 - SUM_POROSITY) * width / START_DENSITY;
+    let looser = (1.0 - spec.filling.porosity) / START_DENSITY;
+    let [start_width, start_height] = match spec.filling.isotropic {
+        true => [width, height].map(|length| length * looser.sqrt()),
+        false => [(1.0 - spec.filling.porosity) * width / START_DENSITY, height],
+    };
     // The discs are placed with x and y exchanged, so that they are numbered column by column and neighbours are near each
     // other in memory.
-    let discs = scatter(&mut random, radii, height, start_width, case.material.density)?;
+    let discs = scatter(&mut random, radii, start_height, start_width, case.material.density)?;
     let discs = discs.into_iter().map(|disc| Disc { x: disc.y, y: disc.x, ..disc }).collect();
     let slippery = Material { friction_angle: PACKING_FRICTION.atan(), ..case.material.clone() };
-    let mut simulation = Simulation::new(slippery, discs, Walls::around(start_width, height));
+    let mut simulation = Simulation::new(slippery, discs, Walls::around(start_width, start_height));
     simulation.free_drag = free_drag(&simulation);
     simulation.set_threads(threads)?;
-    close(&mut simulation, width, |done| progress(0.9 * done))?;
+    close(&mut simulation, [width, height], |done| progress(0.9 * done))?;
     simulation.material = case.material.clone();
     let settled = settle(&mut simulation, Relaxation::Damped, 0)?;
     progress(1.0);
@@ -138,17 +168,17 @@ pub fn pack(
     Ok(Model { simulation, settled })
 }
 
-/// Radii of the case's distribution, scaled a little so that they fill the area [m²] to [`SUM_POROSITY`].
+/// Radii of the case's distribution, scaled a little so that they fill the area [m²] to the wanted porosity.
 fn fitting_radii(
     random: &mut Random,
     spec: ModelSpec,
     case: &Case,
     area: f64,
 ) -> Result<Vec<f64>, ReferenceError> {
-    let [low, high] = RADIUS_RANGE.map(|ratio| ratio * case.mean_radius);
+    let [low, high] = spec.filling.radii.map(|ratio| ratio * case.mean_radius);
     let mut radii = radii(random, spec.discs, low, high);
     let filled: f64 = radii.iter().map(|r| PI * r * r).sum();
-    let factor = ((1.0 - SUM_POROSITY) * area / filled).sqrt();
+    let factor = ((1.0 - spec.filling.porosity) * area / filled).sqrt();
     // The mean square of random radii scatters more with fewer discs; with 15 000 the factor scatters by 0.2 %.
     let slack = 0.01 * (DISCS as f64 / spec.discs as f64).sqrt().max(1.0);
     if (factor - 1.0).abs() > slack {
@@ -167,10 +197,11 @@ fn fitting_radii(
     Ok(radii)
 }
 
-/// Moves the right wall to `width` [m]; the grains move with the mean strain of the box.
+/// Moves the right wall and the top to a width and a height [m], so that both arrive at once; the grains move with the mean
+/// strain of the box.
 fn close(
     simulation: &mut Simulation,
-    width: f64,
+    [width, height]: [f64; 2],
     mut progress: impl FnMut(f64),
 ) -> Result<(), ReferenceError> {
     let way = simulation.walls.width() - width;
@@ -179,18 +210,20 @@ fn close(
     (simulation.affine, simulation.affine_walls) = (true, true);
     loop {
         let left = simulation.walls.width() - width;
+        let lower = simulation.walls.height() - height;
         let loose = 1.0 - solid / simulation.walls.area() > DENSE_POROSITY;
         let speed = simulation.walls.width() * faster * if loose { LOOSE_RATE } else { DENSE_RATE };
         let steps = (left / (speed * simulation.time_step)).ceil();
         if steps < 1.0 || left < 1e-12 {
             break;
         }
-        simulation.walls.normal_velocity = [0.0, -left / (steps * simulation.time_step), 0.0, 0.0];
+        let time = steps * simulation.time_step;
+        simulation.walls.normal_velocity = [0.0, -left / time, 0.0, -lower / time];
         simulation.run((steps as u64).min(RUN))?;
         progress(1.0 - left / way);
     }
     simulation.walls.stop();
-    simulation.walls.position[1] = width;
+    [simulation.walls.position[1], simulation.walls.position[3]] = [width, height];
     (simulation.affine, simulation.affine_walls) = (false, false);
     Ok(())
 }

@@ -67,10 +67,7 @@ pub fn read(folder: &Path, mesh: [usize; 2], end_time: f64) -> Result<Run, Refer
     let slices = |values: &Vec<Vec<f64>>| means_in(values, mesh, [10, 1]).iter().map(|u| u[0]).collect();
     Ok(Run {
         temperature: temperatures(folder)?,
-        pressure: numbers(&newest(&post.join("wallPressure"))?)?
-            .iter()
-            .filter_map(|row| row.get(..2)?.try_into().ok())
-            .collect(),
+        pressure: pressure_rows(folder)?,
         sub_regions: last_windows(&post.join("subRegions"), 30)?,
         columns: last_windows(&post.join("columns"), 10)?,
         displacement: moved.as_ref().map(slices),
@@ -119,6 +116,15 @@ pub fn probe_points(folder: &Path) -> Result<Vec<[f64; 2]>, ReferenceError> {
 /// As [`read`].
 pub fn probe_rows(folder: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
     numbers(&newest(&folder.join("postProcessing/spaceProbes"))?)
+}
+
+/// Rows of time [s] and mean pressure [Pa], which `wallPressure` writes.
+///
+/// # Errors
+/// As [`read`].
+pub fn pressure_rows(folder: &Path) -> Result<Vec<[f64; 2]>, ReferenceError> {
+    let rows = numbers(&newest(&folder.join("postProcessing/wallPressure"))?)?;
+    Ok(rows.iter().filter_map(|row| row.get(..2)?.try_into().ok()).collect())
 }
 
 fn read_summary(file: &Path) -> Result<Value, ReferenceError> {

@@ -9,6 +9,7 @@ mod wishes;
 
 use crate::error::CliError;
 use clap::Subcommand;
+pub(crate) use new::checkout;
 
 #[derive(Subcommand)]
 pub enum Command {

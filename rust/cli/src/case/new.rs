@@ -110,7 +110,7 @@ fn packed(scene: &Scene, arguments: &Arguments) -> Result<msdd_case::packing::Pa
 
 /// The checkout with the solver: the one that was named, else the one that contains this program, else the one that it was
 /// compiled in.
-fn checkout(named: Option<&Path>) -> Result<PathBuf, CliError> {
+pub(crate) fn checkout(named: Option<&Path>) -> Result<PathBuf, CliError> {
     let is_checkout = |folder: &Path| folder.join("scripts/foam-env").is_file();
     let missing = |folder: &Path| {
         let folder = folder.display();

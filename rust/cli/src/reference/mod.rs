@@ -1,6 +1,7 @@
 //! `msdd reference`: simulates the whole box of a case by discrete elements.
 
 mod compare;
+mod scenes;
 mod summary;
 
 use crate::error::CliError;
@@ -11,7 +12,7 @@ use msdd_case::numbers::rounded;
 use msdd_case::{Case, mesh};
 use msdd_dem::Simulation;
 use msdd_files::{check_target, write};
-use msdd_reference::model::{DISCS, ModelSpec, check_state, discs_of, pack, statistics};
+use msdd_reference::model::{DISCS, Filling, ModelSpec, check_state, discs_of, pack, statistics};
 use msdd_reference::run::Watch;
 use msdd_reference::{ReferenceError, RunSpec, Statistics, fields, results::Results, run as run_case};
 use msdd_rve::message::number;
@@ -31,6 +32,8 @@ pub enum Command {
     Summary(summary::Arguments),
     /// Print the differences of a run of the solver from discrete elements in the temperatures at the probes.
     Compare(compare::Arguments),
+    /// Make the reference scenes of a plan, and set the solver beside them.
+    Scenes(scenes::Arguments),
 }
 
 /// Which packed model.
@@ -114,6 +117,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Fields(arguments) => write_fields(arguments),
         Command::Summary(arguments) => summary::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
+        Command::Scenes(arguments) => scenes::run(arguments),
     }
 }
 
@@ -152,7 +156,7 @@ impl ModelArguments {
         check_target(&self.path(case))?;
         let begin = Instant::now();
         let mut progress = Progress::new("packing, %", 100);
-        let spec = ModelSpec { discs: self.discs(case), seed: self.seed };
+        let spec = ModelSpec { discs: self.discs(case), seed: self.seed, filling: Filling::default() };
         let watch = |done: f64| progress.set((100.0 * done) as u64, 100, "");
         let model = pack(spec, case, self.threads as usize, watch)?;
         progress.finish();

@@ -1,15 +1,34 @@
 //! Plans, databases and other files of the Rust programs.
 
 use crate::set::{Cell, Set};
-use crate::sources::{all, between, files, firsts};
+use crate::sources::{all, between, files, firsts, strings};
 
 const PLAN: &str = "reference/plan.md";
+const SCENE: &str = "reference/scenes.md";
 const DATABASE: &str = "reference/database.md";
 const C_INTERFACE: &str = "reference/c-interface.md";
 const RVE: &str = "rust/rve/src";
 
 pub fn sets() -> Vec<Set> {
-    [plan(), database(), other_files()].concat()
+    [plan(), database(), other_files(), scenes()].concat()
+}
+
+fn scenes() -> Vec<Set> {
+    const SCENES: &str = "rust/reference/src/scenes";
+    let scene = with_required(fields_of(SCENE, "scene", SCENES, "PlannedScene"), SCENES, "PlannedScene")
+        .with_words("use", "allowed", &variants(SCENES, "Use"))
+        .with_words("compression", "allowed", &variants(SCENES, "Closing"));
+    let text = crate::sources::text(&format!("{SCENES}/discs.rs"));
+    let columns = |table: &str, name: &str| {
+        let list = between(&text, &format!(r"const {name}: \[&str; \d+\] ="), ";", SCENES);
+        Set::new(SCENE, table, SCENES, strings(&list))
+    };
+    vec![
+        scene,
+        columns("packings of scenes", "PACKING_COLUMNS"),
+        columns("probes of scenes", "PROBE_COLUMNS"),
+        columns("windows of scenes", "WINDOW_COLUMNS"),
+    ]
 }
 
 fn plan() -> Vec<Set> {

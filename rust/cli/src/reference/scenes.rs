@@ -1,0 +1,208 @@
+//! `msdd reference scenes`: makes the reference scenes of a plan, and sets the solver beside them.
+
+use crate::case::checkout;
+use crate::error::CliError;
+use crate::rve::{read_state, write_state};
+use clap::Args;
+use msdd_case::folder;
+use msdd_files::write;
+use msdd_reference::scenes::discs::{packed, packing_of, simulate};
+use msdd_reference::scenes::table::{Row, row};
+use msdd_reference::scenes::{Plan, PlannedScene, SceneResults, data};
+use msdd_reference::{ReferenceError, fields};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+#[derive(Args)]
+#[command(
+    after_help = "Example: msdd reference scenes --plan cases/scenes/plan.toml --out results/scenes --solver
+What is there already is not made again; results of a scene that has changed in the plan are replaced."
+)]
+pub struct Arguments {
+    /// The plan.
+    #[arg(long, value_name = "FILE")]
+    plan: PathBuf,
+    /// Folder for the results: for each scene and packing the packed box, a case folder for the solver, and the results of the
+    /// discs.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Only the scene of this name; may be given several times.
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Run the solver in the case folders, too, always anew, and print its errors beside the scatter of the discs.
+    #[arg(long)]
+    solver: bool,
+    /// Folder for the tables of all scenes, packings.csv, probes.csv.gz and windows.csv.gz; not with --only.
+    #[arg(long, value_name = "DIR", conflicts_with = "only")]
+    tables: Option<PathBuf>,
+    #[arg(long, default_value_t = 1, value_parser = crate::threads::parser())]
+    threads: u32,
+    /// MSDD's checkout, whose solver the case folders run. Default: the one that this program was built in.
+    #[arg(long, value_name = "DIR")]
+    checkout: Option<PathBuf>,
+}
+
+/// A scene, its packings' results and their case folders.
+type Done<'a> = (&'a PlannedScene, Vec<(SceneResults, PathBuf)>);
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let plan = Plan::read(&arguments.plan)?;
+    let names: Vec<&str> = plan.scenes.iter().map(|scene| scene.name.as_str()).collect();
+    if let Some(name) = arguments.only.iter().find(|name| !names.contains(&name.as_str())) {
+        let text = format!("--only = {name}, allowed: {}", names.join(", "));
+        return Err(CliError::Message(text));
+    }
+    let checkout = checkout(arguments.checkout.as_deref())?;
+    let wanted = |scene: &&PlannedScene| arguments.only.is_empty() || arguments.only.contains(&scene.name);
+    let mut all: Vec<Done> = Vec::new();
+    for scene in plan.scenes.iter().filter(wanted) {
+        let folder = arguments.out.join(&scene.name);
+        begin(&folder, &plan, scene)?;
+        let packing = |&seed: &u64| {
+            let results = discs(&folder, &plan, scene, seed, arguments.threads as usize, &checkout)?;
+            Ok::<_, CliError>((results, case_folder(&folder, seed)))
+        };
+        all.push((scene, scene.seeds.iter().map(packing).collect::<Result<_, _>>()?));
+    }
+    if let Some(folder) = &arguments.tables {
+        let rows = all.iter().flat_map(|(scene, packings)| packings.iter().map(|p| (*scene, p.0.clone())));
+        data::write(folder, &rows.collect::<Vec<_>>())?;
+    }
+    if arguments.solver { print_table(&all, &checkout) } else { Ok(()) }
+}
+
+fn case_folder(folder: &Path, seed: u64) -> PathBuf {
+    folder.join(format!("seed{seed}"))
+}
+
+/// Makes the folder of a scene, or removes what is in it if it was made for another plan.
+fn begin(folder: &Path, plan: &Plan, scene: &PlannedScene) -> Result<(), CliError> {
+    let file = folder.join("scene.json");
+    let text = serde_json::to_string(&(plan.outputs, scene)).map_err(ReferenceError::from)?;
+    if file.exists() && msdd_files::read_text(&file)? == text {
+        return Ok(());
+    }
+    for seed in file.exists().then_some(&scene.seeds).into_iter().flatten() {
+        outln!("{}, seed {seed}: the plan has changed, begun anew", scene.name);
+        for file in [state_file(folder, *seed), result_file(folder, *seed)] {
+            let _ = std::fs::remove_file(file);
+        }
+        let _ = std::fs::remove_dir_all(case_folder(folder, *seed));
+    }
+    Ok(write(&file, text.as_bytes())?)
+}
+
+fn state_file(folder: &Path, seed: u64) -> PathBuf {
+    folder.join(format!("packed_seed{seed}.json"))
+}
+
+fn result_file(folder: &Path, seed: u64) -> PathBuf {
+    folder.join(format!("discs_seed{seed}.json"))
+}
+
+/// The results of a packing's discs: read, or else packed, written as a case folder, and simulated.
+fn discs(
+    folder: &Path,
+    plan: &Plan,
+    scene: &PlannedScene,
+    seed: u64,
+    threads: usize,
+    checkout: &Path,
+) -> Result<SceneResults, CliError> {
+    let (state, result) = (state_file(folder, seed), result_file(folder, seed));
+    if result.exists() {
+        return Ok(SceneResults::read(&result)?);
+    }
+    let begin = Instant::now();
+    if !state.exists() {
+        write_state(&state, &packed(scene, seed, threads)?)?;
+    }
+    // The state is always read from its file, so that a run does not depend on whether it packed the box itself.
+    let start = read_state(&state)?;
+    write_case(&case_folder(folder, seed), scene, &start, seed, threads, checkout)?;
+    let packed = begin.elapsed().as_secs_f64();
+    let results = simulate(plan, scene, &start, seed, threads)?;
+    write(&result, serde_json::to_string(&results).map_err(ReferenceError::from)?.as_bytes())?;
+    outln!(
+        "{}, seed {seed}: {} discs packed in {packed:.1} s, run in {:.1} s",
+        scene.name,
+        start.discs.len(),
+        begin.elapsed().as_secs_f64() - packed
+    );
+    Ok(results)
+}
+
+/// Writes a case folder for the solver, with the packing's own initial fields.
+fn write_case(
+    folder: &Path,
+    scene: &PlannedScene,
+    start: &msdd_dem::Simulation,
+    seed: u64,
+    threads: usize,
+    checkout: &Path,
+) -> Result<(), CliError> {
+    let packing = packing_of(scene, start)?;
+    let solver = scene.scene(packing.porosity.mean)?;
+    folder::write(folder, &folder::files(&solver, &packing, &scene.name, checkout)?)?;
+    let (cell, [nx, ny]) = (solver.cell(), solver.cells);
+    let centre = |k: usize| [(k % nx) as f64 + 0.5, (k / nx) as f64 + 0.5];
+    let centres: Vec<[f64; 2]> = (0..nx * ny)
+        .map(|k| {
+            let [x, y] = centre(k);
+            [x * cell[0], y * cell[1]]
+        })
+        .collect();
+    let averages = fields::around(start, &centres, fields::WINDOW * scene.mean_radius, threads)?;
+    let note = format!("Windows of the packing of the scene {}, seed {seed}", scene.name);
+    for (name, text) in fields::files(&averages, scene.thermal_conductivity, &note) {
+        write(&folder.join("0").join(name), text.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Runs the solver in a case folder, always anew, since the solver may have changed; the message if it fails.
+fn solve(folder: &Path, checkout: &Path) -> Result<(), String> {
+    let mut program = Command::new("bash");
+    program.arg("Allrun").current_dir(folder).env("MSDD", checkout).stdin(Stdio::null());
+    let output = program.output().map_err(|error| format!("cannot start bash: {error}"))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    Err(String::from_utf8_lossy(&output.stderr).trim().to_string())
+}
+
+fn print_table(all: &[Done], checkout: &Path) -> Result<(), CliError> {
+    outln!(
+        "T: at the probes, in % of the scene's range of T; p: mean of the box, in % of the scene's largest p"
+    );
+    outln!("differences of solver and discs, and standard deviations between packings: mean and largest");
+    outln!(
+        "{:25} {:9} {:>5} {:>7}  {:>13}  {:>13}  {:>13}  {:>13}",
+        "scene",
+        "use",
+        "discs",
+        "range",
+        "T",
+        "T scatter",
+        "p",
+        "p scatter"
+    );
+    for (scene, packings) in all {
+        let head = format!("{:25} {:9}", scene.name, scene.purpose.as_str());
+        let failed: Vec<String> =
+            packings.iter().filter_map(|(_, folder)| solve(folder, checkout).err()).collect();
+        if let Some(problem) = failed.first() {
+            outln!("{head} the solver failed in {} of {}: {problem}", failed.len(), packings.len());
+            continue;
+        }
+        let range = scene.case()?.temperature_range();
+        let list: Vec<(&SceneResults, &Path)> =
+            packings.iter().map(|(results, folder)| (results, folder.as_path())).collect();
+        let Row { temperature, temperature_scatter, pressure, pressure_scatter } = row(&list, range)?;
+        let sizes = [temperature, temperature_scatter, pressure, pressure_scatter];
+        let cells = sizes.map(|size| format!("{:>6.2} {:>6.2}", size.mean, size.worst));
+        outln!("{head} {:>5} {range:>7}  {}", list[0].0.packing.rows[0][0], cells.join("  "));
+    }
+    Ok(())
+}

@@ -1,0 +1,17 @@
+//! Reference scenes: boxes that differ in shape, walls, heating, packing, expansion and grains, each simulated by discrete
+//! elements for several packings. Error bands of the solver are calibrated on some of them and judged by the others.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`plan`] | the plan: a TOML file |
+//! | [`discs`] | one packing by discrete elements |
+//! | [`data`] | the tables of all packings |
+//! | [`table`] | errors of the solver beside the scatter of the packings |
+
+pub mod data;
+pub mod discs;
+pub mod plan;
+pub mod table;
+
+pub use discs::SceneResults;
+pub use plan::{Plan, PlannedScene, Use};
