@@ -6,6 +6,8 @@ use std::process::Command;
 
 /// OpenFOAM's programs have to be told where Debian's package has its `etc/`.
 const DEBIAN_PROJECT_DIR: &str = "/usr/share/openfoam";
+/// Number of last lines that stand for a message, where a program ends without one.
+const LAST: usize = 4;
 /// Largest number of characters of a program's message.
 const MESSAGE: usize = 600;
 
@@ -32,9 +34,17 @@ pub fn foam(folder: &Path, command: &mut Command) -> Result<String, ChoiceError>
         return Ok(text);
     }
     let all = format!("{text}\n{}", String::from_utf8_lossy(&output.stderr));
-    let fatal = all.find("FOAM FATAL").map_or(all.as_str(), |at| &all[at..]);
-    let body = fatal.lines().skip(usize::from(fatal.len() < all.len()));
-    let said: Vec<&str> = body.take_while(|line| !line.trim_start().starts_with("From ")).collect();
+    let said: Vec<&str> = match all.find("FOAM FATAL") {
+        // The message, without the line before it and the lines on where it comes from.
+        Some(at) => {
+            let body = all[at..].lines().skip(1);
+            body.take_while(|line| !line.trim_start().starts_with("From ")).collect()
+        }
+        None => {
+            let lines: Vec<&str> = all.lines().filter(|line| !line.trim().is_empty()).collect();
+            lines[lines.len().saturating_sub(LAST)..].to_vec()
+        }
+    };
     let said = said.join(" ").split_whitespace().collect::<Vec<_>>().join(" ");
     let tail: String = said.chars().take(MESSAGE).collect();
     Err(failed(format!("{}: {tail}", output.status)))
