@@ -291,7 +291,7 @@ void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
 }
 
 
-bool Foam::granularMechanicsModels::equilibrium::outOfBalance
+bool Foam::granularMechanicsModels::equilibrium::fewOutOfBalance
 (
     const scalar share
 ) const
@@ -348,7 +348,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         findDiagonal();
         counters_.linear += solver_->solve(!coupled_, diagonal_, r_, d);
         ++counters_.iterations;
-        const bool local = outOfBalance(some);
+        const bool local = fewOutOfBalance(some);
         ignored_ = local ? balanced*tolerance_ : 0;
         measure();
         const scalar before = norm_;
@@ -357,7 +357,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
         choice.learn(way, norm_/before, local);
         const bool ends =
             left_ <= enough
-         && (choice.stalls() || (norm_ > slow*before && outOfBalance(few)));
+         && (choice.stalls() || (norm_ > slow*before && fewOutOfBalance(few)));
         if (choice.exhausted() || ends)
         {
             break;
