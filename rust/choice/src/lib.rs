@@ -31,6 +31,11 @@ pub enum ChoiceError {
     Run { program: String, folder: PathBuf, problem: String },
     #[error("{}: {problem}", file.display())]
     Read { file: PathBuf, problem: String },
+    #[error(
+        "{} is there and was not made by msdd case solve, which would replace it: move it away",
+        folder.display()
+    )]
+    Foreign { folder: PathBuf },
     #[error("accuracy = {asked} %, allowed: at least {best:.2} % for this scene: {reason}")]
     OutOfReach { asked: f64, best: f64, reason: String },
 }

@@ -175,7 +175,7 @@ impl Scene {
         own / (own / span).ceil().max(1.0)
     }
 
-    /// Checksum of all that a run depends on: the files of the case and those that they include.
+    /// Checksum of what a run depends on: this version, the files of the case, and those that they include.
     ///
     /// # Errors
     /// [`ChoiceError::File`].
@@ -188,6 +188,7 @@ impl Scene {
         }
         files.sort();
         let mut sum = Sha256::new();
+        sum.update(env!("CARGO_PKG_VERSION"));
         for file in files {
             sum.update(std::fs::read(&file).unwrap_or_default());
             sum.update([0]);

@@ -13,6 +13,9 @@ use std::time::Instant;
 
 /// Name of the function objects whose results are compared.
 const WATCH: &str = "msddChoice";
+/// File that shows that a folder was made here, so that it may be replaced.
+const OURS: &str = ".msdd-choice";
+
 /// What a case folder is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
@@ -37,7 +40,7 @@ pub struct Outcome {
 /// `range`: of T [K], once it is known.
 ///
 /// # Errors
-/// When files cannot be read or written, or OpenFOAM cannot make the mesh or map the fields.
+/// When files cannot be read or written, OpenFOAM cannot make the mesh or map the fields, or `folder` is somebody else's.
 pub fn make(
     scene: &Scene,
     settings: &Settings,
@@ -45,7 +48,8 @@ pub fn make(
     purpose: Purpose,
     folder: &Path,
 ) -> Result<(), ChoiceError> {
-    let _ = std::fs::remove_dir_all(folder);
+    clear(folder)?;
+    write(&folder.join(OURS), b"Made by msdd case solve, which may replace this folder.\n")?;
     for part in [scene.start.as_str(), "constant", "system"] {
         for file in list(&scene.folder.join(part))?.into_iter().filter(|file| file.is_file()) {
             let name = format!("{part}/{}", file.file_name().unwrap_or_default().to_string_lossy());
@@ -55,6 +59,13 @@ pub fn make(
                 bytes.extend(format!("\n// Chosen for the wanted accuracy\n{keys}").bytes());
             }
             write(&folder.join(&name), &bytes)?;
+        }
+    }
+    // Folders that a boundary condition or a model may read.
+    for other in list(&scene.folder.join("constant"))?.into_iter().filter(|path| path.is_dir()) {
+        let name = other.file_name().unwrap_or_default();
+        if name != "polyMesh" {
+            link(&other, &folder.join("constant").join(name))?;
         }
     }
     let whole = settings.levels.iter().all(|&level| level == Level::Halved(0));
@@ -80,6 +91,30 @@ pub fn make(
     let arguments = ["-consistent", "-mapMethod", "cellVolumeWeight", "-sourceTime", &scene.start];
     foam(folder, Command::new("mapFieldsPar").arg(&scene.folder).args(arguments))?;
     Ok(())
+}
+
+/// Refuses a folder that [`make`] has not made.
+///
+/// # Errors
+/// [`ChoiceError::Foreign`].
+pub fn check_ours(folder: &Path) -> Result<(), ChoiceError> {
+    match folder.symlink_metadata().is_ok() && !folder.join(OURS).is_file() {
+        true => Err(ChoiceError::Foreign { folder: folder.to_path_buf() }),
+        false => Ok(()),
+    }
+}
+
+/// Removes a folder that [`make`] has made, if it is there.
+///
+/// # Errors
+/// [`ChoiceError::Foreign`] if it was made by somebody else, [`ChoiceError::Read`] if it cannot be removed.
+pub fn clear(folder: &Path) -> Result<(), ChoiceError> {
+    check_ours(folder)?;
+    if folder.symlink_metadata().is_err() {
+        return Ok(());
+    }
+    std::fs::remove_dir_all(folder)
+        .map_err(|error| ChoiceError::Read { file: folder.to_path_buf(), problem: error.to_string() })
 }
 
 /// Runs the solver in the folder of a combination, or goes on with a run that was killed.

@@ -70,12 +70,15 @@ fn solve(scene: &Scene, accuracy: f64, arguments: &Arguments) -> Result<(), Choi
     let _lock = Lock::take(&chosen)?;
     let checksum = scene.checksum()?;
     let earlier = Record::earlier(&chosen, &checksum, accuracy).filter(|_| !arguments.again);
+    // Before a long search: neither folder may be somebody else's.
+    trial::clear(&beside(scene, "trial"))?;
     let mut record = match earlier {
         Some(record) => {
             outln!("The choice for this case and {accuracy} % is known: no search.");
             record
         }
         None => {
+            trial::check_ours(&chosen)?;
             let record = search(scene, accuracy, checksum)?;
             let range = Some(record.found.range).filter(|&range| range > 0.0);
             trial::make(scene, &record.found.settings, range, Purpose::Chosen, &chosen)?;
@@ -119,7 +122,7 @@ fn search(scene: &Scene, accuracy: f64, checksum: String) -> Result<Record, Choi
         }
         outcome
     });
-    let _ = std::fs::remove_dir_all(&folder);
+    trial::clear(&folder)?;
     let search_seconds = began.elapsed().as_secs_f64();
     Ok(Record { accuracy, checksum, found: found?, search_seconds, run_seconds: None, checked: None })
 }
@@ -148,7 +151,7 @@ fn check(scene: &Scene, record: &Record, chosen: &Outcome) -> Result<Option<Shar
     let half = Settings { levels, ..settings.clone() };
     let folder = beside(scene, "trial");
     let other = attempt(scene, &half, Some(record.found.range), &folder);
-    let _ = std::fs::remove_dir_all(&folder);
+    trial::clear(&folder)?;
     let percent = 100.0 * chosen.series.distance(&other?.series) / record.found.range;
     Ok(Some(Share {
         source: "cells, checked".to_string(),
