@@ -11,7 +11,8 @@ const LAST: usize = 4;
 /// Largest number of characters of a program's message.
 const MESSAGE: usize = 600;
 
-/// Runs one of OpenFOAM's programs, or the solver, in a case folder and returns what it prints.
+/// Runs one of OpenFOAM's programs, or the solver, in a case folder and returns what it prints. Its standard input is that of
+/// `command`; none of them reads it.
 ///
 /// # Errors
 /// [`ChoiceError::Run`] with the last lines that it printed.
@@ -22,7 +23,7 @@ pub fn foam(folder: &Path, command: &mut Command) -> Result<String, ChoiceError>
         folder: folder.to_path_buf(),
         problem,
     };
-    command.current_dir(folder).env("PWD", folder).stdin(std::process::Stdio::null());
+    command.current_dir(folder).env("PWD", folder);
     if std::env::var_os("WM_PROJECT_DIR").is_none() {
         command.env("WM_PROJECT_DIR", DEBIAN_PROJECT_DIR);
     }

@@ -5,7 +5,7 @@ use crate::program::foam;
 use crate::scene::Scene;
 use crate::series::Series;
 use crate::settings::{Level, Settings};
-use msdd_files::{list, read_text, write};
+use msdd_files::{Lock, list, read_text, write};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -117,13 +117,14 @@ pub fn clear(folder: &Path) -> Result<(), ChoiceError> {
         .map_err(|error| ChoiceError::Read { file: folder.to_path_buf(), problem: error.to_string() })
 }
 
-/// Runs the solver in the folder of a combination, or goes on with a run that was killed.
+/// Runs the solver in the folder of a combination, or goes on with a run that was killed. The solver holds the lock, too: if this
+/// program is killed alone, no other starts a second solver in the folder before the first has ended.
 ///
 /// # Errors
 /// [`ChoiceError::Run`] with the solver's message; [`ChoiceError::Read`] when its results cannot be read.
-pub fn run(folder: &Path) -> Result<Outcome, ChoiceError> {
+pub fn run(folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
-    let log = foam(folder, &mut Command::new("msddFoam"))?;
+    let log = foam(folder, Command::new("msddFoam").stdin(lock.handle()?))?;
     write(&folder.join("log.msddFoam"), log.as_bytes())?;
     // A run that was killed and went on has one folder for each start.
     let starts = |name: &str| list(&folder.join("postProcessing").join(name));

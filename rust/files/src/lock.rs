@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub struct Lock {
     path: PathBuf,
     /// The lock file, which is locked as long as it is open.
-    _file: File,
+    file: File,
 }
 
 impl Lock {
@@ -40,9 +40,20 @@ impl Lock {
             // others would make and lock a new file: try again.
             if is_at(&lock, &path).map_err(failed)? {
                 lock.set_len(0).and_then(|()| lock.write_all(own_name().as_bytes())).map_err(failed)?;
-                return Ok(Self { path, _file: lock });
+                return Ok(Self { path, file: lock });
             }
         }
+    }
+}
+
+impl Lock {
+    /// The locked file as a further handle: a program that is started with it, as its standard input, holds the lock, too,
+    /// even if this program is killed.
+    ///
+    /// # Errors
+    /// [`FileError::Write`].
+    pub fn handle(&self) -> Result<File, FileError> {
+        self.file.try_clone().map_err(|source| FileError::Write { file: self.path.clone(), source })
     }
 }
 

@@ -67,7 +67,7 @@ fn beside(scene: &Scene, ending: &str) -> PathBuf {
 
 fn solve(scene: &Scene, accuracy: f64, arguments: &Arguments) -> Result<(), ChoiceError> {
     let chosen = beside(scene, "chosen");
-    let _lock = Lock::take(&chosen)?;
+    let lock = Lock::take(&chosen)?;
     let checksum = scene.checksum()?;
     let earlier = Record::earlier(&chosen, &checksum, accuracy).filter(|_| !arguments.again);
     // Before a long search: neither folder may be somebody else's.
@@ -79,7 +79,7 @@ fn solve(scene: &Scene, accuracy: f64, arguments: &Arguments) -> Result<(), Choi
         }
         None => {
             trial::check_ours(&chosen)?;
-            let record = search(scene, accuracy, checksum)?;
+            let record = search(scene, accuracy, checksum, &lock)?;
             let range = Some(record.found.range).filter(|&range| range > 0.0);
             trial::make(scene, &record.found.settings, range, Purpose::Chosen, &chosen)?;
             record.write(&chosen)?;
@@ -95,8 +95,8 @@ fn solve(scene: &Scene, accuracy: f64, arguments: &Arguments) -> Result<(), Choi
         return Ok(());
     }
     outln!("\nRunning it in {} ...", chosen.display());
-    let outcome = trial::run(&chosen)?;
-    record.checked = check(scene, &record, &outcome)?;
+    let outcome = trial::run(&chosen, &lock)?;
+    record.checked = check(scene, &record, &outcome, &lock)?;
     record.run_seconds = Some(outcome.seconds);
     record.write(&chosen)?;
     record.add_to_summary(&chosen)?;
@@ -107,13 +107,13 @@ fn solve(scene: &Scene, accuracy: f64, arguments: &Arguments) -> Result<(), Choi
     Ok(())
 }
 
-fn search(scene: &Scene, accuracy: f64, checksum: String) -> Result<Record, ChoiceError> {
+fn search(scene: &Scene, accuracy: f64, checksum: String, lock: &Lock) -> Result<Record, ChoiceError> {
     let began = Instant::now();
     let wishes = Wishes { accuracy, cells: scene.directions(), moves: scene.moves };
     let folder = beside(scene, "trial");
     outln!("Looking for the cheapest run with an error of T of at most {accuracy} % of its range:");
     let found = find(&wishes, &mut |settings: &Settings, range| {
-        let outcome = attempt(scene, settings, range, &folder);
+        let outcome = attempt(scene, settings, range, &folder, lock);
         match &outcome {
             Ok(done) => {
                 outln!("  {:6.2} s  {}", done.seconds, sentence(settings, scene, range.unwrap_or(0.0)))
@@ -132,15 +132,21 @@ fn attempt(
     settings: &Settings,
     range: Option<f64>,
     folder: &Path,
+    lock: &Lock,
 ) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
     trial::make(scene, settings, range, Purpose::Trial, folder)?;
-    let outcome = trial::run(folder)?;
+    let outcome = trial::run(folder, lock)?;
     Ok(Outcome { seconds: began.elapsed().as_secs_f64(), ..outcome })
 }
 
 /// Compares the chosen run with one on half the cells along each direction.
-fn check(scene: &Scene, record: &Record, chosen: &Outcome) -> Result<Option<Share>, ChoiceError> {
+fn check(
+    scene: &Scene,
+    record: &Record,
+    chosen: &Outcome,
+    lock: &Lock,
+) -> Result<Option<Share>, ChoiceError> {
     let settings = &record.found.settings;
     let cells = scene.directions();
     let coarser = |(level, &cells): (&Level, &usize)| level.coarser(cells).unwrap_or(*level);
@@ -150,7 +156,7 @@ fn check(scene: &Scene, record: &Record, chosen: &Outcome) -> Result<Option<Shar
     }
     let half = Settings { levels, ..settings.clone() };
     let folder = beside(scene, "trial");
-    let other = attempt(scene, &half, Some(record.found.range), &folder);
+    let other = attempt(scene, &half, Some(record.found.range), &folder, lock);
     trial::clear(&folder)?;
     let percent = 100.0 * chosen.series.distance(&other?.series) / record.found.range;
     Ok(Some(Share {
