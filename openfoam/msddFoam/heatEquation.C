@@ -65,6 +65,7 @@ Foam::heatEquation::heatEquation
         "volumetricHeatCapacity",
         grains.bulkDensity()*properties.heatCapacity()
     ),
+    factor_(properties.conductivityFactor()),
     Kxx_
     (
         IOobject("Kxx", mesh_.time().timeName(), mesh_),
@@ -111,7 +112,11 @@ Foam::heatEquation::heatEquation
                 (
                     "K",
                     Kxx_.dimensions(),
-                    symmTensor(0, 0, 0, 0, 0, grains.model().conductivityZZ())
+                    symmTensor
+                    (
+                        0, 0, 0, 0, 0,
+                        factor_*grains.model().conductivityZZ()
+                    )
                 ),
                 extrapolatedCalculatedFvPatchSymmTensorField::typeName
             )
@@ -261,6 +266,22 @@ void Foam::heatEquation::setStorage(const scalarField& Tstar, const scalar tau)
 }
 
 
+const Foam::granularState::conductivityColumns& Foam::heatEquation::scaled
+(
+    const granularState::conductivityColumns& K
+)
+{
+    if (factor_ == 1)
+    {
+        return K;
+    }
+    scaledK_.xx = factor_*K.xx;
+    scaledK_.yy = factor_*K.yy;
+    scaledK_.xy = factor_*K.xy;
+    return scaledK_;
+}
+
+
 bool Foam::heatEquation::anyCoupled() const
 {
     for (const fvPatch& patch : mesh_.boundary())
@@ -298,9 +319,11 @@ void Foam::heatEquation::solve
 (
     const scalarField& Tstar,
     const scalar tau,
-    const granularState::conductivityColumns& K
+    const granularState::conductivityColumns& given
 )
 {
+    const granularState::conductivityColumns& K = scaled(given);
+
     for (label corrector = 0; corrector <= correctors_; ++corrector)
     {
         T_.boundaryFieldRef().updateCoeffs();

@@ -53,6 +53,7 @@ Foam::granularProperties::granularProperties(const Time& runTime)
     heatCapacity_(positive("heatCapacity", dimSpecificHeatCapacity)),
     thermalExpansion_("thermalExpansion", dimless/dimTemperature, *this),
     meanRadius_(positive("meanRadius", dimLength)),
+    conductivityFactor_(ranged(*this, "conductivityFactor", 1, 0.1, 10)),
     bulkDensity_
     (
         bulkDensityModelNames.getOrDefault
@@ -69,7 +70,8 @@ Foam::granularProperties::granularProperties(const Time& runTime)
         {
             "FoamFile", "surrogate", "density", "youngModulus",
             "thermalConductivity", "heatCapacity", "thermalExpansion",
-            "meanRadius", "bulkDensity", "mechanics", "equilibriumCoeffs"
+            "meanRadius", "conductivityFactor", "bulkDensity", "mechanics",
+            "equilibriumCoeffs"
         }
     );
     if (!(thermalExpansion_.value() >= 0))

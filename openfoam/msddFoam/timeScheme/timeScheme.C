@@ -88,7 +88,8 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
         (
             dict,
             {
-                "accuracy", "timeScheme", "nNonOrthogonalCorrectors",
+                "accuracy", "pressureAccuracy", "timeScheme",
+                "nNonOrthogonalCorrectors",
                 "temperatureTolerance", "stateTolerance", "logInterval",
                 "waitLimit"
             }

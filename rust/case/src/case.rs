@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 const GRAIN_KEYS: [&str; 6] =
     ["density", "youngModulus", "thermalConductivity", "heatCapacity", "thermalExpansion", "meanRadius"];
 /// Keys there that concern the solver alone.
-const SOLVER_KEYS: [&str; 5] = ["FoamFile", "surrogate", "bulkDensity", "mechanics", "equilibriumCoeffs"];
+const SOLVER_KEYS: [&str; 6] =
+    ["FoamFile", "surrogate", "conductivityFactor", "bulkDensity", "mechanics", "equilibriumCoeffs"];
 /// Parameters of a case.
 #[derive(Clone, Debug)]
 pub struct Case {

@@ -1,16 +1,26 @@
-//! Finds out what a scene needs for a wanted accuracy of T, by short runs of the solver on the scene itself.
+//! Finds out what a scene needs for a wanted accuracy of T and p, by short runs of the solver on the scene itself.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`scene`] | what of the user's case can be chosen: mesh, times, whether grains move |
 //! | [`settings`] | one combination of choices |
-//! | [`series`] | temperatures at points and times, and how far two runs are apart |
+//! | [`quantity`] | what runs are compared in |
+//! | [`series`] | values at points and times, and how far two runs are apart |
 //! | [`trial`] | the case folder of a combination, and its run |
+//! | [`bed`] | the bed as far as the bands need to know it |
+//! | [`bands`] | how far the discs of a real bed may lie from a run |
+//! | [`calibrate`] | the fit of the bands to reference scenes |
 //! | [`search`] | which combination is the cheapest that is accurate enough |
+//! | [`interval`] | the bands around the chosen run |
 //! | [`record`] | what was tried, chosen and estimated, for people and for programs |
 #![forbid(unsafe_code)]
 
+pub mod bands;
+pub mod bed;
+pub mod calibrate;
+pub mod interval;
 mod program;
+pub mod quantity;
 pub mod record;
 pub mod scene;
 pub mod search;

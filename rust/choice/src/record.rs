@@ -1,8 +1,9 @@
 //! What was tried, chosen and estimated, for people and for programs.
 
 use crate::ChoiceError;
+use crate::interval::{self, MeanBand};
 use crate::scene::Scene;
-use crate::search::{Found, Share};
+use crate::search::{Differences, Found, Share};
 use crate::settings::{Level, Settings};
 use msdd_files::{read_text, write};
 use serde::{Deserialize, Serialize};
@@ -11,12 +12,16 @@ use std::path::Path;
 
 /// Name of the file in the folder of the chosen run.
 pub const FILE: &str = "choice.json";
+/// Name of the file with what the search has seen at each point and time.
+const SEEN: &str = "differences.json";
 
 /// A choice and what it rests on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Wanted accuracy of T [% of its range].
     pub accuracy: f64,
+    /// Wanted accuracy of p [% of its range], if it was asked for.
+    pub pressure_accuracy: Option<f64>,
     /// Checksum of the case and its mesh.
     pub checksum: String,
     pub found: Found,
@@ -26,13 +31,24 @@ pub struct Record {
     /// range of T], once they are known.
     pub run_seconds: Option<f64>,
     pub checked: Option<Share>,
+    /// 90 % bands in the mean, once the chosen run is complete.
+    pub bands: Vec<MeanBand>,
 }
 
 impl Record {
-    /// The record of an earlier search, if it belongs to this case and this accuracy.
-    pub fn earlier(folder: &Path, checksum: &str, accuracy: f64) -> Option<Self> {
+    /// The record of an earlier search and what it has seen, if it belongs to this case and these accuracies.
+    pub fn earlier(
+        folder: &Path,
+        checksum: &str,
+        accuracy: f64,
+        pressure_accuracy: Option<f64>,
+    ) -> Option<(Self, Differences)> {
         let read: Self = serde_json::from_str(&read_text(&folder.join(FILE)).ok()?).ok()?;
-        (read.checksum == checksum && read.accuracy == accuracy).then_some(read)
+        let seen = serde_json::from_str(&read_text(&folder.join(SEEN)).ok()?).ok()?;
+        let same = read.checksum == checksum
+            && read.accuracy == accuracy
+            && read.pressure_accuracy == pressure_accuracy;
+        same.then_some((read, seen))
     }
 
     /// Writes the record into the folder of the chosen run.
@@ -40,10 +56,7 @@ impl Record {
     /// # Errors
     /// [`ChoiceError::File`].
     pub fn write(&self, folder: &Path) -> Result<(), ChoiceError> {
-        let file = folder.join(FILE);
-        let failed = |problem: String| ChoiceError::Read { file: file.clone(), problem };
-        let text = serde_json::to_string_pretty(self).map_err(|error| failed(error.to_string()))?;
-        Ok(write(&file, format!("{text}\n").as_bytes())?)
+        write_json(&folder.join(FILE), self, true)
     }
 
     /// Adds the record to the summary that the solver wrote, under the key `choice`.
@@ -64,19 +77,48 @@ impl Record {
     pub fn text(&self, scene: &Scene) -> String {
         let mut text = format!("Chosen: {}.\n", sentence(&self.found.settings, scene, self.found.range));
         let _ = writeln!(text, "\n       %  estimated error of T, share of its range, by source");
-        for share in &self.found.shares {
+        for share in self.found.shares.iter().chain(&self.found.open) {
             let _ = writeln!(text, "{:8.3}  {}: {}", share.percent, share.source, share.how);
         }
         let _ = writeln!(text, "{:8.3}  all together, {} % asked for", self.found.total(), self.accuracy);
+        if let Some(wanted) = self.pressure_accuracy {
+            let _ = writeln!(
+                text,
+                "          {wanted} % of the range of p asked for: an error of p counts {:.3} times",
+                self.accuracy / wanted
+            );
+        }
         if let Some(share) = &self.checked {
             let _ = writeln!(text, "{:8.3}  {}: {}", share.percent, share.source, share.how);
         }
         for note in &self.found.notes {
             let _ = writeln!(text, "Note: {note}.");
         }
-        text += "What the model itself and the packing leave open is not part of this estimate.\n";
+        if !self.bands.is_empty() {
+            let _ = write!(
+                text,
+                "\n{}At each point and time: {}.\n",
+                interval::text(&self.bands),
+                interval::FILE
+            );
+        }
         text
     }
+}
+
+/// Writes what the search has seen into the folder of the chosen run.
+///
+/// # Errors
+/// [`ChoiceError::File`].
+pub fn write_seen(seen: &Differences, folder: &Path) -> Result<(), ChoiceError> {
+    write_json(&folder.join(SEEN), seen, false)
+}
+
+fn write_json(file: &Path, value: &impl Serialize, pretty: bool) -> Result<(), ChoiceError> {
+    let text = if pretty { serde_json::to_string_pretty(value) } else { serde_json::to_string(value) };
+    let text =
+        text.map_err(|error| ChoiceError::Read { file: file.to_path_buf(), problem: error.to_string() })?;
+    Ok(write(file, format!("{text}\n").as_bytes())?)
 }
 
 /// Settings as a sentence. `range`: of T [K].

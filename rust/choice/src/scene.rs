@@ -1,6 +1,7 @@
 //! What of the user's case can be chosen.
 
 use crate::ChoiceError;
+use crate::bed::Bed;
 use crate::settings::Level;
 use msdd_case::CaseError;
 use msdd_case::dictionary::{Dictionary, Entry, Token};
@@ -10,6 +11,10 @@ use std::process::Command;
 
 /// Points along each direction at which runs are compared.
 const POINTS: [usize; 3] = [7, 5, 3];
+/// Area of the plane for each grain over the square of the mean radius: radii from 0.6 to 1.4 times it, porosity 0.1 to 0.13.
+const GRAIN: f64 = 3.7;
+/// Grains of the window over which a value with a band is a mean.
+const WINDOW: f64 = 100.0;
 /// Times at which runs are compared, at least.
 const TIMES: f64 = 20.0;
 
@@ -98,6 +103,8 @@ pub struct Scene {
     pub write_interval: f64,
     /// Wanted accuracy of T [% of its range], if the case names one.
     pub accuracy: Option<f64>,
+    /// Wanted accuracy of p [% of its range], if the case names one.
+    pub pressure_accuracy: Option<f64>,
     /// Whether grains move, if the case says so.
     pub moves: Option<bool>,
     /// An error if the mesh is not that of `system/blockMeshDict`; then it is taken as it is, for the reason beside.
@@ -105,6 +112,9 @@ pub struct Scene {
     pub cells: usize,
     /// Points at which runs are compared [m].
     pub points: Vec<[f64; 3]>,
+    pub bed: Bed,
+    /// Factor of the conductivity that the case asks for.
+    pub conductivity_factor: f64,
 }
 
 impl Scene {
@@ -119,18 +129,27 @@ impl Scene {
         let control = expanded("system/controlDict")?;
         let solution = expanded("system/fvSolution")?;
         let grains = expanded("constant/granularProperties")?;
+        // A number, perhaps after its dimensions.
+        let own = |key: &str| grains.value(key).ok()?.last()?.text.parse::<f64>().ok();
+        let conductivity_factor = own("conductivityFactor").unwrap_or(1.0);
+        let mean_radius = own("meanRadius").filter(|&value| value > 0.0).ok_or_else(|| CaseError::Read {
+            file: folder.join("constant/granularProperties"),
+            problem: "meanRadius is missing or not a number, allowed: > 0 m".to_string(),
+        })?;
         let positive = |key: &str| control.number(key, |value| value > 0.0, "> 0");
         let (start, start_time) = first_time(&folder)?;
         let end = control.number("endTime", |value| value > start_time, "after the first time")?;
         let first_step = positive("deltaT")?;
         let steps = control.text("writeControl").is_ok_and(|text| text == "timeStep");
         let write_interval = positive("writeInterval")? * if steps { first_step } else { 1.0 };
-        let accuracy = match solution.get("msddFoam") {
-            Some(Entry::Dictionary(own)) if own.get("accuracy").is_some() => {
-                Some(own.number("accuracy", |value| (0.0..=100.0).contains(&value), "0 to 100 %")?)
+        let wanted = |key: &str| match solution.get("msddFoam") {
+            Some(Entry::Dictionary(own)) if own.get(key).is_some() => {
+                let value = own.number(key, |value| (0.0..=100.0).contains(&value), "0 to 100 %")?;
+                Ok::<_, CaseError>(Some(value).filter(|&value| value > 0.0))
             }
-            _ => None,
+            _ => Ok(None),
         };
+        let (accuracy, pressure_accuracy) = (wanted("accuracy")?, wanted("pressureAccuracy")?);
         let moves = grains.text("mechanics").ok().map(|text| text == "equilibrium");
         let mesh = mesh(&folder)?;
         let blocks = expanded("system/blockMeshDict")
@@ -151,11 +170,14 @@ impl Scene {
             end,
             first_step,
             write_interval,
-            accuracy: accuracy.filter(|&value| value > 0.0),
+            accuracy,
+            pressure_accuracy,
             moves,
             blocks,
             cells: mesh.cells,
             points: mesh.points(),
+            bed: mesh.bed(mean_radius),
+            conductivity_factor,
             folder,
         })
     }
@@ -229,6 +251,8 @@ fn first_time(folder: &Path) -> Result<(String, f64), ChoiceError> {
 /// The mesh of a case: number of cells, lowest and highest coordinates [m], and the directions in which it extends.
 struct Mesh {
     cells: usize,
+    /// [m³]
+    volume: f64,
     bounds: [[f64; 3]; 2],
     directions: [bool; 3],
 }
@@ -243,6 +267,8 @@ fn mesh(folder: &Path) -> Result<Mesh, ChoiceError> {
     };
     let after = |name: &str| said.split_once(name).map(|(_, rest)| rest.lines().next().unwrap_or_default());
     let cells = after("    cells:").and_then(|text| text.trim().parse().ok());
+    let volume = after("Total volume = ")
+        .and_then(|text| text.split_whitespace().next()?.trim_end_matches('.').parse::<f64>().ok());
     let bounds = after("Overall domain bounding box").and_then(|text| {
         let words = text.split(|c: char| c.is_whitespace() || c == '(' || c == ')');
         let numbers: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
@@ -252,19 +278,43 @@ fn mesh(folder: &Path) -> Result<Mesh, ChoiceError> {
         let words: Vec<bool> = text.split([' ', ')']).take(3).map(|word| word == "1").collect();
         <[bool; 3]>::try_from(words).ok()
     });
-    match (cells, bounds, directions) {
-        (Some(cells), Some([a, b, c, d, e, f]), Some(directions)) => {
-            Ok(Mesh { cells, bounds: [[a, b, c], [d, e, f]], directions })
+    match (cells, volume, bounds, directions) {
+        (Some(cells), Some(volume), Some([a, b, c, d, e, f]), Some(directions)) => {
+            Ok(Mesh { cells, volume, bounds: [[a, b, c], [d, e, f]], directions })
         }
-        _ => Err(wrong("it did not print the number of cells, the bounding box and the directions")),
+        _ => Err(wrong(
+            "it did not print the number of cells, the volume, the bounding box and the directions",
+        )),
     }
 }
 
 impl Mesh {
+    fn count(&self, k: usize) -> usize {
+        if self.directions[k] { POINTS[k] } else { 1 }
+    }
+
+    /// The bed of discs of this mean radius [m]. The discs fill the plane; in space as many as in a cut through its middle.
+    fn bed(&self, mean_radius: f64) -> Bed {
+        let size: Vec<f64> = (0..3).map(|k| self.bounds[1][k] - self.bounds[0][k]).collect();
+        let area = (self.volume / size[2]).min(size[0] * size[1]);
+        let mut neighbours = Vec::new();
+        let mut stride = 1;
+        for (direction, length) in size.iter().enumerate() {
+            let count = self.count(direction);
+            for point in 0..(0..3).map(|k| self.count(k)).product() {
+                if point / stride % count + 1 < count {
+                    neighbours.push(([point, point + stride], direction, length / count as f64));
+                }
+            }
+            stride *= count;
+        }
+        Bed { grains: area / (GRAIN * mean_radius * mean_radius), mean_radius, window: WINDOW, neighbours }
+    }
+
     /// Points at which runs are compared [m].
     fn points(&self) -> Vec<[f64; 3]> {
         let [low, high] = self.bounds;
-        let count = |k: usize| if self.directions[k] { POINTS[k] } else { 1 };
+        let count = |k: usize| self.count(k);
         let at = |k: usize, i: usize| low[k] + (high[k] - low[k]) * (i as f64 + 0.5) / count(k) as f64;
         let mut all = Vec::new();
         for z in 0..count(2) {
@@ -294,6 +344,20 @@ mod tests {
             "( hex ( 0 1 2 3 4 5 6 7 ) zone ( 25 1 1 ) simpleGrading ( 1 1 1 ) )"
         );
         assert_eq!(one.total(&[Level::Halved(1), Level::Halved(1)]), 50 * 15);
+    }
+
+    #[test]
+    fn a_bed_has_as_many_grains_as_its_area_holds_and_neighbours_along_each_direction() {
+        let (bounds, directions) = ([[0.0; 3], [0.7, 0.5, 0.01]], [true, true, false]);
+        let mesh = Mesh { cells: 1, volume: 0.0035, bounds, directions };
+        let bed = mesh.bed(0.01);
+        assert!((bed.grains - 0.35 / 3.7e-4).abs() < 1e-6, "{}", bed.grains);
+        assert_eq!(bed.neighbours.len(), 6 * 5 + 7 * 4);
+        let points = mesh.points();
+        for &([a, b], direction, distance) in &bed.neighbours {
+            assert!((points[b][direction] - points[a][direction] - distance).abs() < 1e-12);
+            assert_eq!(points[b][1 - direction], points[a][1 - direction]);
+        }
     }
 
     #[test]

@@ -53,6 +53,17 @@ pub struct Settings {
     pub tolerance: f64,
     /// Whether grains move (`mechanics equilibrium`).
     pub moves: bool,
+    /// Factor of the conductivity: 1, but for the run that shows what another conductivity would change.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub conductivity: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn is_one(factor: &f64) -> bool {
+    *factor == 1.0
 }
 
 #[cfg(test)]

@@ -2,10 +2,12 @@
 
 use crate::ChoiceError;
 use crate::program::foam;
+use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::series::Series;
 use crate::settings::{Level, Settings};
 use msdd_files::{Lock, list, read_text, write};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -28,12 +30,27 @@ pub enum Purpose {
 /// What a run has given.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    pub series: Series,
+    pub values: BTreeMap<Quantity, Series>,
+    /// Thermal strain of the grains, and pressure at each point after the first step [Pa].
+    pub strain: Series,
+    pub start_pressure: Vec<f64>,
     /// Largest minus smallest T anywhere, the walls included [K].
     pub range: f64,
     pub cells: usize,
     /// Wall time with the making of the mesh [s].
     pub seconds: f64,
+    /// Processor time of the solver alone [s].
+    pub processor: f64,
+}
+
+impl Outcome {
+    /// A quantity that every run has.
+    ///
+    /// # Panics
+    /// For a displacement of a run in which the grains stay.
+    pub fn series(&self, quantity: Quantity) -> &Series {
+        &self.values[&quantity]
+    }
 }
 
 /// Makes the case of `settings` in `folder`, which stands beside the user's, so that relative paths in its files mean the same.
@@ -122,32 +139,56 @@ pub fn clear(folder: &Path) -> Result<(), ChoiceError> {
 ///
 /// # Errors
 /// [`ChoiceError::Run`] with the solver's message; [`ChoiceError::Read`] when its results cannot be read.
-pub fn run(folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
+pub fn run(scene: &Scene, folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
     let log = foam(folder, Command::new("msddFoam").stdin(lock.handle()?))?;
     write(&folder.join("log.msddFoam"), log.as_bytes())?;
     // A run that was killed and went on has one folder for each start.
     let starts = |name: &str| list(&folder.join("postProcessing").join(name));
-    let mut series = Series::default();
-    for start in starts(WATCH)? {
-        series.add(Series::read(&start.join("T"))?);
+    let read = |field: &str, component: usize| {
+        let mut series = Series::default();
+        for start in starts(WATCH)? {
+            series.add(Series::read(&start.join(field), scene.points.len(), component)?);
+        }
+        Ok::<_, ChoiceError>(series)
+    };
+    let mut values = BTreeMap::new();
+    let moved = starts(WATCH)?.iter().any(|start| start.join("D").is_file());
+    for quantity in Quantity::ALL.into_iter().filter(|quantity| moved || !quantity.needs_motion()) {
+        let (field, component) = quantity.field();
+        values.insert(quantity, read(field, component)?);
     }
-    let mut range = series.range();
+    let strain = read("thermalStrain", 0)?;
+    let mut start_pressure = Vec::new();
+    for start in starts(&format!("{WATCH}Start"))? {
+        let series = Series::read(&start.join("pressure"), scene.points.len(), 0)?;
+        start_pressure = series.values.into_iter().next().unwrap_or_default();
+    }
+    let mut range = values[&Quantity::Temperature].range();
     for start in starts(&format!("{WATCH}Range"))? {
         range = range.max(extremes(&start.join("fieldMinMax.dat"))?);
     }
     let summary = folder.join("postProcessing/msddFoam/summary.json");
-    let read = read_text(&summary)?;
-    let summary: serde_json::Value = serde_json::from_str(&read)
+    let text = read_text(&summary)?;
+    let summary: serde_json::Value = serde_json::from_str(&text)
         .map_err(|error| ChoiceError::Read { file: summary, problem: error.to_string() })?;
     let cells = summary["cells"].as_u64().unwrap_or(0) as usize;
-    Ok(Outcome { series, range, cells, seconds: began.elapsed().as_secs_f64() })
+    let processor = summary["cpu_seconds"].as_f64().unwrap_or(0.0);
+    Ok(Outcome {
+        values,
+        strain,
+        start_pressure,
+        range,
+        cells,
+        seconds: began.elapsed().as_secs_f64(),
+        processor,
+    })
 }
 
 /// Keys that are added at the end of a file of the case.
 fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Purpose, name: &str) -> String {
     match name {
-        "system/controlDict" => control(scene, purpose),
+        "system/controlDict" => control(scene, settings, purpose),
         "system/fvSolution" => {
             let tolerance = range.map_or(String::new(), |range| {
                 format!(" temperatureTolerance {:e};", settings.tolerance * range)
@@ -155,7 +196,9 @@ fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Pu
             format!("msddFoam {{ accuracy 0; timeScheme secondOrder;{tolerance} }}\n")
         }
         "constant/granularProperties" => {
-            format!("mechanics {};\n", if settings.moves { "equilibrium" } else { "none" })
+            let mechanics = if settings.moves { "equilibrium" } else { "none" };
+            let factor = settings.conductivity * scene.conductivity_factor;
+            format!("mechanics {mechanics};\nconductivityFactor {factor:e};\n")
         }
         "system/blockMeshDict" => match &scene.blocks {
             Ok(blocks) => format!("blocks {};\n", blocks.text(&settings.levels)),
@@ -165,18 +208,24 @@ fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Pu
     }
 }
 
-fn control(scene: &Scene, purpose: Purpose) -> String {
+fn control(scene: &Scene, settings: &Settings, purpose: Purpose) -> String {
+    let displacement = if settings.moves { " D" } else { "" };
+    let first = scene.first_step.min((scene.end - scene.start_time) / 1000.0);
     let points: Vec<String> = scene.points.iter().map(|[x, y, z]| format!("({x} {y} {z})")).collect();
     let watch = format!(
-        "functions\n{{\n    {WATCH}\n    {{\n        type probes; libs (\"libsampling.so\"); fields (T); interpolationScheme cellPoint;\n\
+        "functions\n{{\n    {WATCH}\n    {{\n        type probes; libs (\"libsampling.so\"); interpolationScheme cellPoint;\n\
+         \x20       fields (T pressure conductivity thermalStrain{displacement});\n\
          \x20       writeControl writeTime; probeLocations ({});\n    }}\n\
+         \x20   {WATCH}Start\n    {{\n        type probes; libs (\"libsampling.so\"); interpolationScheme cellPoint;\n\
+         \x20       fields (pressure); probeLocations $..{WATCH}.probeLocations;\n\
+         \x20       writeControl timeStep; timeEnd {:e};\n    }}\n\
          \x20   {WATCH}Range\n    {{\n        type fieldMinMax; libs (\"libfieldFunctionObjects.so\"); fields (T); location no;\n\
          \x20       writeControl writeTime;\n    }}\n}}\n",
-        points.join(" ")
+        points.join(" "),
+        scene.start_time + 1.5 * first
     );
     let mut keys = "adjustTimeStep yes;\nwriteControl adjustableRunTime;\n".to_string();
-    let span = scene.end - scene.start_time;
-    let _ = writeln!(keys, "deltaT {:e};", scene.first_step.min(span / 1000.0));
+    let _ = writeln!(keys, "deltaT {first:e};");
     match purpose {
         Purpose::Trial => {
             let _ = writeln!(keys, "startFrom firstTime;\nwriteInterval {:e};", scene.interval());

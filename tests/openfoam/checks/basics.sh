@@ -69,8 +69,18 @@ bulk_density() { # the paper's option is density x (1 - porosity); the mass-cons
         "$(awk "BEGIN { print ($consistent/$paper - 1.025)^2 }")" 0.000625
 }
 
+conductivity_factor() { # twice the conductivity and twice the heat capacity: the same T
+    fresh small factor
+    echo 'conductivityFactor 2; heatCapacity 2;' >> constant/granularProperties
+    logged msddFoam
+    local e
+    e=$(difference ../serial/1 1)
+    check "conductivityFactor 2, twice the heat capacity: difference $e <= 1e-12" below "$e" 1e-12
+}
+
 slab
 formulas
 restarted
 parallel
 bulk_density
+conductivity_factor

@@ -46,6 +46,7 @@ pub const GRAINS: &[Key] = &[
     must("heatCapacity", Kind::Positive("J/(kg K)", "[ 0 2 -2 -1 0 0 0 ]")),
     must("thermalExpansion", Kind::NotNegative("1/K", "[ 0 0 0 -1 0 0 0 ]")),
     must("meanRadius", Kind::Positive("m", "[ 0 1 0 0 0 0 0 ]")),
+    may("conductivityFactor", Kind::Range(0.1, 10.0, "")),
     may("bulkDensity", Kind::Word(&["massConsistent", "paper"])),
     may("mechanics", Kind::Word(&["equilibrium", "none"])),
     may("equilibriumCoeffs", Kind::Dictionary),
@@ -154,6 +155,7 @@ pub const WALL: &[Key] = &[
 /// `msddFoam` of `system/fvSolution`.
 pub const SOLVER: &[Key] = &[
     may("accuracy", Kind::Range(0.0, 100.0, "%")),
+    may("pressureAccuracy", Kind::Range(0.0, 100.0, "%")),
     may("timeScheme", Kind::Word(&["paper", "secondOrder"])),
     may("nNonOrthogonalCorrectors", Kind::Range(0.0, 100.0, "")),
     may("temperatureTolerance", Kind::Range(1e-12, 1e6, "K")),

@@ -10,6 +10,7 @@ mod wishes;
 use crate::error::CliError;
 use clap::Subcommand;
 pub(crate) use new::checkout;
+pub(crate) use solve::{attempt, beside};
 
 #[derive(Subcommand)]
 pub enum Command {

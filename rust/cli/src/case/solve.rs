@@ -3,9 +3,12 @@
 use crate::error::CliError;
 use clap::Args;
 use msdd_choice::ChoiceError;
-use msdd_choice::record::{Record, sentence};
+use msdd_choice::bands::Law;
+use msdd_choice::interval;
+use msdd_choice::quantity::Quantity;
+use msdd_choice::record::{self, Record, sentence};
 use msdd_choice::scene::Scene;
-use msdd_choice::search::{ORDER, Share, Wishes, find};
+use msdd_choice::search::{Differences, ORDER, Share, Values, Wishes, difference, find};
 use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Outcome, Purpose};
 use msdd_files::Lock;
@@ -18,10 +21,11 @@ use std::time::Instant;
     msddFoam { accuracy 1; }
 
 Short runs on coarse meshes show what it changes to let the grains move, to take larger steps, and to halve the cells along each
-direction of system/blockMeshDict. The cheapest combination that stays below the wanted accuracy is then run in the folder
-FOLDER.chosen beside the case, a complete case of its own; its file choice.json and the key 'choice' of its summary.json hold what
-was tried, what it cost, and the estimates. A second call takes the choice without a search, and goes on with a run that was
-killed. What the model and the packing leave open is not part of the estimate.
+direction of system/blockMeshDict. What the model and the scatter of packings leave open is estimated, too. The cheapest
+combination that stays below the wanted accuracy is then run in the folder FOLDER.chosen beside the case, a complete case of its
+own; its file choice.json and the key 'choice' of its summary.json hold what was tried, what it cost, and the estimates; bands.csv
+holds 90 % bands of T, pressure, conductivity and displacement at points and times. A second call takes the choice without a
+search, and goes on with a run that was killed.
 
 The case needs its mesh (blockMesh). If constant/granularProperties names 'mechanics', it stays as named.
 
@@ -32,6 +36,9 @@ pub struct Arguments {
     /// Wanted accuracy of T [% of its range]; without it, that of system/fvSolution.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     accuracy: Option<f64>,
+    /// Wanted accuracy of p [% of its range], beside that of T; without it, that of system/fvSolution, if there is one.
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    pressure_accuracy: Option<f64>,
     /// Search again, even if the choice for this case and this accuracy is known.
     #[arg(long)]
     again: bool,
@@ -56,34 +63,44 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
             file.display()
         )));
     };
-    solve(&scene, accuracy, arguments).map_err(failed)
+    let wanted = Wanted { accuracy, pressure: arguments.pressure_accuracy.or(scene.pressure_accuracy) };
+    solve(&scene, wanted, arguments).map_err(failed)
+}
+
+/// Wanted accuracies [% of the ranges of T and p].
+#[derive(Clone, Copy)]
+struct Wanted {
+    accuracy: f64,
+    pressure: Option<f64>,
 }
 
 /// A folder beside the case.
-fn beside(scene: &Scene, ending: &str) -> PathBuf {
+pub(crate) fn beside(scene: &Scene, ending: &str) -> PathBuf {
     let name = scene.folder.file_name().unwrap_or_default().to_string_lossy();
     scene.folder.with_file_name(format!("{name}.{ending}"))
 }
 
-fn solve(scene: &Scene, accuracy: f64, arguments: &Arguments) -> Result<(), ChoiceError> {
+fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), ChoiceError> {
+    let accuracy = wanted.accuracy;
     let chosen = beside(scene, "chosen");
     let lock = Lock::take(&chosen)?;
     let checksum = scene.checksum()?;
-    let earlier = Record::earlier(&chosen, &checksum, accuracy).filter(|_| !arguments.again);
+    let earlier = Record::earlier(&chosen, &checksum, accuracy, wanted.pressure).filter(|_| !arguments.again);
     // Before a long search: neither folder may be somebody else's.
     trial::clear(&beside(scene, "trial"))?;
-    let mut record = match earlier {
-        Some(record) => {
+    let (mut record, seen) = match earlier {
+        Some(earlier) => {
             outln!("The choice for this case and {accuracy} % is known: no search.");
-            record
+            earlier
         }
         None => {
             trial::check_ours(&chosen)?;
-            let record = search(scene, accuracy, checksum, &lock)?;
+            let (record, seen) = search(scene, wanted, checksum, &lock)?;
             let range = Some(record.found.range).filter(|&range| range > 0.0);
             trial::make(scene, &record.found.settings, range, Purpose::Chosen, &chosen)?;
+            record::write_seen(&seen, &chosen)?;
             record.write(&chosen)?;
-            record
+            (record, seen)
         }
     };
     outln!("\n{}", record.text(scene).trim_end());
@@ -95,8 +112,19 @@ fn solve(scene: &Scene, accuracy: f64, arguments: &Arguments) -> Result<(), Choi
         return Ok(());
     }
     outln!("\nRunning it in {} ...", chosen.display());
-    let outcome = trial::run(&chosen, &lock)?;
-    record.checked = check(scene, &record, &outcome, &lock)?;
+    let outcome = trial::run(scene, &chosen, &lock)?;
+    let half = half(scene, &record, &lock)?;
+    let mut space = Values::new();
+    if let Some(half) = &half {
+        // The error of the finer of two runs whose cells differ by a factor of two.
+        space = difference(&outcome, half, 1.0 / (2f64.powi(ORDER) - 1.0));
+        let percent = 100.0 * space[&Quantity::Temperature].rms() / record.found.range;
+        let how = "the chosen run and one with half the cells along each direction".to_string();
+        record.checked = Some(Share { source: "cells, checked".to_string(), percent, how });
+    }
+    let bands = interval::bands(scene, &outcome, &seen, &space, &Law::shipped());
+    interval::write_table(scene, &bands, &chosen)?;
+    record.bands = interval::means(&bands);
     record.run_seconds = Some(outcome.seconds);
     record.write(&chosen)?;
     record.add_to_summary(&chosen)?;
@@ -104,12 +132,24 @@ fn solve(scene: &Scene, accuracy: f64, arguments: &Arguments) -> Result<(), Choi
     if let Some(share) = &record.checked {
         outln!("Error of the cells by {}: {:.3} % of the range of T.", share.how, share.percent);
     }
+    outln!(
+        "\n{}At each point and time: {}.",
+        interval::text(&record.bands),
+        chosen.join(interval::FILE).display()
+    );
     Ok(())
 }
 
-fn search(scene: &Scene, accuracy: f64, checksum: String, lock: &Lock) -> Result<Record, ChoiceError> {
+fn search(
+    scene: &Scene,
+    wanted: Wanted,
+    checksum: String,
+    lock: &Lock,
+) -> Result<(Record, Differences), ChoiceError> {
+    let Wanted { accuracy, pressure } = wanted;
     let began = Instant::now();
-    let wishes = Wishes { accuracy, cells: scene.directions(), moves: scene.moves };
+    let (bed, law) = (scene.bed.clone(), Law::shipped());
+    let wishes = Wishes { accuracy, pressure, cells: scene.directions(), moves: scene.moves, bed, law };
     let folder = beside(scene, "trial");
     outln!("Looking for the cheapest run with an error of T of at most {accuracy} % of its range:");
     let found = find(&wishes, &mut |settings: &Settings, range| {
@@ -124,10 +164,22 @@ fn search(scene: &Scene, accuracy: f64, checksum: String, lock: &Lock) -> Result
     });
     trial::clear(&folder)?;
     let search_seconds = began.elapsed().as_secs_f64();
-    Ok(Record { accuracy, checksum, found: found?, search_seconds, run_seconds: None, checked: None })
+    let (found, seen) = found?;
+    let record = Record {
+        accuracy,
+        pressure_accuracy: pressure,
+        checksum,
+        found,
+        search_seconds,
+        run_seconds: None,
+        checked: None,
+        bands: Vec::new(),
+    };
+    Ok((record, seen))
 }
 
-fn attempt(
+/// Makes the case of a combination in a folder, and runs it.
+pub(crate) fn attempt(
     scene: &Scene,
     settings: &Settings,
     range: Option<f64>,
@@ -136,17 +188,12 @@ fn attempt(
 ) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
     trial::make(scene, settings, range, Purpose::Trial, folder)?;
-    let outcome = trial::run(folder, lock)?;
+    let outcome = trial::run(scene, folder, lock)?;
     Ok(Outcome { seconds: began.elapsed().as_secs_f64(), ..outcome })
 }
 
-/// Compares the chosen run with one on half the cells along each direction.
-fn check(
-    scene: &Scene,
-    record: &Record,
-    chosen: &Outcome,
-    lock: &Lock,
-) -> Result<Option<Share>, ChoiceError> {
+/// A run with half the cells along each direction of the chosen one, if there can be fewer.
+fn half(scene: &Scene, record: &Record, lock: &Lock) -> Result<Option<Outcome>, ChoiceError> {
     let settings = &record.found.settings;
     let cells = scene.directions();
     let coarser = |(level, &cells): (&Level, &usize)| level.coarser(cells).unwrap_or(*level);
@@ -158,10 +205,5 @@ fn check(
     let folder = beside(scene, "trial");
     let other = attempt(scene, &half, Some(record.found.range), &folder, lock);
     trial::clear(&folder)?;
-    let percent = 100.0 * chosen.series.distance(&other?.series) / record.found.range;
-    Ok(Some(Share {
-        source: "cells, checked".to_string(),
-        percent: percent / (2f64.powi(ORDER) - 1.0),
-        how: "the chosen run and one with half the cells along each direction".to_string(),
-    }))
+    other.map(Some)
 }

@@ -1,6 +1,8 @@
 //! `msdd reference`: simulates the whole box of a case by discrete elements.
 
+mod bands;
 mod compare;
+mod requests;
 mod scenes;
 mod summary;
 

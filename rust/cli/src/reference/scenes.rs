@@ -1,5 +1,7 @@
 //! `msdd reference scenes`: makes the reference scenes of a plan, and sets the solver beside them.
 
+use super::bands::{self, Done};
+use super::requests;
 use crate::case::checkout;
 use crate::error::CliError;
 use crate::rve::{read_state, write_state};
@@ -30,9 +32,18 @@ pub struct Arguments {
     /// Only the scene of this name; may be given several times.
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// Run the solver in the case folders, too, always anew, and print its errors beside the scatter of the discs.
+    /// Run the solver in the case folders, too, always anew, and print its errors beside the scatter of the discs; --bands and
+    /// --requests do that, too.
     #[arg(long)]
     solver: bool,
+    /// Fit the error bands of the solver to the scenes for calibration, write their numbers into this file, and print how they do
+    /// in all scenes.
+    #[arg(long, value_name = "FILE", conflicts_with = "only")]
+    bands: Option<PathBuf>,
+    /// Ask for accuracies of 5, 2 and 1 % in the first packing of each scene, compare what is chosen with the discs, and write that
+    /// into this file.
+    #[arg(long, value_name = "FILE")]
+    requests: Option<PathBuf>,
     /// Folder for the tables of all scenes, packings.csv, probes.csv.gz and windows.csv.gz; not with --only.
     #[arg(long, value_name = "DIR", conflicts_with = "only")]
     tables: Option<PathBuf>,
@@ -42,9 +53,6 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     checkout: Option<PathBuf>,
 }
-
-/// A scene, its packings' results and their case folders.
-type Done<'a> = (&'a PlannedScene, Vec<(SceneResults, PathBuf)>);
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let plan = Plan::read(&arguments.plan)?;
@@ -69,7 +77,16 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         let rows = all.iter().flat_map(|(scene, packings)| packings.iter().map(|p| (*scene, p.0.clone())));
         data::write(folder, &rows.collect::<Vec<_>>())?;
     }
-    if arguments.solver { print_table(&all, &checkout) } else { Ok(()) }
+    if arguments.solver || arguments.bands.is_some() || arguments.requests.is_some() {
+        print_table(&all, &checkout)?;
+    }
+    if let Some(file) = &arguments.bands {
+        bands::calibrate(&all, file, arguments.tables.as_deref())?;
+    }
+    match &arguments.requests {
+        Some(file) => requests::judge(&all, file),
+        None => Ok(()),
+    }
 }
 
 fn case_folder(folder: &Path, seed: u64) -> PathBuf {

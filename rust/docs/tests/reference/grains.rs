@@ -18,16 +18,19 @@ fn scenes() -> Vec<Set> {
     let scene = with_required(fields_of(SCENE, "scene", SCENES, "PlannedScene"), SCENES, "PlannedScene")
         .with_words("use", "allowed", &variants(SCENES, "Use"))
         .with_words("compression", "allowed", &variants(SCENES, "Closing"));
-    let text = crate::sources::text(&format!("{SCENES}/discs.rs"));
-    let columns = |table: &str, name: &str| {
-        let list = between(&text, &format!(r"const {name}: \[&str; \d+\] ="), ";", SCENES);
-        Set::new(SCENE, table, SCENES, strings(&list))
+    let columns = |table: &str, file: &str, name: &str| {
+        let text = crate::sources::text(file);
+        let list = between(&text, &format!(r"const {name}: \[&str; \d+\] ="), ";", file);
+        Set::new(SCENE, table, file, strings(&list))
     };
+    let discs = "rust/reference/src/scenes/discs.rs";
     vec![
         scene,
-        columns("packings of scenes", "PACKING_COLUMNS"),
-        columns("probes of scenes", "PROBE_COLUMNS"),
-        columns("windows of scenes", "WINDOW_COLUMNS"),
+        columns("packings of scenes", discs, "PACKING_COLUMNS"),
+        columns("probes of scenes", discs, "PROBE_COLUMNS"),
+        columns("windows of scenes", discs, "WINDOW_COLUMNS"),
+        columns("bands of scenes", "rust/cli/src/reference/bands.rs", "COLUMNS"),
+        columns("requests of scenes", "rust/cli/src/reference/requests.rs", "COLUMNS"),
     ]
 }
 

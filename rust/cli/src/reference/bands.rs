@@ -1,0 +1,220 @@
+//! The error bands of the solver: fitted to the reference scenes, and judged by them.
+
+use crate::case::{attempt, beside};
+use crate::error::CliError;
+use msdd_case::numbers::plain;
+use msdd_choice::ChoiceError;
+use msdd_choice::bands::{LEVEL, Law, Lengths, Numbers, Units};
+use msdd_choice::calibrate::{Coverage, Row, coverage, fit, quantile};
+use msdd_choice::quantity::Quantity;
+use msdd_choice::scene::Scene;
+use msdd_choice::series::Series;
+use msdd_choice::settings::{Level, Settings};
+use msdd_choice::trial::{self, Outcome};
+use msdd_files::{Lock, write};
+use msdd_reference::scenes::{PlannedScene, SceneResults};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Points along each side of a window over which the solver's fields are averaged.
+const POINTS: usize = 4;
+/// Tolerance in time of the solver's runs, share of the range of T.
+const TOLERANCE: f64 = 1e-3;
+/// Factor of the conductivity that shows what another conductivity would change.
+const CONDUCTIVITY: f64 = 1.05;
+const COLUMNS: [&str; 6] = ["quantity", "use", "values", "inside", "inside_worst_scene", "width"];
+/// Quantities that have the same numbers.
+const GROUPS: [(&str, &[Quantity]); 4] = [
+    ("T", &[Quantity::Temperature]),
+    ("pressure", &[Quantity::Pressure]),
+    ("conductivity", &[Quantity::ConductivityXx, Quantity::ConductivityYy]),
+    ("displacement", &[Quantity::DisplacementX, Quantity::DisplacementY]),
+];
+
+/// A scene, its packings' results and their case folders.
+pub type Done<'a> = (&'a PlannedScene, Vec<(SceneResults, PathBuf)>);
+
+/// The windows of a packing: centres and sizes.
+pub struct Windows {
+    /// Centre of each [m].
+    centres: Vec<[f64; 2]>,
+    size: [f64; 2],
+    /// Mean number of grains.
+    pub grains: f64,
+}
+
+impl Windows {
+    pub fn of(results: &SceneResults) -> Result<Self, CliError> {
+        let packing = |name: &str| results.packing.column(name).and_then(|values| values.first().copied());
+        let missing = || CliError::Message("results of a scene without their table of packings".to_string());
+        let number = |name: &str| packing(name).ok_or_else(missing);
+        let size = [number("window_width")?, number("window_height")?];
+        let area = number("width")? * number("height")?;
+        let grains = number("discs")? * size[0] * size[1] / area;
+        let column = |name: &str| results.windows.column(name).ok_or_else(missing);
+        let (times, x, y) = (column("time")?, column("x")?, column("y")?);
+        let first = times.iter().take_while(|&&time| time == times[0]).count();
+        let centres = (0..first).map(|k| [x[k], y[k]]).collect();
+        Ok(Self { centres, size, grains })
+    }
+
+    /// Points of all windows, one window after the other, at the height of `z`.
+    pub fn points(&self, z: f64) -> Vec<[f64; 3]> {
+        let at = |k: usize| (k as f64 + 0.5) / POINTS as f64 - 0.5;
+        let of = |centre: &[f64; 2]| {
+            let points = (0..POINTS * POINTS).map(|k| {
+                let (i, j) = (at(k % POINTS), at(k / POINTS));
+                [centre[0] + self.size[0] * i, centre[1] + self.size[1] * j, z]
+            });
+            points.collect::<Vec<_>>()
+        };
+        self.centres.iter().flat_map(of).collect()
+    }
+
+    /// Means over the windows of values at all points of a scene, of which those of the windows come last.
+    pub fn means(&self, values: &[f64]) -> Vec<f64> {
+        let own = &values[values.len() - self.centres.len() * POINTS * POINTS..];
+        own.chunks(POINTS * POINTS).map(|part| part.iter().sum::<f64>() / part.len() as f64).collect()
+    }
+}
+
+/// One run of the solver in a case folder, on the mesh of the case.
+fn run(scene: &Scene, range: f64, conductivity: f64) -> Result<Outcome, ChoiceError> {
+    let levels = vec![Level::Halved(0); scene.directions().len()];
+    let settings = Settings { levels, tolerance: TOLERANCE, moves: true, conductivity };
+    let folder = beside(scene, "trial");
+    let lock = Lock::take(&folder)?;
+    let outcome = attempt(scene, &settings, Some(range), &folder, &lock);
+    trial::clear(&folder)?;
+    outcome
+}
+
+/// Rows of a packing for the fit, by quantity.
+fn rows(
+    number: usize,
+    results: &SceneResults,
+    folder: &Path,
+    range: f64,
+) -> Result<BTreeMap<Quantity, Vec<Row>>, CliError> {
+    let failed = |error: ChoiceError| CliError::Message(error.to_string());
+    let mut scene = Scene::read(folder).map_err(failed)?;
+    let windows = Windows::of(results)?;
+    scene.points.extend(windows.points(scene.points[0][2]));
+    let discs = results.packing.column("discs").and_then(|values| values.first().copied());
+    scene.bed.grains = discs.unwrap_or(scene.bed.grains);
+    scene.bed.window = windows.grains;
+    let base = run(&scene, range, 1.0).map_err(failed)?;
+    let more = run(&scene, range, CONDUCTIVITY).map_err(failed)?;
+    let temperature = |run: &Outcome| run.series(Quantity::Temperature).clone();
+    let sensitivity = temperature(&more).minus(&temperature(&base), 1.0 / CONDUCTIVITY.ln());
+    let lengths = Lengths::new(&scene.bed, &base, &sensitivity);
+
+    let mut all = BTreeMap::new();
+    for quantity in Quantity::ALL {
+        let parts = base.strain.values.iter().flatten().any(|&strain| strain != 0.0);
+        if quantity.needs_motion() && !parts {
+            continue;
+        }
+        let packings = lengths.units(quantity, 0, 0).map_or(0, |units| units.packing.len());
+        let model = lengths.map(quantity, |units| units.model);
+        let packing: Vec<Series> =
+            (0..packings).map(|k| lengths.map(quantity, |units| units.packing[k])).collect();
+        let times = results.windows.column("time").unwrap_or_default();
+        let discs = results.windows.column(quantity.name()).unwrap_or_default();
+        let count = windows.centres.len();
+        let mut rows = Vec::new();
+        for first in (0..times.len()).step_by(count).filter(|&first| times[first] > 0.0) {
+            let mean = |series: &Series| series.at(times[first]).map(|row| windows.means(row));
+            let no_time = || {
+                let (folder, time) = (scene.folder.display(), times[first]);
+                CliError::Message(format!("{folder}: the solver has not written t = {time} s"))
+            };
+            let values = mean(base.series(quantity)).ok_or_else(no_time)?;
+            let model = mean(&model).ok_or_else(no_time)?;
+            let packing: Option<Vec<Vec<f64>>> = packing.iter().map(mean).collect();
+            let packing = packing.ok_or_else(no_time)?;
+            for window in 0..count {
+                let discs = discs[first + window];
+                rows.push(Row {
+                    scene: number,
+                    packing: results.seed,
+                    key: (first + window) * Quantity::ALL.len() + quantity as usize,
+                    error: discs - values[window],
+                    discs,
+                    units: Units {
+                        model: model[window],
+                        packing: packing.iter().map(|of| of[window]).collect(),
+                    },
+                });
+            }
+        }
+        all.insert(quantity, rows);
+    }
+    Ok(all)
+}
+
+/// Fits the bands to the scenes for calibration and writes their numbers; prints how they do, and writes that into `table`.
+pub fn calibrate(all: &[Done], numbers: &Path, table: Option<&Path>) -> Result<(), CliError> {
+    outln!("error bands: the solver in {} scenes, with two conductivities", all.len());
+    let mut found: BTreeMap<(&str, Quantity), Vec<Row>> = BTreeMap::new();
+    for (number, (scene, packings)) in all.iter().enumerate() {
+        let range = scene.case()?.temperature_range();
+        for (results, folder) in packings {
+            for (quantity, rows) in rows(number, results, folder, range)? {
+                found.entry((scene.purpose.as_str(), quantity)).or_default().extend(rows);
+            }
+        }
+    }
+    let of = |purpose: &str, quantities: &[Quantity]| -> Vec<Row> {
+        let rows = quantities.iter().filter_map(|&quantity| {
+            found.iter().find(|((p, q), _)| *p == purpose && *q == quantity).map(|(_, rows)| rows.clone())
+        });
+        rows.flatten().collect()
+    };
+    let fitted: Vec<Numbers> =
+        GROUPS.iter().map(|(_, quantities)| fit(&of("calibrate", quantities))).collect();
+    let [temperature, pressure, conductivity, displacement] =
+        <[Numbers; 4]>::try_from(fitted).map_err(|_| CliError::Message("four groups".to_string()))?;
+    let request = [
+        request(&of("calibrate", &[Quantity::Temperature]), &temperature),
+        request(&of("calibrate", &[Quantity::Pressure]), &pressure),
+    ];
+    let law = Law { temperature, pressure, conductivity, displacement, request }.rounded();
+    let text = serde_json::to_string_pretty(&law)
+        .map_err(|error| CliError::Message(format!("numbers of the bands: {error}")))?;
+    write(numbers, format!("{text}\n").as_bytes())?;
+
+    let mut csv = COLUMNS.join(",") + "\n";
+    outln!(
+        "\n90 % bands: share of the discs' values inside, of all scenes and of the worst; width over twice the scatter"
+    );
+    for (name, quantities) in GROUPS {
+        let mut line = format!("{name:13}");
+        for purpose in ["calibrate", "judge", "outside"] {
+            let rows = of(purpose, quantities);
+            let Coverage { inside, worst, width } = coverage(&rows, law.of(quantities[0]));
+            let _ =
+                write!(line, "  {purpose} {:5.1} % ({:3.0} %) {width:5.2}", 100.0 * inside, 100.0 * worst);
+            let values: Vec<String> = [inside, worst, width].into_iter().map(plain).collect();
+            let _ = writeln!(csv, "{name},{purpose},{},{}", rows.len(), values.join(","));
+        }
+        outln!("{line}");
+    }
+    if let Some(folder) = table {
+        write(&folder.join("bands.csv"), csv.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Factor of the bands' halves below which the error of a whole run stays with probability [`LEVEL`]: both as roots of the mean
+/// squares over windows and times.
+fn request(rows: &[Row], numbers: &Numbers) -> f64 {
+    let mut runs: BTreeMap<(usize, u64), (f64, f64)> = BTreeMap::new();
+    for row in rows {
+        let [model, packing] = numbers.halves(&row.units);
+        let sums = runs.entry((row.scene, row.packing)).or_default();
+        *sums = (sums.0 + row.error.powi(2), sums.1 + model.powi(2) + packing.powi(2));
+    }
+    quantile(runs.values().map(|(error, half)| ((error / half).sqrt(), 1.0)).collect(), LEVEL)
+}

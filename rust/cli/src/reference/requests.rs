@@ -1,0 +1,247 @@
+//! What is chosen for wanted accuracies in the reference scenes, and how far it is from the discs.
+
+use super::bands::{Done, Windows};
+use crate::case::{attempt, beside};
+use crate::error::CliError;
+use msdd_case::numbers::plain;
+use msdd_choice::ChoiceError;
+use msdd_choice::bands::Law;
+use msdd_choice::quantity::Quantity;
+use msdd_choice::scene::Scene;
+use msdd_choice::search::{Wishes, find};
+use msdd_choice::settings::{Level, Settings};
+use msdd_choice::trial::{self, Outcome};
+use msdd_files::{Lock, write};
+use msdd_reference::scenes::SceneResults;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Wanted accuracies [% of the range of T].
+const ASKED: [f64; 3] = [5.0, 2.0, 1.0];
+/// The run that stands for the exact solution of the model's equations: cells halved so often along each direction, and tolerance.
+const FINE: (i32, f64) = (3, 1e-4);
+/// Configurations among which the cheapest that would have done is looked for: halvings of the case's cells along each direction,
+/// motion, and tolerance.
+const HALVINGS: [i32; 4] = [2, 1, 0, -1];
+const TOLERANCE: f64 = 1e-2;
+const COLUMNS: [&str; 13] = [
+    "scene",
+    "use",
+    "seed",
+    "asked",
+    "best_offered",
+    "estimate",
+    "numerical_estimate",
+    "error_numerical",
+    "error_discs",
+    "cells",
+    "processor_seconds",
+    "search_seconds",
+    "cheapest_processor_seconds",
+];
+
+/// Runs of one packing, each combination once.
+struct Runs<'a> {
+    scene: &'a Scene,
+    range: f64,
+    folder: PathBuf,
+    lock: Lock,
+    done: Vec<(Settings, Outcome)>,
+}
+
+impl Runs<'_> {
+    fn run(&mut self, settings: &Settings) -> Result<Outcome, ChoiceError> {
+        if let Some((_, outcome)) = self.done.iter().find(|(known, _)| known == settings) {
+            return Ok(outcome.clone());
+        }
+        let outcome = attempt(self.scene, settings, Some(self.range), &self.folder, &self.lock);
+        trial::clear(&self.folder)?;
+        let outcome = outcome?;
+        self.done.push((settings.clone(), outcome.clone()));
+        Ok(outcome)
+    }
+}
+
+/// The discs' T in the windows by time.
+struct Discs {
+    windows: Windows,
+    rows: Vec<(f64, Vec<f64>)>,
+}
+
+impl Discs {
+    fn of(results: &SceneResults) -> Result<Self, CliError> {
+        let windows = Windows::of(results)?;
+        let column = |name: &str| results.windows.column(name).unwrap_or_default();
+        let mut rows: Vec<(f64, Vec<f64>)> = Vec::new();
+        for (time, value) in column("time").into_iter().zip(column("T")).filter(|row| row.0 > 0.0) {
+            match rows.last_mut().filter(|last| last.0 == time) {
+                Some(last) => last.1.push(value),
+                None => rows.push((time, vec![value])),
+            }
+        }
+        Ok(Self { windows, rows })
+    }
+
+    /// Root of the mean square of the difference of T [K] over windows and times.
+    fn error(&self, run: &Outcome) -> f64 {
+        let series = run.series(Quantity::Temperature);
+        let mut squares = Vec::new();
+        for (time, discs) in &self.rows {
+            let Some(row) = series.at(*time) else { return f64::NAN };
+            squares.extend(self.windows.means(row).iter().zip(discs).map(|(a, b)| (a - b).powi(2)));
+        }
+        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+    }
+}
+
+/// A copy of a case folder in which it is open whether grains move.
+fn open_case(folder: &Path) -> Result<PathBuf, CliError> {
+    let copy =
+        folder.with_file_name(format!("{}.open", folder.file_name().unwrap_or_default().to_string_lossy()));
+    for part in ["0", "constant", "constant/polyMesh", "system"] {
+        for file in msdd_files::list(&folder.join(part))?.into_iter().filter(|file| file.is_file()) {
+            let mut bytes = msdd_files::read(&file, msdd_files::MOST_BYTES)?;
+            if file.ends_with("constant/granularProperties") {
+                let text = String::from_utf8_lossy(&bytes).into_owned();
+                let lines = text.lines().filter(|line| !line.starts_with("mechanics"));
+                bytes = lines.flat_map(|line| [line, "\n"]).collect::<String>().into_bytes();
+            }
+            let name = file.file_name().unwrap_or_default();
+            write(&copy.join(part).join(name), &bytes)?;
+        }
+    }
+    Ok(copy)
+}
+
+/// Asks for [`ASKED`] in each scene, for its first packing, and writes what came of it.
+pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
+    let failed = |error: ChoiceError| CliError::Message(error.to_string());
+    outln!("requests: {ASKED:?} % in {} scenes", all.len());
+    let mut csv = COLUMNS.join(",") + "\n";
+    for (planned, packings) in all {
+        let Some((results, folder)) = packings.first() else { continue };
+        let copy = open_case(folder)?;
+        let discs = Discs::of(results)?;
+        let mut scene = Scene::read(&copy).map_err(failed)?;
+        let standard = scene.points.len();
+        scene.points.extend(discs.windows.points(scene.points[0][2]));
+        let range = planned.case()?.temperature_range();
+        let folder = beside(&scene, "trial");
+        let lock = Lock::take(&folder).map_err(|error| failed(error.into()))?;
+        let mut runs = Runs { scene: &scene, range, folder, lock, done: Vec::new() };
+        let count = scene.directions().len();
+        let even = |halved: i32, tolerance: f64, moves: bool| Settings {
+            levels: vec![Level::Halved(halved); count],
+            tolerance,
+            moves,
+            conductivity: 1.0,
+        };
+        let fine = runs.run(&even(-FINE.0, FINE.1, true)).map_err(failed)?;
+        let percent = |error: f64| 100.0 * error / range;
+        let numerical = |run: &Outcome| {
+            let mut difference =
+                run.series(Quantity::Temperature).minus(fine.series(Quantity::Temperature), 1.0);
+            difference.values.iter_mut().for_each(|row| row.truncate(standard));
+            percent(difference.rms())
+        };
+        let mut others = Vec::new();
+        for halved in HALVINGS {
+            for moves in [false, true] {
+                let run = runs.run(&even(halved, TOLERANCE, moves)).map_err(failed)?;
+                others.push((percent(discs.error(&run)), run.processor));
+            }
+        }
+        for asked in ASKED {
+            let wishes = Wishes {
+                accuracy: asked,
+                pressure: None,
+                cells: scene.directions(),
+                moves: None,
+                bed: scene.bed.clone(),
+                law: Law::shipped(),
+            };
+            let mut search_seconds = 0.0;
+            let found = find(&wishes, &mut |settings: &Settings, _| {
+                let outcome = runs.run(settings)?;
+                search_seconds += outcome.seconds;
+                Ok(outcome)
+            });
+            let head = format!("{},{},{},{asked}", planned.name, planned.purpose.as_str(), results.seed);
+            match found {
+                Ok((found, _)) => {
+                    let run = runs.run(&found.settings).map_err(failed)?;
+                    let own = (percent(discs.error(&run)), run.processor);
+                    let enough = others.iter().chain([&own]).filter(|other| other.0 <= asked);
+                    let cheapest = enough.map(|other| other.1).fold(f64::INFINITY, f64::min);
+                    let estimate: f64 = found.shares.iter().map(|share| share.percent).sum();
+                    let numbers = [
+                        found.total(),
+                        estimate,
+                        numerical(&run),
+                        own.0,
+                        run.cells as f64,
+                        run.processor,
+                        search_seconds,
+                    ];
+                    let cheapest = if cheapest.is_finite() { plain(cheapest) } else { String::new() };
+                    let texts: Vec<String> = numbers.into_iter().map(plain).collect();
+                    let _ = writeln!(csv, "{head},,{},{cheapest}", texts.join(","));
+                    outln!(
+                        "{:25} {asked} %: estimate {:.2} (numerical {estimate:.2}), true {:.2}, discs {:.2}",
+                        planned.name,
+                        found.total(),
+                        numerical(&run),
+                        own.0
+                    );
+                }
+                Err(ChoiceError::OutOfReach { best, reason, .. }) => {
+                    let could = others.iter().map(|other| other.0).fold(f64::INFINITY, f64::min);
+                    let _ = writeln!(csv, "{head},{},,,,{},,,,", plain(best), plain(could));
+                    outln!(
+                        "{:25} {asked} %: refused, best {best:.2}; discs {could:.2}: {reason}",
+                        planned.name
+                    );
+                }
+                Err(error) => return Err(failed(error)),
+            }
+        }
+        // Complete scenes are not lost when a later one fails.
+        write(file, csv.as_bytes())?;
+        std::fs::remove_dir_all(&copy)
+            .map_err(|error| CliError::Message(format!("{}: {error}", copy.display())))?;
+    }
+    summary(&csv);
+    Ok(())
+}
+
+/// Shares over the scenes of one kind.
+fn summary(csv: &str) {
+    let mut uses: BTreeMap<&str, Vec<Vec<&str>>> = BTreeMap::new();
+    for row in csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>()) {
+        uses.entry(row[1]).or_default().push(row);
+    }
+    for (purpose, rows) in uses {
+        for asked in ASKED {
+            let asked = plain(asked);
+            let of = |refused: bool| {
+                rows.iter().filter(|row| row[3] == asked && row[4].is_empty() != refused).collect::<Vec<_>>()
+            };
+            let (kept, refused) = (of(false), of(true));
+            let number = |text: &str| text.parse::<f64>().unwrap_or(f64::NAN);
+            let within = |row: &&&Vec<&str>| number(row[8]) <= number(row[3]);
+            let mut costs: Vec<f64> = kept.iter().map(|row| number(row[10]) / number(row[12])).collect();
+            costs.retain(|cost| cost.is_finite());
+            costs.sort_by(f64::total_cmp);
+            outln!(
+                "{purpose:10} {asked:>2} %: within {} of {}; refused {}, of which {} could have been done; cost over the cheapest {:.2} in the median, {:.2} at most",
+                kept.iter().filter(within).count(),
+                kept.len(),
+                refused.len(),
+                refused.iter().filter(within).count(),
+                costs.get(costs.len() / 2).copied().unwrap_or(f64::NAN),
+                costs.last().copied().unwrap_or(f64::NAN)
+            );
+        }
+    }
+}
