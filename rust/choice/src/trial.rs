@@ -48,30 +48,10 @@ pub fn make(
     purpose: Purpose,
     folder: &Path,
 ) -> Result<(), ChoiceError> {
-    clear(folder)?;
-    write(&folder.join(OURS), b"Made by msdd case solve, which may replace this folder.\n")?;
-    for part in [scene.start.as_str(), "constant", "system"] {
-        for file in list(&scene.folder.join(part))?.into_iter().filter(|file| file.is_file()) {
-            let name = format!("{part}/{}", file.file_name().unwrap_or_default().to_string_lossy());
-            let mut bytes = read(&file)?;
-            let keys = overrides(scene, settings, range, purpose, &name);
-            if !keys.is_empty() {
-                bytes.extend(format!("\n// Chosen for the wanted accuracy\n{keys}").bytes());
-            }
-            write(&folder.join(&name), &bytes)?;
-        }
-    }
-    // Folders that a boundary condition or a model may read.
-    for other in list(&scene.folder.join("constant"))?.into_iter().filter(|path| path.is_dir()) {
-        let name = other.file_name().unwrap_or_default();
-        if name != "polyMesh" {
-            link(&other, &folder.join("constant").join(name))?;
-        }
-    }
+    copy(scene, folder, &|name| overrides(scene, settings, range, purpose, name))?;
     let whole = settings.levels.iter().all(|&level| level == Level::Halved(0));
     if whole {
-        let mesh = scene.folder.join("constant/polyMesh");
-        return link(&mesh, &folder.join("constant/polyMesh"));
+        return link_mesh(scene, folder);
     }
     foam(folder, &mut Command::new("blockMesh"))?;
     let fields = list(&folder.join(&scene.start))?;
@@ -91,6 +71,44 @@ pub fn make(
     let arguments = ["-consistent", "-mapMethod", "cellVolumeWeight", "-sourceTime", &scene.start];
     foam(folder, Command::new("mapFieldsPar").arg(&scene.folder).args(arguments))?;
     Ok(())
+}
+
+/// Makes a copy of the user's case as it is in `folder`, which stands beside it; its mesh is linked.
+///
+/// # Errors
+/// When files cannot be read or written, or `folder` is somebody else's.
+pub fn plain(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+    copy(scene, folder, &|_| String::new())?;
+    link_mesh(scene, folder)
+}
+
+/// Copies the user's case without its mesh; `keys` are added at the end of the file of a name.
+fn copy(scene: &Scene, folder: &Path, keys: &dyn Fn(&str) -> String) -> Result<(), ChoiceError> {
+    clear(folder)?;
+    write(&folder.join(OURS), b"Made by msdd, which may replace this folder.\n")?;
+    for part in [scene.start.as_str(), "constant", "system"] {
+        for file in list(&scene.folder.join(part))?.into_iter().filter(|file| file.is_file()) {
+            let name = format!("{part}/{}", file.file_name().unwrap_or_default().to_string_lossy());
+            let mut bytes = read(&file)?;
+            let keys = keys(&name);
+            if !keys.is_empty() {
+                bytes.extend(format!("\n// Chosen for the wanted accuracy\n{keys}").bytes());
+            }
+            write(&folder.join(&name), &bytes)?;
+        }
+    }
+    // Folders that a boundary condition or a model may read.
+    for other in list(&scene.folder.join("constant"))?.into_iter().filter(|path| path.is_dir()) {
+        let name = other.file_name().unwrap_or_default();
+        if name != "polyMesh" {
+            link(&other, &folder.join("constant").join(name))?;
+        }
+    }
+    Ok(())
+}
+
+fn link_mesh(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+    link(&scene.folder.join("constant/polyMesh"), &folder.join("constant/polyMesh"))
 }
 
 /// Refuses a folder that [`make`] has not made.
@@ -126,6 +144,14 @@ pub fn run(folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
     let log = foam(folder, Command::new("msddFoam").stdin(lock.handle()?))?;
     write(&folder.join("log.msddFoam"), log.as_bytes())?;
+    read_outcome(folder, began.elapsed().as_secs_f64())
+}
+
+/// Reads what a run of `seconds` has left in the folder of a combination.
+///
+/// # Errors
+/// [`ChoiceError::File`], [`ChoiceError::Read`] when its results cannot be read.
+pub fn read_outcome(folder: &Path, seconds: f64) -> Result<Outcome, ChoiceError> {
     // A run that was killed and went on has one folder for each start.
     let starts = |name: &str| list(&folder.join("postProcessing").join(name));
     let mut series = Series::default();
@@ -141,7 +167,7 @@ pub fn run(folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
     let summary: serde_json::Value = serde_json::from_str(&read)
         .map_err(|error| ChoiceError::Read { file: summary, problem: error.to_string() })?;
     let cells = summary["cells"].as_u64().unwrap_or(0) as usize;
-    Ok(Outcome { series, range, cells, seconds: began.elapsed().as_secs_f64() })
+    Ok(Outcome { series, range, cells, seconds })
 }
 
 /// Keys that are added at the end of a file of the case.
