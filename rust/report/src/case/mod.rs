@@ -32,7 +32,8 @@ use msdd_choice::scene::Scene;
 use msdd_files::Lock;
 use reference::Reference;
 use serde::Serialize;
-use std::path::Path;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use work::{Watch, Work};
 
@@ -88,13 +89,15 @@ pub struct CaseReport {
 
 /// Refuses a folder that is no case with a mesh.
 fn check(folder: &Path) -> Result<(), CaseError> {
-    let missing = |name: &str, problem: &str| match folder.join(name).exists() {
+    let there = |file: PathBuf, problem: &str| match file.exists() {
         true => Ok(()),
-        false => Err(CaseError::Read { file: folder.join(name), problem: problem.to_string() }),
+        false => Err(CaseError::Read { file, problem: problem.to_string() }),
     };
-    missing("", "no such folder; allowed: the folder of a case")?;
-    missing("system/controlDict", "no such file; allowed: the folder of a case, which has it")?;
-    missing("constant/polyMesh", "no such folder: the case has no mesh yet, which blockMesh makes in it")
+    there(folder.to_path_buf(), "no such folder; allowed: the folder of a case")?;
+    let control = folder.join("system/controlDict");
+    there(control, "no such file; allowed: the folder of a case, which has it")?;
+    let mesh = folder.join("constant/polyMesh");
+    there(mesh, "no such folder: the case has no mesh yet, which blockMesh makes in it")
 }
 
 /// Makes the report on the case in `folder`; runs the jobs that the cache does not have. `discs`: whether the reference is one by
@@ -126,8 +129,13 @@ fn report(work: &mut Work, watch: &mut Watch) -> Result<CaseReport, ReportError>
     let (scene, quick) = (work.scene, work.settings.quick);
     let range = range(work, watch)?;
     let rungs = ladder(scene, range, quick)?;
-    let jobs: Vec<Asked> = rungs.iter().map(|rung| asked(work, rung)).collect();
-    work.run("configurations", &jobs, watch)?;
+    // From few cells to many: what takes too long on few is not begun on more.
+    let sizes: BTreeSet<usize> = rungs.iter().map(|rung| size(work, rung)).collect();
+    for cells in sizes {
+        let here = rungs.iter().filter(|rung| size(work, rung) == cells && !is_hopeless(work, rung, &rungs));
+        let jobs: Vec<Asked> = here.map(|rung| asked(work, rung)).collect();
+        work.run(&format!("configurations, {cells} cells"), &jobs, watch)?;
+    }
     let mut choices = Vec::new();
     let jobs = ACCURACIES.map(|accuracy| Asked { job: choice_job(work, accuracy), guess: 10.0 });
     work.run("choices of msdd case solve", &jobs, watch)?;
@@ -143,7 +151,8 @@ fn report(work: &mut Work, watch: &mut Watch) -> Result<CaseReport, ReportError>
     let mut points: Vec<Point> = rows.iter().map(|row| row.point.clone()).collect();
     mark(&mut points);
     rows.iter_mut().zip(points).for_each(|(row, point)| row.point = point);
-    let choices = choices.into_iter().map(|(choice, _)| placed(choice, &rows)).collect();
+    let kept = scene.moves.map(|moves| if moves { "equilibrium" } else { "none" });
+    let choices = choices.into_iter().map(|(choice, _)| placed(choice, &rows, kept)).collect();
     Ok(CaseReport {
         schema: "msdd-case-report-1",
         case: scene.folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -182,10 +191,30 @@ fn range(work: &mut Work, watch: &mut Watch) -> Result<f64, ReportError> {
     }
 }
 
+fn size(work: &Work, rung: &Rung) -> usize {
+    ladder::count(work.scene, &rung.settings.levels)
+}
+
+/// Whether a run of the same kind on fewer cells, with steps that are no smaller, was stopped at its limit.
+fn is_hopeless(work: &Work, rung: &Rung, rungs: &[Rung]) -> bool {
+    let like = |other: &&Rung| {
+        other.family == rung.family
+            && other.settings.moves == rung.settings.moves
+            && other.settings.tolerance >= rung.settings.tolerance
+            && other.append == rung.append
+            && size(work, other) < size(work, rung)
+    };
+    let stopped = |other: &Rung| {
+        let record = work.record(&work.solver(other, work.limit()));
+        record.is_some_and(|record| record.outcome == Outcome::TimedOut)
+    };
+    rungs.iter().filter(like).any(stopped)
+}
+
 /// A job of the ladder, with a guess of its cost from cells and steps.
 fn asked(work: &Work, rung: &Rung) -> Asked {
     let Rung { settings, .. } = rung;
-    let cells = ladder::count(work.scene, &settings.levels) as f64;
+    let cells = size(work, rung) as f64;
     let steps = (1e-3 / settings.tolerance).cbrt() * if settings.moves { 4.0 } else { 1.0 };
     Asked { job: work.solver(rung, work.limit()), guess: 0.4 + 1e-4 * cells * steps }
 }
@@ -232,6 +261,7 @@ fn row_of(work: &Work, rung: &Rung, truth: &Truth) -> Row {
             "none of its times is one of the reference's".to_string()
         }
         Some(record) => record.message.clone(),
+        None if work.settings.run => "the same on fewer cells was stopped at its limit".to_string(),
         None => String::new(),
     };
     let point = Point {
@@ -249,8 +279,8 @@ fn row_of(work: &Work, rung: &Rung, truth: &Truth) -> Row {
     Row { point, cells: measured.map(|measured| measured.size), wall_seconds, errors }
 }
 
-/// The choice with the sentence on where it lies among the others.
-fn placed(choice: Choice, rows: &[Row]) -> Choice {
+/// The choice with the sentence on where it lies among the others. `kept`: the `mechanics` that the case names.
+fn placed(choice: Choice, rows: &[Row], kept: Option<&str>) -> Choice {
     let Choice { accuracy, what, search_seconds, .. } = &choice;
     let row = choice.row.as_ref().and_then(|name| rows.iter().find(|row| row.point.name == *name));
     let others: Vec<Point> =
@@ -279,5 +309,7 @@ fn placed(choice: Choice, rows: &[Row]) -> Choice {
             ),
         },
     };
-    Choice { sentence, ..choice }
+    let kept =
+        kept.map_or(String::new(), |kept| format!(" It keeps mechanics {kept}, which the case names."));
+    Choice { sentence: sentence + &kept, ..choice }
 }

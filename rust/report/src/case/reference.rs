@@ -68,16 +68,16 @@ fn of_discs(work: &mut Work, watch: &mut Watch) -> Result<(Truth, Reference), Re
     let of =
         |k: usize| packings.iter().filter_map(|p| Some(p.packing?[k])).sum::<f64>() / packings.len() as f64;
     let mut what = format!(
-        "Discrete elements: the mean of {} of {size} discs in the same box, closed to the case's mean porosity, which has porosity \
-         {:.4}, fabric index {:.3} and pressure {:.4e} Pa before heating. The runs start from the fields of the case, not from \
+        "Discrete elements: the mean of {} of {size} discs in the same box, closed to the case's mean porosity. Before heating it has \
+         porosity {:.4}, overlaps counted once, and pressure {:.4e} Pa away from the walls, and fabric index {:.3}. The runs start from the fields of the case, not from \
          these packings.",
         match packings.len() {
             1 => "one packing".to_string(),
             many => format!("{many} packings"),
         },
         of(0),
-        of(1),
-        of(2)
+        of(2),
+        of(1)
     );
     for problem in &failed {
         what += &format!(" A further packing {problem}.");
@@ -121,6 +121,11 @@ fn of_finer(
         let rung = Rung::new(work.scene, range, settings);
         let guess = estimate(work, rungs, &rung).unwrap_or(limit as f64);
         if finer == FINER[0] && (quick || guess > limit as f64) {
+            if !quick && can_refine {
+                notes += &format!(
+                    " One that is {finer} times as fine was expected to take {guess:.0} core-s, {limit} are allowed."
+                );
+            }
             continue;
         }
         let job = work.solver(&rung, limit);

@@ -58,7 +58,8 @@ pub struct Measured {
     /// Displacement at these points, three columns for each; beside discs at the end alone, in the centres of
     /// [`SUB_REGIONS`]. Empty if grains stay [m].
     pub displacement: Rows,
-    /// Discs alone: porosity with overlaps counted once [-], fabric index [-] and pressure [Pa] of the packing.
+    /// Discs alone: porosity with overlaps counted once and away from the walls [-], fabric index [-], and pressure away from the
+    /// walls [Pa] at the start.
     pub packing: Option<[f64; 3]>,
 }
 
@@ -246,7 +247,10 @@ fn of_discs(folder: &Path, seed: u64) -> Result<Measured, ReportError> {
         temperature: Rows::of(columns(&probes)),
         pressure: Rows::of(columns(&["pressure_inner".to_string()])),
         displacement: Rows::of(moved),
-        packing: Some([results.model.porosity, results.model.fabric_index, results.model.pressure]),
+        packing: Some(
+            ["porosity_inner", "fabric_index", "pressure_inner"]
+                .map(|name| column(&results.series, name).first().copied().unwrap_or_default()),
+        ),
     })
 }
 

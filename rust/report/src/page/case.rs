@@ -2,6 +2,7 @@
 
 use super::html::{Figure, fixed, head, numbered, table};
 use crate::ReportError;
+use crate::case::errors::Error;
 use crate::case::ladder::FAMILIES;
 use crate::case::{CaseReport, Row};
 use crate::draw::{Line, MARKERS, Series, Style, escape, from_data, plot, series};
@@ -59,12 +60,20 @@ fn reference(report: &CaseReport) -> String {
             " By the order of the methods its own error of T is about {error:.2} %, so differences of that size between runs say little."
         );
     }
-    if let Some(scatter) = reference.scatter.and_then(|scatter| scatter.temperature) {
+    if let Some(scatter) = &reference.scatter {
+        let one = |name: &str, error: Option<Error>| {
+            error.map(|error| format!("{name} {:.2} % ({:.2} % on the mean)", error.worst, error.mean))
+        };
+        let all = [
+            one("T", scatter.temperature),
+            one("pressure", scatter.pressure),
+            one("displacement", scatter.displacement),
+        ];
         let _ = write!(
             text,
-            " T of single packings scatters around their mean by {:.2} % at the worst point, {:.2} % on the mean (standard \
-             deviations), so smaller errors say little about another packing.",
-            scatter.worst, scatter.mean
+            " Single packings scatter around their mean (standard deviations at the worst point): {}. Smaller errors say little about \
+             another packing.",
+            all.into_iter().flatten().collect::<Vec<_>>().join(", ")
         );
     }
     text
