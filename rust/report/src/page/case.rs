@@ -5,7 +5,7 @@ use crate::ReportError;
 use crate::case::errors::Error;
 use crate::case::ladder::FAMILIES;
 use crate::case::{CaseReport, Row};
-use crate::draw::{Line, MARKERS, Series, Style, escape, from_data, plot, series};
+use crate::draw::{Axis, Line, MARKERS, Series, Style, escape, plot, series};
 use crate::studies::front::{Point, stairs};
 use std::fmt::Write;
 
@@ -101,8 +101,8 @@ fn figure(report: &CaseReport, which: usize) -> Result<String, ReportError> {
     let label = format!("error of {quantity} [%]");
     let panel = plot(
         &format!("case {}", report.case),
-        &from_data("cost [core-s]", true),
-        &from_data(&label, true),
+        &decades("cost [core-s]", points.iter().filter_map(|point| Some(point.place(which)?.0))),
+        &decades(&label, points.iter().filter_map(|point| Some(point.place(which)?.1))),
         &lines,
     )?;
     let mut keys: Vec<(Style, String)> = Vec::new();
@@ -124,6 +124,14 @@ fn figure(report: &CaseReport, which: usize) -> Result<String, ReportError> {
     );
     let id = ["chart-temperature", "chart-pressure"][which];
     Figure { id, panels: vec![panel], keys, caption, source: "measured and cached" }.html(&report.made)
+}
+
+/// A logarithmic axis that ends at powers of ten, so that both ends have a number.
+fn decades(label: &str, values: impl Iterator<Item = f64>) -> Axis<'_> {
+    let usable = values.filter(|value| value.is_finite() && *value > 0.0).map(f64::log10);
+    let (low, high) = usable.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    let range = (low <= high).then(|| (10f64.powf(low.floor()), 10f64.powf(high.floor() + 1.0)));
+    Axis { label, log: true, range }
 }
 
 fn runs(report: &CaseReport) -> String {
@@ -168,4 +176,19 @@ fn runs(report: &CaseReport) -> String {
     let note = "<p>Errors at the worst point, and the mean over the points. Pressure in percent of the largest, displacement in \
                 percent of the largest displacement of the reference; grains that stay have none.</p>\n";
     note.to_string() + &table(&heads, &rows.iter().map(row).collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_end_at_powers_of_ten() {
+        let range = |values: &[f64]| decades("x", values.iter().copied()).range.unwrap();
+        let near =
+            |(a, b): (f64, f64), (c, d): (f64, f64)| (a / c - 1.0).abs() < 1e-9 && (b / d - 1.0).abs() < 1e-9;
+        assert!(near(range(&[0.3, 0.9]), (0.1, 1.0)));
+        assert!(near(range(&[0.03, 1.5, 0.0]), (0.01, 10.0)));
+        assert_eq!(decades("x", [0.0].into_iter()).range, None);
+    }
 }
