@@ -154,6 +154,26 @@ impl Dictionary {
         }
     }
 
+    /// The mean over the cells of a scalar field: of `uniform <number>`, or of `nonuniform` with its list.
+    ///
+    /// # Errors
+    /// [`CaseError::Key`] for anything else.
+    pub fn mean(&self, key: &str) -> Result<f64, CaseError> {
+        let tokens = self.value(key)?;
+        let numbers: Vec<f64> = match tokens {
+            // The kind of the list and its length stand before the values.
+            [word, _, _, rest @ ..] if word.text == "nonuniform" => {
+                rest.iter().filter_map(|token| token.text.parse().ok()).collect()
+            }
+            _ => return self.uniform(key),
+        };
+        let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+        match mean.is_finite() {
+            true => Ok(mean),
+            false => Err(self.refuse(key, &joined(tokens), "a list of finite numbers")),
+        }
+    }
+
     fn number_in(
         &self,
         key: &str,
@@ -316,6 +336,16 @@ mod tests {
         let inner = dictionary.dictionary_at("inner").unwrap();
         assert_eq!(inner.dictionary_at("deep").unwrap().uniform("b").unwrap(), 3.0);
         assert!(inner.get("q").is_none() && inner.matching("q").is_some() && inner.matching("pq").is_none());
+    }
+
+    #[test]
+    fn mean_of_a_field() {
+        let dictionary = parse(
+            "a uniform 3; b nonuniform List<scalar> 2 ( 1 2 ); c nonuniform List<scalar> 9 { 4 }; d nonuniform List<scalar> 0 ( );",
+        );
+        let mean = |key: &str| dictionary.as_ref().unwrap().mean(key);
+        assert_eq!(["a", "b", "c"].map(|key| mean(key).unwrap()), [3.0, 1.5, 4.0]);
+        assert!(mean("d").unwrap_err().to_string().contains("allowed: a list of finite numbers"));
     }
 
     #[test]

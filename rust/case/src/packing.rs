@@ -159,6 +159,23 @@ pub fn usual_fabric(compression: Compression) -> f64 {
     }
 }
 
+/// Porosity with overlaps counted twice of packings with this porosity, overlaps counted once, by the shipped model.
+///
+/// # Errors
+/// [`CaseError::Parameter`] for a porosity outside of [`POROSITIES`]; [`CaseError::Model`] when the model cannot be read.
+pub fn sum_porosity(porosity: f64) -> Result<f64, CaseError> {
+    let [least, most] = POROSITIES;
+    if !(least..=most).contains(&porosity) {
+        let (key, value) = ("porosity".to_string(), number(porosity));
+        return Err(CaseError::Parameter {
+            key,
+            value,
+            allowed: format!("{least} to {most} for a packing of discs"),
+        });
+    }
+    Ok(1.0 - msdd_surrogate::models::builtin(msdd_surrogate::models::BUILTIN)?.solid_fraction(porosity))
+}
+
 /// Finds the porosity with a given pressure. The porosity is nearly linear in √p, so each round interpolates between the two
 /// packings whose √p is nearest to the wanted one.
 fn to_pressure(

@@ -42,7 +42,7 @@ pub enum ChoiceError {
     #[error("{}: {problem}", file.display())]
     Read { file: PathBuf, problem: String },
     #[error(
-        "{} is there and was not made by msdd case solve, which would replace it: move it away",
+        "{} is there and was not made by msdd, which would replace it: move it away",
         folder.display()
     )]
     Foreign { folder: PathBuf },

@@ -10,11 +10,11 @@ const OUTSIDE: f64 = 1e200;
 /// Times of two runs are the same up to this share of the largest.
 const SAME_TIME: f64 = 1e-6;
 
-/// One number at points, in rows of one time [s] each.
+/// Numbers at points, in rows of one time [s] each.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Series {
     pub times: Vec<f64>,
-    /// One row for each time, one column for each point; NaN outside of the mesh.
+    /// One row for each time, one column for each point, or as many as a vector or tensor has components; NaN outside of the mesh.
     #[serde(deserialize_with = "with_gaps")]
     pub values: Vec<Vec<f64>>,
 }
@@ -26,26 +26,22 @@ fn with_gaps<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Vec<f64>>
 }
 
 impl Series {
-    /// Reads one component of the file of OpenFOAM's function object `probes` for so many points.
+    /// Reads the file of OpenFOAM's function object `probes`.
     ///
     /// # Errors
     /// [`ChoiceError::File`], [`ChoiceError::Read`].
-    pub fn read(file: &Path, points: usize, component: usize) -> Result<Self, ChoiceError> {
+    pub fn read(file: &Path) -> Result<Self, ChoiceError> {
         let wrong = |line: &str| ChoiceError::Read { file: file.to_path_buf(), problem: format!("'{line}'") };
         let mut series = Self::default();
         for line in read_text(file)?.lines().filter(|line| !line.trim_start().starts_with('#')) {
-            let words = line.split(|c: char| c.is_whitespace() || c == '(' || c == ')');
+            let words = line.split(|c: char| c.is_whitespace() || "()".contains(c));
             let numbers: Result<Vec<f64>, _> =
                 words.filter(|word| !word.is_empty()).map(str::parse).collect();
             let numbers = numbers.map_err(|_| wrong(line))?;
             let Some((&time, values)) = numbers.split_first() else { continue };
-            let components = values.len() / points.max(1);
-            if component >= components || values.len() != components * points {
-                return Err(wrong(line));
-            }
-            let inside = |value: f64| if value.abs() < OUTSIDE { value } else { f64::NAN };
+            let inside = |&value: &f64| if value.abs() < OUTSIDE { value } else { f64::NAN };
             series.times.push(time);
-            series.values.push(values.chunks(components).map(|parts| inside(parts[component])).collect());
+            series.values.push(values.iter().map(inside).collect());
         }
         match series.values.iter().flatten().any(|value| value.is_finite()) {
             true => Ok(series),
@@ -95,6 +91,28 @@ impl Series {
     pub fn distance(&self, other: &Self) -> f64 {
         self.minus(other, 1.0).rms()
     }
+
+    /// How far `other` is away in each column: the root of the mean square over the times that both have. NaN without such times,
+    /// and for points outside of the mesh.
+    pub fn deviations(&self, other: &Self) -> Vec<f64> {
+        let difference = self.minus(other, 1.0);
+        let columns = self.values.first().map_or(0, Vec::len);
+        let at = |column: usize| {
+            let squares = difference.values.iter().map(|row| row[column].powi(2));
+            (squares.sum::<f64>() / difference.values.len() as f64).sqrt()
+        };
+        (0..columns).map(at).collect()
+    }
+
+    /// One component of a field at so many points.
+    pub fn component(&self, points: usize, component: usize) -> Self {
+        let pick = |row: &Vec<f64>| {
+            row.chunks(row.len().div_ceil(points.max(1)).max(1))
+                .map(|parts| parts.get(component).copied().unwrap_or(f64::NAN))
+                .collect()
+        };
+        Self { times: self.times.clone(), values: self.values.iter().map(pick).collect() }
+    }
 }
 
 #[cfg(test)]
@@ -113,6 +131,7 @@ mod tests {
         };
         assert_eq!(a.distance(&b), (0.25f64 * (9.0 + 16.0)).sqrt());
         assert_eq!(a.range(), 4.0);
+        assert_eq!(a.deviations(&b), [0.0, (0.5f64 * (9.0 + 16.0)).sqrt()]);
         assert!(a.distance(&Series::default()).is_nan());
     }
 
@@ -120,17 +139,22 @@ mod tests {
     fn points_outside_of_the_mesh_do_not_count_and_survive_json() {
         let file = std::env::temp_dir().join(format!("msdd-choice-series-{}", std::process::id()));
         std::fs::write(&file, "# Probe 0 (1 1 1)\n#  Time\n 0 -1e+300 3\n 1 -1e+300 4\n").unwrap();
-        let read = Series::read(&file, 2, 0).unwrap();
-        std::fs::write(&file, "0 (1 2 3) (4 5 6)\n").unwrap();
-        let vectors = Series::read(&file, 2, 1).unwrap();
-        let too_many = Series::read(&file, 4, 0);
+        let read = Series::read(&file).unwrap();
         std::fs::remove_file(&file).unwrap();
         assert_eq!((read.range(), read.times.len()), (1.0, 2));
         assert_eq!(read.distance(&read), 0.0);
-        assert_eq!(vectors.values, [[2.0, 5.0]]);
-        assert!(too_many.is_err());
         let again: Series = serde_json::from_str(&serde_json::to_string(&read).unwrap()).unwrap();
         assert!(again.values[0][0].is_nan());
         assert_eq!(again.distance(&read), 0.0);
+    }
+
+    #[test]
+    fn vectors_have_three_columns() {
+        let file = std::env::temp_dir().join(format!("msdd-choice-vectors-{}", std::process::id()));
+        std::fs::write(&file, "# Probe 0 (1 1 1)\n 0 (0 0 0) (1 2 3)\n").unwrap();
+        let read = Series::read(&file).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        assert_eq!(read.values, [[0.0, 0.0, 0.0, 1.0, 2.0, 3.0]]);
+        assert_eq!(read.component(2, 1).values, [[0.0, 2.0]]);
     }
 }

@@ -65,30 +65,10 @@ pub fn make(
     purpose: Purpose,
     folder: &Path,
 ) -> Result<(), ChoiceError> {
-    clear(folder)?;
-    write(&folder.join(OURS), b"Made by msdd case solve, which may replace this folder.\n")?;
-    for part in [scene.start.as_str(), "constant", "system"] {
-        for file in list(&scene.folder.join(part))?.into_iter().filter(|file| file.is_file()) {
-            let name = format!("{part}/{}", file.file_name().unwrap_or_default().to_string_lossy());
-            let mut bytes = read(&file)?;
-            let keys = overrides(scene, settings, range, purpose, &name);
-            if !keys.is_empty() {
-                bytes.extend(format!("\n// Chosen for the wanted accuracy\n{keys}").bytes());
-            }
-            write(&folder.join(&name), &bytes)?;
-        }
-    }
-    // Folders that a boundary condition or a model may read.
-    for other in list(&scene.folder.join("constant"))?.into_iter().filter(|path| path.is_dir()) {
-        let name = other.file_name().unwrap_or_default();
-        if name != "polyMesh" {
-            link(&other, &folder.join("constant").join(name))?;
-        }
-    }
+    copy(scene, folder, &|name| overrides(scene, settings, range, purpose, name))?;
     let whole = settings.levels.iter().all(|&level| level == Level::Halved(0));
     if whole {
-        let mesh = scene.folder.join("constant/polyMesh");
-        return link(&mesh, &folder.join("constant/polyMesh"));
+        return link_mesh(scene, folder);
     }
     foam(folder, &mut Command::new("blockMesh"))?;
     let fields = list(&folder.join(&scene.start))?;
@@ -108,6 +88,44 @@ pub fn make(
     let arguments = ["-consistent", "-mapMethod", "cellVolumeWeight", "-sourceTime", &scene.start];
     foam(folder, Command::new("mapFieldsPar").arg(&scene.folder).args(arguments))?;
     Ok(())
+}
+
+/// Makes a copy of the user's case as it is in `folder`, which stands beside it; its mesh is linked.
+///
+/// # Errors
+/// When files cannot be read or written, or `folder` is somebody else's.
+pub fn plain(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+    copy(scene, folder, &|_| String::new())?;
+    link_mesh(scene, folder)
+}
+
+/// Copies the user's case without its mesh; `keys` are added at the end of the file of a name.
+fn copy(scene: &Scene, folder: &Path, keys: &dyn Fn(&str) -> String) -> Result<(), ChoiceError> {
+    clear(folder)?;
+    write(&folder.join(OURS), b"Made by msdd, which may replace this folder.\n")?;
+    for part in [scene.start.as_str(), "constant", "system"] {
+        for file in list(&scene.folder.join(part))?.into_iter().filter(|file| file.is_file()) {
+            let name = format!("{part}/{}", file.file_name().unwrap_or_default().to_string_lossy());
+            let mut bytes = read(&file)?;
+            let keys = keys(&name);
+            if !keys.is_empty() {
+                bytes.extend(format!("\n// Chosen for the wanted accuracy\n{keys}").bytes());
+            }
+            write(&folder.join(&name), &bytes)?;
+        }
+    }
+    // Folders that a boundary condition or a model may read.
+    for other in list(&scene.folder.join("constant"))?.into_iter().filter(|path| path.is_dir()) {
+        let name = other.file_name().unwrap_or_default();
+        if name != "polyMesh" {
+            link(&other, &folder.join("constant").join(name))?;
+        }
+    }
+    Ok(())
+}
+
+fn link_mesh(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+    link(&scene.folder.join("constant/polyMesh"), &folder.join("constant/polyMesh"))
 }
 
 /// Refuses a folder that [`make`] has not made.
@@ -139,30 +157,39 @@ pub fn clear(folder: &Path) -> Result<(), ChoiceError> {
 ///
 /// # Errors
 /// [`ChoiceError::Run`] with the solver's message; [`ChoiceError::Read`] when its results cannot be read.
-pub fn run(scene: &Scene, folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
+pub fn run(folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
     let log = foam(folder, Command::new("msddFoam").stdin(lock.handle()?))?;
     write(&folder.join("log.msddFoam"), log.as_bytes())?;
+    read_outcome(folder, began.elapsed().as_secs_f64())
+}
+
+/// Reads what a run of `seconds` has left in the folder of a combination.
+///
+/// # Errors
+/// [`ChoiceError::File`], [`ChoiceError::Read`] when its results cannot be read.
+pub fn read_outcome(folder: &Path, seconds: f64) -> Result<Outcome, ChoiceError> {
     // A run that was killed and went on has one folder for each start.
     let starts = |name: &str| list(&folder.join("postProcessing").join(name));
-    let read = |field: &str, component: usize| {
+    let read = |field: &str| {
         let mut series = Series::default();
         for start in starts(WATCH)? {
-            series.add(Series::read(&start.join(field), scene.points.len(), component)?);
+            series.add(Series::read(&start.join(field))?);
         }
         Ok::<_, ChoiceError>(series)
     };
+    let temperature = read("T")?;
+    let points = temperature.values.first().map_or(0, Vec::len);
     let mut values = BTreeMap::new();
     let moved = starts(WATCH)?.iter().any(|start| start.join("D").is_file());
     for quantity in Quantity::ALL.into_iter().filter(|quantity| moved || !quantity.needs_motion()) {
         let (field, component) = quantity.field();
-        values.insert(quantity, read(field, component)?);
+        values.insert(quantity, read(field)?.component(points, component));
     }
-    let strain = read("thermalStrain", 0)?;
+    let strain = read("thermalStrain")?;
     let mut start_pressure = Vec::new();
     for start in starts(&format!("{WATCH}Start"))? {
-        let series = Series::read(&start.join("pressure"), scene.points.len(), 0)?;
-        start_pressure = series.values.into_iter().next().unwrap_or_default();
+        start_pressure = Series::read(&start.join("pressure"))?.values.into_iter().next().unwrap_or_default();
     }
     let mut range = values[&Quantity::Temperature].range();
     for start in starts(&format!("{WATCH}Range"))? {
@@ -174,15 +201,7 @@ pub fn run(scene: &Scene, folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceE
         .map_err(|error| ChoiceError::Read { file: summary, problem: error.to_string() })?;
     let cells = summary["cells"].as_u64().unwrap_or(0) as usize;
     let processor = summary["cpu_seconds"].as_f64().unwrap_or(0.0);
-    Ok(Outcome {
-        values,
-        strain,
-        start_pressure,
-        range,
-        cells,
-        seconds: began.elapsed().as_secs_f64(),
-        processor,
-    })
+    Ok(Outcome { values, strain, start_pressure, range, cells, seconds, processor })
 }
 
 /// Keys that are added at the end of a file of the case.

@@ -3,10 +3,13 @@
 use crate::error::CliError;
 use crate::progress::Progress;
 use clap::Args;
+use msdd_report::case::CaseReport;
 use msdd_report::jobs::cache::Cache;
 use msdd_report::jobs::execute::{Place, Stamp};
-use msdd_report::report::{Report, make};
+use msdd_report::jobs::pool;
+use msdd_report::report::{Made, Report, make};
 use msdd_report::settings::Settings;
+use msdd_report::{case, page};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -14,7 +17,14 @@ use std::process::Command;
 #[command(
     after_help = "Needs a checkout whose solver is built (scripts/report does all that is needed). The result of each simulation \
 is kept in the cache under everything that it depends on (program, inputs, parameters): a second run takes it from there, and a \
-run that was killed continues."
+run that was killed continues.
+
+With --case, the case is run on coarser and finer meshes, with larger and smaller tolerances, with grains that stay and that \
+move, and as msdd case solve chooses it; each run is compared with one that is 4 or 8 times finer in space and time, or, with \
+--discs, with discrete elements of the same box. Copies stand beside the case while they run; the case itself stays as it is. \
+It needs its mesh (blockMesh).
+
+Example: msdd report --case cases/HC --quick"
 )]
 pub struct Arguments {
     /// Few configurations, one packing and coarse meshes, as for the tests.
@@ -23,12 +33,20 @@ pub struct Arguments {
     /// Run no simulations: draw the results that the cache has.
     #[arg(long)]
     draw: bool,
-    /// Folder for the page, index.html.
-    #[arg(long, value_name = "DIR", default_value = "report")]
-    out: PathBuf,
-    /// JSON file to write.
-    #[arg(long, value_name = "FILE", default_value = "results/report.json")]
-    json: PathBuf,
+    /// The case folder whose chart of speed against accuracy is wanted, instead of those of the cases of the paper.
+    #[arg(long, value_name = "DIR")]
+    case: Option<PathBuf>,
+    /// Compare the case with discrete elements: for a box along the axes in the plane, with insulated walls or walls with a
+    /// temperature, and without sources of heat.
+    #[arg(long, requires = "case")]
+    discs: bool,
+    /// Folder for the page, index.html. Default: report, or report/NAME for a case of that name.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// JSON file to write; of a case, a table of the same name that ends in .csv is written beside it. Default:
+    /// results/report.json, or results/report_NAME.json.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
     /// Folder of the cache for results of simulations.
     #[arg(long, value_name = "DIR", default_value = ".cache/report")]
     cache: PathBuf,
@@ -45,13 +63,10 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
             return Err(CliError::Message(text));
         }
     }
-    let page = arguments.out.join("index.html");
-    for file in [&page, &arguments.json] {
-        msdd_files::check_target(file)?;
-    }
+    let targets = Targets::of(arguments)?;
     let settings = settings(arguments, &checkout)?;
     let mut progress: Option<(String, Progress)> = None;
-    let made = make(&settings, &mut |what, now| {
+    let mut watch = |what: &str, now: &pool::Progress| {
         if progress.as_ref().is_none_or(|(name, _)| name != what) {
             progress = Some((what.to_string(), Progress::new("jobs", now.total as u64)));
         }
@@ -61,18 +76,80 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         if let Some((_, progress)) = &mut progress {
             progress.set(now.done as u64, now.total as u64, &note);
         }
-    })?;
+    };
+    let said = match &arguments.case {
+        Some(folder) => targets.write_case(case::make(settings, folder, arguments.discs, &mut watch)?)?,
+        None => targets.write_paper(&make(&settings, &mut watch)?)?,
+    };
     if let Some((_, progress)) = &progress {
         progress.finish();
     }
-    let json = serde_json::to_string_pretty(&made.report).map_err(|e| CliError::Message(e.to_string()))?;
-    msdd_report::write_text(&arguments.json, &json)?;
-    msdd_report::write_text(&page, &msdd_report::page::text(&made)?)?;
-    let report = &made.report;
-    outln!("{} jobs, {} from the cache", report.jobs, report.cached_jobs);
-    outln!("{}", judged(report));
-    outln!("page: {}   figures: {}", page.display(), arguments.json.display());
+    outln!("{said}");
+    outln!("page: {}   figures: {}", targets.page.display(), targets.json.display());
     Ok(())
+}
+
+/// The files that are written.
+struct Targets {
+    page: PathBuf,
+    json: PathBuf,
+}
+
+impl Targets {
+    /// Files that cannot be written are refused now rather than at the end of a long run.
+    fn of(arguments: &Arguments) -> Result<Self, CliError> {
+        let name = match &arguments.case {
+            Some(folder) => {
+                let whole = folder.canonicalize().unwrap_or_else(|_| folder.clone());
+                Some(whole.file_name().unwrap_or_default().to_string_lossy().into_owned())
+            }
+            None => None,
+        };
+        let usual = |of_paper: &str, of_case: &dyn Fn(&str) -> String| {
+            name.as_deref().map_or(PathBuf::from(of_paper), |name| PathBuf::from(of_case(name)))
+        };
+        let out = arguments.out.clone();
+        let out = out.unwrap_or_else(|| usual("report", &|name| format!("report/{name}")));
+        let json = arguments.json.clone();
+        let json = json
+            .unwrap_or_else(|| usual("results/report.json", &|name| format!("results/report_{name}.json")));
+        let targets = Self { page: out.join("index.html"), json };
+        for file in [&targets.page, &targets.json, &targets.csv()] {
+            msdd_files::check_target(file)?;
+        }
+        Ok(targets)
+    }
+
+    fn csv(&self) -> PathBuf {
+        self.json.with_extension("csv")
+    }
+
+    fn write(&self, json: &impl serde::Serialize, page: &str) -> Result<(), CliError> {
+        let json = serde_json::to_string_pretty(json).map_err(|e| CliError::Message(e.to_string()))?;
+        msdd_report::write_text(&self.json, &json)?;
+        Ok(msdd_report::write_text(&self.page, page)?)
+    }
+
+    fn write_paper(&self, made: &Made) -> Result<String, CliError> {
+        let report = &made.report;
+        self.write(report, &page::text(made)?)?;
+        Ok(format!("{} jobs, {} from the cache\n{}", report.jobs, report.cached_jobs, judged(report)))
+    }
+
+    fn write_case(&self, report: CaseReport) -> Result<String, CliError> {
+        self.write(&report, &page::case::text(&report)?)?;
+        msdd_report::write_text(&self.csv(), &case::table::csv(&report))?;
+        let done = report.rows.iter().filter(|row| row.errors.temperature.is_some()).count();
+        let sentences: Vec<&str> = report.choices.iter().map(|choice| choice.sentence.as_str()).collect();
+        Ok(format!(
+            "{} jobs, {} from the cache\n{}\n{done} of {} configurations were run and compared with it.\n{}",
+            report.jobs,
+            report.cached_jobs,
+            report.reference.what,
+            report.rows.len(),
+            sentences.join("\n")
+        ))
+    }
 }
 
 /// How many targets are reached. A quick report does not judge those of accuracy, and the text says so.
@@ -98,7 +175,7 @@ fn settings(arguments: &Arguments, checkout: &Path) -> Result<Settings, CliError
     let stamp = Stamp { date: date(), commit: commit(checkout), cpu: cpu.clone() };
     Ok(Settings {
         quick: arguments.quick,
-        place: Place { checkout: checkout.to_path_buf(), msdd, work: cache.join("work"), stamp },
+        place: Place { checkout: checkout.to_path_buf(), msdd, work: cache.join("work"), stamp, lock: None },
         cache: Cache::new(&cache, checkout, &cpu),
         at_a_time: arguments.jobs as usize,
         run: !arguments.draw,

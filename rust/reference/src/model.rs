@@ -78,11 +78,6 @@ impl Filling {
     }
 }
 
-/// Number of discs that fill the case's box as in the paper's cases.
-pub fn discs_of(case: &Case) -> usize {
-    Filling::default().discs(case)
-}
-
 /// A packed box at rest.
 #[derive(Clone, Debug)]
 pub struct Model {

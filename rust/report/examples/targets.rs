@@ -23,6 +23,7 @@ fn main() {
             msdd: checkout.join("target/release/msdd"),
             work: cache.join("work"),
             stamp,
+            lock: None,
         },
         cache: Cache::new(&cache, &checkout, "any"),
         at_a_time: 2,

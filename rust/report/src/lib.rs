@@ -11,12 +11,14 @@
 //! | [`studies`] | studies: the jobs that each needs, and its results |
 //! | [`failures`] | where methods lose accuracy or fail, and what the programs do there |
 //! | [`report`] | all results as data: the JSON file |
+//! | [`case`] | speed against accuracy for a case of the user's |
 //! | [`draw`] | figures as SVG |
 //! | [`page`] | the page |
 //!
 //! Errors against the discrete elements are those of [`msdd_reference::compare`].
 #![forbid(unsafe_code)]
 
+pub mod case;
 pub mod draw;
 pub mod failures;
 pub mod jobs;
@@ -38,9 +40,15 @@ pub enum ReportError {
     #[error(transparent)]
     File(#[from] msdd_files::FileError),
     #[error(transparent)]
+    Case(#[from] msdd_case::CaseError),
+    #[error(transparent)]
+    Choice(#[from] msdd_choice::ChoiceError),
+    #[error(transparent)]
     Reference(#[from] msdd_reference::ReferenceError),
     #[error("{cache} has no result of these jobs: nothing to draw; without --draw they are run", cache = cache.display())]
     Empty { cache: PathBuf },
+    #[error("there is no chart of this case: {problem}")]
+    Useless { problem: String },
     #[error("cannot start {program}: {problem}")]
     Start { program: String, problem: String },
     #[error("cannot draw {figure}: {problem}")]

@@ -1,6 +1,6 @@
 //! The configurations of the report. To add one, add an entry in [`chart`].
 
-use crate::jobs::job::{Job, SolverJob, ToolJob};
+use crate::jobs::job::{ENGINE, Job, SolverJob, ToolJob};
 use crate::jobs::pool::Asked;
 
 /// Kinds of configurations, which are drawn with different markers and colours.
@@ -284,9 +284,6 @@ pub fn elements(case: &str, end: f64, step: Option<f64>, limit: u64) -> Job {
     }
     tool(arguments, &["cases/common"], limit)
 }
-
-/// Source folders of the discrete element engine and the programs that use it; results depend on them.
-const ENGINE: [&str; 4] = ["rust/dem", "rust/rve", "rust/reference", "Cargo.lock"];
 
 pub fn tool(arguments: Vec<String>, inputs: &[&str], limit: u64) -> Job {
     let inputs = ENGINE.iter().chain(inputs).map(|text| (*text).to_string()).collect();

@@ -112,7 +112,7 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
         return Ok(());
     }
     outln!("\nRunning it in {} ...", chosen.display());
-    let outcome = trial::run(scene, &chosen, &lock)?;
+    let outcome = trial::run(&chosen, &lock)?;
     let half = half(scene, &record, &lock)?;
     let mut space = Values::new();
     if let Some(half) = &half {
@@ -188,7 +188,7 @@ pub(crate) fn attempt(
 ) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
     trial::make(scene, settings, range, Purpose::Trial, folder)?;
-    let outcome = trial::run(scene, folder, lock)?;
+    let outcome = trial::run(folder, lock)?;
     Ok(Outcome { seconds: began.elapsed().as_secs_f64(), ..outcome })
 }
 

@@ -9,12 +9,13 @@ mod summary;
 use crate::error::CliError;
 use crate::progress::Progress;
 use crate::rve::{read_state, write_state};
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use msdd_case::numbers::rounded;
+use msdd_case::packing::sum_porosity;
 use msdd_case::{Case, mesh};
 use msdd_dem::Simulation;
 use msdd_files::{check_target, write};
-use msdd_reference::model::{DISCS, Filling, ModelSpec, check_state, discs_of, pack, statistics};
+use msdd_reference::model::{DISCS, Filling, ModelSpec, check_state, pack, statistics};
 use msdd_reference::run::Watch;
 use msdd_reference::{ReferenceError, RunSpec, Statistics, fields, results::Results, run as run_case};
 use msdd_rve::message::number;
@@ -38,6 +39,13 @@ pub enum Command {
     Scenes(scenes::Arguments),
 }
 
+/// How a box is closed.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Closing {
+    Horizontal,
+    Isotropic,
+}
+
 /// Which packed model.
 #[derive(Args)]
 pub struct ModelArguments {
@@ -54,6 +62,13 @@ pub struct ModelArguments {
     /// results/reference/packed_seed<N>.json.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
+    /// Porosity of the packing, overlaps counted once; the shipped model says how many discs that takes. Default: as full as in
+    /// the cases of the paper.
+    #[arg(long, value_name = "RATIO", requires = "state")]
+    porosity: Option<f64>,
+    /// How the box is closed: along x alone, as in the cases of the paper, or along x and y.
+    #[arg(long, value_enum, default_value_t = Closing::Horizontal, requires = "state")]
+    compression: Closing,
     #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
     threads: u32,
 }
@@ -124,21 +139,28 @@ pub fn run(command: &Command) -> Result<(), CliError> {
 }
 
 impl ModelArguments {
-    fn discs(&self, case: &Case) -> usize {
-        self.discs.unwrap_or_else(|| discs_of(case))
+    fn filling(&self) -> Result<Filling, CliError> {
+        let usual = Filling { isotropic: self.compression == Closing::Isotropic, ..Filling::default() };
+        let Some(porosity) = self.porosity else { return Ok(usual) };
+        let porosity = sum_porosity(porosity).map_err(ReferenceError::from)?;
+        Ok(Filling { porosity, ..usual })
     }
 
-    fn path(&self, case: &Case) -> PathBuf {
-        let name = match self.discs(case) {
+    fn discs(&self, case: &Case) -> Result<usize, CliError> {
+        Ok(self.discs.unwrap_or(self.filling()?.discs(case)))
+    }
+
+    fn path(&self, case: &Case) -> Result<PathBuf, CliError> {
+        let name = match self.discs(case)? {
             DISCS => format!("packed_seed{}.json", self.seed),
             discs => format!("packed_{discs}_seed{}.json", self.seed),
         };
-        self.state.clone().unwrap_or_else(|| Path::new("results/reference").join(name))
+        Ok(self.state.clone().unwrap_or_else(|| Path::new("results/reference").join(name)))
     }
 
     /// The packed model: read from its file, or else packed now and written there.
     fn load(&self, case: &Case) -> Result<Simulation, CliError> {
-        let path = self.path(case);
+        let path = self.path(case)?;
         if !path.exists() {
             self.pack(case)?;
         }
@@ -146,8 +168,9 @@ impl ModelArguments {
         let simulation = read_state(&path)?;
         let refused = |error: ReferenceError| CliError::Message(format!("{}: {error}", path.display()));
         check_state(&simulation, case).map_err(refused)?;
-        if self.state.is_none() && simulation.discs.len() != self.discs(case) {
-            let (found, wanted) = (simulation.discs.len(), self.discs(case));
+        let wanted = self.discs(case)?;
+        if self.state.is_none() && simulation.discs.len() != wanted {
+            let found = simulation.discs.len();
             let message = format!("{}: {found} particles, allowed: {wanted}, or --state", path.display());
             return Err(CliError::Message(message));
         }
@@ -155,14 +178,14 @@ impl ModelArguments {
     }
 
     fn pack(&self, case: &Case) -> Result<(), CliError> {
-        check_target(&self.path(case))?;
+        let path = self.path(case)?;
+        check_target(&path)?;
         let begin = Instant::now();
         let mut progress = Progress::new("packing, %", 100);
-        let spec = ModelSpec { discs: self.discs(case), seed: self.seed, filling: Filling::default() };
+        let spec = ModelSpec { discs: self.discs(case)?, seed: self.seed, filling: self.filling()? };
         let watch = |done: f64| progress.set((100.0 * done) as u64, 100, "");
         let model = pack(spec, case, self.threads as usize, watch)?;
         progress.finish();
-        let path = self.path(case);
         write_state(&path, &model.simulation)?;
         outln!(
             "packed seed {} in {:.1} s: {} after {} steps, {}",

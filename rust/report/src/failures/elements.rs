@@ -102,7 +102,7 @@ pub fn limits(quick: bool) -> Job {
     let inputs = ["rust/cli/src/bench", "rust/surrogate/src", models[0], models[1]];
     match plan::tool(arguments.map(str::to_string).to_vec(), &inputs, 600) {
         Job::Tool(tool) => Job::Tool(ToolJob { output: Some("limits.json".to_string()), ..tool }),
-        Job::Solver(solver) => Job::Solver(solver),
+        other => other,
     }
 }
 

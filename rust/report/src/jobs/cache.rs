@@ -2,7 +2,7 @@
 //! that it reads, the programs, the processor.
 
 use crate::jobs::execute::Record;
-use crate::jobs::job::{Job, Part};
+use crate::jobs::job::{CaseProgram, ENGINE, Job, Part};
 use crate::{ReportError, read_text, write_text};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
@@ -49,17 +49,35 @@ impl Cache {
                 if let Some(source) = &solver.plugin {
                     parts.push(self.hash(source)?);
                 }
-                for program in PROGRAMS {
-                    parts.push(self.hash(&format!("openfoam/platforms/{program}"))?);
-                }
+                self.add_programs(&mut parts)?;
             }
             Job::Tool(tool) => {
                 for input in &tool.inputs {
                     parts.push(self.hash(input)?);
                 }
             }
+            // The checksum of the case is part of the job.
+            Job::Case(case) => match case.program {
+                CaseProgram::Solver(_) => self.add_programs(&mut parts)?,
+                CaseProgram::Choice(_) => {
+                    self.add_programs(&mut parts)?;
+                    parts.push(self.hash("rust/choice/src")?);
+                }
+                CaseProgram::Discs(_) => {
+                    for input in ENGINE {
+                        parts.push(self.hash(input)?);
+                    }
+                }
+            },
         }
         Ok(hex(&Sha256::digest(parts.join("\n"))))
+    }
+
+    fn add_programs(&self, parts: &mut Vec<String>) -> Result<(), ReportError> {
+        for program in PROGRAMS {
+            parts.push(self.hash(&format!("openfoam/platforms/{program}"))?);
+        }
+        Ok(())
     }
 
     /// Hash of a file, or of all files of a folder with their names, but without results and meshes.

@@ -1,13 +1,16 @@
 //! Runs one job. Every job ends within its time limit, and with one of the outcomes.
 
-use super::setup;
-use crate::jobs::job::{Job, SolverJob, ToolJob};
+use super::{setup, user_case};
+use crate::jobs::job::{CaseJob, CaseProgram, Job, SolverJob, ToolJob};
 use crate::{ReportError, read_text, write_text};
+use msdd_choice::ChoiceError;
+use msdd_files::Lock;
 use msdd_reference::solver;
 use msdd_reference::solver::Run;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::sync::Arc;
 use std::time::Instant;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -64,7 +67,8 @@ pub struct Record {
     pub cpu_seconds: f64,
     pub wall_seconds: f64,
     pub run: Option<Run>,
-    /// The output of a tool, and the text of the output file that the job names.
+    /// The output of a tool, and the text of the output file that the job names; of a run on a case of the user's, what it has
+    /// given ([`user_case::result`]).
     pub printed: String,
     pub file: Option<String>,
     pub stamp: Stamp,
@@ -82,6 +86,8 @@ pub struct Place {
     /// Folder for the folders of running jobs.
     pub work: PathBuf,
     pub stamp: Stamp,
+    /// A lock that the programs of the jobs hold, too, so that it lasts until they have ended if this program is killed.
+    pub lock: Option<Arc<Lock>>,
 }
 
 /// Separates the arguments of two commands of one job, which run one after the other.
@@ -99,6 +105,7 @@ pub fn execute(place: &Place, job: &Job, name: &str) -> Result<Record, ReportErr
     let record = match job {
         Job::Solver(solver) => run_solver(place, job, solver, &folder),
         Job::Tool(tool) => run_tool(place, job, tool, &folder),
+        Job::Case(case) => return run_case(place, job, case),
     };
     let _ = std::fs::remove_dir_all(&folder);
     // The path of the folder is removed from the message, because it differs from run to run.
@@ -145,13 +152,15 @@ fn timed(
         folder.display(),
         wall = PATIENCE * limit,
     );
+    let input = match &place.lock {
+        Some(lock) => Stdio::from(lock.handle()?),
+        None => Stdio::null(),
+    };
     let began = Instant::now();
-    let status = Command::new("bash")
-        .args(["-c", &script])
-        .stdin(std::process::Stdio::null())
-        .stderr(std::process::Stdio::null())
-        .status()
-        .map_err(|error| ReportError::Start { program: "bash".to_string(), problem: error.to_string() })?;
+    let status =
+        Command::new("bash").args(["-c", &script]).stdin(input).stderr(Stdio::null()).status().map_err(
+            |error| ReportError::Start { program: "bash".to_string(), problem: error.to_string() },
+        )?;
     let cpu = read_text(&folder.join("cpu")).unwrap_or_default();
     // The last line; bash may print a line before it on the signal that ended the program.
     let cpu = cpu.lines().last().unwrap_or_default();
@@ -189,15 +198,8 @@ fn run_solver(place: &Place, job: &Job, asked: &SolverJob, folder: &Path) -> Res
         let log = read_text(&folder.join("log.blockMesh")).unwrap_or_default();
         return Ok(record(place, job, &ended, Outcome::Refused, format!("blockMesh: {}", fatal(&log))));
     }
-    if timed_out(ended.code) {
-        let message = format!("stopped after {} s at t = {} s", asked.limit, last_time(&log));
-        return Ok(record(place, job, &ended, Outcome::TimedOut, message));
-    }
-    let begun = log.contains("\nTime = ");
-    if ended.code != 0 {
-        let outcome = if begun { Outcome::Failed } else { Outcome::Refused };
-        let at = if begun { format!(" (t = {} s)", last_time(&log)) } else { String::new() };
-        return Ok(record(place, job, &ended, outcome, fatal(&log) + &at));
+    if let Some((outcome, message)) = ill(&ended, asked.limit, &log) {
+        return Ok(record(place, job, &ended, outcome, message));
     }
     match solver::read(folder, asked.mesh, asked.end) {
         Ok(run) => {
@@ -210,6 +212,51 @@ fn run_solver(place: &Place, job: &Job, asked: &SolverJob, folder: &Path) -> Res
             Ok(record(place, job, &ended, Outcome::Failed, text))
         }
     }
+}
+
+/// How and why a run of the solver with this log was not done, if it was not.
+fn ill(ended: &Ended, limit: u64, log: &str) -> Option<(Outcome, String)> {
+    if timed_out(ended.code) {
+        let message = format!("stopped after {limit} s at t = {} s", last_time(log));
+        return Some((Outcome::TimedOut, message));
+    }
+    let begun = log.contains("\nTime = ");
+    let outcome = if begun { Outcome::Failed } else { Outcome::Refused };
+    let at = if begun { format!(" (t = {} s)", last_time(log)) } else { String::new() };
+    (ended.code != 0).then(|| (outcome, fatal(log) + &at))
+}
+
+/// Runs a program on a copy of a case of the user's, which is removed afterwards.
+fn run_case(place: &Place, job: &Job, case: &CaseJob) -> Result<Record, ReportError> {
+    let folder = user_case::copy_of(&case.folder);
+    let ended = match user_case::prepare(case) {
+        Ok(()) => {
+            write_text(&folder.join("log"), "")?;
+            timed(place, &folder, "true", &user_case::command(case, &place.msdd), case.limit)?
+        }
+        Err(ChoiceError::Run { program, problem, .. }) => {
+            user_case::clear(&case.folder)?;
+            let nothing = Ended { code: 1, cpu: 0.0, wall: 0.0 };
+            return Ok(record(place, job, &nothing, Outcome::Refused, format!("{program}: {problem}")));
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let log = read_text(&folder.join("log")).unwrap_or_default();
+    let ill = match case.program {
+        CaseProgram::Solver(_) => ill(&ended, case.limit, &log),
+        _ if timed_out(ended.code) => Some((Outcome::TimedOut, format!("stopped after {} s", case.limit))),
+        _ => (ended.code != 0).then(|| (Outcome::Failed, tail(&log))),
+    };
+    let (outcome, message, file) = match (ill, user_case::result(case)) {
+        (Some((outcome, message)), _) => (outcome, message, None),
+        (None, Ok(text)) => (Outcome::Done, warning(&log), Some(text)),
+        (None, Err(error)) => (Outcome::Failed, error.to_string(), None),
+    };
+    user_case::clear(&case.folder)?;
+    // The place of the case differs from machine to machine.
+    let inside = case.folder.parent().map_or(String::new(), |folder| format!("{}/", folder.display()));
+    let message = if inside.len() > 1 { message.replace(&inside, "") } else { message };
+    Ok(Record { file, ..record(place, job, &ended, outcome, message) })
 }
 
 fn run_tool(place: &Place, job: &Job, tool: &ToolJob, folder: &Path) -> Result<Record, ReportError> {
@@ -261,14 +308,20 @@ fn fatal(log: &str) -> String {
     short(&body.join(" "))
 }
 
+/// What OpenFOAM always warns of when PETSc has been used; it says nothing about the run.
+const USUAL_WARNING: &str = "Finalizing MPI, but was initialized elsewhere";
+
 /// The first warning of a run, without the lines around it.
 fn warning(log: &str) -> String {
-    let Some((_, rest)) = log.split_once("FOAM Warning :") else { return String::new() };
     let frame = |line: &&str| ["From ", "in file"].iter().any(|begin| line.trim_start().starts_with(begin));
     let over =
         |line: &str| line.trim().is_empty() || line.starts_with("DICPCG") || line.starts_with("Time = ");
-    let lines = rest.lines().enumerate().take_while(|(k, line)| *k < 1 || !over(line));
-    short(&lines.map(|(_, line)| line).filter(|line| !frame(line)).collect::<Vec<_>>().join(" "))
+    let text = |rest: &str| {
+        let lines = rest.lines().enumerate().take_while(|(k, line)| *k < 1 || !over(line));
+        short(&lines.map(|(_, line)| line).filter(|line| !frame(line)).collect::<Vec<_>>().join(" "))
+    };
+    let mut warnings = log.split("FOAM Warning :").skip(1).map(text);
+    warnings.find(|warning| !warning.starts_with(USUAL_WARNING)).unwrap_or_default()
 }
 
 fn last_time(log: &str) -> &str {
@@ -285,7 +338,7 @@ mod tests {
     fn place() -> Place {
         let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap();
         let work = std::env::temp_dir().join(format!("msdd-report-execute-{}", std::process::id()));
-        Place { checkout, msdd: PathBuf::from("/bin/sh"), work, stamp: Stamp::default() }
+        Place { checkout, msdd: PathBuf::from("/bin/sh"), work, stamp: Stamp::default(), lock: None }
     }
 
     fn shell(text: &str, limit: u64) -> Job {
@@ -316,6 +369,7 @@ mod tests {
             "x\n--> FOAM Warning : \n    From void f()\n    in file f.C at line 3\n    too hot\n\nTime = 4\n";
         assert_eq!(warning(warned), "too hot");
         assert_eq!(warning("--> FOAM Warning : too cold\n\nTime = 4\n"), "too cold");
+        assert_eq!(warning(&format!("--> FOAM Warning : \n    {USUAL_WARNING}\n\n")), "");
         assert_eq!(fatal("a\nb\n\nc\nd\n"), "b c d");
         assert_eq!(last_time("\nTime = 0.1\n\nTime = 0.2\nx"), "0.2");
         assert_eq!(last_time("nothing"), "0");

@@ -1,7 +1,9 @@
 //! One configuration to run. A job contains everything that its result depends on, except the files, which the cache hashes.
 
+use msdd_choice::settings::Settings;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// Cells along x and y of the shipped cases.
 pub const MESH: [usize; 2] = [100, 30];
@@ -9,6 +11,9 @@ pub const MESH: [usize; 2] = [100, 30];
 pub const BOX: [f64; 2] = [2.15, 0.645];
 /// The probes P1, P2, P3, where T is compared [m] (Fig. 7).
 pub const PROBES: [[f64; 2]; 3] = [[0.3225, 0.3225], [1.075, 0.3225], [1.8275, 0.3225]];
+
+/// Source folders of the discrete element engine and the programs that use it; results depend on them.
+pub const ENGINE: [&str; 4] = ["rust/dem", "rust/rve", "rust/reference", "Cargo.lock"];
 
 /// The part of the box that is computed. Where the box is cut, the boundary is a plane of symmetry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -125,10 +130,55 @@ pub struct ToolJob {
     pub limit: u64,
 }
 
+/// A run on a copy of a case of the user's; the copy stands beside it while the job runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CaseJob {
+    /// The user's case folder.
+    pub folder: PathBuf,
+    /// Checksum of the files of the case.
+    pub checksum: String,
+    pub program: CaseProgram,
+    pub limit: u64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum CaseProgram {
+    /// `msddFoam`.
+    Solver(CaseRun),
+    /// `msdd case solve`, without the chosen run, for a wanted accuracy of T [% of its range].
+    Choice(f64),
+    /// `msdd reference run`.
+    Discs(CaseDiscs),
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CaseRun {
+    pub settings: Settings,
+    /// Range of T [K], from which the tolerance follows; `None`: that of the case stays.
+    pub range: Option<f64>,
+    /// Text that is added at the end of files of the case.
+    pub append: BTreeMap<String, String>,
+    /// Lower left corner and size of the box [m] if the run is compared with discs, which are observed at points that stay in
+    /// space.
+    pub discs: Option<[[f64; 2]; 2]>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CaseDiscs {
+    pub seed: u64,
+    /// Mean initial porosity of the case, overlaps counted once.
+    pub porosity: f64,
+    /// Whether the box is closed along x and y, instead of along x alone.
+    pub isotropic: bool,
+    /// Time between two rows of the results [s].
+    pub interval: f64,
+}
+
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Job {
     Solver(SolverJob),
     Tool(ToolJob),
+    Case(CaseJob),
 }
 
 impl Job {
@@ -139,6 +189,14 @@ impl Job {
             Self::Tool(job) => {
                 format!("msdd {}", job.arguments.iter().take(2).cloned().collect::<Vec<_>>().join(" "))
             }
+            Self::Case(job) => {
+                let case = job.folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                match &job.program {
+                    CaseProgram::Solver(_) => case,
+                    CaseProgram::Choice(percent) => format!("{case}, choice for {percent} %"),
+                    CaseProgram::Discs(discs) => format!("{case}, discs, seed {}", discs.seed),
+                }
+            }
         }
     }
 
@@ -146,6 +204,7 @@ impl Job {
         match self {
             Self::Solver(job) => job.limit,
             Self::Tool(job) => job.limit,
+            Self::Case(job) => job.limit,
         }
     }
 }

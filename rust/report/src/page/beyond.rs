@@ -55,7 +55,7 @@ fn convergence(made: &Made) -> Result<String, ReportError> {
         said.join(", ")
     );
     Figure { id: "convergence", panels, keys, caption, source: "measured and cached; paper quoted" }
-        .html(made)
+        .html(&made.report.made)
 }
 
 fn sensitivity(made: &Made) -> String {
@@ -135,7 +135,7 @@ fn other_cases(made: &Made) -> Result<String, ReportError> {
         worst(WAYS[1].0).join("; ")
     );
     let source = "discrete elements committed, packings 11 and 12; solver measured and cached";
-    let figure = Figure { id: "other-cases", panels, keys, caption, source }.html(made)?;
+    let figure = Figure { id: "other-cases", panels, keys, caption, source }.html(&made.report.made)?;
     Ok(format!("<h3>Another scene, another material</h3>\n{}{figure}{}", other_table(made), scalings(made)))
 }
 

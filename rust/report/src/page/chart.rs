@@ -5,7 +5,7 @@ use crate::ReportError;
 use crate::draw::{Axis, Line, MARKERS, Series, Style, plot};
 use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
-use crate::studies::front::Point;
+use crate::studies::front::{Point, stairs};
 use std::fmt::Write;
 
 const COST: Axis = Axis { label: "cost [core-s]", log: true, range: Some((0.05, 2e5)) };
@@ -58,7 +58,7 @@ fn figure(made: &Made, which: usize) -> Result<String, ReportError> {
     let mut panels = Vec::new();
     for (case, points) in charts(made) {
         let mut series = vec![Series {
-            points: front(points, which),
+            points: stairs(points, which),
             bars: Vec::new(),
             style: Style::line(4, Line::Solid),
         }];
@@ -97,22 +97,7 @@ fn figure(made: &Made, which: usize) -> Result<String, ReportError> {
         }
     );
     let id = ["chart-temperature", "chart-pressure"][which];
-    Figure { id, panels, keys, caption, source: "measured and cached; paper quoted" }.html(made)
-}
-
-fn front(points: &[Point], which: usize) -> Vec<(f64, f64)> {
-    let mut places: Vec<(f64, f64)> =
-        points.iter().filter(|p| p.front[which]).filter_map(|p| p.place(which)).collect();
-    places.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // The line is a staircase: for a cost between those of two points, the cheaper point is the best that can be had.
-    let mut stairs = Vec::new();
-    for place in places {
-        if let Some(&(_, last)) = stairs.last() {
-            stairs.push((place.0, last));
-        }
-        stairs.push(place);
-    }
-    stairs
+    Figure { id, panels, keys, caption, source: "measured and cached; paper quoted" }.html(&made.report.made)
 }
 
 fn best(case: &str, points: &[Point], which: usize) -> Option<String> {

@@ -109,7 +109,7 @@ fn temperatures(made: &Made) -> Result<String, ReportError> {
         "Fig. #. T at the probes (paper, Figs. 11, 17, 18): means over the packings. Largest errors at P1, P2, P3: {}.",
         worst_temperatures(made)
     );
-    Figure { id: "temperatures", panels, keys: keys(made), caption, source: SOURCE }.html(made)
+    Figure { id: "temperatures", panels, keys: keys(made), caption, source: SOURCE }.html(&made.report.made)
 }
 
 fn worst_temperatures(made: &Made) -> String {
@@ -151,7 +151,7 @@ fn pressures(made: &Made) -> Result<String, ReportError> {
         last.1 = "discrete elements, inner region, bars: scatter of the packings".to_string();
     }
     keys.push((DISCS_WHOLE, "discrete elements, whole box".to_string()));
-    Figure { id: "pressures", panels, keys, caption, source: SOURCE }.html(made)
+    Figure { id: "pressures", panels, keys, caption, source: SOURCE }.html(&made.report.made)
 }
 
 /// A group of walls: name, their indices in the order left, right, bottom, top, and how it is drawn.
@@ -233,5 +233,5 @@ fn walls(made: &Made) -> Result<String, ReportError> {
          that move, in the cells at the wall. Largest difference, solver minus discrete elements [kPa]: {}.",
         said.join("; ")
     );
-    Figure { id: "walls", panels, keys, caption, source: SOURCE }.html(made)
+    Figure { id: "walls", panels, keys, caption, source: SOURCE }.html(&made.report.made)
 }

@@ -62,7 +62,7 @@ fn start_maps(made: &Made) -> Result<String, ReportError> {
          affine conductivity, and is compared with that.",
         said.join(". ")
     );
-    Figure { id: "start", panels, keys: Vec::new(), caption, source: SOURCE }.html(made)
+    Figure { id: "start", panels, keys: Vec::new(), caption, source: SOURCE }.html(&made.report.made)
 }
 
 /// Mean over the packings of values in sub-regions.
@@ -100,7 +100,7 @@ fn end_maps(made: &Made) -> Result<String, ReportError> {
     let caption = "Fig. #. Means over 10 × 3 sub-regions at the end, and over the packings (paper, Figs. 14, 16, 19): lighter means \
                    higher, and the maps of a panel have the same scale. K of discrete elements is that of the resistor network solved."
         .to_string();
-    Figure { id: "maps", panels, keys: Vec::new(), caption, source: SOURCE }.html(made)
+    Figure { id: "maps", panels, keys: Vec::new(), caption, source: SOURCE }.html(&made.report.made)
 }
 
 fn profiles(made: &Made) -> Result<String, ReportError> {
@@ -133,7 +133,7 @@ fn profiles(made: &Made) -> Result<String, ReportError> {
     let caption = "Fig. #. Case HC at the end, ten slices along x (paper, Fig. 15): when grains stay, each slice keeps the stress of its own strain; \
                    when grains move, σ_xx becomes even along x, except for the friction of the long walls."
         .to_string();
-    Figure { id: "profiles", panels, keys: keys(made), caption, source: SOURCE }.html(made)
+    Figure { id: "profiles", panels, keys: keys(made), caption, source: SOURCE }.html(&made.report.made)
 }
 
 /// Displacement along x at the end of HC.
@@ -171,5 +171,5 @@ fn displacement_map(made: &Made) -> Result<String, ReportError> {
         maps("case HC: u_x [mm]", 1, &named[..2])?,
         maps("case HC: difference of u_x [mm]", 1, &named[2..])?,
     ];
-    Figure { id: "displacement", panels, keys: Vec::new(), caption, source: SOURCE }.html(made)
+    Figure { id: "displacement", panels, keys: Vec::new(), caption, source: SOURCE }.html(&made.report.made)
 }

@@ -2,7 +2,7 @@
 
 use crate::ReportError;
 use crate::draw::{Style, escape, key};
-use crate::report::Made;
+use crate::jobs::execute::Stamp;
 use msdd_reference::packings::CASES;
 use std::fmt::Write;
 
@@ -16,12 +16,11 @@ pub struct Figure<'a> {
 }
 
 impl Figure<'_> {
-    pub fn html(&self, made: &Made) -> Result<String, ReportError> {
+    pub fn html(&self, stamp: &Stamp) -> Result<String, ReportError> {
         let mut keys = String::new();
         for (style, text) in &self.keys {
             let _ = write!(keys, "<span>{} {}</span>", key(*style)?, escape(text));
         }
-        let stamp = &made.report.made;
         Ok(format!(
             "<figure id=\"{}\">\n<div class=\"panels\">\n{}</div>\n<div class=\"key\">{keys}</div>\n<figcaption>{} \
              <span class=\"source\">{} · <code>scripts/report</code> · {} · {}</span></figcaption>\n</figure>\n",
@@ -64,14 +63,37 @@ pub fn fixed(value: Option<f64>, digits: usize) -> String {
     value.filter(|v| v.is_finite()).map_or("–".to_string(), |v| format!("{v:.digits$}"))
 }
 
+/// The beginning of a page, up to its first heading.
+pub fn head(title: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>MSDD: {title}</title>\n<style>\n{}</style>\n</head>\n<body>\n",
+        include_str!("style.css"),
+        title = escape(title)
+    )
+}
+
 /// Name of the case in a folder; those without expansion have a star.
 pub fn case_name(case: &str) -> &str {
     CASES.iter().find(|c| c.0 == case).map_or(case, |c| c.1)
 }
 
+/// Numbers the figures in their order: captions begin with "Fig. #.".
+pub fn numbered(page: &str) -> String {
+    let mut parts = page.split("Fig. #.");
+    let first = parts.next().unwrap_or_default().to_string();
+    parts.enumerate().fold(first, |text, (k, part)| format!("{text}Fig. {}.{part}", k + 1))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn figures_are_numbered_as_they_follow_each_other() {
+        assert_eq!(numbered("a Fig. #. b Fig. #. c"), "a Fig. 1. b Fig. 2. c");
+    }
 
     #[test]
     fn text_of_runs_cannot_break_the_page() {

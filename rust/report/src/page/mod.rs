@@ -1,6 +1,7 @@
 //! The page: one HTML file with its figures inside, without scripts.
 
 mod beyond;
+pub mod case;
 mod chart;
 mod curves;
 mod edge;
@@ -21,13 +22,11 @@ use std::fmt::Write;
 pub fn text(made: &Made) -> Result<String, ReportError> {
     let report = &made.report;
     let stamp = &report.made;
-    let mut page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>MSDD: speed against accuracy</title>\n<style>\n{}</style>\n</head>\n<body>\n\
-         <h1>Speed against accuracy</h1>\n<p>Heat conduction with thermal expansion in a bed of 15 000 grains: the solver against \
-         discrete elements of the same packings. {} jobs, {} of them from the cache; made {} on {}, commit {}.{}</p>\n",
-        include_str!("style.css"),
+    let mut page = html::head("speed against accuracy");
+    let _ = writeln!(
+        page,
+        "<h1>Speed against accuracy</h1>\n<p>Heat conduction with thermal expansion in a bed of 15 000 grains: the solver against \
+         discrete elements of the same packings. {} jobs, {} of them from the cache; made {} on {}, commit {}.{}</p>",
         report.jobs,
         report.cached_jobs,
         escape(&stamp.date),
@@ -51,20 +50,5 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
     for text in &report.left_out {
         let _ = writeln!(page, "<li>{}</li>", escape(text));
     }
-    Ok(numbered(&(page + "</ul>\n</body>\n</html>\n")))
-}
-
-/// Numbers the figures in their order: captions begin with "Fig. #.".
-fn numbered(page: &str) -> String {
-    let mut parts = page.split("Fig. #.");
-    let first = parts.next().unwrap_or_default().to_string();
-    parts.enumerate().fold(first, |text, (k, part)| format!("{text}Fig. {}.{part}", k + 1))
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn figures_are_numbered_as_they_follow_each_other() {
-        assert_eq!(super::numbered("a Fig. #. b Fig. #. c"), "a Fig. 1. b Fig. 2. c");
-    }
+    Ok(html::numbered(&(page + "</ul>\n</body>\n</html>\n")))
 }

@@ -122,7 +122,7 @@ fn queries(made: &Made) -> Result<String, ReportError> {
     keys.push((OTHERS, "other sub-regions".to_string()));
     keys.push((HULL, "hull of the database".to_string()));
     let source = format!("database committed, {DATABASE}; solver measured and cached");
-    Figure { id: "queries", panels, keys, caption, source: &source }.html(made)
+    Figure { id: "queries", panels, keys, caption, source: &source }.html(&made.report.made)
 }
 
 /// Grains of a table, with the largest overlap of each over its radius [%].
@@ -191,7 +191,7 @@ fn around_the_middle(made: &Made) -> Result<String, ReportError> {
         said.join("; ")
     );
     Figure { id: "grains", panels, keys: Vec::new(), caption, source: "discrete elements committed" }
-        .html(made)
+        .html(&made.report.made)
 }
 
 #[cfg(test)]

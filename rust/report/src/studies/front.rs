@@ -48,6 +48,22 @@ pub fn mark(points: &mut [Point]) {
     }
 }
 
+/// Corners of the line of the front of T (0) or of the pressure (1), by rising cost.
+pub fn stairs(points: &[Point], which: usize) -> Vec<(f64, f64)> {
+    let mut places: Vec<(f64, f64)> =
+        points.iter().filter(|p| p.front[which]).filter_map(|p| p.place(which)).collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // The line is a staircase: for a cost between those of two points, the cheaper point is the best that can be had.
+    let mut stairs = Vec::new();
+    for place in places {
+        if let Some(&(_, last)) = stairs.last() {
+            stairs.push((place.0, last));
+        }
+        stairs.push(place);
+    }
+    stairs
+}
+
 /// The cheapest configuration with an error of T of at most `error` [%].
 pub fn cheapest(points: &[Point], error: f64) -> Option<&Point> {
     let good = points.iter().filter(|p| p.takes_part());

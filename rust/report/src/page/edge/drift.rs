@@ -42,5 +42,5 @@ pub fn drift(made: &Made) -> Result<String, ReportError> {
         caption,
         source: "msdd score on the full database; measured and cached",
     }
-    .html(made)
+    .html(&made.report.made)
 }

@@ -45,7 +45,7 @@ pub fn steps(made: &Made) -> Result<String, ReportError> {
         caption,
         source: "msdd bench stability, 500 discs; measured and cached",
     }
-    .html(made)
+    .html(&made.report.made)
 }
 
 /// Styles of the two strains, +2 and -2 %.
@@ -101,7 +101,7 @@ pub fn slowness(made: &Made) -> Result<String, ReportError> {
         ])
         .collect();
     let source = "msdd bench limits, periodic boxes of 500 discs; measured and cached";
-    Figure { id: "slowness", panels, keys, caption: said_of(limits), source }.html(made)
+    Figure { id: "slowness", panels, keys, caption: said_of(limits), source }.html(&made.report.made)
 }
 
 fn said_of(limits: &Limits) -> String {
@@ -173,5 +173,5 @@ pub fn unjamming(made: &Made) -> Result<String, ReportError> {
     );
     let keys = styles.map(|(name, style)| (style, name.to_string())).to_vec();
     let source = "msdd bench limits, periodic boxes of 500 discs; measured and cached";
-    Figure { id: "unjamming", panels, keys, caption, source }.html(made)
+    Figure { id: "unjamming", panels, keys, caption, source }.html(&made.report.made)
 }

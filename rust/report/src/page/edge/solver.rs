@@ -41,7 +41,7 @@ pub fn coupling(made: &Made) -> Result<String, ReportError> {
          scheme {largest:.1} K), but accuracy is lost without a warning; adaptive steps control the error. {}",
         if ended.is_empty() { String::new() } else { format!("Ended early: {}.", ended.join(", ")) }
     );
-    Figure { id: "coupling", panels, keys, caption, source: "measured and cached" }.html(made)
+    Figure { id: "coupling", panels, keys, caption, source: "measured and cached" }.html(&made.report.made)
 }
 
 /// Contrasts of conductivity, and slanted cells.
@@ -81,7 +81,8 @@ pub fn discretisation(made: &Made) -> Result<String, ReportError> {
         keys.extend(more);
         caption += &said;
     }
-    Figure { id: "discretisation", panels, keys, caption, source: "measured and cached" }.html(made)
+    Figure { id: "discretisation", panels, keys, caption, source: "measured and cached" }
+        .html(&made.report.made)
 }
 
 fn slant(made: &Made) -> Result<Part, ReportError> {
@@ -155,5 +156,5 @@ pub fn cycles(made: &Made) -> Result<String, ReportError> {
         fixed(worst(&made.report.failures.cycles, "move"), 1)
     );
     let source = "discrete elements committed, seeds 21 to 23; solver measured and cached";
-    Figure { id: "cycles", panels, keys, caption, source }.html(made)
+    Figure { id: "cycles", panels, keys, caption, source }.html(&made.report.made)
 }
