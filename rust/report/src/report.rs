@@ -13,6 +13,7 @@ use crate::studies::economy::{self, Saving};
 use crate::studies::front::Point;
 use crate::studies::known::{self, KnownStates};
 use crate::studies::other_cases::{self, OtherCase, OtherCases, Scaling};
+use crate::studies::requests::Judged;
 use crate::studies::sensitivity::{self, Sensitivity};
 use crate::studies::targets::{Target, targets};
 use crate::studies::validation::{Validated, scatter, validation};
@@ -56,6 +57,8 @@ pub struct Made {
     pub other_cases: OtherCases,
     /// Hulls of the states in the database, within which models were trained.
     pub known: KnownStates,
+    /// Requests for an accuracy in the reference scenes, and how the bands do there.
+    pub judged: Judged,
 }
 
 /// Makes the report; runs the jobs that the cache does not have.
@@ -105,7 +108,8 @@ pub fn make(
         left_out: left_out(settings.quick),
     };
     let details = detail::read(settings, &records)?;
-    Ok(Made { report, references, runs, details, other_cases, known })
+    let judged = Judged::read(&settings.place.checkout.join("cases/scenes"))?;
+    Ok(Made { report, references, runs, details, other_cases, known, judged })
 }
 
 /// Packs the box of the discrete elements unless its state file is there.

@@ -18,7 +18,7 @@ use crate::stage::Stage;
 use crate::team;
 use crate::time_step::{self, StepChoice};
 use crate::vector::larger;
-use crate::walls::Walls;
+use crate::walls::{Side, Walls};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -256,6 +256,11 @@ impl Simulation {
     /// The cell of a periodic box; none between walls.
     pub fn cell(&self) -> Option<Cell> {
         self.periodic.as_ref().map(|periodic| Cell::new(&self.walls, periodic))
+    }
+
+    /// Takes back the friction that the grains at a wall have mobilised there, as if the wall had come along with them.
+    pub fn release_friction(&mut self, side: Side) {
+        self.neighbours.walls[side as usize].tangential.fill(0.0);
     }
 
     /// Runs the neighbour search now, whether necessary or not. Results do not depend on when it runs.

@@ -7,6 +7,7 @@ mod curves;
 mod edge;
 mod fields;
 mod html;
+mod requests;
 mod states;
 mod validation;
 
@@ -44,6 +45,7 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
              Nothing is fitted to these runs: conductivity, stress, mechanical tangent and wall friction come from the database of \
              small boxes. Cost is processor time of one process, start and output included.</p>\n";
     page += &chart::section(made)?;
+    page += &requests::section(made)?;
     page += &validation::section(made)?;
     page += &edge::section(made)?;
     let _ = write!(page, "<h2>Left out</h2>\n<ul>\n");

@@ -9,6 +9,7 @@
 //! | [`convergence`] | order of the coupling in time |
 //! | [`sensitivity`] | influence of the parameters of the mechanics |
 //! | [`other_cases`] | another geometry, another material |
+//! | [`requests`] | what became of requests for an accuracy in the reference scenes |
 //! | [`known`] | states of the database |
 //! | [`detail`] | runs that write additional data for figures |
 
@@ -19,6 +20,7 @@ pub mod economy;
 pub mod front;
 pub mod known;
 pub mod other_cases;
+pub mod requests;
 pub mod sensitivity;
 pub mod targets;
 pub mod validation;

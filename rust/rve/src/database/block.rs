@@ -42,6 +42,9 @@ pub struct Block {
     /// Directions in which the walls of `wall_shear` move; default: same.
     #[serde(default)]
     pub slide: Option<Slide>,
+    /// Whether the friction that bottom and top have mobilised while the box closed is taken back before they slip; default: no.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub release_walls: bool,
 }
 
 /// Packings of one size, each of which follows paths of strain from its packed state. The boxes are periodic.
@@ -184,6 +187,9 @@ impl Block {
         self.check_returns()?;
         if self.slide.is_some() && kind != Kind::WallShear {
             return Err("slide: allowed in [[wall_shear]] only".into());
+        }
+        if self.release_walls && kind != Kind::WallShear {
+            return Err("release_walls: allowed in [[wall_shear]] only".into());
         }
         if self.boundary == Boundary::Periodic && kind == Kind::WallShear {
             return Err("boundary: periodic: allowed in [[thermal]] and [[mechanics]] only".into());

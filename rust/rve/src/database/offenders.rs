@@ -147,6 +147,7 @@ impl Offenders {
                 return_stops: Vec::new(),
                 boundary,
                 slide: None,
+                release_walls: false,
             }
         });
         let plan = Plan {

@@ -60,6 +60,7 @@ pub struct Job {
     pub stops: Vec<f64>,
     pub return_stops: Vec<f64>,
     pub slide: Slide,
+    pub release_walls: bool,
     /// How paths are followed; none for ramps.
     pub steps: Option<Steps>,
 }
@@ -198,6 +199,7 @@ impl Plan {
             stops: Vec::new(),
             return_stops: Vec::new(),
             slide: Slide::default(),
+            release_walls: false,
             steps: None,
         };
         match block {
@@ -210,6 +212,7 @@ impl Plan {
                     stops: block.stops.clone(),
                     return_stops: if given { block.return_stops.clone() } else { back() },
                     slide: block.slide.unwrap_or_default(),
+                    release_walls: block.release_walls,
                     ..job
                 }
             }

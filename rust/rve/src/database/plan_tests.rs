@@ -47,6 +47,8 @@ fn bad_plans_name_file_key_value_and_range() {
     );
     assert!(
         error(&GOOD.replace("repeats = 2", "repeats = 2\nslide = \"same\"")).contains("slide: allowed in")
+            && error(&GOOD.replace("repeats = 2", "repeats = 2\nrelease_walls = true"))
+                .contains("release_walls: allowed in")
     );
     let empty = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 1\n";
     assert!(error(empty).contains("at least one block"));

@@ -9,6 +9,7 @@ use crate::{
     Averages, Packed, Protocol, Ramp, RegionKind, RveError, Simulation, Stop, Strains, follow, homogenise,
     pack_as, slide, stopwatch,
 };
+use msdd_dem::Side;
 use std::collections::BTreeMap;
 
 /// Makes a packing and takes it through its ramps. A stop that was not reached has a row, too, with the reason.
@@ -138,6 +139,10 @@ impl Walk<'_> {
         let slips: Vec<f64> = stops.iter().map(|place| place.slip).collect();
         let mut met = Vec::new();
         let mut simulation = self.packed.simulation.clone();
+        if self.job.release_walls {
+            simulation.release_friction(Side::Bottom);
+            simulation.release_friction(Side::Top);
+        }
         let ramp = slide(&mut simulation, &slips, (self.job.slide, self.plan.relaxation), |_, sliding| {
             met.push(sliding)
         });
