@@ -7,9 +7,13 @@
 //! | [`scatter`] | seeded random numbers, random loose spheres to start from |
 //! | [`averages`] | solid fraction, coordination, stress of a periodic box |
 //! | [`pack`](mod@pack) | isotropic compression of a periodic box to a pressure |
+//! | [`links`] | conductances between two spheres: contact, gas |
+//! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
 
 pub mod averages;
+pub mod conductivity;
+pub mod links;
 pub mod pack;
 pub mod scatter;
 
