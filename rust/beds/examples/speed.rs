@@ -1,13 +1,32 @@
-//! Steps of a jammed periodic box: `speed SPHERES [STEPS]` prints millions of sphere-steps per second.
+//! Steps of a jammed periodic box: `speed SPHERES [STEPS [FILE]]` prints millions of sphere-steps per second, by the best of
+//! forty parts of the run. The state is written to FILE as a data file of LAMMPS (atom_style sphere), for comparison.
 
 use msdd_beds::{Packing, pack};
-use msdd_spheres::{Material, Simd, Stiffness};
+use msdd_spheres::{Material, Simd, Simulation, Stiffness};
+use std::fmt::Write;
 use std::time::Instant;
+
+/// The spheres at rest and without friction history, as LAMMPS reads them.
+fn data_file(simulation: &Simulation) -> Result<String, std::fmt::Error> {
+    let mut text = format!("spheres\n\n{} atoms\n1 atom types\n", simulation.spheres.len());
+    let edges = simulation.cell().map_or([[0.0; 3]; 3], |cell| cell.lattice.edges);
+    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        writeln!(text, "0 {} {axis}lo {axis}hi", edges[k][k])?;
+    }
+    text += "\nAtoms\n\n";
+    for (number, sphere) in simulation.spheres.iter().enumerate() {
+        let [x, y, z] = [0, 1, 2].map(|k| sphere.position[k].rem_euclid(edges[k][k]));
+        let (diameter, density) = (2.0 * sphere.radius, simulation.material.density);
+        writeln!(text, "{} 1 {diameter} {density} {x} {y} {z}", number + 1)?;
+    }
+    Ok(text)
+}
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
     let (spheres, steps) = (number(1000)? as usize, number(10_000)?);
+    let file = std::env::args().nth(3);
     let packing = Packing {
         spheres,
         seed: 1,
@@ -20,23 +39,27 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             restitution: 0.3,
         },
         pressure: 1e-5,
-        steps: 60_000,
+        steps: 30_000,
     };
     let packed = pack(&packing)?;
     println!("settled {}, {:?}", packed.settled, packed.averages);
+    if let Some(file) = file {
+        std::fs::write(file, data_file(&packed.simulation)?)?;
+    }
     for simd in Simd::ALL.into_iter().filter(|simd| simd.available()) {
         let mut simulation = packed.simulation.clone();
         simulation.set_simd(simd);
         simulation.take_steps(steps / 10);
         let searches = simulation.searches();
-        let best = (0..5)
+        let best = (0..40)
             .map(|_| {
                 let begin = Instant::now();
-                simulation.take_steps(steps / 5);
+                simulation.take_steps(steps / 40);
                 begin.elapsed().as_secs_f64()
             })
             .fold(f64::INFINITY, f64::min);
-        let rate = (steps / 5) as f64 * spheres as f64 / best / 1e6;
+        println!("time step {}", simulation.time_step);
+        let rate = (steps / 40) as f64 * spheres as f64 / best / 1e6;
         let searches = simulation.searches() - searches;
         println!(
             "{simd:?}: {rate:.2} M sphere-steps/s, {searches} searches, {:.2} candidates per sphere, {:e}",
