@@ -1,8 +1,9 @@
-//! Steps of a jammed periodic box: `speed SPHERES [STEPS [FILE]]` prints millions of sphere-steps per second, by the best of
-//! forty parts of the run. The state is written to FILE as a data file of LAMMPS (atom_style sphere), for comparison.
+//! Steps of a jammed periodic box: `speed SPHERES [STEPS [TILES [FILE]]]` prints millions of sphere-steps per second, by the
+//! best of forty parts of the run. The box is repeated TILES times in each direction. It is written to FILE as a data file
+//! of LAMMPS (atom_style sphere), for comparison.
 
 use msdd_beds::{Packing, pack};
-use msdd_spheres::{Material, Simd, Simulation, Stiffness};
+use msdd_spheres::{Boundary, Material, Simd, Simulation, Stiffness};
 use std::fmt::Write;
 use std::time::Instant;
 
@@ -22,11 +23,27 @@ fn data_file(simulation: &Simulation) -> Result<String, std::fmt::Error> {
     Ok(text)
 }
 
+/// `tiles`³ copies of a periodic box in one.
+fn repeated(simulation: &Simulation, tiles: usize) -> Result<Simulation, Box<dyn std::error::Error>> {
+    if tiles <= 1 {
+        return Ok(simulation.clone());
+    }
+    let mut cell = *simulation.cell().ok_or("a periodic box")?;
+    let mut spheres = Vec::new();
+    for tile in 0..tiles.pow(3) {
+        let shift = [tile % tiles, tile / tiles % tiles, tile / tiles / tiles].map(|number| number as i32);
+        spheres.extend(simulation.spheres.iter().map(|sphere| cell.lattice.image(sphere, shift)));
+    }
+    cell.lattice.edges = cell.lattice.edges.map(|edge| edge.map(|x| tiles as f64 * x));
+    Ok(Simulation::new(simulation.material.clone(), spheres, Boundary::Periodic(cell))?)
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
     let (spheres, steps) = (number(1000)? as usize, number(10_000)?);
-    let file = std::env::args().nth(3);
+    let tiles = number(1)? as usize;
+    let file = std::env::args().nth(4);
     let packing = Packing {
         spheres,
         seed: 1,
@@ -42,12 +59,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         steps: 30_000,
     };
     let packed = pack(&packing)?;
+    let start = repeated(&packed.simulation, tiles)?;
+    let spheres = start.spheres.len();
     println!("settled {}, {:?}", packed.settled, packed.averages);
     if let Some(file) = file {
-        std::fs::write(file, data_file(&packed.simulation)?)?;
+        std::fs::write(file, data_file(&start)?)?;
     }
     for simd in Simd::ALL.into_iter().filter(|simd| simd.available()) {
-        let mut simulation = packed.simulation.clone();
+        let mut simulation = start.clone();
         simulation.set_simd(simd);
         simulation.take_steps(steps / 10);
         let searches = simulation.searches();

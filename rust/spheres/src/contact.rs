@@ -8,7 +8,7 @@ use crate::sphere::Sphere;
 use msdd_engine::Image;
 
 /// What the second sphere of a contact touches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Partner {
     Sphere(usize),
     /// By the wall's number.

@@ -109,9 +109,22 @@ impl ContactLaw {
         let a = self.size(overlap, effective_radius);
         let overlap = overlap.max(0.0);
         let exponent = if self.hertz { 2.5 } else { 2.0 };
+        [self.normal * a * overlap * overlap / exponent, self.friction_energy(tangential, a)]
+    }
+
+    /// ½ f_t²/k_t \[J\] in a contact of size a.
+    pub fn friction_energy(&self, tangential: [f64; 3], a: f64) -> f64 {
         let square = dot(tangential, tangential);
-        let along = if square == 0.0 { 0.0 } else { 0.5 * square / (self.tangential * a) };
-        [self.normal * a * overlap * overlap / exponent, along]
+        if square == 0.0 { 0.0 } else { 0.5 * square / (self.tangential * a) }
+    }
+
+    /// Damping part of the force on j \[N\] in a contact of size a with the effective mass m* \[kg\], at the velocity of j
+    /// relative to i \[m/s\].
+    pub fn damping_force(&self, a: f64, mass: f64, normal: [f64; 3], velocity: [f64; 3]) -> [f64; 3] {
+        let apart = dot(velocity, normal);
+        let along = plus(velocity, -apart, normal);
+        let root = (a * mass).sqrt();
+        plus(scaled(-self.damping[0] * root * apart, normal), -self.damping[1] * root, along)
     }
 }
 
@@ -134,6 +147,23 @@ pub struct Touch<V> {
 /// Numbers below which a divisor is replaced by this; they belong to quotients that are then multiplied by 0.
 const TINY: f64 = 1e-100;
 
+/// The f_t that a contact remembers, turned into the contact plane of normal `n` and scaled to the size `a`.
+///
+/// Its part along n is taken out, and its length restored to second order (exactly, the factor would be 1/√(1 − x)
+/// instead of 1 + x/2; this way no energy is made).
+#[inline(always)]
+pub fn kept<V: Vector>(n: [V; 3], a: V, [hx, hy, hz, previous]: History<V>) -> [V; 3] {
+    let all = |value: f64| a.like(value);
+    let old = [hx, hy, hz];
+    let (out, square) = (dot(old, n), dot(old, old));
+    let bounded = [square.max(all(TINY)), previous.max(all(TINY))];
+    // One division for turning and scaling.
+    let quotient = all(1.0) / (bounded[0] * bounded[1]);
+    let turned = all(1.0) + all(0.5) * out * out * (quotient * bounded[1]);
+    let shrunk = (a * (quotient * bounded[0])).min(all(1.0));
+    scaled(turned * shrunk, plus(old, all(0.0) - out, n))
+}
+
 /// Normal force f_n, tangential force f_t on j, and the new history, of a group of contacts. All are 0 in lanes that do
 /// not touch.
 #[inline(always)]
@@ -151,16 +181,7 @@ pub fn force<V: Vector, const HERTZ: bool, const DAMPED: bool>(
     };
     let apart = dot(touch.velocity, n);
     let along = minus(plus(touch.velocity, zero - apart, n), cross(touch.spin, n));
-    // The old f_t turned into the contact plane: its normal part is taken out, and its length restored to second order
-    // (exactly, it would be 1/√(1 − x) instead of 1 + x/2; this way no energy is made). Then the rescaling. One division
-    // serves both.
-    let old = [hx, hy, hz];
-    let (out, square) = (dot(old, n), dot(old, old));
-    let bounded = [square.max(all(TINY)), previous.max(all(TINY))];
-    let quotient = one / (bounded[0] * bounded[1]);
-    let turned = one + all(0.5) * out * out * (quotient * bounded[1]);
-    let shrunk = (a * (quotient * bounded[0])).min(one);
-    let kept = scaled(turned * shrunk, plus(old, zero - out, n));
+    let kept = kept(n, a, [hx, hy, hz, previous]);
     let spring = plus(kept, zero - all(law.tangential * law.dt) * a, along);
     let mut normal = all(law.normal) * a * touch.overlap;
     let mut damping = [zero; 3];
