@@ -1,9 +1,9 @@
 //! Steps of a jammed periodic box: `speed SPHERES [STEPS [TILES [FILE]]]` prints millions of sphere-steps per second, by the
-//! best of forty parts of the run. The box is repeated TILES times in each direction. It is written to FILE as a data file
+//! best of forty parts of the run; a large box with the best instruction set only. The box is repeated TILES times in each direction. It is written to FILE as a data file
 //! of LAMMPS (atom_style sphere), for comparison.
 
 use msdd_beds::{Packing, pack};
-use msdd_spheres::{Boundary, Material, Simd, Simulation, Stiffness};
+use msdd_spheres::{Boundary, Material, Simd, Simulation, Sphere, Stiffness};
 use std::fmt::Write;
 use std::time::Instant;
 
@@ -35,6 +35,13 @@ fn repeated(simulation: &Simulation, tiles: usize) -> Result<Simulation, Box<dyn
         spheres.extend(simulation.spheres.iter().map(|sphere| cell.lattice.image(sphere, shift)));
     }
     cell.lattice.edges = cell.lattice.edges.map(|edge| edge.map(|x| tiles as f64 * x));
+    // In the order of their places, as a box of this size is packed.
+    let edge = cell.lattice.edges[0][0];
+    let place = |sphere: &Sphere| {
+        let [x, y, z] = sphere.position.map(|x| x.rem_euclid(edge) as u32);
+        [z, y, x]
+    };
+    spheres.sort_by_key(place);
     Ok(Simulation::new(simulation.material.clone(), spheres, Boundary::Periodic(cell))?)
 }
 
@@ -65,7 +72,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if let Some(file) = file {
         std::fs::write(file, data_file(&start)?)?;
     }
-    for simd in Simd::ALL.into_iter().filter(|simd| simd.available()) {
+    for simd in Simd::ALL.into_iter().filter(|&simd| simd.available() && (tiles == 1 || simd == Simd::best()))
+    {
         let mut simulation = start.clone();
         simulation.set_simd(simd);
         simulation.take_steps(steps / 10);
@@ -80,6 +88,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("time step {}", simulation.time_step);
         let rate = (steps / 40) as f64 * spheres as f64 / best / 1e6;
         let searches = simulation.searches() - searches;
+        let search = (0..10)
+            .map(|_| {
+                let begin = Instant::now();
+                simulation.rebuild_neighbours();
+                begin.elapsed().as_secs_f64()
+            })
+            .fold(f64::INFINITY, f64::min);
+        println!("a search takes the time of {:.1} steps", search / best * (steps / 40) as f64);
         println!(
             "{simd:?}: {rate:.2} M sphere-steps/s, {searches} searches, {:.2} candidates per sphere, {:e}",
             simulation.candidates() as f64 / spheres as f64,

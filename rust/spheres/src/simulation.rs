@@ -97,7 +97,8 @@ impl Simulation {
     pub(crate) fn step_shared(&mut self, shared: bool) {
         self.advance_boundary();
         let lattice = self.boundary.cell().map(|cell| cell.lattice);
-        if self.neighbours.skin.used_up(&self.spheres, lattice.as_ref()) {
+        let neighbours = &mut self.neighbours;
+        if neighbours.too_wide(self.steps) || neighbours.skin.used_up(&self.spheres, lattice.as_ref()) {
             self.rebuild_neighbours();
         }
         self.sweep(shared);
