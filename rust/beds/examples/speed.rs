@@ -87,7 +87,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .fold(f64::INFINITY, f64::min);
         println!("time step {}", simulation.time_step);
         let rate = (steps / 40) as f64 * spheres as f64 / best / 1e6;
-        let searches = simulation.searches() - searches;
+        let (searches, candidates) = (simulation.searches() - searches, simulation.candidates());
         let search = (0..10)
             .map(|_| {
                 let begin = Instant::now();
@@ -98,7 +98,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("a search takes the time of {:.1} steps", search / best * (steps / 40) as f64);
         println!(
             "{simd:?}: {rate:.2} M sphere-steps/s, {searches} searches, {:.2} candidates per sphere, {:e}",
-            simulation.candidates() as f64 / spheres as f64,
+            candidates as f64 / spheres as f64,
             simulation.kinetic_energy()
         );
     }

@@ -7,7 +7,7 @@
 //!
 //! | term | one step |
 //! |---|---|
-//! | damping | −f_d · v̄ Δt, with the damping part f_d of the contact force |
+//! | damping | −f_d · v̄ Δt, with the part f_d of the contact force that is neither elastic nor remembered |
 //! | drag | the kinetic energy that is taken away |
 //! | sliding | −½ (f_t° + f_t') · (u + (f_t' − f_t°)/k_t): the friction times the plastic slip |
 //! | resizing | what a friction spring loses as its contact gets larger or smaller or opens: ½ f_t²/k_t before less ½ f_t°²/k_t after |
@@ -17,7 +17,7 @@
 //! taken by the trapezoidal rule, as explained for discs (`msdd_dem::audit`); the error of the balance falls with Δt. Boxes that deform and spheres that grow are not audited.
 
 use crate::contact::{Contact, Partner};
-use crate::law::{self, History};
+use crate::law::{self, History, Touch};
 use crate::simulation::Simulation;
 use crate::space::{cross, dot, minus, plus, scaled};
 use crate::sphere::Sphere;
@@ -187,7 +187,17 @@ impl Simulation {
                     masses[0] * masses[1] / (masses[0] + masses[1])
                 }
             };
-            let damping = law.damping_force(a, mass, contact.normal, start);
+            let touch = Touch {
+                normal: contact.normal,
+                overlap: contact.overlap,
+                velocity: start,
+                spin: [0.0; 3],
+                radius: contact.effective_radius,
+                mass,
+                friction: law.friction[usize::from(matches!(contact.i, Partner::Wall(_)))],
+            };
+            let (normal, tangential, _) = law.force(&touch, old);
+            let damping = plus(minus(tangential, new), normal - contact.normal_force, contact.normal);
             audit.damping -= 0.5 * dt * dot(damping, plus(start, 1.0, end));
         });
         self.spheres = after;

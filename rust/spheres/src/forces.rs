@@ -2,7 +2,7 @@
 
 use crate::boundary::Wall;
 use crate::contacts::WallPart;
-use crate::law::{self, ContactLaw, Touch};
+use crate::law::{ContactLaw, Touch};
 use crate::space::{cross, minus, plus, scaled};
 use crate::sphere::Sphere;
 
@@ -52,12 +52,7 @@ pub(crate) fn add_wall(
             mass: sphere.mass,
             friction: law.friction[1],
         };
-        let (normal, tangential, new) = match (law.hertz, law.damped()) {
-            (true, true) => law::force::<f64, true, true>(law, &touch, *history),
-            (true, false) => law::force::<f64, true, false>(law, &touch, *history),
-            (false, true) => law::force::<f64, false, true>(law, &touch, *history),
-            (false, false) => law::force::<f64, false, false>(law, &touch, *history),
-        };
+        let (normal, tangential, new) = law.force(&touch, *history);
         *history = new;
         let force = plus(tangential, normal, wall.normal);
         let torque = scaled(distance, cross(tangential, wall.normal));

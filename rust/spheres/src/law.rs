@@ -19,7 +19,8 @@
 //!
 //! f_t is the friction history: it turns with the contact and grows by −k_t v_t Δt. When the contact gets smaller, f_t is
 //! scaled down with a; without that, its energy ½ f_t²/k_t would grow (Thornton, Cummins & Cleary, Powder Technol. 233, 30,
-//! 2013). |f_t| is at most μ f_n; a contact that has slid does not remember the excess.
+//! 2013). With the damping, |f_t| is at most μ f_n. A contact that slides remembers what is left of that after the damping
+//! has been taken out, as in LAMMPS; it does not remember the excess.
 //!
 //! The functions that the hot loops call are written once for any number of lanes ([`Vector`]).
 
@@ -117,14 +118,17 @@ impl ContactLaw {
         let square = dot(tangential, tangential);
         if square == 0.0 { 0.0 } else { 0.5 * square / (self.tangential * a) }
     }
+}
 
-    /// Damping part of the force on j \[N\] in a contact of size a with the effective mass m* \[kg\], at the velocity of j
-    /// relative to i \[m/s\].
-    pub fn damping_force(&self, a: f64, mass: f64, normal: [f64; 3], velocity: [f64; 3]) -> [f64; 3] {
-        let apart = dot(velocity, normal);
-        let along = plus(velocity, -apart, normal);
-        let root = (a * mass).sqrt();
-        plus(scaled(-self.damping[0] * root * apart, normal), -self.damping[1] * root, along)
+impl ContactLaw {
+    /// Forces f_n and f_t \[N\] and the new history of one contact, see [`force`].
+    pub fn force(&self, touch: &Touch<f64>, history: History) -> (f64, [f64; 3], History) {
+        match (self.hertz, self.damped()) {
+            (true, true) => force::<f64, true, true>(self, touch, history),
+            (true, false) => force::<f64, true, false>(self, touch, history),
+            (false, true) => force::<f64, false, true>(self, touch, history),
+            (false, false) => force::<f64, false, false>(self, touch, history),
+        }
     }
 }
 
@@ -170,9 +174,9 @@ pub fn kept<V: Vector>(n: [V; 3], a: V, [hx, hy, hz, previous]: History<V>) -> [
 pub fn force<V: Vector, const HERTZ: bool, const DAMPED: bool>(
     law: &ContactLaw,
     touch: &Touch<V>,
-    [hx, hy, hz, previous]: History<V>,
+    history: History<V>,
 ) -> (V, [V; 3], History<V>) {
-    let all = |value: f64| previous.like(value);
+    let all = |value: f64| touch.overlap.like(value);
     let (n, zero, one) = (touch.normal, all(0.0), all(1.0));
     let a = if HERTZ {
         (touch.radius * touch.overlap).sqrt()
@@ -181,15 +185,16 @@ pub fn force<V: Vector, const HERTZ: bool, const DAMPED: bool>(
     };
     let apart = dot(touch.velocity, n);
     let along = minus(plus(touch.velocity, zero - apart, n), cross(touch.spin, n));
-    let kept = kept(n, a, [hx, hy, hz, previous]);
-    let spring = plus(kept, zero - all(law.tangential * law.dt) * a, along);
     let mut normal = all(law.normal) * a * touch.overlap;
-    let mut damping = [zero; 3];
+    let root = if DAMPED { (a * touch.mass).sqrt() } else { zero };
     if DAMPED {
-        let root = (a * touch.mass).sqrt();
         normal = normal - all(law.damping[0]) * root * apart;
-        damping = scaled(zero - all(law.damping[1]) * root, along);
     }
+    if touch.friction == 0.0 {
+        return (normal, [zero; 3], [zero, zero, zero, a]);
+    }
+    let spring = plus(kept(n, a, history), zero - all(law.tangential * law.dt) * a, along);
+    let damping = if DAMPED { scaled(zero - all(law.damping[1]) * root, along) } else { [zero; 3] };
     let trial = plus(spring, one, damping);
     let limit = (all(touch.friction) * normal).max(zero);
     let trial2 = dot(trial, trial);
@@ -200,8 +205,7 @@ pub fn force<V: Vector, const HERTZ: bool, const DAMPED: bool>(
     }
     let scale = V::select(slides, limit / trial2.max(all(TINY)).sqrt(), one);
     let tangential = scaled(scale, trial);
-    let [x, y, z] = minus(tangential, damping);
-    let [sx, sy, sz] = spring;
+    let ([x, y, z], [sx, sy, sz]) = (minus(tangential, damping), spring);
     let stored = |slid, stuck| V::select(slides, slid, stuck);
     (normal, tangential, [stored(x, sx), stored(y, sy), stored(z, sz), a])
 }

@@ -91,3 +91,49 @@ fn face_centred_cubic() {
         assert!(error.abs() < 1e-6, "{error:e}, {}", expected / (c11 * distance));
     }
 }
+
+/// In the first step of a simple shear no sphere has turned yet: contacts across the flow slip by the shear, those along it
+/// do not, and the stress is k_t/l times the shear on one side of the diagonal. Once the spheres turn with half of it, the
+/// stress is symmetric.
+#[test]
+fn simple_cubic_sheared() {
+    let [_, tangential] = contact_stiffness();
+    let mut simulation = crystal(1.0, &[[0.0; 3]]);
+    simulation.take_steps(1);
+    let shear = 1e-2 * OVERLAP;
+    let mut stresses = [[0.0; 2]; 2];
+    for (sign, stress) in [1.0, -1.0].into_iter().zip(&mut stresses) {
+        let mut sheared = simulation.clone();
+        let rate = sign * shear / sheared.time_step;
+        sheared.set_velocity_gradient([[0.0, rate, 0.0], [0.0; 3], [0.0; 3]]);
+        sheared.take_steps(1);
+        sheared.for_each_contact(|contact| {
+            let (force, branch) = (contact.force(), contact.branch);
+            stress[0] += force[0] * branch[1];
+            stress[1] += force[1] * branch[0];
+        });
+        *stress = stress.map(|sum| sum / sheared.cell().unwrap().volume());
+    }
+    let distance = 2.0 * RADIUS * (1.0 - OVERLAP);
+    let [across, along] = [0, 1].map(|k| (stresses[1][k] - stresses[0][k]) / (2.0 * shear));
+    assert!((across * distance / tangential - 1.0).abs() < 1e-6, "{}", across * distance / tangential - 1.0);
+    assert!(along.abs() < 1e-6 * across, "{along} {across}");
+
+    // Half the shear as rotation of the spheres, about −z: slip and spin in one step.
+    let rate = shear / simulation.time_step;
+    for sphere in &mut simulation.spheres {
+        sphere.angular_velocity = [0.0, 0.0, -0.5 * rate];
+    }
+    simulation.set_velocity_gradient([[0.0, rate, 0.0], [0.0; 3], [0.0; 3]]);
+    simulation.take_steps(1);
+    let mut sums = [0.0; 2];
+    simulation.for_each_contact(|contact| {
+        let (force, branch) = (contact.tangential_force(), contact.branch);
+        sums[0] -= force[0] * branch[1];
+        sums[1] -= force[1] * branch[0];
+    });
+    let expected = 0.5 * shear * tangential / distance * simulation.cell().unwrap().volume();
+    for sum in sums {
+        assert!((sum / expected - 1.0).abs() < 1e-5, "{}", sum / expected - 1.0);
+    }
+}
