@@ -4,7 +4,7 @@ mod common;
 
 use common::{SPACING, bits, free, glass, shaken};
 use msdd_spheres::space::length;
-use msdd_spheres::{Boundary, Cell, Material, Simd, Simulation, Sphere, State, Wall};
+use msdd_spheres::{Boundary, Cell, Material, Simd, Simulation, Sphere, State, Stiffness, Wall};
 
 fn rough() -> Material {
     Material { friction: 0.4, wall_friction: 0.2, restitution: 0.7, ..glass() }
@@ -149,4 +149,32 @@ fn a_periodic_box_has_no_border() {
     let (a, b) = (moved([0.0; 3]), moved([3e-3, -1e-3, 4.5e-3]));
     assert!((a.total() / b.total() - 1.0).abs() < 1e-9, "{a:?} {b:?}");
     assert!(a.tangential > 0.0);
+}
+
+/// Spheres that fall into a box come to rest there, and the floor and the friction of the sides bear their weight.
+#[test]
+fn poured_spheres_rest_on_the_floor() {
+    let stiffness = Stiffness::HertzMindlin { young_modulus: 1e7, poisson_ratio: 0.3 };
+    let material = Material { stiffness, restitution: 0.3, ..rough() };
+    let (side, loose) = (5, 1.3);
+    let mut spheres = shaken(side, 1e-3, &material);
+    for sphere in &mut spheres {
+        sphere.position[2] = loose * sphere.position[2] + 1e-3;
+        sphere.velocity = sphere.velocity.map(|v| 0.3 * v);
+    }
+    let size = side as f64 * SPACING + 1e-3;
+    let walls = Wall::block([size; 3])[..5].to_vec();
+    let mut simulation = Simulation::new(material, spheres, Boundary::Walls(walls)).unwrap();
+    simulation.gravity = [0.0, 0.0, -9.81];
+    let fallen = simulation.energy().potential;
+    while simulation.time < 0.4 {
+        simulation.run(500).unwrap();
+    }
+    let weight = 9.81 * simulation.spheres.iter().map(|s| s.mass).sum::<f64>();
+    let borne: f64 = simulation.wall_force.iter().map(|force| force[2]).sum();
+    assert!((borne / -weight - 1.0).abs() < 1e-3, "{borne} {weight}");
+    assert!(simulation.wall_force[4][2] < -0.5 * weight, "{:?}", simulation.wall_force);
+    let energy = simulation.energy();
+    assert!(energy.kinetic < 1e-6 * (fallen - energy.potential), "{energy:?} {fallen}");
+    assert!(simulation.spheres.iter().all(|s| s.position.iter().all(|x| (0.0..2.0 * size).contains(x))));
 }
