@@ -1,6 +1,10 @@
 //! One grain.
 
+use msdd_engine::Grain;
 use std::f64::consts::PI;
+
+/// Fields of a group of discs: one vector per field, one lane per disc, in the order of [`Disc`].
+pub(crate) type Columns<V> = [V; 8];
 
 /// A disc (cylinder of 1 m length). It fills one cache line, so that the contact loop reads all it needs of a partner
 /// in one load.
@@ -51,5 +55,20 @@ impl Disc {
     /// Area of the disc, π r² [m²].
     pub fn area(&self) -> f64 {
         PI * self.radius * self.radius
+    }
+}
+
+impl Grain<2> for Disc {
+    #[inline(always)]
+    fn centre(&self) -> [f64; 2] {
+        [self.x, self.y]
+    }
+    #[inline(always)]
+    fn radius(&self) -> f64 {
+        self.radius
+    }
+    #[inline(always)]
+    fn at(self, [x, y]: [f64; 2]) -> Self {
+        Self { x, y, ..self }
     }
 }

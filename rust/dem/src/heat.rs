@@ -178,7 +178,8 @@ impl HeatPipes {
     /// Updates the conductances: of pairs, those that the step just taken has computed along with its forces; of walls,
     /// those of the present geometry. In parallel when `parallel`.
     pub(crate) fn follow(&mut self, touching: &Touching, parallel: bool) {
-        let Neighbours { pairs, rebuilds, .. } = touching.neighbours;
+        let Neighbours { pairs, skin, .. } = touching.neighbours;
+        let rebuilds = &skin.searches;
         if self.of_rebuild != Some(*rebuilds) {
             let partners = pairs.j().iter().map(|&j| touching.image_of(j).owner);
             let ends = pairs.i().iter().copied().zip(partners);

@@ -4,8 +4,9 @@
 //!
 //! The functions that the hot loops call are written once for any number of lanes (`Vector`).
 
+use crate::disc::Columns;
 use crate::material::Material;
-use crate::vector::{Columns, Vector};
+use msdd_engine::vector::Vector;
 
 /// s_n = 2 E r₁ r₂ / (r₁ + r₂) [N/m], current radii. Not multiplied by the 1 m depth (authors' code).
 pub fn pair_stiffness(young_modulus: f64, r1: f64, r2: f64) -> f64 {

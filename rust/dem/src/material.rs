@@ -37,7 +37,7 @@ impl Default for Material {
 
 /// A material parameter outside its allowed range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("material: {key} = {value}, allowed: {allowed}", value = crate::message::number(*value))]
+#[error("material: {key} = {value}, allowed: {allowed}", value = msdd_engine::message::number(*value))]
 pub struct MaterialError {
     pub key: &'static str,
     pub value: f64,

@@ -6,7 +6,7 @@
 //! (Two alternatives take twice as long, as measured: adding each pipe's flow to both its ends, and gathering eight
 //! rows at once.)
 
-use crate::team;
+use msdd_engine::team;
 
 /// Rows of a slice.
 const ROWS: usize = 8;

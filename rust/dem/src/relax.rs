@@ -10,37 +10,8 @@ use crate::failure::Failure;
 use crate::forces::Load;
 use crate::simulation::Simulation;
 use crate::time_step::{StepChoice, contact_stiffness};
-use crate::vector::larger;
-
-/// Parameters of FIRE with the values of the paper: steps of positive power before the time step grows, factors by
-/// which it grows and shrinks, initial value and decay of the turning coefficient.
-const PATIENCE: u32 = 5;
-const GROW: f64 = 1.1;
-const CUT: f64 = 0.5;
-const TURN: f64 = 0.1;
-const TURN_DECAY: f64 = 0.99;
-/// First and largest time step over the stability bound.
-const FIRST_STEP: f64 = 0.2;
-const LARGEST_STEP: f64 = 0.7;
-/// Steps between two checks of the state.
-const LOOK_EVERY: u64 = 20;
-
-/// How far a relaxation has come.
-#[derive(Clone, Copy, Debug)]
-struct Descent {
-    step: f64,
-    largest_step: f64,
-    turn: f64,
-    downhill: u32,
-}
-
-/// Power of the forces, and squares of speed and force in mass-weighted coordinates.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    power: f64,
-    speed2: f64,
-    force2: f64,
-}
+use msdd_engine::fire::{Descent, LARGEST_STEP, LOOK_EVERY, Sums, Turn};
+use msdd_engine::vector::larger;
 
 impl Simulation {
     /// Relaxes in fixed walls and with fixed radii for at most `steps` steps, or until `balanced` returns true at a
@@ -70,16 +41,13 @@ impl Simulation {
     fn descend(&mut self, steps: u64, balanced: impl Fn(&Self) -> bool) -> Result<bool, Failure> {
         let end = self.steps + steps;
         self.step_choice = StepChoice::Adaptive { safety: LARGEST_STEP };
-        let mut descent = Descent { step: 0.0, largest_step: 0.0, turn: TURN, downhill: 0 };
+        let mut descent = Descent::default();
         while self.steps < end {
             self.even_out_masses();
             self.watch_time_step()?;
-            descent.largest_step = self.time_step;
-            if descent.step == 0.0 {
-                descent.step = FIRST_STEP / LARGEST_STEP * descent.largest_step;
-            }
+            descent.limit(self.time_step);
             for _ in 0..LOOK_EVERY.min(end - self.steps) {
-                self.time_step = descent.step.min(descent.largest_step);
+                self.time_step = descent.step();
                 self.step();
                 self.turn(&mut descent);
             }
@@ -104,20 +72,13 @@ impl Simulation {
     fn turn(&mut self, descent: &mut Descent) {
         let mut sums = Sums::default();
         for (disc, load) in self.discs.iter().zip(self.loads.iter(&self.neighbours)) {
-            sums.add(disc, load);
+            add(&mut sums, disc, load);
         }
-        // The step took the forces before it changed the velocities by them. Half of that change is subtracted here, so
-        // that the power is that of forces and velocities at the same time.
-        if sums.power <= 0.5 * self.time_step * sums.force2 {
+        let Some(Turn { keep, pull }) = descent.turn(sums, self.time_step) else {
             self.discs.iter_mut().for_each(Disc::stop);
             self.largest_speed = 0.0;
-            descent.step *= CUT;
-            descent.turn = TURN;
-            descent.downhill = 0;
             return;
-        }
-        let keep = 1.0 - descent.turn;
-        let pull = descent.turn * (sums.speed2 / sums.force2).sqrt();
+        };
         let mut fastest2 = 0.0f64;
         for (disc, load) in self.discs.iter_mut().zip(self.loads.iter(&self.neighbours)) {
             let per_mass = pull / disc.mass;
@@ -128,21 +89,14 @@ impl Simulation {
             fastest2 = larger(fastest2, disc.vx * disc.vx + disc.vy * disc.vy);
         }
         self.largest_speed = fastest2.sqrt();
-        descent.downhill += 1;
-        if descent.downhill > PATIENCE {
-            descent.step = (GROW * descent.step).min(descent.largest_step);
-            descent.turn *= TURN_DECAY;
-        }
     }
 }
 
-impl Sums {
-    fn add(&mut self, disc: &Disc, load: &Load) {
-        let inertia = 0.5 * disc.mass * disc.radius * disc.radius;
-        self.power += load.fx * disc.vx + load.fy * disc.vy + load.torque * disc.angular_velocity;
-        self.speed2 += disc.mass * (disc.vx * disc.vx + disc.vy * disc.vy)
-            + inertia * disc.angular_velocity * disc.angular_velocity;
-        self.force2 +=
-            (load.fx * load.fx + load.fy * load.fy) / disc.mass + load.torque * load.torque / inertia;
-    }
+/// Adds the power, speed and force of one disc.
+fn add(sums: &mut Sums, disc: &Disc, load: &Load) {
+    let inertia = 0.5 * disc.mass * disc.radius * disc.radius;
+    sums.power += load.fx * disc.vx + load.fy * disc.vy + load.torque * disc.angular_velocity;
+    sums.speed2 += disc.mass * (disc.vx * disc.vx + disc.vy * disc.vy)
+        + inertia * disc.angular_velocity * disc.angular_velocity;
+    sums.force2 += (load.fx * load.fx + load.fy * load.fy) / disc.mass + load.torque * load.torque / inertia;
 }

@@ -1,8 +1,9 @@
 //! The part of a state file besides discs, walls and friction history that a run needs to continue bit for bit.
 
-use crate::periodic::{Image, Shift, forward, index_of};
+use crate::periodic::{Image, Shift};
 use crate::simulation::Simulation;
 use crate::walls::Side;
+use msdd_engine::lattice::{forward, index_of};
 
 /// Time, strain and radii at which a run continues.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,13 +1,44 @@
-//! Many steps in a row with regular checks: the time step is adapted to the contacts, and a state that has gone wrong
-//! ends the run.
+//! What runs need to know of discs: regular checks of the state, the choice of the time step, copies of good states.
 
 use crate::failure::{Failure, LARGEST_OVERLAP, LARGEST_STRIDE};
 use crate::periodic::check_size;
-use crate::simulation::{LastGood, Simulation};
-use crate::time_step::{self, Excess, StepChoice};
+use crate::simulation::Simulation;
+use crate::time_step::StepChoice;
+use msdd_engine::run::{self, Assembly, LastGood, Threads};
 
-/// Steps between two checks, at which the time step is chosen again. A check costs about as much as a step.
-const LOOK_EVERY: u64 = 50;
+impl Assembly for Simulation {
+    type Failure = Failure;
+
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    fn take_step(&mut self, shared: bool) {
+        self.shared = shared;
+        self.step();
+        self.shared = false;
+    }
+
+    fn watch_time_step(&mut self) -> Result<(), Failure> {
+        Self::watch_time_step(self)
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        Self::check(self)
+    }
+
+    fn may_be_kept(&self) -> bool {
+        self.centres_are_inside()
+    }
+
+    fn threads(&mut self) -> &mut Threads {
+        &mut self.threads
+    }
+
+    fn last_good(&mut self) -> &mut Option<LastGood<Self>> {
+        &mut self.last_good
+    }
+}
 
 impl Simulation {
     /// Takes `steps` steps. The state is checked and the time step is set, as chosen by
@@ -17,23 +48,13 @@ impl Simulation {
     /// The first [`Failure`] found. The simulation is then left in the failed state; for an earlier one see
     /// [`Simulation::keep_last_good`].
     pub fn run(&mut self, steps: u64) -> Result<(), Failure> {
-        let end = self.steps + steps;
-        while self.steps < end {
-            let block = LOOK_EVERY.min(end - self.steps);
-            self.watch_time_step()?;
-            self.take_steps(block);
-            self.check()?;
-            self.update_last_good();
-        }
-        Ok(())
+        run::run(self, steps)
     }
 
     /// Makes [`Simulation::run`] keep a copy of the last good state: first the present one, then at each successful
     /// check that is at least `every` steps after the last copy a new one. A copy costs about as much as a step.
     pub fn keep_last_good(&mut self, every: u64) {
-        self.last_good = None;
-        let state = Box::new(self.clone());
-        self.last_good = Some(LastGood { every, state });
+        run::keep_last_good(self, every);
     }
 
     /// Returns the last copy and stops keeping copies.
@@ -50,15 +71,6 @@ impl Simulation {
             inside &= contact.i.is_ok() || contact.overlap < self.discs[contact.j].radius;
         });
         inside
-    }
-
-    fn update_last_good(&mut self) {
-        if let Some(LastGood { every, state }) = &self.last_good
-            && self.steps >= state.steps + every
-            && self.centres_are_inside()
-        {
-            self.keep_last_good(*every);
-        }
     }
 
     /// Returns an error for states that only a failed run can reach: positions or velocities that are not finite, a
@@ -104,11 +116,9 @@ impl Simulation {
     /// Applies the choice of time step to the present contacts.
     pub(crate) fn watch_time_step(&mut self) -> Result<(), Failure> {
         let bound = self.stable_step();
-        match self.step_choice {
-            StepChoice::Adaptive { safety } => self.time_step = safety * bound,
-            StepChoice::Fixed { step, .. } if step <= bound => self.time_step = step,
-            StepChoice::Fixed { on_excess: Excess::Cut, .. } => self.time_step = time_step::SAFETY * bound,
-            StepChoice::Fixed { step, on_excess: Excess::Refuse } => {
+        match (self.step_choice.step(bound), self.step_choice) {
+            (Some(step), _) => self.time_step = step,
+            (None, StepChoice::Fixed { step, .. } | StepChoice::Adaptive { safety: step }) => {
                 return Err(Failure::TimeStep { step, bound, time: self.time });
             }
         }

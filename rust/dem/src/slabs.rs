@@ -13,14 +13,16 @@
 use crate::contacts::{SlabPairs, WallPart};
 use crate::disc::Disc;
 use crate::forces::{self, Load};
-use crate::kernel::{self, Motion, SharedDiscs, Simd};
+use crate::kernel::{self, Motion};
 use crate::law::PairLaw;
 use crate::neighbours::Neighbours;
 use crate::periodic::Image;
-use crate::stage::Stage;
-use crate::team;
-use crate::vector::larger;
 use crate::walls::{Flow, Side, Walls};
+use msdd_engine::Simd;
+use msdd_engine::Stage;
+use msdd_engine::kernel::SharedGrains;
+use msdd_engine::team;
+use msdd_engine::vector::larger;
 use std::ops::Range;
 
 /// The work to be done on every disc.
@@ -83,7 +85,7 @@ impl SlabLoads {
         }
         let Neighbours { pairs, walls, ghosts, .. } = neighbours;
         let mut walls = walls.each_mut().map(|contacts| contacts.parts(&slabs).into_iter());
-        let views = SharedDiscs::divide(discs, &slabs);
+        let views = SharedGrains::divide(discs, &slabs);
         let parts = pairs.parts(sweep.law.conductivity.is_some()).into_iter().zip(views).zip(&mut self.0);
         let tasks: Vec<Task> = parts
             .filter_map(|((pairs, discs), loads)| {
@@ -109,7 +111,7 @@ impl SlabLoads {
     }
 
     /// The loads of `rows`, the first of a slab, with the contributions of earlier slabs added.
-    fn complete(&mut self, number: usize, rows: Range<usize>, slabs: &[crate::contacts::Slab]) -> &[Load] {
+    fn complete(&mut self, number: usize, rows: Range<usize>, slabs: &[msdd_engine::rows::Slab]) -> &[Load] {
         let (earlier, later) = self.0.split_at_mut(number);
         let own = &mut later[0][..rows.len()];
         for (slab, from) in slabs.iter().zip(earlier) {
@@ -137,7 +139,7 @@ impl Sweep<'_> {
 /// The sweep over one slab.
 struct Task<'a> {
     pairs: SlabPairs<'a>,
-    discs: SharedDiscs<'a>,
+    discs: SharedGrains<'a, Disc>,
     walls: [WallPart<'a>; 4],
     /// Ghosts of a periodic box (which is always one block): images behind the discs, whose loads are added to those of
     /// their owners.

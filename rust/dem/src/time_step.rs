@@ -1,28 +1,8 @@
-//! The mechanical time step: its stability bound and its choice. (Heat has its own sub-steps, see [`crate::heat`].)
+//! The mechanical time step: its stability bound; its choice is the same for all grains. (Heat has its own sub-steps, see [`crate::heat`].)
 
 use crate::contact::Touching;
 
-/// Default step over the bound. Runs were measured to blow up at the bound itself; 0.4 resolves the period of a
-/// contact.
-pub const SAFETY: f64 = 0.4;
-
-/// How the mechanical time step is chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StepChoice {
-    /// `safety` times the stability bound, adapted as the contacts change.
-    Adaptive { safety: f64 },
-    /// A fixed step [s].
-    Fixed { step: f64, on_excess: Excess },
-}
-
-/// What happens when a fixed step exceeds the bound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Excess {
-    /// The run ends with [`crate::failure::Failure::TimeStep`].
-    Refuse,
-    /// The step is cut to [`SAFETY`] times the bound for as long as needed.
-    Cut,
-}
+pub use msdd_engine::time_step::{Excess, SAFETY, StepChoice};
 
 /// Least number of contacts that a disc is assumed to have, so that a step chosen in a loose state stays stable when
 /// the assembly jams.

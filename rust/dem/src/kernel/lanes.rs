@@ -1,21 +1,15 @@
-//! Loading and storing vectors of f64 (one number per lane, one lane per disc or pair), and the implementation with one
-//! lane.
+//! Loading and storing groups of discs and of loads, one disc per lane, and the implementation with one lane.
 
-use crate::disc::Disc;
+use crate::disc::{Columns, Disc};
 use crate::forces::Load;
-use crate::vector::{Columns, Vector};
+use msdd_engine::kernel::Lanes;
 
-/// Vectors from and to memory.
+/// Groups of discs from and to memory.
 ///
 /// # Safety
-/// The methods may be called only on a machine with the instruction set. They are the only way to make a value of the
-/// type, so whoever has a value may use its arithmetic safely. Pointers must be valid for LANES elements.
+/// As for [`Lanes`].
 #[allow(clippy::missing_safety_doc)] // stated once, above
-pub(crate) trait Lanes: Vector {
-    const LANES: usize;
-    unsafe fn splat(value: f64) -> Self;
-    unsafe fn read(from: *const f64) -> Self;
-    unsafe fn write(self, to: *mut f64);
+pub(crate) trait DiscLanes: Lanes {
     /// Fields of the discs with numbers `index[0..LANES]`. The address `discs` may lie outside of the array; `discs` +
     /// index must lie inside.
     unsafe fn gather(discs: *const Disc, index: *const u32) -> Columns<Self>;
@@ -28,21 +22,7 @@ pub(crate) trait Lanes: Vector {
     unsafe fn scatter(loads: *mut Load, i: *const u32, j: *const u32, force: [Self; 2], torque: [Self; 2]);
 }
 
-impl Lanes for f64 {
-    const LANES: usize = 1;
-
-    #[inline(always)]
-    unsafe fn splat(value: f64) -> Self {
-        value
-    }
-    #[inline(always)]
-    unsafe fn read(from: *const f64) -> Self {
-        unsafe { *from }
-    }
-    #[inline(always)]
-    unsafe fn write(self, to: *mut f64) {
-        unsafe { *to = self }
-    }
+impl DiscLanes for f64 {
     #[inline(always)]
     unsafe fn gather(discs: *const Disc, index: *const u32) -> Columns<Self> {
         unsafe { Self::read_discs(discs.wrapping_add(*index as usize)) }

@@ -6,19 +6,15 @@
 //!
 //! This module has the only unsafe code of the crate: vector intrinsics, and access to discs through the indices of the
 //! pair list without bounds checks. Why that is sound is explained at `Pairs`, whose indices are checked when the list
-//! is built, and at `SharedDiscs`.
+//! is built.
 #![allow(unsafe_code)]
 #![allow(clippy::undocumented_unsafe_blocks)] // the reasons are stated once, where said above
 
 mod lanes;
 mod motion;
 mod pairs;
-mod shared;
-mod simd;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub(crate) use motion::{Motion, advance};
 pub(crate) use pairs::add_pairs;
-pub(crate) use shared::SharedDiscs;
-pub use simd::Simd;

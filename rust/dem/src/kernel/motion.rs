@@ -1,13 +1,14 @@
 //! Damping and symplectic Euler (Eqs. 3 and 4) for consecutive discs.
 
-use super::lanes::Lanes;
-use super::simd::Simd;
-#[cfg(target_arch = "x86_64")]
-use super::x86::{Avx2, Avx512};
+use super::lanes::DiscLanes;
+use crate::disc::Columns;
 use crate::disc::Disc;
 use crate::forces::Load;
 use crate::law::damping_scale;
-use crate::vector::{Columns, larger};
+use msdd_engine::Simd;
+#[cfg(target_arch = "x86_64")]
+use msdd_engine::kernel::{Avx2, Avx512};
+use msdd_engine::vector::larger;
 
 /// How the discs move in one step.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +55,7 @@ impl Motion {
     }
 
     #[inline(always)]
-    unsafe fn advance<V: Lanes>(self, discs: *mut Disc, loads: *const Load, count: usize) -> f64 {
+    unsafe fn advance<V: DiscLanes>(self, discs: *mut Disc, loads: *const Load, count: usize) -> f64 {
         unsafe {
             let groups = count / V::LANES * V::LANES;
             // The maximum over the lanes ignores NaN but the sum keeps it, so both are taken.
@@ -77,7 +78,7 @@ impl Motion {
 
     /// Returns the squares of the speeds.
     #[inline(always)]
-    unsafe fn advance_group<V: Lanes>(self, discs: *mut Disc, loads: *const Load) -> V {
+    unsafe fn advance_group<V: DiscLanes>(self, discs: *mut Disc, loads: *const Load) -> V {
         unsafe {
             let [x, y, radius, vx, vy, spin, mass, temperature]: Columns<V> = V::read_discs(discs);
             let [fx, fy, torque, _] = V::read_loads(loads);

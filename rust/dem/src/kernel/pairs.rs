@@ -1,14 +1,14 @@
 //! Contact forces of all pairs.
 
-use super::lanes::Lanes;
-use super::simd::Simd;
-#[cfg(target_arch = "x86_64")]
-use super::x86::{Avx2, Avx512};
+use super::lanes::DiscLanes;
 use crate::contacts::Pairs;
+use crate::disc::Columns;
 use crate::disc::Disc;
 use crate::forces::Load;
 use crate::law::{self, PairLaw};
-use crate::vector::Columns;
+use msdd_engine::Simd;
+#[cfg(target_arch = "x86_64")]
+use msdd_engine::kernel::{Avx2, Avx512};
 
 /// Adds the forces of `pairs` to `loads` and updates their friction history. The first elements of `discs` and `loads`
 /// belong to disc `pairs.first`.
@@ -65,7 +65,7 @@ impl Loop<'_> {
     }
 
     #[inline(always)]
-    unsafe fn add_any<V: Lanes>(self, count: usize) {
+    unsafe fn add_any<V: DiscLanes>(self, count: usize) {
         match self.law.conductivity {
             None => unsafe { self.add::<V, false>(count, 0.0) },
             Some(conductivity) => unsafe { self.add::<V, true>(count, conductivity) },
@@ -76,7 +76,7 @@ impl Loop<'_> {
     /// to wait for each load that the pair before has just written (37 instead of 31.5 ns per disc and step, 500 discs,
     /// AVX-512).
     #[inline(always)]
-    unsafe fn add<V: Lanes, const HEAT: bool>(mut self, count: usize, conductivity: f64) {
+    unsafe fn add<V: DiscLanes, const HEAT: bool>(mut self, count: usize, conductivity: f64) {
         let mut forces = Block([[0.0; BLOCK]; 4]);
         for begin in (0..count).step_by(BLOCK) {
             let end = count.min(begin + BLOCK);
@@ -100,7 +100,12 @@ impl Loop<'_> {
 
     /// Forces of the LANES pairs from `k` on, into the columns `to`.
     #[inline(always)]
-    unsafe fn compute<V: Lanes, const HEAT: bool>(&mut self, k: usize, conductivity: f64, to: [*mut f64; 4]) {
+    unsafe fn compute<V: DiscLanes, const HEAT: bool>(
+        &mut self,
+        k: usize,
+        conductivity: f64,
+        to: [*mut f64; 4],
+    ) {
         unsafe {
             let (i, j) = (self.pairs.i.as_ptr().add(k), self.pairs.j.as_ptr().add(k));
             let history = self.pairs.tangential.as_mut_ptr().add(k);
@@ -128,7 +133,7 @@ impl Loop<'_> {
 
     /// Adds the columns `from` onto the loads of the LANES pairs from `k` on.
     #[inline(always)]
-    unsafe fn sum<V: Lanes>(&mut self, k: usize, from: [*mut f64; 4]) {
+    unsafe fn sum<V: DiscLanes>(&mut self, k: usize, from: [*mut f64; 4]) {
         unsafe {
             let (i, j) = (self.pairs.i.as_ptr().add(k), self.pairs.j.as_ptr().add(k));
             let force = [V::read(from[0]), V::read(from[1])];

@@ -14,15 +14,15 @@ impl Simulation {
             periodic.advance(&self.walls, dt);
             self.walls.advance(dt);
             let [xx, yy, xy] = self.flow().gradient;
-            self.neighbours.record_flow((xx * xx + yy * yy + xy * xy).sqrt(), dt);
-            self.neighbours.record_motion(self.largest_speed, 0.0, growth / dt, dt);
+            self.neighbours.skin.record_flow((xx * xx + yy * yy + xy * xy).sqrt(), dt);
+            self.neighbours.skin.record_motion(self.largest_speed, 0.0, growth / dt, dt);
             return;
         }
         self.walls.advance(dt);
         let wall_speed = self.walls.largest_speed();
         // The affine motion moves discs at most as fast as the walls.
         let speed = self.largest_speed + if self.affine { wall_speed } else { 0.0 };
-        self.neighbours.record_motion(speed, wall_speed, growth / dt, dt);
+        self.neighbours.skin.record_motion(speed, wall_speed, growth / dt, dt);
     }
 
     /// The affine motion that carries the grains along in this step.

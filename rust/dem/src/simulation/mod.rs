@@ -7,20 +7,17 @@ use crate::contact::{Contact, Touching};
 use crate::disc::Disc;
 use crate::forces::Load;
 use crate::heat::HeatPipes;
-use crate::kernel::{Motion, Simd};
+use crate::kernel::Motion;
 use crate::law::PairLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
-use crate::pace::Pace;
 use crate::periodic::{Cell, Periodic, SmallCell, check_size};
 use crate::slabs::{SlabLoads, Sweep};
-use crate::stage::Stage;
-use crate::team;
 use crate::time_step::{self, StepChoice};
-use crate::vector::larger;
 use crate::walls::{Side, Walls};
-use std::sync::Arc;
-use std::time::Instant;
+use msdd_engine::run::{self, LastGood, Threads};
+use msdd_engine::vector::larger;
+use msdd_engine::{Simd, Stage};
 
 /// Discs in a box. Build with [`Simulation::new`], drive by setting wall velocities and [`Simulation::set_strain_rate`].
 #[derive(Clone, Debug)]
@@ -60,20 +57,10 @@ pub struct Simulation {
     pub(crate) neighbours: Neighbours,
     pub(crate) loads: SlabLoads,
     pipes: Option<Box<HeatPipes>>,
-    /// Thread pool of a large assembly; none when all steps run on the caller's thread.
-    pool: Option<Arc<rayon::ThreadPool>>,
-    pace: Pace,
+    pub(crate) threads: Threads,
     /// Whether the present step is shared among the threads of the pool.
     pub(crate) shared: bool,
-    pub(crate) last_good: Option<LastGood>,
-}
-
-/// A copy of the state at the last successful check.
-#[derive(Clone, Debug)]
-pub(crate) struct LastGood {
-    /// Least number of steps between two copies.
-    pub every: u64,
-    pub state: Box<Simulation>,
+    pub(crate) last_good: Option<LastGood<Simulation>>,
 }
 
 impl Simulation {
@@ -115,8 +102,7 @@ impl Simulation {
             steps: 0,
             time: 0.0,
             pipes: None,
-            pool: None,
-            pace: Pace::default(),
+            threads: Threads::default(),
             shared: false,
             last_good: None,
             wall_force: [[0.0; 2]; 4],
@@ -139,28 +125,7 @@ impl Simulation {
 
     /// Takes `count` steps on the chosen number of threads, without checking the state in between.
     pub fn take_steps(&mut self, count: u64) {
-        match self.pool.clone() {
-            Some(pool) => self.take_steps_on(&pool, count),
-            None => (0..count).for_each(|_| self.step()),
-        }
-    }
-
-    /// Takes steps that are shared among the threads of the pool whenever that is faster than one thread.
-    fn take_steps_on(&mut self, pool: &rayon::ThreadPool, count: u64) {
-        let mut left = count;
-        while left > 0 {
-            let (shared, steps) = self.pace.next(left);
-            let begin = Instant::now();
-            self.shared = shared;
-            if shared {
-                team::together(pool, || (0..steps).for_each(|_| self.step()));
-            } else {
-                (0..steps).for_each(|_| self.step());
-            }
-            self.shared = false;
-            self.pace.record(shared, steps, begin.elapsed());
-            left -= steps;
-        }
+        run::take_steps(self, count);
     }
 
     /// Chooses the number of threads for [`Simulation::take_steps`] and [`Simulation::run`]. Results do not depend on
@@ -171,13 +136,7 @@ impl Simulation {
     /// The error of the operating system when it cannot start the threads.
     pub fn set_threads(&mut self, threads: usize) -> std::io::Result<()> {
         let slabs = self.neighbours.pairs.slabs().len();
-        let threads = threads.min(slabs);
-        self.pool = None;
-        if threads > 1 {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            self.pool = Some(Arc::new(pool.map_err(std::io::Error::other)?));
-        }
-        Ok(())
+        self.threads.set(threads.min(slabs))
     }
 
     /// As [`Simulation::step`], and calls `mark` when each stage ends, for timing. Pairs, walls and motion are worked
@@ -185,7 +144,7 @@ impl Simulation {
     pub fn step_marked(&mut self, mut mark: impl FnMut(Stage)) {
         self.advance_boundaries();
         mark(Stage::Boundaries);
-        if self.neighbours.stale(&self.discs, self.cell().as_ref()) {
+        if self.neighbours.skin.used_up(&self.discs, self.cell().map(|cell| cell.lattice()).as_ref()) {
             self.find_neighbours();
         }
         mark(Stage::Neighbours);
@@ -270,7 +229,7 @@ impl Simulation {
 
     /// How often the neighbour search has run.
     pub fn rebuilds(&self) -> u64 {
-        self.neighbours.rebuilds
+        self.neighbours.skin.searches
     }
 
     /// Candidate pairs of the neighbour search, touching or not.
@@ -296,6 +255,7 @@ impl Simulation {
     /// Appends the ghosts to the discs, at their present places.
     fn place_ghosts(&mut self) {
         if let Some(cell) = self.cell() {
+            let cell = cell.lattice();
             for ghost in &self.neighbours.ghosts {
                 let image = cell.image(&self.discs[ghost.owner as usize], ghost.shift);
                 self.discs.push(image);

@@ -205,7 +205,7 @@ fn a_speed_that_is_no_number_is_no_small_speed() {
         assert!(!simulation.largest_speed.is_finite());
         // After the next step the candidate list counts as stale, whatever the other discs have done.
         simulation.advance_boundaries();
-        assert!(simulation.neighbours.stale(&simulation.discs, None), "{bad}");
+        assert!(simulation.neighbours.skin.used_up(&simulation.discs, None), "{bad}");
         assert!(matches!(simulation.run(50), Err(crate::Failure::NonFinite { disc: 3, .. })), "{bad}");
     }
 }

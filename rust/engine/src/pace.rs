@@ -14,7 +14,7 @@ const NEWEST: f64 = 0.5;
 
 /// Measured time per step, alone (one thread) and shared.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Pace {
+pub struct Pace {
     /// Seconds per step: \[alone, shared\].
     seconds: [Option<f64>; 2],
     since_trial: u64,

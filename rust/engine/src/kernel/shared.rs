@@ -1,29 +1,31 @@
-//! One array of discs used by several threads. Each thread writes the discs of its own rows, and also reads discs of
+//! One array of grains used by several threads. Each thread writes the grains of its own rows, and also reads grains of
 //! other threads' rows that no thread writes.
 
-use crate::contacts::Slab;
-use crate::disc::Disc;
+use crate::rows::Slab;
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// The discs as one slab sees them.
+/// The grains as one slab sees them.
 ///
 /// A slab (consecutive rows, the work of one thread) writes the rows that no pair of an earlier slab refers to, and
-/// reads all discs up to its own reach. No slab reads what another slab writes; [`SharedDiscs::divide`] checks this.
-pub(crate) struct SharedDiscs<'a> {
-    first: *mut Disc,
+/// reads all grains up to its own reach. No slab reads what another slab writes; [`SharedGrains::divide`] checks this.
+pub struct SharedGrains<'a, G> {
+    first: *mut G,
     read: Range<usize>,
     write: Range<usize>,
-    discs: PhantomData<&'a mut [Disc]>,
+    grains: PhantomData<&'a mut [G]>,
 }
 
-// SAFETY: no slab reads or writes what another slab writes, and a disc is plain data.
-unsafe impl Send for SharedDiscs<'_> {}
+// SAFETY: no slab reads or writes what another slab writes, and grains are plain data.
+unsafe impl<G: Copy + Send + Sync> Send for SharedGrains<'_, G> {}
 
-impl<'a> SharedDiscs<'a> {
-    /// One view of the discs per slab.
-    pub fn divide(discs: &'a mut [Disc], slabs: &[Slab]) -> Vec<Self> {
-        let (first, count) = (discs.as_mut_ptr(), discs.len());
+impl<'a, G: Copy> SharedGrains<'a, G> {
+    /// One view of the grains per slab.
+    ///
+    /// # Panics
+    /// When the slabs are not such a division of the array.
+    pub fn divide(grains: &'a mut [G], slabs: &[Slab]) -> Vec<Self> {
+        let (first, count) = (grains.as_mut_ptr(), grains.len());
         let read = |slab: &Slab| slab.rows.start..slab.reach;
         let write = |slab: &Slab| slab.shared..slab.rows.end;
         for (s, slab) in slabs.iter().enumerate() {
@@ -34,7 +36,7 @@ impl<'a> SharedDiscs<'a> {
                 assert!(foreign.is_empty() || foreign.end <= own.start || own.end <= foreign.start);
             }
         }
-        let view = |slab| Self { first, read: read(slab), write: write(slab), discs: PhantomData };
+        let view = |slab| Self { first, read: read(slab), write: write(slab), grains: PhantomData };
         slabs.iter().map(view).collect()
     }
 
@@ -43,13 +45,21 @@ impl<'a> SharedDiscs<'a> {
         self.write.clone()
     }
 
-    pub fn rows(&self, rows: Range<usize>) -> &[Disc] {
+    /// Grains of rows that this slab may read.
+    ///
+    /// # Panics
+    /// When it may not.
+    pub fn rows(&self, rows: Range<usize>) -> &[G] {
         assert!(self.read.start <= rows.start && rows.start <= rows.end && rows.end <= self.read.end);
         // SAFETY: inside the array; nobody but this view writes there, and it is borrowed.
         unsafe { std::slice::from_raw_parts(self.first.add(rows.start), rows.len()) }
     }
 
-    pub fn rows_mut(&mut self, rows: Range<usize>) -> &mut [Disc] {
+    /// Grains of rows that this slab may write.
+    ///
+    /// # Panics
+    /// When it may not.
+    pub fn rows_mut(&mut self, rows: Range<usize>) -> &mut [G] {
         assert!(self.write.start <= rows.start && rows.start <= rows.end && rows.end <= self.write.end);
         // SAFETY: inside the array; no other view reads or writes there, and this one is borrowed for it.
         unsafe { std::slice::from_raw_parts_mut(self.first.add(rows.start), rows.len()) }

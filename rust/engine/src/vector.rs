@@ -1,13 +1,10 @@
-//! Arithmetic on one or several discs at a time: the trait in which the contact laws are written, and its
+//! Arithmetic on one or several grains at a time: the trait in which the contact laws are written, and its
 //! implementation for a single number.
 
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Fields of a group of discs: one vector per field, one lane per disc, in the order of [`Disc`].
-pub(crate) type Columns<V> = [V; 8];
-
 /// Arithmetic on vectors of f64: IEEE operations lane by lane, never fused.
-pub(crate) trait Vector:
+pub trait Vector:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     type Mask: Copy;
@@ -59,6 +56,6 @@ impl Vector for f64 {
 
 /// The larger of two numbers; NaN when either is NaN. [`f64::max`] ignores NaN, which would turn an unknown motion into
 /// a valid bound.
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
+pub fn larger(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 const ROUNDS: u32 = 100;
 
 /// Runs `work` on a thread of the pool while the other threads stay awake to help with the tasks it shares.
-pub(crate) fn together(pool: &ThreadPool, work: impl FnOnce() + Send) {
+pub fn together(pool: &ThreadPool, work: impl FnOnce() + Send) {
     let over = AtomicBool::new(false);
     pool.scope(|scope| {
         let leader = rayon::current_thread_index();
@@ -27,7 +27,7 @@ pub(crate) fn together(pool: &ThreadPool, work: impl FnOnce() + Send) {
 }
 
 /// Does `work` on each task, on whatever threads of the pool are awake. Returns the results in the order of the tasks.
-pub(crate) fn share<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
+pub fn share<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Sync) -> Vec<R> {
     let left = AtomicUsize::new(tasks.len());
     let mut results: Vec<Option<R>> = tasks.iter().map(|_| None).collect();
     rayon::in_place_scope(|scope| {

@@ -1,0 +1,170 @@
+//! The sweep of a step: contact forces and motion of the spheres in one pass through memory.
+//!
+//! Row i of the pair list holds the partners j > i of sphere i only. So once the rows of a block of spheres have been
+//! summed up, the loads of these spheres are complete and no later row reads them: they can be moved while they are
+//! still in the cache. A periodic box is one block, because its ghosts stand behind all spheres.
+//!
+//! Assemblies of thousands of spheres between walls are divided into slabs (consecutive rows), which threads sweep in
+//! parallel. The first spheres of a slab also belong to pairs of the slab before it; they are moved at the end, when
+//! their loads from both slabs are known. The slabs depend on the number of spheres alone, so results do not depend on
+//! the number of threads.
+
+use crate::boundary::Wall;
+use crate::contacts::{SlabPairs, WallPart};
+use crate::forces::{self, Load};
+use crate::kernel::{self, Motion};
+use crate::law::ContactLaw;
+use crate::neighbours::Neighbours;
+use crate::space::plus;
+use crate::sphere::Sphere;
+use msdd_engine::kernel::SharedGrains;
+use msdd_engine::rows::Slab;
+use msdd_engine::vector::larger;
+use msdd_engine::{Image, Simd, team};
+use std::ops::Range;
+
+/// The work to be done on every sphere.
+#[derive(Clone, Copy)]
+pub(crate) struct Sweep<'a> {
+    pub simd: Simd,
+    pub law: &'a ContactLaw,
+    pub walls: &'a [Wall],
+    pub motion: Motion,
+}
+
+/// Results of a sweep.
+#[derive(Clone, Default)]
+pub(crate) struct Swept {
+    /// Square of the largest speed [m²/s²]; NaN when any speed is NaN.
+    pub fastest2: f64,
+    /// Force of the spheres on each wall [N].
+    pub wall_force: Vec<[f64; 3]>,
+}
+
+impl Swept {
+    fn add(&mut self, other: &Self) {
+        self.fastest2 = larger(self.fastest2, other.fastest2);
+        for (sum, part) in self.wall_force.iter_mut().zip(&other.wall_force) {
+            *sum = plus(*sum, 1.0, *part);
+        }
+    }
+}
+
+/// Loads of the last sweep: for each slab those of its own rows, and those of the rows of later slabs that its pairs
+/// refer to.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SlabLoads(Vec<Vec<Load>>);
+
+impl SlabLoads {
+    /// Loads in the order of the spheres.
+    pub fn iter(&self, neighbours: &Neighbours) -> impl Iterator<Item = &Load> {
+        let slabs = neighbours.pairs.rows.slabs().iter();
+        slabs.zip(&self.0).flat_map(|(slab, loads)| &loads[..slab.rows.len()])
+    }
+
+    /// Sweeps over all spheres, in parallel when `parallel`. In a periodic box the ghosts stand behind the spheres, in
+    /// place; they are not moved.
+    pub fn sweep(
+        &mut self,
+        parallel: bool,
+        sweep: Sweep,
+        spheres: &mut [Sphere],
+        neighbours: &mut Neighbours,
+    ) -> Swept {
+        let slabs = neighbours.pairs.rows.slabs().to_vec();
+        self.0.resize_with(slabs.len(), Vec::new);
+        let Neighbours { pairs, walls, ghosts, .. } = neighbours;
+        let mut walls: Vec<_> = walls.iter_mut().map(|contacts| contacts.parts(&slabs).into_iter()).collect();
+        let views = SharedGrains::divide(spheres, &slabs);
+        let tasks: Vec<Task> = pairs
+            .parts()
+            .into_iter()
+            .zip(views)
+            .zip(&mut self.0)
+            .map(|((pairs, spheres), loads)| {
+                let walls = walls.iter_mut().filter_map(Iterator::next).collect();
+                Task { pairs, spheres, walls, ghosts, loads }
+            })
+            .collect();
+        let swept = if parallel {
+            team::share(tasks, |task| task.run(&sweep))
+        } else {
+            tasks.into_iter().map(|task| task.run(&sweep)).collect()
+        };
+        let mut result = Swept { fastest2: 0.0, wall_force: vec![[0.0; 3]; sweep.walls.len()] };
+        swept.iter().for_each(|part| result.add(part));
+        for (number, slab) in slabs.iter().enumerate().skip(1) {
+            let rows = slab.rows.start..slab.shared;
+            let loads = self.complete(number, rows.clone(), &slabs);
+            let fastest2 = kernel::advance(sweep.simd, sweep.motion, &mut spheres[rows], loads);
+            result.fastest2 = larger(result.fastest2, fastest2);
+        }
+        result
+    }
+
+    /// The loads of `rows`, the first of a slab, with the contributions of earlier slabs added.
+    fn complete(&mut self, number: usize, rows: Range<usize>, slabs: &[Slab]) -> &[Load] {
+        let (earlier, later) = self.0.split_at_mut(number);
+        let own = &mut later[0][..rows.len()];
+        for (slab, from) in slabs.iter().zip(earlier) {
+            let begin = rows.start - slab.rows.start;
+            let reached = from.get(begin..).unwrap_or_default();
+            for (load, part) in own.iter_mut().zip(reached) {
+                load.add(part);
+            }
+        }
+        own
+    }
+}
+
+/// The sweep over one slab.
+struct Task<'a> {
+    pairs: SlabPairs<'a>,
+    spheres: SharedGrains<'a, Sphere>,
+    walls: Vec<WallPart<'a>>,
+    /// Ghosts of a periodic box (which is always one block): images behind the spheres, whose loads are added to those
+    /// of their owners.
+    ghosts: &'a [Image<3>],
+    loads: &'a mut Vec<Load>,
+}
+
+impl Task<'_> {
+    fn run(mut self, sweep: &Sweep) -> Swept {
+        let slab = self.pairs.slab;
+        let first = slab.rows.start;
+        self.loads.resize(slab.reach - first, Load::default());
+        let mut swept = Swept { fastest2: 0.0, wall_force: vec![[0.0; 3]; self.walls.len()] };
+        // Loads of spheres below `ready` were set to zero.
+        let mut ready = first;
+        for (number, block) in slab.blocks.iter().enumerate() {
+            let to = block.reach.max(ready);
+            self.loads[ready - first..to - first].fill(Load::default());
+            ready = to;
+            let begin = block.rows.start;
+            let loads = &mut self.loads[begin - first..];
+            let spheres = self.spheres.rows(begin..block.reach);
+            kernel::add_pairs(sweep.simd, sweep.law, spheres, self.pairs.block(number), loads);
+            for ((wall, contacts), force) in
+                sweep.walls.iter().zip(&mut self.walls).zip(&mut swept.wall_force)
+            {
+                let contacts = contacts.take_below(block.rows.end);
+                *force =
+                    plus(*force, 1.0, forces::add_wall(sweep.law, wall, contacts, (begin, spheres), loads));
+            }
+            if !self.ghosts.is_empty() {
+                let (own, of_ghosts) = self.loads.split_at_mut(block.rows.end);
+                for (ghost, load) in self.ghosts.iter().zip(of_ghosts) {
+                    own[ghost.owner as usize].add(load);
+                }
+            }
+            let movable = begin.max(self.spheres.own().start)..block.rows.end;
+            if !movable.is_empty() {
+                let loads = &self.loads[movable.start - first..movable.end - first];
+                let spheres = self.spheres.rows_mut(movable);
+                let fastest2 = kernel::advance(sweep.simd, sweep.motion, spheres, loads);
+                swept.fastest2 = larger(swept.fastest2, fastest2);
+            }
+        }
+        swept
+    }
+}

@@ -1,0 +1,49 @@
+//! The mechanical time step: its stability bound; its choice is the same for all grains.
+
+use crate::contact::{Partner, Touching};
+
+pub use msdd_engine::time_step::{Excess, SAFETY, StepChoice};
+
+/// Least number of contacts that a sphere is assumed to have, so that a step chosen in a loose state stays stable when
+/// the assembly jams.
+const FEWEST_CONTACTS: f64 = 4.0;
+/// Least overlap over the radius that these contacts are assumed to have.
+const LEAST_OVERLAP: f64 = 1e-6;
+
+/// Δt_max = 2 / √(max_i Σ_c (2 k_n + 5 k_t) / m_i) [s], the sum over the contacts of sphere i: Gershgorin's circles for
+/// the stiffness matrix over the masses. The 5 is 2 r²m/I of a sphere, for rotation against its neighbours. `speed`
+/// [m/s] is the largest: at least the stiffness of a collision at that speed is assumed.
+pub(crate) fn stable_step(touching: &Touching, speed: f64) -> f64 {
+    let stiffness = contact_stiffness(touching, speed);
+    let ratios = touching.spheres.iter().zip(&stiffness).map(|(sphere, sum)| sum / sphere.mass);
+    2.0 / ratios.fold(0.0, f64::max).sqrt()
+}
+
+/// Σ_c (2 k_n + 5 k_t) [N/m] over the contacts of each sphere; at least that of [`FEWEST_CONTACTS`] contacts.
+pub(crate) fn contact_stiffness(touching: &Touching, speed: f64) -> Vec<f64> {
+    let law = &touching.law;
+    // The tangent of 4/3 E* a δ is 2 E* a, 3/2 times the secant.
+    let tangent = if law.hertz { 1.5 } else { 1.0 };
+    let per_size = 2.0 * tangent * law.normal + 5.0 * law.tangential;
+    let mut stiffness = vec![0.0; touching.spheres.len()];
+    touching.for_each(|contact| {
+        let both = per_size * law.size(contact.overlap, contact.effective_radius);
+        // A wall does not move: half of what two spheres that move against each other have.
+        let factor = if matches!(contact.i, Partner::Wall(_)) { 0.5 } else { 1.0 };
+        contact.spheres().for_each(|sphere| stiffness[sphere] += factor * both);
+    });
+    for (sum, sphere) in stiffness.iter_mut().zip(touching.spheres) {
+        let effective_radius = 0.5 * sphere.radius;
+        // Largest overlap in a collision of two such spheres at twice the speed, by the energy of the elastic law:
+        // 2/5 k δ^(5/2) = m* v²/2 with k = 4/3 E* √R*.
+        let overlap = if law.hertz {
+            let energy = 0.25 * sphere.mass * 4.0 * speed * speed;
+            let spring = 0.4 * law.normal * effective_radius.sqrt();
+            libm::pow(energy / spring, 0.4).max(LEAST_OVERLAP * sphere.radius)
+        } else {
+            sphere.radius
+        };
+        *sum = sum.max(FEWEST_CONTACTS * per_size * law.size(overlap, effective_radius));
+    }
+    stiffness
+}
