@@ -24,6 +24,8 @@ const TOLERANCES: [f64; 7] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
 /// Largest shares of the wanted accuracy; all that is left is for the cells.
 const MECHANICS: f64 = 0.3;
 const TIME: f64 = 0.2;
+/// Largest share of grains that stay because the user says so.
+const STAYING: f64 = 0.6;
 /// Errors that are extrapolated count so many times, and those that are seen as the distance from a finer run.
 const SAFETY: f64 = 1.5;
 const SEEN: f64 = 1.1;
@@ -243,13 +245,20 @@ where
     }
     let accuracy = (wishes.accuracy.powi(2) - open * open).sqrt();
 
-    if wishes.moves.is_none() {
+    if wishes.moves != Some(true) {
         let other = Settings { moves: true, ..at.clone() };
         match search.compare("grains move", other.clone(), Some(&base)) {
             Ok(moving) => {
                 let percent = search.percent(&moving, &base);
-                if percent > MECHANICS * accuracy {
+                if wishes.moves.is_none() && percent > MECHANICS * accuracy {
                     (at, base) = (other, moving);
+                } else if percent > STAYING * accuracy {
+                    let reason = format!(
+                        "constant/granularProperties says 'mechanics none', and grains that move change T by {percent:.2} %; \
+                         without this key, or with --choose-mechanics, they may move"
+                    );
+                    let best = 1.001 * open.hypot(percent / STAYING);
+                    return Err(ChoiceError::OutOfReach { asked: wishes.accuracy, best, reason });
                 } else {
                     let how = "runs with and without their motion".to_string();
                     found.shares.push(Share { source: STAY.to_string(), percent, how });
@@ -503,7 +512,11 @@ mod tests {
         assert!(scene.find(1.0, None).unwrap().settings.moves);
         assert!(!scene.find(20.0, None).unwrap().settings.moves);
         assert!(scene.find(20.0, Some(true)).unwrap().settings.moves);
-        assert!(!scene.find(1.0, Some(false)).unwrap().settings.moves);
+        assert!(!scene.find(20.0, Some(false)).unwrap().settings.moves);
+        let Err(ChoiceError::OutOfReach { best, reason, .. }) = scene.find(1.0, Some(false)) else {
+            panic!()
+        };
+        assert!(reason.contains("mechanics none") && !scene.find(best, Some(false)).unwrap().settings.moves);
     }
 
     #[test]

@@ -27,9 +27,10 @@ own; its file choice.json and the key 'choice' of its summary.json hold what was
 holds 90 % bands of T, pressure, conductivity and displacement at points and times. A second call takes the choice without a
 search, and goes on with a run that was killed.
 
-The case needs its mesh (blockMesh). If constant/granularProperties names 'mechanics', it stays as named.
+The case needs its mesh (blockMesh). If constant/granularProperties names 'mechanics', it stays as named, and a
+request that grains which stay would miss is refused; --choose-mechanics leaves it open.
 
-Example: msdd case solve cases/HC --accuracy 1")]
+Example: msdd case solve cases/HC --accuracy 1 --choose-mechanics")]
 pub struct Arguments {
     /// The case folder.
     folder: PathBuf,
@@ -39,6 +40,9 @@ pub struct Arguments {
     /// Wanted accuracy of p [% of its range], beside that of T; without it, that of system/fvSolution, if there is one.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pressure_accuracy: Option<f64>,
+    /// Find out whether the grains have to move, whatever the case says.
+    #[arg(long)]
+    choose_mechanics: bool,
     /// Search again, even if the choice for this case and this accuracy is known.
     #[arg(long)]
     again: bool,
@@ -55,7 +59,10 @@ fn percent(text: &str) -> Result<f64, String> {
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let failed = |error: ChoiceError| CliError::Message(error.to_string());
-    let scene = Scene::read(&arguments.folder).map_err(failed)?;
+    let mut scene = Scene::read(&arguments.folder).map_err(failed)?;
+    if arguments.choose_mechanics {
+        scene.moves = None;
+    }
     let Some(accuracy) = arguments.accuracy.or(scene.accuracy) else {
         let file = scene.folder.join("system/fvSolution");
         return Err(CliError::Message(format!(
@@ -84,7 +91,10 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
     let accuracy = wanted.accuracy;
     let chosen = beside(scene, "chosen");
     let lock = Lock::take(&chosen)?;
-    let checksum = scene.checksum()?;
+    let mut checksum = scene.checksum()?;
+    if arguments.choose_mechanics {
+        checksum += ", mechanics open";
+    }
     let earlier = Record::earlier(&chosen, &checksum, accuracy, wanted.pressure).filter(|_| !arguments.again);
     // Before a long search: neither folder may be somebody else's.
     trial::clear(&beside(scene, "trial"))?;

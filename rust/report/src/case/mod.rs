@@ -151,8 +151,7 @@ fn report(work: &mut Work, watch: &mut Watch) -> Result<CaseReport, ReportError>
     let mut points: Vec<Point> = rows.iter().map(|row| row.point.clone()).collect();
     mark(&mut points);
     rows.iter_mut().zip(points).for_each(|(row, point)| row.point = point);
-    let kept = scene.moves.map(|moves| if moves { "equilibrium" } else { "none" });
-    let choices = choices.into_iter().map(|(choice, _)| placed(choice, &rows, kept)).collect();
+    let choices = choices.into_iter().map(|(choice, _)| placed(choice, &rows)).collect();
     Ok(CaseReport {
         schema: "msdd-case-report-1",
         case: scene.folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -283,8 +282,8 @@ fn row_of(work: &Work, rung: &Rung, truth: &Truth) -> Row {
     Row { point, cells: measured.map(|measured| measured.size), wall_seconds, errors }
 }
 
-/// The choice with the sentence on where it lies among the others. `kept`: the `mechanics` that the case names.
-fn placed(choice: Choice, rows: &[Row], kept: Option<&str>) -> Choice {
+/// The choice with the sentence on where it lies among the others.
+fn placed(choice: Choice, rows: &[Row]) -> Choice {
     let Choice { accuracy, what, search_seconds, .. } = &choice;
     let row = choice.row.as_ref().and_then(|name| rows.iter().find(|row| row.point.name == *name));
     let others: Vec<Point> =
@@ -313,7 +312,5 @@ fn placed(choice: Choice, rows: &[Row], kept: Option<&str>) -> Choice {
             ),
         },
     };
-    let kept =
-        kept.map_or(String::new(), |kept| format!(" It keeps mechanics {kept}, which the case names."));
-    Choice { sentence: sentence + &kept, ..choice }
+    Choice { sentence, ..choice }
 }

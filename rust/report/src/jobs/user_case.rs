@@ -127,7 +127,7 @@ pub fn command(job: &CaseJob, msdd: &Path) -> String {
     match &job.program {
         CaseProgram::Solver(_) => "msddFoam".to_string(),
         CaseProgram::Choice(percent) => {
-            format!("'{msdd}' case solve '{copy}' --accuracy {percent} --choose-only")
+            format!("'{msdd}' case solve '{copy}' --accuracy {percent} --choose-mechanics --choose-only")
         }
         CaseProgram::Discs(CaseDiscs { seed, porosity, isotropic, interval }) => format!(
             "'{msdd}' reference run --case '{copy}' --seed {seed} --porosity {porosity} --compression {} \
