@@ -31,7 +31,7 @@ pub enum Purpose {
 #[derive(Clone, Debug)]
 pub struct Outcome {
     pub values: BTreeMap<Quantity, Series>,
-    /// Thermal strain of the grains, and pressure at each point after the first step [Pa].
+    /// Thermal strain of the grains, and pressure at each point after the first step [Pa], if that was watched.
     pub strain: Series,
     pub start_pressure: Vec<f64>,
     /// Largest minus smallest T anywhere, the walls included [K].
@@ -187,10 +187,10 @@ pub fn read_outcome(folder: &Path, seconds: f64) -> Result<Outcome, ChoiceError>
         values.insert(quantity, read(field)?.component(points, component));
     }
     let strain = read("thermalStrain")?;
-    let mut start_pressure = Vec::new();
-    for start in starts(&format!("{WATCH}Start"))? {
-        start_pressure = Series::read(&start.join("pressure"))?.values.into_iter().next().unwrap_or_default();
-    }
+    // None if the first step is longer than the time in which it is watched, as with steps of one size.
+    let starts_watched = starts(&format!("{WATCH}Start"))?;
+    let first = starts_watched.iter().find_map(|start| Series::read(&start.join("pressure")).ok());
+    let start_pressure = first.and_then(|series| series.values.into_iter().next()).unwrap_or_default();
     let mut range = values[&Quantity::Temperature].range();
     for start in starts(&format!("{WATCH}Range"))? {
         range = range.max(extremes(&start.join("fieldMinMax.dat"))?);
