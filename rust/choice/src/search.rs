@@ -5,7 +5,7 @@
 //! orders of the methods carry these differences to the settings that are not run.
 
 use crate::ChoiceError;
-use crate::bands::{Law, Lengths};
+use crate::bands::{CONDUCTIVITY, Law, Lengths, sensitivity};
 use crate::bed::Bed;
 use crate::quantity::Quantity;
 use crate::series::Series;
@@ -35,8 +35,6 @@ const DROP: f64 = 0.1;
 const FINEST: Level = Level::Halved(-2);
 /// Source of the error of grains that stay although they might move.
 const STAY: &str = "grains stay";
-/// Factor of the conductivity of the run that shows what another conductivity would change.
-const CONDUCTIVITY: f64 = 1.05;
 /// Largest share of the wanted accuracy that model and packing may leave open, and the share at the accuracy that is offered instead.
 const OPEN: f64 = 0.95;
 const OFFERED: f64 = 0.8;
@@ -181,8 +179,7 @@ impl<R: FnMut(&Settings, Option<f64>) -> Result<Outcome, ChoiceError>> Search<'_
 
     /// What model and packing leave open, with the change of T with the logarithm of the conductivity.
     fn open(&self, base: &Outcome, other: &Outcome) -> (Vec<Share>, Series) {
-        let temperature = |run: &Outcome| run.values.get(&Quantity::Temperature).cloned().unwrap_or_default();
-        let sensitivity = temperature(other).minus(&temperature(base), 1.0 / CONDUCTIVITY.ln());
+        let sensitivity = sensitivity(base, other);
         let bed = &self.wishes.bed;
         let lengths = Lengths::new(bed, base, &sensitivity);
         let part = |k: usize| {

@@ -4,7 +4,7 @@ use crate::case::{attempt, beside};
 use crate::error::CliError;
 use msdd_case::numbers::plain;
 use msdd_choice::ChoiceError;
-use msdd_choice::bands::{LEVEL, Law, Lengths, Numbers, Units};
+use msdd_choice::bands::{CONDUCTIVITY, LEVEL, Law, Lengths, Numbers, Units, sensitivity};
 use msdd_choice::calibrate::{Coverage, Row, coverage, fit, quantile};
 use msdd_choice::quantity::Quantity;
 use msdd_choice::scene::Scene;
@@ -21,8 +21,6 @@ use std::path::{Path, PathBuf};
 const POINTS: usize = 4;
 /// Tolerance in time of the solver's runs, share of the range of T.
 const TOLERANCE: f64 = 1e-3;
-/// Factor of the conductivity that shows what another conductivity would change.
-const CONDUCTIVITY: f64 = 1.05;
 const COLUMNS: [&str; 6] = ["quantity", "use", "values", "inside", "inside_worst_scene", "width"];
 /// Quantities that have the same numbers.
 const GROUPS: [(&str, &[Quantity]); 4] = [
@@ -106,8 +104,7 @@ fn rows(
     scene.bed.window = windows.grains;
     let base = run(&scene, range, 1.0).map_err(failed)?;
     let more = run(&scene, range, CONDUCTIVITY).map_err(failed)?;
-    let temperature = |run: &Outcome| run.series(Quantity::Temperature).clone();
-    let sensitivity = temperature(&more).minus(&temperature(&base), 1.0 / CONDUCTIVITY.ln());
+    let sensitivity = sensitivity(&base, &more);
     let lengths = Lengths::new(&scene.bed, &base, &sensitivity);
 
     let mut all = BTreeMap::new();

@@ -95,25 +95,6 @@ impl Discs {
     }
 }
 
-/// A copy of a case folder in which it is open whether grains move.
-fn open_case(folder: &Path) -> Result<PathBuf, CliError> {
-    let copy =
-        folder.with_file_name(format!("{}.open", folder.file_name().unwrap_or_default().to_string_lossy()));
-    for part in ["0", "constant", "constant/polyMesh", "system"] {
-        for file in msdd_files::list(&folder.join(part))?.into_iter().filter(|file| file.is_file()) {
-            let mut bytes = msdd_files::read(&file, msdd_files::MOST_BYTES)?;
-            if file.ends_with("constant/granularProperties") {
-                let text = String::from_utf8_lossy(&bytes).into_owned();
-                let lines = text.lines().filter(|line| !line.starts_with("mechanics"));
-                bytes = lines.flat_map(|line| [line, "\n"]).collect::<String>().into_bytes();
-            }
-            let name = file.file_name().unwrap_or_default();
-            write(&copy.join(part).join(name), &bytes)?;
-        }
-    }
-    Ok(copy)
-}
-
 /// Asks for [`ASKED`] in each scene, for its first packing, and writes what came of it.
 pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
     let failed = |error: ChoiceError| CliError::Message(error.to_string());
@@ -121,9 +102,8 @@ pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
     let mut csv = COLUMNS.join(",") + "\n";
     for (planned, packings) in all {
         let Some((results, folder)) = packings.first() else { continue };
-        let copy = open_case(folder)?;
         let discs = Discs::of(results)?;
-        let mut scene = Scene::read(&copy).map_err(failed)?;
+        let mut scene = Scene::read(folder).map_err(failed)?;
         let standard = scene.points.len();
         scene.points.extend(discs.windows.points(scene.points[0][2]));
         let range = planned.case()?.temperature_range();
@@ -208,8 +188,6 @@ pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
         }
         // Complete scenes are not lost when a later one fails.
         write(file, csv.as_bytes())?;
-        std::fs::remove_dir_all(&copy)
-            .map_err(|error| CliError::Message(format!("{}: {error}", copy.display())))?;
     }
     summary(&csv);
     Ok(())
