@@ -4,6 +4,7 @@ use crate::CaseError;
 use crate::fields::{FieldKind, head, uniform};
 use crate::numbers::rounded;
 use crate::packing::{Packing, Spread};
+use crate::path;
 use crate::scene::Scene;
 use crate::values::{compression_name, fill, values};
 use std::fs;
@@ -38,10 +39,7 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<PathBuf, CaseError> {
     let Ok(whole) = std::path::absolute(folder) else {
         return refuse(folder, "a folder, or a name that is not there yet");
     };
-    let blank = |byte: u8| byte.is_ascii_whitespace() || byte == b'"' || byte == b'\'';
-    if whole.as_os_str().as_encoded_bytes().iter().any(|&byte| blank(byte)) {
-        return refuse(&whole, "a path without blanks and quotation marks, which OpenFOAM cannot work with");
-    }
+    path::check(&whole)?;
     let holds = fs::read_dir(folder).map(|mut entries| entries.next().is_some());
     match holds {
         Ok(true) if !force => refuse(

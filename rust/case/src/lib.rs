@@ -11,6 +11,7 @@
 //! | [`scene`] | the parameters of a new case |
 //! | [`packing`] | the initial packing of a new case |
 //! | [`folder`] | the files of a new case |
+//! | [`path`] | paths that OpenFOAM can work with |
 //! | [`numbers`] | numbers as a person writes them |
 //! | [`values`] | values in these files, as text |
 //! | [`check`](mod@check) | what is missing, out of range or doubtful before a run |
@@ -25,6 +26,7 @@ pub mod grains;
 pub mod mesh;
 pub mod numbers;
 pub mod packing;
+pub mod path;
 pub mod scene;
 pub mod values;
 pub mod walls;

@@ -5,6 +5,7 @@ use crate::bed::Bed;
 use crate::settings::Level;
 use msdd_case::CaseError;
 use msdd_case::dictionary::{Dictionary, Entry, Token};
+use msdd_case::path;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -125,6 +126,7 @@ impl Scene {
     pub fn read(folder: &Path) -> Result<Self, ChoiceError> {
         let folder = std::fs::canonicalize(folder)
             .map_err(|error| CaseError::Read { file: folder.to_path_buf(), problem: error.to_string() })?;
+        path::check(&folder)?;
         let expanded = |name: &str| Dictionary::expanded(&folder.join(name));
         let control = expanded("system/controlDict")?;
         let solution = expanded("system/fvSolution")?;

@@ -24,6 +24,7 @@ pub use finding::{Finding, Findings, Severity};
 
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
+use crate::path;
 use fields::FIELDS;
 use rayon::prelude::*;
 use std::path::Path;
@@ -86,17 +87,11 @@ pub fn check(folder: &Path) -> Findings {
     found
 }
 
-/// Refuses paths with blanks or quotation marks: OpenFOAM removes blanks from paths and then finds no files.
+/// Refuses paths that OpenFOAM cannot work with.
 fn check_path(folder: &Path, found: &mut Findings) {
     let whole = folder.canonicalize().unwrap_or_default();
-    if whole.as_os_str().as_encoded_bytes().iter().any(|byte| b" \t\n\"'".contains(byte)) {
-        let advice = "OpenFOAM cannot work with them: move the case";
-        found.error(
-            ["folder", ""],
-            &whole.display().to_string(),
-            "a path without blanks and quotation marks",
-            advice,
-        );
+    if path::check(&whole).is_err() {
+        found.error(["folder", ""], &whole.display().to_string(), path::ALLOWED, "move the case");
     }
 }
 
