@@ -2,9 +2,9 @@
 
 use crate::ChoiceError;
 use crate::bands::{Law, Lengths};
+use crate::found::{Differences, Values};
 use crate::quantity::Quantity;
 use crate::scene::Scene;
-use crate::search::{Differences, Values};
 use crate::trial::Outcome;
 use msdd_case::numbers::plain;
 use msdd_files::write;

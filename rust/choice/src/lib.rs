@@ -10,6 +10,9 @@
 //! | [`bed`] | the bed as far as the bands need to know it |
 //! | [`bands`] | how far the discs of a real bed may lie from a run |
 //! | [`calibrate`] | the fit of the bands to reference scenes |
+//! | [`found`] | what a search finds, and what it has seen on the way |
+//! | [`runs`] | the runs of a search, and how far they are apart |
+//! | [`cells`] | how many cells along each direction |
 //! | [`search`] | which combination is the cheapest that is accurate enough |
 //! | [`interval`] | the bands around the chosen run |
 //! | [`record`] | what was tried, chosen and estimated, for people and for programs |
@@ -18,10 +21,13 @@
 pub mod bands;
 pub mod bed;
 pub mod calibrate;
+pub mod cells;
+pub mod found;
 pub mod interval;
 mod program;
 pub mod quantity;
 pub mod record;
+pub mod runs;
 pub mod scene;
 pub mod search;
 pub mod series;

@@ -1,9 +1,9 @@
 //! What was tried, chosen and estimated, for people and for programs.
 
 use crate::ChoiceError;
+use crate::found::{Differences, Found, Share};
 use crate::interval::{self, MeanBand};
 use crate::scene::Scene;
-use crate::search::{Differences, Found, Share};
 use crate::settings::{Level, Settings};
 use msdd_files::{read_text, write};
 use serde::{Deserialize, Serialize};

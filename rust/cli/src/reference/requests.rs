@@ -7,13 +7,14 @@ use msdd_case::numbers::plain;
 use msdd_choice::ChoiceError;
 use msdd_choice::bands::Law;
 use msdd_choice::quantity::Quantity;
+use msdd_choice::runs::Wishes;
 use msdd_choice::scene::Scene;
-use msdd_choice::search::{Wishes, find};
+use msdd_choice::search::find;
 use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Outcome};
 use msdd_files::{Lock, write};
 use msdd_reference::scenes::SceneResults;
-use std::collections::BTreeMap;
+use msdd_report::studies::requests::{Request, Tally, tallies};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -189,37 +190,18 @@ pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
         // Complete scenes are not lost when a later one fails.
         write(file, csv.as_bytes())?;
     }
-    summary(&csv);
-    Ok(())
+    summary(file)
 }
 
-/// Shares over the scenes of one kind.
-fn summary(csv: &str) {
-    let mut uses: BTreeMap<&str, Vec<Vec<&str>>> = BTreeMap::new();
-    for row in csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>()) {
-        uses.entry(row[1]).or_default().push(row);
+/// Prints the shares over the scenes of each kind.
+fn summary(file: &Path) -> Result<(), CliError> {
+    let requests = Request::read(file).map_err(|error| CliError::Message(error.to_string()))?;
+    for tally in tallies(&requests) {
+        let Tally { purpose, asked, kept, met, refused, possible, cost, highest_cost } = tally;
+        let [median, most] = [cost, highest_cost].map(|cost| cost.unwrap_or(f64::NAN));
+        outln!(
+            "{purpose:10} {asked:>2} %: within {met} of {kept}; refused {refused}, of which {possible} could have been done; cost over the cheapest {median:.2} in the median, {most:.2} at most"
+        );
     }
-    for (purpose, rows) in uses {
-        for asked in ASKED {
-            let asked = plain(asked);
-            let of = |refused: bool| {
-                rows.iter().filter(|row| row[3] == asked && row[4].is_empty() != refused).collect::<Vec<_>>()
-            };
-            let (kept, refused) = (of(false), of(true));
-            let number = |text: &str| text.parse::<f64>().unwrap_or(f64::NAN);
-            let within = |row: &&&Vec<&str>| number(row[8]) <= number(row[3]);
-            let mut costs: Vec<f64> = kept.iter().map(|row| number(row[10]) / number(row[12])).collect();
-            costs.retain(|cost| cost.is_finite());
-            costs.sort_by(f64::total_cmp);
-            outln!(
-                "{purpose:10} {asked:>2} %: within {} of {}; refused {}, of which {} could have been done; cost over the cheapest {:.2} in the median, {:.2} at most",
-                kept.iter().filter(within).count(),
-                kept.len(),
-                refused.len(),
-                refused.iter().filter(within).count(),
-                costs.get(costs.len() / 2).copied().unwrap_or(f64::NAN),
-                costs.last().copied().unwrap_or(f64::NAN)
-            );
-        }
-    }
+    Ok(())
 }

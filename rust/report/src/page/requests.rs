@@ -4,7 +4,7 @@ use super::html::{Figure, fixed, table};
 use crate::ReportError;
 use crate::draw::{Axis, Line, MARKERS, Series, Style, plot};
 use crate::report::Made;
-use crate::studies::requests::{Band, Request};
+use crate::studies::requests::{Band, Request, tallies};
 
 /// Kinds of scenes, and what they are for.
 const USES: [(&str, &str); 3] = [
@@ -28,29 +28,18 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
 }
 
 fn requests_table(requests: &[Request]) -> String {
+    let tallies = tallies(requests);
     let mut rows = Vec::new();
-    let mut asked: Vec<f64> = requests.iter().map(|request| request.asked).collect();
-    asked.sort_by(|a, b| b.total_cmp(a));
-    asked.dedup();
     for (purpose, name) in USES {
-        for &asked in &asked {
-            let of = |refused: bool| {
-                let chosen =
-                    |r: &&Request| r.purpose == purpose && r.asked == asked && r.offered.is_some() == refused;
-                requests.iter().filter(chosen).collect::<Vec<_>>()
-            };
-            let (kept, refused) = (of(false), of(true));
-            let met = |list: &[&Request]| list.iter().filter(|request| request.met()).count();
-            let mut costs: Vec<f64> = kept.iter().filter_map(|request| request.cost).collect();
-            costs.sort_by(f64::total_cmp);
+        for tally in tallies.iter().filter(|tally| tally.purpose == purpose) {
             rows.push(vec![
                 name.to_string(),
-                format!("{asked} %"),
-                format!("{} of {}", met(&kept), kept.len()),
-                refused.len().to_string(),
-                met(&refused).to_string(),
-                fixed(costs.get(costs.len() / 2).copied(), 1),
-                fixed(costs.last().copied(), 1),
+                format!("{} %", tally.asked),
+                format!("{} of {}", tally.met, tally.kept),
+                tally.refused.to_string(),
+                tally.possible.to_string(),
+                fixed(tally.cost, 1),
+                fixed(tally.highest_cost, 1),
             ]);
         }
     }

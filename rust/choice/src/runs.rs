@@ -1,0 +1,106 @@
+//! The runs of a search, and how far they are apart.
+
+use crate::ChoiceError;
+use crate::bands::{Law, Lengths, sensitivity};
+use crate::bed::Bed;
+use crate::found::{Share, Tried};
+use crate::quantity::Quantity;
+use crate::series::Series;
+use crate::settings::Settings;
+use crate::trial::Outcome;
+
+/// What can be chosen.
+#[derive(Clone, Debug)]
+pub struct Wishes {
+    /// Wanted accuracy of T [% of its range].
+    pub accuracy: f64,
+    /// Wanted accuracy of p [% of its range], if it is asked for.
+    pub pressure: Option<f64>,
+    /// Cells along each direction of the user's mesh; empty if it has to be taken as it is.
+    pub cells: Vec<usize>,
+    /// Whether grains move, if the user says so.
+    pub moves: Option<bool>,
+    pub bed: Bed,
+    pub law: Law,
+}
+
+/// Makes one run, given the range of T [K] once it is known.
+pub type Run<'a> = dyn FnMut(&Settings, Option<f64>) -> Result<Outcome, ChoiceError> + 'a;
+
+/// The runs so far.
+pub struct Runs<'a> {
+    run: &'a mut Run<'a>,
+    wishes: &'a Wishes,
+    /// Range of T [K] and of p [Pa] over all runs.
+    pub range: f64,
+    pub pressure_range: f64,
+    pub tried: Vec<Tried>,
+}
+
+impl<'a> Runs<'a> {
+    pub fn new(wishes: &'a Wishes, run: &'a mut Run<'a>) -> Self {
+        Self { run, wishes, range: 0.0, pressure_range: 0.0, tried: Vec::new() }
+    }
+
+    /// Runs a combination and compares it with another run.
+    ///
+    /// # Errors
+    /// Those of the run.
+    pub fn compare(
+        &mut self,
+        what: &str,
+        settings: Settings,
+        with: Option<&Outcome>,
+    ) -> Result<Outcome, ChoiceError> {
+        let range = (self.range > 0.0).then_some(self.range);
+        let outcome = (self.run)(&settings, range)?;
+        self.range = self.range.max(outcome.range);
+        if let Some(pressure) = outcome.values.get(&Quantity::Pressure) {
+            let mut all = pressure.clone();
+            all.values.push(outcome.start_pressure.clone());
+            self.pressure_range = self.pressure_range.max(all.range());
+        }
+        let away = with.map(|other| self.percent(&outcome, other));
+        let (cells, seconds) = (outcome.cells, outcome.seconds);
+        self.tried.push(Tried { what: what.to_string(), settings, cells, seconds, away });
+        Ok(outcome)
+    }
+
+    /// How far two runs are apart [% of the range of T].
+    pub fn percent(&self, a: &Outcome, b: &Outcome) -> f64 {
+        let away = |quantity| Some(a.values.get(&quantity)?.distance(b.values.get(&quantity)?));
+        self.share(away(Quantity::Temperature).unwrap_or(0.0), away(Quantity::Pressure).unwrap_or(0.0))
+    }
+
+    /// Errors of T [K] and p [Pa] as one share [% of the range of T].
+    fn share(&self, temperature: f64, pressure: f64) -> f64 {
+        let percent = 100.0 * temperature / self.range;
+        match self.wishes.pressure {
+            Some(wanted) if self.pressure_range > 0.0 => {
+                percent.max(100.0 * pressure / self.pressure_range * self.wishes.accuracy / wanted)
+            }
+            _ => percent,
+        }
+    }
+
+    /// What model and packing leave open, from a run with another conductivity, and the change of T with its logarithm.
+    pub fn open(&self, base: &Outcome, other: &Outcome) -> (Vec<Share>, Series) {
+        let sensitivity = sensitivity(base, other);
+        let bed = &self.wishes.bed;
+        let lengths = Lengths::new(bed, base, &sensitivity);
+        let part = |k: usize| {
+            let of = |quantity| self.wishes.law.doubt(quantity, k, &lengths);
+            self.share(of(Quantity::Temperature), of(Quantity::Pressure))
+        };
+        let model =
+            "what another conductivity would change, and the scenes that the model was judged by".to_string();
+        let packing = format!("scatter of beds of {:.0} grains", bed.grains);
+        let shares = [("model", 0, model), ("packing", 1, packing)];
+        let share = |(source, k, how): (&str, usize, String)| Share {
+            source: source.to_string(),
+            percent: part(k),
+            how,
+        };
+        (shares.into_iter().map(share).collect(), sensitivity)
+    }
+}
