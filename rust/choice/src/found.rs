@@ -64,6 +64,8 @@ pub struct Differences {
     pub time: Values,
     /// What changes if the grains move, where they stay in the chosen run.
     pub motion: Values,
+    /// What changes with the model, where the conductivity is constant in the chosen run.
+    pub constant: Values,
     /// Change of T with the logarithm of the conductivity [K].
     pub sensitivity: Series,
 }

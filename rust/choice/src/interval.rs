@@ -14,8 +14,7 @@ use std::path::Path;
 
 /// Name of the table in the folder of the chosen run.
 pub const FILE: &str = "bands.csv";
-const HEAD: &str =
-    "time,x,y,z,quantity,unit,value,low,high,time_error,space_error,motion_error,model,packing\n";
+const HEAD: &str = "time,x,y,z,quantity,unit,value,low,high,time_error,space_error,motion_error,constant_error,model,packing\n";
 
 /// A band at a point and a time. All parts are halves of a band, in the unit of the quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,10 +30,11 @@ pub struct Band {
 /// Where a band comes from. What is not known is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Parts {
-    /// Errors of steps and cells, and of grains that stay.
+    /// Errors of steps and cells, of grains that stay, and of a constant conductivity.
     pub time: f64,
     pub space: f64,
     pub motion: f64,
+    pub constant: f64,
     /// What the model leaves out, and the scatter of packings.
     pub model: f64,
     pub packing: f64,
@@ -43,11 +43,11 @@ pub struct Parts {
 impl Parts {
     /// Half of the whole band: numerical errors add up; model and packing are independent of them and of each other.
     pub fn half(&self) -> f64 {
-        (self.time + self.space + self.motion).hypot(self.model).hypot(self.packing)
+        (self.time + self.space + self.motion + self.constant).hypot(self.model).hypot(self.packing)
     }
 
-    fn all(&self) -> [f64; 5] {
-        [self.time, self.space, self.motion, self.model, self.packing]
+    fn all(&self) -> [f64; 6] {
+        [self.time, self.space, self.motion, self.constant, self.model, self.packing]
     }
 }
 
@@ -74,9 +74,9 @@ pub fn bands(scene: &Scene, run: &Outcome, seen: &Differences, space: &Values, l
             for (point, &value) in row.iter().enumerate().filter(|(_, value)| value.is_finite()) {
                 let units = lengths.units(quantity, index, point).unwrap_or_default();
                 let [model, packing] = law.of(quantity).halves(&units);
-                let [time_error, space, motion] =
-                    [part(&seen.time, point), part(space, point), part(&seen.motion, point)];
-                let parts = Parts { time: time_error, space, motion, model, packing };
+                let [time_error, space, motion, constant] =
+                    [&seen.time, space, &seen.motion, &seen.constant].map(|of| part(of, point));
+                let parts = Parts { time: time_error, space, motion, constant, model, packing };
                 bands.push(Band { quantity, time, point, value, parts });
             }
         }
@@ -95,6 +95,7 @@ pub fn means(bands: &[Band]) -> Vec<MeanBand> {
             time: rms(&|parts| parts.time),
             space: rms(&|parts| parts.space),
             motion: rms(&|parts| parts.motion),
+            constant: rms(&|parts| parts.constant),
             model: rms(&|parts| parts.model),
             packing: rms(&|parts| parts.packing),
         };
@@ -142,8 +143,8 @@ pub fn text(means: &[MeanBand]) -> String {
             .to_string();
     let _ = writeln!(
         text,
-        "{:16} {:>8}  {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}",
-        "", "", "+-", "steps", "cells", "motion", "model", "packing"
+        "{:16} {:>8}  {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}",
+        "", "", "+-", "steps", "cells", "motion", "constant", "model", "packing"
     );
     for MeanBand { quantity, unit, half, parts } in means {
         let numbers: Vec<String> = std::iter::once(*half)
@@ -161,7 +162,7 @@ mod tests {
 
     #[test]
     fn numerical_errors_add_up_and_the_rest_is_independent() {
-        let parts = Parts { time: 1.0, space: 2.0, motion: 0.0, model: 4.0, packing: 12.0 };
+        let parts = Parts { time: 1.0, space: 1.5, motion: 0.0, constant: 0.5, model: 4.0, packing: 12.0 };
         assert_eq!(parts.half(), 13.0);
         let band = |value| Band { quantity: Quantity::Pressure, time: 1.0, point: 0, value, parts };
         let means = means(&[band(1.0), band(2.0)]);

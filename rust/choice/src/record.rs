@@ -138,5 +138,8 @@ pub fn sentence(settings: &Settings, scene: &Scene, range: f64) -> String {
         false => format!("steps with an error of {} % of the range of T", 100.0 * settings.tolerance),
     };
     let grains = if settings.moves { "grains that move" } else { "grains that stay" };
-    format!("{mesh}, {steps}, {grains}")
+    let constant = settings.constant.map_or(String::new(), |[x, y]| {
+        format!(", a constant conductivity of {x:.4} along x and {y:.4} W/(m K) along y")
+    });
+    format!("{mesh}, {steps}, {grains}{constant}")
 }

@@ -20,6 +20,8 @@ pub struct Wishes {
     pub cells: Vec<usize>,
     /// Whether grains move, if the user says so.
     pub moves: Option<bool>,
+    /// Whether the conductivity may be constant.
+    pub constant: bool,
     pub bed: Bed,
     pub law: Law,
 }

@@ -116,6 +116,8 @@ pub struct Scene {
     pub bed: Bed,
     /// Factor of the conductivity that the case asks for.
     pub conductivity_factor: f64,
+    /// Name of its model, if it is of the type `network`, in whose place a constant conductivity can be taken.
+    pub model: Option<String>,
 }
 
 impl Scene {
@@ -180,6 +182,7 @@ impl Scene {
             points: mesh.points(),
             bed: mesh.bed(mean_radius),
             conductivity_factor,
+            model: model(&grains),
             folder,
         })
     }
@@ -219,6 +222,14 @@ impl Scene {
         }
         Ok(sum.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
     }
+}
+
+/// The model of the type `network`, as the file names it.
+fn model(grains: &Dictionary) -> Option<String> {
+    let surrogate = grains.dictionary_at("surrogate").ok()?;
+    let own = surrogate.dictionary_at("networkCoeffs").unwrap_or(surrogate);
+    let [name] = own.value("model").ok()? else { return None };
+    (surrogate.text("type").ok()? == "network").then(|| name.text.clone())
 }
 
 /// Adds a file and those that it includes.

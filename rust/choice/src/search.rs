@@ -8,6 +8,7 @@ use crate::ChoiceError;
 use crate::bands::CONDUCTIVITY;
 use crate::cells::{Base, Known, SAFETY, coarse_level};
 use crate::found::{Differences, Found, Share, difference};
+use crate::quantity::Quantity;
 use crate::runs::{Run, Runs, Wishes};
 use crate::settings::Settings;
 
@@ -23,6 +24,8 @@ const TIME: f64 = 0.2;
 const STAYING: f64 = 0.6;
 /// A direction is dropped if the run without it is away by no more than this share of the wanted accuracy.
 const DROP: f64 = 0.1;
+/// Largest share of a constant conductivity.
+const CONSTANT: f64 = 0.2;
 /// Largest share of the wanted accuracy that model and packing may leave open, and the share at the accuracy that is offered instead.
 const OPEN: f64 = 0.95;
 const OFFERED: f64 = 0.8;
@@ -44,6 +47,7 @@ pub fn find<'a>(wishes: &'a Wishes, run: &'a mut Run<'a>) -> Result<(Found, Diff
     if search.runs.range > 0.0 {
         search.doubt()?;
         search.motion()?;
+        search.constant()?;
         let steps = search.steps()?;
         search.cells(steps)?;
     } else {
@@ -63,8 +67,8 @@ struct Search<'a> {
     /// What model and packing leave open, and the accuracy that is left for the numerical method [% of the range of T].
     open: f64,
     accuracy: f64,
-    /// Error of grains that stay [% of the range of T].
-    staying: f64,
+    /// Error of grains that stay and of a constant conductivity [% of the range of T].
+    left_out: f64,
 }
 
 /// Whether the steps can be small enough, and their error [% of the range of T].
@@ -78,7 +82,7 @@ impl<'a> Search<'a> {
     fn begin(wishes: &'a Wishes, run: &'a mut Run<'a>) -> Result<Self, ChoiceError> {
         let levels = wishes.cells.iter().map(|&cells| coarse_level(cells)).collect();
         let moves = wishes.moves == Some(true);
-        let settings = Settings { levels, tolerance: TOLERANCE, moves, conductivity: 1.0 };
+        let settings = Settings::new(levels, TOLERANCE, moves);
         let mut runs = Runs::new(wishes, run);
         let outcome = runs.compare("coarse mesh", settings.clone(), None)?;
         let found = Found {
@@ -98,7 +102,7 @@ impl<'a> Search<'a> {
             seen: Differences::default(),
             open: 0.0,
             accuracy: wishes.accuracy,
-            staying: 0.0,
+            left_out: 0.0,
         })
     }
 
@@ -146,8 +150,37 @@ impl<'a> Search<'a> {
         } else {
             let how = "runs with and without their motion".to_string();
             self.found.shares.push(Share { source: "grains stay".to_string(), percent, how });
-            self.staying = percent;
+            self.left_out += percent;
             self.seen.motion = difference(&moving, &self.base.outcome, 1.0);
+        }
+        Ok(())
+    }
+
+    /// Whether the conductivity may be constant: the mean over bed and run of that with the model. The grains then stay.
+    fn constant(&mut self) -> Result<(), ChoiceError> {
+        if !self.wishes.constant || self.wishes.moves == Some(true) {
+            return Ok(());
+        }
+        let base = &self.base.outcome;
+        let mean = [Quantity::ConductivityXx, Quantity::ConductivityYy].map(|k| base.series(k).mean());
+        let settings = Settings { constant: Some(mean), moves: false, ..self.base.settings.clone() };
+        let constant = match self.runs.compare("constant conductivity", settings.clone(), Some(base)) {
+            Err(ChoiceError::Run { problem, .. }) => {
+                self.found.notes.push(format!("a constant conductivity could not be tried: {problem}"));
+                return Ok(());
+            }
+            other => other?,
+        };
+        let percent = self.runs.percent(&constant, base);
+        if percent <= CONSTANT * self.accuracy && self.left_out + percent <= STAYING * self.accuracy {
+            let how = "runs with the model and without it".to_string();
+            self.found.shares.push(Share { source: "constant conductivity".to_string(), percent, how });
+            let note =
+                "conductivity and pressure of this run are constant; their bands hold what that leaves out";
+            self.found.notes.push(note.to_string());
+            self.left_out += percent;
+            self.seen.constant = difference(base, &constant, 1.0);
+            self.base = Base { settings, outcome: constant };
         }
         Ok(())
     }
@@ -177,7 +210,7 @@ impl<'a> Search<'a> {
     /// The fewest cells along each direction. What motion and steps have left is shared by the directions; those along which
     /// nothing changes leave their share to the others.
     fn cells(&mut self, steps: Steps) -> Result<(), ChoiceError> {
-        let mut left = self.accuracy * (1.0 - TIME) - self.staying;
+        let mut left = self.accuracy * (1.0 - TIME) - self.left_out;
         let mut directions = Vec::new();
         for (direction, &cells) in self.wishes.cells.iter().enumerate() {
             let known = Known::new(&mut self.runs, &self.base, direction, cells, DROP * self.accuracy)?;

@@ -16,6 +16,8 @@ struct Scene {
     motion: f64,
     cells: Vec<usize>,
     sensitivity: f64,
+    /// What a constant conductivity leaves out.
+    constant: f64,
 }
 
 impl Scene {
@@ -23,20 +25,25 @@ impl Scene {
         let space = settings.levels.iter().zip(&self.cells).zip(&self.space);
         let space: f64 = space.map(|((l, &n), e)| e / (l.cells(n) as f64).powi(2)).sum();
         let motion = if settings.moves { 0.0 } else { self.motion };
-        space + self.time * settings.tolerance.powf(time_order(settings.moves)) + motion
+        let constant = settings.constant.map_or(0.0, |_| self.constant);
+        constant + space + self.time * settings.tolerance.powf(time_order(settings.moves)) + motion
     }
 
     fn find(&self, accuracy: f64, moves: Option<bool>) -> Result<Found, ChoiceError> {
         let bed = Bed { grains: 1000.0, mean_radius: 1.0, window: 100.0, neighbours: Vec::new() };
         let (cells, law) = (self.cells.clone(), Law::shipped());
-        let wishes = Wishes { accuracy, pressure: None, cells, moves, bed, law };
+        let wishes = Wishes { accuracy, pressure: None, cells, moves, constant: true, bed, law };
         let run = &mut |settings: &Settings, _| {
             // A change of the conductivity by 5 % changes T by this many kelvins.
             let more = self.sensitivity * (settings.conductivity - 1.0);
             let series = Series { times: vec![1.0], values: vec![vec![100.0 + self.error(settings) + more]] };
             let cells = settings.levels.iter().zip(&self.cells).map(|(l, &n)| l.cells(n)).product();
+            let one = Series { times: vec![1.0], values: vec![vec![1.0]] };
+            let conductivity = [Quantity::ConductivityXx, Quantity::ConductivityYy].map(|k| (k, one.clone()));
+            let mut values = Values::from(conductivity);
+            values.insert(Quantity::Temperature, series);
             Ok(Outcome {
-                values: Values::from([(Quantity::Temperature, series)]),
+                values,
                 strain: Series::default(),
                 start_pressure: Vec::new(),
                 range: 100.0,
@@ -51,8 +58,14 @@ impl Scene {
 
 #[test]
 fn the_true_error_is_within_the_request_and_no_finer_than_it_needs() {
-    let scene =
-        Scene { space: vec![300.0, 100.0], time: 4.0, motion: 0.1, cells: vec![200, 100], sensitivity: 0.0 };
+    let scene = Scene {
+        space: vec![300.0, 100.0],
+        time: 4.0,
+        motion: 0.1,
+        cells: vec![200, 100],
+        sensitivity: 0.0,
+        constant: 50.0,
+    };
     for accuracy in [5.0, 2.0, 1.0] {
         let found = scene.find(accuracy, None).unwrap();
         let error = scene.error(&found.settings);
@@ -67,7 +80,14 @@ fn the_true_error_is_within_the_request_and_no_finer_than_it_needs() {
 
 #[test]
 fn motion_counts_where_it_matters_and_where_the_user_says_so() {
-    let scene = Scene { space: vec![10.0], time: 1.0, motion: 4.0, cells: vec![100], sensitivity: 0.0 };
+    let scene = Scene {
+        space: vec![10.0],
+        time: 1.0,
+        motion: 4.0,
+        cells: vec![100],
+        sensitivity: 0.0,
+        constant: 50.0,
+    };
     assert!(scene.find(1.0, None).unwrap().settings.moves);
     assert!(!scene.find(20.0, None).unwrap().settings.moves);
     assert!(scene.find(20.0, Some(true)).unwrap().settings.moves);
@@ -78,26 +98,64 @@ fn motion_counts_where_it_matters_and_where_the_user_says_so() {
 
 #[test]
 fn a_direction_along_which_nothing_changes_gets_one_cell() {
-    let scene =
-        Scene { space: vec![300.0, 0.0], time: 1.0, motion: 0.0, cells: vec![100, 50], sensitivity: 0.0 };
+    let scene = Scene {
+        space: vec![300.0, 0.0],
+        time: 1.0,
+        motion: 0.0,
+        cells: vec![100, 50],
+        sensitivity: 0.0,
+        constant: 50.0,
+    };
     assert_eq!(scene.find(1.0, None).unwrap().settings.levels[1], Level::One);
 }
 
 #[test]
 fn a_request_out_of_reach_is_refused_with_the_best_that_can_be_had() {
-    let scene = Scene { space: vec![30_000.0], time: 1.0, motion: 0.0, cells: vec![20], sensitivity: 0.0 };
+    let scene = Scene {
+        space: vec![30_000.0],
+        time: 1.0,
+        motion: 0.0,
+        cells: vec![20],
+        sensitivity: 0.0,
+        constant: 50.0,
+    };
     let Err(ChoiceError::OutOfReach { best, .. }) = scene.find(0.5, None) else { panic!() };
     assert!(best > 0.5 && scene.find(best, None).is_ok(), "{best}");
 }
 
 #[test]
 fn what_model_and_packing_leave_open_is_not_asked_of_the_cells() {
-    let scene =
-        |sensitivity| Scene { space: vec![700.0], time: 1.0, motion: 0.0, cells: vec![100], sensitivity };
+    let scene = |sensitivity| Scene {
+        space: vec![700.0],
+        time: 1.0,
+        motion: 0.0,
+        cells: vec![100],
+        sensitivity,
+        constant: 50.0,
+    };
     let cells = |found: &Found| found.settings.levels[0].cells(100);
     let (sure, unsure) = (scene(0.0).find(2.0, None).unwrap(), scene(30.0).find(2.0, None).unwrap());
     assert!(cells(&unsure) > cells(&sure), "{} {}", cells(&unsure), cells(&sure));
     assert!(unsure.total() <= 2.0);
     let Err(ChoiceError::OutOfReach { best, .. }) = scene(100.0).find(2.0, None) else { panic!() };
     assert!(best > 2.0 && scene(100.0).find(best, None).is_ok(), "{best}");
+}
+
+#[test]
+fn the_conductivity_is_constant_where_that_changes_little_and_the_grains_stay() {
+    let scene = |constant| Scene {
+        space: vec![10.0],
+        time: 1.0,
+        motion: 0.1,
+        cells: vec![100],
+        sensitivity: 0.0,
+        constant,
+    };
+    let found = scene(0.3).find(2.0, None).unwrap();
+    assert_eq!(found.settings.constant, Some([1.0, 1.0]));
+    let share = found.shares.iter().find(|share| share.source == "constant conductivity").unwrap();
+    assert!((share.percent - 0.3).abs() < 1e-9);
+    assert!(scene(0.3).error(&found.settings) <= 2.0 && found.total() <= 2.0);
+    assert_eq!(scene(0.3).find(2.0, Some(true)).unwrap().settings.constant, None);
+    assert_eq!(scene(0.5).find(2.0, None).unwrap().settings.constant, None);
 }

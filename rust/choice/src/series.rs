@@ -80,6 +80,13 @@ impl Series {
         series
     }
 
+    /// Mean over points inside the mesh and times; NaN without any.
+    pub fn mean(&self) -> f64 {
+        let finite = self.values.iter().flatten().filter(|value| value.is_finite());
+        let (sum, count) = finite.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
+        sum / f64::from(count)
+    }
+
     /// Root of the mean square over points inside the mesh and times; NaN without any.
     pub fn rms(&self) -> f64 {
         let finite = self.values.iter().flatten().filter(|value| value.is_finite());
@@ -130,7 +137,7 @@ mod tests {
             values: vec![vec![2.0, 8.0], vec![3.0, 9.0], vec![0.0, 0.0]],
         };
         assert_eq!(a.distance(&b), (0.25f64 * (9.0 + 16.0)).sqrt());
-        assert_eq!(a.range(), 4.0);
+        assert_eq!((a.range(), a.mean()), (4.0, 3.5));
         assert_eq!(a.deviations(&b), [0.0, (0.5f64 * (9.0 + 16.0)).sqrt()]);
         assert!(a.distance(&Series::default()).is_nan());
     }

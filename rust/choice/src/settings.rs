@@ -56,6 +56,16 @@ pub struct Settings {
     /// Factor of the conductivity: 1, but for the run that shows what another conductivity would change.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub conductivity: f64,
+    /// Constant conductivity of the bed along x and y [W/(m K)] in place of the model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub constant: Option<[f64; 2]>,
+}
+
+impl Settings {
+    /// A run with the model.
+    pub fn new(levels: Vec<Level>, tolerance: f64, moves: bool) -> Self {
+        Self { levels, tolerance, moves, conductivity: 1.0, constant: None }
+    }
 }
 
 fn one() -> f64 {

@@ -217,7 +217,14 @@ fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Pu
         "constant/granularProperties" => {
             let mechanics = if settings.moves { "equilibrium" } else { "none" };
             let factor = settings.conductivity * scene.conductivity_factor;
-            format!("mechanics {mechanics};\nconductivityFactor {factor:e};\n")
+            let mut keys = format!("mechanics {mechanics};\nconductivityFactor {factor:e};\n");
+            if let (Some([x, y]), Some(model)) = (settings.constant, &scene.model) {
+                let _ = writeln!(
+                    keys,
+                    "surrogate\n{{\n    type constant;\n    constantCoeffs {{ model \"{model}\"; conductivity ({x:e} 0 0 {y:e} 0 {y:e}); }}\n}}"
+                );
+            }
+            keys
         }
         "system/blockMeshDict" => match &scene.blocks {
             Ok(blocks) => format!("blocks {};\n", blocks.text(&settings.levels)),

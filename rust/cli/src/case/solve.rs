@@ -23,8 +23,8 @@ use std::time::Instant;
 
     msddFoam { accuracy 1; }
 
-Short runs on coarse meshes show what it changes to let the grains move, to take larger steps, and to halve the cells along each
-direction of system/blockMeshDict. What the model and the scatter of packings leave open is estimated, too. The cheapest
+Short runs on coarse meshes show what it changes to let the grains move, to take a constant conductivity or larger steps, and to
+halve the cells along each direction of system/blockMeshDict. What the model and the scatter of packings leave open is estimated, too. The cheapest
 combination that stays below the wanted accuracy is then run in the folder FOLDER.chosen beside the case, a complete case of its
 own; its file choice.json and the key 'choice' of its summary.json hold what was tried, what it cost, and the estimates; bands.csv
 holds 90 % bands of T, pressure, conductivity and displacement at points and times. A second call takes the choice without a
@@ -162,7 +162,15 @@ fn search(
     let Wanted { accuracy, pressure } = wanted;
     let began = Instant::now();
     let (bed, law) = (scene.bed.clone(), Law::shipped());
-    let wishes = Wishes { accuracy, pressure, cells: scene.directions(), moves: scene.moves, bed, law };
+    let wishes = Wishes {
+        accuracy,
+        pressure,
+        cells: scene.directions(),
+        moves: scene.moves,
+        constant: scene.model.is_some(),
+        bed,
+        law,
+    };
     let folder = beside(scene, "trial");
     outln!("Looking for the cheapest run with an error of T of at most {accuracy} % of its range:");
     let found = find(&wishes, &mut |settings: &Settings, range| {

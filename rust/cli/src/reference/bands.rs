@@ -80,7 +80,7 @@ impl Windows {
 /// One run of the solver in a case folder, on the mesh of the case.
 fn run(scene: &Scene, range: f64, conductivity: f64) -> Result<Outcome, ChoiceError> {
     let levels = vec![Level::Halved(0); scene.directions().len()];
-    let settings = Settings { levels, tolerance: TOLERANCE, moves: true, conductivity };
+    let settings = Settings { conductivity, ..Settings::new(levels, TOLERANCE, true) };
     let folder = beside(scene, "trial");
     let lock = Lock::take(&folder)?;
     let outcome = attempt(scene, &settings, Some(range), &folder, &lock);

@@ -112,11 +112,8 @@ pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
         let lock = Lock::take(&folder).map_err(|error| failed(error.into()))?;
         let mut runs = Runs { scene: &scene, range, folder, lock, done: Vec::new() };
         let count = scene.directions().len();
-        let even = |halved: i32, tolerance: f64, moves: bool| Settings {
-            levels: vec![Level::Halved(halved); count],
-            tolerance,
-            moves,
-            conductivity: 1.0,
+        let even = |halved: i32, tolerance: f64, moves: bool| {
+            Settings::new(vec![Level::Halved(halved); count], tolerance, moves)
         };
         let fine = runs.run(&even(-FINE.0, FINE.1, true)).map_err(failed)?;
         let percent = |error: f64| 100.0 * error / range;
@@ -139,6 +136,7 @@ pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
                 pressure: None,
                 cells: scene.directions(),
                 moves: None,
+                constant: scene.model.is_some(),
                 bed: scene.bed.clone(),
                 law: Law::shipped(),
             };

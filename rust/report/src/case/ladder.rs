@@ -96,7 +96,7 @@ pub fn ladder(scene: &Scene, range: f64, quick: bool) -> Result<Vec<Rung>, Repor
         }
     }
     let new = |levels: &[Level], tolerance: f64, moves: bool| {
-        Rung::new(scene, range, Settings { levels: levels.to_vec(), tolerance, moves, conductivity: 1.0 })
+        Rung::new(scene, range, Settings::new(levels.to_vec(), tolerance, moves))
     };
     let mut rungs = Vec::new();
     for moves in [false, true] {
@@ -146,7 +146,7 @@ fn as_it_is(scene: &Scene) -> Result<Option<Rung>, ReportError> {
     let scheme = scheme.unwrap_or_else(|| "paper".to_string());
     let levels = level(scene, 0);
     let name = cells(scene, &levels);
-    let settings = Settings { levels, tolerance: USUAL, moves: scene.moves == Some(true), conductivity: 1.0 };
+    let settings = Settings::new(levels, USUAL, scene.moves == Some(true));
     let rung = Rung { name, family: FAMILIES[4], settings, range: None, append: BTreeMap::new() };
     let steps = format!("adjustTimeStep {adjust};\ndeltaT {:e};\n", scene.first_step);
     Ok(Some(
@@ -176,6 +176,7 @@ mod tests {
             points: Vec::new(),
             pressure_accuracy: None,
             conductivity_factor: 1.0,
+            model: None,
             bed: Bed { grains: 1000.0, mean_radius: 0.005, window: 100.0, neighbours: Vec::new() },
         }
     }

@@ -170,12 +170,7 @@ fn report(work: &mut Work, watch: &mut Watch) -> Result<CaseReport, ReportError>
 
 /// Range of T [K], which a run on few cells shows.
 fn range(work: &mut Work, watch: &mut Watch) -> Result<f64, ReportError> {
-    let settings = msdd_choice::settings::Settings {
-        levels: level(work.scene, 2),
-        tolerance: 1e-3,
-        moves: false,
-        conductivity: 1.0,
-    };
+    let settings = msdd_choice::settings::Settings::new(level(work.scene, 2), 1e-3, false);
     let rung = Rung { range: None, ..Rung::new(work.scene, 0.0, settings) };
     let job = work.solver(&rung, work.limit());
     work.run("range of T", &[Asked { job: job.clone(), guess: 1.0 }], watch)?;

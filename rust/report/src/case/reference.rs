@@ -117,8 +117,7 @@ fn of_finer(
         let times = (f64::from(finer)).log2().round() as i32;
         let levels = level(work.scene, -times);
         // A step of second order grows with the cube root of the tolerance.
-        let settings =
-            Settings { levels, tolerance: tolerance / f64::from(finer).powi(3), moves, conductivity: 1.0 };
+        let settings = Settings::new(levels, tolerance / f64::from(finer).powi(3), moves);
         let rung = Rung::new(work.scene, range, settings);
         let guess = estimate(work, rungs, &rung).unwrap_or(limit as f64);
         if finer == FINER[0] && (quick || guess > limit as f64) {
@@ -154,11 +153,8 @@ fn of_finer(
         let order = if moves { 1 } else { 2 };
         let share = |ratio: f64, order: i32| 1.0 / (ratio.powi(order) - 1.0);
         let share = share(f64::from(finer), order).max(if can_refine { share(space, 2) } else { 0.0 });
-        let nearest = Rung::new(
-            work.scene,
-            range,
-            Settings { levels: level(work.scene, halved), tolerance, moves, conductivity: 1.0 },
-        );
+        let nearest =
+            Rung::new(work.scene, range, Settings::new(level(work.scene, halved), tolerance, moves));
         let own_error =
             nearest_error(work, &nearest, &truth).map(|error| share * error).filter(|e| e.is_finite());
         let finer = can_refine.then_some(finer);

@@ -112,7 +112,7 @@ pub fn prepare(job: &CaseJob) -> Result<(), ChoiceError> {
         CaseProgram::Choice(_) => trial::plain(&scene, &folder),
         CaseProgram::Discs(_) => {
             let levels = vec![Level::Halved(0); scene.directions().len()];
-            let settings = Settings { levels, tolerance: 1e-3, moves: false, conductivity: 1.0 };
+            let settings = Settings::new(levels, 1e-3, false);
             trial::make(&scene, &settings, None, Purpose::Trial, &folder)?;
             let probes =
                 format!("functions {{ probes {{ probeLocations ({}); }} }}\n", points(&scene.points));
