@@ -16,13 +16,23 @@ const SEEN: f64 = 1.1;
 /// Order of the cell's size in the error of T.
 pub const ORDER: i32 = 2;
 
-/// The coarsest level with enough cells to compare choices on.
-pub fn coarse_level(cells: usize) -> Level {
+/// The coarsest level with enough cells along a direction, or half of it, to compare choices on.
+pub fn coarse_level(cells: usize, half: bool) -> Level {
+    let least = if half { COARSE / 2 } else { COARSE };
     let mut level = Level::Halved(0);
-    while let Some(next) = level.coarser(cells).filter(|next| next.cells(cells) >= COARSE) {
+    while let Some(next) = level.coarser(cells).filter(|next| next.cells(cells) >= least) {
         level = next;
     }
     level
+}
+
+/// The coarsest level with enough cells at which half of a direction has exactly half the cells.
+pub fn even_level(cells: usize) -> Level {
+    let mut halvings = 0;
+    while cells.is_multiple_of(4 << halvings) && cells >> (halvings + 1) >= COARSE {
+        halvings += 1;
+    }
+    Level::Halved(halvings)
 }
 
 /// The run on the coarse mesh that others are compared with.

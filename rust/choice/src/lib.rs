@@ -3,6 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`scene`] | what of the user's case can be chosen: mesh, times, whether grains move |
+//! | [`mirror`] | boxes of which one half is enough |
 //! | [`settings`] | one combination of choices |
 //! | [`quantity`] | what runs are compared in |
 //! | [`series`] | values at points and times, and how far two runs are apart |
@@ -24,6 +25,7 @@ pub mod calibrate;
 pub mod cells;
 pub mod found;
 pub mod interval;
+pub mod mirror;
 mod program;
 pub mod quantity;
 pub mod record;

@@ -125,10 +125,13 @@ fn write_json(file: &Path, value: &impl Serialize, pretty: bool) -> Result<(), C
 pub fn sentence(settings: &Settings, scene: &Scene, range: f64) -> String {
     let mesh = match &scene.blocks {
         Ok(blocks) => {
-            let total = blocks.total(&settings.levels);
-            match settings.levels.iter().all(|&level| level == Level::Halved(0)) {
-                true => format!("the case's own {total} cells"),
-                false => format!("{total} cells instead of {}", scene.cells),
+            let total = blocks.total(settings);
+            let whole = settings.levels.iter().all(|&level| level == Level::Halved(0));
+            match (settings.halved.iter().filter(|&&halved| halved).count(), whole) {
+                (0, true) => format!("the case's own {total} cells"),
+                (0, false) => format!("{total} cells instead of {}", scene.cells),
+                (1, _) => format!("{total} cells of half the box instead of {}", scene.cells),
+                _ => format!("{total} cells of a quarter of the box instead of {}", scene.cells),
             }
         }
         Err(why) => format!("the case's own {} cells ({why})", scene.cells),

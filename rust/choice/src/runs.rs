@@ -18,6 +18,8 @@ pub struct Wishes {
     pub pressure: Option<f64>,
     /// Cells along each direction of the user's mesh; empty if it has to be taken as it is.
     pub cells: Vec<usize>,
+    /// Which of these directions mirror; none if empty.
+    pub mirrors: Vec<bool>,
     /// Whether grains move, if the user says so.
     pub moves: Option<bool>,
     /// Whether the conductivity may be constant.

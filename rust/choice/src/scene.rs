@@ -2,7 +2,8 @@
 
 use crate::ChoiceError;
 use crate::bed::Bed;
-use crate::settings::Level;
+use crate::mirror::Mirror;
+use crate::settings::{Level, Settings};
 use msdd_case::CaseError;
 use msdd_case::dictionary::{Dictionary, Entry, Token};
 use msdd_case::path;
@@ -62,27 +63,27 @@ impl Blocks {
         self.counts.iter().flat_map(|count| direction.iter().map(|&k| count[k])).min().unwrap_or(1)
     }
 
-    fn counts_at(&self, levels: &[Level]) -> Vec<[usize; 3]> {
+    fn counts_at(&self, settings: &Settings) -> Vec<[usize; 3]> {
         let mut all = self.counts.clone();
-        for (direction, level) in self.directions().iter().zip(levels) {
+        for (number, (direction, level)) in self.directions().iter().zip(&settings.levels).enumerate() {
             for count in &mut all {
                 for &k in direction {
-                    count[k] = level.cells(count[k]);
+                    count[k] = level.cells(settings.own_cells(number, count[k]));
                 }
             }
         }
         all
     }
 
-    /// Number of cells of the mesh at these levels.
-    pub fn total(&self, levels: &[Level]) -> usize {
-        self.counts_at(levels).iter().map(|count| count.iter().product::<usize>()).sum()
+    /// Number of cells of the mesh.
+    pub fn total(&self, settings: &Settings) -> usize {
+        self.counts_at(settings).iter().map(|count| count.iter().product::<usize>()).sum()
     }
 
-    /// The entry `blocks` of blockMeshDict at these levels.
-    pub fn text(&self, levels: &[Level]) -> String {
+    /// The entry `blocks` of blockMeshDict.
+    pub fn text(&self, settings: &Settings) -> String {
         let mut tokens = self.tokens.clone();
-        for (&place, count) in self.places.iter().zip(self.counts_at(levels)) {
+        for (&place, count) in self.places.iter().zip(self.counts_at(settings)) {
             for (k, cells) in count.iter().enumerate() {
                 tokens[place + k] = cells.to_string();
             }
@@ -118,6 +119,10 @@ pub struct Scene {
     pub conductivity_factor: f64,
     /// Name of its model, if it is of the type `network`, in whose place a constant conductivity can be taken.
     pub model: Option<String>,
+    /// What is known of a box that is its own mirror image.
+    pub mirror: Option<Mirror>,
+    /// Lowest and highest coordinates of the mesh [m].
+    pub bounds: [[f64; 3]; 2],
 }
 
 impl Scene {
@@ -162,12 +167,18 @@ impl Scene {
             .ok_or("there is no system/blockMeshDict with blocks of hexahedra")
             .and_then(|blocks| {
                 let levels = vec![Level::Halved(0); blocks.directions().len()];
-                match blocks.total(&levels) == mesh.cells {
+                match blocks.total(&Settings::new(levels, 0.0, false)) == mesh.cells {
                     true => Ok(blocks),
                     false => Err("the mesh is not that of system/blockMeshDict"),
                 }
             })
             .map_err(str::to_string);
+        let model = model(&grains);
+        let single = blocks.as_ref().ok().and_then(|blocks| <[_; 1]>::try_from(blocks.counts.clone()).ok());
+        let mirror = match (single, &model) {
+            (Some([count]), Some(_)) => Mirror::read(&folder, &start, count),
+            _ => None,
+        };
         Ok(Self {
             start,
             start_time,
@@ -182,7 +193,9 @@ impl Scene {
             points: mesh.points(),
             bed: mesh.bed(mean_radius),
             conductivity_factor,
-            model: model(&grains),
+            model,
+            mirror,
+            bounds: mesh.bounds,
             folder,
         })
     }
@@ -192,6 +205,29 @@ impl Scene {
         self.blocks.as_ref().map_or(Vec::new(), |blocks| {
             blocks.directions().iter().map(|direction| blocks.cells(direction)).collect()
         })
+    }
+
+    /// Which of these directions mirror.
+    pub fn mirrors(&self) -> Vec<bool> {
+        match (&self.blocks, &self.mirror) {
+            (Ok(blocks), Some(mirror)) => blocks
+                .directions()
+                .iter()
+                .map(|direction| mirror.along.get(direction[0]) == Some(&true))
+                .collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether halves along x and y are run.
+    pub fn halves(&self, settings: &Settings) -> [bool; 2] {
+        let mut halves = [false; 2];
+        for (number, direction) in self.blocks.iter().flat_map(Blocks::directions).enumerate() {
+            for &k in direction.iter().filter(|&&k| k < 2) {
+                halves[k] = settings.halves(number);
+            }
+        }
+        halves
     }
 
     /// Interval of the times at which runs are compared [s]: a part of the user's own interval, so that the times of the chosen
@@ -348,15 +384,21 @@ mod tests {
         Blocks::read(dictionary.value("blocks").unwrap()).unwrap()
     }
 
+    fn at(levels: &[Level]) -> Settings {
+        Settings::new(levels.to_vec(), 0.0, false)
+    }
+
     #[test]
     fn a_single_block_is_halved_along_each_direction_by_itself() {
         let one = blocks("blocks ( hex ( 0 1 2 3 4 5 6 7 ) zone ( 100 30 1 ) simpleGrading ( 1 1 1 ) );");
         assert_eq!(one.directions(), [[0], [1]]);
         assert_eq!(
-            one.text(&[Level::Halved(2), Level::One]),
+            one.text(&at(&[Level::Halved(2), Level::One])),
             "( hex ( 0 1 2 3 4 5 6 7 ) zone ( 25 1 1 ) simpleGrading ( 1 1 1 ) )"
         );
-        assert_eq!(one.total(&[Level::Halved(1), Level::Halved(1)]), 50 * 15);
+        assert_eq!(one.total(&at(&[Level::Halved(1), Level::Halved(1)])), 50 * 15);
+        let half = Settings { halved: vec![false, true], ..at(&[Level::Halved(1), Level::Halved(0)]) };
+        assert_eq!(one.total(&half), 50 * 15);
     }
 
     #[test]
@@ -380,6 +422,6 @@ mod tests {
         );
         assert_eq!(two.directions(), [[0, 1]]);
         assert_eq!(two.cells(&[0, 1]), 8);
-        assert_eq!(two.total(&[Level::Halved(1)]), 4 * 15 + 8 * 15);
+        assert_eq!(two.total(&at(&[Level::Halved(1)])), 4 * 15 + 8 * 15);
     }
 }

@@ -6,7 +6,7 @@
 
 use crate::ChoiceError;
 use crate::bands::CONDUCTIVITY;
-use crate::cells::{Base, Known, SAFETY, coarse_level};
+use crate::cells::{Base, Known, SAFETY, coarse_level, even_level};
 use crate::found::{Differences, Found, Share, difference};
 use crate::quantity::Quantity;
 use crate::runs::{Run, Runs, Wishes};
@@ -24,6 +24,8 @@ const TIME: f64 = 0.2;
 const STAYING: f64 = 0.6;
 /// A direction is dropped if the run without it is away by no more than this share of the wanted accuracy.
 const DROP: f64 = 0.1;
+/// Largest share of half a box, which leaves nothing out but what an unsteady balance of the grains does.
+const HALF: f64 = 0.05;
 /// Largest share of a constant conductivity.
 const CONSTANT: f64 = 0.2;
 /// Largest share of the wanted accuracy that model and packing may leave open, and the share at the accuracy that is offered instead.
@@ -46,6 +48,7 @@ pub fn find<'a>(wishes: &'a Wishes, run: &'a mut Run<'a>) -> Result<(Found, Diff
     let mut search = Search::begin(wishes, run)?;
     if search.runs.range > 0.0 {
         search.doubt()?;
+        search.half()?;
         search.motion()?;
         search.constant()?;
         let steps = search.steps()?;
@@ -67,7 +70,7 @@ struct Search<'a> {
     /// What model and packing leave open, and the accuracy that is left for the numerical method [% of the range of T].
     open: f64,
     accuracy: f64,
-    /// Error of grains that stay and of a constant conductivity [% of the range of T].
+    /// Error of half a box, of grains that stay and of a constant conductivity [% of the range of T].
     left_out: f64,
 }
 
@@ -80,7 +83,7 @@ struct Steps {
 impl<'a> Search<'a> {
     /// Runs the coarse mesh.
     fn begin(wishes: &'a Wishes, run: &'a mut Run<'a>) -> Result<Self, ChoiceError> {
-        let levels = wishes.cells.iter().map(|&cells| coarse_level(cells)).collect();
+        let levels = wishes.cells.iter().map(|&cells| coarse_level(cells, false)).collect();
         let moves = wishes.moves == Some(true);
         let settings = Settings::new(levels, TOLERANCE, moves);
         let mut runs = Runs::new(wishes, run);
@@ -121,6 +124,48 @@ impl<'a> Search<'a> {
             return Err(ChoiceError::OutOfReach { asked, best: self.open / OFFERED, reason });
         }
         self.accuracy = (asked.powi(2) - self.open.powi(2)).sqrt();
+        Ok(())
+    }
+
+    /// Whether half the box, or a quarter, is enough: if it mirrors, and a run of it gives what one of the whole box gives.
+    fn half(&mut self) -> Result<(), ChoiceError> {
+        let halved = self.wishes.mirrors.clone();
+        if !halved.contains(&true) {
+            return Ok(());
+        }
+        let cells = &self.wishes.cells;
+        let level = |k: usize| if halved[k] { even_level(cells[k]) } else { self.base.settings.levels[k] };
+        let levels = (0..cells.len()).map(level).collect();
+        let whole = Settings::new(levels, TOLERANCE, self.wishes.moves != Some(false));
+        let half = Settings { halved: halved.clone(), ..whole.clone() };
+        let tried = self.runs.compare("whole box", whole, None).and_then(|whole| {
+            let part = self.runs.compare("part of the box", half, Some(&whole))?;
+            Ok(self.runs.percent(&part, &whole))
+        });
+        let percent = match tried {
+            Err(ChoiceError::Run { problem, .. }) => {
+                self.found.notes.push(format!("a part of the box could not be tried: {problem}"));
+                return Ok(());
+            }
+            other => other?,
+        };
+        if percent > HALF * self.accuracy {
+            let note = format!("the box mirrors, but a part of it alone changes T by {percent:.3} %");
+            self.found.notes.push(note);
+            return Ok(());
+        }
+        let how = "runs of the whole box and of the part".to_string();
+        self.found.shares.push(Share { source: "part of the box".to_string(), percent, how });
+        let note = "the chosen case is the half, or quarter, of the box at its lowest corner; points of function objects beyond it stand at their mirror images";
+        self.found.notes.push(note.to_string());
+        self.left_out += percent;
+        let mut settings = Settings { halved, ..self.base.settings.clone() };
+        for (k, &cells) in cells.iter().enumerate() {
+            settings.levels[k] = coarse_level(settings.own_cells(k, cells), settings.halves(k));
+        }
+        let outcome =
+            self.runs.compare("coarse mesh of the part", settings.clone(), Some(&self.base.outcome))?;
+        self.base = Base { settings, outcome };
         Ok(())
     }
 
@@ -213,6 +258,7 @@ impl<'a> Search<'a> {
         let mut left = self.accuracy * (1.0 - TIME) - self.left_out;
         let mut directions = Vec::new();
         for (direction, &cells) in self.wishes.cells.iter().enumerate() {
+            let cells = self.base.settings.own_cells(direction, cells);
             let known = Known::new(&mut self.runs, &self.base, direction, cells, DROP * self.accuracy)?;
             if known.single {
                 left -= known.error;

@@ -18,12 +18,16 @@ struct Scene {
     sensitivity: f64,
     /// What a constant conductivity leaves out.
     constant: f64,
+    mirrors: Vec<bool>,
 }
 
 impl Scene {
     fn error(&self, settings: &Settings) -> f64 {
-        let space = settings.levels.iter().zip(&self.cells).zip(&self.space);
-        let space: f64 = space.map(|((l, &n), e)| e / (l.cells(n) as f64).powi(2)).sum();
+        let cells = |k: usize| {
+            let own = settings.levels[k].cells(settings.own_cells(k, self.cells[k]));
+            if settings.halves(k) { 2 * own } else { own }
+        };
+        let space: f64 = self.space.iter().enumerate().map(|(k, e)| e / (cells(k) as f64).powi(2)).sum();
         let motion = if settings.moves { 0.0 } else { self.motion };
         let constant = settings.constant.map_or(0.0, |_| self.constant);
         constant + space + self.time * settings.tolerance.powf(time_order(settings.moves)) + motion
@@ -32,12 +36,22 @@ impl Scene {
     fn find(&self, accuracy: f64, moves: Option<bool>) -> Result<Found, ChoiceError> {
         let bed = Bed { grains: 1000.0, mean_radius: 1.0, window: 100.0, neighbours: Vec::new() };
         let (cells, law) = (self.cells.clone(), Law::shipped());
-        let wishes = Wishes { accuracy, pressure: None, cells, moves, constant: true, bed, law };
+        let wishes = Wishes {
+            accuracy,
+            pressure: None,
+            cells,
+            mirrors: self.mirrors.clone(),
+            moves,
+            constant: true,
+            bed,
+            law,
+        };
         let run = &mut |settings: &Settings, _| {
             // A change of the conductivity by 5 % changes T by this many kelvins.
             let more = self.sensitivity * (settings.conductivity - 1.0);
             let series = Series { times: vec![1.0], values: vec![vec![100.0 + self.error(settings) + more]] };
-            let cells = settings.levels.iter().zip(&self.cells).map(|(l, &n)| l.cells(n)).product();
+            let own = |(k, &n): (usize, &usize)| settings.levels[k].cells(settings.own_cells(k, n));
+            let cells = self.cells.iter().enumerate().map(own).product();
             let one = Series { times: vec![1.0], values: vec![vec![1.0]] };
             let conductivity = [Quantity::ConductivityXx, Quantity::ConductivityYy].map(|k| (k, one.clone()));
             let mut values = Values::from(conductivity);
@@ -65,6 +79,7 @@ fn the_true_error_is_within_the_request_and_no_finer_than_it_needs() {
         cells: vec![200, 100],
         sensitivity: 0.0,
         constant: 50.0,
+        mirrors: Vec::new(),
     };
     for accuracy in [5.0, 2.0, 1.0] {
         let found = scene.find(accuracy, None).unwrap();
@@ -87,6 +102,7 @@ fn motion_counts_where_it_matters_and_where_the_user_says_so() {
         cells: vec![100],
         sensitivity: 0.0,
         constant: 50.0,
+        mirrors: Vec::new(),
     };
     assert!(scene.find(1.0, None).unwrap().settings.moves);
     assert!(!scene.find(20.0, None).unwrap().settings.moves);
@@ -105,6 +121,7 @@ fn a_direction_along_which_nothing_changes_gets_one_cell() {
         cells: vec![100, 50],
         sensitivity: 0.0,
         constant: 50.0,
+        mirrors: Vec::new(),
     };
     assert_eq!(scene.find(1.0, None).unwrap().settings.levels[1], Level::One);
 }
@@ -118,6 +135,7 @@ fn a_request_out_of_reach_is_refused_with_the_best_that_can_be_had() {
         cells: vec![20],
         sensitivity: 0.0,
         constant: 50.0,
+        mirrors: Vec::new(),
     };
     let Err(ChoiceError::OutOfReach { best, .. }) = scene.find(0.5, None) else { panic!() };
     assert!(best > 0.5 && scene.find(best, None).is_ok(), "{best}");
@@ -132,6 +150,7 @@ fn what_model_and_packing_leave_open_is_not_asked_of_the_cells() {
         cells: vec![100],
         sensitivity,
         constant: 50.0,
+        mirrors: Vec::new(),
     };
     let cells = |found: &Found| found.settings.levels[0].cells(100);
     let (sure, unsure) = (scene(0.0).find(2.0, None).unwrap(), scene(30.0).find(2.0, None).unwrap());
@@ -150,6 +169,7 @@ fn the_conductivity_is_constant_where_that_changes_little_and_the_grains_stay() 
         cells: vec![100],
         sensitivity: 0.0,
         constant,
+        mirrors: Vec::new(),
     };
     let found = scene(0.3).find(2.0, None).unwrap();
     assert_eq!(found.settings.constant, Some([1.0, 1.0]));
@@ -158,4 +178,23 @@ fn the_conductivity_is_constant_where_that_changes_little_and_the_grains_stay() 
     assert!(scene(0.3).error(&found.settings) <= 2.0 && found.total() <= 2.0);
     assert_eq!(scene(0.3).find(2.0, Some(true)).unwrap().settings.constant, None);
     assert_eq!(scene(0.5).find(2.0, None).unwrap().settings.constant, None);
+}
+
+#[test]
+fn half_of_a_box_that_mirrors_is_enough() {
+    let scene = Scene {
+        space: vec![300.0, 100.0],
+        time: 1.0,
+        motion: 4.0,
+        cells: vec![100, 36],
+        sensitivity: 0.0,
+        constant: 50.0,
+        mirrors: vec![true, false],
+    };
+    let found = scene.find(2.0, None).unwrap();
+    assert_eq!(found.settings.halved, [true, false]);
+    assert!(scene.error(&found.settings) <= 2.0 && found.total() <= 2.0);
+    let whole = Scene { mirrors: Vec::new(), ..scene };
+    let cells = |found: &Found| found.tried.iter().map(|tried| tried.cells).min().unwrap();
+    assert!(cells(&found) < cells(&whole.find(2.0, None).unwrap()));
 }

@@ -59,12 +59,25 @@ pub struct Settings {
     /// Constant conductivity of the bed along x and y [W/(m K)] in place of the model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub constant: Option<[f64; 2]>,
+    /// Directions of which the half up to the middle is run, with half the cells; the others are run whole.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub halved: Vec<bool>,
 }
 
 impl Settings {
     /// A run with the model.
     pub fn new(levels: Vec<Level>, tolerance: f64, moves: bool) -> Self {
-        Self { levels, tolerance, moves, conductivity: 1.0, constant: None }
+        Self { levels, tolerance, moves, conductivity: 1.0, constant: None, halved: Vec::new() }
+    }
+
+    /// Whether the half of a direction is run.
+    pub fn halves(&self, direction: usize) -> bool {
+        self.halved.get(direction).is_some_and(|&halved| halved)
+    }
+
+    /// Cells of the user's mesh along a direction, in the part of the box that is run.
+    pub fn own_cells(&self, direction: usize, cells: usize) -> usize {
+        if self.halves(direction) { cells / 2 } else { cells }
     }
 }
 

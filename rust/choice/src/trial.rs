@@ -1,6 +1,7 @@
 //! The case folder of a combination, and its run.
 
 use crate::ChoiceError;
+use crate::mirror::{self, Mirror};
 use crate::program::foam;
 use crate::quantity::Quantity;
 use crate::scene::Scene;
@@ -66,11 +67,15 @@ pub fn make(
     folder: &Path,
 ) -> Result<(), ChoiceError> {
     copy(scene, folder, &|name| overrides(scene, settings, range, purpose, name))?;
-    let whole = settings.levels.iter().all(|&level| level == Level::Halved(0));
-    if whole {
+    let halved = scene.halves(settings).contains(&true);
+    if !halved && settings.levels.iter().all(|&level| level == Level::Halved(0)) {
         return link_mesh(scene, folder);
     }
     foam(folder, &mut Command::new("blockMesh"))?;
+    if halved {
+        // Only boxes with uniform fields mirror.
+        return Ok(());
+    }
     let fields = list(&folder.join(&scene.start))?;
     let nonuniform: Vec<PathBuf> = fields
         .into_iter()
@@ -152,16 +157,33 @@ pub fn clear(folder: &Path) -> Result<(), ChoiceError> {
         .map_err(|error| ChoiceError::Read { file: folder.to_path_buf(), problem: error.to_string() })
 }
 
-/// Runs the solver in the folder of a combination, or goes on with a run that was killed. The solver holds the lock, too: if this
+/// Runs the solver in the folder that [`make`] has made for a combination, or goes on with a run that was killed. The solver holds the lock, too: if this
 /// program is killed alone, no other starts a second solver in the folder before the first has ended.
 ///
 /// # Errors
 /// [`ChoiceError::Run`] with the solver's message; [`ChoiceError::Read`] when its results cannot be read.
-pub fn run(folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
+pub fn run(scene: &Scene, settings: &Settings, folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
     let log = foam(folder, Command::new("msddFoam").stdin(lock.handle()?))?;
     write(&folder.join("log.msddFoam"), log.as_bytes())?;
-    read_outcome(folder, began.elapsed().as_secs_f64())
+    let mut outcome = read_outcome(folder, began.elapsed().as_secs_f64())?;
+    turn_back(scene, settings, &mut outcome);
+    Ok(outcome)
+}
+
+/// Turns displacements around at points whose image in the other half was run.
+fn turn_back(scene: &Scene, settings: &Settings, outcome: &mut Outcome) {
+    let halved = scene.halves(settings);
+    for (k, quantity) in [Quantity::DisplacementX, Quantity::DisplacementY].into_iter().enumerate() {
+        let Some(series) = outcome.values.get_mut(&quantity) else { continue };
+        for row in &mut series.values {
+            for (value, &point) in row.iter_mut().zip(&scene.points) {
+                if mirror::beyond(point, halved, scene.bounds)[k] {
+                    *value = -*value;
+                }
+            }
+        }
+    }
 }
 
 /// Reads what a run of `seconds` has left in the folder of a combination.
@@ -227,8 +249,17 @@ fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Pu
             keys
         }
         "system/blockMeshDict" => match &scene.blocks {
-            Ok(blocks) => format!("blocks {};\n", blocks.text(&settings.levels)),
+            Ok(blocks) => {
+                let halved = scene.halves(settings);
+                let mirror = scene.mirror.as_ref().filter(|_| halved.contains(&true));
+                let half = mirror.map_or(String::new(), |mirror| mirror.mesh(halved));
+                format!("blocks {};\n{half}", blocks.text(settings))
+            }
             Err(_) => String::new(),
+        },
+        field if field.starts_with(&format!("{}/", scene.start)) => match scene.halves(settings) {
+            [false, false] => String::new(),
+            halved => Mirror::field(halved),
         },
         _ => String::new(),
     }
@@ -237,7 +268,9 @@ fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Pu
 fn control(scene: &Scene, settings: &Settings, purpose: Purpose) -> String {
     let displacement = if settings.moves { " D" } else { "" };
     let first = scene.first_step.min((scene.end - scene.start_time) / 1000.0);
-    let points: Vec<String> = scene.points.iter().map(|[x, y, z]| format!("({x} {y} {z})")).collect();
+    let halved = scene.halves(settings);
+    let points = scene.points.iter().map(|&point| mirror::inside(point, halved, scene.bounds));
+    let points: Vec<String> = points.map(|[x, y, z]| format!("({x} {y} {z})")).collect();
     let watch = format!(
         "functions\n{{\n    {WATCH}\n    {{\n        type probes; libs (\"libsampling.so\"); interpolationScheme cellPoint;\n\
          \x20       fields (T pressure conductivity thermalStrain{displacement});\n\
@@ -259,6 +292,9 @@ fn control(scene: &Scene, settings: &Settings, purpose: Purpose) -> String {
         }
         Purpose::Chosen => {
             let _ = writeln!(keys, "startFrom latestTime;\nwriteInterval {:e};", scene.write_interval);
+            if let (Some(mirror), [true, _] | [_, true]) = (&scene.mirror, halved) {
+                keys += &mirror.functions(halved, scene.bounds);
+            }
             keys + &watch
         }
     }

@@ -23,8 +23,8 @@ use std::time::Instant;
 
     msddFoam { accuracy 1; }
 
-Short runs on coarse meshes show what it changes to let the grains move, to take a constant conductivity or larger steps, and to
-halve the cells along each direction of system/blockMeshDict. What the model and the scatter of packings leave open is estimated, too. The cheapest
+Short runs on coarse meshes show what it changes to run half of a box that mirrors, to let the grains move, to take a constant
+conductivity or larger steps, and to halve the cells along each direction of system/blockMeshDict. What the model and the scatter of packings leave open is estimated, too. The cheapest
 combination that stays below the wanted accuracy is then run in the folder FOLDER.chosen beside the case, a complete case of its
 own; its file choice.json and the key 'choice' of its summary.json hold what was tried, what it cost, and the estimates; bands.csv
 holds 90 % bands of T, pressure, conductivity and displacement at points and times. A second call takes the choice without a
@@ -125,7 +125,7 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
         return Ok(());
     }
     outln!("\nRunning it in {} ...", chosen.display());
-    let outcome = trial::run(&chosen, &lock)?;
+    let outcome = trial::run(scene, &record.found.settings, &chosen, &lock)?;
     let half = half(scene, &record, &lock)?;
     let mut space = Values::new();
     if let Some(half) = &half {
@@ -166,6 +166,7 @@ fn search(
         accuracy,
         pressure,
         cells: scene.directions(),
+        mirrors: scene.mirrors(),
         moves: scene.moves,
         constant: scene.model.is_some(),
         bed,
@@ -209,7 +210,7 @@ pub(crate) fn attempt(
 ) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
     trial::make(scene, settings, range, Purpose::Trial, folder)?;
-    let outcome = trial::run(folder, lock)?;
+    let outcome = trial::run(scene, settings, folder, lock)?;
     Ok(Outcome { seconds: began.elapsed().as_secs_f64(), ..outcome })
 }
 
@@ -217,8 +218,9 @@ pub(crate) fn attempt(
 fn half(scene: &Scene, record: &Record, lock: &Lock) -> Result<Option<Outcome>, ChoiceError> {
     let settings = &record.found.settings;
     let cells = scene.directions();
-    let coarser = |(level, &cells): (&Level, &usize)| level.coarser(cells).unwrap_or(*level);
-    let levels: Vec<Level> = settings.levels.iter().zip(&cells).map(coarser).collect();
+    let coarser =
+        |(k, &level): (usize, &Level)| level.coarser(settings.own_cells(k, cells[k])).unwrap_or(level);
+    let levels: Vec<Level> = settings.levels.iter().enumerate().map(coarser).collect();
     if levels == settings.levels {
         return Ok(None);
     }

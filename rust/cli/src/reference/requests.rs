@@ -135,6 +135,7 @@ pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
                 accuracy: asked,
                 pressure: None,
                 cells: scene.directions(),
+                mirrors: scene.mirrors(),
                 moves: None,
                 constant: scene.model.is_some(),
                 bed: scene.bed.clone(),

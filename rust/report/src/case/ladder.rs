@@ -68,7 +68,10 @@ pub fn cells(scene: &Scene, levels: &[Level]) -> String {
 
 /// Number of cells at these levels.
 pub fn count(scene: &Scene, levels: &[Level]) -> usize {
-    scene.blocks.as_ref().map_or(scene.cells, |blocks| blocks.total(levels))
+    scene
+        .blocks
+        .as_ref()
+        .map_or(scene.cells, |blocks| blocks.total(&Settings::new(levels.to_vec(), USUAL, false)))
 }
 
 /// The same level along all directions that can be chosen.
@@ -177,6 +180,8 @@ mod tests {
             pressure_accuracy: None,
             conductivity_factor: 1.0,
             model: None,
+            mirror: None,
+            bounds: [[0.0; 3], [1.0; 3]],
             bed: Bed { grains: 1000.0, mean_radius: 0.005, window: 100.0, neighbours: Vec::new() },
         }
     }

@@ -242,7 +242,10 @@ fn choice_of(work: &Work, accuracy: f64) -> (Choice, Option<Rung>) {
     };
     let found = &read.found;
     let what = sentence(&found.settings, work.scene, found.range);
-    let mut rung = Rung::new(work.scene, found.range, found.settings.clone());
+    // The chart's windows are those of the whole box.
+    let mut settings = found.settings.clone();
+    settings.halved.clear();
+    let mut rung = Rung::new(work.scene, found.range, settings);
     let grains = if found.settings.moves { "grains move" } else { "grains stay" };
     (rung.name, rung.family) = (format!("for {accuracy} %: {}, {grains}", rung.name), FAMILIES[5]);
     (choice(what, Some(rung.name.clone()), Some(found.total())), Some(rung))
