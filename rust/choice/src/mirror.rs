@@ -31,17 +31,22 @@ pub struct Mirror {
     probes: Vec<(String, Vec<[f64; 3]>)>,
 }
 
+/// Files of a case.
+pub struct Files<'a> {
+    pub mesh: &'a Dictionary,
+    pub control: &'a Dictionary,
+    pub grains: &'a Dictionary,
+}
+
 impl Mirror {
-    /// Reads a case of one block; `count`: its cells. None if nothing is known to mirror.
-    pub fn read(folder: &Path, start: &str, count: [usize; 3]) -> Option<Self> {
-        let expanded = |name: &str| Dictionary::expanded(&folder.join(name)).ok();
+    /// Reads a case of one block; `start`: folder of its initial fields; `count`: its cells. None if nothing is known to mirror.
+    pub fn read(folder: &Path, start: &str, count: [usize; 3], files: &Files) -> Option<Self> {
+        let Files { mesh, control, grains } = files;
         if folder.join("constant/fvOptions").exists() {
             return None;
         }
-        let mesh = expanded("system/blockMeshDict")?;
-        let (corners, boundary) = (corners(&mesh)?, texts(mesh.value("boundary").ok()?));
-        let probes = probes(&expanded("system/controlDict")?)?;
-        let grains = expanded("constant/granularProperties")?;
+        let (corners, boundary) = (corners(mesh)?, texts(mesh.value("boundary").ok()?));
+        let probes = probes(control)?;
         let fields: Option<Vec<Dictionary>> =
             msdd_files::list(&folder.join(start)).ok()?.iter().map(|file| uniform(file)).collect();
         let fields = fields?;
@@ -51,7 +56,7 @@ impl Mirror {
             count[k] > 1
                 && count[k].is_multiple_of(2)
                 && fields.iter().all(same)
-                && walls(&grains, &low, &high)
+                && walls(grains, &low, &high)
         };
         let along = [mirrors(0), mirrors(1)];
         // A wall that changes along its length is no image of itself.

@@ -2,7 +2,7 @@
 
 use crate::ChoiceError;
 use crate::bed::Bed;
-use crate::mirror::Mirror;
+use crate::mirror::{Files, Mirror};
 use crate::settings::{Level, Settings};
 use msdd_case::CaseError;
 use msdd_case::dictionary::{Dictionary, Entry, Token};
@@ -161,8 +161,9 @@ impl Scene {
         let (accuracy, pressure_accuracy) = (wanted("accuracy")?, wanted("pressureAccuracy")?);
         let moves = grains.text("mechanics").ok().map(|text| text == "equilibrium");
         let mesh = mesh(&folder)?;
-        let blocks = expanded("system/blockMeshDict")
-            .ok()
+        let block_mesh = expanded("system/blockMeshDict").ok();
+        let blocks = block_mesh
+            .as_ref()
             .and_then(|dictionary| Blocks::read(dictionary.value("blocks").ok()?))
             .ok_or("there is no system/blockMeshDict with blocks of hexahedra")
             .and_then(|blocks| {
@@ -175,8 +176,10 @@ impl Scene {
             .map_err(str::to_string);
         let model = model(&grains);
         let single = blocks.as_ref().ok().and_then(|blocks| <[_; 1]>::try_from(blocks.counts.clone()).ok());
-        let mirror = match (single, &model) {
-            (Some([count]), Some(_)) => Mirror::read(&folder, &start, count),
+        let mirror = match (single, &model, &block_mesh) {
+            (Some([count]), Some(_), Some(mesh)) => {
+                Mirror::read(&folder, &start, count, &Files { mesh, control: &control, grains: &grains })
+            }
             _ => None,
         };
         Ok(Self {

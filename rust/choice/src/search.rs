@@ -276,7 +276,9 @@ impl<'a> Search<'a> {
             self.found.shares.push(estimate);
         }
         if directions.is_empty() {
-            self.found.notes.push("the error of the mesh is not known".to_string());
+            self.found.notes.push(
+                "the error of the mesh is not known, and no part of the estimate and the bands".to_string(),
+            );
         }
         let reason = match (worst > 0.0, steps.enough) {
             (false, true) => return Ok(()),
