@@ -25,7 +25,7 @@ const STAYING: f64 = 0.6;
 /// A direction is dropped if the run without it is away by no more than this share of the wanted accuracy.
 const DROP: f64 = 0.1;
 /// Largest share of half a box, which leaves nothing out but what an unsteady balance of the grains does.
-const HALF: f64 = 0.05;
+const HALF: f64 = 0.1;
 /// Largest share of a constant conductivity.
 const CONSTANT: f64 = 0.2;
 /// Largest share of the wanted accuracy that model and packing may leave open, and the share at the accuracy that is offered instead.
