@@ -7,7 +7,7 @@ use crate::kernel::LANES;
 use crate::noise;
 use crate::scores::r_squared;
 use crate::surrogate::{Answer, Surrogate};
-use crate::tracks::{PathErrors, Track};
+use crate::tracks::{PathErrors, ProbeErrors, Track};
 use crate::training_data::TrainingData;
 use serde::Serialize;
 
@@ -71,6 +71,8 @@ pub struct Score {
     pub noise_floor: Vec<Floor>,
     /// Empty for a model without tangent, or when the database has no periodic boxes.
     pub paths: Vec<PathErrors>,
+    /// Errors of small strains; empty for a model without mechanics.
+    pub probes: Vec<ProbeErrors>,
 }
 
 /// Strains after which composed errors are computed.
@@ -131,6 +133,7 @@ pub fn score(model: &dyn Surrogate, ramps: &Ramps) -> Score {
             .filter_map(|name| way_back(model, &ramps.unseen, name))
             .collect(),
         paths: model.path_errors(&ramps.tracks),
+        probes: model.probe_errors(&ramps.tracks),
         noise_floor: STRAINS.map(|strain| floor(model, &all, strain)).to_vec(),
     }
 }

@@ -4,7 +4,7 @@
 use crate::dataset::ConductivityKind;
 use crate::kernel::{LANES, Lanes};
 use crate::options::TrainingOptions;
-use crate::tracks::{PathErrors, Track};
+use crate::tracks::{PathErrors, ProbeErrors, Track};
 use crate::wall_friction::WallFriction;
 
 /// Largest number of state variables of any model.
@@ -122,6 +122,10 @@ pub trait Surrogate: Send + Sync {
     }
     /// Errors along paths of strain; none for a model without [`Surrogate::has_tangent`].
     fn path_errors(&self, _tracks: &[Track]) -> Vec<PathErrors> {
+        Vec::new()
+    }
+    /// Errors of small strains; none for a model without [`Surrogate::has_tangent`].
+    fn probe_errors(&self, _tracks: &[Track]) -> Vec<ProbeErrors> {
         Vec::new()
     }
     /// Wall friction; none when the database had no wall-shear runs.

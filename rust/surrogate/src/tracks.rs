@@ -100,3 +100,21 @@ pub struct PathErrors {
     /// Absolute.
     pub fabric_index: f64,
 }
+
+/// Errors of small strains that were tried on copies of the boxes (probes): the stress that they add, over the strain, beside that
+/// of the discs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ProbeErrors {
+    /// Size of the strains.
+    pub size: f64,
+    /// Number of grains in the boxes.
+    pub discs: usize,
+    pub probes: usize,
+    /// Root mean square error of the stiffnesses xx by xx, yy by xx, xx by yy, yy by yy and xy by xy, over the mean of the
+    /// discs' xx by xx and yy by yy.
+    pub tangent: f64,
+    /// Mean stiffness xx by xx and yy by yy, over the discs', less 1.
+    pub normal: f64,
+    /// Mean stiffness xy by xy, over the discs', less 1.
+    pub shear: f64,
+}

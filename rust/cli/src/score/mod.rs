@@ -172,6 +172,22 @@ fn print(score: &Score) {
         );
         print_paths(&score.paths);
     }
+    if !score.probes.is_empty() {
+        outln!();
+        outln!(
+            "Small strains tried on the way, in % of the discs' stiffness: rms of all entries over xx by xx; means"
+        );
+        outln!("  size discs number  entries  xx by xx  xy by xy");
+        for e in &score.probes {
+            let [tangent, normal, shear] = [e.tangent, e.normal, e.shear].map(|error| 100.0 * error);
+            outln!(
+                "{:.4} {:>5} {:>6} {tangent:>8.1} {normal:>+9.1} {shear:>+9.1}",
+                e.size,
+                e.discs,
+                e.probes
+            );
+        }
+    }
 }
 
 /// Prints errors along paths of strain.

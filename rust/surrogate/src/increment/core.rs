@@ -120,7 +120,7 @@ impl Core {
         tangent: Option<&mut Tangent>,
     ) {
         let turn = rotation(read::<V>(&strain.rotation, MOST_TURN));
-        let before = elastic::<V>(state);
+        let before = elastic::<V>(&self.law, state);
         let thermal = read::<V>(&strain.thermal, MOST_STRAIN);
         let (xx, yy) = (read::<V>(&strain.xx, MOST_STRAIN), read::<V>(&strain.yy, MOST_STRAIN));
         let xy = read::<V>(&strain.xy, MOST_STRAIN);
@@ -275,7 +275,6 @@ const LEAST_COMPRESSION: f64 = -0.9;
 const MOST_COMPRESSION: f64 = 1.0;
 const MOST_SHEAR: f64 = 1.0;
 const LEAST_STRENGTH: f64 = 0.01;
-const MOST_STRENGTH: f64 = 3.0;
 const MOST_STRAIN: f64 = 0.5;
 const MOST_TURN: f64 = 1.0;
 const MOST_OWN: f64 = 0.9;
@@ -289,7 +288,7 @@ fn read<V: Vector>(lanes: &Lanes, most: f64) -> V {
 }
 
 #[inline(always)]
-fn elastic<V: Vector>(state: &StateLanes) -> Elastic<Plain<V>> {
+fn elastic<V: Vector>(law: &Law, state: &StateLanes) -> Elastic<Plain<V>> {
     let jamming = Plain(V::read(&state[JAMMING]).within(V::all(LEAST_JAMMING), V::all(MOST_JAMMING)));
     let compression =
         V::read(&state[COMPRESSION]).within(V::all(LEAST_COMPRESSION), V::all(MOST_COMPRESSION));
@@ -299,7 +298,7 @@ fn elastic<V: Vector>(state: &StateLanes) -> Elastic<Plain<V>> {
         let along = read::<V>(&state[SHEAR + 2 * k], MOST_SHEAR);
         all[k] = [Plain(along), Plain(read::<V>(&state[SHEAR + 2 * k + 1], MOST_SHEAR))];
     }
-    let strength = V::read(&state[STRENGTH]).within(V::all(LEAST_STRENGTH), V::all(MOST_STRENGTH));
+    let strength = V::read(&state[STRENGTH]).within(V::all(LEAST_STRENGTH), V::all(law.most_strength()));
     let strength = Plain(strength);
     Elastic { jamming, compression, shear: all, strength }
 }

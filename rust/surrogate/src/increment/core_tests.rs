@@ -229,7 +229,7 @@ fn energy(state: &[f64; MAX_STATE]) -> f64 {
     let core = core();
     let v = state[COMPRESSION].max(0.0);
     let at = |v: f64| {
-        let loose = elastic::<Portable>(&lanes(state)).looseness();
+        let loose = elastic::<Portable>(&core.law, &lanes(state)).looseness();
         let moduli = core.law.moduli(Plain(Portable::all(v)), loose);
         let mut lanes = [[0.0; LANES]; 2];
         moduli.pressure.0.write(&mut lanes[0]);

@@ -49,6 +49,10 @@ const LEAST_BULK: f64 = 0.1;
 const MOST_COMPRESSION: f64 = 0.6;
 /// Least p/A, which only packings far beyond all known ones reach. The largest deviator over A is smaller.
 const LEAST_SHARE: f64 = 0.75;
+/// Largest deviator over A, whatever a state's factor of the strengths.
+const MOST_DEVIATOR: f64 = 0.74;
+/// Largest factor of the strengths, also where the deviator over A would still be smaller.
+const MOST_STRENGTH: f64 = 3.0;
 /// Far below all pressures, and such that no quotient overflows.
 const LEAST_PRESSURE: f64 = 1e-100;
 /// Largest work of dilatancy over that of friction: less than 1, so that sliding always dissipates.
@@ -155,6 +159,18 @@ impl Law {
         let ratio = inverse.times(g0).plus(g1);
         let stiffer = (inverse * inverse).times(g0 * a).plus(g1) * bulk * v.plus(1.0);
         Moduli { pressure, ratio, growth: stiffer - pressure * ratio }
+    }
+
+    /// Largest factor of the strengths that a state may have: with it no direction is in tension.
+    #[inline(always)]
+    pub fn most_strength(&self) -> f64 {
+        (MOST_DEVIATOR / self.strength()).clamp(1.0, MOST_STRENGTH)
+    }
+
+    /// Largest deviator over A of a state whose factor of the strengths is 1.
+    #[inline(always)]
+    pub fn strength(&self) -> f64 {
+        self.elements.iter().map(|element| element.strength).sum()
     }
 
     /// Stress of a state with these moduli.
@@ -273,6 +289,10 @@ impl Law {
         let shares: f64 = self.elements.iter().map(|element| element.share).sum();
         if (shares - 1.0).abs() > 1e-9 {
             return field("law.elements (sum of shares)", shares, "1");
+        }
+        let strengths = self.strength();
+        if strengths > MOST_DEVIATOR {
+            return field("law.elements (sum of strengths)", strengths, "at most 0.74");
         }
         for (k, element) in self.elements.iter().enumerate() {
             let Element { share, strength, dilatancy } = *element;

@@ -3,7 +3,7 @@
 use super::core::{
     COLUMNS, COMPRESSION, Core, FABRIC_INDEX, FABRIC_SHEAR, JAMMING, NAMES, POROSITY, SHEAR, STRENGTH,
 };
-use super::errors::path_errors;
+use super::errors::{path_errors, probe_errors};
 use super::mean::MeanStress;
 use super::number::Plain;
 use super::readout::{Conductivity, Features};
@@ -19,7 +19,7 @@ use crate::region::{Coordinates, MOST_COORDINATES, Region, Spread};
 use crate::scaling::Range;
 use crate::solid_fraction::SolidFraction;
 use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
-use crate::tracks::{PathErrors, Track};
+use crate::tracks::{PathErrors, ProbeErrors, Track};
 use crate::wall_friction::WallFriction;
 use serde::{Deserialize, Serialize};
 
@@ -282,6 +282,10 @@ impl Surrogate for IncrementModel {
 
     fn path_errors(&self, tracks: &[Track]) -> Vec<PathErrors> {
         path_errors(&self.core, tracks)
+    }
+
+    fn probe_errors(&self, tracks: &[Track]) -> Vec<ProbeErrors> {
+        probe_errors(&self.core, tracks)
     }
 
     fn wall_friction(&self) -> Option<&WallFriction> {

@@ -106,9 +106,8 @@ fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -
         Elastic { jamming, compression: v, shear: [[cell(0.0); 2]; ELEMENTS], strength: cell(1.0) };
     let moduli = law.moduli(v, unsheared.looseness());
     let (ratio, pressure) = (number(moduli.ratio), number(moduli.pressure));
-    let all: f64 = law.elements.iter().map(|element| element.strength).sum();
-    let load = size / (all * pressure.max(LEAST_PRESSURE));
-    let strength = if pressure > 0.0 { load.clamp(1.0, MOST_STRENGTH) } else { 1.0 };
+    let load = size / (law.strength() * pressure.max(LEAST_PRESSURE));
+    let strength = if pressure > 0.0 { load.clamp(1.0, law.most_strength().min(MOST_STRENGTH)) } else { 1.0 };
     let limits = law.elements.map(|element| strength * element.strength / (element.share * ratio));
     let common = shared(law, limits, ratio * pressure, size);
     let shear = limits.map(|limit| direction.map(|d| cell(d * common.min(limit))));
