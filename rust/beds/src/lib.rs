@@ -7,15 +7,29 @@
 //! | [`scatter`] | seeded random numbers, random loose spheres to start from |
 //! | [`averages`] | solid fraction, coordination, stress of a periodic box |
 //! | [`pack`](mod@pack) | isotropic compression of a periodic box to a pressure |
-//! | [`links`] | conductances between two spheres: contact, gas |
+//! | [`property`] | properties by temperature |
+//! | [`gas`] | law of heat through gas: between two spheres, and to a plate |
+//! | [`named_gases`] | air, nitrogen, helium, argon, vacuum |
+//! | [`solid`] | law of heat through a contact, smooth or rough; stress in it |
+//! | [`links`] | conductances between the spheres of a simulation: contact, gas |
+//! | `solve` | conjugate gradients |
+//! | [`network`] | the network of a bed at rest with plates; conductances by temperature |
+//! | [`transient`] | temperatures of the spheres in time |
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
 
 pub mod averages;
 pub mod conductivity;
+pub mod gas;
 pub mod links;
+pub mod named_gases;
+pub mod network;
 pub mod pack;
+pub mod property;
 pub mod scatter;
+pub mod solid;
+mod solve;
+pub mod transient;
 
 pub use averages::{Averages, averages};
 pub use pack::{Packed, Packing, pack};

@@ -96,8 +96,7 @@ fn the_balance_of_energy_closes() {
     let wall = Wall::cylinder([half, half, 0.0], [0.0, 0.0, 1.0], bore);
     let floor = Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]);
     let lid = Wall::at_rest([0.0, 0.0, 2.0 * half], [0.0, 0.0, -1.0]);
-    let mut simulation =
-        Simulation::new(material, spheres, Boundary::Walls(vec![wall, floor, lid])).unwrap();
+    let mut simulation = Simulation::new(material, spheres, Boundary::Walls(vec![wall, floor, lid])).unwrap();
     simulation.gravity = [0.0, 0.0, -G];
     simulation.drag = 3000.0;
     simulation.run(4000).unwrap();
