@@ -6,6 +6,9 @@
 //! |---|---|
 //! | [`scatter`] | seeded random numbers, random loose spheres to start from |
 //! | [`averages`] | solid fraction, coordination, stress of a periodic box |
+//! | [`settle`](mod@settle) | coming to rest under gravity; turning it |
+//! | [`pour`](mod@pour) | grains rain into a box or cylinder until they are at rest |
+//! | [`press`](mod@press) | a wall that is pressed onto a bed |
 //! | [`pack`](mod@pack) | isotropic compression of a periodic box to a pressure |
 //! | [`property`] | properties by temperature |
 //! | [`gas`] | law of heat through gas: between two spheres, and to a plate |
@@ -25,8 +28,11 @@ pub mod links;
 pub mod named_gases;
 pub mod network;
 pub mod pack;
+pub mod pour;
+pub mod press;
 pub mod property;
 pub mod scatter;
+pub mod settle;
 pub mod solid;
 mod solve;
 pub mod transient;
@@ -39,6 +45,12 @@ pub use pack::{Packed, Packing, pack};
 pub enum BedError {
     #[error("packing: {key} = {value}, allowed: {allowed}", value = msdd_engine::message::number(*value))]
     Packing { key: &'static str, value: f64, allowed: &'static str },
+    #[error("pouring: {key} = {value}, allowed: {allowed}", value = msdd_engine::message::number(*value))]
+    Pouring { key: &'static str, value: f64, allowed: &'static str },
+    #[error("pressing: a wall that is not flat, allowed: flat walls")]
+    NotFlat,
+    #[error("cannot start threads: {0}")]
+    Threads(String),
     #[error(transparent)]
     Material(#[from] msdd_spheres::MaterialError),
     #[error("packing: room for {placed} of {wanted} spheres only")]

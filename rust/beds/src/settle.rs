@@ -1,0 +1,95 @@
+//! Coming to rest under gravity.
+
+use crate::BedError;
+use msdd_spheres::{Simulation, space::length};
+
+/// Kinetic energy over that of falling by a radius, Σ m g r, at which a bed counts as at rest.
+const AT_REST: f64 = 1e-8;
+/// Steps between two looks.
+const LOOK_EVERY: u64 = 200;
+/// Height of a free fall, over d, that gives the speed at which grains come down. Not settled by any reference; chosen because
+/// grains that fall much faster, all at once, bounce back from the floor as a whole, and the friction of the walls then
+/// points downwards.
+const FALL: f64 = 5.0;
+
+/// How a bed came to rest, or did not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rest {
+    pub at_rest: bool,
+    /// Kinetic energy over Σ m g r.
+    pub kinetic: f64,
+    /// Simulated time \[s\] and steps that it took.
+    pub time: f64,
+    pub steps: u64,
+}
+
+/// Kinetic energy over Σ m g r.
+pub fn agitation(simulation: &Simulation, gravity: f64) -> f64 {
+    let falling: f64 = simulation.spheres.iter().map(|s| s.mass * gravity * s.radius).sum();
+    simulation.kinetic_energy() / falling
+}
+
+/// The speed \[m/s\] at which grains come down, and the drag \[1/s\] that makes it so and also stops grains that roll: nothing
+/// else would.
+pub(crate) fn descent(diameter: f64, gravity: f64) -> (f64, f64) {
+    let speed = (2.0 * gravity * FALL * diameter).sqrt();
+    (speed, gravity / speed)
+}
+
+/// How far on the way to rest, from 0 to 1, by the logarithm of the agitation.
+pub fn progress(agitation: f64) -> f64 {
+    let begin = 10.0f64;
+    ((begin.ln() - agitation.max(AT_REST).ln()) / (begin.ln() - AT_REST.ln())).clamp(0.0, 1.0)
+}
+
+/// Runs until the spheres are at rest, at most for `longest` \[s\]. `watch` is told the agitation.
+///
+/// # Errors
+/// Those of [`Simulation::run`].
+pub fn settle(
+    simulation: &mut Simulation,
+    longest: f64,
+    mut watch: impl FnMut(f64),
+) -> Result<Rest, BedError> {
+    let (start, first) = (simulation.time, simulation.steps);
+    let gravity = length(simulation.gravity);
+    // What falls is slow at first.
+    let least = (2.0 * simulation.mean_radius() / gravity).sqrt();
+    simulation.drag = descent(2.0 * simulation.mean_radius(), gravity).1;
+    loop {
+        simulation.run(LOOK_EVERY)?;
+        let kinetic = agitation(simulation, gravity);
+        watch(kinetic);
+        let time = simulation.time - start;
+        let at_rest = kinetic < AT_REST && time > least;
+        if at_rest || time >= longest {
+            simulation.drag = 0.0;
+            return Ok(Rest { at_rest, kinetic, time, steps: simulation.steps - first });
+        }
+    }
+}
+
+/// Turns gravity to another direction within `duration` \[s\], at an even rate.
+///
+/// # Errors
+/// Those of [`Simulation::run`].
+pub fn turn(
+    simulation: &mut Simulation,
+    direction: [f64; 3],
+    duration: f64,
+    mut watch: impl FnMut(f64),
+) -> Result<(), BedError> {
+    let (start, gravity) = (simulation.time, length(simulation.gravity));
+    let before = simulation.gravity.map(|g| g / gravity);
+    while simulation.time < start + duration {
+        simulation.run(LOOK_EVERY / 4)?;
+        let angle = std::f64::consts::FRAC_PI_2 * ((simulation.time - start) / duration).min(1.0);
+        let mixed: [f64; 3] =
+            std::array::from_fn(|k| libm::cos(angle) * before[k] + libm::sin(angle) * direction[k]);
+        let norm = length(mixed);
+        simulation.gravity = mixed.map(|g| gravity * g / norm);
+        watch(agitation(simulation, gravity));
+    }
+    simulation.gravity = direction.map(|g| gravity * g);
+    Ok(())
+}
