@@ -18,11 +18,19 @@
 //! | `solve` | conjugate gradients |
 //! | [`network`] | the network of a bed at rest with plates; conductances by temperature |
 //! | [`transient`] | temperatures of the spheres in time |
+//! | [`case`](mod@case) | the description of a bed that was measured |
+//! | [`experiment`] | measured temperatures, and how far a simulation is from them |
+//! | [`profile`] | a bed between two distances from a plate; probes |
+//! | [`bed`] | a measured bed from pouring to temperatures |
+//! | [`vtk`] | grains for ParaView |
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
 
 pub mod averages;
+pub mod bed;
+pub mod case;
 pub mod conductivity;
+pub mod experiment;
 pub mod gas;
 pub mod links;
 pub mod named_gases;
@@ -30,12 +38,14 @@ pub mod network;
 pub mod pack;
 pub mod pour;
 pub mod press;
+pub mod profile;
 pub mod property;
 pub mod scatter;
 pub mod settle;
 pub mod solid;
 mod solve;
 pub mod transient;
+pub mod vtk;
 
 pub use averages::{Averages, averages};
 pub use pack::{Packed, Packing, pack};
@@ -49,6 +59,10 @@ pub enum BedError {
     Pouring { key: &'static str, value: f64, allowed: &'static str },
     #[error("pressing: a wall that is not flat, allowed: flat walls")]
     NotFlat,
+    #[error("heat.probes = {distance}, allowed: distances from the plate at which there are grains")]
+    NoGrains { distance: f64 },
+    #[error(transparent)]
+    NotConverged(#[from] transient::NotConverged),
     #[error("cannot start threads: {0}")]
     Threads(String),
     #[error(transparent)]

@@ -1,9 +1,9 @@
 //! Coming to rest under gravity.
 
 use crate::BedError;
-use msdd_spheres::{Simulation, space::length};
+use msdd_spheres::{Simulation, Sphere, space::length};
 
-/// Kinetic energy over that of falling by a radius, Σ m g r, at which a bed counts as at rest.
+/// Agitation (kinetic energy over that of falling by a radius) at which a bed counts as at rest.
 const AT_REST: f64 = 1e-8;
 /// Steps between two looks.
 const LOOK_EVERY: u64 = 200;
@@ -12,21 +12,28 @@ const LOOK_EVERY: u64 = 200;
 /// points downwards.
 const FALL: f64 = 5.0;
 
+/// See [`agitation`].
+const ROLLING: usize = 1000;
+
 /// How a bed came to rest, or did not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rest {
     pub at_rest: bool,
-    /// Kinetic energy over Σ m g r.
+    /// The agitation in the end.
     pub kinetic: f64,
     /// Simulated time \[s\] and steps that it took.
     pub time: f64,
     pub steps: u64,
 }
 
-/// Kinetic energy over Σ m g r.
+/// Kinetic energy over Σ m g r, without the grains of the highest energy, one in [`ROLLING`]: a grain that rocks in a hollow of the
+/// surface does so long after all others are at rest.
 pub fn agitation(simulation: &Simulation, gravity: f64) -> f64 {
     let falling: f64 = simulation.spheres.iter().map(|s| s.mass * gravity * s.radius).sum();
-    simulation.kinetic_energy() / falling
+    let mut energies: Vec<f64> = simulation.spheres.iter().map(Sphere::kinetic_energy).collect();
+    energies.sort_unstable_by(f64::total_cmp);
+    energies.truncate(energies.len() - energies.len() / ROLLING);
+    energies.iter().sum::<f64>() / falling
 }
 
 /// The speed \[m/s\] at which grains come down, and the drag \[1/s\] that makes it so and also stops grains that roll: nothing

@@ -9,6 +9,12 @@ pub enum CliError {
     #[error("cannot write to standard output: {0}")]
     Output(String),
     #[error(transparent)]
+    Bed(#[from] msdd_beds::BedError),
+    #[error(transparent)]
+    BedCase(#[from] msdd_beds::case::CaseError),
+    #[error(transparent)]
+    Experiment(#[from] msdd_beds::experiment::ExperimentError),
+    #[error(transparent)]
     Case(#[from] msdd_case::CaseError),
     #[error(transparent)]
     Database(#[from] msdd_rve::database::DatabaseError),
