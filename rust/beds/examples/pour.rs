@@ -41,13 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             simulation.wall_force.iter().map(|f| msdd_spheres::space::length(*f)).collect::<Vec<_>>()
         );
     };
-    let mut looks = 0;
-    let (mut simulation, rest) = pour(&pouring, |agitation| {
-        looks += 1;
-        if looks % 10 == 0 {
-            println!("{looks} {agitation:e}");
-        }
-    })?;
+    let (mut simulation, rest) = pour(&pouring, |_| ())?;
     tell("poured", &simulation, &rest);
     let rest = press(&mut simulation, 5, (1000.0, 0.02), 1.0, |_| ())?;
     tell("lid", &simulation, &rest);

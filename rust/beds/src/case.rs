@@ -138,12 +138,12 @@ fn usual_pressure() -> f64 {
 }
 
 fn usual_tolerance() -> f64 {
-    0.02
+    0.05
 }
 
 /// Name of the file in the folder of a case.
 pub const FILE: &str = "bed.toml";
-/// Parts of the description that only heat depends on; what may be varied.
+/// Beginnings of the keys that the packing does not depend on.
 const HEAT_ONLY: [&str; 12] = [
     "grains.conductivity",
     "grains.heat_capacity",
@@ -151,13 +151,20 @@ const HEAT_ONLY: [&str; 12] = [
     "grains.roughness",
     "grains.hardness",
     "gas.",
-    "heat.initial_temperature",
+    "heat.",
     "plate.temperature",
     "plate.conductivity",
     "plate.young_modulus",
     "plate.roughness",
     "plate.hardness",
 ];
+
+impl Vary {
+    /// Whether the bed has to be poured again.
+    pub fn changes_packing(&self) -> bool {
+        !HEAT_ONLY.iter().any(|key| self.key.starts_with(key))
+    }
+}
 
 /// What is wrong with a description. The messages name file, key, value and what is allowed.
 #[derive(Debug, thiserror::Error)]
@@ -196,32 +203,33 @@ impl BedCase {
         Ok(case)
     }
 
-    /// The same with one value changed, which must leave the packing as it is.
+    /// The same with one value changed.
     ///
     /// # Errors
-    /// A key that the packing depends on; what is wrong with the value.
+    /// A section that is not there; what is wrong with the value.
     pub fn varied(&self, folder: &Path, vary: &Vary) -> Result<Self, CaseError> {
         let file = folder.join(FILE);
-        if !HEAT_ONLY.iter().any(|key| vary.key.starts_with(key)) {
-            let allowed = format!("a key that the packing does not depend on: {}", HEAT_ONLY.join(", "));
-            return Err(CaseError::Value {
-                file,
-                key: "vary.key".to_string(),
-                value: vary.key.clone(),
-                allowed,
-            });
-        }
-        let text = read_text(&file)?;
         let read = |problem: String| CaseError::Read { file: file.clone(), problem };
-        let mut table: toml::Table = toml::from_str(&text).map_err(|error| read(error.to_string()))?;
-        let (section, key) = vary.key.split_once('.').unwrap_or((&vary.key, ""));
-        let Some(toml::Value::Table(inner)) = table.get_mut(section) else {
-            return Err(read(format!("vary: no section {section}")));
-        };
-        inner.insert(key.to_string(), vary.value.clone());
+        let mut table: toml::Table =
+            toml::from_str(&read_text(&file)?).map_err(|error| read(error.to_string()))?;
+        table.insert("seed".to_string(), toml::Value::Integer(self.seed as i64));
         table.remove("vary");
-        let varied = Self::parse(&file, &toml::to_string(&table).map_err(|error| read(error.to_string()))?);
-        varied.map_err(|error| match error {
+        match vary.key.split_once('.') {
+            None => {
+                table.insert(vary.key.clone(), vary.value.clone());
+            }
+            Some((section, key)) => {
+                let Some(toml::Value::Table(inner)) = table.get_mut(section) else {
+                    let sections: Vec<&str> = table.keys().map(String::as_str).collect();
+                    let allowed = format!("a key of {}", sections.join(", "));
+                    let (key, value) = ("vary.key".to_string(), vary.key.clone());
+                    return Err(CaseError::Value { file, key, value, allowed });
+                };
+                inner.insert(key.to_string(), vary.value.clone());
+            }
+        }
+        let text = toml::to_string(&table).map_err(|error| read(error.to_string()))?;
+        Self::parse(&file, &text).map_err(|error| match error {
             CaseError::Read { problem, .. } => read(format!("vary {} = {}: {problem}", vary.key, vary.value)),
             other => other,
         })
@@ -304,8 +312,22 @@ impl BedCase {
         let positive = |v: f64| (1e-12..=1e15).contains(&v);
         let none_or = |v: Option<f64>| v.is_none_or(positive);
         let (g, p, h) = (&self.grains, &self.plate, &self.heat);
-        let base = self.container.base.map_or(1.0, |[x, y]| x.min(y));
-        let mut all = vec![
+        let base = self.container.base.map_or(f64::INFINITY, |[x, y]| x.min(y));
+        let radius = self.container.radius.unwrap_or(f64::INFINITY);
+        let mut all = Vec::new();
+        for (key, value) in [
+            ("grains.diameter", g.diameter),
+            ("grains.density", g.density),
+            ("grains.young_modulus", g.young_modulus),
+            ("container.gravity", self.container.gravity),
+            ("gas.pressure", self.gas.pressure),
+            ("plate.young_modulus", p.young_modulus),
+            ("heat.end", h.end),
+            ("heat.tolerance", h.tolerance),
+        ] {
+            all.push((key, value, POSITIVE, positive(value)));
+        }
+        all.extend([
             ("grains.number", g.number as f64, "1 to 1000000", (1..=1_000_000).contains(&g.number)),
             ("grains.friction", g.friction, "0 to 10", (0.0..=10.0).contains(&g.friction)),
             ("grains.wall_friction", g.wall_friction, "0 to 10", (0.0..=10.0).contains(&g.wall_friction)),
@@ -331,20 +353,9 @@ impl BedCase {
                 "a hundred-thousandth of end, to end",
                 h.output_every <= h.end && h.output_every >= 1e-5 * h.end,
             ),
-            ("container.base", base, POSITIVE, positive(base)),
-        ];
-        for (key, value) in [
-            ("grains.diameter", g.diameter),
-            ("grains.density", g.density),
-            ("grains.young_modulus", g.young_modulus),
-            ("container.gravity", self.container.gravity),
-            ("gas.pressure", self.gas.pressure),
-            ("plate.young_modulus", p.young_modulus),
-            ("heat.end", h.end),
-            ("heat.tolerance", h.tolerance),
-        ] {
-            all.push((key, value, POSITIVE, positive(value)));
-        }
+            ("container.base", base, "two diameters at least", base >= 2.0 * g.diameter),
+            ("container.radius", radius, "one diameter at least", radius >= g.diameter),
+        ]);
         for (key, value) in [
             ("grains.roughness", g.roughness),
             ("grains.hardness", g.hardness),
@@ -353,7 +364,6 @@ impl BedCase {
             ("plate.hardness", p.hardness),
             ("plate.conductivity", p.conductivity),
             ("plate.pressure", p.pressure),
-            ("container.radius", self.container.radius),
             ("lid.pressure", self.lid.as_ref().map(|lid| lid.pressure)),
         ] {
             all.push((key, value.unwrap_or(1.0), POSITIVE, none_or(value)));

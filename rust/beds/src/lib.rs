@@ -15,6 +15,7 @@
 //! | [`named_gases`] | air, nitrogen, helium, argon, vacuum |
 //! | [`solid`] | law of heat through a contact, smooth or rough; stress in it |
 //! | [`links`] | conductances between the spheres of a simulation: contact, gas |
+//! | [`correlation`] | published correlation for packed beds |
 //! | `solve` | conjugate gradients |
 //! | [`network`] | the network of a bed at rest with plates; conductances by temperature |
 //! | [`transient`] | temperatures of the spheres in time |
@@ -30,6 +31,7 @@ pub mod averages;
 pub mod bed;
 pub mod case;
 pub mod conductivity;
+pub mod correlation;
 pub mod experiment;
 pub mod gas;
 pub mod links;

@@ -113,7 +113,8 @@ pub fn conductivity(
         .filter(|&&(i, j, _)| (distances[i] < middle) != (distances[j] < middle))
         .map(|&(i, j, g)| g * (distances[j] + change[j] - distances[i] - change[i]).abs())
         .sum();
-    Some(flux / area)
+    // The sum of nothing is −0.
+    Some(flux / area + 0.0)
 }
 
 /// The line through the temperatures of the spheres within 1.5 d of a distance from a wall, and two d of the middle of the bed along

@@ -37,7 +37,9 @@ pub enum Property {
 pub enum TableError {
     #[error("{}, allowed: {allowed}", number(*value))]
     Value { value: f64, allowed: &'static str },
-    #[error("temperatures {} K and {} K in this order, allowed: two rows at least, with rising temperatures", number(*first), number(*second))]
+    #[error("{rows} rows, allowed: two at least")]
+    Short { rows: usize },
+    #[error("temperatures {} K and {} K in this order, allowed: rising temperatures", number(*first), number(*second))]
     Order { first: f64, second: f64 },
     #[error("known from {} K to {} K, allowed: a table that covers {} K to {} K, the temperatures of the run",
         number(known[0]), number(known[1]), number(wanted[0]), number(wanted[1]))]
@@ -59,12 +61,9 @@ impl Property {
                 if let Some(row) = rows.iter().find(|row| !good(row[1])) {
                     return Err(TableError::Value { value: row[1], allowed });
                 }
-                let [Some(first), Some(last)] = [rows.first(), rows.last()] else {
-                    return Err(TableError::Order { first: f64::NAN, second: f64::NAN });
+                let (Some(first), Some(last), true) = (rows.first(), rows.last(), rows.len() > 1) else {
+                    return Err(TableError::Short { rows: rows.len() });
                 };
-                if rows.len() < 2 {
-                    return Err(TableError::Order { first: first[0], second: f64::NAN });
-                }
                 let rising = |pair: &&[[f64; 2]]| pair[0][0] < pair[1][0];
                 if let Some(pair) = rows.windows(2).find(|pair| !rising(pair)) {
                     return Err(TableError::Order { first: pair[0][0], second: pair[1][0] });
@@ -134,7 +133,8 @@ mod tests {
         assert!(text.starts_with("known from 300 K to 400 K") && text.contains("293 K to 326 K"), "{text}");
         let order = Property::Table(vec![[400.0, 60.0], [300.0, 56.0]]);
         assert!(matches!(order.check([300.0, 301.0]), Err(TableError::Order { .. })));
-        assert!(matches!(Property::Table(Vec::new()).check([1.0, 2.0]), Err(TableError::Order { .. })));
+        let short = Property::Table(vec![[1.0, 2.0]]);
+        assert_eq!(short.check([1.0, 2.0]), Err(TableError::Short { rows: 1 }));
         let negative = Property::Constant(-1.0).check([1.0, 2.0]).unwrap_err().to_string();
         assert_eq!(negative, "-1, allowed: 1e-30 to 1e30");
     }

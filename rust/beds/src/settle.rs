@@ -1,7 +1,8 @@
 //! Coming to rest under gravity.
 
 use crate::BedError;
-use msdd_spheres::{Simulation, Sphere, space::length};
+use msdd_spheres::space::{dot, length, plus, scaled};
+use msdd_spheres::{Simulation, Sphere};
 
 /// Agitation (kinetic energy over that of falling by a radius) at which a bed counts as at rest.
 const AT_REST: f64 = 1e-8;
@@ -76,7 +77,7 @@ pub fn settle(
     }
 }
 
-/// Turns gravity to another direction within `duration` \[s\], at an even rate.
+/// Turns gravity to another direction (a unit vector) within `duration` \[s\], at an even rate.
 ///
 /// # Errors
 /// Those of [`Simulation::run`].
@@ -88,15 +89,41 @@ pub fn turn(
 ) -> Result<(), BedError> {
     let (start, gravity) = (simulation.time, length(simulation.gravity));
     let before = simulation.gravity.map(|g| g / gravity);
+    let aside = across(before, direction);
+    let whole = libm::acos(dot(before, direction).clamp(-1.0, 1.0));
     while simulation.time < start + duration {
         simulation.run(LOOK_EVERY / 4)?;
-        let angle = std::f64::consts::FRAC_PI_2 * ((simulation.time - start) / duration).min(1.0);
-        let mixed: [f64; 3] =
-            std::array::from_fn(|k| libm::cos(angle) * before[k] + libm::sin(angle) * direction[k]);
-        let norm = length(mixed);
-        simulation.gravity = mixed.map(|g| gravity * g / norm);
+        let angle = whole * ((simulation.time - start) / duration).min(1.0);
+        let turned = plus(scaled(libm::cos(angle), before), libm::sin(angle), aside);
+        let norm = length(turned);
+        simulation.gravity = turned.map(|g| gravity * g / norm);
         watch(agitation(simulation, gravity));
     }
     simulation.gravity = direction.map(|g| gravity * g);
     Ok(())
+}
+
+/// The unit vector across `from` on the side of `to`; any across if both are parallel.
+fn across(from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
+    let side = |to: [f64; 3]| plus(to, -dot(from, to), from);
+    let [a, b, c] = [to, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(side);
+    let found = [a, b, c].into_iter().find(|v| length(*v) > 1e-6).unwrap_or(c);
+    scaled(1.0 / length(found), found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_is_a_way_to_every_direction() {
+        let down = [0.0, 0.0, -1.0];
+        for to in [[0.0, 0.0, 1.0], down, [0.0, -1.0, 0.0], [0.6, 0.0, -0.8]] {
+            let aside = across(down, to);
+            assert!((length(aside) - 1.0).abs() < 1e-15 && dot(aside, down).abs() < 1e-15);
+            let angle = dot(down, to).acos();
+            let end = plus(scaled(angle.cos(), down), angle.sin(), aside);
+            assert!((0..3).all(|k| (end[k] - to[k]).abs() < 1e-12), "{to:?} {end:?}");
+        }
+    }
 }

@@ -157,21 +157,25 @@ fn bad_descriptions_are_refused_with_file_key_value_and_range() {
 }
 
 #[test]
-fn a_value_is_varied_and_the_packing_must_stay() {
+fn a_value_is_varied() {
     let folder = Folder::new("vary", TEXT);
     let case = BedCase::read(&folder.0).unwrap();
-    let vary = |key: &str, value: f64| {
-        let vary = Vary { key: key.to_string(), value: value.into() };
-        case.varied(&folder.0, &vary).map_err(|error| error.to_string())
-    };
-    assert_eq!(vary("plate.temperature", 330.0).unwrap().plate.temperature, 330.0);
-    assert_eq!(vary("gas.accommodation", 0.9).unwrap().gas.accommodation, 0.9);
-    let text = vary("grains.friction", 0.5).unwrap_err();
-    assert!(text.contains("vary.key = grains.friction, allowed: a key that the packing does not depend on"));
-    assert!(vary("gas.accommodation", 2.0).unwrap_err().contains("gas.accommodation = 2"));
-    let text =
-        read("vary-bad", &format!("{TEXT}\n[[vary]]\nkey = \"grains.number\"\nvalue = 3\n")).unwrap_err();
-    assert!(text.contains("vary.key = grains.number"), "{text}");
+    let vary = |key: &str, value: f64| Vary { key: key.to_string(), value: value.into() };
+    let varied =
+        |key: &str, value: f64| case.varied(&folder.0, &vary(key, value)).map_err(|error| error.to_string());
+    assert_eq!(varied("plate.temperature", 330.0).unwrap().plate.temperature, 330.0);
+    let seed = Vary { key: "seed".to_string(), value: 7.into() };
+    assert_eq!(case.varied(&folder.0, &seed).unwrap(), BedCase { seed: 7, ..case.clone() });
+    assert!(seed.changes_packing() && vary("grains.friction", 0.5).changes_packing());
+    assert!(
+        !vary("gas.pressure", 1e4).changes_packing() && !vary("grains.roughness", 1e-6).changes_packing()
+    );
+    assert!(varied("gas.accommodation", 2.0).unwrap_err().contains("gas.accommodation = 2"));
+    assert!(varied("grains.colour", 1.0).unwrap_err().contains("unknown field `colour`"));
+    let text = varied("glass.colour", 1.0).unwrap_err();
+    assert!(text.contains("vary.key = glass.colour, allowed: a key of container, gas, grains"), "{text}");
+    let text = read("vary-bad", &format!("{TEXT}\n[[vary]]\nkey = \"plate.wall\"\nvalue = 3\n")).unwrap_err();
+    assert!(text.contains("vary plate.wall = 3"), "{text}");
 }
 
 #[test]

@@ -8,8 +8,8 @@ pub enum CliError {
     File(#[from] msdd_files::FileError),
     #[error("cannot write to standard output: {0}")]
     Output(String),
-    #[error(transparent)]
-    Bed(#[from] msdd_beds::BedError),
+    #[error("{file}: {source}")]
+    Bed { file: PathBuf, source: msdd_beds::BedError },
     #[error(transparent)]
     BedCase(#[from] msdd_beds::case::CaseError),
     #[error(transparent)]

@@ -49,19 +49,24 @@ fn run(case: &Path, out: &Path, more: &[&str]) -> Output {
 #[test]
 fn all_files_are_written_and_are_the_same_again() {
     let folder = Folder::new("files");
-    let vary = "\n[[vary]]\nkey = \"gas.accommodation\"\nvalue = 0.9\n";
-    let case = case(&folder.0, |text| text + vary);
+    let vary = "\n[[vary]]\nkey = \"gas.accommodation\"\nvalue = 0.9\n[[vary]]\nkey = \"seed\"\nvalue = 2\n";
+    let case = case(&folder.0, |text| text[..text.find("[[vary]]").unwrap_or(text.len())].to_string() + vary);
     let outs = ["one", "two"].map(|name| folder.0.join(name));
-    let output = run(&case, &outs[0], &["--threads", "1"]);
+    let output = run(&case, &outs[0], &["--threads", "1", "--vary"]);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{message}");
     let told = String::from_utf8(output.stdout).unwrap();
-    for words in
-        ["350 grains, seed 1", "held", "resisting", "gas.accommodation = 0.9", "simulated less measured"]
-    {
+    for words in [
+        "350 grains, seed 1",
+        "held",
+        "resisting",
+        "gas.accommodation = 0.9",
+        "seed = 2",
+        "simulated less measured",
+    ] {
         assert!(told.contains(words), "no {words} in {told}");
     }
-    assert!(run(&case, &outs[1], &["--threads", "2"]).status.success());
+    assert!(run(&case, &outs[1], &["--threads", "2", "--vary"]).status.success());
     for name in ["temperature.csv", "comparison.csv", "bed.json", "grains.vtp", "temperature.svg"] {
         let [one, two] = [0, 1].map(|k| std::fs::read_to_string(outs[k].join(name)).unwrap());
         assert!(one == two, "{name} differs between one thread and two");
@@ -70,8 +75,8 @@ fn all_files_are_written_and_are_the_same_again() {
     let text = |name: &str| std::fs::read_to_string(outs[0].join(name)).unwrap();
     // Two ways to take the plate, three probes, 21 times.
     assert_eq!(text("temperature.csv").lines().count(), 1 + 2 * 3 * 21);
-    // Two ways, three distances and all; and all with one value changed.
-    assert_eq!(text("comparison.csv").lines().count(), 1 + 2 * 4 + 2);
+    // Two ways, three distances and all; and all with two values changed.
+    assert_eq!(text("comparison.csv").lines().count(), 1 + 2 * 4 + 2 * 2);
     let json: serde_json::Value = serde_json::from_str(&text("bed.json")).unwrap();
     assert_eq!(json["stages"].as_array().unwrap().len(), 4);
     assert_eq!(json["grains"], 350);

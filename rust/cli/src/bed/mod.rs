@@ -7,7 +7,7 @@ mod table;
 
 use crate::error::CliError;
 use clap::{Args, Subcommand};
-use msdd_beds::case::BedCase;
+use msdd_beds::case::{BedCase, CaseError, Vary};
 use msdd_beds::experiment::{self, Measured};
 use msdd_files::{check_target, write};
 use std::path::{Path, PathBuf};
@@ -19,7 +19,9 @@ pub enum Command {
 }
 
 #[derive(Args)]
-#[command(after_help = "Example: msdd bed run cases/beaulieu
+#[command(after_help = "Examples:
+  msdd bed run cases/beaulieu
+  msdd bed run cases/beaulieu --vary     what the uncertain inputs change, one at a time
 
 The folder holds bed.toml (every key is explained in the book, Reference, Measured beds) and, if there is an experiment, its
 measurements. Into the folder of results go
@@ -40,6 +42,9 @@ pub struct RunArguments {
     /// Seed of the packing, instead of that of the case.
     #[arg(long)]
     seed: Option<u64>,
+    /// Compute it again with each value of the blocks [[vary]] of the case, one changed at a time.
+    #[arg(long)]
+    vary: bool,
     /// Number of threads; the results do not depend on it.
     #[arg(long, default_value_t = 2, value_parser = crate::threads::parser())]
     threads: u32,
@@ -63,7 +68,11 @@ fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     for file in files::NAMES {
         check_target(&out.join(file))?;
     }
-    let results = results::compute(folder, case, measured, arguments.threads as usize)?;
+    let vary: &[Vary] = if arguments.vary { &case.vary } else { &[] };
+    let vary = vary.iter().map(|vary| Ok((vary.clone(), case.varied(folder, vary)?)));
+    let vary = vary.collect::<Result<_, CaseError>>()?;
+    let results = results::compute(case, vary, measured, arguments.threads as usize)
+        .map_err(|source| CliError::Bed { file: folder.join(msdd_beds::case::FILE), source })?;
     for (file, text) in files::NAMES.into_iter().zip(files::texts(&results)?) {
         write(&out.join(file), text.as_bytes())?;
     }

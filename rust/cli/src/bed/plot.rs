@@ -33,6 +33,7 @@ fn draw(results: &Results, svg: &mut String) -> Drawn {
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil().max(low + 1.0);
     let mut chart = ChartBuilder::on(&body)
         .margin(10)
+        .margin_right(30)
         .x_label_area_size(40)
         .y_label_area_size(50)
         .build_cartesian_2d(0.0..results.case.heat.end, low..high)?;
@@ -40,6 +41,8 @@ fn draw(results: &Results, svg: &mut String) -> Drawn {
         .configure_mesh()
         .x_desc("t [s]")
         .y_desc("T [°C]")
+        .x_label_formatter(&|time| format!("{time:.0}"))
+        .y_label_formatter(&|t| format!("{t:.0}"))
         .light_line_style(WHITE)
         .bold_line_style(BLACK.mix(0.12))
         .label_style(("sans-serif", 14))
