@@ -11,10 +11,8 @@
 //!   result of Batchelor & O'Brien (Proc. R. Soc. A 355, 313, 1977: π k_g R (2 ln κ − 3.9), and ln 50 = 3.9); the mixed
 //!   term was fitted to numerical solutions of their integral equation with the gap M + r²/R.
 //!
-//! Gas counts between all pairs whose centres are nearer than [`NEAR`] times the sum of their radii. The farther ones would be
-//! counted twice, since heat does not go straight between them. The number is calibrated on solutions of the heat
-//! equation in packings of 100 spheres at κ = 1500, where the sum is within 4 %. Below κ of about 30 the heat spreads far
-//! from straight lines, and the law is 26 to 34 % too low at κ = 10: see [`LEAST_RATIO`].
+//! Below κ of about 30 the heat spreads far from straight lines, and the law is 26 to 34 % too low at κ = 10: see
+//! [`LEAST_RATIO`]. Between which pairs gas counts is said in [`crate::links`].
 //!
 //! A plate of one temperature is the plane of symmetry between a sphere and its mirror image, whose gap is twice as wide and
 //! in which heat jumps twice as far: so G of a sphere and a plate is twice that of the pair, with h of the pair at the

@@ -1,11 +1,11 @@
-//! Boxes of spheres: packing, averages, conduction of heat.
+//! Beds of spheres: packing, pouring, averages, conduction of heat.
 //!
 //! A module uses only modules above it in this table.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`scatter`] | seeded random numbers, random loose spheres to start from |
-//! | [`averages`] | solid fraction, coordination, stress of a periodic box |
+//! | [`averages`](mod@averages) | solid fraction, coordination, stress of a periodic box |
 //! | [`settle`](mod@settle) | coming to rest under gravity; turning it |
 //! | [`pour`](mod@pour) | grains rain into a box or cylinder until they are at rest |
 //! | [`press`](mod@press) | a wall that is pressed onto a bed |

@@ -13,7 +13,7 @@ const LOOK_EVERY: u64 = 200;
 /// points downwards.
 const FALL: f64 = 5.0;
 
-/// See [`agitation`].
+/// One grain in so many is left out of the agitation.
 const ROLLING: usize = 1000;
 
 /// How a bed came to rest, or did not.
@@ -27,7 +27,7 @@ pub struct Rest {
     pub steps: u64,
 }
 
-/// Kinetic energy over Σ m g r, without the grains of the highest energy, one in [`ROLLING`]: a grain that rocks in a hollow of the
+/// Kinetic energy over Σ m g r, without the grains of the highest energy, one in a thousand: a grain that rocks in a hollow of the
 /// surface does so long after all others are at rest.
 pub fn agitation(simulation: &Simulation, gravity: f64) -> f64 {
     let falling: f64 = simulation.spheres.iter().map(|s| s.mass * gravity * s.radius).sum();
