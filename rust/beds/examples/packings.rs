@@ -3,7 +3,8 @@
 //! 8.5, 6 and 3.5.
 
 use msdd_beds::conductivity::{conductivity, mean};
-use msdd_beds::links::{Link, Solid, contact_links, gas_links};
+use msdd_beds::links::{Link, contact_links, gas_links};
+use msdd_beds::solid::Solid;
 use msdd_beds::{Packing, pack};
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::{Material, Stiffness};
@@ -41,7 +42,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let found = conductivity(links, spheres, volume);
                 found.map_or(f64::NAN, |found| mean(&found.network))
             };
-            let solid = Solid { conductivity: 1.0, effective_modulus: effective_modulus(1.0, 0.25) };
+            let solid =
+                Solid { conductivity: 1.0, effective_modulus: effective_modulus(1.0, 0.25), roughness: None };
             let contacts = solve(&contact_links(s, &solid));
             let contacts = contacts / (a.pressure() / solid.effective_modulus).cbrt();
             let gas = [8.5f64, 6.0, 3.5].map(|log| solve(&gas_links(s, 1.0, |radius| radius * (-log).exp())));

@@ -4,11 +4,11 @@
 //! other's material. One network of both conducts a little more.
 
 use crate::links::Link;
+use crate::solve::{conjugate_gradients, inner};
 use msdd_spheres::space::dot;
 
-/// Residual over the right-hand side at which a solution counts as found, and iterations after which it is given up.
+/// Residual over the right-hand side at which a solution counts as found.
 const RESIDUAL: f64 = 1e-11;
-const MOST_ITERATIONS: usize = 10_000;
 
 /// Conductivity of a network in a periodic box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,41 +60,18 @@ fn temperatures(links: &[Link], diagonal: &[f64], axis: usize) -> Option<Vec<f64
         residual[link.i] += heat;
         residual[link.j] -= heat;
     }
-    let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let precondition =
-        |residual: &[f64]| residual.iter().zip(diagonal).map(|(r, d)| r / d).collect::<Vec<f64>>();
     // The scale of the heat, for crystals, whose residuals are all round-off from the beginning.
     let scale = links
         .iter()
         .map(|link| link.conductance * link.conductance * dot(link.branch, link.branch))
         .sum::<f64>();
-    let mut solution = vec![0.0; diagonal.len()];
-    let mut direction = precondition(&residual);
-    let mut product = inner(&residual, &direction);
-    for _ in 0..MOST_ITERATIONS {
-        if inner(&residual, &residual) <= RESIDUAL * RESIDUAL * scale {
-            return Some(solution);
-        }
-        let mut flow: Vec<f64> = vec![0.0; diagonal.len()];
+    let apply = |direction: &[f64], flow: &mut [f64]| {
         for link in links {
             let heat = link.conductance * (direction[link.i] - direction[link.j]);
             flow[link.i] += heat;
             flow[link.j] -= heat;
         }
-        let step = product / inner(&direction, &flow);
-        for k in 0..solution.len() {
-            solution[k] += step * direction[k];
-            residual[k] -= step * flow[k];
-        }
-        let next = precondition(&residual);
-        let new_product = inner(&residual, &next);
-        for (d, n) in direction.iter_mut().zip(next) {
-            *d = n + new_product / product * *d;
-        }
-        product = new_product;
-        if !product.is_finite() {
-            return None;
-        }
-    }
-    None
+    };
+    let enough = |residual: &[f64]| inner(residual, residual) <= RESIDUAL * RESIDUAL * scale;
+    conjugate_gradients(apply, diagonal, &mut residual, enough)
 }

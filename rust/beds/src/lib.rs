@@ -1,21 +1,53 @@
-//! Boxes of spheres: packing, averages, conduction of heat.
+//! Beds of spheres: packing, pouring, averages, conduction of heat.
 //!
 //! A module uses only modules above it in this table.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`scatter`] | seeded random numbers, random loose spheres to start from |
-//! | [`averages`] | solid fraction, coordination, stress of a periodic box |
+//! | [`averages`](mod@averages) | solid fraction, coordination, stress of a periodic box |
+//! | [`settle`](mod@settle) | coming to rest under gravity; turning it |
+//! | [`pour`](mod@pour) | grains rain into a box or cylinder until they are at rest |
+//! | [`press`](mod@press) | a wall that is pressed onto a bed |
 //! | [`pack`](mod@pack) | isotropic compression of a periodic box to a pressure |
-//! | [`links`] | conductances between two spheres: contact, gas |
+//! | [`property`] | properties by temperature |
+//! | [`gas`] | law of heat through gas: between two spheres, and to a plate |
+//! | [`named_gases`] | air, nitrogen, helium, argon, vacuum |
+//! | [`solid`] | law of heat through a contact, smooth or rough; stress in it |
+//! | [`links`] | conductances between the spheres of a simulation: contact, gas |
+//! | [`correlation`] | published correlation for packed beds |
+//! | `solve` | conjugate gradients |
+//! | [`network`] | the network of a bed at rest with plates; conductances by temperature |
+//! | [`transient`] | temperatures of the spheres in time |
+//! | [`case`](mod@case) | the description of a bed that was measured |
+//! | [`experiment`] | measured temperatures, and how far a simulation is from them |
+//! | [`profile`] | a bed between two distances from a plate; probes |
+//! | [`bed`] | a measured bed from pouring to temperatures |
+//! | [`vtk`] | grains for ParaView |
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
 
 pub mod averages;
+pub mod bed;
+pub mod case;
 pub mod conductivity;
+pub mod correlation;
+pub mod experiment;
+pub mod gas;
 pub mod links;
+pub mod named_gases;
+pub mod network;
 pub mod pack;
+pub mod pour;
+pub mod press;
+pub mod profile;
+pub mod property;
 pub mod scatter;
+pub mod settle;
+pub mod solid;
+mod solve;
+pub mod transient;
+pub mod vtk;
 
 pub use averages::{Averages, averages};
 pub use pack::{Packed, Packing, pack};
@@ -25,6 +57,16 @@ pub use pack::{Packed, Packing, pack};
 pub enum BedError {
     #[error("packing: {key} = {value}, allowed: {allowed}", value = msdd_engine::message::number(*value))]
     Packing { key: &'static str, value: f64, allowed: &'static str },
+    #[error("pouring: {key} = {value}, allowed: {allowed}", value = msdd_engine::message::number(*value))]
+    Pouring { key: &'static str, value: f64, allowed: &'static str },
+    #[error("pressing: a wall that is not flat, allowed: flat walls")]
+    NotFlat,
+    #[error("heat.probes = {distance}, allowed: distances from the plate at which there are grains")]
+    NoGrains { distance: f64 },
+    #[error(transparent)]
+    NotConverged(#[from] transient::NotConverged),
+    #[error("cannot start threads: {0}")]
+    Threads(String),
     #[error(transparent)]
     Material(#[from] msdd_spheres::MaterialError),
     #[error("packing: room for {placed} of {wanted} spheres only")]

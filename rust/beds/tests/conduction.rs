@@ -1,14 +1,16 @@
 //! Conductivity of crystals against closed forms, and of a packing against what must hold for any network.
 
 use msdd_beds::conductivity::{Conductivity, conductivity, mean};
-use msdd_beds::links::{Gas, Link, Solid, contact_links, gas_conductance, gas_links};
+use msdd_beds::gas::{Gas, gas_conductance};
+use msdd_beds::links::{Link, contact_links, gas_links};
+use msdd_beds::solid::Solid;
 use msdd_beds::{Packing, pack};
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Stiffness};
 
 const RADIUS: f64 = 3.2e-3;
 const OVERLAP: f64 = 1e-5;
-const STEEL: Solid = Solid { conductivity: 42.0, effective_modulus: 1.1e11 };
+const STEEL: Solid = Solid { conductivity: 42.0, effective_modulus: 1.1e11, roughness: None };
 const AIR: Gas = Gas {
     conductivity: 0.026,
     mean_free_path: 68e-9,

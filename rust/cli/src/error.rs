@@ -8,6 +8,12 @@ pub enum CliError {
     File(#[from] msdd_files::FileError),
     #[error("cannot write to standard output: {0}")]
     Output(String),
+    #[error("{file}: {source}")]
+    Bed { file: PathBuf, source: msdd_beds::BedError },
+    #[error(transparent)]
+    BedCase(#[from] msdd_beds::case::CaseError),
+    #[error(transparent)]
+    Experiment(#[from] msdd_beds::experiment::ExperimentError),
     #[error(transparent)]
     Case(#[from] msdd_case::CaseError),
     #[error(transparent)]

@@ -6,6 +6,7 @@
 mod output;
 
 mod ablation;
+mod bed;
 mod bench;
 mod case;
 mod database;
@@ -55,6 +56,9 @@ enum Command {
     /// Pack, expand and average a single RVE.
     #[command(subcommand)]
     Rve(rve::Command),
+    /// Simulate a bed of spheres that was measured: pour, heat, compare.
+    #[command(subcommand)]
+    Bed(bed::Command),
     /// Simulate the whole box of a case by discrete elements: the reference that the solver is compared with.
     #[command(subcommand)]
     Reference(reference::Command),
@@ -80,6 +84,7 @@ fn main() -> ExitCode {
         Command::Case(command) => case::run(&command),
         Command::Database(command) => database::run(&command),
         Command::Rve(command) => rve::run(&command),
+        Command::Bed(command) => bed::run(&command),
         Command::Reference(command) => reference::run(&command),
         Command::Bench(command) => bench::run(&command),
         Command::Train(arguments) => train::run(&arguments),

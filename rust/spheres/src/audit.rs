@@ -121,7 +121,7 @@ fn friction([x, y, z, _]: History) -> [f64; 3] {
 impl Simulation {
     /// Kinetic energy \[J\]; in a periodic box that of the motion relative to the flow.
     pub fn kinetic_energy(&self) -> f64 {
-        self.spheres.iter().map(kinetic_energy).sum()
+        self.spheres.iter().map(Sphere::kinetic_energy).sum()
     }
 
     /// The energy stored now. Velocities are those half a step before the positions (leapfrog), so the total of an
@@ -207,8 +207,4 @@ impl Simulation {
             audit.drag += self.kinetic_energy() * (1.0 / (keep * keep) - 1.0);
         }
     }
-}
-
-fn kinetic_energy(s: &Sphere) -> f64 {
-    0.5 * (s.mass * dot(s.velocity, s.velocity) + s.inertia() * dot(s.angular_velocity, s.angular_velocity))
 }

@@ -1,31 +1,68 @@
-//! What surrounds the spheres: flat walls, or a periodic cell.
+//! What surrounds the spheres: walls, or a periodic cell.
 
-use crate::space::{Matrix, dot, minus, plus, times};
+use crate::space::{Matrix, dot, length, minus, plus, scaled, times};
 use msdd_engine::Lattice;
 use msdd_engine::message::number;
 use serde::{Deserialize, Serialize};
 
-/// A flat, rigid wall of infinite extent, which moves without turning.
+/// The form of a wall.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Surface {
+    /// A plane of infinite extent.
+    Flat {
+        /// Unit normal pointing to the side of the spheres.
+        normal: [f64; 3],
+    },
+    /// The inner side of a circular cylinder of infinite length; the wall's point lies on its axis.
+    Cylinder {
+        /// Unit vector along the axis.
+        axis: [f64; 3],
+        /// [m]
+        radius: f64,
+    },
+}
+
+/// A rigid wall, which moves without turning.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
-    /// A point of the wall [m].
+    /// A point of the plane, or of the cylinder's axis [m].
     pub point: [f64; 3],
-    /// Unit normal pointing to the side of the spheres.
-    pub normal: [f64; 3],
+    pub surface: Surface,
     /// [m/s]; its component along the wall counts as slip.
     pub velocity: [f64; 3],
 }
 
 impl Wall {
-    /// A wall at rest.
+    /// A flat wall at rest.
     pub fn at_rest(point: [f64; 3], normal: [f64; 3]) -> Self {
-        Self { point, normal, velocity: [0.0; 3] }
+        Self { point, surface: Surface::Flat { normal }, velocity: [0.0; 3] }
+    }
+
+    /// The inner side of a cylinder at rest; `axis` is a unit vector.
+    pub fn cylinder(point: [f64; 3], axis: [f64; 3], radius: f64) -> Self {
+        Self { point, surface: Surface::Cylinder { axis, radius }, velocity: [0.0; 3] }
+    }
+
+    /// Distance of a point from the wall, positive on the side of the spheres [m], and the unit normal of the wall at the
+    /// foot of the point, towards the spheres. On the axis of a cylinder the normal is 0.
+    #[inline]
+    pub fn foot(&self, point: [f64; 3]) -> (f64, [f64; 3]) {
+        let from = minus(point, self.point);
+        match self.surface {
+            Surface::Flat { normal } => (dot(from, normal), normal),
+            Surface::Cylinder { axis, radius } => {
+                let out = plus(from, -dot(from, axis), axis);
+                let off = length(out);
+                (radius - off, scaled(if off > 0.0 { -1.0 / off } else { 0.0 }, out))
+            }
+        }
     }
 
     /// Distance of a point from the wall, positive on the side of the spheres [m].
     pub fn distance(&self, point: [f64; 3]) -> f64 {
-        dot(minus(point, self.point), self.normal)
+        self.foot(point).0
     }
 
     /// The six walls of the block from the origin to `size` [m], at rest.
@@ -99,7 +136,7 @@ impl Cell {
         let edges = self.lattice.edges;
         for face in 0..3 {
             let area = crate::space::cross(edges[(face + 1) % 3], edges[(face + 2) % 3]);
-            let height = self.volume() / crate::space::length(area);
+            let height = self.volume() / length(area);
             if height.is_nan() || height <= SMALLEST_CELL * largest {
                 return Err(SmallCell { face, height, radius: largest });
             }
@@ -148,6 +185,15 @@ mod tests {
         cell.velocity_gradient = [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]];
         cell.advance(1.0);
         assert!((cell.volume() - 6.0 * 1.1f64.powi(3)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_cylinder_is_as_far_as_its_radius_says() {
+        let wall = Wall::cylinder([1.0, 2.0, 3.0], [0.0, 0.0, 1.0], 0.5);
+        let (distance, normal) = wall.foot([1.3, 1.6, -7.0]);
+        assert!(distance.abs() < 1e-15, "{distance}");
+        assert!(length(minus(normal, [-0.6, 0.8, 0.0])) < 1e-15, "{normal:?}");
+        assert_eq!(wall.foot([1.0, 2.0, 9.0]), (0.5, [0.0; 3]));
     }
 
     #[test]

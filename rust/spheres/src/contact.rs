@@ -100,10 +100,10 @@ impl Touching<'_> {
         {
             for (&j, &history) in contacts.sphere.iter().zip(&contacts.history) {
                 let sphere = &self.spheres[j as usize];
-                let distance = wall.distance(sphere.position);
+                let (distance, normal) = wall.foot(sphere.position);
                 visit(self.contact(
                     (Partner::Wall(number), j as usize, [0; 3]),
-                    (wall.normal, scaled(distance, wall.normal)),
+                    (normal, scaled(distance, normal)),
                     sphere.radius - distance,
                     sphere.radius,
                     history,

@@ -37,14 +37,14 @@ pub(crate) fn add_wall(
     for (&i, history) in contacts.sphere.iter().zip(contacts.history) {
         let k = i as usize - first;
         let sphere = &spheres[k];
-        let distance = wall.distance(sphere.position);
+        let (distance, across) = wall.foot(sphere.position);
         let overlap = sphere.radius - distance;
         if overlap <= 0.0 {
             *history = [0.0; 4];
             continue;
         }
         let touch = Touch {
-            normal: wall.normal,
+            normal: across,
             overlap,
             velocity: minus(sphere.velocity, wall.velocity),
             spin: scaled(distance, sphere.angular_velocity),
@@ -54,8 +54,8 @@ pub(crate) fn add_wall(
         };
         let (normal, tangential, new) = law.force(&touch, *history);
         *history = new;
-        let force = plus(tangential, normal, wall.normal);
-        let torque = scaled(distance, cross(tangential, wall.normal));
+        let force = plus(tangential, normal, across);
+        let torque = scaled(distance, cross(tangential, across));
         loads[k].add(&Load { force, torque, ..Load::default() });
         on_wall = minus(on_wall, force);
     }

@@ -1,4 +1,4 @@
-//! Three-dimensional discrete element engine for spheres between flat walls, or in a periodic box.
+//! Three-dimensional discrete element engine for spheres between walls (flat, cylinders), or in a periodic box.
 //!
 //! SI units throughout. What discs need, too (threads, search for pairs, images in periodic boxes, the loop of a run),
 //! is in `msdd-engine`. [`Simulation::step`] reads as the algorithm: boundaries, neighbours, contact forces, motion.
@@ -10,7 +10,7 @@
 //! | [`space`] | vectors with three components, of one or several grains at a time |
 //! | [`material`] | parameters of the grains |
 //! | [`sphere`] | one grain, in two cache lines |
-//! | [`boundary`] | flat walls; periodic cells with strain and shear |
+//! | [`boundary`] | walls, flat or cylinders; periodic cells with strain and shear |
 //! | [`law`] | contact laws (Hertz–Mindlin–Coulomb, linear) as pure functions |
 //! | `contacts` | lists of pairs that may touch, with friction history |
 //! | `neighbours` | when to search again; the friction history is carried over |
@@ -46,7 +46,7 @@ pub mod sphere;
 pub mod state;
 pub mod time_step;
 
-pub use boundary::{Boundary, Cell, Wall};
+pub use boundary::{Boundary, Cell, Surface, Wall};
 pub use contact::{Contact, Partner};
 pub use failure::Failure;
 pub use forces::Load;

@@ -8,7 +8,7 @@ use crate::law::ContactLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
 use crate::slabs::{SlabLoads, Sweep};
-use crate::space::{Matrix, dot, plus, scaled};
+use crate::space::{Matrix, dot, length, plus, scaled};
 use crate::sphere::Sphere;
 use crate::time_step::{self, StepChoice};
 use msdd_engine::Simd;
@@ -195,7 +195,7 @@ impl Simulation {
 
     /// Bound on the stable time step at the present contacts [s], see [`crate::time_step`].
     pub fn stable_step(&self) -> f64 {
-        time_step::stable_step(&self.touching(), self.largest_speed)
+        time_step::stable_step(&self.touching(), self.largest_speed, length(self.gravity))
     }
 
     /// Runs the neighbour search now, whether necessary or not. Results do not depend on when it runs.

@@ -54,6 +54,12 @@ impl Sphere {
         0.4 * self.mass * self.radius * self.radius
     }
 
+    /// ½ m v² + ½ I ω² [J].
+    pub fn kinetic_energy(&self) -> f64 {
+        let square = |[x, y, z]: [f64; 3]| x * x + y * y + z * z;
+        0.5 * (self.mass * square(self.velocity) + self.inertia() * square(self.angular_velocity))
+    }
+
     /// 4/3 π r³ [m³].
     pub fn volume(&self) -> f64 {
         4.0 / 3.0 * PI * self.radius * self.radius * self.radius

@@ -4,13 +4,43 @@ use crate::set::{Cell, Set};
 use crate::sources::{all, between, files, firsts, strings};
 
 const PLAN: &str = "reference/plan.md";
+const BEDS: &str = "reference/beds.md";
 const SCENE: &str = "reference/scenes.md";
 const DATABASE: &str = "reference/database.md";
 const C_INTERFACE: &str = "reference/c-interface.md";
 const RVE: &str = "rust/rve/src";
 
 pub fn sets() -> Vec<Set> {
-    [plan(), database(), other_files(), scenes()].concat()
+    [plan(), database(), other_files(), scenes(), beds()].concat()
+}
+
+fn beds() -> Vec<Set> {
+    const CASE: &str = "rust/beds/src/case";
+    const FILES: &str = "rust/cli/src/bed/files.rs";
+    let section = |table: &str, name: &str| with_required(fields_of(BEDS, table, CASE, name), CASE, name);
+    let columns = |table: &str, name: &str| {
+        let text = crate::sources::text(FILES);
+        let list = between(&text, &format!(r"const {name}: \[&str; \d+\] ="), ";", FILES);
+        Set::new(BEDS, table, FILES, strings(&list))
+    };
+    vec![
+        fields_of(BEDS, "bed", CASE, "BedCase"),
+        fields_of(BEDS, "grains of beds", CASE, "Grains"),
+        fields_of(BEDS, "container", CASE, "Vessel"),
+        section("lid", "Lid"),
+        section("turn", "Turn"),
+        section("gas", "GasKeys").with_words(
+            "name",
+            "allowed",
+            &variants("rust/beds/src/named_gases", "GasName"),
+        ),
+        fields_of(BEDS, "plate", CASE, "PlateKeys"),
+        section("heat of beds", "Heat"),
+        section("experiment", "ExperimentKeys"),
+        section("vary", "Vary"),
+        columns("temperatures of beds", "TEMPERATURE"),
+        columns("comparison of beds", "COMPARISON"),
+    ]
 }
 
 fn scenes() -> Vec<Set> {

@@ -1,0 +1,239 @@
+//! A bed that was measured, from pouring to temperatures: pour, press, turn, heat.
+
+use crate::BedError;
+use crate::case::BedCase;
+use crate::experiment::Record;
+use crate::network::{Materials, Network, Plate, PlateLaw};
+use crate::pour::{Container, Pouring, pour};
+use crate::press::press;
+use crate::profile::{Probe, Slab, slab};
+use crate::settle::{Rest, progress, settle, turn};
+use crate::solid::{PeakStress, Roughness};
+use crate::transient::Transient;
+use msdd_spheres::law::effective_modulus;
+use msdd_spheres::{Material, Partner, Simulation, Stiffness, Surface, Wall};
+
+/// Simulated time \[s\] within which each stage has to come to rest, and that of turning.
+const LONGEST: f64 = 3.0;
+const TURNING: f64 = 0.2;
+/// First time step of heat \[s\].
+const FIRST_STEP: f64 = 0.1;
+
+/// The two ways in which a plate is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlateKind {
+    /// The first layer of grains has the plate's temperature.
+    Held,
+    /// Contacts and gas between plate and grains resist.
+    Resisting,
+}
+
+impl PlateKind {
+    pub const ALL: [Self; 2] = [Self::Held, Self::Resisting];
+
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Held => "held",
+            Self::Resisting => "resisting",
+        }
+    }
+}
+
+/// A bed at rest before it is heated.
+#[derive(Clone, Debug)]
+pub struct Bed {
+    pub simulation: Simulation,
+    /// Stages, and how each came to rest.
+    pub stages: Vec<(&'static str, Rest)>,
+    /// Number of the wall that is heated.
+    pub plate: usize,
+}
+
+/// A bed that was heated.
+#[derive(Clone, Debug)]
+pub struct Heated {
+    pub kind: PlateKind,
+    /// T at each probe.
+    pub records: Vec<Record>,
+    /// T \[K\] of the spheres at the end.
+    pub temperatures: Vec<f64>,
+    /// Heat that the spheres stored, and the residual of its balance \[J\].
+    pub stored: f64,
+    pub residual: f64,
+    pub steps: u64,
+}
+
+/// Pours, presses and turns. `watch` is told the stage, and how far it has come, from 0 to 1.
+///
+/// # Errors
+/// Those of the stages.
+pub fn prepare(
+    case: &BedCase,
+    threads: usize,
+    mut watch: impl FnMut(&'static str, f64),
+) -> Result<Bed, BedError> {
+    let grains = &case.grains;
+    let stiffness = Stiffness::HertzMindlin {
+        young_modulus: grains.simulated_young_modulus,
+        poisson_ratio: grains.poisson_ratio,
+    };
+    let pouring = Pouring {
+        spheres: grains.number,
+        seed: case.seed,
+        diameter: grains.diameter,
+        material: Material {
+            density: grains.density,
+            stiffness,
+            friction: grains.friction,
+            wall_friction: grains.wall_friction,
+            restitution: grains.restitution,
+        },
+        container: case.vessel(),
+        gravity: case.container.gravity,
+        longest: LONGEST,
+        threads,
+    };
+    let names = case.wall_names();
+    let number = |name: &str| names.iter().position(|known| *known == name).unwrap_or_default();
+    let (mut simulation, rest) = pour(&pouring, |agitation| watch("pour", progress(agitation)))?;
+    let mut stages = vec![("pour", rest)];
+    if let Some(lid) = &case.lid {
+        let load = (lid.pressure, pouring.container.area());
+        let rest = press(&mut simulation, number("lid"), load, LONGEST, |a| watch("lid", progress(a)))?;
+        stages.push(("lid", rest));
+    }
+    if let Some(turned) = &case.turn {
+        let Surface::Flat { normal } = simulation.boundary.walls()[number(&turned.down)].surface else {
+            return Err(BedError::NotFlat);
+        };
+        turn(&mut simulation, normal.map(|n| -n), TURNING, |_| watch("turn", 0.0))?;
+        let rest = settle(&mut simulation, LONGEST, |a| watch("turn", progress(a)))?;
+        stages.push(("turn", rest));
+    }
+    let plate = number(&case.plate.wall);
+    if let Some(pressure) = case.plate.pressure {
+        let load = (pressure, parallel_area(&case.vessel(), &simulation, plate));
+        let rest = press(&mut simulation, plate, load, LONGEST, |a| watch("plate", progress(a)))?;
+        stages.push(("plate", rest));
+    }
+    Ok(Bed { simulation, stages, plate })
+}
+
+/// Area of the bed parallel to a flat wall \[m²\].
+fn parallel_area(container: &Container, simulation: &Simulation, wall: usize) -> f64 {
+    let walls = simulation.boundary.walls();
+    let Surface::Flat { normal } = walls[wall].surface else { return container.area() };
+    if normal[2].abs() > 0.5 {
+        return container.area();
+    }
+    // A side of a box: to the lid, or to the highest grain below it.
+    let Container::Box { base: [x, y] } = *container else { return container.area() };
+    let lid = walls[walls.len() - 1].point[2];
+    let highest = simulation.spheres.iter().map(|s| s.position[2] + s.radius).fold(0.0, f64::max);
+    lid.min(highest) * if normal[0].abs() > 0.5 { y } else { x }
+}
+
+impl Bed {
+    pub fn wall(&self) -> Wall {
+        self.simulation.boundary.walls()[self.plate]
+    }
+
+    /// Area of the bed parallel to the plate \[m²\].
+    pub fn area(&self, case: &BedCase) -> f64 {
+        parallel_area(&case.vessel(), &self.simulation, self.plate)
+    }
+
+    /// Force of the grains on the plate \[N\].
+    pub fn plate_force(&self) -> f64 {
+        msdd_spheres::space::length(self.simulation.wall_force[self.plate])
+    }
+
+    /// The stress in its contacts against the yield stress, if that is given.
+    pub fn peak_stress(&self, case: &BedCase) -> Option<PeakStress> {
+        let mut contacts = Vec::new();
+        self.simulation.for_each_contact(|contact| {
+            if let Partner::Sphere(_) = contact.i {
+                contacts.push((contact.normal_force, contact.effective_radius));
+            }
+        });
+        let modulus = effective_modulus(case.grains.young_modulus, case.grains.poisson_ratio);
+        case.grains.yield_stress.map(|limit| PeakStress::new(contacts.into_iter(), modulus, limit))
+    }
+
+    /// The network of the bed with a plate of a kind.
+    pub fn network(&self, case: &BedCase, kind: PlateKind) -> Network {
+        let (grains, keys) = (&case.grains, &case.plate);
+        let rough = |height: Option<f64>, hardness: Option<f64>| {
+            let (height_over_slope, hardness) = (height?, hardness?);
+            Some(Roughness { height_over_slope, hardness })
+        };
+        let materials = Materials {
+            conductivity: grains.conductivity.clone(),
+            heat_capacity: grains.heat_capacity.clone(),
+            effective_modulus: effective_modulus(grains.young_modulus, grains.poisson_ratio),
+            roughness: rough(grains.roughness, grains.hardness),
+            gas: case.gas.name,
+            gas_pressure: case.gas.pressure,
+            accommodation: case.gas.accommodation,
+        };
+        // 1/E* is the sum of (1 − ν²)/E of both.
+        let compliance = |young: f64, poisson: f64| (1.0 - poisson * poisson) / young;
+        let both = compliance(grains.young_modulus, grains.poisson_ratio)
+            + compliance(keys.young_modulus, keys.poisson_ratio);
+        let law = match kind {
+            PlateKind::Held => PlateLaw::Held,
+            PlateKind::Resisting => PlateLaw::Resisting {
+                conductivity: keys.conductivity,
+                effective_modulus: 1.0 / both,
+                roughness: rough(keys.roughness, keys.hardness),
+            },
+        };
+        Network::new(&self.simulation, materials, &[Plate { wall: self.plate, law }])
+    }
+
+    /// Averages between two distances from the plate \[m\], at the initial temperature.
+    pub fn slab(&self, case: &BedCase, between: [f64; 2]) -> Option<Slab> {
+        let network = self.network(case, PlateKind::Held);
+        let (wall, area) = (self.wall(), self.area(case));
+        slab(&self.simulation, &network, &wall, between, area, case.heat.initial_temperature)
+    }
+
+    /// Heats. `watch` is told how far it has come, from 0 to 1.
+    ///
+    /// # Errors
+    /// A probe without grains; heat that does not converge.
+    pub fn heat(
+        &self,
+        case: &BedCase,
+        kind: PlateKind,
+        mut watch: impl FnMut(f64),
+    ) -> Result<Heated, BedError> {
+        let (network, wall, heat) = (self.network(case, kind), self.wall(), &case.heat);
+        let Surface::Flat { normal } = wall.surface else { return Err(BedError::NotFlat) };
+        let probe = |&distance: &f64| {
+            Probe::new(&self.simulation, &wall, normal, distance).ok_or(BedError::NoGrains { distance })
+        };
+        let probes: Vec<Probe> = heat.probes.iter().map(probe).collect::<Result<_, _>>()?;
+        let mut transient = Transient::new(&network, heat.initial_temperature, vec![case.plate.temperature]);
+        let record = |&distance: &f64| Record { distance, rows: Vec::new() };
+        let mut records: Vec<Record> = heat.probes.iter().map(record).collect();
+        let (outputs, mut step) =
+            ((heat.end / heat.output_every).ceil() as u64, FIRST_STEP.min(heat.output_every));
+        for output in 0..=outputs {
+            let time = (output as f64 * heat.output_every).min(heat.end);
+            transient.run_to(time, heat.tolerance, &mut step)?;
+            for (record, probe) in records.iter_mut().zip(&probes) {
+                record.rows.push((time, probe.temperature(&transient.temperatures)));
+            }
+            watch(time / heat.end);
+        }
+        Ok(Heated {
+            kind,
+            records,
+            stored: transient.stored(),
+            residual: transient.residual(),
+            steps: transient.steps,
+            temperatures: transient.temperatures,
+        })
+    }
+}

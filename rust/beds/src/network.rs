@@ -1,0 +1,187 @@
+//! The network of a bed at rest: what conducts between which spheres and plates, and how well at given temperatures.
+
+use crate::gas::{gas_conductance, plate_conductance};
+use crate::links::{Near, near_pairs};
+use crate::named_gases::GasName;
+use crate::property::Property;
+use crate::solid::{Roughness, Solid};
+use msdd_spheres::{Partner, Simulation};
+
+/// A gap between sphere and plate counts up to this times the radius.
+const NEAR_PLATE: f64 = 0.5;
+
+/// What the bed is made of, as far as heat is concerned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Materials {
+    /// k_s \[W/(m K)\] of the spheres.
+    pub conductivity: Property,
+    /// c \[J/(kg K)\] of the spheres.
+    pub heat_capacity: Property,
+    /// E* \[Pa\] of two spheres, of the real material.
+    pub effective_modulus: f64,
+    pub roughness: Option<Roughness>,
+    pub gas: GasName,
+    /// \[Pa\]
+    pub gas_pressure: f64,
+    /// α \[-\] of the gas at all surfaces.
+    pub accommodation: f64,
+}
+
+/// A flat wall of given temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plate {
+    /// By the number of the wall.
+    pub wall: usize,
+    pub law: PlateLaw,
+}
+
+/// How a plate passes heat on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PlateLaw {
+    /// All spheres with their centre within a diameter of the plate have its temperature: the most that a plate can do.
+    Held,
+    /// Through contacts and gas between it and each sphere.
+    Resisting {
+        /// k \[W/(m K)\] of the plate; none: its surface has one temperature.
+        conductivity: Option<f64>,
+        /// E* \[Pa\] of a sphere and the plate.
+        effective_modulus: f64,
+        roughness: Option<Roughness>,
+    },
+}
+
+/// A contact between two spheres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joint {
+    pub i: usize,
+    pub j: usize,
+    /// Conductance over k_s \[m\].
+    pub size: f64,
+}
+
+/// A sphere beside a plate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beside {
+    pub sphere: usize,
+    pub plate: usize,
+    /// Conductance of the contact over the harmonic mean of both conductivities \[m\]; 0 if they do not touch.
+    pub size: f64,
+    /// k \[W/(m K)\] of the plate.
+    pub conductivity: Option<f64>,
+    pub radius: f64,
+    /// Distance of the surfaces \[m\].
+    pub gap: f64,
+}
+
+/// A bed at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Network {
+    pub materials: Materials,
+    /// m \[kg\] of each sphere.
+    pub mass: Vec<f64>,
+    pub contacts: Vec<Joint>,
+    pub gaps: Vec<Near>,
+    pub beside: Vec<Beside>,
+    /// For each sphere that has the temperature of a plate, the plate.
+    pub held: Vec<Option<usize>>,
+}
+
+/// Conductances \[W/K\] at some temperatures.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Conductances {
+    /// Between spheres i and j.
+    pub links: Vec<(usize, usize, f64)>,
+    /// Between a sphere and a plate, by their numbers.
+    pub plates: Vec<(usize, usize, f64)>,
+}
+
+impl Network {
+    pub fn new(simulation: &Simulation, materials: Materials, plates: &[Plate]) -> Self {
+        let solid = Solid {
+            conductivity: 1.0,
+            effective_modulus: materials.effective_modulus,
+            roughness: materials.roughness,
+        };
+        let mut contacts = Vec::new();
+        // Force on each sphere from each wall.
+        let mut at_walls = std::collections::BTreeMap::new();
+        simulation.for_each_contact(|contact| match contact.i {
+            Partner::Sphere(i) => {
+                let size = solid.contact_size(contact.normal_force, contact.effective_radius);
+                contacts.push(Joint { i, j: contact.j, size });
+            }
+            Partner::Wall(wall) => {
+                at_walls.insert((wall, contact.j), contact.normal_force);
+            }
+        });
+        let count = simulation.spheres.len();
+        let mut network = Self {
+            materials,
+            mass: simulation.spheres.iter().map(|sphere| sphere.mass).collect(),
+            contacts,
+            gaps: near_pairs(simulation),
+            beside: Vec::new(),
+            held: vec![None; count],
+        };
+        for (number, plate) in plates.iter().enumerate() {
+            let wall = simulation.boundary.walls()[plate.wall];
+            for (k, sphere) in simulation.spheres.iter().enumerate() {
+                let (distance, radius) = (wall.distance(sphere.position), sphere.radius);
+                match plate.law {
+                    PlateLaw::Held if distance < 2.0 * radius => network.held[k] = Some(number),
+                    PlateLaw::Resisting { conductivity, effective_modulus, roughness }
+                        if distance - radius < NEAR_PLATE * radius =>
+                    {
+                        let force = at_walls.get(&(plate.wall, k)).copied().unwrap_or_default();
+                        let pair = Solid { conductivity: 1.0, effective_modulus, roughness };
+                        let size = pair.contact_size(force, radius);
+                        let gap = (distance - radius).max(0.0);
+                        network.beside.push(Beside {
+                            sphere: k,
+                            plate: number,
+                            size,
+                            conductivity,
+                            radius,
+                            gap,
+                        });
+                    }
+                    _ => {}
+                }
+            }
+        }
+        network
+    }
+
+    /// Conductances with the properties at the temperatures of the spheres and of the plates \[K\], which are averaged over the
+    /// two ends of each link.
+    pub fn conductances(&self, temperatures: &[f64], plates: &[f64]) -> Conductances {
+        let m = &self.materials;
+        let mean = |i: usize, j: usize| 0.5 * (temperatures[i] + temperatures[j]);
+        let mut links: Vec<(usize, usize, f64)> =
+            (self.contacts.iter()).map(|c| (c.i, c.j, m.conductivity.at(mean(c.i, c.j)) * c.size)).collect();
+        // Properties of the gas by sphere: there are several times fewer spheres than pairs.
+        let gas = |t: f64| m.gas.at(t, m.gas_pressure, m.accommodation);
+        let gases: Option<Vec<_>> = temperatures.iter().map(|&t| gas(t)).collect();
+        if let Some(gases) = gases {
+            for near in &self.gaps {
+                let (a, b) = (&gases[near.i], &gases[near.j]);
+                let solid = m.conductivity.at(mean(near.i, near.j));
+                let least =
+                    0.5 * (a.least_distance(near.radius, solid) + b.least_distance(near.radius, solid));
+                let conductivity = 0.5 * (a.conductivity + b.conductivity);
+                links.push((near.i, near.j, gas_conductance(conductivity, near.radius, near.gap + least)));
+            }
+        }
+        let beside = |b: &Beside| {
+            let between = 0.5 * (temperatures[b.sphere] + plates[b.plate]);
+            let solid = m.conductivity.at(between);
+            let harmonic = b.conductivity.map_or(2.0 * solid, |plate| 2.0 * solid * plate / (solid + plate));
+            let by_gas = gas(between).map_or(0.0, |gas| {
+                let distance = gas.plate_distance(b.gap, b.radius, solid);
+                plate_conductance(gas.conductivity, b.radius, distance)
+            });
+            (b.sphere, b.plate, harmonic * b.size + by_gas)
+        };
+        Conductances { links, plates: self.beside.iter().map(beside).collect() }
+    }
+}

@@ -1,0 +1,170 @@
+//! Pouring: grains rain into a box or a cylinder until they are at rest.
+//!
+//! All grains begin at random places without overlap in a column above the floor, and come down at one speed, which a drag
+//! keeps ([`crate::settle`]).
+
+use crate::BedError;
+use crate::scatter::Random;
+use crate::settle::{Rest, descent, settle};
+use msdd_spheres::{Boundary, Material, Simulation, Sphere, Wall};
+use std::f64::consts::PI;
+
+/// Solid fraction of the grains in the column above the floor. Paper silent; chosen because random places are found quickly up
+/// to 0.25, and the bed hardly depends on it.
+const LOOSE: f64 = 0.2;
+/// Attempts per grain before the column is made higher.
+const ATTEMPTS: u32 = 2000;
+
+/// What the grains are poured into; the floor is at z = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Container {
+    /// From the origin to these lengths along x and y \[m\].
+    Box { base: [f64; 2] },
+    /// Upright, with the z axis as its axis \[m\].
+    Cylinder { radius: f64 },
+}
+
+impl Container {
+    /// \[m²\]
+    pub fn area(&self) -> f64 {
+        match *self {
+            Self::Box { base: [x, y] } => x * y,
+            Self::Cylinder { radius } => PI * radius * radius,
+        }
+    }
+
+    /// Corners of the block that holds it, along x and y \[m\].
+    fn extent(&self) -> [[f64; 2]; 2] {
+        match *self {
+            Self::Box { base: [x, y] } => [[0.0, x], [0.0, y]],
+            Self::Cylinder { radius } => [[-radius, radius]; 2],
+        }
+    }
+
+    /// Its walls, by name, with a lid at `height` \[m\].
+    pub fn walls(&self, height: f64) -> Vec<(&'static str, Wall)> {
+        let at = |point, normal| Wall::at_rest(point, normal);
+        let mut walls = vec![("floor", at([0.0; 3], [0.0, 0.0, 1.0]))];
+        match *self {
+            Self::Box { base: [x, y] } => walls.extend([
+                ("x_low", at([0.0; 3], [1.0, 0.0, 0.0])),
+                ("x_high", at([x, 0.0, 0.0], [-1.0, 0.0, 0.0])),
+                ("y_low", at([0.0; 3], [0.0, 1.0, 0.0])),
+                ("y_high", at([0.0, y, 0.0], [0.0, -1.0, 0.0])),
+            ]),
+            Self::Cylinder { radius } => {
+                walls.push(("side", Wall::cylinder([0.0; 3], [0.0, 0.0, 1.0], radius)));
+            }
+        }
+        walls.push(("lid", at([0.0, 0.0, height], [0.0, 0.0, -1.0])));
+        walls
+    }
+
+    /// Whether a sphere fits beside the walls at a place.
+    fn holds(&self, [x, y]: [f64; 2], sphere: f64) -> bool {
+        match *self {
+            Self::Box { .. } => true,
+            Self::Cylinder { radius } => libm::hypot(x, y) <= radius - sphere,
+        }
+    }
+}
+
+/// What to pour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pouring {
+    pub spheres: usize,
+    pub seed: u64,
+    /// d \[m\]
+    pub diameter: f64,
+    pub material: Material,
+    pub container: Container,
+    /// g \[m/s²\], along −z.
+    pub gravity: f64,
+    /// Simulated time after which a bed that is not at rest is left as it is \[s\].
+    pub longest: f64,
+    pub threads: usize,
+}
+
+impl Pouring {
+    fn check(&self) -> Result<(), BedError> {
+        self.material.check()?;
+        let positive = |v: f64| v.is_finite() && v > 0.0;
+        let narrow = self.container.extent().map(|[low, high]| high - low);
+        let narrow = narrow[0].min(narrow[1]);
+        let parameters = [
+            ("spheres", self.spheres as f64, (1..=10_000_000).contains(&self.spheres), "1 to 10000000"),
+            ("diameter", self.diameter, positive(self.diameter), "above 0 m"),
+            ("gravity", self.gravity, positive(self.gravity), "above 0 m/s2"),
+            ("longest", self.longest, positive(self.longest), "above 0 s"),
+            ("size", narrow, narrow >= 2.0 * self.diameter, "two diameters at least"),
+        ];
+        match parameters.into_iter().find(|parameter| !parameter.2) {
+            None => Ok(()),
+            Some((key, value, _, allowed)) => Err(BedError::Pouring { key, value, allowed }),
+        }
+    }
+
+    /// The grains in the column above the floor, and the height of their column \[m\]. They are in the order of their places, first
+    /// along the longer side of the base, along which they move least.
+    fn rain(&self) -> Result<(Vec<Sphere>, f64), BedError> {
+        let (d, r) = (self.diameter, 0.5 * self.diameter);
+        let [[x0, x1], [y0, y1]] = self.container.extent();
+        let volume = self.spheres as f64 * PI / 6.0 * d * d * d;
+        let height = d + volume / LOOSE / self.container.area();
+        let count = [(x1 - x0) / d, (y1 - y0) / d, height / d].map(|n| n as usize + 1);
+        let mut cells: Vec<Vec<[f64; 3]>> = vec![Vec::new(); count.iter().product()];
+        let place = |[x, y, z]: [f64; 3]| [(x - x0) / d, (y - y0) / d, z / d].map(|n| n as usize);
+        let number = |[x, y, z]: [usize; 3]| (y * count[2] + z) * count[0] + x;
+        let mut random = Random::new(self.seed);
+        for placed in 0..self.spheres {
+            let free = (0..ATTEMPTS).find_map(|_| {
+                let centre = [
+                    random.uniform(x0 + r, x1 - r),
+                    random.uniform(y0 + r, y1 - r),
+                    random.uniform(r, height),
+                ];
+                if !self.container.holds([centre[0], centre[1]], r) {
+                    return None;
+                }
+                let home = place(centre);
+                let clash = (0..27).any(|code| {
+                    let shift = [code % 3, code / 3 % 3, code / 9];
+                    let cell: [usize; 3] = std::array::from_fn(|k| (home[k] + shift[k]).wrapping_sub(1));
+                    (0..3).all(|k| cell[k] < count[k])
+                        && cells[number(cell)].iter().any(|other| {
+                            let square: f64 =
+                                (0..3).map(|k| (centre[k] - other[k]) * (centre[k] - other[k])).sum();
+                            square < d * d
+                        })
+                });
+                (!clash).then_some((centre, number(home)))
+            });
+            let (centre, home) = free.ok_or(BedError::NoRoom { placed, wanted: self.spheres })?;
+            cells[home].push(centre);
+        }
+        let density = self.material.density;
+        let velocity = [0.0, 0.0, -descent(d, self.gravity).0];
+        let sphere = |centre| {
+            let mut sphere = Sphere::at_rest(centre, r, density);
+            sphere.velocity = velocity;
+            sphere
+        };
+        Ok((cells.into_iter().flatten().map(sphere).collect(), height + r))
+    }
+}
+
+/// Pours. The lid is left above the column that the grains came from. `watch` is told the agitation
+/// ([`crate::settle::agitation`]).
+///
+/// # Errors
+/// A parameter outside its range; a run that fails; threads that the system cannot start.
+pub fn pour(pouring: &Pouring, watch: impl FnMut(f64)) -> Result<(Simulation, Rest), BedError> {
+    pouring.check()?;
+    let (spheres, height) = pouring.rain()?;
+    let walls = pouring.container.walls(height).into_iter().map(|(_, wall)| wall).collect();
+    let mut simulation = Simulation::new(pouring.material.clone(), spheres, Boundary::Walls(walls))?;
+    simulation.gravity = [0.0, 0.0, -pouring.gravity];
+    simulation.set_threads(pouring.threads).map_err(|error| BedError::Threads(error.to_string()))?;
+    let rest = settle(&mut simulation, pouring.longest, watch)?;
+    Ok((simulation, rest))
+}

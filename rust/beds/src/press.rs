@@ -1,0 +1,77 @@
+//! A flat wall that is pressed onto a bed: it moves as a body of its own mass, until it is at rest under the pressure.
+
+use crate::BedError;
+use crate::settle::{Rest, agitation, descent};
+use msdd_spheres::space::{dot, length};
+use msdd_spheres::{Boundary, Simulation, Surface};
+
+/// Steps between two changes of the wall's velocity, and such changes between two looks.
+const STEPS: u64 = 20;
+const LOOK_EVERY: u64 = 10;
+/// The wall weighs what gives the pressure under gravity; its velocity fades at this rate times √(g/d), so that it does not
+/// bounce for long.
+const DRAG: f64 = 3.0;
+/// Relative error of the pressure, and kinetic energy over Σ m g r, at which wall and bed count as at rest.
+const BALANCED: [f64; 2] = [2e-3, 1e-8];
+
+/// Presses wall number `wall` with `pressure` \[Pa\] on `area` \[m²\], for at most `longest` \[s\], and leaves it at rest where it is
+/// then. First it is moved to where it just touches the nearest grain, if that is in front of it. `watch` is told the
+/// agitation of the bed.
+///
+/// # Errors
+/// A wall that is not flat; those of [`Simulation::run`].
+pub fn press(
+    simulation: &mut Simulation,
+    wall: usize,
+    (pressure, area): (f64, f64),
+    longest: f64,
+    mut watch: impl FnMut(f64),
+) -> Result<Rest, BedError> {
+    let (start, first) = (simulation.time, simulation.steps);
+    let gravity = length(simulation.gravity);
+    let normal = approach(simulation, wall)?;
+    let (force, mass) = (pressure * area, pressure * area / gravity);
+    let fade = DRAG * (gravity / (2.0 * simulation.mean_radius())).sqrt();
+    simulation.drag = descent(2.0 * simulation.mean_radius(), gravity).1;
+    let (mut speed, mut blocks) = (0.0, 0);
+    loop {
+        simulation.run(STEPS)?;
+        let dt = STEPS as f64 * simulation.time_step;
+        let borne = -dot(simulation.wall_force[wall], normal);
+        speed = (speed + dt * (force - borne) / mass) / (1.0 + dt * fade);
+        set_speed(simulation, wall, normal.map(|n| speed * n));
+        blocks += 1;
+        if blocks % LOOK_EVERY != 0 {
+            continue;
+        }
+        let kinetic = agitation(simulation, gravity);
+        watch(kinetic);
+        let time = simulation.time - start;
+        let at_rest = (borne / force - 1.0).abs() < BALANCED[0] && kinetic < BALANCED[1];
+        if at_rest || time >= longest {
+            simulation.drag = 0.0;
+            set_speed(simulation, wall, [0.0; 3]);
+            return Ok(Rest { at_rest, kinetic, time, steps: simulation.steps - first });
+        }
+    }
+}
+
+fn set_speed(simulation: &mut Simulation, wall: usize, velocity: [f64; 3]) {
+    if let Boundary::Walls(walls) = &mut simulation.boundary {
+        walls[wall].velocity = velocity;
+    }
+}
+
+/// Moves the wall to the nearest grain. Returns its normal.
+fn approach(simulation: &mut Simulation, wall: usize) -> Result<[f64; 3], BedError> {
+    let Boundary::Walls(walls) = &mut simulation.boundary else { return Err(BedError::NotFlat) };
+    let Some(moved) = walls.get_mut(wall) else { return Err(BedError::NotFlat) };
+    let Surface::Flat { normal } = moved.surface else { return Err(BedError::NotFlat) };
+    let gap = simulation.spheres.iter().map(|s| moved.distance(s.position) - s.radius);
+    let gap = gap.fold(f64::INFINITY, f64::min);
+    if gap.is_finite() && gap > 0.0 {
+        moved.point = std::array::from_fn(|k| moved.point[k] + gap * normal[k]);
+        simulation.rebuild_neighbours();
+    }
+    Ok(normal)
+}

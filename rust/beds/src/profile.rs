@@ -1,0 +1,187 @@
+//! What a bed is like between two distances from a plate.
+
+use crate::network::Network;
+use crate::solve::{conjugate_gradients, inner};
+use msdd_spheres::space::{dot, minus};
+use msdd_spheres::{Partner, Simulation, Wall};
+use std::f64::consts::PI;
+
+/// Averages over a slab of a bed. Compression is positive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slab {
+    /// φ \[-\]
+    pub solid_fraction: f64,
+    /// z \[-\]: contacts per sphere, with walls, of the spheres with their centre in the slab.
+    pub coordination: f64,
+    /// p = tr σ/3 \[Pa\].
+    pub pressure: f64,
+    /// K \[W/(m K)\] across the slab, by contacts and by gas.
+    pub contact_conductivity: f64,
+    pub gas_conductivity: f64,
+}
+
+/// The slab from `from` to `to` \[m\] from a wall; `area` \[m²\] is that of the bed parallel to the wall.
+pub fn slab(
+    simulation: &Simulation,
+    network: &Network,
+    wall: &Wall,
+    [from, to]: [f64; 2],
+    area: f64,
+    temperature: f64,
+) -> Option<Slab> {
+    let distances: Vec<f64> = simulation.spheres.iter().map(|s| wall.distance(s.position)).collect();
+    let inside = |distance: f64| (from..to).contains(&distance);
+    let volume = area * (to - from);
+    let solid: f64 = (simulation.spheres.iter().zip(&distances))
+        .map(|(s, d)| below(s.radius, to - d) - below(s.radius, from - d))
+        .sum();
+    let (mut ends, mut work) = (0, 0.0);
+    simulation.for_each_contact(|contact| {
+        ends += contact.spheres().filter(|&k| inside(distances[k])).count();
+        let middle = match contact.i {
+            Partner::Sphere(i) => 0.5 * (distances[i] + distances[contact.j]),
+            Partner::Wall(_) => return,
+        };
+        if inside(middle) {
+            work += dot(contact.force(), contact.branch);
+        }
+    });
+    let count = distances.iter().filter(|&&d| inside(d)).count();
+    let (contacts, gas) = conductances(network, temperature);
+    let across = |links: &[(usize, usize, f64)]| conductivity(links, &distances, [from, to], area);
+    Some(Slab {
+        solid_fraction: solid / volume,
+        coordination: ends as f64 / count.max(1) as f64,
+        pressure: work / volume / 3.0,
+        contact_conductivity: across(&contacts)?,
+        gas_conductivity: across(&gas)?,
+    })
+}
+
+/// Volume of a sphere below a plane at `height` above its centre \[m³\].
+fn below(radius: f64, height: f64) -> f64 {
+    let h = (height + radius).clamp(0.0, 2.0 * radius);
+    PI * h * h * (radius - h / 3.0)
+}
+
+type Links = Vec<(usize, usize, f64)>;
+
+/// The links of a network of one temperature \[K\], through contacts and through gas.
+fn conductances(network: &Network, temperature: f64) -> (Links, Links) {
+    let temperatures = vec![temperature; network.mass.len()];
+    let plates = network.beside.iter().map(|b| b.plate + 1).max().unwrap_or(0);
+    let mut contacts = network.conductances(&temperatures, &vec![temperature; plates]).links;
+    let gas = contacts.split_off(network.contacts.len());
+    (contacts, gas)
+}
+
+/// K \[W/(m K)\] across a slab: all spheres outside have the temperature of an even gradient, those inside find theirs. None when
+/// the solution fails.
+pub fn conductivity(
+    links: &[(usize, usize, f64)],
+    distances: &[f64],
+    [from, to]: [f64; 2],
+    area: f64,
+) -> Option<f64> {
+    let free: Vec<bool> = distances.iter().map(|&d| d > from && d < to).collect();
+    let mut diagonal = vec![0.0; distances.len()];
+    let mut residual = vec![0.0; distances.len()];
+    for &(i, j, g) in links {
+        for (a, b) in [(i, j), (j, i)] {
+            diagonal[a] += g;
+            if free[a] {
+                residual[a] += g * (distances[b] - distances[a]);
+            }
+        }
+    }
+    diagonal.iter_mut().filter(|sum| **sum == 0.0).for_each(|sum| *sum = 1.0);
+    let scale: f64 = links.iter().map(|&(i, j, g)| (g * (distances[i] - distances[j])).powi(2)).sum();
+    let apply = |x: &[f64], y: &mut [f64]| {
+        for &(i, j, g) in links {
+            let flow = g * (x[i] - x[j]);
+            if free[i] {
+                y[i] += flow;
+            }
+            if free[j] {
+                y[j] -= flow;
+            }
+        }
+    };
+    let change = conjugate_gradients(apply, &diagonal, &mut residual, |r| inner(r, r) <= 1e-20 * scale)?;
+    let middle = 0.5 * (from + to);
+    let flux: f64 = (links.iter())
+        .filter(|&&(i, j, _)| (distances[i] < middle) != (distances[j] < middle))
+        .map(|&(i, j, g)| g * (distances[j] + change[j] - distances[i] - change[i]).abs())
+        .sum();
+    // The sum of nothing is −0.
+    Some(flux / area + 0.0)
+}
+
+/// The line through the temperatures of the spheres within 1.5 d of a distance from a wall, and two d of the middle of the bed along
+/// the wall, at that distance; none if there are no spheres.
+pub struct Probe {
+    /// Number and distance of each sphere.
+    spheres: Vec<(usize, f64)>,
+    distance: f64,
+}
+
+impl Probe {
+    pub fn new(simulation: &Simulation, wall: &Wall, normal: [f64; 3], distance: f64) -> Option<Self> {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for sphere in &simulation.spheres {
+            for k in 0..3 {
+                low[k] = low[k].min(sphere.position[k]);
+                high[k] = high[k].max(sphere.position[k]);
+            }
+        }
+        let middle: [f64; 3] = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
+        let spheres: Vec<_> = (simulation.spheres.iter().enumerate())
+            .filter(|(_, sphere)| {
+                let d = 2.0 * sphere.radius;
+                let away = minus(sphere.position, middle);
+                let near = |k: usize| normal[k].abs() > 0.5 || away[k].abs() < 2.0 * d;
+                (wall.distance(sphere.position) - distance).abs() < 1.5 * d && (0..3).all(near)
+            })
+            .map(|(number, sphere)| (number, wall.distance(sphere.position)))
+            .collect();
+        (!spheres.is_empty()).then_some(Self { spheres, distance })
+    }
+
+    /// \[K\]
+    pub fn temperature(&self, temperatures: &[f64]) -> f64 {
+        let count = self.spheres.len() as f64;
+        let mean = |of: &dyn Fn(&(usize, f64)) -> f64| self.spheres.iter().map(of).sum::<f64>() / count;
+        let (x, t) = (mean(&|s| s.1), mean(&|s| temperatures[s.0]));
+        let spread = mean(&|s| (s.1 - x) * (s.1 - x));
+        if spread == 0.0 {
+            return t;
+        }
+        t + (self.distance - x) * mean(&|s| (s.1 - x) * (temperatures[s.0] - t)) / spread
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chain_conducts_as_its_links() {
+        // Ten nodes 1 apart, each link 2 W/K: K/area = 2 W/K over 1 m per area.
+        let links: Links = (1..10).map(|j| (j - 1, j, 2.0)).collect();
+        let distances: Vec<f64> = (0..10).map(f64::from).collect();
+        let found = conductivity(&links, &distances, [2.4, 6.6], 0.5).unwrap();
+        assert!((found - 4.0).abs() < 1e-12, "{found}");
+        // One weak link in a slab of four: the series of all.
+        let mut weak = links;
+        weak[4].2 = 0.5;
+        let found = conductivity(&weak, &distances, [2.4, 6.6], 0.5).unwrap();
+        // Nodes 2 and 7 are held, 5 apart: 1/G = 4/2 + 1/0.5.
+        assert!((found - 5.0 / (4.0 / 2.0 + 1.0 / 0.5) / 0.5).abs() < 1e-9, "{found}");
+    }
+
+    #[test]
+    fn halves_of_a_sphere_are_halves() {
+        assert!((below(2.0, 0.0) / (4.0 / 3.0 * PI * 8.0) - 0.5).abs() < 1e-15);
+        assert_eq!(below(2.0, -3.0), 0.0);
+    }
+}

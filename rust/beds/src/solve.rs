@@ -1,0 +1,47 @@
+//! Sparse linear equations that are symmetric and positive.
+
+/// Iterations after which a solution is given up.
+const MOST_ITERATIONS: usize = 10_000;
+
+pub(crate) fn inner(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Conjugate gradients with the diagonal as the preconditioner: x of A x = r, from x = 0. `apply` adds A d to its second
+/// argument, which comes as 0. `residual` is r, and on return what is left of it. None when the iteration does not end:
+/// numbers that are not finite, or of too unequal size.
+pub(crate) fn conjugate_gradients(
+    apply: impl Fn(&[f64], &mut [f64]),
+    diagonal: &[f64],
+    residual: &mut [f64],
+    enough: impl Fn(&[f64]) -> bool,
+) -> Option<Vec<f64>> {
+    let precondition =
+        |residual: &[f64]| residual.iter().zip(diagonal).map(|(r, d)| r / d).collect::<Vec<f64>>();
+    let mut solution = vec![0.0; diagonal.len()];
+    let mut direction = precondition(residual);
+    let mut product = inner(residual, &direction);
+    let mut flow = vec![0.0; diagonal.len()];
+    for _ in 0..MOST_ITERATIONS {
+        if enough(residual) {
+            return Some(solution);
+        }
+        flow.fill(0.0);
+        apply(&direction, &mut flow);
+        let step = product / inner(&direction, &flow);
+        for k in 0..solution.len() {
+            solution[k] += step * direction[k];
+            residual[k] -= step * flow[k];
+        }
+        let next = precondition(residual);
+        let new_product = inner(residual, &next);
+        for (d, n) in direction.iter_mut().zip(next) {
+            *d = n + new_product / product * *d;
+        }
+        product = new_product;
+        if !product.is_finite() {
+            return None;
+        }
+    }
+    None
+}

@@ -1,0 +1,213 @@
+//! Beds that were measured: from the description to temperatures, at small size; bad descriptions and measurements.
+
+use msdd_beds::bed::{PlateKind, prepare};
+use msdd_beds::case::{BedCase, FILE, Vary};
+use msdd_beds::experiment::{self, misfits};
+use std::path::{Path, PathBuf};
+
+const TEXT: &str = r#"
+[grains]
+number = 300
+diameter = 6.4e-3
+density = 7747
+young_modulus = 200e9
+poisson_ratio = 0.29
+simulated_young_modulus = 2e7
+friction = 0.3
+wall_friction = 0.3
+restitution = 0.5
+conductivity = [[280.0, 43.0], [340.0, 41.0]]
+heat_capacity = 464
+roughness = 3.4e-7
+hardness = 3e9
+yield_stress = 5e8
+[container]
+base = [0.032, 0.06]
+[lid]
+pressure = 1000
+[turn]
+down = "y_low"
+[gas]
+name = "air"
+accommodation = 0.7
+[plate]
+wall = "y_high"
+temperature = 326.15
+pressure = 1000
+young_modulus = 100e9
+poisson_ratio = 0.33
+conductivity = 250
+[heat]
+initial_temperature = 293.15
+end = 100
+output_every = 10
+probes = [0.01, 0.03]
+"#;
+
+/// A folder with a description, removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str, text: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("msdd-beds-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        std::fs::write(path.join(FILE), text).unwrap();
+        Self(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn read(name: &str, text: &str) -> Result<BedCase, String> {
+    let folder = Folder::new(name, text);
+    BedCase::read(&folder.0).map_err(|error| error.to_string())
+}
+
+/// A bed is poured, pressed, turned, pressed again and heated; balances close, the far grains stay colder, and a plate that holds the
+/// first layer heats more than one that resists.
+#[test]
+fn from_pouring_to_temperatures() {
+    let case = read("whole", TEXT).unwrap();
+    let mut stages = Vec::new();
+    let bed = prepare(&case, 1, |stage, share| {
+        assert!((0.0..=1.0).contains(&share));
+        if stages.last() != Some(&stage) {
+            stages.push(stage);
+        }
+    })
+    .unwrap();
+    assert_eq!(stages, ["pour", "lid", "turn", "plate"]);
+    assert!(bed.stages.iter().all(|(_, rest)| rest.at_rest), "{:?}", bed.stages);
+    let pressed = bed.plate_force() / bed.area(&case);
+    assert!((pressed / 1000.0 - 1.0).abs() < 0.02, "{pressed}");
+    let stress = bed.peak_stress(&case).unwrap();
+    assert!(stress.contacts > 500 && stress.largest > 1e8 && stress.largest < 5e9, "{stress:?}");
+    let slab = bed.slab(&case, [0.016, 0.045]).unwrap();
+    assert!((0.5..0.65).contains(&slab.solid_fraction) && slab.coordination > 3.5, "{slab:?}");
+    assert!(slab.contact_conductivity > 0.02 && slab.gas_conductivity > 0.2, "{slab:?}");
+    let mut stored = Vec::new();
+    for kind in PlateKind::ALL {
+        let heated = bed.heat(&case, kind, |_| ()).unwrap();
+        assert!(heated.residual.abs() < 1e-9 * heated.stored, "{heated:?}");
+        let [near, far] = [0, 1].map(|k| heated.records[k].rows.last().unwrap().1);
+        assert!(near > far + 1.0 && far >= 293.15 && near < 326.15, "{near} {far}");
+        assert_eq!(heated.records[0].rows.len(), 11);
+        // Measurements that are its own rows are met.
+        let measured: Vec<_> = heated.records[1]
+            .rows
+            .iter()
+            .map(|&(time, temperature)| experiment::Measured { distance: 0.03, time, temperature })
+            .collect();
+        assert!(misfits(&measured, &heated.records)[2].rms < 1e-12);
+        stored.push(heated.stored);
+    }
+    assert!(stored[0] > 1.2 * stored[1], "{stored:?}");
+}
+
+/// What a softer simulation changes: the contacts, seen as those of the real material, conduct nearly the same.
+#[test]
+fn softness_hardly_changes_what_contacts_conduct() {
+    let contacts = |modulus: &str| {
+        let text =
+            TEXT.replace("simulated_young_modulus = 2e7", &format!("simulated_young_modulus = {modulus}"));
+        let case = read(modulus, &text.replace("number = 300", "number = 200")).unwrap();
+        let bed = prepare(&case, 1, |_, _| ()).unwrap();
+        bed.slab(&case, [0.012, 0.03]).unwrap().contact_conductivity
+    };
+    let (soft, hard) = (contacts("1e7"), contacts("8e7"));
+    // Twice as large contacts with the softer grains, if they were not taken as the real ones; the packings differ, too.
+    assert!((soft / hard - 1.0).abs() < 0.2, "{soft} {hard}");
+}
+
+#[test]
+fn bad_descriptions_are_refused_with_file_key_value_and_range() {
+    let refused = |name: &str, from: &str, to: &str| {
+        assert!(TEXT.contains(from), "{from}");
+        let text = read(name, &TEXT.replace(from, to)).unwrap_err();
+        assert!(text.contains(FILE), "{text}");
+        text
+    };
+    let text = refused("diameter", "diameter = 6.4e-3", "diameter = -1");
+    assert!(text.ends_with("grains.diameter = -1, allowed: 1e-12 to 1e15"), "{text}");
+    let text = refused("unknown", "[turn]", "spin = 3\n[turn]");
+    assert!(text.contains("unknown field `spin`") && text.contains("pressure"), "{text}");
+    let text = refused("wall", "wall = \"y_high\"", "wall = \"side\"");
+    assert!(text.ends_with("plate.wall = side, allowed: floor, x_low, x_high, y_low, y_high, lid"), "{text}");
+    let text = refused("gas", "\"air\"", "\"xenon\"");
+    assert!(text.contains("`air`, `nitrogen`, `helium`, `argon`, `vacuum`"), "{text}");
+    let text = refused("table", "[340.0, 41.0]", "[320.0, 41.0]");
+    assert!(text.contains("grains.conductivity = known from 280 K to 320 K"), "{text}");
+    let text = refused("ratio", "[[280.0, 43.0], [340.0, 41.0]]", "0.5");
+    assert!(text.contains("allowed: grains that conduct 30 times as well"), "{text}");
+    let text = refused("both", "base = [0.032, 0.06]", "base = [0.032, 0.06]\nradius = 0.1");
+    assert!(
+        text.ends_with("container = both or neither of base and radius, allowed: one of base and radius")
+    );
+    let text = refused("hardness", "hardness = 3e9", "");
+    assert!(text.contains("grains.hardness = ") && text.contains("because a roughness is given"), "{text}");
+    let text = refused("stiffer", "simulated_young_modulus = 2e7", "simulated_young_modulus = 2e12");
+    assert!(text.contains("simulated_young_modulus = 2000000000000, allowed: 1e-12 to that of"), "{text}");
+    let folder = Folder::new("missing", TEXT);
+    let error = BedCase::read(&folder.0.join("nowhere")).unwrap_err().to_string();
+    assert!(error.contains("cannot read") && error.contains("nowhere"), "{error}");
+}
+
+#[test]
+fn a_value_is_varied() {
+    let folder = Folder::new("vary", TEXT);
+    let case = BedCase::read(&folder.0).unwrap();
+    let vary = |key: &str, value: f64| Vary { key: key.to_string(), value: value.into() };
+    let varied =
+        |key: &str, value: f64| case.varied(&folder.0, &vary(key, value)).map_err(|error| error.to_string());
+    assert_eq!(varied("plate.temperature", 330.0).unwrap().plate.temperature, 330.0);
+    let seed = Vary { key: "seed".to_string(), value: 7.into() };
+    assert_eq!(case.varied(&folder.0, &seed).unwrap(), BedCase { seed: 7, ..case.clone() });
+    assert!(seed.changes_packing() && vary("grains.friction", 0.5).changes_packing());
+    assert!(
+        !vary("gas.pressure", 1e4).changes_packing() && !vary("grains.roughness", 1e-6).changes_packing()
+    );
+    assert!(varied("gas.accommodation", 2.0).unwrap_err().contains("gas.accommodation = 2"));
+    assert!(varied("grains.colour", 1.0).unwrap_err().contains("unknown field `colour`"));
+    let text = varied("glass.colour", 1.0).unwrap_err();
+    assert!(text.contains("vary.key = glass.colour, allowed: a key of container, gas, grains"), "{text}");
+    let text = read("vary-bad", &format!("{TEXT}\n[[vary]]\nkey = \"plate.wall\"\nvalue = 3\n")).unwrap_err();
+    assert!(text.contains("vary plate.wall = 3"), "{text}");
+}
+
+#[test]
+fn bad_measurements_are_refused_with_their_line() {
+    let folder = Folder::new("measurements", TEXT);
+    let file = folder.0.join("experiment.csv");
+    let refused = |text: &str| {
+        std::fs::write(&file, text).unwrap();
+        let found = experiment::read(&file).map(|found| found.len());
+        found.map_err(|error| error.to_string())
+    };
+    let head = experiment::HEADER;
+    assert_eq!(refused(&format!("# a comment\n{head}\n0.01,5,20.5\n\n0.03,5,20.1\n")).unwrap(), 2);
+    let text = refused(&format!("{head}\n0.01,5\n")).unwrap_err();
+    assert!(text.ends_with("experiment.csv, line 2: '0.01,5', allowed: three finite numbers"), "{text}");
+    assert!(
+        refused("t,T\n").unwrap_err().contains("line 1: 't,T', allowed: distance_m,time_s,temperature_C")
+    );
+    assert!(refused(&format!("{head}\n0.01,NaN,3\n")).unwrap_err().contains("line 2"));
+    std::fs::write(&file, format!("{head}\n0.02,5,20.5\n")).unwrap();
+    let measured = experiment::read(&file).unwrap();
+    let text = experiment::check(&file, &measured, &[0.01, 0.03]).unwrap_err().to_string();
+    assert!(text.contains("distance_m = 0.02 is none of heat.probes = [0.01, 0.03]"), "{text}");
+}
+
+/// The description and the measurements that are shipped.
+#[test]
+fn the_shipped_case_is_whole() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/beaulieu");
+    let case = BedCase::read(&folder).unwrap();
+    let file = folder.join(&case.experiment.as_ref().unwrap().file);
+    let measured = experiment::read(&file).unwrap();
+    experiment::check(&file, &measured, &case.heat.probes).unwrap();
+    assert_eq!(measured.len(), 216);
+}

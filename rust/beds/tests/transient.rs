@@ -1,0 +1,175 @@
+//! Heat in time against closed forms: a chain of spheres, and balances of random beds.
+
+use msdd_beds::named_gases::GasName;
+use msdd_beds::network::{Beside, Joint, Materials, Network, Plate, PlateLaw};
+use msdd_beds::property::Property;
+use msdd_beds::transient::Transient;
+use msdd_spheres::{Boundary, Material, Simulation, Sphere, Stiffness, Wall};
+use std::f64::consts::PI;
+
+fn materials(gas: GasName) -> Materials {
+    Materials {
+        conductivity: Property::Constant(42.0),
+        heat_capacity: Property::Constant(464.0),
+        effective_modulus: 1.1e11,
+        roughness: None,
+        gas,
+        gas_pressure: 101_325.0,
+        accommodation: 0.9,
+    }
+}
+
+/// A chain of equal spheres between two plates, with contacts of equal size; G = 2 k a.
+fn chain(count: usize) -> Network {
+    let size = 1e-4;
+    let beside = |sphere, plate| Beside {
+        sphere,
+        plate,
+        // As to the middle of a neighbour: with k of the plate without bound, G = 2 k_s size.
+        size: 0.5 * size,
+        conductivity: None,
+        radius: 1e-3,
+        gap: 0.0,
+    };
+    Network {
+        materials: materials(GasName::Vacuum),
+        mass: vec![1e-3; count],
+        contacts: (1..count).map(|j| Joint { i: j - 1, j, size }).collect(),
+        gaps: Vec::new(),
+        beside: vec![beside(0, 0), beside(count - 1, 1)],
+        held: vec![None; count],
+    }
+}
+
+/// One wave of the chain fades as exp(−λ t), λ = 4 G/(m c) sin²(π/(2 (n + 1))).
+fn amplitude(steps: usize) -> f64 {
+    let count = 9;
+    let network = chain(count);
+    let mut transient = Transient::new(&network, 300.0, vec![300.0, 300.0]);
+    for (k, t) in transient.temperatures.iter_mut().enumerate() {
+        *t += (PI * (k + 1) as f64 / (count + 1) as f64).sin();
+    }
+    let rate = 4.0 * 42.0 * 1e-4 / (1e-3 * 464.0) * (PI / 2.0 / (count + 1) as f64).sin().powi(2);
+    let end = 1.0 / rate;
+    (0..steps).for_each(|_| {
+        transient.step(end / steps as f64).unwrap();
+    });
+    (transient.temperatures[count / 2] - 300.0) / (-1.0f64).exp()
+}
+
+#[test]
+fn a_wave_fades_as_it_should_and_in_second_order() {
+    let errors = [10, 20, 40].map(|steps| (amplitude(steps) - 1.0).abs());
+    assert!(errors[2] < 1e-4, "{errors:?}");
+    for pair in errors.windows(2) {
+        assert!((3.5..4.5).contains(&(pair[0] / pair[1])), "{errors:?}");
+    }
+}
+
+/// Long after the start, temperatures between two plates are straight, and each plate gives what the other takes.
+#[test]
+fn the_steady_state_is_straight() {
+    let count = 9;
+    let network = chain(count);
+    let mut transient = Transient::new(&network, 300.0, vec![310.0, 300.0]);
+    // 30 times the time of the slowest wave, in long steps.
+    for _ in 0..60 {
+        transient.step(2000.0).unwrap();
+    }
+    for (k, t) in transient.temperatures.iter().enumerate() {
+        let expected = 310.0 - 10.0 * (k + 1) as f64 / (count + 1) as f64;
+        assert!((t - expected).abs() < 1e-9, "{k}: {t} {expected}");
+    }
+    let given = transient.given.clone();
+    transient.step(100.0).unwrap();
+    let flux = 42.0 * 1e-4 * 10.0 / (count + 1) as f64;
+    for (k, sign) in [(0, 1.0), (1, -1.0)] {
+        let power = (transient.given[k] - given[k]) / 100.0;
+        assert!((power / (sign * flux) - 1.0).abs() < 1e-8, "{power} {flux}");
+    }
+}
+
+/// Spheres on a lattice in a box whose floor is a plate; they press on each other and on the floor.
+fn bed() -> Simulation {
+    let (radius, side) = (3e-3, 4);
+    let stiffness = Stiffness::HertzMindlin { young_modulus: 5e7, poisson_ratio: 0.29 };
+    let material =
+        Material { density: 7747.0, stiffness, friction: 0.3, wall_friction: 0.3, restitution: 0.3 };
+    let spacing = 2.0 * radius * (1.0 - 1e-4);
+    let spheres: Vec<Sphere> = (0..side * side * side)
+        .map(|k| {
+            let place = [k % side, k / side % side, k / side / side];
+            Sphere::at_rest(place.map(|x| spacing * (x as f64 + 0.5)), radius, 7747.0)
+        })
+        .collect();
+    let walls = Wall::block([spacing * side as f64; 3]);
+    Simulation::new(material, spheres, Boundary::Walls(walls)).unwrap()
+}
+
+const LAWS: [PlateLaw; 2] = [
+    PlateLaw::Held,
+    PlateLaw::Resisting { conductivity: Some(250.0), effective_modulus: 6e10, roughness: None },
+];
+
+/// What the spheres store is what the plate gave, with properties that depend on temperature; no sphere gets hotter than
+/// the plate or colder than the start.
+#[test]
+fn the_balance_of_heat_closes() {
+    let simulation = bed();
+    let materials = Materials {
+        conductivity: Property::Table(vec![[280.0, 60.0], [400.0, 50.0]]),
+        heat_capacity: Property::Table(vec![[280.0, 430.0], [300.0, 440.0], [400.0, 490.0]]),
+        ..materials(GasName::Air)
+    };
+    for law in LAWS {
+        let network = Network::new(&simulation, materials.clone(), &[Plate { wall: 4, law }]);
+        let mut transient = Transient::new(&network, 293.15, vec![326.15]);
+        let mut step = 0.1;
+        transient.run_to(100.0, 0.05, &mut step).unwrap();
+        let (stored, residual) = (transient.stored(), transient.residual());
+        assert!(stored > 10.0, "{law:?} {stored}");
+        assert!(residual.abs() < 1e-9 * stored, "{law:?} {residual} of {stored}");
+        assert!(transient.temperatures.iter().all(|t| (293.15 - 1e-6..326.15 + 1e-6).contains(t)));
+        assert_eq!(transient.time, 100.0);
+    }
+}
+
+/// Smaller tolerances give smaller errors, and more steps.
+#[test]
+fn adaptive_steps_keep_their_tolerance() {
+    let simulation = bed();
+    let network = Network::new(&simulation, materials(GasName::Air), &[Plate { wall: 4, law: LAWS[1] }]);
+    let run = |tolerance: f64| {
+        let mut transient = Transient::new(&network, 293.15, vec![326.15]);
+        let mut step = 1.0;
+        transient.run_to(60.0, tolerance, &mut step).unwrap();
+        (transient.temperatures[40], transient.steps)
+    };
+    let (fine, coarse, medium) = (run(1e-4), run(0.3), run(0.03));
+    assert!(
+        (coarse.0 - fine.0).abs() < 0.3 && (medium.0 - fine.0).abs() < 0.03,
+        "{fine:?} {coarse:?} {medium:?}"
+    );
+    assert!(coarse.1 < medium.1 && medium.1 < fine.1);
+}
+
+/// Held spheres pass on more than a plate with a resistance of its own; a vacuum passes on less than air; a gas at low
+/// pressure lies between.
+#[test]
+fn more_ways_pass_more_heat() {
+    let simulation = bed();
+    let stored = |gas: GasName, gas_pressure: f64, law: PlateLaw| {
+        let materials = Materials { gas_pressure, ..materials(gas) };
+        let network = Network::new(&simulation, materials, &[Plate { wall: 4, law }]);
+        let mut transient = Transient::new(&network, 293.15, vec![326.15]);
+        let mut step = 1.0;
+        transient.run_to(30.0, 0.05, &mut step).unwrap();
+        let held = network.held.iter().filter(|held| held.is_some()).count();
+        (transient.stored(), held)
+    };
+    let [held, law] = LAWS.map(|law| stored(GasName::Air, 1e5, law));
+    assert_eq!((held.1, law.1), (16, 0));
+    let [vacuum, thin] =
+        [(GasName::Vacuum, 1e5), (GasName::Air, 1e2)].map(|(gas, pressure)| stored(gas, pressure, LAWS[1]));
+    assert!(vacuum.0 < thin.0 && thin.0 < law.0, "{vacuum:?} {thin:?} {law:?}");
+}

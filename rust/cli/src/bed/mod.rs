@@ -1,0 +1,91 @@
+//! `msdd bed`: beds of spheres that were measured.
+
+mod files;
+mod plot;
+mod results;
+mod table;
+
+use crate::error::CliError;
+use clap::{Args, Subcommand};
+use msdd_beds::case::{BedCase, CaseError, Vary};
+use msdd_beds::experiment::{self, Measured};
+use msdd_files::{check_target, write};
+use std::path::{Path, PathBuf};
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Pour a bed of spheres, press and turn it, heat it, and compare its temperatures with measured ones.
+    Run(RunArguments),
+}
+
+#[derive(Args)]
+#[command(after_help = "Examples:
+  msdd bed run cases/beaulieu
+  msdd bed run cases/beaulieu --vary     what the uncertain inputs change, one at a time
+
+The folder holds bed.toml (every key is explained in the book, Reference, Measured beds) and, if there is an experiment, its
+measurements. Into the folder of results go
+  temperature.csv   T over time at the probes, for both ways to take the plate
+  comparison.csv    differences from the measurements
+  bed.json          the packing, heat and its balance, and how each stage came to rest
+  grains.vtp        the grains with their temperatures at the end, for ParaView
+  temperature.svg   a plot of temperatures and measurements
+
+The plate is taken in two ways: 'held', the first layer of grains has its temperature, the most that any plate can do; and
+'resisting', heat passes through contacts and gas between plate and grains.")]
+pub struct RunArguments {
+    /// Folder with bed.toml.
+    case: PathBuf,
+    /// Folder for the results; default: results/beds/ and the name of the case.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Seed of the packing, instead of that of the case.
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Compute it again with each value of the blocks [[vary]] of the case, one changed at a time.
+    #[arg(long)]
+    vary: bool,
+    /// Number of threads; the results do not depend on it.
+    #[arg(long, default_value_t = 2, value_parser = crate::threads::parser())]
+    threads: u32,
+}
+
+pub fn run(command: &Command) -> Result<(), CliError> {
+    match command {
+        Command::Run(arguments) => run_case(arguments),
+    }
+}
+
+fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
+    let folder = &arguments.case;
+    let mut case = BedCase::read(folder)?;
+    if let Some(seed) = arguments.seed {
+        case.seed = seed;
+    }
+    let measured = measurements(folder, &case)?;
+    let name = folder.file_name().map_or_else(|| "bed".into(), |name| name.to_owned());
+    let out = arguments.out.clone().unwrap_or_else(|| Path::new("results/beds").join(name));
+    for file in files::NAMES {
+        check_target(&out.join(file))?;
+    }
+    let vary: &[Vary] = if arguments.vary { &case.vary } else { &[] };
+    let vary = vary.iter().map(|vary| Ok((vary.clone(), case.varied(folder, vary)?)));
+    let vary = vary.collect::<Result<_, CaseError>>()?;
+    let results = results::compute(case, vary, measured, arguments.threads as usize)
+        .map_err(|source| CliError::Bed { file: folder.join(msdd_beds::case::FILE), source })?;
+    for (file, text) in files::NAMES.into_iter().zip(files::texts(&results)?) {
+        write(&out.join(file), text.as_bytes())?;
+    }
+    out!("{}", table::text(&results));
+    outln!("results: {}", out.display());
+    Ok(())
+}
+
+/// The measurements of a case; none without an experiment.
+fn measurements(folder: &Path, case: &BedCase) -> Result<Vec<Measured>, CliError> {
+    let Some(experiment) = &case.experiment else { return Ok(Vec::new()) };
+    let file = folder.join(&experiment.file);
+    let measured = experiment::read(&file)?;
+    experiment::check(&file, &measured, &case.heat.probes)?;
+    Ok(measured)
+}

@@ -1,0 +1,80 @@
+//! What `msdd bed run` prints.
+
+use super::results::Results;
+use msdd_beds::experiment::Misfit;
+use std::fmt::Write;
+
+/// The packing, its conductivity, the differences from the measurements, and what is to be warned of.
+pub fn text(results: &Results) -> String {
+    let mut out = String::new();
+    packing(&mut out, results);
+    differences(&mut out, results);
+    for warning in warnings(results) {
+        let _ = writeln!(out, "Note: {warning}");
+    }
+    out
+}
+
+fn packing(out: &mut String, results: &Results) {
+    let bed = &results.bed;
+    let _ = writeln!(
+        out,
+        "{} grains, seed {}; they press on the plate with {:.1} Pa",
+        bed.simulation.spheres.len(),
+        results.case.seed,
+        bed.plate_force() / bed.area(&results.case)
+    );
+    let _ = writeln!(out, "mm from the plate   porosity   contacts   p [Pa]   k [W/(m K)] = contacts + gas");
+    for ([from, to], slab) in &results.slabs {
+        let (contacts, gas) = (slab.contact_conductivity, slab.gas_conductivity);
+        let _ = writeln!(
+            out,
+            "{:>6.0} to {:<6.0}      {:<8.3}   {:<8.2}   {:<6.0}   {:.3} = {contacts:.3} + {gas:.3}",
+            1e3 * from,
+            1e3 * to,
+            1.0 - slab.solid_fraction,
+            slab.coordination,
+            slab.pressure,
+            contacts + gas
+        );
+    }
+}
+
+fn differences(out: &mut String, results: &Results) {
+    if results.measured.is_empty() {
+        return;
+    }
+    let _ = writeln!(out, "simulated less measured [K]");
+    let _ = writeln!(out, "plate       mm from it   points     rms   worst    mean");
+    for run in &results.compared {
+        for misfit in &run.misfits {
+            let place = misfit.distance.map_or("all".to_string(), |d| format!("{:.0}", 1e3 * d));
+            let _ = writeln!(out, "{:<12}{place:>10}   {}", run.heated.kind.as_str(), numbers(misfit));
+        }
+    }
+    if results.varied.is_empty() {
+        return;
+    }
+    let _ = writeln!(out, "with one value changed, all distances [K]");
+    for varied in &results.varied {
+        let what = format!("{} = {}", varied.key, varied.value);
+        let _ = writeln!(out, "{:<12}{what:<36} {}", varied.kind.as_str(), numbers(&varied.misfit));
+    }
+}
+
+fn numbers(misfit: &Misfit) -> String {
+    format!("{:>6}  {:>6.2}  {:>6.2}  {:>6.2}", misfit.points, misfit.rms, misfit.worst, misfit.bias)
+}
+
+/// Stages that did not come to rest, contacts that yield.
+pub fn warnings(results: &Results) -> Vec<String> {
+    let restless = results.bed.stages.iter().filter(|(_, rest)| !rest.at_rest);
+    let restless = restless.map(|(stage, rest)| {
+        let (time, kinetic) = (rest.time, rest.kinetic);
+        format!(
+            "after {time:.2} s of '{stage}' the grains still move (kinetic energy {kinetic:.1e} of that of falling by a radius)"
+        )
+    });
+    let stress = results.bed.peak_stress(&results.case).and_then(|stress| stress.warning());
+    restless.chain(stress).collect()
+}

@@ -1,0 +1,109 @@
+//! The program `msdd bed run`: its files, the same bytes again, and what it refuses.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder for one test, removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("msdd-cli-bed-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The shipped case, with fewer grains in a smaller box, for a shorter time.
+fn case(folder: &Path, change: impl Fn(String) -> String) -> PathBuf {
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/beaulieu");
+    let text = std::fs::read_to_string(shipped.join("bed.toml")).unwrap();
+    let small = [
+        ("number = 8849", "number = 350"),
+        ("base = [0.1, 0.2]", "base = [0.032, 0.1]"),
+        ("end = 4000", "end = 400"),
+        ("simulated_young_modulus = 50e6", "simulated_young_modulus = 10e6"),
+    ];
+    let text = small.into_iter().fold(text, |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    });
+    let case = folder.join("case");
+    std::fs::create_dir_all(&case).unwrap();
+    std::fs::write(case.join("bed.toml"), change(text)).unwrap();
+    std::fs::copy(shipped.join("experiment.csv"), case.join("experiment.csv")).unwrap();
+    case
+}
+
+fn run(case: &Path, out: &Path, more: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_msdd"));
+    command.args(["bed", "run"]).arg(case).arg("--out").arg(out).args(more).output().unwrap()
+}
+
+#[test]
+fn all_files_are_written_and_are_the_same_again() {
+    let folder = Folder::new("files");
+    let vary = "\n[[vary]]\nkey = \"gas.accommodation\"\nvalue = 0.9\n[[vary]]\nkey = \"seed\"\nvalue = 2\n";
+    let case = case(&folder.0, |text| text[..text.find("[[vary]]").unwrap_or(text.len())].to_string() + vary);
+    let outs = ["one", "two"].map(|name| folder.0.join(name));
+    let output = run(&case, &outs[0], &["--threads", "1", "--vary"]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{message}");
+    let told = String::from_utf8(output.stdout).unwrap();
+    for words in [
+        "350 grains, seed 1",
+        "held",
+        "resisting",
+        "gas.accommodation = 0.9",
+        "seed = 2",
+        "simulated less measured",
+    ] {
+        assert!(told.contains(words), "no {words} in {told}");
+    }
+    assert!(run(&case, &outs[1], &["--threads", "2", "--vary"]).status.success());
+    for name in ["temperature.csv", "comparison.csv", "bed.json", "grains.vtp", "temperature.svg"] {
+        let [one, two] = [0, 1].map(|k| std::fs::read_to_string(outs[k].join(name)).unwrap());
+        assert!(one == two, "{name} differs between one thread and two");
+        assert!(one.len() > 200, "{name}: {one}");
+    }
+    let text = |name: &str| std::fs::read_to_string(outs[0].join(name)).unwrap();
+    // Two ways to take the plate, three probes, 21 times.
+    assert_eq!(text("temperature.csv").lines().count(), 1 + 2 * 3 * 21);
+    // Two ways, three distances and all; and all with two values changed.
+    assert_eq!(text("comparison.csv").lines().count(), 1 + 2 * 4 + 2 * 2);
+    let json: serde_json::Value = serde_json::from_str(&text("bed.json")).unwrap();
+    assert_eq!(json["stages"].as_array().unwrap().len(), 4);
+    assert_eq!(json["grains"], 350);
+    assert!(text("temperature.svg").ends_with("</svg>\n") && text("grains.vtp").ends_with("</VTKFile>\n"));
+    let other = folder.0.join("seed");
+    assert!(run(&case, &other, &["--seed", "5"]).status.success());
+    assert!(std::fs::read_to_string(other.join("temperature.csv")).unwrap() != text("temperature.csv"));
+}
+
+#[test]
+fn what_is_wrong_is_named_before_anything_is_computed() {
+    let folder = Folder::new("wrong");
+    let refused = |out: &Path, change: &dyn Fn(String) -> String| {
+        let case = case(&folder.0, change);
+        let output = run(&case, out, &[]);
+        assert_eq!(output.status.code(), Some(1));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let out = folder.0.join("out");
+    let text = refused(&out, &|text| text.replace("poisson_ratio = 0.29", "poisson_ratio = 0.9"));
+    assert!(text.contains("bed.toml: grains.poisson_ratio = 0.9, allowed: 0 to 0.5"), "{text}");
+    let text = refused(&out, &|text| text.replace("experiment.csv", "nothing.csv"));
+    assert!(text.contains("cannot read") && text.contains("nothing.csv"), "{text}");
+    let text = refused(&out, &|text| text.replace("[0.04, 0.06, 0.073]", "[0.04, 0.06]"));
+    assert!(text.contains("distance_m = 0.073 is none of heat.probes"), "{text}");
+    assert!(!out.exists());
+    std::fs::create_dir_all(out.join("bed.json")).unwrap();
+    let text = refused(&out, &|text| text);
+    assert!(text.contains("bed.json: is a folder"), "{text}");
+}
