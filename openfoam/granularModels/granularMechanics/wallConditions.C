@@ -36,7 +36,7 @@ namespace Foam
 static const scalar usualLayer = 13;
 
 //- Largest deviator over pressure of grains far from walls
-static const scalar usualRatio = 0.25;
+static const scalar usualRatio = 0.3;
 
 //- Faces around a node that meet at 45 degrees or more hold it along two
 //- directions: the square of the tangent of half of this angle
