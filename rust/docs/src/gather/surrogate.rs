@@ -31,6 +31,7 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
             way_back(&mut section, &score)?;
             means(&mut section, &score)?;
             paths(&mut section, &score)?;
+            probes(&mut section, &score)?;
         }
     }
     forms(&mut section, &Json::read(root, &format!("{INPUTS}/score_forms.json"))?)?;
@@ -148,6 +149,31 @@ fn paths(section: &mut Section, score: &Json) -> Result<(), DocsError> {
     let meaning = "rms error along paths of strain of packings that training never saw: pressure and deviator over the mean pressure of \
                    the path, mean conductivity over that of the state";
     section.add_table("surrogate-paths", meaning, "msdd score", &columns, rows);
+    Ok(())
+}
+
+/// Small strains that were tried on the way.
+fn probes(section: &mut Section, score: &Json) -> Result<(), DocsError> {
+    let mut rows = Vec::new();
+    for size in score.list("/probes")? {
+        let mut row = vec![size.number("/size")?.to_string()];
+        row.extend([grouped(size.number("/discs")?), grouped(size.number("/probes")?)]);
+        for name in ["tangent", "normal", "shear"] {
+            row.push(decimals(100.0 * size.number(&format!("/{name}"))?, 1));
+        }
+        rows.push(row);
+    }
+    let columns = [
+        "strain",
+        "discs",
+        "strains tried",
+        "stiffnesses, rms [%]",
+        "xx by xx, mean [%]",
+        "xy by xy, mean [%]",
+    ];
+    let meaning = "stiffness against small strains tried on paths of packings that training never saw, over that of the discs, less 1; \
+                   of all stiffnesses the rms error over the mean of xx by xx and yy by yy";
+    section.add_table("surrogate-probes", meaning, "msdd score", &columns, rows);
     Ok(())
 }
 
