@@ -66,10 +66,10 @@ fn proposals_follow_grains_walls_and_diffusion() {
     let mut scene = scene();
     assert_eq!(scene.cells, [30, 10]);
     assert_eq!(proposed_cells([2.15, 0.645], 1e-3), [100, 30]);
-    // Left and right wall have a temperature: half the width. D = 0.34 100/(3000 0.9) m2/s.
+    // Left and right wall have a temperature: half the width. D = 0.30 100/(3000 0.9) m2/s.
     assert_eq!(scene.heat_way(), 0.3225);
     let end = scene.proposed_end().unwrap();
-    assert!((end / (0.3225 * 0.3225 / 0.0125) - 1.0).abs() < 0.15, "{end}");
+    assert!((end / (0.3225 * 0.3225 / 0.0111) - 1.0).abs() < 0.15, "{end}");
     scene.walls[1] = parse_wall("insulated").unwrap();
     assert_eq!(scene.heat_way(), 0.645);
     let first = scene.first_step().unwrap();
