@@ -161,7 +161,7 @@ impl Law {
         Moduli { pressure, ratio, growth: stiffer - pressure * ratio }
     }
 
-    /// Largest factor of the strengths that a state may have: with it no direction is in tension.
+    /// Largest factor of the strengths that a state may have: with it no direction is in tension. At least 1.
     #[inline(always)]
     pub fn most_strength(&self) -> f64 {
         (MOST_DEVIATOR / self.strength()).clamp(1.0, MOST_STRENGTH)
@@ -289,10 +289,6 @@ impl Law {
         let shares: f64 = self.elements.iter().map(|element| element.share).sum();
         if (shares - 1.0).abs() > 1e-9 {
             return field("law.elements (sum of shares)", shares, "1");
-        }
-        let strengths = self.strength();
-        if strengths > MOST_DEVIATOR {
-            return field("law.elements (sum of strengths)", strengths, "at most 0.74");
         }
         for (k, element) in self.elements.iter().enumerate() {
             let Element { share, strength, dilatancy } = *element;
