@@ -95,6 +95,18 @@ fn a_lid_bears_its_pressure_and_a_turned_bed_its_weight() {
     check_balance(&simulation, &rest, 1);
 }
 
+/// A lid with a twentieth of the weight of a layer of grains comes to rest.
+#[test]
+fn a_light_lid_comes_to_rest() {
+    let base = [0.03, 0.04];
+    let (mut simulation, _) = pour(&pouring(Container::Box { base }, 250), |_| ()).unwrap();
+    let (mass, d) = (simulation.spheres[0].mass, 2.0 * simulation.mean_radius());
+    let (pressure, area) = (0.05 * mass * 9.81 / (d * d), base[0] * base[1]);
+    let rest = press(&mut simulation, 5, (pressure, area), 3.0, |_| ()).unwrap();
+    assert!(rest.at_rest, "{rest:?}");
+    assert!((simulation.wall_force[5][2] / (pressure * area) - 1.0).abs() < 5e-3);
+}
+
 /// More than 4 000 grains are shared between threads.
 #[test]
 fn the_same_seed_gives_the_same_bytes() {
@@ -118,6 +130,8 @@ fn bad_parameters_are_refused_with_their_names() {
     );
     let narrow = Container::Cylinder { radius: 3e-3 };
     assert!(refused(Pouring { container: narrow, ..good.clone() }).contains("size"));
+    let wide = Container::Cylinder { radius: 20.0 };
+    assert!(refused(Pouring { container: wide, ..good.clone() }).contains("as long as all grains in a row"));
     assert!(refused(Pouring { spheres: 0, ..good.clone() }).contains("spheres"));
     let (mut simulation, _) =
         pour(&Pouring { longest: 1e-3, ..pouring(Container::Cylinder { radius: 0.02 }, 10) }, |_| ())
