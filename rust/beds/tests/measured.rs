@@ -108,6 +108,36 @@ fn from_pouring_to_temperatures() {
     assert!(stored[0] > 1.2 * stored[1], "{stored:?}");
 }
 
+/// What has no result is an error that says what to change: a bed that never comes to rest, a plate that no grain is near.
+#[test]
+fn a_bed_that_moves_or_a_plate_apart_is_no_result() {
+    let small = TEXT.replace("number = 300", "number = 60");
+    let restless = small.replace("restitution = 0.5", "restitution = 1").replace("friction = 0.3", "friction = 0");
+    let mut case = read("restless", &restless).unwrap();
+    case.lid = None;
+    case.plate.pressure = Some(1e-9);
+    let text = prepare(&case, 1, |_, _| ()).unwrap_err().to_string();
+    assert!(text.contains("the grains still move") && text.contains("try more friction"), "{text}");
+    let mut case = read("apart", &small).unwrap();
+    (case.lid, case.turn, case.plate.pressure) = (None, None, None);
+    let mut bed = prepare(&case, 1, |_, _| ()).unwrap();
+    bed.plate = 5;
+    for kind in PlateKind::ALL {
+        let text = bed.heat(&case, kind, |_| ()).unwrap_err().to_string();
+        assert!(text.contains("with no grain beside it"), "{text}");
+    }
+}
+
+/// Times scale with grains and gravity: a bed under a hundredth of gravity comes to rest as well.
+#[test]
+fn little_gravity_has_its_time() {
+    let case = TEXT.replace("number = 300", "number = 100").replace("[lid]", "gravity = 0.1\n[lid]");
+    let mut case = read("gravity", &case).unwrap();
+    (case.lid, case.plate.pressure) = (None, None);
+    let bed = prepare(&case, 1, |_, _| ()).unwrap();
+    assert!(bed.stages[0].1.time > 3.0, "{:?}", bed.stages);
+}
+
 /// What a softer simulation changes: the contacts, seen as those of the real material, conduct nearly the same.
 #[test]
 fn softness_hardly_changes_what_contacts_conduct() {
