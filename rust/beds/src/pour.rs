@@ -12,6 +12,8 @@ use std::f64::consts::PI;
 /// Solid fraction of the grains in the column above the floor. Not settled by any reference; chosen because random places are found quickly up
 /// to 0.25, and the bed hardly depends on it.
 const LOOSE: f64 = 0.2;
+/// Most area of the floor for each grain, over d²: a tenth of a layer. More would be places without grains only.
+pub(crate) const WIDEST: f64 = 10.0;
 /// Attempts per grain before the column is made higher.
 const ATTEMPTS: u32 = 2000;
 
@@ -101,14 +103,14 @@ impl Pouring {
         let positive = |v: f64| v.is_finite() && v > 0.0;
         let narrow = self.container.extent().map(|[low, high]| high - low);
         let narrow = narrow[0].min(narrow[1]);
-        let (wide, most) = (self.container.width(), self.spheres as f64 * self.diameter);
+        let floor = self.container.area() / (self.spheres as f64 * self.diameter * self.diameter);
         let parameters = [
             ("spheres", self.spheres as f64, (1..=10_000_000).contains(&self.spheres), "1 to 10000000"),
             ("diameter", self.diameter, positive(self.diameter), "above 0 m"),
             ("gravity", self.gravity, positive(self.gravity), "above 0 m/s2"),
             ("longest", self.longest, positive(self.longest), "above 0 s"),
             ("size", narrow, narrow >= 2.0 * self.diameter, "two diameters at least"),
-            ("size", wide, wide <= most.max(2.0 * self.diameter), "as long as all grains in a row, at most"),
+            ("floor", floor, floor <= WIDEST, "10 squares of the diameter for each grain, at most"),
         ];
         match parameters.into_iter().find(|parameter| !parameter.2) {
             None => Ok(()),

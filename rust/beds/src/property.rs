@@ -9,7 +9,7 @@ fn positive(value: f64) -> bool {
 
 /// A property: one number, or a table of pairs (temperature \[K\], value), between which it is straight.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "a number, or a table of pairs [temperature, value]")]
 pub enum Property {
     Constant(f64),
     Table(Vec<[f64; 2]>),
@@ -75,6 +75,14 @@ impl Property {
         }
     }
 
+    /// Temperatures of the rows of a table \[K\].
+    pub fn rows(&self) -> Vec<f64> {
+        match self {
+            Self::Constant(_) => Vec::new(),
+            Self::Table(rows) => rows.iter().map(|row| row[0]).collect(),
+        }
+    }
+
     /// ∫ of the property from the first temperature of the table (0 K if it is constant) to `temperature` \[K\].
     pub fn integral(&self, temperature: f64) -> f64 {
         match self {
@@ -124,6 +132,13 @@ mod tests {
         assert_eq!(short.check([1.0, 2.0]), Err(TableError::Short { rows: 1 }));
         let hot = Property::Table(vec![[300.0, 60.0], [f64::INFINITY, 56.0]]);
         assert!(matches!(hot.check([300.0, 301.0]), Err(TableError::Temperature { .. })));
+        #[derive(Debug, Deserialize)]
+        struct Key {
+            #[serde(rename = "k")]
+            _k: Property,
+        }
+        let text = toml::from_str::<Key>("k = \"x\"").unwrap_err().to_string();
+        assert!(text.contains("a number, or a table of pairs [temperature, value]"), "{text}");
         let negative = Property::Constant(-1.0).check([1.0, 2.0]).unwrap_err().to_string();
         assert_eq!(negative, "-1, allowed: 1e-30 to 1e30");
     }

@@ -178,9 +178,33 @@ fn bad_descriptions_are_refused_with_file_key_value_and_range() {
         text.ends_with("container = both or neither of base and radius, allowed: one of base and radius")
     );
     let text = refused("hardness", "hardness = 3e9", "");
-    assert!(text.contains("grains.hardness = ") && text.contains("because a roughness is given"), "{text}");
+    assert!(text.contains("grains.hardness = not given") && text.contains("because a roughness is given"), "{text}");
     let text = refused("stiffer", "simulated_young_modulus = 2e7", "simulated_young_modulus = 2e12");
     assert!(text.contains("simulated_young_modulus = 2000000000000, allowed: 1e-12 to that of"), "{text}");
+    let text = refused("dip", "[340.0, 41.0]", "[300.0, 0.1], [340.0, 41.0]");
+    assert!(text.contains("allowed: grains that conduct 30 times as well"), "{text}");
+    let text = refused("text", "[[280.0, 43.0], [340.0, 41.0]]", "\"x\"");
+    assert!(text.contains("a number, or a table of pairs"), "{text}");
+    let text = refused("hot", "temperature = 326.15", "temperature = 2500");
+    assert!(text.contains("allowed: a table that covers"), "{text}");
+    for base in ["[inf, 0.1]", "[nan, 0.1]", "[0.1, nan]", "[32.0, 60.0]", "[0.001, 0.06]"] {
+        let text = refused("base", "base = [0.032, 0.06]", &format!("base = {base}"));
+        assert!(text.contains("container.base = "), "{text}");
+    }
+    for radius in ["inf", "nan", "20", "0.001"] {
+        let text = refused("radius", "base = [0.032, 0.06]", &format!("radius = {radius}"));
+        assert!(text.contains("container.radius = "), "{text}");
+    }
+    let text = refused("bottom", "wall = \"y_high\"", "wall = \"y_low\"");
+    assert!(text.contains("plate.wall = y_low with plate.pressure, allowed: no pressure"), "{text}");
+    let floor = TEXT.replace("wall = \"y_high\"", "wall = \"floor\"").replace("[turn]\ndown = \"y_low\"", "");
+    assert!(read("floor", &floor).unwrap_err().contains("plate.wall = floor with plate.pressure"));
+    let lid = TEXT.replace("[lid]\npressure = 1000", "").replace("wall = \"y_high\"", "wall = \"lid\"");
+    assert!(read("lid", &lid).is_ok());
+    let lid = lid.replace("326.15\npressure = 1000", "326.15");
+    assert!(read("no-lid", &lid).unwrap_err().contains("plate.wall = lid, allowed: a section [lid]"));
+    let smooth = TEXT.replace("roughness = 3.4e-7\nhardness = 3e9", "roughness = 0");
+    assert!(read("smooth", &smooth).is_ok());
     let folder = Folder::new("missing", TEXT);
     let error = BedCase::read(&folder.0.join("nowhere")).unwrap_err().to_string();
     assert!(error.contains("cannot read") && error.contains("nowhere"), "{error}");
@@ -200,6 +224,12 @@ fn a_value_is_varied() {
     assert!(
         !vary("gas.pressure", 1e4).changes_packing() && !vary("grains.roughness", 1e-6).changes_packing()
     );
+    for key in ["plate.poisson_ratio", "grains.yield_stress"] {
+        assert!(!vary(key, 0.3).changes_packing(), "{key}");
+    }
+    for key in ["experiment.file", "vary"] {
+        assert!(varied(key, 1.0).unwrap_err().contains("allowed: a key of the bed"), "{key}");
+    }
     assert!(varied("gas.accommodation", 2.0).unwrap_err().contains("gas.accommodation = 2"));
     assert!(varied("grains.colour", 1.0).unwrap_err().contains("unknown field `colour`"));
     let text = varied("glass.colour", 1.0).unwrap_err();

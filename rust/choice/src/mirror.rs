@@ -42,7 +42,7 @@ impl Mirror {
     /// Reads a case of one block; `start`: folder of its initial fields; `count`: its cells. None if nothing is known to mirror.
     pub fn read(folder: &Path, start: &str, count: [usize; 3], files: &Files) -> Option<Self> {
         let Files { mesh, control, grains } = files;
-        if folder.join("constant/fvOptions").exists() {
+        if ["constant", "system"].iter().any(|part| folder.join(part).join("fvOptions").exists()) {
             return None;
         }
         let (corners, boundary) = (corners(mesh)?, texts(mesh.value("boundary").ok()?));
