@@ -347,7 +347,8 @@ fn main() -> Any<()> {
             (prediction(s, &packings, one)?[1], prediction(s, &packings, smooth)?);
         let conductivity = GasName::Nitrogen.at(s.temperature, 1e5, 0.9).ok_or("nitrogen")?.conductivity;
         let sums = [gas + contacts + radiating, gas + rough + radiating];
-        let numbers = [s.measured, s.measured_all, gas, contacts, rough, radiating, sums[0], sums[1], correlation(s)];
+        let numbers =
+            [s.measured, s.measured_all, gas, contacts, rough, radiating, sums[0], sums[1], correlation(s)];
         writeln!(
             text,
             "{},{},{:.0},{},{},{:.0},{}",

@@ -7,7 +7,7 @@ use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::{Container, Pouring, pour};
 use crate::press::press;
 use crate::profile::{Probe, Slab, slab};
-use crate::settle::{Rest, progress, longest, settle, turn};
+use crate::settle::{Rest, longest, progress, settle, turn};
 use crate::solid::{PeakStress, Roughness};
 use crate::transient::Transient;
 use msdd_spheres::law::effective_modulus;
@@ -109,7 +109,12 @@ pub fn prepare(
         let Surface::Flat { normal } = simulation.boundary.walls()[number(&turned.down)].surface else {
             return Err(BedError::NotFlat);
         };
-        turn(&mut simulation, normal.map(|n| -n), TURNING[0] * (d / TURNING[1] * (TURNING[2] / g)).sqrt(), |_| watch("turn", 0.0))?;
+        turn(
+            &mut simulation,
+            normal.map(|n| -n),
+            TURNING[0] * (d / TURNING[1] * (TURNING[2] / g)).sqrt(),
+            |_| watch("turn", 0.0),
+        )?;
         let rest = settle(&mut simulation, allowed, |a| watch("turn", progress(a)))?;
         stages.push(("turn", rested("turn", rest)?));
     }

@@ -281,7 +281,11 @@ impl BedCase {
         let [low, high] = self.gas.name.range();
         if range[0] < low || range[1] > high {
             let allowed = format!("a gas that is known there; this one: {low} to {high} K");
-            return Err(("gas.name".into(), format!("{} at {} K to {} K", self.gas.name.as_str(), number(range[0]), number(range[1])), allowed));
+            return Err((
+                "gas.name".into(),
+                format!("{} at {} K to {} K", self.gas.name.as_str(), number(range[0]), number(range[1])),
+                allowed,
+            ));
         }
         let ratio = |t: f64| {
             let gas = self.gas.name.at(t, self.gas.pressure, self.gas.accommodation);
@@ -314,12 +318,14 @@ impl BedCase {
         }
         let bottom = self.turn.as_ref().map_or("floor", |turn| turn.down.as_str());
         if self.plate.pressure.is_some() && self.plate.wall == bottom {
-            let allowed = "no pressure for the wall on which the bed rests, or another plate.wall".to_string();
+            let allowed =
+                "no pressure for the wall on which the bed rests, or another plate.wall".to_string();
             return Err(("plate.wall".into(), format!("{bottom} with plate.pressure"), allowed));
         }
         let untouched = self.lid.is_none() && self.plate.pressure.is_none() && bottom != "lid";
         if untouched && self.plate.wall == "lid" {
-            let allowed = "a section [lid] or plate.pressure: else the lid does not touch the bed".to_string();
+            let allowed =
+                "a section [lid] or plate.pressure: else the lid does not touch the bed".to_string();
             return Err(("plate.wall".into(), "lid".into(), allowed));
         }
         Ok(())

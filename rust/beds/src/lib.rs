@@ -66,7 +66,9 @@ pub enum BedError {
          allowed: a bed at rest; try more friction, a lower restitution, or another pressure of lid and plate"
     )]
     Restless { stage: &'static str, time: f64, kinetic: f64 },
-    #[error("plate.wall = {wall}, with no grain beside it, allowed: a wall that the bed touches, or plate.pressure")]
+    #[error(
+        "plate.wall = {wall}, with no grain beside it, allowed: a wall that the bed touches, or plate.pressure"
+    )]
     Apart { wall: String },
     #[error("heat.probes = {distance}, allowed: distances from the plate at which there are grains")]
     NoGrains { distance: f64 },

@@ -112,7 +112,8 @@ fn from_pouring_to_temperatures() {
 #[test]
 fn a_bed_that_moves_or_a_plate_apart_is_no_result() {
     let small = TEXT.replace("number = 300", "number = 60");
-    let restless = small.replace("restitution = 0.5", "restitution = 1").replace("friction = 0.3", "friction = 0");
+    let restless =
+        small.replace("restitution = 0.5", "restitution = 1").replace("friction = 0.3", "friction = 0");
     let mut case = read("restless", &restless).unwrap();
     case.lid = None;
     case.plate.pressure = Some(1e-9);
@@ -178,7 +179,10 @@ fn bad_descriptions_are_refused_with_file_key_value_and_range() {
         text.ends_with("container = both or neither of base and radius, allowed: one of base and radius")
     );
     let text = refused("hardness", "hardness = 3e9", "");
-    assert!(text.contains("grains.hardness = not given") && text.contains("because a roughness is given"), "{text}");
+    assert!(
+        text.contains("grains.hardness = not given") && text.contains("because a roughness is given"),
+        "{text}"
+    );
     let text = refused("stiffer", "simulated_young_modulus = 2e7", "simulated_young_modulus = 2e12");
     assert!(text.contains("simulated_young_modulus = 2000000000000, allowed: 1e-12 to that of"), "{text}");
     let text = refused("dip", "[340.0, 41.0]", "[300.0, 0.1], [340.0, 41.0]");

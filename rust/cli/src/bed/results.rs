@@ -107,7 +107,8 @@ pub fn compute(
     let mut results = Results { case, bed, measured, slabs, compared, varied: Vec::new() };
     save(&results)?;
     for (vary, case) in &vary {
-        let other = vary.changes_packing().then(|| course.prepare(case, threads)).transpose().map_err(failed)?;
+        let other =
+            vary.changes_packing().then(|| course.prepare(case, threads)).transpose().map_err(failed)?;
         for kind in PlateKind::ALL {
             let heated = course.heat(other.as_ref().unwrap_or(&results.bed), case, kind).map_err(failed)?;
             if let Some(&misfit) = experiment::misfits(&results.measured, &heated.records).last() {
