@@ -327,8 +327,8 @@ fn main() -> Any<()> {
     let row = |name: &str, all: bool, value: &dyn Fn(&Series) -> f64| {
         let errors = |of: fn(&Series) -> bool| {
             let members = shown.iter().filter(|s| of(s));
-            let error = |s: &&Series| value(s) / if all { s.measured_all } else { s.measured } - 1.0;
-            summary(members.map(|s| error(&s)).collect())
+            let error = |s: &Series| value(s) / if all { s.measured_all } else { s.measured } - 1.0;
+            summary(members.map(|s| error(s)).collect())
         };
         println!("| {name} | {} |", groups.map(|(_, of)| errors(of)).join(" | "));
     };
