@@ -7,15 +7,15 @@ use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::{Container, Pouring, pour};
 use crate::press::press;
 use crate::profile::{Probe, Slab, slab};
-use crate::settle::{Rest, progress, settle, turn};
+use crate::settle::{Rest, longest, progress, settle, turn};
 use crate::solid::{PeakStress, Roughness};
 use crate::transient::Transient;
 use msdd_spheres::law::effective_modulus;
+use msdd_spheres::space::dot;
 use msdd_spheres::{Material, Partner, Simulation, Stiffness, Surface, Wall};
 
-/// Simulated time \[s\] within which each stage has to come to rest, and that of turning.
-const LONGEST: f64 = 3.0;
-const TURNING: f64 = 0.2;
+/// Time of turning \[s\], for grains of a diameter \[m\] under a gravity \[m/s²\]; it is in proportion to √(d/g).
+const TURNING: [f64; 3] = [0.2, 6.4e-3, 9.81];
 /// First time step of heat \[s\].
 const FIRST_STEP: f64 = 0.1;
 
@@ -66,7 +66,7 @@ pub struct Heated {
 /// Pours, presses and turns. `watch` is told the stage, and how far it has come, from 0 to 1.
 ///
 /// # Errors
-/// Those of the stages.
+/// Those of the stages; a stage that does not come to rest.
 pub fn prepare(
     case: &BedCase,
     threads: usize,
@@ -77,6 +77,9 @@ pub fn prepare(
         young_modulus: grains.simulated_young_modulus,
         poisson_ratio: grains.poisson_ratio,
     };
+    let (d, g) = (grains.diameter, case.container.gravity);
+    let container = case.vessel();
+    let allowed = longest(d, g, container.loose_height(grains.number, d).max(container.width()));
     let pouring = Pouring {
         spheres: grains.number,
         seed: case.seed,
@@ -88,35 +91,46 @@ pub fn prepare(
             wall_friction: grains.wall_friction,
             restitution: grains.restitution,
         },
-        container: case.vessel(),
+        container,
         gravity: case.container.gravity,
-        longest: LONGEST,
+        longest: allowed,
         threads,
     };
     let names = case.wall_names();
     let number = |name: &str| names.iter().position(|known| *known == name).unwrap_or_default();
     let (mut simulation, rest) = pour(&pouring, |agitation| watch("pour", progress(agitation)))?;
-    let mut stages = vec![("pour", rest)];
+    let mut stages = vec![("pour", rested("pour", rest)?)];
     if let Some(lid) = &case.lid {
         let load = (lid.pressure, pouring.container.area());
-        let rest = press(&mut simulation, number("lid"), load, LONGEST, |a| watch("lid", progress(a)))?;
-        stages.push(("lid", rest));
+        let rest = press(&mut simulation, number("lid"), load, allowed, |a| watch("lid", progress(a)))?;
+        stages.push(("lid", rested("lid", rest)?));
     }
     if let Some(turned) = &case.turn {
         let Surface::Flat { normal } = simulation.boundary.walls()[number(&turned.down)].surface else {
             return Err(BedError::NotFlat);
         };
-        turn(&mut simulation, normal.map(|n| -n), TURNING, |_| watch("turn", 0.0))?;
-        let rest = settle(&mut simulation, LONGEST, |a| watch("turn", progress(a)))?;
-        stages.push(("turn", rest));
+        turn(
+            &mut simulation,
+            normal.map(|n| -n),
+            TURNING[0] * (d / TURNING[1] * (TURNING[2] / g)).sqrt(),
+            |_| watch("turn", 0.0),
+        )?;
+        let rest = settle(&mut simulation, allowed, |a| watch("turn", progress(a)))?;
+        stages.push(("turn", rested("turn", rest)?));
     }
     let plate = number(&case.plate.wall);
     if let Some(pressure) = case.plate.pressure {
         let load = (pressure, parallel_area(&case.vessel(), &simulation, plate));
-        let rest = press(&mut simulation, plate, load, LONGEST, |a| watch("plate", progress(a)))?;
-        stages.push(("plate", rest));
+        let rest = press(&mut simulation, plate, load, allowed, |a| watch("plate", progress(a)))?;
+        stages.push(("plate", rested("plate", rest)?));
     }
     Ok(Bed { simulation, stages, plate })
+}
+
+/// A bed that still moves is not heated.
+fn rested(stage: &'static str, rest: Rest) -> Result<Rest, BedError> {
+    let Rest { at_rest, kinetic, time, .. } = rest;
+    if at_rest { Ok(rest) } else { Err(BedError::Restless { stage, time, kinetic }) }
 }
 
 /// Area of the bed parallel to a flat wall \[m²\].
@@ -143,9 +157,12 @@ impl Bed {
         parallel_area(&case.vessel(), &self.simulation, self.plate)
     }
 
-    /// Force of the grains on the plate \[N\].
+    /// Force of the grains on the plate, across it, without friction \[N\].
     pub fn plate_force(&self) -> f64 {
-        msdd_spheres::space::length(self.simulation.wall_force[self.plate])
+        match self.wall().surface {
+            Surface::Flat { normal } => -dot(self.simulation.wall_force[self.plate], normal),
+            Surface::Cylinder { .. } => f64::NAN,
+        }
     }
 
     /// The stress in its contacts against the yield stress, if that is given.
@@ -201,7 +218,7 @@ impl Bed {
     /// Heats. `watch` is told how far it has come, from 0 to 1.
     ///
     /// # Errors
-    /// A probe without grains; heat that does not converge.
+    /// No grain beside the plate; a probe without grains; heat that does not converge.
     pub fn heat(
         &self,
         case: &BedCase,
@@ -210,6 +227,9 @@ impl Bed {
     ) -> Result<Heated, BedError> {
         let (network, wall, heat) = (self.network(case, kind), self.wall(), &case.heat);
         let Surface::Flat { normal } = wall.surface else { return Err(BedError::NotFlat) };
+        if network.beside.is_empty() && network.held.iter().all(Option::is_none) {
+            return Err(BedError::Apart { wall: case.plate.wall.clone() });
+        }
         let probe = |&distance: &f64| {
             Probe::new(&self.simulation, &wall, normal, distance).ok_or(BedError::NoGrains { distance })
         };
@@ -218,7 +238,7 @@ impl Bed {
         let record = |&distance: &f64| Record { distance, rows: Vec::new() };
         let mut records: Vec<Record> = heat.probes.iter().map(record).collect();
         let (outputs, mut step) =
-            ((heat.end / heat.output_every).ceil() as u64, FIRST_STEP.min(heat.output_every));
+            ((heat.end / heat.output_every - 1e-9).ceil() as u64, FIRST_STEP.min(heat.output_every));
         for output in 0..=outputs {
             let time = (output as f64 * heat.output_every).min(heat.end);
             transient.run_to(time, heat.tolerance, &mut step)?;

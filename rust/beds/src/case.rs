@@ -1,6 +1,7 @@
 //! The description of a bed that was measured: a TOML file that says what is poured, how it is handled, what heats it.
 
 use crate::named_gases::GasName;
+use crate::pour::WIDEST;
 use crate::property::Property;
 use msdd_engine::message::number;
 use msdd_files::{FileError, read_text};
@@ -143,18 +144,22 @@ fn usual_tolerance() -> f64 {
 
 /// Name of the file in the folder of a case.
 pub const FILE: &str = "bed.toml";
+/// Parts of the temperatures of a run at which the conductivity of the grains is held against that of the gas.
+const LOOKS: u32 = 50;
 /// Beginnings of the keys that the packing does not depend on.
-const HEAT_ONLY: [&str; 12] = [
+const HEAT_ONLY: [&str; 14] = [
     "grains.conductivity",
     "grains.heat_capacity",
     "grains.young_modulus",
     "grains.roughness",
     "grains.hardness",
+    "grains.yield_stress",
     "gas.",
     "heat.",
     "plate.temperature",
     "plate.conductivity",
     "plate.young_modulus",
+    "plate.poisson_ratio",
     "plate.roughness",
     "plate.hardness",
 ];
@@ -214,6 +219,11 @@ impl BedCase {
             toml::from_str(&read_text(&file)?).map_err(|error| read(error.to_string()))?;
         table.insert("seed".to_string(), toml::Value::Integer(self.seed as i64));
         table.remove("vary");
+        if ["experiment", "vary"].contains(&vary.key.split('.').next().unwrap_or_default()) {
+            let allowed = "a key of the bed: all are compared with the same measurements".to_string();
+            let (key, value) = ("vary.key".to_string(), vary.key.clone());
+            return Err(CaseError::Value { file, key, value, allowed });
+        }
         match vary.key.split_once('.') {
             None => {
                 table.insert(vary.key.clone(), vary.value.clone());
@@ -249,6 +259,15 @@ impl BedCase {
                 return Err((key.to_string(), number(value), allowed.to_string()));
             }
         }
+        let (g, p) = (&self.grains, &self.plate);
+        for (key, rough, hard) in
+            [("grains.hardness", g.roughness, g.hardness), ("plate.hardness", p.roughness, p.hardness)]
+        {
+            if rough.is_some_and(|height| height > 0.0) && hard.is_none() {
+                let allowed = "a value, because a roughness is given".to_string();
+                return Err((key.to_string(), "not given".to_string(), allowed));
+            }
+        }
         for (key, property) in [
             ("grains.conductivity", &self.grains.conductivity),
             ("grains.heat_capacity", &self.grains.heat_capacity),
@@ -262,13 +281,20 @@ impl BedCase {
         let [low, high] = self.gas.name.range();
         if range[0] < low || range[1] > high {
             let allowed = format!("a gas that is known there; this one: {low} to {high} K");
-            return Err(("gas.name".into(), format!("{:?} at {range:?} K", self.gas.name), allowed));
+            return Err((
+                "gas.name".into(),
+                format!("{} at {} K to {} K", self.gas.name.as_str(), number(range[0]), number(range[1])),
+                allowed,
+            ));
         }
         let ratio = |t: f64| {
             let gas = self.gas.name.at(t, self.gas.pressure, self.gas.accommodation);
             gas.map_or(f64::INFINITY, |gas| self.grains.conductivity.at(t) / gas.conductivity)
         };
-        let least = ratio(range[0]).min(ratio(range[1]));
+        // A table may dip at a row, and the gas is no straight line between two.
+        let between = (0..=LOOKS).map(|k| range[0] + (range[1] - range[0]) * f64::from(k) / f64::from(LOOKS));
+        let rows = self.grains.conductivity.rows().into_iter().filter(|t| (range[0]..=range[1]).contains(t));
+        let least = between.chain(rows).map(ratio).fold(f64::INFINITY, f64::min);
         if least < crate::gas::LEAST_RATIO {
             let allowed =
                 format!("grains that conduct {} times as well as the gas, at least", crate::gas::LEAST_RATIO);
@@ -289,6 +315,18 @@ impl BedCase {
                 let flat: Vec<&str> = names.into_iter().filter(|name| *name != "side").collect();
                 return Err((key.into(), name.clone(), flat.join(", ")));
             }
+        }
+        let bottom = self.turn.as_ref().map_or("floor", |turn| turn.down.as_str());
+        if self.plate.pressure.is_some() && self.plate.wall == bottom {
+            let allowed =
+                "no pressure for the wall on which the bed rests, or another plate.wall".to_string();
+            return Err(("plate.wall".into(), format!("{bottom} with plate.pressure"), allowed));
+        }
+        let untouched = self.lid.is_none() && self.plate.pressure.is_none() && bottom != "lid";
+        if untouched && self.plate.wall == "lid" {
+            let allowed =
+                "a section [lid] or plate.pressure: else the lid does not touch the bed".to_string();
+            return Err(("plate.wall".into(), "lid".into(), allowed));
         }
         Ok(())
     }
@@ -312,8 +350,12 @@ impl BedCase {
         let positive = |v: f64| (1e-12..=1e15).contains(&v);
         let none_or = |v: Option<f64>| v.is_none_or(positive);
         let (g, p, h) = (&self.grains, &self.plate, &self.heat);
-        let base = self.container.base.map_or(f64::INFINITY, |[x, y]| x.min(y));
-        let radius = self.container.radius.unwrap_or(f64::INFINITY);
+        let base = self.container.base.unwrap_or([2.0 * g.diameter; 2]);
+        let radius = self.container.radius.unwrap_or(g.diameter);
+        // The other one of base and radius is just large enough.
+        let floor = (base[0] * base[1]).max(std::f64::consts::PI * radius * radius);
+        let floor = floor / (g.number as f64 * g.diameter * g.diameter);
+        let wide = "a floor of at most 10 squares of the diameter for each grain";
         let mut all = Vec::new();
         for (key, value) in [
             ("grains.diameter", g.diameter),
@@ -353,14 +395,19 @@ impl BedCase {
                 "a hundred-thousandth of end, to end",
                 h.output_every <= h.end && h.output_every >= 1e-5 * h.end,
             ),
-            ("container.base", base, "two diameters at least", base >= 2.0 * g.diameter),
+            ("container.base", base[0], "two diameters at least", base[0] >= 2.0 * g.diameter),
+            ("container.base", base[1], "two diameters at least", base[1] >= 2.0 * g.diameter),
             ("container.radius", radius, "one diameter at least", radius >= g.diameter),
+            (
+                if self.container.base.is_some() { "container.base" } else { "container.radius" },
+                if self.container.base.is_some() { base[0].max(base[1]) } else { radius },
+                wide,
+                floor.is_finite() && floor <= WIDEST.max(4.0 / g.number as f64),
+            ),
         ]);
         for (key, value) in [
-            ("grains.roughness", g.roughness),
             ("grains.hardness", g.hardness),
             ("grains.yield_stress", g.yield_stress),
-            ("plate.roughness", p.roughness),
             ("plate.hardness", p.hardness),
             ("plate.conductivity", p.conductivity),
             ("plate.pressure", p.pressure),
@@ -368,15 +415,9 @@ impl BedCase {
         ] {
             all.push((key, value.unwrap_or(1.0), POSITIVE, none_or(value)));
         }
-        for (key, rough, hard) in
-            [("grains.hardness", g.roughness, g.hardness), ("plate.hardness", p.roughness, p.hardness)]
-        {
-            all.push((
-                key,
-                f64::NAN,
-                "a value, because a roughness is given",
-                rough.is_none() || hard.is_some(),
-            ));
+        for (key, value) in [("grains.roughness", g.roughness), ("plate.roughness", p.roughness)] {
+            let good = value.is_none_or(|v| v == 0.0 || positive(v));
+            all.push((key, value.unwrap_or_default(), "0 (smooth), or 1e-12 to 1e15", good));
         }
         for (key, value) in
             [("plate.temperature", p.temperature), ("heat.initial_temperature", h.initial_temperature)]

@@ -34,7 +34,7 @@ pub struct Misfit {
     /// \[m\]; none: all distances.
     pub distance: Option<f64>,
     pub points: usize,
-    /// Root mean square, largest, and mean of simulated less measured \[K\].
+    /// Root mean square, largest, and mean of simulated less measured \[K\]; NaN without points.
     pub rms: f64,
     pub worst: f64,
     pub bias: f64,
@@ -106,18 +106,26 @@ pub fn check(file: &Path, measured: &[Measured], probes: &[f64]) -> Result<(), E
     }
 }
 
-/// Misfits by distance, and then of all; measurements after the end of the run are left out.
+/// Number of measurements outside the time of the run, which [`misfits`] leave out.
+pub fn left_out(measured: &[Measured], records: &[Record]) -> usize {
+    let inside = |m: &&Measured| record_at(records, m.distance).and_then(|r| at(r, m.time)).is_some();
+    measured.len() - measured.iter().filter(inside).count()
+}
+
+/// Misfits by distance, and then of all; measurements outside the time of the run are left out. NaN if none is left.
 pub fn misfits(measured: &[Measured], records: &[Record]) -> Vec<Misfit> {
     let errors = |m: &Measured| Some(at(record_at(records, m.distance)?, m.time)? - m.temperature);
     let of = |distance: Option<f64>| {
         let wanted = |m: &&Measured| distance.is_none_or(|d| (d - m.distance).abs() < 1e-6);
         let errors: Vec<f64> = measured.iter().filter(wanted).filter_map(errors).collect();
-        let count = errors.len().max(1) as f64;
+        // 0/0: nothing to compare with is no perfect fit.
+        let count = errors.len() as f64;
+        let first = errors.first().copied().unwrap_or(f64::NAN);
         Misfit {
             distance,
             points: errors.len(),
             rms: (errors.iter().map(|e| e * e).sum::<f64>() / count).sqrt(),
-            worst: errors.iter().fold(0.0, |worst, e| if e.abs() > f64::abs(worst) { *e } else { worst }),
+            worst: errors.iter().fold(first, |worst, e| if e.abs() > f64::abs(worst) { *e } else { worst }),
             bias: errors.iter().sum::<f64>() / count,
         }
     };
@@ -150,5 +158,8 @@ mod tests {
         assert_eq!(found[0], Misfit { distance: Some(0.1), points: 2, rms: 1.0, worst: 1.0, bias: 0.0 });
         assert_eq!(found[1], Misfit { distance: Some(0.2), points: 1, rms: 3.0, worst: -3.0, bias: -3.0 });
         assert_eq!((found[2].points, found[2].bias), (3, -1.0));
+        assert_eq!(left_out(&measured, &[record(0.1), record(0.2)]), 1);
+        let none = misfits(&measured[3..], &[record(0.2)])[1];
+        assert!(none.points == 0 && none.rms.is_nan() && none.worst.is_nan() && none.bias.is_nan());
     }
 }

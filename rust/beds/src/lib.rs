@@ -61,6 +61,15 @@ pub enum BedError {
     Pouring { key: &'static str, value: f64, allowed: &'static str },
     #[error("pressing: a wall that is not flat, allowed: flat walls")]
     NotFlat,
+    #[error(
+        "stage '{stage}': after {time:.3} s the grains still move (kinetic energy {kinetic:.1e} of that of falling by a radius), \
+         allowed: a bed at rest; try more friction, a lower restitution, or another pressure of lid and plate"
+    )]
+    Restless { stage: &'static str, time: f64, kinetic: f64 },
+    #[error(
+        "plate.wall = {wall}, with no grain beside it, allowed: a wall that the bed touches, or plate.pressure"
+    )]
+    Apart { wall: String },
     #[error("heat.probes = {distance}, allowed: distances from the plate at which there are grains")]
     NoGrains { distance: f64 },
     #[error(transparent)]

@@ -178,7 +178,7 @@ impl Network {
             let harmonic = b.conductivity.map_or(2.0 * solid, |plate| 2.0 * solid * plate / (solid + plate));
             let by_gas = gas(between).map_or(0.0, |gas| {
                 let distance = gas.plate_distance(b.gap, b.radius, solid);
-                plate_conductance(gas.conductivity, b.radius, distance)
+                plate_conductance(gas.conductivity, b.radius, distance, gas.jump_length())
             });
             (b.sphere, b.plate, harmonic * b.size + by_gas)
         };

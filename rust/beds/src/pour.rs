@@ -9,9 +9,11 @@ use crate::settle::{Rest, descent, settle};
 use msdd_spheres::{Boundary, Material, Simulation, Sphere, Wall};
 use std::f64::consts::PI;
 
-/// Solid fraction of the grains in the column above the floor. Paper silent; chosen because random places are found quickly up
+/// Solid fraction of the grains in the column above the floor. Not settled by any reference; chosen because random places are found quickly up
 /// to 0.25, and the bed hardly depends on it.
 const LOOSE: f64 = 0.2;
+/// Most area of the floor for each grain, over d²: a tenth of a layer. More would be places without grains only.
+pub(crate) const WIDEST: f64 = 10.0;
 /// Attempts per grain before the column is made higher.
 const ATTEMPTS: u32 = 2000;
 
@@ -31,6 +33,16 @@ impl Container {
             Self::Box { base: [x, y] } => x * y,
             Self::Cylinder { radius } => PI * radius * radius,
         }
+    }
+
+    /// Height of so many loose grains in it, as they begin \[m\].
+    pub(crate) fn loose_height(&self, spheres: usize, diameter: f64) -> f64 {
+        diameter + spheres as f64 * PI / 6.0 * diameter * diameter * diameter / LOOSE / self.area()
+    }
+
+    /// Its longest side across \[m\].
+    pub(crate) fn width(&self) -> f64 {
+        self.extent().iter().fold(0.0, |width: f64, [low, high]| width.max(high - low))
     }
 
     /// Corners of the block that holds it, along x and y \[m\].
@@ -91,12 +103,14 @@ impl Pouring {
         let positive = |v: f64| v.is_finite() && v > 0.0;
         let narrow = self.container.extent().map(|[low, high]| high - low);
         let narrow = narrow[0].min(narrow[1]);
+        let floor = self.container.area() / (self.spheres as f64 * self.diameter * self.diameter);
         let parameters = [
             ("spheres", self.spheres as f64, (1..=10_000_000).contains(&self.spheres), "1 to 10000000"),
             ("diameter", self.diameter, positive(self.diameter), "above 0 m"),
             ("gravity", self.gravity, positive(self.gravity), "above 0 m/s2"),
             ("longest", self.longest, positive(self.longest), "above 0 s"),
             ("size", narrow, narrow >= 2.0 * self.diameter, "two diameters at least"),
+            ("floor", floor, floor <= WIDEST, "10 squares of the diameter for each grain, at most"),
         ];
         match parameters.into_iter().find(|parameter| !parameter.2) {
             None => Ok(()),
@@ -109,8 +123,7 @@ impl Pouring {
     fn rain(&self) -> Result<(Vec<Sphere>, f64), BedError> {
         let (d, r) = (self.diameter, 0.5 * self.diameter);
         let [[x0, x1], [y0, y1]] = self.container.extent();
-        let volume = self.spheres as f64 * PI / 6.0 * d * d * d;
-        let height = d + volume / LOOSE / self.container.area();
+        let height = self.container.loose_height(self.spheres, d);
         let count = [(x1 - x0) / d, (y1 - y0) / d, height / d].map(|n| n as usize + 1);
         let mut cells: Vec<Vec<[f64; 3]>> = vec![Vec::new(); count.iter().product()];
         let place = |[x, y, z]: [f64; 3]| [(x - x0) / d, (y - y0) / d, z / d].map(|n| n as usize);

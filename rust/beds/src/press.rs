@@ -8,8 +8,10 @@ use msdd_spheres::{Boundary, Simulation, Surface};
 /// Steps between two changes of the wall's velocity, and such changes between two looks.
 const STEPS: u64 = 20;
 const LOOK_EVERY: u64 = 10;
-/// The wall weighs what gives the pressure under gravity; its velocity fades at this rate times √(g/d), so that it does not
+/// The wall weighs what gives the pressure under gravity, but no less than so many layers of grains, since it would be thrown back
+/// and forth by the grains between two changes of its velocity; the force is that of the pressure. Its velocity fades at this rate times √(g/d), so that it does not
 /// bounce for long.
+const LAYERS: f64 = 2.0;
 const DRAG: f64 = 3.0;
 /// Relative error of the pressure, and kinetic energy over Σ m g r, at which wall and bed count as at rest.
 const BALANCED: [f64; 2] = [2e-3, 1e-8];
@@ -30,7 +32,11 @@ pub fn press(
     let (start, first) = (simulation.time, simulation.steps);
     let gravity = length(simulation.gravity);
     let normal = approach(simulation, wall)?;
-    let (force, mass) = (pressure * area, pressure * area / gravity);
+    // A full layer has one grain on d² of the wall.
+    let heaviest = simulation.spheres.iter().fold(0.0f64, |mass, sphere| mass.max(sphere.mass));
+    let layer = heaviest * area / (2.0 * simulation.mean_radius()).powi(2);
+    let force = pressure * area;
+    let mass = (force / gravity).max(LAYERS * layer);
     let fade = DRAG * (gravity / (2.0 * simulation.mean_radius())).sqrt();
     simulation.drag = descent(2.0 * simulation.mean_radius(), gravity).1;
     let (mut speed, mut blocks) = (0.0, 0);

@@ -3,30 +3,13 @@
 use msdd_engine::message::number;
 use serde::Deserialize;
 
-/// A property for which the laws have no meaning.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("heat: {key} = {}, allowed: {allowed}", number(*value))]
-pub struct PropertyError {
-    pub key: &'static str,
-    pub value: f64,
-    pub allowed: &'static str,
-}
-
-/// The first property outside its range.
-pub(crate) fn first_bad(properties: &[(&'static str, f64, bool, &'static str)]) -> Result<(), PropertyError> {
-    match properties.iter().find(|property| !property.2) {
-        None => Ok(()),
-        Some(&(key, value, _, allowed)) => Err(PropertyError { key, value, allowed }),
-    }
-}
-
-pub(crate) fn positive(value: f64) -> bool {
+fn positive(value: f64) -> bool {
     (1e-30..=1e30).contains(&value)
 }
 
 /// A property: one number, or a table of pairs (temperature \[K\], value), between which it is straight.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "a number, or a table of pairs [temperature, value]")]
 pub enum Property {
     Constant(f64),
     Table(Vec<[f64; 2]>),
@@ -37,6 +20,8 @@ pub enum Property {
 pub enum TableError {
     #[error("{}, allowed: {allowed}", number(*value))]
     Value { value: f64, allowed: &'static str },
+    #[error("a table with temperature {} K, allowed: 0 to 1000000 K", number(*value))]
+    Temperature { value: f64 },
     #[error("{rows} rows, allowed: two at least")]
     Short { rows: usize },
     #[error("temperatures {} K and {} K in this order, allowed: rising temperatures", number(*first), number(*second))]
@@ -52,14 +37,16 @@ impl Property {
     /// # Errors
     /// The first thing that is wrong.
     pub fn check(&self, range: [f64; 2]) -> Result<(), TableError> {
-        let good = |value: f64| (1e-30..=1e30).contains(&value);
         let allowed = "1e-30 to 1e30";
         match self {
-            Self::Constant(value) if good(*value) => Ok(()),
+            Self::Constant(value) if positive(*value) => Ok(()),
             Self::Constant(value) => Err(TableError::Value { value: *value, allowed }),
             Self::Table(rows) => {
-                if let Some(row) = rows.iter().find(|row| !good(row[1])) {
+                if let Some(row) = rows.iter().find(|row| !positive(row[1])) {
                     return Err(TableError::Value { value: row[1], allowed });
+                }
+                if let Some(row) = rows.iter().find(|row| !(0.0..=1e6).contains(&row[0])) {
+                    return Err(TableError::Temperature { value: row[0] });
                 }
                 let (Some(first), Some(last), true) = (rows.first(), rows.last(), rows.len() > 1) else {
                     return Err(TableError::Short { rows: rows.len() });
@@ -85,6 +72,14 @@ impl Property {
                 let [a, b] = around(rows, temperature);
                 a[1] + (temperature - a[0]) * (b[1] - a[1]) / (b[0] - a[0])
             }
+        }
+    }
+
+    /// Temperatures of the rows of a table \[K\].
+    pub fn rows(&self) -> Vec<f64> {
+        match self {
+            Self::Constant(_) => Vec::new(),
+            Self::Table(rows) => rows.iter().map(|row| row[0]).collect(),
         }
     }
 
@@ -135,6 +130,15 @@ mod tests {
         assert!(matches!(order.check([300.0, 301.0]), Err(TableError::Order { .. })));
         let short = Property::Table(vec![[1.0, 2.0]]);
         assert_eq!(short.check([1.0, 2.0]), Err(TableError::Short { rows: 1 }));
+        let hot = Property::Table(vec![[300.0, 60.0], [f64::INFINITY, 56.0]]);
+        assert!(matches!(hot.check([300.0, 301.0]), Err(TableError::Temperature { .. })));
+        #[derive(Debug, Deserialize)]
+        struct Key {
+            #[serde(rename = "k")]
+            _k: Property,
+        }
+        let text = toml::from_str::<Key>("k = \"x\"").unwrap_err().to_string();
+        assert!(text.contains("a number, or a table of pairs [temperature, value]"), "{text}");
         let negative = Property::Constant(-1.0).check([1.0, 2.0]).unwrap_err().to_string();
         assert_eq!(negative, "-1, allowed: 1e-30 to 1e30");
     }

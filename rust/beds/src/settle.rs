@@ -13,6 +13,8 @@ const LOOK_EVERY: u64 = 200;
 /// points downwards.
 const FALL: f64 = 5.0;
 
+/// Time in which a bed has to come to rest after all grains have come down, over √(d/g).
+const REST: f64 = 100.0;
 /// One grain in so many is left out of the agitation.
 const ROLLING: usize = 1000;
 
@@ -42,6 +44,12 @@ pub fn agitation(simulation: &Simulation, gravity: f64) -> f64 {
 pub(crate) fn descent(diameter: f64, gravity: f64) -> (f64, f64) {
     let speed = (2.0 * gravity * FALL * diameter).sqrt();
     (speed, gravity / speed)
+}
+
+/// Simulated time \[s\] within which a stage has to come to rest: twice that of coming down from `height` \[m\], and
+/// then [`REST`].
+pub(crate) fn longest(diameter: f64, gravity: f64, height: f64) -> f64 {
+    REST * (diameter / gravity).sqrt() + 2.0 * height / descent(diameter, gravity).0
 }
 
 /// How far on the way to rest, from 0 to 1, by the logarithm of the agitation.

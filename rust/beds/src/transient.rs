@@ -6,7 +6,8 @@
 //!
 //! h(Y₁) = h₀ + γ Δt F(Y₁),   h(T) = h₀ + (1 − γ) Δt F(Y₁) + γ Δt F(T).
 //!
-//! Both stages are solved by Newton's method until no sphere misses more than [`MISSED`]; so what the spheres store is what
+//! Both stages are solved by Newton's method until no sphere misses more than [`MISSED`], or than round-off of the heat that
+//! passes through it in the step; so what the spheres store is what
 //! the plates gave, up to round-off. The difference of T to the step with F(Y₁) alone, γ Δt (F(T) − F(Y₁))/(m c), is the
 //! estimate of the error by which steps are chosen. It is that of a method of first order, so the true error is smaller.
 
@@ -17,6 +18,11 @@ use crate::solve::conjugate_gradients;
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Heat over m c \[K\] that a sphere may miss at the end of a stage.
 pub const MISSED: f64 = 1e-11;
+/// Round-off of a stage, over that of T and of the heat that passes.
+const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+/// A step that does not converge is tried again, this much shorter, down to this share of the end.
+const SHORTER: f64 = 0.25;
+const LEAST_STEP: f64 = 1e-9;
 /// Newton's iterations: the conductances change little in a step, and are not differentiated, so it takes three or four.
 const MOST_ITERATIONS: usize = 30;
 /// How much of the residual an iteration leaves.
@@ -116,22 +122,29 @@ impl<'a> Transient<'a> {
             let (flow, given) = self.flow(&conductances);
             let mut diagonal = vec![0.0; start.len()];
             let mut residual = vec![0.0; start.len()];
-            let mut missed = 0.0f64;
+            let mut passing = vec![0.0; start.len()];
+            for &(i, j, g) in &conductances.links {
+                passing[i] += g;
+                passing[j] += g;
+            }
+            conductances.plates.iter().for_each(|&(i, _, g)| passing[i] += g);
+            let (mut missed, mut goal) = (0.0f64, MISSED);
             for k in 0..start.len() {
                 let (m, t) = (network.mass[k], self.temperatures[k]);
                 diagonal[k] = m * capacity.at(t);
                 if network.held[k].is_none() {
                     residual[k] = start[k] + dt * flow[k] - m * capacity.integral(t);
                     missed = missed.max((residual[k] / diagonal[k]).abs());
+                    goal = goal.max(ROUND_OFF * t.abs() * (1.0 + dt * passing[k] / diagonal[k]));
                 }
             }
             if !missed.is_finite() {
                 return None;
             }
-            if missed <= MISSED {
+            if missed <= goal {
                 return Some((flow, given));
             }
-            let change = self.newton(&conductances, diagonal, &mut residual, dt)?;
+            let change = self.newton(&conductances, diagonal, &mut residual, dt, goal)?;
             for (t, d) in self.temperatures.iter_mut().zip(change) {
                 *t += d;
             }
@@ -145,6 +158,7 @@ impl<'a> Transient<'a> {
         heat: Vec<f64>,
         residual: &mut [f64],
         dt: f64,
+        enough: f64,
     ) -> Option<Vec<f64>> {
         let held = &self.network.held;
         let free = |k: usize| held[k].is_none();
@@ -176,7 +190,7 @@ impl<'a> Transient<'a> {
         let worst = |residual: &[f64]| {
             residual.iter().zip(&heat).fold(0.0f64, |worst, (r, h)| worst.max((r / h).abs()))
         };
-        let goal = (LEFT * worst(residual)).max(0.1 * MISSED);
+        let goal = (LEFT * worst(residual)).max(0.1 * enough);
         conjugate_gradients(apply, &diagonal, residual, |left| worst(left) <= goal)
     }
 
@@ -204,19 +218,26 @@ impl<'a> Transient<'a> {
     }
 
     /// Goes on until `end` \[s\] in steps whose estimated error is at most `tolerance` \[K\], of `step` \[s\] at first; the next
-    /// one is kept in `step`.
+    /// one is kept in `step`. A step that does not converge is tried again, shorter.
     ///
     /// # Errors
-    /// [`NotConverged`].
+    /// [`NotConverged`], of a step that cannot be made shorter.
     pub fn run_to(&mut self, end: f64, tolerance: f64, step: &mut f64) -> Result<(), NotConverged> {
-        while end - self.time > 1e-9 * end {
+        while end - self.time > LEAST_STEP * end {
             let left = end - self.time;
             // No step that leaves a splinter.
             let dt = if *step >= left { left } else { step.min(0.5 * left) };
             let before = self.clone();
-            let error = self.step(dt)?;
+            let error = match self.step(dt) {
+                Ok(error) => error,
+                Err(_) if SHORTER * dt > LEAST_STEP * end => {
+                    *step = SHORTER * dt;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
             let factor = 0.9 * (tolerance / error.max(1e-300)).sqrt();
-            if error > tolerance && dt > 1e-9 * end {
+            if error > tolerance && dt > LEAST_STEP * end {
                 *self = before;
                 *step = dt * factor.clamp(0.1, 0.9);
                 continue;

@@ -108,6 +108,37 @@ fn from_pouring_to_temperatures() {
     assert!(stored[0] > 1.2 * stored[1], "{stored:?}");
 }
 
+/// What has no result is an error that says what to change: a bed that never comes to rest, a plate that no grain is near.
+#[test]
+fn a_bed_that_moves_or_a_plate_apart_is_no_result() {
+    let small = TEXT.replace("number = 300", "number = 60");
+    let restless =
+        small.replace("restitution = 0.5", "restitution = 1").replace("friction = 0.3", "friction = 0");
+    let mut case = read("restless", &restless).unwrap();
+    case.lid = None;
+    case.plate.pressure = Some(1e-9);
+    let text = prepare(&case, 1, |_, _| ()).unwrap_err().to_string();
+    assert!(text.contains("the grains still move") && text.contains("try more friction"), "{text}");
+    let mut case = read("apart", &small).unwrap();
+    (case.lid, case.turn, case.plate.pressure) = (None, None, None);
+    let mut bed = prepare(&case, 1, |_, _| ()).unwrap();
+    bed.plate = 5;
+    for kind in PlateKind::ALL {
+        let text = bed.heat(&case, kind, |_| ()).unwrap_err().to_string();
+        assert!(text.contains("with no grain beside it"), "{text}");
+    }
+}
+
+/// Times scale with grains and gravity: a bed under a hundredth of gravity comes to rest as well.
+#[test]
+fn little_gravity_has_its_time() {
+    let case = TEXT.replace("number = 300", "number = 100").replace("[lid]", "gravity = 0.1\n[lid]");
+    let mut case = read("gravity", &case).unwrap();
+    (case.lid, case.plate.pressure) = (None, None);
+    let bed = prepare(&case, 1, |_, _| ()).unwrap();
+    assert!(bed.stages[0].1.time > 3.0, "{:?}", bed.stages);
+}
+
 /// What a softer simulation changes: the contacts, seen as those of the real material, conduct nearly the same.
 #[test]
 fn softness_hardly_changes_what_contacts_conduct() {
@@ -148,9 +179,36 @@ fn bad_descriptions_are_refused_with_file_key_value_and_range() {
         text.ends_with("container = both or neither of base and radius, allowed: one of base and radius")
     );
     let text = refused("hardness", "hardness = 3e9", "");
-    assert!(text.contains("grains.hardness = ") && text.contains("because a roughness is given"), "{text}");
+    assert!(
+        text.contains("grains.hardness = not given") && text.contains("because a roughness is given"),
+        "{text}"
+    );
     let text = refused("stiffer", "simulated_young_modulus = 2e7", "simulated_young_modulus = 2e12");
     assert!(text.contains("simulated_young_modulus = 2000000000000, allowed: 1e-12 to that of"), "{text}");
+    let text = refused("dip", "[340.0, 41.0]", "[300.0, 0.1], [340.0, 41.0]");
+    assert!(text.contains("allowed: grains that conduct 30 times as well"), "{text}");
+    let text = refused("text", "[[280.0, 43.0], [340.0, 41.0]]", "\"x\"");
+    assert!(text.contains("a number, or a table of pairs"), "{text}");
+    let text = refused("hot", "temperature = 326.15", "temperature = 2500");
+    assert!(text.contains("allowed: a table that covers"), "{text}");
+    for base in ["[inf, 0.1]", "[nan, 0.1]", "[0.1, nan]", "[32.0, 60.0]", "[0.001, 0.06]"] {
+        let text = refused("base", "base = [0.032, 0.06]", &format!("base = {base}"));
+        assert!(text.contains("container.base = "), "{text}");
+    }
+    for radius in ["inf", "nan", "20", "0.001"] {
+        let text = refused("radius", "base = [0.032, 0.06]", &format!("radius = {radius}"));
+        assert!(text.contains("container.radius = "), "{text}");
+    }
+    let text = refused("bottom", "wall = \"y_high\"", "wall = \"y_low\"");
+    assert!(text.contains("plate.wall = y_low with plate.pressure, allowed: no pressure"), "{text}");
+    let floor = TEXT.replace("wall = \"y_high\"", "wall = \"floor\"").replace("[turn]\ndown = \"y_low\"", "");
+    assert!(read("floor", &floor).unwrap_err().contains("plate.wall = floor with plate.pressure"));
+    let lid = TEXT.replace("[lid]\npressure = 1000", "").replace("wall = \"y_high\"", "wall = \"lid\"");
+    assert!(read("lid", &lid).is_ok());
+    let lid = lid.replace("326.15\npressure = 1000", "326.15");
+    assert!(read("no-lid", &lid).unwrap_err().contains("plate.wall = lid, allowed: a section [lid]"));
+    let smooth = TEXT.replace("roughness = 3.4e-7\nhardness = 3e9", "roughness = 0");
+    assert!(read("smooth", &smooth).is_ok());
     let folder = Folder::new("missing", TEXT);
     let error = BedCase::read(&folder.0.join("nowhere")).unwrap_err().to_string();
     assert!(error.contains("cannot read") && error.contains("nowhere"), "{error}");
@@ -170,6 +228,12 @@ fn a_value_is_varied() {
     assert!(
         !vary("gas.pressure", 1e4).changes_packing() && !vary("grains.roughness", 1e-6).changes_packing()
     );
+    for key in ["plate.poisson_ratio", "grains.yield_stress"] {
+        assert!(!vary(key, 0.3).changes_packing(), "{key}");
+    }
+    for key in ["experiment.file", "vary"] {
+        assert!(varied(key, 1.0).unwrap_err().contains("allowed: a key of the bed"), "{key}");
+    }
     assert!(varied("gas.accommodation", 2.0).unwrap_err().contains("gas.accommodation = 2"));
     assert!(varied("grains.colour", 1.0).unwrap_err().contains("unknown field `colour`"));
     let text = varied("glass.colour", 1.0).unwrap_err();

@@ -5,7 +5,7 @@ use msdd_beds::BedError;
 use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::press::press;
 use msdd_beds::settle::{Rest, settle, turn};
-use msdd_spheres::{Boundary, Material, Simulation, Stiffness};
+use msdd_spheres::{Boundary, Material, Simulation, Sphere, Stiffness};
 
 const G: f64 = 9.81;
 
@@ -95,6 +95,23 @@ fn a_lid_bears_its_pressure_and_a_turned_bed_its_weight() {
     check_balance(&simulation, &rest, 1);
 }
 
+/// A lid with a twentieth of the weight of a layer comes to rest, on grains whose tops are level, so that it meets all of them.
+#[test]
+fn a_light_lid_comes_to_rest() {
+    let base = [0.016, 0.016];
+    let Pouring { material, gravity, diameter: d, .. } = pouring(Container::Box { base }, 48);
+    let place = |k: usize| [k % 4, k / 4 % 4, k / 16].map(|n| d * (n as f64 + 0.5));
+    let spheres = (0..48).map(|k| Sphere::at_rest(place(k), 0.5 * d, material.density)).collect();
+    let walls = Container::Box { base }.walls(0.02).into_iter().map(|(_, wall)| wall).collect();
+    let mut simulation = Simulation::new(material, spheres, Boundary::Walls(walls)).unwrap();
+    simulation.gravity = [0.0, 0.0, -gravity];
+    assert!(settle(&mut simulation, 3.0, |_| ()).unwrap().at_rest);
+    let (pressure, area) = (0.05 * simulation.spheres[0].mass * gravity / (d * d), base[0] * base[1]);
+    let rest = press(&mut simulation, 5, (pressure, area), 3.0, |_| ()).unwrap();
+    assert!(rest.at_rest, "{rest:?}");
+    assert!((simulation.wall_force[5][2] / (pressure * area) - 1.0).abs() < 5e-3);
+}
+
 /// More than 4 000 grains are shared between threads.
 #[test]
 fn the_same_seed_gives_the_same_bytes() {
@@ -118,6 +135,8 @@ fn bad_parameters_are_refused_with_their_names() {
     );
     let narrow = Container::Cylinder { radius: 3e-3 };
     assert!(refused(Pouring { container: narrow, ..good.clone() }).contains("size"));
+    let wide = Container::Cylinder { radius: 20.0 };
+    assert!(refused(Pouring { container: wide, ..good.clone() }).contains("10 squares of the diameter"));
     assert!(refused(Pouring { spheres: 0, ..good.clone() }).contains("spheres"));
     let (mut simulation, _) =
         pour(&Pouring { longest: 1e-3, ..pouring(Container::Cylinder { radius: 0.02 }, 10) }, |_| ())

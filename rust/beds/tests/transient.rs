@@ -173,3 +173,24 @@ fn more_ways_pass_more_heat() {
         [(GasName::Vacuum, 1e5), (GasName::Air, 1e2)].map(|(gas, pressure)| stored(gas, pressure, LAWS[1]));
     assert!(vacuum.0 < thin.0 && thin.0 < law.0, "{vacuum:?} {thin:?} {law:?}");
 }
+
+/// Small grains follow their neighbours at once, and much more heat passes through them in a step than they hold: the steady state
+/// is reached all the same, and the balance closes.
+#[test]
+fn grains_of_ten_micrometres_come_to_the_steady_state() {
+    let (radius, count) = (5e-6, 9);
+    let size = 1e-2 * radius;
+    let mut network = chain(count);
+    network.mass = vec![7747.0 * 4.0 / 3.0 * PI * radius * radius * radius; count];
+    network.contacts.iter_mut().for_each(|contact| contact.size = size);
+    network.beside.iter_mut().for_each(|beside| (beside.size, beside.radius) = (0.5 * size, radius));
+    let mut transient = Transient::new(&network, 300.0, vec![310.0, 300.0]);
+    let mut step = 1e-6;
+    transient.run_to(1000.0, 0.05, &mut step).unwrap();
+    for (k, t) in transient.temperatures.iter().enumerate() {
+        let expected = 310.0 - 10.0 * (k + 1) as f64 / (count + 1) as f64;
+        assert!((t - expected).abs() < 1e-6, "{k}: {t} {expected}");
+    }
+    let passed = transient.given[0];
+    assert!(transient.residual().abs() < 1e-9 * passed, "{} of {passed}", transient.residual());
+}

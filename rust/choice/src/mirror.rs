@@ -38,11 +38,16 @@ pub struct Files<'a> {
     pub grains: &'a Dictionary,
 }
 
+/// Whether a case has `fvOptions`, in either place where the solver looks for them.
+fn sources(folder: &Path) -> bool {
+    ["constant", "system"].iter().any(|part| folder.join(part).join("fvOptions").exists())
+}
+
 impl Mirror {
     /// Reads a case of one block; `start`: folder of its initial fields; `count`: its cells. None if nothing is known to mirror.
     pub fn read(folder: &Path, start: &str, count: [usize; 3], files: &Files) -> Option<Self> {
         let Files { mesh, control, grains } = files;
-        if folder.join("constant/fvOptions").exists() {
+        if sources(folder) {
             return None;
         }
         let (corners, boundary) = (corners(mesh)?, texts(mesh.value("boundary").ok()?));
@@ -276,6 +281,19 @@ mod tests {
         let boundary = texts(mesh.value("boundary").unwrap());
         let probes = vec![("probes".to_string(), vec![[1.75, 0.25, 0.5], [1.0, 0.5, 0.5]])];
         Mirror { along: [true; 2], corners: corners(&mesh).unwrap(), boundary, probes }
+    }
+
+    #[test]
+    fn sources_are_found_in_both_places() {
+        let folder = std::env::temp_dir().join(format!("msdd-choice-sources-{}", std::process::id()));
+        for part in ["constant", "system"] {
+            std::fs::create_dir_all(folder.join(part)).unwrap();
+            assert!(!sources(&folder));
+            std::fs::write(folder.join(part).join("fvOptions"), "").unwrap();
+            assert!(sources(&folder), "{part}");
+            std::fs::remove_file(folder.join(part).join("fvOptions")).unwrap();
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

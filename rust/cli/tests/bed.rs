@@ -81,9 +81,32 @@ fn all_files_are_written_and_are_the_same_again() {
     assert_eq!(json["stages"].as_array().unwrap().len(), 4);
     assert_eq!(json["grains"], 350);
     assert!(text("temperature.svg").ends_with("</svg>\n") && text("grains.vtp").ends_with("</VTKFile>\n"));
+    let too_large = run(&case, &folder.0.join("large"), &["--seed", "9223372036854775808"]);
+    assert_eq!(too_large.status.code(), Some(2));
     let other = folder.0.join("seed");
     assert!(run(&case, &other, &["--seed", "5"]).status.success());
     assert!(std::fs::read_to_string(other.join("temperature.csv")).unwrap() != text("temperature.csv"));
+}
+
+/// Measurements after the end are told, and where none is left there is no number; heat that comes in steps of a third of the end has
+/// four rows.
+#[test]
+fn what_is_not_compared_is_told() {
+    let folder = Folder::new("left-out");
+    let case = case(&folder.0, |text| {
+        let text = text[..text.find("[[vary]]").unwrap_or(text.len())].to_string();
+        text.replace("end = 400", "end = 0.3").replace("output_every = 20", "output_every = 0.1")
+    });
+    let rows = "distance_m,time_s,temperature_C\n0.04,0.1,20\n0.06,0.5,20\n0.073,9,21\n";
+    std::fs::write(case.join("experiment.csv"), rows).unwrap();
+    let out = folder.0.join("out");
+    let output = run(&case, &out, &[]);
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(told.contains("Note: 2 of 3 measurements lie outside the time of the run"), "{told}");
+    assert!(told.contains("–       –       –"), "{told}");
+    let text = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    assert!(text("comparison.csv").contains("held,,,0.06,0,,,\n"), "{}", text("comparison.csv"));
+    assert_eq!(text("temperature.csv").lines().count(), 1 + 2 * 3 * 4);
 }
 
 #[test]

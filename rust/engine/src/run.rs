@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Steps between two checks, at which the time step is chosen again. A check costs about as much as a step.
-const LOOK_EVERY: u64 = 50;
+pub const LOOK_EVERY: u64 = 50;
 
 /// Grains that move in steps.
 pub trait Assembly: Clone + Send {

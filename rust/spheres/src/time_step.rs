@@ -3,6 +3,7 @@
 use crate::contact::{Partner, Touching};
 use crate::law::ContactLaw;
 use crate::sphere::Sphere;
+use msdd_engine::run::LOOK_EVERY;
 
 pub use msdd_engine::time_step::{Excess, SAFETY, StepChoice};
 
@@ -11,9 +12,6 @@ pub use msdd_engine::time_step::{Excess, SAFETY, StepChoice};
 const FEWEST_CONTACTS: f64 = 4.0;
 /// Least overlap over the radius that these contacts are assumed to have.
 const LEAST_OVERLAP: f64 = 1e-6;
-
-/// Steps for which a bound has to hold: until the next look of [`crate::run`].
-const HOLDS_FOR: f64 = 50.0;
 
 /// Δt_max = 2 / √(max_i Σ_c (2 k_n + 5 k_t) / m_i) [s], the sum over the contacts of sphere i: Gershgorin's circles for
 /// the stiffness matrix over the masses. The 5 is 2 r²m/I of a sphere, for rotation against its neighbours. `speed`
@@ -28,7 +26,7 @@ pub(crate) fn stable_step(touching: &Touching, speed: f64, gravity: f64) -> f64 
         2.0 / touching.spheres.iter().zip(&present).map(ratio).fold(0.0, f64::max).sqrt()
     };
     let now = bound(speed);
-    if gravity > 0.0 { bound(speed + gravity * HOLDS_FOR * now) } else { now }
+    if gravity > 0.0 { bound(speed + gravity * LOOK_EVERY as f64 * now) } else { now }
 }
 
 /// Σ_c (2 k_n + 5 k_t) [N/m] over the contacts of each sphere; at least that of [`FEWEST_CONTACTS`] contacts in a collision.

@@ -35,7 +35,7 @@ fn temperature(results: &Results) -> String {
     text
 }
 
-fn comparison(results: &Results) -> String {
+pub fn comparison(results: &Results) -> String {
     let mut text = COMPARISON.join(",") + "\n";
     if results.measured.is_empty() {
         return text;
@@ -44,8 +44,9 @@ fn comparison(results: &Results) -> String {
         let place = misfit.distance.map_or("all".to_string(), |d| d.to_string());
         let (rms, worst, bias) = (misfit.rms, misfit.worst, misfit.bias);
         let value = value.replace(',', ";");
-        let _ =
-            writeln!(text, "{kind},{key},{value},{place},{},{rms:.4},{worst:.4},{bias:.4}", misfit.points);
+        let cell = |x: f64| if x.is_finite() { format!("{x:.4}") } else { String::new() };
+        let numbers = [rms, worst, bias].map(cell).join(",");
+        let _ = writeln!(text, "{kind},{key},{value},{place},{},{numbers}", misfit.points);
     };
     for run in &results.compared {
         run.misfits.iter().for_each(|misfit| line(run.heated.kind.as_str(), "", "", misfit));

@@ -40,7 +40,7 @@ pub struct RunArguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Seed of the packing, instead of that of the case.
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: Option<u64>,
     /// Compute it again with each value of the blocks [[vary]] of the case, one changed at a time.
     #[arg(long)]
@@ -71,11 +71,20 @@ fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     let vary: &[Vary] = if arguments.vary { &case.vary } else { &[] };
     let vary = vary.iter().map(|vary| Ok((vary.clone(), case.varied(folder, vary)?)));
     let vary = vary.collect::<Result<_, CaseError>>()?;
-    let results = results::compute(case, vary, measured, arguments.threads as usize)
-        .map_err(|source| CliError::Bed { file: folder.join(msdd_beds::case::FILE), source })?;
-    for (file, text) in files::NAMES.into_iter().zip(files::texts(&results)?) {
-        write(&out.join(file), text.as_bytes())?;
-    }
+    let failed = |source| CliError::Bed { file: folder.join(msdd_beds::case::FILE), source };
+    let threads = arguments.threads as usize;
+    let results = results::compute(case, vary, measured, threads, failed, |results| {
+        // All files at first; then what one value changes is added to one of them.
+        let written = if results.varied.is_empty() {
+            files::NAMES.into_iter().zip(files::texts(results)?).collect()
+        } else {
+            vec![(files::NAMES[1], files::comparison(results))]
+        };
+        for (file, text) in written {
+            write(&out.join(file), text.as_bytes())?;
+        }
+        Ok(())
+    })?;
     out!("{}", table::text(&results));
     outln!("results: {}", out.display());
     Ok(())

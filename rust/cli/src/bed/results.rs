@@ -1,5 +1,6 @@
 //! What `msdd bed run` computes.
 
+use crate::error::CliError;
 use crate::progress::Progress;
 use msdd_beds::BedError;
 use msdd_beds::bed::{Bed, Heated, PlateKind, prepare};
@@ -79,37 +80,44 @@ impl Course {
     }
 }
 
-/// Prepares the bed and heats it in both ways; and each bed with one value changed of `vary`.
+/// Prepares the bed and heats it in both ways; and each bed with one value changed of `vary`. `save` is told the results, first without
+/// and then after each of these. What fails in a bed is told through `failed`.
 pub fn compute(
     case: BedCase,
     vary: Vec<(Vary, BedCase)>,
     measured: Vec<Measured>,
     threads: usize,
-) -> Result<Results, BedError> {
+    failed: impl Fn(BedError) -> CliError + Copy,
+    mut save: impl FnMut(&Results) -> Result<(), CliError>,
+) -> Result<Results, CliError> {
     let kinds = PlateKind::ALL.len();
     let again = vary.iter().filter(|(vary, _)| vary.changes_packing());
     let handled = stages(&case).len() + again.map(|(_, case)| stages(case).len()).sum::<usize>();
     let total = 100 * (handled + kinds * (1 + vary.len())) as u64;
     let mut course = Course { progress: Progress::new("bed", total), total, done: 0 };
-    let bed = course.prepare(&case, threads)?;
+    let bed = course.prepare(&case, threads).map_err(failed)?;
     let mut compared = Vec::new();
     for kind in PlateKind::ALL {
-        let heated = course.heat(&bed, &case, kind)?;
+        let heated = course.heat(&bed, &case, kind).map_err(failed)?;
         let misfits = experiment::misfits(&measured, &heated.records);
         compared.push(Compared { heated, misfits });
     }
-    let mut varied = Vec::new();
-    for (vary, case) in &vary {
-        let other = vary.changes_packing().then(|| course.prepare(case, threads)).transpose()?;
-        for kind in PlateKind::ALL {
-            let heated = course.heat(other.as_ref().unwrap_or(&bed), case, kind)?;
-            if let Some(&misfit) = experiment::misfits(&measured, &heated.records).last() {
-                varied.push(Varied { key: vary.key.clone(), value: vary.value.to_string(), kind, misfit });
-            }
-        }
-    }
-    course.progress.finish();
     let slabs = slabs(&bed, case.grains.diameter);
     let slabs = slabs.into_iter().filter_map(|between| Some((between, bed.slab(&case, between)?))).collect();
-    Ok(Results { case, bed, measured, slabs, compared, varied })
+    let mut results = Results { case, bed, measured, slabs, compared, varied: Vec::new() };
+    save(&results)?;
+    for (vary, case) in &vary {
+        let other =
+            vary.changes_packing().then(|| course.prepare(case, threads)).transpose().map_err(failed)?;
+        for kind in PlateKind::ALL {
+            let heated = course.heat(other.as_ref().unwrap_or(&results.bed), case, kind).map_err(failed)?;
+            if let Some(&misfit) = experiment::misfits(&results.measured, &heated.records).last() {
+                let (key, value) = (vary.key.clone(), vary.value.to_string());
+                results.varied.push(Varied { key, value, kind, misfit });
+            }
+        }
+        save(&results)?;
+    }
+    course.progress.finish();
+    Ok(results)
 }

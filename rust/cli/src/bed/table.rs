@@ -1,7 +1,7 @@
 //! What `msdd bed run` prints.
 
 use super::results::Results;
-use msdd_beds::experiment::Misfit;
+use msdd_beds::experiment::{Misfit, left_out};
 use std::fmt::Write;
 
 /// The packing, its conductivity, the differences from the measurements, and what is to be warned of.
@@ -63,18 +63,18 @@ fn differences(out: &mut String, results: &Results) {
 }
 
 fn numbers(misfit: &Misfit) -> String {
-    format!("{:>6}  {:>6.2}  {:>6.2}  {:>6.2}", misfit.points, misfit.rms, misfit.worst, misfit.bias)
+    let cell = |x: f64| if x.is_finite() { format!("{x:.2}") } else { "–".to_string() };
+    let [rms, worst, bias] = [misfit.rms, misfit.worst, misfit.bias].map(cell);
+    format!("{:>6}  {rms:>6}  {worst:>6}  {bias:>6}", misfit.points)
 }
 
-/// Stages that did not come to rest, contacts that yield.
+/// Measurements that are not compared, contacts that yield.
 pub fn warnings(results: &Results) -> Vec<String> {
-    let restless = results.bed.stages.iter().filter(|(_, rest)| !rest.at_rest);
-    let restless = restless.map(|(stage, rest)| {
-        let (time, kinetic) = (rest.time, rest.kinetic);
-        format!(
-            "after {time:.2} s of '{stage}' the grains still move (kinetic energy {kinetic:.1e} of that of falling by a radius)"
-        )
+    let missing = results.compared.first().map(|run| left_out(&results.measured, &run.heated.records));
+    let missing = missing.filter(|count| *count > 0).map(|count| {
+        let all = results.measured.len();
+        format!("{count} of {all} measurements lie outside the time of the run and are left out")
     });
     let stress = results.bed.peak_stress(&results.case).and_then(|stress| stress.warning());
-    restless.chain(stress).collect()
+    missing.into_iter().chain(stress).collect()
 }
