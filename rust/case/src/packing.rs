@@ -25,6 +25,8 @@ const GRAINS: usize = 500;
 const PRESSURE_TOLERANCE: f64 = 0.01;
 /// Largest number of rounds of packing to find the porosity with the wanted pressure.
 const ROUNDS: usize = 8;
+/// Slope of η over √p̃, from the packings of the shipped model.
+const USUAL_SLOPE: f64 = -0.47;
 
 /// The quantity that the initial packing has to have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -197,10 +199,12 @@ fn to_pressure(
         }
         known.push([porosity, (packing.pressure.mean / grains.stress_scale()).max(0.0).sqrt()]);
         known.sort_by(|a, b| (a[1] - wanted).abs().total_cmp(&(b[1] - wanted).abs()));
+        // Two packings of almost the same porosity may have rearranged: then their slope says nothing.
         let slope = match known.as_slice() {
-            [a, b, ..] if a[1] != b[1] => (a[0] - b[0]) / (a[1] - b[1]),
-            // Slope of √p̃ over η, from the packings of the shipped model, for the first round.
-            _ => -0.47,
+            [a, b, ..] if a[1] != b[1] => {
+                ((a[0] - b[0]) / (a[1] - b[1])).clamp(2.0 * USUAL_SLOPE, 0.5 * USUAL_SLOPE)
+            }
+            _ => USUAL_SLOPE,
         };
         let [low, high] = [POROSITIES[0] - 0.01, POROSITIES[1] + 0.01];
         porosity = (known[0][0] + slope * (wanted - known[0][1])).clamp(low, high);
