@@ -42,8 +42,9 @@ last_step() { # the sum of these steps is below the end by a rounding error, whi
     check "adaptive: ends where the sum of its steps is rounded" test -e 0.11/T -a "$(grep -c '^Time = 0.11$' log)" = 1
 }
 
-# A hundredth of the tolerance must give less than a fifth of the error. Tolerances of 3 and 1 give the same steps, since these may
-# grow only so much from one to the next, and where grains begin to slide the error falls with the first power of the step.
+# A hundredth of the tolerance must give less than a ninth of the error, a third for each tenth. Tolerances of 3 and 1 give the same
+# steps, since these may grow only so much from one to the next, and where grains begin to slide the error falls with the first
+# power of the step.
 tolerance_counts() {
     local tolerance e
     adaptive fine 0.001
@@ -54,7 +55,7 @@ tolerance_counts() {
         e=$(difference "$work/fine/1" 1)
         [ $tolerance = 0.1 ] || { coarse=$e; continue; }
         check "adaptive: error falls with the tolerance: $coarse, $e" \
-            awk "BEGIN { exit !($e < 0.2*$coarse && $e > 0) }"
+            awk "BEGIN { exit !($e < 0.11*$coarse && $e > 0) }"
     done
 }
 
