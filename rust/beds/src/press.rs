@@ -8,10 +8,10 @@ use msdd_spheres::{Boundary, Simulation, Surface};
 /// Steps between two changes of the wall's velocity, and such changes between two looks.
 const STEPS: u64 = 20;
 const LOOK_EVERY: u64 = 10;
-/// The wall weighs what gives the pressure under gravity, but no less than so many layers of grains, since it would be thrown back
-/// and forth by the grains between two changes of its velocity; the force is that of the pressure. Its velocity fades at this rate times √(g/d), so that it does not
-/// bounce for long.
+/// The wall weighs what gives the pressure under gravity, but no less than so many layers of grains: a lighter one would be thrown
+/// back and forth between two changes of its velocity. The force is that of the pressure all the same.
 const LAYERS: f64 = 2.0;
+/// The wall's velocity fades at this rate times √(g/d), so that it does not bounce for long.
 const DRAG: f64 = 3.0;
 /// Relative error of the pressure, and kinetic energy over Σ m g r, at which wall and bed count as at rest.
 const BALANCED: [f64; 2] = [2e-3, 1e-8];
