@@ -2,11 +2,9 @@
 
 mod common;
 
-use common::{POISSON, YOUNG, fixed_step, free, glass};
-use msdd_spheres::law::{damping_ratio, effective_modulus};
-use msdd_spheres::{Boundary, Material, Simulation, Sphere, Stiffness, Wall};
-
-const RADIUS: f64 = 5e-3;
+use common::{RADIUS, fixed_step, free, glass, hertz, over_floor};
+use msdd_spheres::law::damping_ratio;
+use msdd_spheres::{Boundary, Material, Simulation, Sphere, Stiffness};
 
 /// Two spheres that touch and approach each other at `speed`.
 fn head_on(material: &Material, speed: f64) -> Simulation {
@@ -31,18 +29,15 @@ fn collide(simulation: &mut Simulation, step: f64) -> [f64; 3] {
     }
 }
 
-/// δ_max = (15 m* v²/(16 E* √R*))^(2/5), and the duration 2.943 δ_max/v (Johnson, Contact Mechanics, eqs. 11.23 and 24).
-fn hertz(speed: f64) -> [f64; 2] {
-    let mass = 0.5 * Sphere::at_rest([0.0; 3], RADIUS, glass().density).mass;
-    let spring = effective_modulus(YOUNG, POISSON) * (0.5 * RADIUS).sqrt();
-    let deepest = (15.0 * mass * speed * speed / (16.0 * spring)).powf(0.4);
-    [deepest, 2.943_275 * deepest / speed]
+/// Deepest overlap [m] and duration [s] of a collision of two equal spheres at `speed` [m/s].
+fn hertz_pair(speed: f64) -> [f64; 2] {
+    hertz(0.5 * Sphere::at_rest([0.0; 3], RADIUS, glass().density).mass, 0.5 * RADIUS, speed)
 }
 
 #[test]
 fn hertz_collision_without_damping() {
     for speed in [0.01, 1.0] {
-        let [deepest, duration] = hertz(speed);
+        let [deepest, duration] = hertz_pair(speed);
         let found = collide(&mut head_on(&glass(), speed), duration / 2000.0);
         assert!((found[0] / deepest - 1.0).abs() < 1e-5, "{found:?} {deepest}");
         assert!((found[1] / duration - 1.0).abs() < 1e-4, "{found:?} {duration}");
@@ -56,7 +51,7 @@ fn hertz_collision_with_damping() {
     for restitution in [0.9, 0.5, 0.2] {
         for speed in [0.01, 1.0] {
             let material = Material { restitution, ..glass() };
-            let [_, duration] = hertz(speed);
+            let [_, duration] = hertz_pair(speed);
             let found = collide(&mut head_on(&material, speed), duration / 4000.0);
             assert!((found[2] / speed - restitution).abs() < 2e-3, "{restitution} {speed} {found:?}");
         }
@@ -78,12 +73,6 @@ fn linear_collision() {
     assert!((found[2] / 0.1 - restitution).abs() < 1e-3, "{found:?}");
 }
 
-fn over_floor(material: &Material, height: f64) -> Simulation {
-    let floor = Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]);
-    let sphere = Sphere::at_rest([0.0, 0.0, RADIUS + height], RADIUS, material.density);
-    Simulation::new(material.clone(), vec![sphere], Boundary::Walls(vec![floor])).unwrap()
-}
-
 /// Oblique impact in which the contact slides from beginning to end: by the impulses, Δv_t = 2 μ v_n and Δω =
 /// 5/2 Δv_t/r (Foerster et al., Phys. Fluids 6, 1108, 1994). Overlaps shorten the lever arm by 1e-5. (With damping the
 /// normal force attracts at the end, where friction is 0, so 1 + e instead of 2 would be too little.)
@@ -93,7 +82,7 @@ fn oblique_impact_that_slides() {
     let mut simulation = over_floor(&material, 1e-9);
     let down = 1e-3;
     simulation.spheres[0].velocity = [3e-3, 4e-3, -down];
-    let [_, duration] = hertz(down);
+    let [_, duration] = hertz_pair(down);
     fixed_step(&mut simulation, duration / 8000.0);
     while simulation.spheres[0].velocity[2] < 0.0 || simulation.spheres[0].position[2] < RADIUS {
         simulation.step();

@@ -1,7 +1,8 @@
 //! Materials and loops that several tests use.
 #![allow(dead_code)] // each test uses its part
 
-use msdd_spheres::{Boundary, Excess, Material, Simulation, Sphere, StepChoice, Stiffness};
+use msdd_spheres::law::effective_modulus;
+use msdd_spheres::{Boundary, Excess, Material, Simulation, Sphere, StepChoice, Stiffness, Wall};
 
 pub const YOUNG: f64 = 7e10;
 pub const POISSON: f64 = 0.3;
@@ -15,6 +16,24 @@ pub fn glass() -> Material {
         wall_friction: 0.0,
         restitution: 1.0,
     }
+}
+
+/// Of single spheres [m].
+pub const RADIUS: f64 = 5e-3;
+
+/// Deepest overlap [m] and duration [s] of an elastic collision at `speed` [m/s], with the effective mass [kg] and radius [m] of the
+/// pair: δ_max = (15 m* v²/(16 E* √R*))^(2/5) and 2.943 δ_max/v (Johnson, Contact Mechanics, eqs. 11.23 and 24). Of [`glass`].
+pub fn hertz(mass: f64, radius: f64, speed: f64) -> [f64; 2] {
+    let spring = effective_modulus(YOUNG, POISSON) * radius.sqrt();
+    let deepest = (15.0 * mass * speed * speed / (16.0 * spring)).powf(0.4);
+    [deepest, 2.943_275 * deepest / speed]
+}
+
+/// A sphere of [`RADIUS`], `height` [m] above a floor.
+pub fn over_floor(material: &Material, height: f64) -> Simulation {
+    let floor = Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]);
+    let sphere = Sphere::at_rest([0.0, 0.0, RADIUS + height], RADIUS, material.density);
+    Simulation::new(material.clone(), vec![sphere], Boundary::Walls(vec![floor])).unwrap()
 }
 
 /// Spheres without a box.
