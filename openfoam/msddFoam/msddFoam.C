@@ -55,6 +55,7 @@ Usage
 #include "timeScheme.H"
 #include "restartTime.H"
 #include "stepWatch.H"
+#include "caseChecks.H"
 
 #include "runSummary.H"
 #include "version.H"
@@ -182,19 +183,7 @@ int main(int argc, char *argv[])
 
     const granularProperties granular(runTime);
 
-    const word type
-    (
-        granular.surrogateDict().lookupOrDefault<word>("type", word::null)
-    );
-    if (mesh.solutionD()[vector::Z] != -1 && type != "constant")
-    {
-        FatalErrorInFunction
-            << "The mesh " << mesh.objectRegistry::objectPath()
-            << " is three-dimensional, allowed: two-dimensional in x and y,"
-            << " with empty patches in z. The models are made from discs and"
-            << " know no third direction; only surrogate type constant takes"
-            << " any mesh" << exit(FatalError);
-    }
+    checkPlane(mesh, granular.surrogateDict());
 
     Info<< "Reading field T\n" << endl;
     volScalarField T

@@ -31,15 +31,15 @@ Foam::granularProperties::bulkDensityModelNames
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::granularProperties::granularProperties(const Time& runTime)
+Foam::granularProperties::granularProperties(const objectRegistry& registry)
 :
     IOdictionary
     (
         IOobject
         (
             "granularProperties",
-            runTime.constant(),
-            runTime,
+            registry.time().constant(),
+            registry,
             IOobject::MUST_READ,
             IOobject::NO_WRITE
         )

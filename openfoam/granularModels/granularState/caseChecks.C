@@ -113,6 +113,21 @@ void Foam::checkTimeStep(const Time& runTime)
 }
 
 
+void Foam::checkPlane(const fvMesh& mesh, const dictionary& surrogate)
+{
+    const word type(surrogate.lookupOrDefault<word>("type", word::null));
+    if (mesh.solutionD()[vector::Z] != -1 && type != "constant")
+    {
+        FatalErrorInFunction
+            << "The mesh " << mesh.objectRegistry::objectPath()
+            << " is three-dimensional, allowed: two-dimensional in x and y,"
+            << " with empty patches in z. The models are made from discs and"
+            << " know no third direction; only surrogate type constant takes"
+            << " any mesh" << exit(FatalError);
+    }
+}
+
+
 void Foam::checkVolumes(const fvMesh& mesh)
 {
     label cells = 0;

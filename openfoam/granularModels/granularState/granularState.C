@@ -235,6 +235,26 @@ void Foam::granularState::commitStrain()
 }
 
 
+void Foam::granularState::holdStrain()
+{
+    heldIncrement_ = thermalStrainIncrement_.primitiveField();
+    heldStrain_ = thermalStrain_.primitiveField();
+}
+
+
+void Foam::granularState::strainAnew
+(
+    const scalarField& from,
+    const scalarField& to
+)
+{
+    thermalStrainIncrement_.primitiveFieldRef() = heldIncrement_;
+    thermalStrain_.primitiveFieldRef() = heldStrain_;
+    strain(from, to);
+    commitStrain();
+}
+
+
 bool Foam::granularState::propose
 (
     const bool proposed,

@@ -79,7 +79,7 @@ public:
         const bool
     ) const
     {
-        const fileName folder(time().path()/time().timeName());
+        const fileName folder(time().timePath()/db().dbDir());
         writeWhole(folder/name(), [&](std::ostream& os) { model_.write(os); });
         return true;
     }
@@ -144,7 +144,7 @@ void Foam::granularModels::onlineRve::write(std::ostream& os) const
 bool Foam::granularModels::onlineRve::read()
 {
     const Time& time = mesh_.time();
-    const fileName path(time.path()/time.timeName()/"onlineRve.json");
+    const fileName path(time.timePath()/mesh_.dbDir()/"onlineRve.json");
     const bool found = isFile(path);
 
     if (!returnReduce(found, orOp<bool>()) && time.timeIndex() == 0)

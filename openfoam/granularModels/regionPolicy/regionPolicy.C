@@ -106,7 +106,7 @@ Foam::regionPolicy::regionPolicy
     }
     if (Pstream::master())
     {
-        rm(path(mesh.time()));
+        rm(path(mesh));
     }
 }
 
@@ -155,7 +155,7 @@ void Foam::regionPolicy::act
             << "' of outOfRegion in constant/granularProperties is error, "
             << "allowed: "
             << granularProperties::listed(actionNames.sortedToc()).c_str()
-            << ". The cells are in " << path(mesh_.time())
+            << ". The cells are in " << path(mesh_)
             << exit(FatalIOError);
     }
     if (actions_[column][side] == action::clamp && atStart())
@@ -299,7 +299,7 @@ bool Foam::regionPolicy::judge
             << " cells are outside the region of the model. Entry 'maxFraction'"
             << " of outOfRegion in constant/granularProperties is "
             << maxFraction_ << ", allowed: 0 to 1. The cells are in "
-            << path(mesh_.time()) << exit(FatalIOError);
+            << path(mesh_) << exit(FatalIOError);
     }
     return cut;
 }
@@ -313,7 +313,7 @@ void Foam::regionPolicy::refuseCut() const
         << " constant/granularProperties says cutStep, but the time step"
         << " cannot be cut: it is fixed or at minDeltaT, or the state at the"
         << " start is outside. The cells are in "
-        << path(mesh_.time()) << exit(FatalIOError);
+        << path(mesh_) << exit(FatalIOError);
 }
 
 
@@ -358,13 +358,15 @@ void Foam::regionPolicy::write() const
         }
         os  << "],\n \"rows\": [" << text.substr(1).c_str() << "\n]}\n";
     };
-    writeWhole(path(mesh_.time()), write);
+    writeWhole(path(mesh_), write);
 }
 
 
-Foam::fileName Foam::regionPolicy::path(const Time& time)
+Foam::fileName Foam::regionPolicy::path(const fvMesh& mesh)
 {
-    return time.globalPath()/"postProcessing/msddFoam/offenders.json";
+    return
+        mesh.time().globalPath()/"postProcessing/msddFoam"/mesh.dbDir()
+       /"offenders.json";
 }
 
 

@@ -51,7 +51,7 @@ Foam::runRecord::runRecord(const fvMesh& mesh, const bool registered)
     heat(mesh.boundary().size(), Zero),
     startTime(mesh.time().startTime().value())
 {
-    const timeFolder folder(mesh.time().timePath());
+    const timeFolder folder(mesh.time().timePath()/mesh.dbDir());
     if (returnReduce(folder.hasRecord(), andOp<bool>()))
     {
         read(folder);
@@ -192,7 +192,10 @@ void Foam::runRecord::writeLast()
         os.endBlock();
     }
 
-    timeFolder::write(mesh_.time().timePath(), files_, os.str());
+    timeFolder::write
+    (
+        mesh_.time().timePath()/mesh_.dbDir(), files_, os.str()
+    );
 }
 
 

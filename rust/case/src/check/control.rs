@@ -45,13 +45,14 @@ const OPENFOAM: [&str; 31] = [
 ];
 
 /// Libraries that come with OpenFOAM or with this project. Others contain code of somebody else, and are reported.
-const LIBRARIES: [&str; 7] = [
+const LIBRARIES: [&str; 8] = [
     "libsampling.so",
     "libfieldFunctionObjects.so",
     "libutilityFunctionObjects.so",
     "libforces.so",
     "libgranularFunctionObjects.so",
     "libgranularModels.so",
+    "libgranularThermo.so",
     "libsolverFunctionObjects.so",
 ];
 

@@ -10,6 +10,7 @@ use crate::sources::{self, firsts, strings};
 const GRAINS: &str = "reference/granular-properties.md";
 const SYSTEM: &str = "reference/system.md";
 const OBJECTS: &str = "reference/function-objects.md";
+const BEDS: &str = "reference/regions.md";
 const PROPERTIES: &str = "openfoam/granularModels/granularProperties/granularProperties.C";
 const MODEL: &str = "openfoam/granularModels/granularModel/granularModel.C";
 const REGION: &str = "openfoam/granularModels/regionPolicy/regionPolicy.C";
@@ -18,6 +19,8 @@ const EQUILIBRIUM: &str = "openfoam/granularModels/granularMechanics/equilibrium
 const LAW: &str = "openfoam/granularModels/granularMechanics/stressLaw.C";
 const LINEAR: &str = "openfoam/granularModels/granularMechanics/equilibriumSolver.C";
 const SCHEME: &str = "openfoam/msddFoam/timeScheme/timeScheme.C";
+const THERMO: &str = "openfoam/granularThermo/granularSolidThermo/granularSolidThermo.C";
+const AXES: &str = "openfoam/granularThermo/principalAxes/principalAxes.C";
 const SECOND: &str = "openfoam/msddFoam/timeScheme/secondOrderScheme.C";
 
 /// Texts that are looked up in the solver and are no keys of a user.
@@ -63,6 +66,7 @@ pub fn lookups() -> Vec<(String, String)> {
 pub fn page_of(file: &str) -> &'static str {
     let pages = [
         ("openfoam/functionObjects", OBJECTS),
+        ("openfoam/granularThermo", BEDS),
         ("openfoam/msddFoam", SYSTEM),
         ("openfoam/granularModels/granularState", SYSTEM),
         (LINEAR, SYSTEM),
@@ -72,7 +76,7 @@ pub fn page_of(file: &str) -> &'static str {
 }
 
 pub fn sets() -> Vec<Set> {
-    [grains(), surrogates(), regions(), equilibrium(), system(), function_objects()].concat()
+    [grains(), surrogates(), regions(), equilibrium(), system(), function_objects(), beds()].concat()
 }
 
 fn grains() -> Vec<Set> {
@@ -168,6 +172,13 @@ fn system() -> Vec<Set> {
         "its 0 is a mark for 'not given'",
     );
     vec![msdd_foam, with_literals(control, &literals)]
+}
+
+fn beds() -> Vec<Set> {
+    let set =
+        Set::new(BEDS, "thermophysicalProperties of a bed", THERMO, allowed_keys(&source(THERMO), "*this"))
+            .but(&[("FoamFile", "head of every file of OpenFOAM")]);
+    vec![with_literals(set, &source(AXES))]
 }
 
 fn function_objects() -> Vec<Set> {

@@ -1,0 +1,284 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularSolidThermo.H"
+#include "caseChecks.H"
+#include "refusals.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+#include "gradientEnergyFvPatchScalarField.H"
+#include "mixedEnergyFvPatchScalarField.H"
+#include "addToRunTimeSelectionTable.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    defineTypeNameAndDebug(granularSolidThermo, 0);
+    addToRunTimeSelectionTable(solidThermo, granularSolidThermo, fvMesh);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+const Foam::fvMesh& Foam::granularSolidThermo::checked(const fvMesh& mesh)
+{
+    checkOpenFOAM();
+
+    const wordList needed({"T", "p", "porosity", "fabricIndex"});
+    wordList missing;
+    for (const word& name : needed)
+    {
+        IOobject header
+        (
+            name, mesh.time().timeName(), mesh,
+            IOobject::MUST_READ, IOobject::NO_WRITE, false
+        );
+        if (!header.typeHeaderOk<volScalarField>(true))
+        {
+            missing.append(name);
+        }
+    }
+    if (missing.size())
+    {
+        FatalErrorInFunction
+            << "Region " << mesh.name() << " is a bed of grains and has no"
+            << " fields " << granularProperties::listed(missing).c_str()
+            << " in " << mesh.time().timePath()/mesh.dbDir() << ", needed: "
+            << granularProperties::listed(needed).c_str()
+            << exit(FatalError);
+    }
+    return mesh;
+}
+
+
+Foam::granularSolidThermo::granularSolidThermo
+(
+    const fvMesh& mesh,
+    const word& phaseName
+)
+:
+    solidThermo(checked(mesh), phaseName),
+    properties_(mesh),
+    grains_(properties_, T_),
+    Cp_
+    (
+        IOobject("Cp", mesh.time().timeName(), mesh),
+        mesh,
+        properties_.heatCapacity()
+    ),
+    axes_(*this, mesh),
+    Kappa_
+    (
+        IOobject("Kappa", mesh.time().timeName(), mesh),
+        mesh,
+        dimensionedVector
+        (
+            properties_.thermalConductivity().dimensions(), Zero
+        ),
+        extrapolatedCalculatedFvPatchVectorField::typeName
+    ),
+    he_
+    (
+        IOobject("h", mesh.time().timeName(), mesh),
+        mesh,
+        dimEnergy/dimMass,
+        heBoundaryTypes(),
+        heBoundaryBaseTypes()
+    ),
+    step_(mesh.time().timeIndex()),
+    startT_(T_.primitiveField())
+{
+    checkEntries();
+    checkPlane(mesh, properties_.surrogateDict());
+
+    rho_ == grains_.bulkDensity();
+    mu_ == dimensionedScalar(mu_.dimensions(), Zero);
+    psi_ == dimensionedScalar(psi_.dimensions(), Zero);
+
+    setEnergy();
+    setGradients();
+    grains_.holdStrain();
+    setConductivity();
+}
+
+
+Foam::granularSolidThermo::~granularSolidThermo()
+{
+    Info<< nl << "Region " << he_.mesh().name() << nl;
+    grains_.writeReport();
+    if (axes_.error() > 0)
+    {
+        Info<< "Largest relative error of the heat flux without K_xy: "
+            << axes_.error() << nl;
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::granularSolidThermo::checkEntries() const
+{
+    granularProperties::checkKeys
+    (
+        *this,
+        {
+            "FoamFile", "thermoType", "coordinateSystem", "crossTolerance",
+            "updateT", "dpdt"
+        }
+    );
+    const word mechanics
+    (
+        properties_.lookupOrDefault<word>("mechanics", "none")
+    );
+    if (mechanics != "none")
+    {
+        FatalIOErrorInFunction(properties_)
+            << "Entry 'mechanics' is '" << mechanics << "', allowed in a region"
+            << " of " << typeName << ": none. msddFoam, which solves the bed"
+            << " alone, can move the grains" << exit(FatalIOError);
+    }
+}
+
+
+void Foam::granularSolidThermo::setEnergy()
+{
+    const scalar c = properties_.heatCapacity().value();
+    he_.primitiveFieldRef() = c*T_.primitiveField();
+    forAll(he_.boundaryField(), patchi)
+    {
+        he_.boundaryFieldRef()[patchi] == c*T_.boundaryField()[patchi];
+    }
+}
+
+
+void Foam::granularSolidThermo::setGradients()
+{
+    for (fvPatchScalarField& patch : he_.boundaryFieldRef())
+    {
+        const tmp<scalarField> gradient(patch.fvPatchScalarField::snGrad());
+        if (isA<gradientEnergyFvPatchScalarField>(patch))
+        {
+            refCast<gradientEnergyFvPatchScalarField>(patch).gradient() =
+                gradient;
+        }
+        else if (isA<mixedEnergyFvPatchScalarField>(patch))
+        {
+            refCast<mixedEnergyFvPatchScalarField>(patch).refGrad() = gradient;
+        }
+    }
+}
+
+
+void Foam::granularSolidThermo::setConductivity()
+{
+    vectorField& along = Kappa_.primitiveFieldRef();
+    axes_.apply
+    (
+        grains_.conductivityOfCells(),
+        grains_.model().conductivityZZ(),
+        along
+    );
+    if (properties_.conductivityFactor() != 1)
+    {
+        along *= properties_.conductivityFactor();
+    }
+    Kappa_.correctBoundaryConditions();
+
+    const scalar c = properties_.heatCapacity().value();
+    scalarField& alpha = alpha_.primitiveFieldRef();
+    forAll(alpha, celli)
+    {
+        alpha[celli] = 0.5*(along[celli].x() + along[celli].y())/c;
+    }
+    forAll(alpha_.boundaryField(), patchi)
+    {
+        alpha_.boundaryFieldRef()[patchi] == normal(patchi)/c;
+    }
+}
+
+
+Foam::tmp<Foam::scalarField> Foam::granularSolidThermo::normal
+(
+    const label patchi
+) const
+{
+    const fvPatch& patch = he_.mesh().boundary()[patchi];
+    const labelUList& cells = patch.faceCells();
+    const vectorField n(patch.nf());
+    tmp<scalarField> value(new scalarField(n.size()));
+
+    // The solver takes the conductivity at a wall from the cell beside it
+    forAll(n, facei)
+    {
+        const vector m(axes_.rotation(cells[facei]).T() & n[facei]);
+        const vector& K = Kappa_[cells[facei]];
+        value.ref()[facei] =
+            sqr(m.x())*K.x() + sqr(m.y())*K.y() + sqr(m.z())*K.z();
+    }
+    return value;
+}
+
+
+void Foam::granularSolidThermo::begin() const
+{
+    const Time& time = he_.mesh().time();
+    if (time.timeIndex() == step_)
+    {
+        return;
+    }
+    // Solvers ask for the conductivity through a constant reference
+    granularSolidThermo& self = const_cast<granularSolidThermo&>(*this);
+    self.step_ = time.timeIndex();
+    self.startT_ = T_.primitiveField();
+
+    // Steps 1 to 3 of Algorithm 1, with the strain of the last step
+    scalar error;
+    if (self.grains_.propose(false, false, error))
+    {
+        self.grains_.policy().refuseCut();
+    }
+    self.grains_.commit();
+    self.grains_.holdStrain();
+    self.setConductivity();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularSolidThermo::correct()
+{
+    if (updateT())
+    {
+        const scalar c = properties_.heatCapacity().value();
+        T_.primitiveFieldRef() = he_.primitiveField()/c;
+        forAll(T_.boundaryField(), patchi)
+        {
+            fvPatchScalarField& patch = T_.boundaryFieldRef()[patchi];
+            if (!patch.fixesValue())
+            {
+                patch == he_.boundaryField()[patchi]/c;
+            }
+        }
+    }
+    setEnergy();
+
+    // Step 5, anew after each solution in a step
+    grains_.strainAnew(startT_, T_.primitiveField());
+    grains_.finishStep();
+}
+
+
+// ************************************************************************* //

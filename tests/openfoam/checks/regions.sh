@@ -1,0 +1,269 @@
+# A bed as a solid region of OpenFOAM's own chtMultiRegionFoam, which is not changed: against msddFoam, against closed forms, with
+# its energy, over a restart, on several processes, and the messages at input that cannot work. Region 'bed' is grains, region
+# 'plate' an ordinary solid. Meshes are boxes with the patches left, right, bottom, top and frontAndBack.
+
+foam_file() { # path, class: begins a file of OpenFOAM with its head and appends what is read
+    mkdir -p "$(dirname "$1")"
+    { echo "FoamFile { version 2.0; format ascii; class $2; object ${1##*/}; }"; cat; } > "$1"
+}
+regions() { # folder, regions of solids: goes to a new case of these regions; the entries of fvSolution PIMPLE and controlDict follow
+    rm -rf "${work:?}/$1"
+    mkdir -p "$work/$1"
+    cd "$work/$1"
+    foam_file constant/regionProperties dictionary <<< "regions ( fluid (${4:-}) solid ($2) );"
+    foam_file constant/g uniformDimensionedVectorField <<< 'dimensions [0 1 -2 0 0 0 0]; value (0 0 0);'
+    foam_file system/fvSolution dictionary <<< "PIMPLE { nOuterCorrectors $3; }"
+    foam_file system/fvSchemes dictionary < /dev/null
+    foam_file system/controlDict dictionary <<-'END'
+	libs ("libgranularThermo.so"); application chtMultiRegionFoam;
+	startFrom latestTime; startTime 0; stopAt endTime; endTime 1; deltaT 0.05; writeControl timeStep; writeInterval 20;
+	writePrecision 17; timePrecision 12; runTimeModifiable no; maxDi 1e9;
+	END
+}
+region() { # name, "nx ny", "x0 y0 x1 y1" [m], couplings "patch region patch": mesh and numerics of a region
+    local name=$1 box=($3) link=(${4:-}) patch faces i
+    declare -A at=([left]='(0 4 7 3)' [right]='(1 2 6 5)' [bottom]='(0 1 5 4)' [top]='(3 7 6 2)')
+    {
+        echo "scale 1; vertices ((${box[0]} ${box[1]} 0) (${box[2]} ${box[1]} 0) (${box[2]} ${box[3]} 0) (${box[0]} ${box[3]} 0)"
+        echo " (${box[0]} ${box[1]} 0.01) (${box[2]} ${box[1]} 0.01) (${box[2]} ${box[3]} 0.01) (${box[0]} ${box[3]} 0.01));"
+        echo "blocks (hex (0 1 2 3 4 5 6 7) ($2 1) simpleGrading (1 1 1)); boundary ("
+        for patch in left right bottom top; do
+            faces="faces (${at[$patch]});"
+            for ((i = 0; i < ${#link[@]}; i += 3)); do
+                [ "${link[i]}" != $patch ] || faces+=" type mappedWall; sampleMode nearestPatchFace; sampleRegion ${link[i+1]}; samplePatch ${link[i+2]};"
+            done
+            echo "$patch { type wall; $faces }"
+        done
+        echo "frontAndBack { type empty; faces ((0 3 2 1) (4 5 6 7)); });"
+    } | foam_file "system/$name/blockMeshDict" dictionary
+    foam_file "system/$name/fvSchemes" dictionary <<< 'ddtSchemes { default Euler; } gradSchemes { default Gauss linear; }
+        divSchemes {} laplacianSchemes { default Gauss linear corrected; } interpolationSchemes { default linear; } snGradSchemes { default corrected; }'
+    foam_file "system/$name/fvSolution" dictionary <<< 'solvers { "h|hFinal" { solver PCG; preconditioner DIC; tolerance 1e-15; relTol 0; } } PIMPLE {}'
+    logged blockMesh -region "$name"
+}
+start() { # region, field, dimensions, values of the cells, boundary
+    foam_file "0/$1/$2" volScalarField <<< "dimensions [$3]; internalField $4; boundaryField { frontAndBack { type empty; } $5 }"
+}
+temperature() { start "$1" T '0 0 0 1 0 0 0' "$2" "$3"; start "$1" p '1 -1 -2 0 0 0 0' 'uniform 1e5' '".*" { type zeroGradient; }'; }
+coupled() { # patch, resistance [m2 K/W]: a patch that meets another region
+    echo "$1 { type compressible::turbulentTemperatureRadCoupledMixed; Tnbr T; kappaMethod solidThermo; value uniform 0;
+        $([ "${2:-0}" = 0 ] || echo "thicknessLayers ($2); kappaLayers (1);") }"
+}
+bed() { # region, entries of granularProperties: grains as in the case small
+    foam_file "constant/$1/thermophysicalProperties" dictionary <<< 'thermoType granularSolidThermo;'
+    foam_file "constant/$1/granularProperties" dictionary <<< "#include \"$checkout/cases/common/granularProperties\"
+        ${2:-}"
+    start "$1" porosity '0 0 0 0 0 0 0' 'uniform 0.125' '".*" { type zeroGradient; }'
+    start "$1" fabricIndex '0 0 0 0 0 0 0' 'uniform 0.05' '".*" { type zeroGradient; }'
+}
+plate() { # region, conductivity [W/(m K)], heat capacity [J/(kg K)], density [kg/m3]
+    foam_file "constant/$1/thermophysicalProperties" dictionary <<< "thermoType { type heSolidThermo; mixture pureMixture; transport constIso;
+        thermo hConst; equationOfState rhoConst; specie specie; energy sensibleEnthalpy; }
+        mixture { specie { molWeight 1; } transport { kappa $2; } thermodynamics { Hf 0; Cp $3; } equationOfState { rho $4; } }"
+}
+walls='left { type fixedValue; value uniform 100; } right { type fixedValue; value uniform 0; } bottom { type fixedValue; value uniform 70; } top { type zeroGradient; }'
+
+alone() { # more entries of granularProperties: the case small as a region, beside msddFoam in the folder small-<name>
+    local name=$1
+    changed "small-$name"
+    grains "${2:-}"
+    mesh_is '24 12 1'
+    logged msddFoam
+    regions "region-$name" bed "${3:-1}"
+    region bed '24 12' '0 0 2.15 0.645'
+    temperature bed 'uniform 50' "$walls"
+    bed bed "${2:-}"
+    logged chtMultiRegionFoam
+}
+difference_of() { # range of T, folders: largest differences of T over the range, porosity and conductivity
+    local name worst=0
+    for name in T porosity conductivity; do
+        worst=$(paste -d ' ' <(field "$2/$name") <(field "$3/$name") | awk -v worst="$worst" -v scale="$([ $name = T ] && echo "$1" || echo 1)" '
+            { for (i = 1; i <= NF/2; i++) { e = ($i - $(i + NF/2))/scale; if (e < 0) e = -e; if (!(e <= worst)) worst = e }; n++ }
+            END { print (n > 1 ? worst : "nan") }')
+    done
+    echo "$worst"
+}
+against_msdd_foam() {
+    local e
+    alone expanding
+    e=$(difference_of 100 "$work/small-expanding/1" 1/bed)
+    check "a bed as region against msddFoam, 20 steps: T over its range, porosity, conductivity differ by $e <= 1e-6" below "$e" 1e-6
+    check "one query of the model a step" grep -qx 'Queries: 20' log
+    alone repeated '' 3
+    check "one query of the model a step, with three solutions in a step" grep -qx 'Queries: 20' log
+    e=$(difference_of 100 "$work/small-repeated/1" 1/bed)
+    check "three solutions in a step begin with the step's state: difference $e <= 1e-6" below "$e" 1e-6
+}
+
+
+# Two layers, the bed of width a and the plate of width b, with the contact resistance R between them; 300 K at both outer walls.
+# All constant, so that there are closed forms. rho c of the bed is 3000 x (1 - 0.125) x 1.
+two_layers() { # folder, cells of each layer, solutions in a step, entries of controlDict
+    regions "$1" 'bed plate' "$3"
+    controls "$4"
+    region bed "$2 1" '0 0 0.4 0.1' 'right plate left'
+    region plate "$2 1" '0.4 0 1 0.1' 'left bed right'
+    bed bed 'bulkDensity paper; thermalExpansion 0; surrogate { type constant; constantCoeffs { conductivity (2 0 0 1 0 0); } }'
+    plate plate 5 3 800
+    echo 'a=0.4 b=0.6 K1=2 K2=5 C1=2625 C2=2400 R=0.1' > layers
+}
+# The first mode of two layers: x -> sin(k1 x) in the bed, B sin(k2 (a + b - x)) in the plate, decaying as exp(-lambda t); lambda from
+# the continuous flux and the jump R q at the contact. With n steps of implicit Euler it decays exactly as (1 + lambda dt)^-n.
+mode='function g(l) { k1 = sqrt(l*C1/K1); k2 = sqrt(l*C2/K2)
+          return K2*k2*sin(k1*a)*cos(k2*b) + K1*k1*cos(k1*a)*sin(k2*b) + R*K1*k1*K2*k2*cos(k1*a)*cos(k2*b) }
+      function lambda(   low, high, mid, i) { for (high = 1e-6; g(high) > 0; high *= 1.01) low = high
+          for (i = 0; i < 200; i++) { mid = (low + high)/2; if (g(mid) > 0) low = mid; else high = mid }; g(low); B = -K1*k1*cos(k1*a)/(K2*k2*cos(k2*b)); return low }
+      function phi(x) { return x < a ? sin(k1*x) : B*sin(k2*(a + b - x)) }
+      function centre(layer, i, n) { return layer == "bed" ? (i - 0.5)*a/n : a + (i - 0.5)*b/n }'
+mode_start() { # cells of each layer: 300 K and 100 K times the mode
+    local layer link
+    for layer in bed plate; do
+        link='left { type fixedValue; value uniform 300; }'
+        [ $layer = bed ] || link='right { type fixedValue; value uniform 300; }'
+        temperature $layer "$(awk $(sed 's/[^ ]*=/-v &/g' layers) -v n="$1" -v layer=$layer "$mode"'
+            BEGIN { lambda(); printf "nonuniform List<scalar> %d (", n; for (i = 1; i <= n; i++) printf "%.17g ", 300 + 100*phi(centre(layer, i, n)); print ")" }')" \
+            "$link $(coupled $([ $layer = bed ] && echo right || echo left) 0.1) \".*\" { type zeroGradient; }"
+    done
+}
+mode_errors() { # cells, step, number of steps, folder: largest errors against the mode in implicit Euler steps, and in exact time
+    local layer
+    for layer in bed plate; do field "$4/$layer/T" | awk -v layer=$layer '{ print layer, NR, $1 }'; done \
+        | awk $(sed 's/[^ ]*=/-v &/g' layers) -v n="$1" -v dt="$2" -v steps="$3" "$mode"'
+            BEGIN { l = lambda() } { f = 100*phi(centre($1, $2, n)); e = $3 - 300 - f/(1 + l*dt)^steps; u = $3 - 300 - f*exp(-l*dt*steps)
+              if (e < 0) e = -e; if (u < 0) u = -u; if (!(e <= worst)) worst = e; if (!(u <= late)) late = u }
+            END { print (NR > 3 ? worst " " late : "nan nan") }'
+}
+layers_in_time() {
+    local n steps errors='' late='' e u
+    for n in 8 16 32; do
+        two_layers "layers-$n" $n 30 'endTime 200; deltaT 20; writeInterval 10;'
+        mode_start $n
+        logged chtMultiRegionFoam
+        read -r e u < <(mode_errors $n 20 10 200)
+        errors+="$e "
+    done
+    for steps in 10 20; do
+        two_layers "layers-$steps-steps" 128 30 "endTime 200; deltaT $((200/steps)); writeInterval $steps;"
+        mode_start 128
+        logged chtMultiRegionFoam
+        read -r e u < <(mode_errors 128 $((200/steps)) $steps 200)
+        late+="$u "
+    done
+    check "two layers with contact resistance, transient: order $(order $errors) in space over errors $errors K" order_is 2 $errors
+    check "two layers with contact resistance, transient: order $(order $late) in time over errors $late K" order_is 1 $late
+}
+order() { awk 'BEGIN { printf "%.2f", log(ARGV[ARGC-2]/ARGV[ARGC-1])/log(2) }' "$@"; }
+order_is() { # wanted, errors: the last two have this order within 0.1
+    local wanted=$1
+    shift
+    awk -v wanted="$wanted" 'BEGIN { o = log(ARGV[ARGC-2]/ARGV[ARGC-1])/log(2); exit !(o > wanted - 0.1 && o < wanted + 0.1 && ARGV[ARGC-1] > 0) }' "$@"
+}
+heated() { # region, power [W/m3]
+    foam_file "constant/$1/fvOptions" dictionary <<< "heat { type scalarSemiImplicitSource; active yes; selectionMode all; volumeMode specific;
+        injectionRateSuSp { h ($2 0); } }"
+}
+layers_at_rest() { # 1 kW/m3 in the bed, one step of 1e9 s: T is a parabola in the bed and linear in the plate
+    local n layer errors=''
+    for n in 4 8 16; do
+        two_layers "layers-rest-$n" $n 60 'endTime 1e9; deltaT 1e9; writeInterval 1;'
+        temperature bed 'uniform 300' "left { type fixedValue; value uniform 300; } $(coupled right 0.1) \".*\" { type zeroGradient; }"
+        temperature plate 'uniform 300' "right { type fixedValue; value uniform 300; } $(coupled left 0.1) \".*\" { type zeroGradient; }"
+        heated bed 1000
+        logged chtMultiRegionFoam
+        errors+="$(for layer in bed plate; do field 1000000000/$layer/T | awk -v layer=$layer '{ print layer, NR, $1 }'; done \
+            | awk $(sed 's/[^ ]*=/-v &/g' layers) -v n=$n -v s=1000 "$mode"'
+                BEGIN { c = (s*a*a/(2*K1) + s*a*(b/K2 + R))/(a/K1 + b/K2 + R) }
+                { x = centre($1, $2, n); e = $3 - 300 - ($1 == "bed" ? (c*x - s*x*x/2)/K1 : (s*a - c)*(a + b - x)/K2)
+                  if (e < 0) e = -e; if (!(e <= worst)) worst = e } END { print (NR > 3 ? worst : "nan") }') "
+    done
+    check "two layers with contact resistance and heat in the bed, steady: order $(order $errors) in space over errors $errors K" order_is 2 $errors
+}
+
+# A bed that expands beside a plate, heated from within and cooled outside.
+beside_plate() { # folder, solutions in a step, "nx ny" cells of the bed
+    regions "$1" 'bed plate' "$2"
+    region bed "$3" '0 0 1 0.6' 'right plate left'
+    region plate "$3" '1 0 1.5 0.6' 'left bed right'
+    bed bed
+    plate plate 20 2 1500
+    temperature bed 'uniform 50' "left { type zeroGradient; } $(coupled right 1e-3) bottom { type fixedValue; value uniform 70; } top { type zeroGradient; }"
+    temperature plate 'uniform 50' "$(coupled left 1e-3) right { type fixedValue; value uniform 20; } \".*\" { type zeroGradient; }"
+    heated bed 2e5
+}
+same_bytes() { # name of the check, regions: the fields of time 1 in the folders whole and . are the same, byte by byte
+    local what=$1 name differing=''
+    shift
+    for name; do differing+=$(diff -rq "whole/$name" "1/$name" | sed 's/.*\/\([^ ]*\) differ/ \1/' | tr -d '\n'); done
+    check "$what${differing:+, differing:$differing}" test -z "$differing"
+}
+restarted_regions() {
+    local what
+    beside_plate restart-regions 5 '12 8'
+    controls 'writeInterval 10;'
+    logged chtMultiRegionFoam
+    mv 1 whole
+    logged chtMultiRegionFoam
+    same_bytes "restart in the middle: bed and plate bit for bit" bed plate
+}
+region_parts() { # the plane between the regions is cut, too
+    local e name
+    beside_plate parts-regions 5 '12 9'
+    logged chtMultiRegionFoam
+    mv 1 whole
+    foam_file system/decomposeParDict dictionary <<< 'numberOfSubdomains 3; method simple; simpleCoeffs { n (1 3 1); delta 1e-3; }'
+    cp system/decomposeParDict system/bed
+    cp system/decomposeParDict system/plate
+    logged decomposePar -allRegions
+    logged timeout 600 mpirun --oversubscribe -np 3 chtMultiRegionFoam -parallel
+    logged reconstructPar -allRegions -latestTime
+    for name in bed plate; do
+        [ $name = bed ] && e=$(difference_of 100 whole/bed 1/bed) || e=$(paste -d ' ' <(field whole/plate/T) <(field 1/plate/T) \
+            | awk '{ e = ($1 - $2)/100; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR > 3 ? w : "nan") }')
+        check "three processes, the interface cut: $name differs by $e <= 1e-10 of the range" below "$e" 1e-10
+    done
+}
+
+region_refused() { # what, message: the run must have failed with it, in words that may be broken into lines
+    check "refused: $1" bash -c '! chtMultiRegionFoam > log.bad 2>&1; tr -s "\n " " " < log.bad | grep -qF -- "$1"' - "$2"
+}
+refused_bed() { # folder: a bed alone, ready to run
+    regions "$1" bed 1
+    region bed '6 4' '0 0 2.15 0.645'
+    temperature bed 'uniform 50' "$walls"
+    bed bed "${2:-}"
+}
+region_refusals() {
+    refused_bed no-fields
+    rm 0/bed/porosity 0/bed/p
+    region_refused "a region without initial fields" "Region bed is a bed of grains and has no fields p, porosity in \"$PWD/0/bed\", needed: T, p, porosity, fabricIndex"
+    refused_bed as-fluid
+    foam_file constant/regionProperties dictionary <<< 'regions ( fluid (bed) solid () );'
+    region_refused "a fluid region named as bed" 'Region bed is listed as fluid in "constant/regionProperties"'
+    refused_bed crossed 'surrogate { type constant; constantCoeffs { conductivity (2 0.5 0 1 0 0); } }'
+    region_refused "K_xy, with the size of the error" 'errs by up to 63.1 %, allowed: 1 % (crossTolerance 0.01)'
+    echo 'coordinateSystem { type cartesian; origin (0 0 0); rotation { type axes; e1 (0.923879532511 0.382683432365 0); e3 (0 0 1); } }' >> constant/bed/thermophysicalProperties
+    check "accepted: the same K in its principal axes" bash -c 'chtMultiRegionFoam > log.bad 2>&1'
+    refused_bed moving 'mechanics equilibrium;'
+    region_refused "grains that move" "Entry 'mechanics' is 'equilibrium', allowed in a region of granularSolidThermo: none"
+    refused_bed typing-error
+    echo 'crosTolerance 0.1;' >> constant/bed/thermophysicalProperties
+    region_refused "an unknown key" "Unknown entry 'crosTolerance', allowed:"
+    refused_bed three-dimensions
+    sed -i 's/frontAndBack { type empty;/frontAndBack { type wall;/' system/bed/blockMeshDict
+    sed -i 's/frontAndBack { type empty; }//; s/boundaryField {/& ".*" { type zeroGradient; }/' 0/bed/*
+    logged blockMesh -region bed
+    region_refused "a mesh of three dimensions" 'is three-dimensional, allowed: two-dimensional in x and y'
+    refused_bed other-openfoam
+    mkdir lib
+    sed 's/OpenFOAM API 1912/OpenFOAM API 2006/' "$FOAM_USER_LIBBIN/libgranularThermo.so" > lib/libgranularThermo.so
+    LD_LIBRARY_PATH=$PWD/lib:$LD_LIBRARY_PATH region_refused "a library that was built for another OpenFOAM" \
+        'libgranularThermo.so was built for OpenFOAM API 2006, this program is of OpenFOAM API 1912, allowed: the same'
+}
+
+against_msdd_foam
+layers_in_time
+layers_at_rest
+restarted_regions
+region_parts
+region_refusals
