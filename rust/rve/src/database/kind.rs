@@ -54,6 +54,8 @@ pub enum RampName {
     Mixed,
     /// Path: as `mixed`, but radii stay.
     Mechanical,
+    /// Path: a layer of a bed through which a front of temperature passes, there, back and there again.
+    Front,
     /// Single increments of the radii from the packed state, and of the box, which give the same packing up to its
     /// scale.
     Equivalence,
@@ -83,7 +85,7 @@ impl Kind {
 
 impl RampName {
     /// The paths of `[[paths]]`.
-    pub const PATHS: [Self; 10] = [
+    pub const PATHS: [Self; 11] = [
         Self::Uniaxial,
         Self::Biaxial,
         Self::Shear,
@@ -93,6 +95,7 @@ impl RampName {
         Self::Turning,
         Self::Mixed,
         Self::Mechanical,
+        Self::Front,
         Self::Equivalence,
     ];
 
@@ -131,6 +134,7 @@ impl RampName {
             Self::Turning => "turning",
             Self::Mixed => "mixed",
             Self::Mechanical => "mechanical",
+            Self::Front => "front",
             Self::Equivalence => "equivalence",
         }
     }

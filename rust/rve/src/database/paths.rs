@@ -19,6 +19,9 @@ const TURNING: i32 = 60;
 const SEGMENTS: i32 = 8;
 const SHORTEST: usize = 4;
 const LONGER: usize = 8;
+/// Increments of `front` there, back and there again, and how far its normal strain may exceed that of the grains.
+const FRONT: [usize; 3] = [24, 16, 8];
+const LARGEST_NORMAL: f64 = 2.0;
 /// Size of the thermal part of a random direction relative to the other parts.
 const THERMAL_SHARE: f64 = 0.5;
 
@@ -121,6 +124,7 @@ fn steps(path: RampName, seed: u64, h: f64) -> Vec<Strains> {
         RampName::Turning => turning(h),
         RampName::Mixed => segments(&mut random, h, THERMAL_SHARE),
         RampName::Mechanical => segments(&mut random, h, 0.0),
+        RampName::Front => front(&mut random, h_signed),
         RampName::Equivalence => equivalence(),
         _ => Vec::new(),
     }
@@ -193,6 +197,19 @@ fn segments(random: &mut Random, h: f64, thermal: f64) -> Vec<Strains> {
         steps.extend(std::iter::repeat_n(times(h / largest, direction), count));
     }
     steps
+}
+
+/// A layer of a bed that a front of temperature passes: its grains change size by `h` an increment, the bed around holds it
+/// along one axis, and along the other it follows its grains more or less. Of each piece the axis is the same, the share by
+/// which it follows is another.
+fn front(random: &mut Random, h: f64) -> Vec<Strains> {
+    let axis = usize::from(random.uniform(0.0, 1.0) < 0.5);
+    let legs = FRONT.into_iter().zip([h, -h, h]);
+    let leg = |(count, thermal): (usize, f64)| {
+        let share = random.uniform(0.0, LARGEST_NORMAL);
+        std::iter::repeat_n(Strains { thermal, ..along(axis, share * thermal) }, count)
+    };
+    legs.flat_map(leg).collect()
 }
 
 /// Growth of the radii by 1 + ε in a fixed box, and its twin: the box shrinks by the same factor around fixed radii. Both

@@ -107,6 +107,22 @@ fn random_pieces_have_their_number_length_and_largest_part() {
 }
 
 #[test]
+fn a_front_holds_one_axis_and_follows_along_the_other() {
+    let mut shares = Vec::new();
+    for seed in 0..50 {
+        assert_eq!(legs(RampName::Front, seed), [24, 16, 8]);
+        for leg in steps(RampName::Front, seed, H).chunk_by(|a, b| a == b) {
+            let Strains { thermal, xx, yy, xy } = leg[0];
+            assert!(thermal.abs() == H && xy == 0.0 && (xx == 0.0) != (yy == 0.0), "{:?}", leg[0]);
+            shares.push((xx + yy) / thermal);
+        }
+    }
+    assert!(shares.iter().all(|share| (0.0..=2.0).contains(share)), "{shares:?}");
+    let [least, most] = [f64::min, f64::max].map(|of| shares.iter().copied().reduce(of).expect("shares"));
+    assert!(least < 0.1 && most > 1.9, "{least} {most}");
+}
+
+#[test]
 fn growing_grains_and_a_shrinking_box_are_twins() {
     let rows = planned(RampName::Equivalence, 1, &usual(), true);
     assert_eq!(rows.len(), 12);

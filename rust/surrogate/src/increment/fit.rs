@@ -16,9 +16,9 @@ use std::ops::ControlFlow;
 
 /// Elastic compression at which contacts have mostly formed; too small for the data to determine.
 const ONSET: f64 = 1e-3;
-/// Added to the mean pressure of a track, over which its errors are taken: a fifth of that of the loosest packings, so that
-/// these do not dominate.
-pub(super) const PRESSURE_SCALE: f64 = 0.003;
+/// Added to the pressure of a state, over which its errors are taken: a fifth of that of the loosest packings, so that states
+/// that hardly bear load do not dominate.
+const PRESSURE_SCALE: f64 = 0.003;
 /// Error above which a residual counts less than by its square, since some packings rearrange suddenly.
 const ROBUST: f64 = 0.03;
 /// Weight of the differences of probes over their strain.
@@ -169,8 +169,12 @@ impl LeastSquares for PathFit<'_> {
     }
 }
 
+/// One over the pressure by which the error of a state's stress counts. `pressure`: p̃ of the state in the database.
+pub(super) fn over(pressure: f64) -> f64 {
+    1.0 / (pressure + PRESSURE_SCALE)
+}
+
 fn add_residuals(track: &Track, found: &[[f64; 3]], residuals: &mut Vec<f64>) {
-    let over = 1.0 / (track.pressure() + PRESSURE_SCALE);
     let weight = (track.discs as f64 / USUAL_DISCS).sqrt();
     let mut push = |error: f64| residuals.push((weight * error).clamp(-MOST, MOST));
     for (k, step) in track.steps.iter().enumerate() {
@@ -185,7 +189,7 @@ fn add_residuals(track: &Track, found: &[[f64; 3]], residuals: &mut Vec<f64>) {
                 push(PROBE_WEIGHT * ((law[c] - found[step.from][c]) - (data[c] - base[c])) / size);
             }
         } else {
-            (0..3).for_each(|c| push((law[c] - data[c]) * over));
+            (0..3).for_each(|c| push((law[c] - data[c]) * over(data[0])));
         }
     }
 }

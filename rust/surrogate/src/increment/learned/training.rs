@@ -6,7 +6,7 @@
 
 use super::{LearnedLaw, Motion, NUMBERS, State, Tape, WEIGHTS};
 use crate::dataset::shuffle;
-use crate::increment::fit::{MOST, PRESSURE_SCALE, PROBE_WEIGHT, USUAL_DISCS, robust};
+use crate::increment::fit::{MOST, PROBE_WEIGHT, USUAL_DISCS, over, robust};
 use crate::increment::paths::parts;
 use crate::network::symmetric_unit;
 use crate::tracks::{Point, Track};
@@ -75,7 +75,6 @@ impl Course {
         let nodes =
             track.steps.iter().map(|step| Node { from: step.from, parts: motions(step.strain) }).collect();
         let mut course = Self { packed: track.packed, nodes, residuals: Vec::new() };
-        let over = 1.0 / (track.pressure() + PRESSURE_SCALE);
         let weight = (track.discs as f64 / USUAL_DISCS).sqrt();
         for (k, step) in track.steps.iter().enumerate().filter(|(_, step)| step.to.load_bearing) {
             let (mut target, at) = (step.to.invariants(), k + 1);
@@ -85,7 +84,7 @@ impl Course {
                 let weight = weight * PROBE_WEIGHT / largest(step.strain);
                 Residual { at, base: Some(step.from), target, weight, most: MOST }
             } else {
-                Residual { at, base: None, target, weight: weight * over, most: f64::INFINITY }
+                Residual { at, base: None, target, weight: weight * over(target[0]), most: f64::INFINITY }
             };
             course.residuals.push(residual);
         }
