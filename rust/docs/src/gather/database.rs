@@ -7,10 +7,11 @@ use crate::results::Section;
 use std::path::Path;
 
 /// Name, what is in it.
-const DATABASES: [(&str, &str); 3] = [
+const DATABASES: [(&str, &str); 4] = [
     ("periodic", "periodic boxes"),
     ("full", "boxes between walls, as in the paper"),
     ("paths", "periodic boxes on paths of strain, there and back and around"),
+    ("front", "periodic boxes as layers of a bed that a front of temperature passes"),
 ];
 
 /// # Errors
