@@ -57,7 +57,7 @@ void Foam::granularState::findReaders()
         const wordList ours
         ({
             "wallPressure", "subRegions", "heatAudit", "massAudit",
-            "spaceProbes"
+            "spaceProbes", "regionHeat"
         });
         refreshAlways_ = refreshAlways_ || (sees && !ours.found(type));
     }

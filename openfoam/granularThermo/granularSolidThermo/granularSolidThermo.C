@@ -20,6 +20,7 @@ License
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "gradientEnergyFvPatchScalarField.H"
 #include "mixedEnergyFvPatchScalarField.H"
+#include "mixedFvPatchFields.H"
 #include "addToRunTimeSelectionTable.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -210,6 +211,17 @@ void Foam::granularSolidThermo::setConductivity()
 }
 
 
+void Foam::granularSolidThermo::guessEnergy()
+{
+    // Otherwise the value of the old time would become the guess
+    he_.oldTime();
+
+    scalarField T(T_.primitiveField());
+    grains_.extrapolateTemperature(T);
+    he_.primitiveFieldRef() = properties_.heatCapacity().value()*T;
+}
+
+
 Foam::tmp<Foam::scalarField> Foam::granularSolidThermo::normal
 (
     const label patchi
@@ -243,6 +255,7 @@ void Foam::granularSolidThermo::begin() const
     granularSolidThermo& self = const_cast<granularSolidThermo&>(*this);
     self.step_ = time.timeIndex();
     self.startT_ = T_.primitiveField();
+    self.guessEnergy();
 
     // Steps 1 to 3 of Algorithm 1, with the strain of the last step
     scalar error;
@@ -266,8 +279,10 @@ void Foam::granularSolidThermo::correct()
         T_.primitiveFieldRef() = he_.primitiveField()/c;
         forAll(T_.boundaryField(), patchi)
         {
+            // Mixed walls say that they fix the value, but theirs follows from
+            // the cells, too: the new one belongs to the heat of this solution
             fvPatchScalarField& patch = T_.boundaryFieldRef()[patchi];
-            if (!patch.fixesValue())
+            if (!patch.fixesValue() || isA<mixedFvPatchScalarField>(patch))
             {
                 patch == he_.boundaryField()[patchi]/c;
             }

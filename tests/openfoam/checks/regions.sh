@@ -1,66 +1,8 @@
 # A bed as a solid region of OpenFOAM's own chtMultiRegionFoam, which is not changed: against msddFoam, against closed forms, with
 # its energy, over a restart, on several processes, and the messages at input that cannot work. Region 'bed' is grains, region
-# 'plate' an ordinary solid. Meshes are boxes with the patches left, right, bottom, top and frontAndBack.
+# 'plate' an ordinary solid.
 
-foam_file() { # path, class: begins a file of OpenFOAM with its head and appends what is read
-    mkdir -p "$(dirname "$1")"
-    { echo "FoamFile { version 2.0; format ascii; class $2; object ${1##*/}; }"; cat; } > "$1"
-}
-regions() { # folder, regions of solids: goes to a new case of these regions; the entries of fvSolution PIMPLE and controlDict follow
-    rm -rf "${work:?}/$1"
-    mkdir -p "$work/$1"
-    cd "$work/$1"
-    foam_file constant/regionProperties dictionary <<< "regions ( fluid (${4:-}) solid ($2) );"
-    foam_file constant/g uniformDimensionedVectorField <<< 'dimensions [0 1 -2 0 0 0 0]; value (0 0 0);'
-    foam_file system/fvSolution dictionary <<< "PIMPLE { nOuterCorrectors $3; }"
-    foam_file system/fvSchemes dictionary < /dev/null
-    foam_file system/controlDict dictionary <<-'END'
-	libs ("libgranularThermo.so"); application chtMultiRegionFoam;
-	startFrom latestTime; startTime 0; stopAt endTime; endTime 1; deltaT 0.05; writeControl timeStep; writeInterval 20;
-	writePrecision 17; timePrecision 12; runTimeModifiable no; maxDi 1e9;
-	END
-}
-region() { # name, "nx ny", "x0 y0 x1 y1" [m], couplings "patch region patch": mesh and numerics of a region
-    local name=$1 box=($3) link=(${4:-}) patch faces i
-    declare -A at=([left]='(0 4 7 3)' [right]='(1 2 6 5)' [bottom]='(0 1 5 4)' [top]='(3 7 6 2)')
-    {
-        echo "scale 1; vertices ((${box[0]} ${box[1]} 0) (${box[2]} ${box[1]} 0) (${box[2]} ${box[3]} 0) (${box[0]} ${box[3]} 0)"
-        echo " (${box[0]} ${box[1]} 0.01) (${box[2]} ${box[1]} 0.01) (${box[2]} ${box[3]} 0.01) (${box[0]} ${box[3]} 0.01));"
-        echo "blocks (hex (0 1 2 3 4 5 6 7) ($2 1) simpleGrading (1 1 1)); boundary ("
-        for patch in left right bottom top; do
-            faces="faces (${at[$patch]});"
-            for ((i = 0; i < ${#link[@]}; i += 3)); do
-                [ "${link[i]}" != $patch ] || faces+=" type mappedWall; sampleMode nearestPatchFace; sampleRegion ${link[i+1]}; samplePatch ${link[i+2]};"
-            done
-            echo "$patch { type wall; $faces }"
-        done
-        echo "frontAndBack { type empty; faces ((0 3 2 1) (4 5 6 7)); });"
-    } | foam_file "system/$name/blockMeshDict" dictionary
-    foam_file "system/$name/fvSchemes" dictionary <<< 'ddtSchemes { default Euler; } gradSchemes { default Gauss linear; }
-        divSchemes {} laplacianSchemes { default Gauss linear corrected; } interpolationSchemes { default linear; } snGradSchemes { default corrected; }'
-    foam_file "system/$name/fvSolution" dictionary <<< 'solvers { "h|hFinal" { solver PCG; preconditioner DIC; tolerance 1e-15; relTol 0; } } PIMPLE {}'
-    logged blockMesh -region "$name"
-}
-start() { # region, field, dimensions, values of the cells, boundary
-    foam_file "0/$1/$2" volScalarField <<< "dimensions [$3]; internalField $4; boundaryField { frontAndBack { type empty; } $5 }"
-}
-temperature() { start "$1" T '0 0 0 1 0 0 0' "$2" "$3"; start "$1" p '1 -1 -2 0 0 0 0' 'uniform 1e5' '".*" { type zeroGradient; }'; }
-coupled() { # patch, resistance [m2 K/W]: a patch that meets another region
-    echo "$1 { type compressible::turbulentTemperatureRadCoupledMixed; Tnbr T; kappaMethod solidThermo; value uniform 0;
-        $([ "${2:-0}" = 0 ] || echo "thicknessLayers ($2); kappaLayers (1);") }"
-}
-bed() { # region, entries of granularProperties: grains as in the case small
-    foam_file "constant/$1/thermophysicalProperties" dictionary <<< 'thermoType granularSolidThermo;'
-    foam_file "constant/$1/granularProperties" dictionary <<< "#include \"$checkout/cases/common/granularProperties\"
-        ${2:-}"
-    start "$1" porosity '0 0 0 0 0 0 0' 'uniform 0.125' '".*" { type zeroGradient; }'
-    start "$1" fabricIndex '0 0 0 0 0 0 0' 'uniform 0.05' '".*" { type zeroGradient; }'
-}
-plate() { # region, conductivity [W/(m K)], heat capacity [J/(kg K)], density [kg/m3]
-    foam_file "constant/$1/thermophysicalProperties" dictionary <<< "thermoType { type heSolidThermo; mixture pureMixture; transport constIso;
-        thermo hConst; equationOfState rhoConst; specie specie; energy sensibleEnthalpy; }
-        mixture { specie { molWeight 1; } transport { kappa $2; } thermodynamics { Hf 0; Cp $3; } equationOfState { rho $4; } }"
-}
+. "$here/region_cases"
 walls='left { type fixedValue; value uniform 100; } right { type fixedValue; value uniform 0; } bottom { type fixedValue; value uniform 70; } top { type zeroGradient; }'
 
 alone() { # more entries of granularProperties: the case small as a region, beside msddFoam in the folder small-<name>
@@ -191,6 +133,32 @@ beside_plate() { # folder, solutions in a step, "nx ny" cells of the bed
     temperature plate 'uniform 50' "$(coupled left 1e-3) right { type fixedValue; value uniform 20; } \".*\" { type zeroGradient; }"
     heated bed 2e5
 }
+region_heat() { controls 'functions { regionHeat { type regionHeat; libs ("libgranularFunctionObjects.so"); writeControl writeTime; } }'; }
+balance() { # field of the last line of regionHeat.dat: number after the columns of the regions (bed and plate)
+    tail -n 1 postProcessing/regionHeat/*/regionHeat.dat | tail -n 1 | awk -v column="$1" '{ print $column }'
+}
+energy_of_regions() { # heat from within goes to the plate and to the walls; with few solutions in a step the interface loses some
+    local e
+    beside_plate heat-regions 30 '12 8'
+    region_heat
+    logged chtMultiRegionFoam
+    e=$(balance 9)
+    check "energy over all regions closes to $e <= 1e-9 of what went through; $(balance 6) J came from the source" \
+        awk "BEGIN { s = $(balance 6)/(2e5*0.6*0.01) - 1; exit !($e <= 1e-9 && s*s < 1e-20 && $(balance 2) > 0 && $(balance 3) != 0) }"
+    beside_plate loss-regions 1 '12 8'
+    region_heat
+    logged chtMultiRegionFoam
+    check "one solution in a step: the interface loses $(balance 7) J, and the difference of the balance is this loss" \
+        awk "BEGIN { d = $(balance 7)/$(balance 8); d = d < 0 ? -d : d; e = $(balance 9)/d - 1; exit !(d > 1e-9 && e*e < 1e-8) }"
+    rm -rf 1 postProcessing
+    controls 'writeInterval 10;'
+    logged chtMultiRegionFoam
+    mv 1 whole
+    cp -r postProcessing whole
+    logged chtMultiRegionFoam
+    e=$(lines_differ whole/postProcessing/regionHeat/0/regionHeat.dat postProcessing/regionHeat/0.5/regionHeat.dat)
+    check "the balance continues over a restart: its last line differs by $e <= 1e-12" below "$e" 1e-12
+}
 same_bytes() { # name of the check, regions: the fields of time 1 in the folders whole and . are the same, byte by byte
     local what=$1 name differing=''
     shift
@@ -264,6 +232,7 @@ region_refusals() {
 against_msdd_foam
 layers_in_time
 layers_at_rest
+energy_of_regions
 restarted_regions
 region_parts
 region_refusals

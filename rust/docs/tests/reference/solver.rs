@@ -214,6 +214,7 @@ fn columns(text: &str) -> Vec<String> {
         firsts(r"(?s)const char\* column :\s*\{(.*?)\}", &head).iter().flat_map(|list| strings(list)),
     );
     names.extend(firsts(r#"patch\.name\(\) \+ "(\w+)""#, &head).iter().map(|end| format!("<patch>{end}")));
+    names.extend(firsts(r#"region \+ "(\w+)""#, &head).iter().map(|end| format!("<region>{end}")));
     if head.contains("field_ + Foam::name(i)") {
         names.push("<field><number>".to_string());
     }
