@@ -229,6 +229,22 @@ region_refusals() {
         'libgranularThermo.so was built for OpenFOAM API 2006, this program is of OpenFOAM API 1912, allowed: the same'
 }
 
+blanket() { # the shipped case, run by its own Allrun in a copy of cases
+    local hot
+    rm -rf "$work/shipped"
+    mkdir -p "$work/shipped/scripts" "$work/shipped/cases"
+    cp -r "$checkout"/cases/{blanket,common} "$work/shipped/cases"
+    cp "$checkout/scripts/foam-env" "$work/shipped/scripts"
+    cd "$work/shipped/cases/blanket"
+    MSDD_APPBIN=$FOAM_USER_APPBIN MSDD_LIBBIN=$FOAM_USER_LIBBIN logged ./Allrun
+    hot=$(field 900/bed/T | awk '$1 > top { top = $1 } END { print top }')
+    check "blanket: the bed ends at $hot, 1175 to 1195 K" below "$(awk "BEGIN { print ($hot - 1185)^2 }")" 100
+    check "blanket: heat over bed and plates closes to $(awk '$1 == "relative_difference" { print $2 }' log) <= 1e-7" \
+        below "$(awk '$1 == "relative_difference" { print $2 }' log)" 1e-7
+    check "blanket: a picture with the cells of all regions" test "$(grep -c '<polygon' postProcessing/T.svg)" = 1200
+}
+
+blanket
 against_msdd_foam
 layers_in_time
 layers_at_rest
