@@ -78,8 +78,10 @@ void Foam::granularMechanicsModels::equilibrium::setSolver()
     nodes_.sum(uniform);
     walls_.eachStick([&](const label node, const scalar* t, const scalar k)
     {
-        uniform[2*node] += k*sqr(t[0]);
-        uniform[2*node + 1] += k*sqr(t[1]);
+        for (label j = 0; j < nodes_.dim(); ++j)
+        {
+            uniform[nodes_.dim()*node + j] += k*sqr(t[j]);
+        }
     });
     diagonal_ = uniform;
     solver_.reset

@@ -265,7 +265,9 @@ void Foam::equilibriumSolver::assemble
     };
     walls_.eachStick([&](const label node, const scalar* t, const scalar k)
     {
-        const vector along(t[0], t[1], 0);
+        tensor P;
+        freed(node, P);
+        const vector along(P & vector(t[0], t[1], dim == 3 ? t[2] : 0));
         add(node, k*(along*along));
     });
     for (const label node : walls_.held())

@@ -223,6 +223,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
     );
 
     r_ = start_ - inner + friction_;
+    walls_.addShells(nodeField(u_ + du), r_);
     if (share_ < 1)
     {
         r_ -= (1 - share_)*outset_;

@@ -62,7 +62,8 @@ Foam::wallConditions::kindNames
     { kind::frictionless, "frictionless" },
     { kind::symmetry, "symmetry" },
     { kind::displacement, "displacement" },
-    { kind::pressure, "pressure" }
+    { kind::pressure, "pressure" },
+    { kind::shell, "shell" }
 });
 
 
@@ -92,6 +93,7 @@ Foam::wallConditions::wallConditions
     findNormals();
     findHeld();
     findRubbing();
+    findSupports();
     findFloating();
 }
 
@@ -134,7 +136,8 @@ void Foam::wallConditions::checkNames(const dictionary& dict) const
         FatalIOErrorInFunction(dict)
             << "No rule in 'walls' of equilibriumCoeffs for the patches "
             << granularProperties::listed(missing).c_str() << ", allowed"
-            << " types: rigid, frictionless, symmetry, displacement, pressure"
+            << " types: rigid, frictionless, symmetry, displacement, pressure,"
+            << " shell"
             << exit(FatalIOError);
     }
 }
@@ -182,7 +185,9 @@ void Foam::wallConditions::read
         dict,
         {
             "type", "friction", "slip", "layer", "layerStrength",
-            "displacement", "pressure", "displacementCoeffs", "pressureCoeffs"
+            "displacement", "pressure", "displacementCoeffs", "pressureCoeffs",
+            "youngModulus", "thickness", "radius", "thermalExpansion",
+            "temperature"
         }
     );
     w.type = kindNames.getOrDefault("type", dict, kind::rigid);
@@ -225,13 +230,40 @@ void Foam::wallConditions::read
                 << exit(FatalIOError);
         }
     }
-    if (w.type == kind::pressure)
+    if (w.type == kind::shell)
+    {
+        readShell(dict, w);
+    }
+    else if (w.type == kind::pressure)
     {
         w.pressure = Function1<scalar>::New("pressure", dict);
     }
     else if (w.type == kind::displacement || dict.found("displacement"))
     {
         w.displacement = Function1<vector>::New("displacement", dict);
+    }
+}
+
+
+void Foam::wallConditions::readShell(const dictionary& dict, wall& w) const
+{
+    const auto positive = [&](const word& key)
+    {
+        return granularProperties::ranged
+        (
+            dict, key, dict.get<scalar>(key), SMALL, GREAT
+        );
+    };
+    const scalar radius = positive("radius");
+    w.stiffness = positive("youngModulus")*positive("thickness")/sqr(radius);
+
+    // A wall that grows by half of its size is no shell
+    const scalar expansion =
+        granularProperties::ranged(dict, "thermalExpansion", 0, 0, 1e-2);
+    w.growth = expansion*radius;
+    if (expansion > 0)
+    {
+        w.temperature = dict.get<scalar>("temperature");
     }
 }
 
@@ -428,6 +460,66 @@ void Foam::wallConditions::findRubbing()
 }
 
 
+void Foam::wallConditions::findSupports()
+{
+    // A node has one normal for each shell, so that a shell of plane faces does
+    // not resist when it turns about its axis
+    const label dim = mesh_.dim();
+    DynamicList<label> supports;
+    DynamicList<scalar> normal, support;
+    scalarField weights;
+    forAll(walls_, patchi)
+    {
+        wall& w = walls_[patchi];
+        if (w.type != kind::shell)
+        {
+            continue;
+        }
+        scalarField area(dim*mesh_.size(), Zero);
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        for (label i = 0; i < faces.size(); ++i)
+        {
+            const label start = faces.start[i];
+            const label count = faces.start[i + 1] - start;
+            const label* nodes = faces.nodes.cdata() + start;
+            weights.resize(max(weights.size(), 3*count));
+            mesh_.faceWeights(mesh_.points(), nodes, count, weights.data());
+            for (label a = 0; a < count; ++a)
+            {
+                for (label k = 0; k < dim; ++k)
+                {
+                    area[dim*nodes[a] + k] += weights[dim*a + k];
+                }
+            }
+        }
+        mesh_.sum(area);
+        for (label node = 0; node < mesh_.size(); ++node)
+        {
+            scalar square = 0;
+            for (label k = 0; k < dim; ++k)
+            {
+                square += sqr(area[dim*node + k]);
+            }
+            if (!(square > 0))
+            {
+                continue;
+            }
+            const scalar size = std::sqrt(square);
+            w.supports.insert(node, supports.size());
+            supports.append(node);
+            support.append(w.stiffness*size);
+            for (label k = 0; k < dim; ++k)
+            {
+                normal.append(area[dim*node + k]/size);
+            }
+        }
+    }
+    supports_ = supports;
+    normal_ = scalarField(normal);
+    support_ = scalarField(support);
+}
+
+
 void Foam::wallConditions::findFloating() const
 {
     const regionSplit regions(mesh_.mesh());
@@ -446,12 +538,16 @@ void Foam::wallConditions::findFloating() const
     {
         motion.hold(rubbing_[i], along_.cdata() + 2*i);
     }
+    forAll(supports_, i)
+    {
+        motion.hold(supports_[i], normal_.cdata() + dim*i);
+    }
     const string what(motion.free(floating));
     if (!what.empty())
     {
         FatalErrorInFunction
             << what.c_str() << ". Allowed: pieces that walls of type rigid,"
-            << " frictionless, symmetry or displacement hold; see 'walls' of"
+            << " frictionless, symmetry, displacement or shell hold; see 'walls' of"
             << " equilibriumCoeffs" << exit(FatalError);
     }
 }

@@ -1,5 +1,5 @@
-# Mechanics on meshes of any shape, with law elastic: patch test, thick-walled cylinder under pressure and heat against the closed
-# form, bending of a body that is nearly incompressible, three processes, restart on another number of them, and meshes and walls
+# Mechanics on meshes of any shape, with law elastic: patch test, thick-walled cylinder under pressure and heat and within a shell
+# against closed forms, bending of a body that is nearly incompressible, three processes, restart on another number of them, and meshes and walls
 # that cannot work.
 
 start_field() { # name, dimensions, value
@@ -197,6 +197,54 @@ cylinders() {
     cylinder "ring of triangles" triangle_ring 0 $finest 0.8
 }
 
+# The same cylinder is heated by 1 K throughout, within a thin shell that expands less: u = A r + B/r, no stress at the inner wall, and
+# at the outer one that with which the shell moves as the cylinder does.
+shell_walls='residual 1e-6; walls { inner { type pressure; pressure constant 0; }
+    outer { type shell; youngModulus 4e7; thickness 1; radius 2; thermalExpansion 4e-7; temperature 0; } }'
+hot_walls() { sed -i 's/^    "\.\*" { type zeroG/    inner { type fixedValue; value uniform 1; } outer { type fixedValue; value uniform 1; }\n&/' 0/T; }
+against_shell() { # angle from the middle plane to the points of a wedge: largest error of the displacement
+    paste -d ' ' <(field 4e+09/D) <(field 0/C) | awk -v shrink="$(awk -v a="$1" 'BEGIN { print cos(a) }')" -v wedge="$1" '
+        BEGIN { b = 2; nu = 0.3; E = 1e7; G = E/2/(1 + nu); lambda = 2*G*nu/(1 - 2*nu); heat = (3*lambda + 2*G)*1e-6; k = 4e7*1/(b*b)
+          # a11 A + a12 B = heat; a21 A + a22 B = c2
+          a11 = 2*(lambda + G); a12 = -2*G; a21 = a11 + k*b; a22 = -2*G/(b*b) + k/b; c2 = heat + k*4e-7*b
+          det = a11*a22 - a12*a21; A = (heat*a22 - a12*c2)/det; B = (a11*c2 - a21*heat)/det }
+        { if (wedge > 0) { r = $5/shrink; u = $2 } else { r = sqrt($4*$4 + $5*$5); u = ($1*$4 + $2*$5)/r }
+          U = A*r + B/r; e = u - U; if (e < 0) e = -e; if (!(e <= worst)) worst = e; if (U > most) most = U }
+        END { print (NR > 3 && most > 0 ? worst/most : "nan") }'
+}
+shell() { # what, mesh, angle: error with 16 and 32 cells across
+    local n errors=''
+    for n in 16 32; do
+        solid "shell-$2-$n" "$shell_walls"
+        hot_walls
+        "$2" "$n"
+        cell_geometry
+        logged msddFoam
+        errors+="$(against_shell "$3") "
+    done
+    set -- "$1" $errors
+    check "shell around a cylinder, $1: displacement within $3 <= 1e-3 with 32 cells across" below "$3" 1e-3
+    check "shell around a cylinder, $1: $2 with 16 cells across, order at least 1.8" awk "BEGIN { exit !($2 >= 2^1.8*$3) }"
+}
+shells() {
+    shell "ring of quadrilaterals" ring_mesh 0
+    shell "wedge" wedge_mesh 0.043633231299858237
+    solid shell-processes "$shell_walls"
+    hot_walls
+    ring_mesh 16
+    cat > system/decomposeParDict <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }
+	numberOfSubdomains 3; method hierarchical; hierarchicalCoeffs { n (1 3 1); delta 0.001; order xyz; }
+	END
+    logged decomposePar
+    side_by_side 3
+    logged reconstructPar
+    local e
+    e=$(paste -d ' ' <(field 4e+09/D) <(field ../shell-ring_mesh-16/4e+09/D) | awk '{ for (i = 1; i < 3; i++) { e = $i - $(i + 3); if (e < 0) e = -e
+        if (!(e <= w)) w = e; if ($i > m) m = $i } } END { print (NR > 3 && m > 0 ? w/m : "nan") }')
+    check "shell around a cylinder, cut into three processes: displacement differs by $e <= 1e-8" below "$e" 1e-8
+}
+
 # A beam of thickness 1 and length 8, held at its left end, is bent by two equal pressures p at the other end: from above between 6
 # and 7, from below between 7 and 8. From 1.5 to 4.5 the moment is p, and the lower side must be a parabola of the curvature
 # 12 (1 - nu^2) p/E, since nothing is strained along z.
@@ -305,6 +353,13 @@ refusals() {
     solid friction-in-space 'walls { ".*" { type rigid; friction 0.3; slip 1e-3; } }'
     cube 2
     check "refused: friction in three dimensions" refused 'allowed in meshes of three dimensions: 0'
+    solid shell-without-thickness 'walls { inner { type shell; youngModulus 1e11; radius 1; } "outer|low|left" { type frictionless; } }'
+    ring_mesh 4
+    check "refused: a shell without thickness" refused 'thickness'
+    solid shell-without-temperature 'walls { inner { type shell; youngModulus 1e11; radius 1; thickness 1e-3; thermalExpansion 1e-5; }
+        outer { type frictionless; } }'
+    ring_mesh 4
+    check "refused: a shell that expands, without the temperature of its start" refused 'temperature'
     solid inside-out-cell 'walls { ".*" { type frictionless; } }'
     cube 2
     awk '/^\(/ && NF == 3 && match($0, /^\(.*\)$/) && ++n == 14 { print "(1.7 1.7 1.7)"; next } { print }' constant/polyMesh/points > points.new
@@ -314,6 +369,7 @@ refusals() {
 
 patch_tests
 cylinders
+shells
 bending
 processes_and_restarts
 refusals

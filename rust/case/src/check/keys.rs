@@ -141,7 +141,7 @@ pub const LINEAR: &[Key] = &[
 
 /// The dictionary of a wall in `walls` of `equilibriumCoeffs`.
 pub const WALL: &[Key] = &[
-    may("type", Kind::Word(&["rigid", "frictionless", "symmetry", "displacement", "pressure"])),
+    may("type", Kind::Word(&["rigid", "frictionless", "symmetry", "displacement", "pressure", "shell"])),
     may("friction", Kind::Range(0.0, 10.0, "")),
     may("slip", Kind::Any),
     may("layer", Kind::Any),
@@ -150,6 +150,11 @@ pub const WALL: &[Key] = &[
     may("pressure", Kind::Any),
     may("displacementCoeffs", Kind::Dictionary),
     may("pressureCoeffs", Kind::Dictionary),
+    may("youngModulus", Kind::Positive("Pa", "")),
+    may("thickness", Kind::Positive("m", "")),
+    may("radius", Kind::Positive("m", "")),
+    may("thermalExpansion", Kind::Range(0.0, 1e-2, "1/K")),
+    may("temperature", Kind::Any),
 ];
 
 /// `msddFoam` of `system/fvSolution`.

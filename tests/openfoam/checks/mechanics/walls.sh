@@ -35,6 +35,16 @@ prescribed_walls() {
     check "prescribed displacement: stress and displacement against the model $e <= 1e-6" below "$e" 1e-6
 }
 
+shell_beside_grains() { # a shell that its temperature moves by 5 mm, and that gives way by 1e-5 m/Pa
+    local d e sxx
+    sxx=$(echo 0 0 0 0 0 | strained before | awk '{ print $1 }')
+    uniaxial shell 'type shell; youngModulus 2e5; thickness 0.5; radius 1; thermalExpansion 5e-4; temperature 40;'
+    d=$(field 0.05/nodeDisplacement | awk 'NR == 13 { print $1 }')
+    set -- $(uniaxial_strain "$d" | strained before)
+    e=$(awk "BEGIN { e = ($1 - $sxx)/(1e5*($d - 0.005)) - 1; print e < 0 ? -e : e }")
+    check "shell beside grains: the pressure that the model bears at its displacement of $d is its own, to $e <= 1e-6" below "$e" 1e-6
+}
+
 symmetric_quarter() { # all walls at 100 K: a quarter with symmetry planes must give the result of the whole
     both_ways moved-whole
     sed -i 's/uniform 70/uniform 100/; s/uniform 0;/uniform 100;/; s/zeroGradient;/fixedValue; value uniform 100;/' 0/T
@@ -142,6 +152,7 @@ energy() { # shape
 }
 
 prescribed_walls
+shell_beside_grains
 symmetric_quarter
 one_dimension
 for shape in $shapes; do energy "$shape"; done
