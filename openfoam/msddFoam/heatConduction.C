@@ -256,7 +256,7 @@ void Foam::heatEquation::insulateWalls()
 }
 
 
-void Foam::heatEquation::addTensor(const granularState::conductivityColumns& K)
+void Foam::heatEquation::setTensor(const granularState::conductivityColumns& K)
 {
     symmTensorField& cells = K_().primitiveFieldRef();
     forAll(cells, celli)
@@ -270,7 +270,11 @@ void Foam::heatEquation::addTensor(const granularState::conductivityColumns& K)
     }
     K_().correctBoundaryConditions();
     insulateWalls();
+}
 
+
+void Foam::heatEquation::addTensor()
+{
     // The explicit gradients below read T at walls and in cells of other
     // processes, where it is still the one before the last solution
     T_.correctBoundaryConditions();

@@ -54,18 +54,22 @@ Foam::heatEquation::heatEquation
     volScalarField& T,
     const granularProperties& properties,
     const granularState& grains,
+    neighbourSolids& neighbours,
     const label correctors
 )
 :
     T_(T),
     mesh_(T.mesh()),
     sources_(fv::options::New(mesh_)),
+    neighbours_(neighbours),
     heatCapacity_
     (
         "volumetricHeatCapacity",
         grains.bulkDensity()*properties.heatCapacity()
     ),
     factor_(properties.conductivityFactor()),
+    aligned_(neighbours.empty() && isAligned()),
+    crossed_(!grains.diagonal()),
     Kxx_
     (
         IOobject("Kxx", mesh_.time().timeName(), mesh_),
@@ -75,11 +79,30 @@ Foam::heatEquation::heatEquation
     ),
     Kyy_(IOobject("Kyy", mesh_.time().timeName(), mesh_), Kxx_),
     Kxy_(unregistered("Kxy", mesh_), Kxx_),
-    TEqn_(T, dimPower),
+    K_
+    (
+        aligned_
+      ? nullptr
+      : new volSymmTensorField
+        (
+            IOobject("K", mesh_.time().timeName(), mesh_),
+            mesh_,
+            dimensionedSymmTensor
+            (
+                "K",
+                Kxx_.dimensions(),
+                symmTensor
+                (
+                    0, 0, 0, 0, 0,
+                    factor_*grains.model().conductivityZZ()
+                )
+            ),
+            extrapolatedCalculatedFvPatchSymmTensorField::typeName
+        )
+    ),
+    TEqn_(equation(grains)),
     controls_(mesh_.solverDict(T.name())),
     correctors_(correctors),
-    aligned_(isAligned()),
-    crossed_(!grains.diagonal()),
     gradX_
     (
         unregistered("gradX", mesh_),
@@ -102,25 +125,6 @@ Foam::heatEquation::heatEquation
     }
     else
     {
-        K_.reset
-        (
-            new volSymmTensorField
-            (
-                IOobject("K", mesh_.time().timeName(), mesh_),
-                mesh_,
-                dimensionedSymmTensor
-                (
-                    "K",
-                    Kxx_.dimensions(),
-                    symmTensor
-                    (
-                        0, 0, 0, 0, 0,
-                        factor_*grains.model().conductivityZZ()
-                    )
-                ),
-                extrapolatedCalculatedFvPatchSymmTensorField::typeName
-            )
-        );
         mesh_.setFluxRequired(T.name());
         findFeet();
     }
@@ -137,6 +141,17 @@ Foam::heatEquation::heatEquation
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::fvScalarMatrix Foam::heatEquation::equation(const granularState& grains)
+{
+    // Making the matrix updates the boundary conditions, which may need K
+    if (!aligned_)
+    {
+        setTensor(scaled(grains.conductivityOfCells()));
+    }
+    return fvScalarMatrix(T_, dimPower);
+}
+
 
 bool Foam::heatEquation::isAligned() const
 {
@@ -313,17 +328,13 @@ void Foam::heatEquation::addSources()
 }
 
 
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::heatEquation::solve
+void Foam::heatEquation::solveBed
 (
     const scalarField& Tstar,
     const scalar tau,
-    const granularState::conductivityColumns& given
+    const granularState::conductivityColumns& K
 )
 {
-    const granularState::conductivityColumns& K = scaled(given);
-
     for (label corrector = 0; corrector <= correctors_; ++corrector)
     {
         T_.boundaryFieldRef().updateCoeffs();
@@ -339,7 +350,7 @@ void Foam::heatEquation::solve
         }
         else
         {
-            addTensor(K);
+            addTensor();
         }
         addSources();
         TEqn_.solve(controls_);
@@ -349,6 +360,24 @@ void Foam::heatEquation::solve
             break;
         }
     }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::heatEquation::solve
+(
+    const scalarField& Tstar,
+    const scalar tau,
+    const granularState::conductivityColumns& given
+)
+{
+    const granularState::conductivityColumns& K = scaled(given);
+    if (!aligned_)
+    {
+        setTensor(K);
+    }
+    neighbours_.couple(tau, [&]() { solveBed(Tstar, tau, K); });
 
     forAll(patchHeat_, patchi)
     {

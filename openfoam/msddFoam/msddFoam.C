@@ -182,6 +182,7 @@ int main(int argc, char *argv[])
     #include "createMesh.H"
 
     const granularProperties granular(runTime);
+    neighbourSolids neighbours(runTime);
 
     checkPlane(mesh, granular.surrogateDict());
 
@@ -203,7 +204,7 @@ int main(int argc, char *argv[])
     );
     autoPtr<timeScheme> scheme
     (
-        timeScheme::New(T, grains, mechanics(), granular)
+        timeScheme::New(T, grains, mechanics(), neighbours, granular)
     );
     const runSummary summary(T, grains, mechanics(), wallClock);
     grains.record().findFiles();
@@ -233,6 +234,7 @@ int main(int argc, char *argv[])
     grains.refresh();
     grains.writeReport();
     mechanics->writeReport();
+    neighbours.report();
     summary.write(scheme->rejected());
 
     Info<< "End\n" << endl;

@@ -38,10 +38,11 @@ Foam::timeSchemes::paper::paper
     volScalarField& T,
     granularState& grains,
     granularMechanics& mechanics,
+    neighbourSolids& neighbours,
     const granularProperties& properties
 )
 :
-    timeScheme(dict, T, grains, mechanics, properties)
+    timeScheme(dict, T, grains, mechanics, neighbours, properties)
 {
     const dictionary& control = time_.controlDict();
     if (control.lookupOrDefault("adjustTimeStep", false))
@@ -61,6 +62,7 @@ void Foam::timeSchemes::paper::step()
     advanceTime();
     setLog();
     Told_ = T_.primitiveField();
+    neighbours_.begin();
     grains_.extrapolateTemperature(T_.primitiveFieldRef());
 
     stepWatch::doing("the model");

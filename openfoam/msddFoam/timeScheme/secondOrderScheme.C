@@ -69,10 +69,11 @@ Foam::timeSchemes::secondOrder::secondOrder
     volScalarField& T,
     granularState& grains,
     granularMechanics& mechanics,
+    neighbourSolids& neighbours,
     const granularProperties& properties
 )
 :
-    timeScheme(dict, T, grains, mechanics, properties),
+    timeScheme(dict, T, grains, mechanics, neighbours, properties),
     adaptive_(time_.controlDict().lookupOrDefault("adjustTimeStep", false)),
     temperatureTolerance_
     (
@@ -109,6 +110,7 @@ Foam::timeSchemes::secondOrder::secondOrder
     rate_(T.size(), Zero),
     firstHeat_(T.mesh().boundary().size(), Zero),
     firstSource_(0),
+    firstOutside_(0),
     rejected_(0),
     forced_(0)
 {
@@ -204,6 +206,7 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     );
     firstHeat_ = heat_.patchHeat();
     firstSource_ = heat_.sourceHeat();
+    firstOutside_ = neighbours_.heat();
 
     forAll(T, celli)
     {
@@ -219,11 +222,12 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
         stage_[celli] = Told_[celli] + (1 - gamma2)*rate_[celli];
         T[celli] = Told_[celli] + rate_[celli];     // first guess
     }
+    neighbours_.secondStage(gamma2);
     time_.value() = start + deltaT;
     heat_.solve(stage_, gamma2*deltaT, K);
     time_.value() = start;
 
-    scalar error = 0;
+    scalar error = neighbours_.stageError(gamma2);
     forAll(T, celli)
     {
         error = max
@@ -313,6 +317,16 @@ void Foam::timeSchemes::secondOrder::accountStages(const scalar deltaT)
     }
     record.sourceHeat += deltaT*sources;
     record.exchanged += deltaT*mag(sources);
+
+    const auto mean = [](const scalar first, const scalar second)
+    {
+        return (1 - gamma2)*first + gamma2*second;
+    };
+    neighbours_.finish
+    (
+        deltaT*mean(firstOutside_, neighbours_.heat()),
+        deltaT*mean(ofNeighbours(firstHeat_), ofNeighbours(heat_.patchHeat()))
+    );
 }
 
 
@@ -333,6 +347,7 @@ void Foam::timeSchemes::secondOrder::step()
     }
     setLog();
     Told_ = T_.primitiveField();
+    neighbours_.begin();
 
     while (true)
     {
@@ -355,6 +370,7 @@ void Foam::timeSchemes::secondOrder::step()
         }
         ++rejected_;
         T_.primitiveFieldRef() = Told_;
+        neighbours_.restore();
         const scalar factor =
             cut ? 0.5 : max(largestCut, safety/std::sqrt(error));
         deltaT = max(minDeltaT_, deltaT*factor);

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "timeScheme.H"
+#include "mappedPatchBase.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -33,6 +34,7 @@ Foam::timeScheme::timeScheme
     volScalarField& T,
     granularState& grains,
     granularMechanics& mechanics,
+    neighbourSolids& neighbours,
     const granularProperties& properties
 )
 :
@@ -41,11 +43,13 @@ Foam::timeScheme::timeScheme
     T_(T),
     grains_(grains),
     mechanics_(mechanics),
+    neighbours_(neighbours),
     heat_
     (
         T,
         properties,
         grains,
+        neighbours,
         label
         (
             granularProperties::ranged
@@ -70,6 +74,7 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
     volScalarField& T,
     granularState& grains,
     granularMechanics& mechanics,
+    neighbourSolids& neighbours,
     const granularProperties& properties
 )
 {
@@ -114,7 +119,7 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
             << " timeScheme " << record.scheme << nl;
     }
     record.scheme = type;
-    return (*constructor)(dict, T, grains, mechanics, properties);
+    return (*constructor)(dict, T, grains, mechanics, neighbours, properties);
 }
 
 
@@ -148,6 +153,22 @@ void Foam::timeScheme::account(const scalar interval)
     }
     record.sourceHeat += interval*heat_.sourceHeat();
     record.exchanged += interval*mag(heat_.sourceHeat());
+    neighbours_.finish
+    (
+        interval*neighbours_.heat(), interval*ofNeighbours(heat)
+    );
+}
+
+
+Foam::scalar Foam::timeScheme::ofNeighbours(const scalarList& heat) const
+{
+    scalar sum = 0;
+    forAll(heat, patchi)
+    {
+        const polyPatch& patch = T_.mesh().boundaryMesh()[patchi];
+        sum += isA<mappedPatchBase>(patch) ? heat[patchi] : 0;
+    }
+    return sum;
 }
 
 

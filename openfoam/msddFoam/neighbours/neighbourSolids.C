@@ -1,0 +1,415 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+
+#include "neighbourSolids.H"
+#include "granularProperties.H"
+#include "IOdictionary.H"
+#include "regionProperties.H"
+#include "mappedPatchBase.H"
+#include "fvmLaplacian.H"
+#include "fvmSup.H"
+#include "SquareMatrix.H"
+#include "scalarMatrices.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Change of the temperatures of the solids over the largest of them at which
+//- the solutions of bed and solids have met: that of the linear solvers
+static const scalar met = 1e-11;
+
+//- Solutions of a stage
+static const label mostSolutions = 60;
+
+//- Solutions that are combined to the next
+static const label mixed = 12;
+
+//- A change that is not below this share of the least of so many solutions ago
+//- is a rounding error, if it is at most this part of the largest temperature
+static const scalar falls = 0.5;
+static const label patience = 3;
+static const scalar rounding = 1e-8;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::neighbourSolids::neighbourSolids(const Time& runTime)
+:
+    size_(0),
+    entered_(0),
+    given_(0),
+    startHeat_(0),
+    stages_(0),
+    solutions_(0),
+    unconverged_(0)
+{
+    IOobject file
+    (
+        "regionProperties", runTime.constant(), runTime,
+        IOobject::MUST_READ, IOobject::NO_WRITE, false
+    );
+    if (!file.typeHeaderOk<IOdictionary>(true))
+    {
+        return;
+    }
+    const regionProperties regions(runTime);
+    forAllConstIters(regions, iter)
+    {
+        if (iter.key() != "solid" && iter.val().size())
+        {
+            FatalErrorInFunction
+                << "constant/regionProperties has the regions "
+                << granularProperties::listed(iter.val()).c_str()
+                << " of type '" << iter.key() << "', allowed beside msddFoam:"
+                << " solid. With a fluid beside the bed run"
+                << " chtMultiRegionFoam, with the bed as solid region of type"
+                << " granularSolidThermo" << exit(FatalError);
+        }
+    }
+
+    // The boundary conditions that couple regions
+    const_cast<Time&>(runTime).libs().open("libturbulentFluidThermoModels.so");
+    for (const word& name : regions.lookup("solid", wordList()))
+    {
+        read(runTime, name);
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::neighbourSolids::read(const Time& runTime, const word& name)
+{
+    Info<< "Solid beside the bed: region " << name << nl;
+    solids_.append(new solid);
+    solid& s = solids_.last();
+    s.mesh.reset
+    (
+        new fvMesh
+        (
+            IOobject(name, runTime.timeName(), runTime, IOobject::MUST_READ)
+        )
+    );
+    s.thermo = solidThermo::New(s.mesh());
+    if (!s.thermo->isotropic())
+    {
+        FatalErrorInFunction
+            << "Region " << name << " has a conductivity with directions,"
+            << " allowed beside msddFoam: the transport models constIso and"
+            << " others without directions" << exit(FatalError);
+    }
+    s.correctors =
+        s.mesh->solutionDict().subOrEmptyDict("PIMPLE")
+       .lookupOrDefault<label>("nNonOrthogonalCorrectors", 0);
+    s.mesh->solverDict("T");
+    update(s);
+    size_ += s.mesh->nCells();
+    startHeat_ = storedHeat();
+}
+
+
+void Foam::neighbourSolids::update(solid& s)
+{
+    s.capacity.reset
+    (
+        new volScalarField("rhoCp", s.thermo->rho()*s.thermo->Cp())
+    );
+    s.kappa.reset(new volScalarField("kappa", s.thermo->kappa()));
+}
+
+
+void Foam::neighbourSolids::solve(solid& s, const scalar tau)
+{
+    volScalarField& T = s.T();
+    const fvMesh& mesh = s.mesh();
+    fv::options& sources = fv::options::New(mesh);
+    const scalarField& C = s.capacity->primitiveField();
+
+    for (label corrector = 0; corrector <= s.correctors; ++corrector)
+    {
+        T.correctBoundaryConditions();
+        fvScalarMatrix equation
+        (
+          - fvm::laplacian(s.kappa(), T, "laplacian(kappa,T)")
+        );
+        equation.diag() += C*mesh.V()/tau;
+        equation.source() += C*mesh.V()*s.Tstar/tau;
+        s.heat = 0;
+        if (!sources.optionList::empty())
+        {
+            const fvScalarMatrix S(sources(s.capacity(), T));
+            equation -= S;
+            sources.constrain(equation);
+            s.heat -= sum(S.source());
+            if (S.hasDiag())
+            {
+                s.heat += sum(S.diag()*T.primitiveField());
+            }
+        }
+        equation.solve(mesh.solverDict("T"));
+        forAll(mesh.boundary(), patchi)
+        {
+            const fvPatch& patch = mesh.boundary()[patchi];
+            if (patch.coupled() || isA<mappedPatchBase>(patch.patch()))
+            {
+                continue;
+            }
+            s.heat += sum
+            (
+                equation.boundaryCoeffs()[patchi]
+              - equation.internalCoeffs()[patchi]
+               *scalarField(T.primitiveField(), patch.faceCells())
+            );
+        }
+    }
+}
+
+
+Foam::scalarField Foam::neighbourSolids::temperatures()
+{
+    scalarField result(size_);
+    label at = 0;
+    for (solid& s : solids_)
+    {
+        const scalarField& T = s.T().primitiveField();
+        SubList<scalar>(result, T.size(), at) = T;
+        at += T.size();
+    }
+    return result;
+}
+
+
+void Foam::neighbourSolids::setTemperatures(const scalarField& all)
+{
+    label at = 0;
+    for (solid& s : solids_)
+    {
+        scalarField& T = s.T().primitiveFieldRef();
+        T = SubList<scalar>(all, T.size(), at);
+        at += T.size();
+    }
+}
+
+
+Foam::scalarField Foam::neighbourSolids::mix
+(
+    const scalarField& from,
+    const scalarField& to
+)
+{
+    tried_.append(to);
+    changes_.append(scalarField(to - from));
+    if (tried_.size() > mixed)
+    {
+        for (label i = 1; i < tried_.size(); ++i)
+        {
+            tried_[i - 1].transfer(tried_[i]);
+            changes_[i - 1].transfer(changes_[i]);
+        }
+        tried_.resize(mixed);
+        changes_.resize(mixed);
+    }
+
+    // Differences from the last, made orthogonal one after the other, the
+    // latest first; one that hardly differs from those before says nothing
+    const label last = tried_.size() - 1;
+    scalarField next(to), left(changes_[last]);
+    PtrList<scalarField> directions, ways;
+    for (label i = last - 1; i >= 0; --i)
+    {
+        scalarField d(changes_[i] - changes_[last]);
+        scalarField way(tried_[i] - tried_[last]);
+        const scalar size = gSumSqr(d);
+        forAll(directions, k)
+        {
+            const scalar part = gSumProd(d, directions[k]);
+            d -= part*directions[k];
+            way -= part*ways[k];
+        }
+        const scalar rest = gSumSqr(d);
+        if (!(rest > 1e-16*size))
+        {
+            continue;
+        }
+        d /= std::sqrt(rest);
+        way /= std::sqrt(rest);
+        const scalar part = gSumProd(left, d);
+        left -= part*d;
+        next -= part*way;
+        directions.append(new scalarField(d));
+        ways.append(new scalarField(way));
+    }
+    return next;
+}
+
+
+Foam::scalar Foam::neighbourSolids::storedHeat()
+{
+    scalar heat = 0;
+    for (solid& s : solids_)
+    {
+        const scalarField& C = s.capacity->primitiveField();
+        heat += gSum(C*s.T().primitiveField()*s.mesh->V());
+    }
+    return heat;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::neighbourSolids::begin()
+{
+    for (solid& s : solids_)
+    {
+        s.Told = s.T().primitiveField();
+        s.Tstar = s.Told;
+    }
+}
+
+
+void Foam::neighbourSolids::restore()
+{
+    for (solid& s : solids_)
+    {
+        s.T().primitiveFieldRef() = s.Told;
+        s.Tstar = s.Told;
+    }
+}
+
+
+void Foam::neighbourSolids::secondStage(const scalar share)
+{
+    for (solid& s : solids_)
+    {
+        scalarField& T = s.T().primitiveFieldRef();
+        s.rate = (T - s.Told)/share;
+        s.Tstar = s.Told + (1 - share)*s.rate;
+        T = s.Told + s.rate;
+    }
+}
+
+
+Foam::scalar Foam::neighbourSolids::stageError(const scalar share) const
+{
+    scalar error = 0;
+    for (const solid& s : solids_)
+    {
+        const scalarField& T = s.thermo->T().primitiveField();
+        error = max(error, gMax(mag(T - s.Tstar - share*s.rate)));
+    }
+    return error;
+}
+
+
+void Foam::neighbourSolids::couple
+(
+    const scalar tau,
+    const std::function<void()>& bed
+)
+{
+    if (empty())
+    {
+        bed();
+        return;
+    }
+    tried_.clear();
+    changes_.clear();
+    ++stages_;
+    scalar least = GREAT;
+    label waited = 0;
+    scalarField from(temperatures());
+    for (label solution = 1; ; ++solution)
+    {
+        bed();
+        for (solid& s : solids_)
+        {
+            solve(s, tau);
+        }
+        ++solutions_;
+        const scalarField to(temperatures());
+        const scalar largest = gMax(mag(to));
+        const scalar change = gMax(mag(to - from));
+        waited = change < falls*least ? 0 : waited + 1;
+        least = min(least, change);
+        const bool ends =
+            change <= met*largest
+         || (waited >= patience && change <= rounding*largest);
+        if (ends || solution == mostSolutions)
+        {
+            unconverged_ += !ends;
+            return;
+        }
+        from = mix(from, to);
+        setTemperatures(from);
+    }
+}
+
+
+Foam::scalar Foam::neighbourSolids::heat() const
+{
+    scalar heat = 0;
+    for (const solid& s : solids_)
+    {
+        heat += s.heat;
+    }
+    return heat;
+}
+
+
+void Foam::neighbourSolids::finish(const scalar entered, const scalar given)
+{
+    entered_ += entered;
+    given_ += given;
+    for (solid& s : solids_)
+    {
+        s.thermo->he() = s.thermo->he(s.thermo->p(), s.T());
+        s.thermo->correct();
+        update(s);
+    }
+}
+
+
+void Foam::neighbourSolids::report()
+{
+    if (empty())
+    {
+        return;
+    }
+    const scalar entered = returnReduce(entered_, sumOp<scalar>());
+    const scalar given = returnReduce(given_, sumOp<scalar>());
+    const scalar more = storedHeat() - startHeat_;
+    Info<< "Solids beside the bed: " << entered << " J came in from outside, "
+        << given << " J went to the bed, and they hold " << more
+        << " J more; the difference is "
+        << mag(entered - given - more)
+          /max(mag(entered) + mag(given) + mag(more), VSMALL)
+        << " of these. " << scalar(solutions_)/max(stages_, label(1))
+        << " solutions a stage";
+    if (unconverged_)
+    {
+        Info<< "; " << unconverged_ << " of " << stages_
+            << " stages ended before bed and solids had met";
+    }
+    Info<< nl << endl;
+}
+
+
+// ************************************************************************* //
