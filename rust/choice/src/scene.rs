@@ -125,6 +125,17 @@ pub struct Scene {
     pub bounds: [[f64; 3]; 2],
 }
 
+/// Settings are looked for on other meshes of the bed, which solids beside it would have to follow.
+fn refuse_regions(folder: &Path) -> Result<(), ChoiceError> {
+    let file = folder.join("constant/regionProperties");
+    if !file.exists() {
+        return Ok(());
+    }
+    let problem =
+        "the bed has solids beside it, allowed where settings are looked for: a bed alone".to_string();
+    Err(CaseError::Read { file, problem }.into())
+}
+
 impl Scene {
     /// Reads a case folder.
     ///
@@ -134,6 +145,7 @@ impl Scene {
         let folder = std::fs::canonicalize(folder)
             .map_err(|error| CaseError::Read { file: folder.to_path_buf(), problem: error.to_string() })?;
         path::check(&folder)?;
+        refuse_regions(&folder)?;
         let expanded = |name: &str| Dictionary::expanded(&folder.join(name));
         let control = expanded("system/controlDict")?;
         let solution = expanded("system/fvSolution")?;

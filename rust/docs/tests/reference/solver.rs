@@ -24,10 +24,12 @@ const AXES: &str = "openfoam/granularThermo/principalAxes/principalAxes.C";
 const SECOND: &str = "openfoam/msddFoam/timeScheme/secondOrderScheme.C";
 
 /// Texts that are looked up in the solver and are no keys of a user.
-pub const NO_KEYS: [(&str, &str); 3] = [
+pub const NO_KEYS: [(&str, &str); 5] = [
     ("accept", "option of the command line, in the table of msddFoam"),
     ("solvers", "dictionary of every fvSolution"),
     ("equilibrium", "heading of the table solvers.equilibrium"),
+    ("solid", "kind of region in every regionProperties"),
+    ("PIMPLE", "dictionary of OpenFOAM's regions"),
 ];
 
 /// Keys of controlDict that OpenFOAM's Time reads for us.
