@@ -31,7 +31,7 @@ fn shipped_cases_have_no_errors() {
         assert_eq!(found.counts()[0], 0, "{name}: {:#?}", lines(&found));
         count += 1;
     }
-    assert_eq!(count, 10);
+    assert_eq!(count, 11);
 }
 
 /// Copies the case that the solver's tests start from, with its includes spelled out; text is appended to one of its files.
@@ -149,4 +149,94 @@ fn what_is_doubtful_or_missing_is_said() {
         assert!(found.iter().any(|line| line.starts_with(&format!("error: {file}: missing"))), "{found:#?}");
     }
     assert!(lines(&check(Path::new("no-such-folder")))[0].contains("no such folder"));
+}
+
+/// A copy of cases/blanket beside cases/common, with a text appended to one of its files; an empty text removes the file.
+fn found_in_blanket(name: &str, file: &str, text: &str) -> Vec<String> {
+    let work = std::env::temp_dir().join(format!("msdd-check-regions-{}-{name}", std::process::id()));
+    for folder in ["blanket", "common"] {
+        copy(&checkout().join("cases").join(folder), &work.join(folder));
+    }
+    let path = work.join("blanket").join(file);
+    if text.is_empty() {
+        fs::remove_file(&path).unwrap();
+    } else {
+        fs::write(&path, fs::read_to_string(&path).unwrap() + text).unwrap();
+    }
+    let found = check(&work.join("blanket"));
+    fs::remove_dir_all(&work).unwrap();
+    lines(&found)
+}
+
+/// Copies a folder without results and meshes.
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for name in names(from) {
+        let (old, new) = (from.join(&name), to.join(&name));
+        if old.is_dir() {
+            if !["polyMesh", "postProcessing"].contains(&name.as_str()) {
+                copy(&old, &new);
+            }
+        } else {
+            fs::copy(&old, &new).unwrap();
+        }
+    }
+}
+
+#[test]
+fn beds_of_several_regions_are_checked_with_their_paths() {
+    for (name, file, text, wanted) in [
+        (
+            "fluid",
+            "constant/regionProperties",
+            "regions ( fluid (bed) solid () );",
+            "error: constant/regionProperties: regions/fluid = bed",
+        ),
+        (
+            "none",
+            "constant/bed/thermophysicalProperties",
+            "thermoType heSolidThermo;",
+            "doubt: constant/regionProperties: regions/solid",
+        ),
+        (
+            "typing",
+            "constant/bed/thermophysicalProperties",
+            "crosTolerance 0.1;",
+            "error: constant/bed/thermophysicalProperties: crosTolerance = 0.1",
+        ),
+        (
+            "mechanics",
+            "constant/bed/granularProperties",
+            "mechanics equilibrium;",
+            "error: constant/bed/granularProperties: mechanics = equilibrium, allowed: none in a region",
+        ),
+        (
+            "radius",
+            "constant/bed/granularProperties",
+            "meanRadius -1;",
+            "error: constant/bed/granularProperties: meanRadius = -1",
+        ),
+        ("no-p", "0/bed/p", "", "error: 0/bed/p: missing"),
+        (
+            "percent",
+            "0/bed/porosity",
+            "internalField uniform 14;",
+            "error: 0/bed/porosity: internalField = 14",
+        ),
+        (
+            "solver",
+            "system/bed/fvSolution",
+            "solvers { \"h|hFinal\" none; }",
+            "error: system/bed/fvSolution: solvers/h = missing",
+        ),
+        (
+            "library",
+            "system/controlDict",
+            "libs (\"libgranularModels.so\");",
+            "error: system/controlDict: libs, allowed: a list with \"libgranularThermo.so\"",
+        ),
+    ] {
+        let found = found_in_blanket(name, file, text);
+        assert!(found.iter().any(|line| line.starts_with(wanted)), "{name}: {found:#?}, expected {wanted}");
+    }
 }

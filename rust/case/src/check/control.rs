@@ -52,9 +52,12 @@ const LIBRARIES: [&str; 8] = [
     "libforces.so",
     "libgranularFunctionObjects.so",
     "libgranularModels.so",
-    "libgranularThermo.so",
+    BEDS,
     "libsolverFunctionObjects.so",
 ];
+
+/// The library that makes a region of OpenFOAM's own solvers a bed.
+const BEDS: &str = "libgranularThermo.so";
 
 /// Times of the case, which checks of other files need.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +81,7 @@ pub fn check(control: &Dictionary, solution: Option<&Dictionary>, found: &mut Fi
             found.doubt([CONTROL, &key.text], "", "", &advice);
         }
     }
-    let adaptive = matches!(control.text("adjustTimeStep").as_deref(), Ok("yes" | "on" | "true"));
+    let adaptive = is_adaptive(control);
     let scheme = solution.map_or_else(|| "paper".to_string(), |solution| check_solution(solution, found));
     if adaptive && scheme == "paper" {
         let advice = "The paper's scheme has fixed steps; for adaptive ones, give 'msddFoam { timeScheme secondOrder; }' in \
@@ -86,6 +89,28 @@ pub fn check(control: &Dictionary, solution: Option<&Dictionary>, found: &mut Fi
         found.error([CONTROL, "adjustTimeStep"], "yes", "no with timeScheme paper", advice);
     }
     check_code(control, found);
+    times(control, adaptive, found)
+}
+
+/// Checks `system/controlDict` of a case of several regions, in which the regions have their own `fvSolution`.
+pub fn check_of_regions(control: &Dictionary, found: &mut Findings) -> Option<Times> {
+    for key in keys::CONTROL {
+        keys::value(control, CONTROL, key, found);
+    }
+    let listed = control.value("libs").is_ok_and(|libs| libs.iter().any(|library| library.text == BEDS));
+    if !listed {
+        let allowed = format!("a list with \"{BEDS}\"");
+        found.error([CONTROL, "libs"], "", &allowed, "The library that makes a region a bed");
+    }
+    check_code(control, found);
+    times(control, is_adaptive(control), found)
+}
+
+fn is_adaptive(control: &Dictionary) -> bool {
+    matches!(control.text("adjustTimeStep").as_deref(), Ok("yes" | "on" | "true"))
+}
+
+fn times(control: &Dictionary, adaptive: bool, found: &mut Findings) -> Option<Times> {
     let number = |key: &str| keys::number(control, key, "");
     let (start, end, step) = (number("startTime").unwrap_or(0.0), number("endTime")?, number("deltaT")?);
     if step > 0.0 && end - start <= 0.5 * step {

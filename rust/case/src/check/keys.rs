@@ -52,7 +52,17 @@ pub const GRAINS: &[Key] = &[
     may("equilibriumCoeffs", Kind::Dictionary),
 ];
 
-/// `surrogate` in it, whatever its type.
+/// `constant/<region>/thermophysicalProperties` of a bed.
+pub const THERMO: &[Key] = &[
+    may("FoamFile", Kind::Any),
+    must("thermoType", Kind::Word(&["granularSolidThermo"])),
+    may("coordinateSystem", Kind::Dictionary),
+    may("crossTolerance", Kind::Range(0.0, 1.0, "")),
+    may("updateT", Kind::Any),
+    may("dpdt", Kind::Any),
+];
+
+/// `surrogate` in `constant/granularProperties`, whatever its type.
 pub const SURROGATE: &[Key] = &[
     must("type", Kind::Word(&["constant", "network", "onlineRve", "plugin"])),
     may("smallestStrain", Kind::Range(0.0, 0.01, "")),

@@ -33,6 +33,7 @@ fn tables_hold_exactly_the_keys_that_the_solver_allows() {
         ("granularMechanics/equilibriumSolver.C", "controls", LINEAR),
         ("regionPolicy/regionPolicy.C", "dict", SIDES),
         ("../msddFoam/timeScheme/timeScheme.C", "dict", SOLVER),
+        ("../granularThermo/granularSolidThermo/granularSolidThermo.C", "*this", THERMO),
     ] {
         let mut ours: Vec<&str> = keys.iter().map(|key| key.name).collect();
         let mut theirs = list_in(&format!("{models}/{source}"), dictionary);

@@ -33,14 +33,15 @@ impl Mesh {
     }
 }
 
-/// Checks the mesh and returns what is known of it; `blocks` is `system/blockMeshDict`.
-pub fn check(folder: &Path, blocks: Option<&Dictionary>, found: &mut Findings) -> Mesh {
+/// Checks the mesh and returns what is known of it; `constant` is the folder that holds `polyMesh`, `blocks` is
+/// `system/blockMeshDict`.
+pub fn check(constant: &Path, blocks: Option<&Dictionary>, found: &mut Findings) -> Mesh {
     let mut mesh = Mesh::default();
     if let Some(blocks) = blocks {
         read_blocks(blocks, &mut mesh, found);
     }
     // The solver reads the mesh in constant/polyMesh; blockMeshDict may have been changed after that was made.
-    let boundary = folder.join("constant/polyMesh/boundary");
+    let boundary = constant.join("polyMesh/boundary");
     if let Ok(text) = msdd_files::read_text(&boundary) {
         match patches_of_mesh(&boundary, &text) {
             Some(patches) => mesh.patches = patches,
@@ -52,7 +53,7 @@ pub fn check(folder: &Path, blocks: Option<&Dictionary>, found: &mut Findings) -
             ),
         }
         let old = mesh.cells;
-        mesh.cells = cells_of_mesh(folder).or(old);
+        mesh.cells = cells_of_mesh(constant).or(old);
         if old.is_some() && mesh.cells != old {
             let (made, wanted) = (mesh.cells.unwrap_or(0), old.unwrap_or(0));
             let advice = "The mesh in constant/polyMesh is older than this file; Allrun makes it again, or run blockMesh";
@@ -133,8 +134,8 @@ fn patches_of_mesh(file: &Path, text: &str) -> Option<Vec<[String; 2]>> {
 }
 
 /// Number of cells, from `nCells:N` in the note of `constant/polyMesh/owner`.
-fn cells_of_mesh(folder: &Path) -> Option<usize> {
-    let text = msdd_files::read_text(&folder.join("constant/polyMesh/owner")).ok()?;
+fn cells_of_mesh(constant: &Path) -> Option<usize> {
+    let text = msdd_files::read_text(&constant.join("polyMesh/owner")).ok()?;
     let (_, rest) = text.split_once("nCells:")?;
     rest.trim_start().split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()
 }

@@ -264,7 +264,9 @@ fn source_of(sources: &Dictionary) -> f64 {
         let source = if let Some(Entry::Dictionary(inner)) = inner { inner } else { source };
         let rates = source.dictionary_at("injectionRateSuSp").ok()?;
         let specific = source.text("volumeMode").is_ok_and(|mode| mode == "specific");
-        specific.then(|| rates.value("T").map(numbers_in).unwrap_or_default().first().copied()).flatten()
+        // Regions of OpenFOAM's own solvers are solved for the enthalpy
+        let rate = rates.value("T").or_else(|_| rates.value("h"));
+        specific.then(|| rate.map(numbers_in).unwrap_or_default().first().copied()).flatten()
     };
     let all = sources.keys().filter_map(|key| match sources.get(&key.text) {
         Some(Entry::Dictionary(source)) => of(source),

@@ -1,0 +1,92 @@
+//! Checks one bed: a whole case of `msddFoam`, or a region of a case of several.
+
+use super::fields::{self, FIELDS};
+use super::finding::Findings;
+use super::mesh::Mesh;
+use super::{control, grains, scales, state};
+use crate::dictionary::Dictionary;
+use crate::grains::Grains;
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Files of a bed by their names in a case of `msddFoam`, and what stands in them.
+pub type Files = Vec<(&'static str, Dictionary)>;
+
+/// The dictionary of a file, if the file could be read.
+pub fn file<'a>(files: &'a Files, name: &str) -> Option<&'a Dictionary> {
+    files.iter().find(|(path, _)| *path == name).map(|(_, dictionary)| dictionary)
+}
+
+/// Reads files, and adds a finding for each that is missing although it is needed, or cannot be read. `place` is the path below
+/// the case folder at which a file stands.
+pub fn read(
+    folder: &Path,
+    names: &[(&'static str, bool)],
+    place: impl Fn(&str) -> String + Sync,
+    found: &mut Findings,
+) -> Files {
+    let there = |name: &str| folder.join(name).exists() || folder.join(format!("{name}.gz")).exists();
+    let results: Vec<_> = names
+        .par_iter()
+        .map(|&(name, required)| {
+            let path = place(name);
+            (name, required, there(&path).then(|| Dictionary::expanded(&folder.join(&path))))
+        })
+        .collect();
+    let mut files = Vec::new();
+    for (name, required, result) in results {
+        match result {
+            Some(Ok(dictionary)) => files.push((name, dictionary)),
+            Some(Err(error)) => found.refused(name, error, ""),
+            None if required => {
+                let advice = "The solver needs this file; 'msdd case new' writes a case with all of them";
+                found.error([name, ""], "missing", "", advice);
+            }
+            None => {}
+        }
+    }
+    files
+}
+
+/// Checks grains, fields and their state; paths in the findings are those of a case of `msddFoam`.
+pub fn check(folder: &Path, files: &Files, mesh: &Mesh, times: Option<control::Times>, found: &mut Findings) {
+    let file = |name: &str| file(files, name);
+    let properties = file(grains::FILE);
+    let model = properties.and_then(|properties| grains::check(folder, properties, &mesh.names(), found));
+    let values = FIELDS
+        .each_ref()
+        .map(|field| file(field.file).and_then(|dictionary| fields::check(field, dictionary, mesh, found)));
+    let [temperature, porosity, fabric_index, conductivity, stress] = &values;
+    let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), file(scales::SOURCES), mesh, times);
+    scene.check_walls(found);
+    let grains = properties.and_then(numbers);
+    if let (Some(grains), Some(porosity), Some(fabric_index)) = (grains, porosity, fabric_index) {
+        scene.check_cells(&grains, porosity.mean(0), found);
+        let (conductivity, stress) = (conductivity.as_ref(), stress.as_ref());
+        let start = state::Start { porosity, fabric_index, conductivity, stress };
+        if let (Some(model), Some(properties)) = (&model, properties) {
+            let bed = state::check(model.as_ref(), &start, &grains, properties, found);
+            scene.check_strains(&grains, &bed, found, |strain, found| {
+                state::walk(model.as_ref(), &start, &grains, strain, found);
+            });
+            scene.check_times(&bed, found);
+        }
+    }
+}
+
+/// The six properties of the grains, if all are valid.
+fn numbers(file: &Dictionary) -> Option<Grains> {
+    let value = |key: &str| {
+        let text = file.value(key).ok()?.last()?;
+        text.text.parse::<f64>().ok().filter(|value| value.is_finite())
+    };
+    let grains = Grains {
+        density: value("density")?,
+        young_modulus: value("youngModulus")?,
+        thermal_conductivity: value("thermalConductivity")?,
+        heat_capacity: value("heatCapacity")?,
+        thermal_expansion: value("thermalExpansion")?,
+        mean_radius: value("meanRadius")?,
+    };
+    grains.check().ok().map(|()| grains)
+}
