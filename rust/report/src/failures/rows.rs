@@ -238,8 +238,8 @@ fn scenes() -> Vec<Edge> {
         edge(
             "cycles",
             "case cycle: ten of 20 K to and fro",
-            "does not drift, says that states are beyond the data",
-            REPORTED,
+            "does not drift, and its states are within the data",
+            &["done", "cut"],
             super::cycles::job("equilibrium"),
         ),
         edge("slanted cells", "60 degrees", "goes on", DONE, lean(60.0)),
