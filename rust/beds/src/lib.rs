@@ -9,7 +9,7 @@
 //! | [`settle`](mod@settle) | coming to rest under gravity; turning it |
 //! | [`pour`](mod@pour) | grains rain into a box or cylinder until they are at rest |
 //! | [`press`](mod@press) | a wall that is pressed onto a bed |
-//! | [`pack`](mod@pack) | isotropic compression of a periodic box to a pressure |
+//! | [`pack`](mod@pack) | compression of a periodic box to a pressure |
 //! | [`property`] | properties by temperature |
 //! | [`gas`] | law of heat through gas: between two spheres, and to a plate |
 //! | [`named_gases`] | air, nitrogen, helium, argon, vacuum |
@@ -50,7 +50,7 @@ pub mod transient;
 pub mod vtk;
 
 pub use averages::{Averages, averages};
-pub use pack::{Packed, Packing, pack};
+pub use pack::{Packed, Packing, pack, pack_along};
 
 /// What can go wrong with a box.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,4 +1,4 @@
-//! Packing: a periodic box of equal spheres is compressed isotropically until it bears a pressure.
+//! Packing: a periodic box of equal spheres is compressed until it bears a pressure, isotropically or along given axes.
 //!
 //! Friction while packing decides how dense the packing gets: from a solid fraction of 0.64 without friction to 0.57.
 
@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 
 /// Solid fraction at the start; random sequential addition ends at 0.38.
 const LOOSE: f64 = 0.3;
+/// Solid fraction near which a box that is compressed along given axes becomes a cube.
+const DENSE: f64 = 0.6;
 /// Steps between two adjustments of the rate.
 const LOOK_EVERY: u64 = 20;
 /// Largest strain rate over √(p/ρ)/d, the inertial number of the compression. Not settled by any reference; chosen because
@@ -71,29 +73,47 @@ impl Packing {
     }
 }
 
-/// Packs.
+/// Packs isotropically.
 ///
 /// # Errors
 /// A parameter outside its range; a run that fails.
 pub fn pack(packing: &Packing) -> Result<Packed, BedError> {
+    pack_along(packing, [1.0; 3])
+}
+
+/// Packs by rates of closing along the axes in the ratio of `rates` \[-\]: the largest is 1, their sum is above 0, and an axis
+/// whose rate is below 0 opens. p is the mean pressure.
+///
+/// # Errors
+/// A parameter outside its range; a run that fails.
+pub fn pack_along(packing: &Packing, rates: [f64; 3]) -> Result<Packed, BedError> {
     packing.check()?;
     let &Packing { spheres: count, seed, diameter, pressure, .. } = packing;
     let radius = 0.5 * diameter;
     let density = packing.material.density;
     let volume = count as f64 * std::f64::consts::PI / 6.0 * diameter.powi(3);
     let edge = libm::cbrt(volume / LOOSE);
-    let centres = scatter(&mut Random::new(seed), count, radius, edge)?;
+    let sum: f64 = rates.iter().sum();
+    let edges = rates.map(|rate| edge * libm::pow(DENSE / LOOSE, rate / sum - 1.0 / 3.0));
+    let centres = scatter(&mut Random::new(seed), count, radius, edges)?;
     let spheres = centres.into_iter().map(|centre| Sphere::at_rest(centre, radius, density)).collect();
-    let cell = Cell::block([edge; 3]);
+    let cell = Cell::block(edges);
     let mut simulation = Simulation::new(packing.material.clone(), spheres, Boundary::Periodic(cell))?;
-    let settled = compress(&mut simulation, packing, (pressure / density).sqrt() / diameter)?;
+    let settled = compress(&mut simulation, packing, rates, (pressure / density).sqrt() / diameter)?;
     simulation.drag = 0.0;
     let averages = averages(&simulation);
     Ok(Packed { simulation, averages, settled })
 }
 
 /// `per_time` \[1/s\] is √(p/ρ)/d.
-fn compress(simulation: &mut Simulation, packing: &Packing, per_time: f64) -> Result<bool, BedError> {
+fn compress(
+    simulation: &mut Simulation,
+    packing: &Packing,
+    rates: [f64; 3],
+    per_time: f64,
+) -> Result<bool, BedError> {
+    // The same volume per time along whatever axes, once the pressure is borne.
+    let evenly = 3.0 / rates.iter().sum::<f64>();
     let target = packing.pressure;
     let fastest = FASTEST * per_time;
     let mut borne = false;
@@ -111,8 +131,13 @@ fn compress(simulation: &mut Simulation, packing: &Packing, per_time: f64) -> Re
             simulation.set_velocity_gradient([[0.0; 3]; 3]);
             return Ok(true);
         }
-        let rate = fastest * (if borne { GAIN * error } else { error }).clamp(-1.0, 1.0);
-        simulation.set_velocity_gradient([[rate, 0.0, 0.0], [0.0, rate, 0.0], [0.0, 0.0, rate]]);
+        let [x, y, z] = if borne {
+            let rate = fastest * (GAIN * error).clamp(-1.0, 1.0);
+            rates.map(|along| rate * evenly * along)
+        } else {
+            rates.map(|along| fastest * error.clamp(-1.0, 1.0) * along)
+        };
+        simulation.set_velocity_gradient([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]);
         simulation.run(LOOK_EVERY)?;
     }
     simulation.set_velocity_gradient([[0.0; 3]; 3]);

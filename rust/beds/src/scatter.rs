@@ -23,31 +23,38 @@ impl Random {
     }
 }
 
-/// Centres of `count` equal spheres without overlap in a periodic cube from the origin to `edge` \[m\]. They are
+/// Centres of `count` equal spheres without overlap in a periodic block from the origin to `edges` \[m\]. They are
 /// returned in the order of their places (cells of a grid, line by line), so that neighbours are near each other in
 /// memory.
 ///
 /// # Errors
 /// [`BedError::NoRoom`].
-pub fn scatter(random: &mut Random, count: usize, radius: f64, edge: f64) -> Result<Vec<[f64; 3]>, BedError> {
-    let side = ((edge / (2.0 * radius)) as usize).max(3);
-    let cell = edge / side as f64;
-    let mut cells: Vec<Vec<[f64; 3]>> = vec![Vec::new(); side * side * side];
-    let home = |place: [usize; 3]| (place[2] * side + place[1]) * side + place[0];
+pub fn scatter(
+    random: &mut Random,
+    count: usize,
+    radius: f64,
+    edges: [f64; 3],
+) -> Result<Vec<[f64; 3]>, BedError> {
+    let sides = edges.map(|edge| ((edge / (2.0 * radius)) as usize).max(3));
+    let mut cells: Vec<Vec<[f64; 3]>> = vec![Vec::new(); sides.iter().product()];
+    let home = |place: [usize; 3]| (place[2] * sides[1] + place[1]) * sides[0] + place[0];
     let near = |a: [f64; 3], b: [f64; 3]| {
         let square = (0..3).fold(0.0, |sum, k| {
             let d = (a[k] - b[k]).abs();
-            let d = d.min(edge - d);
+            let d = d.min(edges[k] - d);
             sum + d * d
         });
         square < 4.0 * radius * radius
     };
     for placed in 0..count {
         let free = (0..ATTEMPTS).find_map(|_| {
-            let centre: [f64; 3] = std::array::from_fn(|_| random.uniform(0.0, edge));
-            let place = centre.map(|x| ((x / cell) as usize).min(side - 1));
+            let centre: [f64; 3] = edges.map(|edge| random.uniform(0.0, edge));
+            let place = std::array::from_fn(|k| {
+                let cell = edges[k] / sides[k] as f64;
+                ((centre[k] / cell) as usize).min(sides[k] - 1)
+            });
             let clash = (0..27).any(|code| {
-                let around = |k: usize, digit: usize| (place[k] + side + digit - 1) % side;
+                let around = |k: usize, digit: usize| (place[k] + sides[k] + digit - 1) % sides[k];
                 let neighbour = [around(0, code % 3), around(1, code / 3 % 3), around(2, code / 9)];
                 cells[home(neighbour)].iter().any(|&other| near(centre, other))
             });
@@ -66,7 +73,7 @@ mod tests {
     #[test]
     fn spheres_do_not_overlap_and_a_full_box_is_refused() {
         let (radius, edge) = (0.5, 6.0);
-        let centres = scatter(&mut Random::new(3), 120, radius, edge).unwrap();
+        let centres = scatter(&mut Random::new(3), 120, radius, [edge; 3]).unwrap();
         assert_eq!(centres.len(), 120);
         for (k, a) in centres.iter().enumerate() {
             for b in &centres[..k] {
@@ -75,8 +82,8 @@ mod tests {
                 assert!(square >= 1.0);
             }
         }
-        assert_eq!(centres, scatter(&mut Random::new(3), 120, radius, edge).unwrap());
-        let full = scatter(&mut Random::new(3), 400, radius, edge).unwrap_err();
+        assert_eq!(centres, scatter(&mut Random::new(3), 120, radius, [edge; 3]).unwrap());
+        let full = scatter(&mut Random::new(3), 400, radius, [edge; 3]).unwrap_err();
         assert!(full.to_string().ends_with("of 400 spheres only"), "{full}");
     }
 }

@@ -18,6 +18,7 @@
 //! | [`message`] | shortening of long values in messages |
 //! | [`vtk`] | ParaView files |
 //! | [`stopwatch`] | time spent in each part of the work |
+//! | [`spheres`] | periodic boxes of spheres: strain and averages |
 //! | [`database`] | plan, generation, storage, export |
 #![forbid(unsafe_code)]
 
@@ -36,6 +37,7 @@ mod resistors;
 pub mod scale;
 pub mod settle;
 pub mod slide;
+pub mod spheres;
 pub mod state;
 pub mod stopwatch;
 pub mod vtk;

@@ -2,6 +2,7 @@
 
 use msdd_rve::database::{
     DatabaseError, Kind, Plan, RampName, Run, check, export_csv, generate, merge, read, record::COLUMNS,
+    table::Row,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

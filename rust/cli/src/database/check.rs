@@ -2,9 +2,10 @@
 
 use crate::error::CliError;
 use clap::Args;
-use msdd_rve::database::check::{Report, check};
-use msdd_rve::database::inspect;
-use std::path::PathBuf;
+use msdd_rve::database::check::{Mean, Report, check};
+use msdd_rve::database::spheres::check::TwinDifference;
+use msdd_rve::database::{Dataset, Grains, Record, SphereRecord, Violation, grains, inspect, spheres};
+use std::path::{Path, PathBuf};
 
 /// Note on a file of an older program, which is accepted.
 const NO_CHECKSUMS: &str =
@@ -20,14 +21,36 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    let (dataset, damage) = inspect(&arguments.database)?;
-    let report = check(&dataset);
-    print(&report);
-    let (file, count) = (arguments.database.display(), report.violations.len());
-    for violation in report.violations.iter().take(PRINTED) {
+    let path = &arguments.database;
+    match grains(path)? {
+        Grains::Discs => {
+            let (dataset, damage) = inspect::<Record>(path)?;
+            let report = check(&dataset);
+            print(&report);
+            verdict(path, &dataset, &report.violations, &damage)
+        }
+        Grains::Spheres => {
+            let (dataset, damage) = inspect::<SphereRecord>(path)?;
+            let report = spheres::check::check(&dataset);
+            print_symmetry(&report.symmetry);
+            print_twins(&report.twins);
+            verdict(path, &dataset, &report.violations, &damage)
+        }
+    }
+}
+
+/// Prints violated laws and damage, which are an error.
+fn verdict<R>(
+    path: &Path,
+    dataset: &Dataset<R>,
+    violations: &[Violation],
+    damage: &[String],
+) -> Result<(), CliError> {
+    let (file, count) = (path.display(), violations.len());
+    for violation in violations.iter().take(PRINTED) {
         note!("violated: {violation}");
     }
-    for problem in &damage {
+    for problem in damage {
         note!("damaged: {problem}");
     }
     if count > 0 || !damage.is_empty() {
@@ -35,22 +58,42 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         return Err(CliError::Message(format!("{file}: {damaged}{count} violations of exact laws")));
     }
     outln!("checksums: {}", if dataset.has_checksum() { "agree" } else { NO_CHECKSUMS });
-    outln!("exact laws: hold on all {} rows", report.rows);
+    outln!("exact laws: hold on all {} rows", dataset.records.len());
     Ok(())
 }
 
-fn print(report: &Report) {
-    outln!("Mirror symmetry: means over isotropic packings, 0 expected");
-    for mean in &report.symmetry {
+fn print_twins(twins: &[TwinDifference]) {
+    outln!("Twins: differences between packings that are equal by symmetry, of settled pairs");
+    for twin in twins {
+        let what = if twin.turned { "axes with other names" } else { "grown radii, shrunk box" };
         outln!(
-            "  {:>6} discs  {:<28} {:+.5} +- {:.5} ({} packings)",
-            mean.discs,
+            "  {:<24} {:<25} median {:.1e}, largest {:.1e} ({} pairs)",
+            what,
+            twin.quantity,
+            twin.median,
+            twin.largest,
+            twin.pairs
+        );
+    }
+}
+
+fn print_symmetry(means: &[Mean]) {
+    outln!("Mirror symmetry: means over isotropic packings, 0 expected");
+    for mean in means {
+        outln!(
+            "  {:>6} {:<7} {:<28} {:+.5} +- {:.5} ({} packings)",
+            mean.count,
+            mean.grains,
             mean.quantity,
             mean.mean,
             mean.standard_error,
             mean.packings
         );
     }
+}
+
+fn print(report: &Report) {
+    print_symmetry(&report.symmetry);
     outln!("Size: packed states against those of the most frequent size, at equal porosity and fabric index");
     for size in &report.sizes {
         outln!(

@@ -2,6 +2,7 @@
 
 mod check;
 mod plot;
+mod slurm;
 mod timing;
 mod warning;
 
@@ -12,7 +13,10 @@ use crate::progress::Progress;
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand};
 use msdd_files::{check_target, read_text, write};
-use msdd_rve::database::{Effort, Offenders, Plan, Run, Shard, export_csv, generate, merge, read, seal};
+use msdd_rve::database::{
+    Effort, Grains, Offenders, Plan, Recipe, Run, Shard, SpherePlan, export_csv, generate, grains, merge,
+    read, read_spheres, seal,
+};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -22,6 +26,9 @@ use std::time::Instant;
 pub enum Command {
     /// Generate the RVEs of a plan, or continue where an earlier run stopped.
     Generate(GenerateArguments),
+    /// Generate a plan on a cluster: submit its parts (shards) to Slurm as an array of jobs, and a job that joins them; or go
+    /// on, submit again what is missing, and say how far all parts are.
+    Slurm(slurm::Arguments),
     /// Join the parts (shards) of a plan to the database that a single process would have generated.
     Merge(MergeArguments),
     /// Write a database as CSV, with FILE.columns.csv (units, meaning) and FILE.provenance.json beside it.
@@ -117,6 +124,7 @@ pub struct ExportArguments {
 pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Generate(arguments) => make(arguments),
+        Command::Slurm(arguments) => slurm::run(arguments),
         Command::Merge(arguments) => {
             warn_without_checksum(&arguments.shards)?;
             let rows = merge(&arguments.shards, &arguments.out)?;
@@ -158,7 +166,14 @@ fn plan(arguments: &PlanArguments) -> Result<(), CliError> {
 fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
     arguments.simd.apply()?;
     arguments.timing.iter().try_for_each(|timing| check_target(timing))?;
-    let plan = Plan::parse(&read_text(&arguments.plan)?, &arguments.plan.display().to_string())?;
+    let (text, file) = (read_text(&arguments.plan)?, arguments.plan.display().to_string());
+    match SpherePlan::is_meant(&text) {
+        true => make_rows(arguments, &SpherePlan::parse(&text, &file)?),
+        false => make_rows(arguments, &Plan::parse(&text, &file)?),
+    }
+}
+
+fn make_rows<P: Recipe>(arguments: &GenerateArguments, plan: &P) -> Result<(), CliError> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let built = env!("MSDD_COMMIT");
     let run = Run {
@@ -168,7 +183,7 @@ fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
     };
     let start = Instant::now();
     let mut bar = Progress::new("packings", plan.jobs().len() as u64);
-    let made = generate(&plan, &arguments.out, &run, |progress| {
+    let made = generate(plan, &arguments.out, &run, |progress| {
         let note = match progress.failed {
             0 => String::new(),
             failed => format!("({failed} failed)"),
@@ -186,13 +201,18 @@ fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
 
 /// Prints the number of rows by outcome, and how long each part of the work took.
 fn report(arguments: &GenerateArguments, timing: &timing::Timing) -> Result<(), CliError> {
-    let records = read(&arguments.out)?.records;
-    let mut outcomes: BTreeMap<&str, usize> = BTreeMap::new();
-    for record in &records {
-        *outcomes.entry(&record.outcome).or_default() += 1;
+    let outcomes: Vec<String> = match grains(&arguments.out)? {
+        Grains::Discs => read(&arguments.out)?.records.into_iter().map(|record| record.outcome).collect(),
+        Grains::Spheres => {
+            read_spheres(&arguments.out)?.records.into_iter().map(|record| record.outcome).collect()
+        }
+    };
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for outcome in &outcomes {
+        *counts.entry(outcome).or_default() += 1;
     }
-    let list: Vec<String> = outcomes.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-    outln!("{} rows ({}) in {}", records.len(), list.join(", "), arguments.out.display());
+    let list: Vec<String> = counts.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    outln!("{} rows ({}) in {}", outcomes.len(), list.join(", "), arguments.out.display());
     outln!("{timing}");
     Ok(())
 }

@@ -11,7 +11,7 @@ const C_INTERFACE: &str = "reference/c-interface.md";
 const RVE: &str = "rust/rve/src";
 
 pub fn sets() -> Vec<Set> {
-    [plan(), database(), other_files(), scenes(), beds()].concat()
+    [plan(), spheres(), database(), other_files(), scenes(), beds()].concat()
 }
 
 fn beds() -> Vec<Set> {
@@ -105,19 +105,57 @@ fn plan() -> Vec<Set> {
 /// Defaults are what functions return, ranges are constants.
 fn path_block(compressions: &[String]) -> Set {
     const SOURCE: &str = "rust/rve/src/database/block.rs";
-    let text = crate::sources::text(SOURCE);
-    let mut set = with_required(fields_of(PLAN, "path block", RVE, "PathBlock"), RVE, "PathBlock")
-        .with_words("compressions", "allowed", compressions);
-    for (key, name) in [("step", "usual_step"), ("probe_every", "usual_probe_every")] {
+    let set = with_required(fields_of(PLAN, "path block", RVE, "PathBlock"), RVE, "PathBlock").with_words(
+        "compressions",
+        "allowed",
+        compressions,
+    );
+    let set = usual(set, SOURCE, &[("step", "usual_step"), ("probe_every", "usual_probe_every")]);
+    within(set, SOURCE, &[("step", "STEPS"), ("probes", "PROBES")])
+}
+
+fn spheres() -> Vec<Set> {
+    const SOURCE: &str = "rust/rve/src/database/spheres/plan.rs";
+    let plan = with_required(fields_of(PLAN, "sphere plan", RVE, "SpherePlan"), RVE, "SpherePlan");
+    let defaults = [
+        ("friction", "usual_friction"),
+        ("poisson_ratio", "usual_poisson_ratio"),
+        ("restitution", "usual_restitution"),
+    ];
+    let plan = usual(plan, SOURCE, &defaults);
+    let compressions = variants(RVE, "SphereCompression");
+    let block = with_required(fields_of(PLAN, "sphere block", RVE, "SphereBlock"), RVE, "SphereBlock")
+        .with_words("compressions", "allowed", &compressions);
+    let block = usual(block, SOURCE, &[("strain", "usual_strain"), ("step", "usual_step")]);
+    let ranges =
+        [("strain", "STRAINS"), ("step", "STEPS"), ("pressures", "PRESSURES"), ("spheres", "SPHERES")];
+    vec![
+        plan,
+        within(block, SOURCE, &ranges),
+        Set::new(PLAN, "sphere compressions", RVE, compressions),
+        Set::new(PLAN, "sphere paths", RVE, variants(RVE, "PathName")),
+    ]
+}
+
+/// Defaults that functions of a source return.
+fn usual(mut set: Set, source: &str, functions: &[(&str, &str)]) -> Set {
+    let text = crate::sources::text(source);
+    for (key, name) in functions {
         let found = firsts(&format!(r"fn {name}\(\) -> \w+ \{{\s+(\S+)\s"), &text);
         let number = found.first().and_then(|number| number.parse().ok());
-        let number = number.unwrap_or_else(|| panic!("{SOURCE}: no number in {name}"));
+        let number = number.unwrap_or_else(|| panic!("{source}: no number in {name}"));
         set = set.with(key, "default", Cell::Number(number));
     }
-    for (key, name) in [("step", "STEPS"), ("probes", "PROBES")] {
-        let found = all(&format!(r"const {name}: \[f64; 2\] = \[(\S+), (\S+)\];"), &text);
-        assert!(found.len() == 1, "{SOURCE}: {} times {name}", found.len());
-        set = set.with_range(key, &format!("{} {}", found[0][1], found[0][2]));
+    set
+}
+
+/// Ranges that are constants of a source.
+fn within(mut set: Set, source: &str, constants: &[(&str, &str)]) -> Set {
+    let text = crate::sources::text(source);
+    for (key, name) in constants {
+        let found = all(&format!(r"const {name}: \[\w+; 2\] = \[(\S+), (\S+)\];"), &text);
+        assert!(found.len() == 1, "{source}: {} times {name}", found.len());
+        set = set.with_range(key, &format!("{} {}", found[0][1], found[0][2]).replace('_', ""));
     }
     set
 }
@@ -125,23 +163,34 @@ fn path_block(compressions: &[String]) -> Set {
 fn database() -> Vec<Set> {
     let all_text: String =
         files(&format!("{RVE}/database"), &["rs"]).into_iter().map(|(_, text)| text).collect();
-    let column = r#"(?m)^    (\w+): [\w<>]+, "(?:INTEGER|REAL|TEXT)", "([^"]*)", ""#;
-    let mut columns = Set::new(DATABASE, "columns", RVE, firsts(column, &all_text));
-    for found in all(column, &all_text) {
-        columns = columns.with(&found[1], "unit", Cell::Text(found[2].clone()));
-    }
     let tables = firsts(r"CREATE TABLE (\w+)", &all_text);
     vec![
-        columns,
+        columns_of("columns", "rust/rve/src/database/record.rs"),
+        columns_of("sphere columns", "rust/rve/src/database/spheres/record.rs"),
         Set::new(DATABASE, "tables", RVE, tables),
         Set::new(DATABASE, "provenance", RVE, provenance(&all_text)),
     ]
 }
 
+/// The columns of a row, with their units.
+fn columns_of(table: &str, source: &str) -> Set {
+    let text = crate::sources::text(source);
+    let column = r#"(?m)^    (\w+): [\w<>]+, "(?:INTEGER|REAL|TEXT)", "([^"]*)", ""#;
+    let columns = Set::new(DATABASE, table, source, firsts(column, &text));
+    all(column, &text)
+        .into_iter()
+        .fold(columns, |columns, found| columns.with(&found[1], "unit", Cell::Text(found[2].clone())))
+}
+
 /// Keys of the list that a new database begins with, and those that are inserted later, by their constants.
 fn provenance(text: &str) -> Vec<String> {
-    let list = between(text, r"^fn provenance\(plan", r"^\}", RVE);
+    let list = between(text, r"^fn provenance<P: Recipe>\(plan", r"^\}", RVE);
     let mut keys = firsts(r#"\("(\w+)","#, &list);
+    for source in ["discs.rs", "spheres/recipe.rs"] {
+        let source = format!("{RVE}/database/{source}");
+        let list = between(&crate::sources::text(&source), r"^    fn grains\(&self\)", r"^    \}", &source);
+        keys.extend(firsts(r#"\("(\w+)","#, &list));
+    }
     for found in all(r#"provenance\.insert\((?:"(\w+)"|([A-Z_]+)|[\w:]+::([A-Z_]+))\.to_string\(\)"#, text) {
         if !found[1].is_empty() {
             keys.push(found[1].clone());

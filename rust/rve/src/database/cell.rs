@@ -1,6 +1,7 @@
 //! One value of a row, as SQLite and CSV hold it.
 
-use super::plan::{Kind, RampName};
+use super::kind::{Kind, RampName};
+use super::spheres::kind::{PathName, SphereCompression};
 use crate::Compression;
 use crate::message::shortened;
 use rusqlite::types::{Value, ValueRef};
@@ -112,7 +113,7 @@ macro_rules! names {
     )*};
 }
 
-names!(Kind RampName Compression);
+names!(Kind RampName Compression SphereCompression PathName);
 
 fn named(value: &impl Serialize) -> Value {
     match serde_json::json!(value) {

@@ -2,7 +2,7 @@
 //! bit of a number, a name or the plan is detected.
 
 use super::Dataset;
-use super::record::{COLUMNS, LATER, Record};
+use super::table::Row;
 use rusqlite::types::Value;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -26,14 +26,14 @@ pub(super) fn unseal(provenance: &mut Provenance) {
 }
 
 /// Sets the checksums of these rows and of the rest of the provenance, replacing older ones.
-pub(super) fn seal(provenance: &mut Provenance, records: &[Record]) {
+pub(super) fn seal<R: Row>(provenance: &mut Provenance, records: &[R]) {
     provenance.insert(ROWS.to_string(), hex(&of_rows(records)));
-    provenance.insert(DICTIONARY.to_string(), of_dictionary(COLUMNS.iter().map(|c| [c.0, c.2, c.3])));
+    provenance.insert(DICTIONARY.to_string(), of_dictionary(R::COLUMNS.iter().map(|c| [c.0, c.2, c.3])));
     seal_provenance(provenance);
 }
 
 /// Extends the checksums to the additional rows `records`; does nothing when there are no checksums.
-pub(super) fn add(provenance: &mut Provenance, records: &[Record]) {
+pub(super) fn add<R: Row>(provenance: &mut Provenance, records: &[R]) {
     let Some(sum) = provenance.get(ROWS).and_then(|text| from_hex(text)) else { return };
     let added = of_rows(records);
     let sum: [u8; 32] = std::array::from_fn(|k| sum[k] ^ added[k]);
@@ -49,7 +49,7 @@ pub(super) fn seal_provenance(provenance: &mut Provenance) {
 }
 
 /// Describes each part that differs from its checksum; empty when there are no checksums.
-pub(super) fn damage(dataset: &Dataset) -> Vec<String> {
+pub(super) fn damage<R: Row>(dataset: &Dataset<R>) -> Vec<String> {
     let provenance = &dataset.provenance;
     if !is_sealed(provenance) {
         return Vec::new();
@@ -76,13 +76,13 @@ pub(super) fn dictionary_damage(provenance: &Provenance, rows: &[[String; 3]]) -
 /// packing, and shards combine to the checksum of the whole. No two rows are alike, because each has its own packing,
 /// ramp and stop. A column that older files do not have counts, with its name, where it has a value only, so that their
 /// checksums stay what they were.
-fn of_rows(records: &[Record]) -> [u8; 32] {
+fn of_rows<R: Row>(records: &[R]) -> [u8; 32] {
     let mut sum = [0; 32];
     let mut text = Vec::new();
     for record in records {
         text.clear();
-        for (column, value) in COLUMNS.iter().zip(record.values()) {
-            if LATER.contains(&column.0) {
+        for (column, value) in R::COLUMNS.iter().zip(record.values()) {
+            if R::later().contains(&column.0) {
                 if value == Value::Null {
                     continue;
                 }
@@ -96,7 +96,7 @@ fn of_rows(records: &[Record]) -> [u8; 32] {
     sum
 }
 
-/// Stands before the name of a column of [`LATER`]; the kinds of values have the bytes 0 to 4.
+/// Stands before the name of a column of [`Row::later`]; the kinds of values have the bytes 0 to 4.
 const LATER_COLUMN: u8 = 5;
 
 fn append(text: &mut Vec<u8>, value: &Value) {

@@ -1,6 +1,6 @@
 //! Reading CSV: all columns, each row once, with limits on the size.
 
-use super::record::{COLUMNS, LATER, Record};
+use super::table::{Column, Row};
 use super::{DatabaseError, Dataset, checksum};
 use crate::message::shortened;
 use msdd_files::{FileError, MOST_BYTES};
@@ -26,15 +26,15 @@ pub(super) fn is_gzip_name(path: &Path) -> bool {
 }
 
 /// Rows and provenance, and a description of each part that differs from its checksum.
-pub(super) fn inspected(path: &Path) -> Result<(Dataset, Vec<String>), DatabaseError> {
+pub(super) fn inspected<R: Row>(path: &Path) -> Result<(Dataset<R>, Vec<String>), DatabaseError> {
     with_provenance(path, provenance(path)?)
 }
 
 /// As [`inspected`], with a given provenance.
-pub(super) fn with_provenance(
+pub(super) fn with_provenance<R: Row>(
     path: &Path,
     provenance: BTreeMap<String, String>,
-) -> Result<(Dataset, Vec<String>), DatabaseError> {
+) -> Result<(Dataset<R>, Vec<String>), DatabaseError> {
     let file =
         std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
     let absent: Vec<&str> = provenance.get(ABSENT).map_or("", String::as_str).split_whitespace().collect();
@@ -62,14 +62,22 @@ pub(super) fn provenance(csv: &Path) -> Result<BTreeMap<String, String>, Databas
     })
 }
 
+/// The names of the columns of a plain or compressed CSV; none of what is no text of columns.
+pub(super) fn head(path: &Path) -> Result<Option<csv::ByteRecord>, DatabaseError> {
+    let file =
+        std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
+    Ok(reader(path, file).ok().and_then(|mut reader| reader.byte_headers().ok().cloned()))
+}
+
 /// Names of columns that the file does not have, and that are not among those that any older file may lack.
-pub(super) fn missing(path: &Path) -> Result<Vec<&'static str>, DatabaseError> {
+pub(super) fn missing<R: Row>(path: &Path) -> Result<Vec<&'static str>, DatabaseError> {
     let file =
         std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
     let mut reader = reader(path, file)?;
     let head = reader.byte_headers().map_err(csv_error(path))?;
     let absent = |name: &&str| !head.iter().any(|known| known == name.as_bytes());
-    Ok(COLUMNS.iter().map(|column| column.0).filter(|name| !LATER.contains(name)).filter(absent).collect())
+    let needed = R::COLUMNS.iter().map(|column| column.0).filter(|name| !R::later().contains(name));
+    Ok(needed.filter(absent).collect())
 }
 
 /// Reads rows from a plain or compressed text. `path` names the file in errors; the columns `absent` and those that files
@@ -78,10 +86,10 @@ pub(super) fn missing(path: &Path) -> Result<Vec<&'static str>, DatabaseError> {
 /// # Errors
 /// [`DatabaseError::Format`] for columns that are missing or unknown; [`DatabaseError::Value`] for a value of the wrong
 /// kind or a row that occurs twice; [`DatabaseError::Csv`] for other faults of the text.
-pub fn records(path: &Path, text: impl Read, absent: &[&str]) -> Result<Vec<Record>, DatabaseError> {
+pub fn records<R: Row>(path: &Path, text: impl Read, absent: &[&str]) -> Result<Vec<R>, DatabaseError> {
     let failed = csv_error(path);
     let mut reader = reader(path, text)?;
-    let columns = columns(path, reader.byte_headers().map_err(&failed)?, absent)?;
+    let columns = columns::<R>(path, reader.byte_headers().map_err(&failed)?, absent)?;
     let (mut rows, mut places) = (Vec::new(), BTreeSet::new());
     let mut fields = csv::ByteRecord::new();
     while reader.read_byte_record(&mut fields).map_err(&failed)? {
@@ -92,10 +100,10 @@ pub fn records(path: &Path, text: impl Read, absent: &[&str]) -> Result<Vec<Reco
             column,
             problem,
         };
-        let row = Record::from_cells(|k| cell(k, columns[k].and_then(|k| fields.get(k)).unwrap_or_default()))
-            .map_err(value)?;
+        let field = |k: usize| columns[k].and_then(|k| fields.get(k)).unwrap_or_default();
+        let row = R::from_cells(|k| cell(R::COLUMNS[k].1, field(k))).map_err(value)?;
         // A small compressed file can unpack to the same row a million times, so duplicates end the reading at once.
-        if !places.insert((row.packing, row.ramp, row.stop)) {
+        if !places.insert((row.packing(), row.place())) {
             return Err(value(("stop", format!("{} stands twice", row.name()))));
         }
         rows.push(row);
@@ -124,21 +132,21 @@ fn reader<'a>(
 }
 
 /// The position of each column in the file.
-fn columns(
+fn columns<R: Row>(
     path: &Path,
     head: &csv::ByteRecord,
     absent: &[&str],
 ) -> Result<Vec<Option<usize>>, DatabaseError> {
     let problem = |problem| DatabaseError::Format { path: path.to_path_buf(), problem };
-    let known = |name: &[u8]| COLUMNS.iter().any(|column| column.0.as_bytes() == name);
+    let known = |name: &[u8]| R::COLUMNS.iter().any(|column| column.0.as_bytes() == name);
     let mut seen = BTreeSet::new();
     if let Some(name) = head.iter().find(|name| !known(name) || !seen.insert(name.to_vec())) {
         let name = shortened(&String::from_utf8_lossy(name));
         return Err(problem(format!("column '{name}' is unknown or stands twice")));
     }
-    let place = |column: &super::record::Column| {
+    let place = |column: &Column| {
         let found = head.iter().position(|name| name == column.0.as_bytes());
-        match found.is_some() || absent.contains(&column.0) || LATER.contains(&column.0) {
+        match found.is_some() || absent.contains(&column.0) || R::later().contains(&column.0) {
             true => Ok(found),
             false => Err(problem(format!(
                 "column {} is missing; every column is needed, unless an older program wrote the rows and the file was sealed without it",
@@ -146,17 +154,17 @@ fn columns(
             ))),
         }
     };
-    COLUMNS.iter().map(place).collect()
+    R::COLUMNS.iter().map(place).collect()
 }
 
 /// Converts a field to a value of its column's type; an empty field is an absent value.
-fn cell(column: usize, field: &[u8]) -> Result<ValueRef<'_>, String> {
+fn cell<'a>(kind: &str, field: &'a [u8]) -> Result<ValueRef<'a>, String> {
     let number = |allowed: &str| {
         let found = shortened(&String::from_utf8_lossy(field));
         format!("'{found}', allowed: {allowed}")
     };
     let text = || std::str::from_utf8(field).unwrap_or_default();
-    match (field, COLUMNS[column].1) {
+    match (field, kind) {
         ([], _) => Ok(ValueRef::Null),
         (_, "INTEGER") => text().parse().map(ValueRef::Integer).map_err(|_| number("a whole number")),
         (_, "REAL") => text().parse().map(ValueRef::Real).map_err(|_| number("a finite number")),

@@ -2,10 +2,14 @@
 
 use super::csv_file::{beside, is_gzip_name};
 use super::dataset::DIGITS;
-use super::read::{is_sqlite, read};
-use super::record::{COLUMNS, Record};
+use super::grains::is_sqlite;
+use super::plan::Plan;
+use super::read::{read_rows, sound};
+use super::recipe::Recipe;
+use super::spheres::SpherePlan;
 use super::store::{COMPLETE, Store};
-use super::{DatabaseError, Dataset, ENGINE_VERSION, check, checksum, csv_file};
+use super::table::Row;
+use super::{DatabaseError, Dataset, Grains, checksum, csv_file, grains};
 use msdd_files::{check_target, write};
 use std::io::Write;
 use std::path::Path;
@@ -22,7 +26,18 @@ const ALL_DIGITS: usize = 15;
 /// Those of [`read`]; [`DatabaseError::File`] when a file cannot be written.
 pub fn export_csv(database: &Path, csv: &Path, digits: Option<usize>) -> Result<usize, DatabaseError> {
     check_target(csv)?;
-    let mut dataset = read(database)?;
+    match grains(database)? {
+        Grains::Discs => export_rows::<Plan>(database, csv, digits),
+        Grains::Spheres => export_rows::<SpherePlan>(database, csv, digits),
+    }
+}
+
+fn export_rows<P: Recipe>(
+    database: &Path,
+    csv: &Path,
+    digits: Option<usize>,
+) -> Result<usize, DatabaseError> {
+    let mut dataset = read_rows::<P::Row>(database)?;
     if let Some(digits) = digits {
         dataset.records.iter_mut().for_each(|record| *record = rounded(record, digits));
         // A database that was rounded before cannot regain digits.
@@ -36,7 +51,7 @@ pub fn export_csv(database: &Path, csv: &Path, digits: Option<usize>) -> Result<
     dataset.records.iter().try_for_each(|record| rows.serialize(record)).map_err(failed)?;
     let mut dictionary = csv::Writer::from_writer(Vec::new());
     dictionary.write_record(["name", "unit", "meaning"]).map_err(failed)?;
-    for column in COLUMNS {
+    for column in P::Row::COLUMNS {
         dictionary.write_record([column.0, column.2, column.3]).map_err(failed)?;
     }
     let bytes = |writer: csv::Writer<Vec<u8>>| {
@@ -52,7 +67,7 @@ pub fn export_csv(database: &Path, csv: &Path, digits: Option<usize>) -> Result<
     Ok(dataset.records.len())
 }
 
-fn write_provenance(csv: &Path, dataset: &Dataset) -> Result<(), DatabaseError> {
+fn write_provenance<R>(csv: &Path, dataset: &Dataset<R>) -> Result<(), DatabaseError> {
     let text = serde_json::json!(dataset.provenance).to_string();
     Ok(write(&beside(csv, "provenance.json"), text.as_bytes())?)
 }
@@ -63,17 +78,25 @@ fn write_provenance(csv: &Path, dataset: &Dataset) -> Result<(), DatabaseError> 
 /// # Errors
 /// Those of [`read`]; [`DatabaseError::Unsound`]; [`DatabaseError::Format`] for a database that is not finished.
 pub fn seal(path: &Path) -> Result<usize, DatabaseError> {
-    let mut dataset = unsealed(path)?;
+    match grains(path)? {
+        Grains::Discs => seal_rows::<Plan>(path),
+        Grains::Spheres => seal_rows::<SpherePlan>(path),
+    }
+}
+
+fn seal_rows<P: Recipe>(path: &Path) -> Result<usize, DatabaseError> {
+    let mut dataset = unsealed::<P>(path)?;
     let digits = digits_of(&dataset.records);
     if digits < ALL_DIGITS {
         dataset.provenance.insert(DIGITS.to_string(), digits.to_string());
     }
-    check::sound(path, &dataset)?;
+    sound::<P>(path, &dataset)?;
     checksum::seal(&mut dataset.provenance, &dataset.records);
     if !is_sqlite(path)? {
         write_provenance(path, &dataset)?;
     } else if dataset.provenance.contains_key(COMPLETE) {
-        Store::write_whole(path, dataset.provenance, &Store::open(path)?.records()?)?;
+        let records = Store::<P::Row>::open(path)?.records()?;
+        Store::write_whole(path, dataset.provenance, &records)?;
     } else {
         let problem = "it is not finished; database generate finishes and seals it".to_string();
         return Err(DatabaseError::Format { path: path.to_path_buf(), problem });
@@ -82,23 +105,23 @@ pub fn seal(path: &Path) -> Result<usize, DatabaseError> {
 }
 
 /// As [`read`], but columns that the rows of an older engine do not have may be missing.
-fn unsealed(path: &Path) -> Result<Dataset, DatabaseError> {
+fn unsealed<P: Recipe>(path: &Path) -> Result<Dataset<P::Row>, DatabaseError> {
     if is_sqlite(path)? {
-        return read(path);
+        return read_rows(path);
     }
     let mut provenance = csv_file::provenance(path)?;
-    let missing = csv_file::missing(path)?;
+    let missing = csv_file::missing::<P::Row>(path)?;
     let is_older =
-        provenance.get("engine_version").is_some_and(|version| *version != ENGINE_VERSION.to_string());
+        provenance.get("engine_version").is_some_and(|version| *version != P::ENGINE_VERSION.to_string());
     if missing.is_empty() || !is_older || checksum::is_sealed(&provenance) {
-        return read(path);
+        return read_rows(path);
     }
     provenance.insert(csv_file::ABSENT.to_string(), missing.join(" "));
     csv_file::with_provenance(path, provenance).map(|(dataset, _)| dataset)
 }
 
 /// The largest number of significant digits among all floats.
-fn digits_of(records: &[Record]) -> usize {
+fn digits_of<R: Row>(records: &[R]) -> usize {
     let digits = |value: rusqlite::types::Value| match value {
         rusqlite::types::Value::Real(real) => {
             let text = format!("{real:e}");
@@ -106,11 +129,11 @@ fn digits_of(records: &[Record]) -> usize {
         }
         _ => 0,
     };
-    records.iter().flat_map(Record::values).map(digits).max().unwrap_or(0)
+    records.iter().flat_map(Row::values).map(digits).max().unwrap_or(0)
 }
 
 /// The record with its floats rounded to `digits` significant digits.
-fn rounded(record: &Record, digits: usize) -> Record {
+fn rounded<R: Row>(record: &R, digits: usize) -> R {
     let mut fields = serde_json::json!(record);
     for value in fields.as_object_mut().into_iter().flat_map(|map| map.values_mut()) {
         if let Some(number) = value.as_f64().filter(|_| value.is_f64()) {

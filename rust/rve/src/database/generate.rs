@@ -1,9 +1,8 @@
 //! Makes the rows of a plan on several threads. The rows depend on the plan alone.
 
-use super::plan::{Job, Plan};
-use super::record::Record;
-use super::rows::rows;
+use super::recipe::Recipe;
 use super::store::Store;
+use super::table::Row;
 use super::{DatabaseError, Shard};
 use crate::stopwatch::{self, Seconds};
 use std::ops::ControlFlow;
@@ -46,8 +45,8 @@ pub struct Progress {
 /// [`DatabaseError::File`] when another run is working on the file, before anything is made;
 /// [`DatabaseError::Mismatch`] when the file holds another plan or shard, or was made by another engine version;
 /// [`DatabaseError::Damaged`]; storage errors.
-pub fn generate(
-    plan: &Plan,
+pub fn generate<P: Recipe>(
+    plan: &P,
     path: &Path,
     run: &Run,
     mut progress: impl FnMut(Progress) -> ControlFlow<()>,
@@ -61,10 +60,11 @@ pub fn generate(
     let _lock = msdd_files::Lock::take(path)?;
     let mut store = Store::open_for(path, plan, run.shard, &run.commit)?;
     let stored = store.packings()?;
-    let mut todo: Vec<Job> = plan.jobs().into_iter().filter(|job| run.shard.holds(job.packing)).collect();
+    let packing = |job: &P::Job| P::packing(job).0;
+    let mut todo: Vec<P::Job> = plan.jobs().into_iter().filter(|job| run.shard.holds(packing(job))).collect();
     let total = todo.len();
-    todo.retain(|job| !stored.contains(&job.packing));
-    todo.sort_by_key(|job| std::cmp::Reverse(job.spec.discs * job.rows().len()));
+    todo.retain(|job| !stored.contains(&packing(job)));
+    todo.sort_by_key(|job| std::cmp::Reverse(P::cost(job)));
     let mut state = Progress { done: total - todo.len(), total, ..Progress::default() };
     if progress(state).is_break() {
         return Ok(state);
@@ -76,7 +76,7 @@ pub fn generate(
         state.storing += begin.elapsed().as_secs_f64();
         state.done += 1;
         state.rows += records.len();
-        state.failed += usize::from(records.iter().any(|r| r.failure.is_some()));
+        state.failed += usize::from(records.iter().any(Row::has_failed));
         for (sum, seconds) in state.seconds.iter_mut().zip(seconds) {
             *sum += seconds;
         }
@@ -94,11 +94,11 @@ pub fn generate(
 
 /// Makes the jobs, each by the next free thread. `store` receives the rows of each job as it is finished, with the time
 /// they took.
-fn make(
-    plan: &Plan,
-    todo: &[Job],
+fn make<P: Recipe>(
+    plan: &P,
+    todo: &[P::Job],
     threads: usize,
-    mut store: impl FnMut(Vec<Record>, Seconds) -> Result<ControlFlow<()>, DatabaseError>,
+    mut store: impl FnMut(Vec<P::Row>, Seconds) -> Result<ControlFlow<()>, DatabaseError>,
 ) -> Result<(), DatabaseError> {
     let next = AtomicUsize::new(0);
     let stop = AtomicBool::new(false);
@@ -108,7 +108,7 @@ fn make(
             let (sender, next, stop) = (sender.clone(), &next, &stop);
             scope.spawn(move || {
                 while let Some(job) = todo.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let records = rows(plan, job);
+                    let records = plan.make(job);
                     if stop.load(Ordering::Relaxed) || sender.send((records, stopwatch::take())).is_err() {
                         return;
                     }

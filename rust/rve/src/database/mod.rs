@@ -5,12 +5,20 @@
 //! |---|---|
 //! | [`plan`] | the packings and ramps to make, as a TOML file |
 //! | `block` | the blocks of a plan |
+//! | `table` | columns and schema: what stands in a row |
+//! | `recipe` | what a plan of any grains has to know |
+//! | `discs` | that, for plans of discs |
+//! | [`spheres`] | plan, rows and checks of spheres |
+//! | `grains` | whether a file holds discs or spheres |
+//! | `seed` | seeds of packings |
+//! | `violation` | a law that does not hold |
 //! | `kind` | names of kinds, ramps and paths |
 //! | [`paths`] | the increments of each path |
 //! | `rows` | the rows of one packing |
 //! | `path_rows` | the rows of one path |
 //! | [`record`] | one row: one state of one packing |
 //! | [`store`] | the SQLite file: schema, provenance, resume |
+//! | `stored` | how far a file is |
 //! | [`generate`](mod@generate) | makes the rows, on several threads |
 //! | [`merge`](mod@merge) | shards made on several machines become one file |
 //! | [`offenders`] | a plan of new packings from a solver's queries outside a model's range |
@@ -29,8 +37,10 @@ pub mod check;
 mod checksum;
 pub mod csv_file;
 pub mod dataset;
+mod discs;
 pub mod export;
 pub mod generate;
+mod grains;
 mod kind;
 pub mod merge;
 pub mod offenders;
@@ -38,22 +48,33 @@ mod path_rows;
 pub mod paths;
 pub mod plan;
 mod read;
+mod recipe;
 pub mod record;
 mod rows;
 mod schema;
+mod seed;
 mod shard;
+pub mod spheres;
 pub mod store;
+mod stored;
+pub mod table;
+mod violation;
 
 pub use dataset::Dataset;
 pub use export::{export_csv, seal};
 pub use generate::{Progress, Run, generate};
+pub use grains::{Grains, grains};
 pub use merge::merge;
 pub use offenders::{Effort, Offenders};
 pub use plan::{Kind, Plan, RampName};
-pub use read::{has_checksum, inspect, read, read_all};
+pub use read::{has_checksum, inspect, read, read_all, read_spheres};
+pub use recipe::Recipe;
 pub use record::Record;
 pub use shard::Shard;
+pub use spheres::{PathName, SpherePlan, SphereRecord};
 pub use store::Store;
+pub use stored::{Stored, planned_packings, stored};
+pub use violation::Violation;
 
 use std::path::PathBuf;
 
@@ -74,6 +95,8 @@ pub enum DatabaseError {
     Csv { path: PathBuf, source: csv::Error },
     #[error("{path}: not an msdd database ({problem})")]
     Format { path: PathBuf, problem: String },
+    #[error("{path}: holds rows of spheres, allowed: rows of discs")]
+    Spheres { path: PathBuf },
     #[error("{path}: {table}, row {row}, column {column}: {problem}")]
     Value { path: PathBuf, table: &'static str, row: u64, column: &'static str, problem: String },
     #[error("{path}: is damaged: {problem}; copy the original file again, or generate it again")]

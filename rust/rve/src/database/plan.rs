@@ -3,10 +3,10 @@
 use super::DatabaseError;
 use super::block::AnyBlock;
 use super::paths::{Planned, Steps, planned};
+use super::seed::packing_seed;
 use crate::slide::Slide;
 use crate::{Compression, Material, PackingSpec, Preparation, Relaxation};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 pub use super::block::{Block, PathBlock};
 pub use super::kind::{Kind, RampName};
@@ -41,7 +41,7 @@ pub struct Plan {
     /// Paths of strain in periodic boxes.
     #[serde(default)]
     pub paths: Vec<PathBlock>,
-    /// The text that the plan was read from; [`Plan::hash`] is its hash.
+    /// The text that the plan was read from; the provenance has its hash.
     #[serde(skip)]
     pub text: String,
 }
@@ -113,11 +113,6 @@ impl Plan {
         plan.text = text.to_string();
         plan.check().map_err(problem)?;
         Ok(plan)
-    }
-
-    /// SHA-256 of the plan's text, hexadecimal.
-    pub fn hash(&self) -> String {
-        Sha256::digest(self.text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
     /// All blocks, with their number among the blocks of the same kind.
@@ -228,16 +223,6 @@ impl Plan {
     pub fn mean_radius(&self) -> f64 {
         0.5 * (self.radius_min + self.radius_max)
     }
-}
-
-/// Seed of one packing. It depends on the plan's seed and the index only, not on order or threads. It has 53 bits, so
-/// that CSV readers which hold numbers as f64 keep it exactly.
-fn packing_seed(plan_seed: u64, packing: u64) -> u64 {
-    let mut bytes = plan_seed.to_le_bytes().to_vec();
-    bytes.extend(packing.to_le_bytes());
-    let digest = Sha256::digest(&bytes);
-    let first = digest.iter().take(8).fold(0u64, |value, &byte| value << 8 | u64::from(byte));
-    first >> 11
 }
 
 #[cfg(test)]

@@ -1,17 +1,22 @@
 //! Reading a database or its CSV with its provenance, one file or several together.
 
 use super::dataset::undamaged;
-use super::plan::RampName;
+use super::grains::is_sqlite;
+use super::plan::{Plan, RampName};
+use super::recipe::Recipe;
 use super::record::Record;
+use super::spheres::SphereRecord;
 use super::store::Store;
-use super::{DatabaseError, Dataset, check, checksum, csv_file};
-use msdd_files::FileError;
+use super::table::Row;
+use super::{DatabaseError, Dataset, Grains, Violation, checksum, csv_file, grains};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
-impl Dataset {
+/// Number of violations that an error message lists.
+const NAMED: usize = 3;
+
+impl<R> Dataset<R> {
     /// Whether the dataset has checksums. Files of older programs have none.
     pub fn has_checksum(&self) -> bool {
         checksum::is_sealed(&self.provenance)
@@ -23,18 +28,35 @@ impl Dataset {
 /// # Errors
 /// [`DatabaseError`] for what cannot be read.
 pub fn has_checksum(path: &Path) -> Result<bool, DatabaseError> {
-    let provenance = match is_sqlite(path)? {
-        true => Store::open(path)?.provenance()?,
-        false => csv_file::provenance(path)?,
+    let provenance = match (is_sqlite(path)?, grains(path)?) {
+        (true, Grains::Discs) => Store::<Record>::open(path)?.provenance()?,
+        (true, Grains::Spheres) => Store::<SphereRecord>::open(path)?.provenance()?,
+        (false, _) => csv_file::provenance(path)?,
     };
     Ok(checksum::is_sealed(&provenance))
 }
 
-/// Reads a database, or the CSV that was exported from one (plain or gzip) with its provenance beside it.
+/// Reads a database of discs, or the CSV that was exported from one (plain or gzip) with its provenance beside it.
 ///
 /// # Errors
 /// [`DatabaseError::Damaged`] when a checksum does not agree; [`DatabaseError`] for what cannot be read.
 pub fn read(path: &Path) -> Result<Dataset, DatabaseError> {
+    if grains(path)? == Grains::Spheres {
+        return Err(DatabaseError::Spheres { path: path.to_path_buf() });
+    }
+    read_rows(path)
+}
+
+/// As [`read`], of spheres.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_spheres(path: &Path) -> Result<Dataset<SphereRecord>, DatabaseError> {
+    read_rows(path)
+}
+
+/// As [`read`], of rows of the given type.
+pub(super) fn read_rows<R: Row>(path: &Path) -> Result<Dataset<R>, DatabaseError> {
     let (dataset, damage) = inspect(path)?;
     undamaged(path, dataset, &damage)
 }
@@ -43,30 +65,26 @@ pub fn read(path: &Path) -> Result<Dataset, DatabaseError> {
 ///
 /// # Errors
 /// [`DatabaseError`] for what cannot be read.
-pub fn inspect(path: &Path) -> Result<(Dataset, Vec<String>), DatabaseError> {
+pub fn inspect<R: Row>(path: &Path) -> Result<(Dataset<R>, Vec<String>), DatabaseError> {
     let (mut dataset, damage) = match is_sqlite(path)? {
-        true => Store::open(path)?.inspected()?,
+        true => Store::<R>::open(path)?.inspected()?,
         false => csv_file::inspected(path)?,
     };
-    dataset.records.sort_by_key(place);
+    dataset.records.sort_by(|a, b| (a.packing(), a.order()).cmp(&(b.packing(), b.order())));
     Ok((dataset, damage))
 }
 
-/// Sorting key of a row: packing, ramp, then for each ramp the stops outward, those on the negative side first.
-fn place(record: &Record) -> (i64, RampName, bool, u64) {
-    (record.packing, record.ramp, record.stop > 0, record.stop.unsigned_abs())
-}
-
-pub(super) fn is_sqlite(path: &Path) -> Result<bool, DatabaseError> {
-    let failed = |source| FileError::Read { file: path.to_path_buf(), source };
-    // Only regular files: a pipe can be read only once, and a device has no end.
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        let problem = "it is no regular file".to_string();
-        return Err(DatabaseError::Format { path: path.to_path_buf(), problem });
+/// Returns an error when a law is violated; `path` is the file named in it.
+///
+/// # Errors
+/// [`DatabaseError::Unsound`] with the first violations.
+pub(super) fn sound<P: Recipe>(path: &Path, dataset: &Dataset<P::Row>) -> Result<(), DatabaseError> {
+    let violations = P::violations(dataset);
+    if violations.is_empty() {
+        return Ok(());
     }
-    let mut start = Vec::new();
-    std::fs::File::open(path).map_err(failed)?.take(16).read_to_end(&mut start).map_err(failed)?;
-    Ok(start == b"SQLite format 3\0")
+    let first: Vec<String> = violations.iter().take(NAMED).map(Violation::to_string).collect();
+    Err(DatabaseError::Unsound { path: path.to_path_buf(), count: violations.len(), first: first.join("; ") })
 }
 
 /// Provenance entries that must be equal in databases that are read as one: rows of other grains or of another engine
@@ -85,7 +103,7 @@ pub fn read_all(paths: &[PathBuf]) -> Result<Dataset, DatabaseError> {
     let mut known = Known::default();
     for path in paths {
         let dataset = read(path)?;
-        check::sound(path, &dataset)?;
+        sound::<Plan>(path, &dataset)?;
         known.add(path, &dataset.records)?;
         let Dataset { mut records, provenance } = dataset;
         let first = plans.is_empty();

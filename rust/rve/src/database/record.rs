@@ -1,56 +1,18 @@
 //! One row of the database: one state of one packing.
 
-use super::cell::Cell;
 use super::kind::{Kind, RampName};
 use super::paths::Increment;
 use super::plan::Job;
+use super::table::{Column, Row, Schema, row};
 use crate::slide::Sliding;
 use crate::{Averages, Boundary, Compression, Material, Outcome, RegionKind, Settled, Strains};
 use rusqlite::types::{Value, ValueRef};
-use serde::{Deserialize, Serialize};
-
-/// A column of the database: name, SQLite type, unit, meaning.
-pub struct Column(pub &'static str, pub &'static str, pub &'static str, pub &'static str);
-
-/// Defines [`Record`] and [`COLUMNS`] from one list, so that they always agree.
-macro_rules! record {
-    ($($name:ident: $type:ty, $sql:literal, $unit:literal, $meaning:literal;)*) => {
-        /// One state at one stop of a ramp; every stop of the plan has a row. Averages are absent when the stop was not
-        /// reached. Meaning and unit of each field are those of [`COLUMNS`].
-        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-        #[serde(deny_unknown_fields)]
-        pub struct Record {
-            $(#[doc = concat!("[", $unit, "] ", $meaning)] pub $name: $type,)*
-        }
-
-        impl Record {
-            /// The fields in column order, as they are stored.
-            pub(super) fn values(&self) -> Vec<Value> {
-                vec![$(Cell::value(&self.$name),)*]
-            }
-
-            /// Reads the fields from cells by the number of their column; the error has the column's name.
-            pub(super) fn from_cells<'a>(
-                cell: impl Fn(usize) -> Result<ValueRef<'a>, String>,
-            ) -> Result<Self, (&'static str, String)> {
-                let mut next = 0..;
-                $(let $name = next
-                    .next()
-                    .ok_or_else(|| "no such column".to_string())
-                    .and_then(&cell)
-                    .and_then(Cell::read)
-                    .map_err(|problem| (stringify!($name), problem))?;)*
-                Ok(Self { $($name,)* })
-            }
-        }
-
-        /// The columns, in the order of [`Record`]'s fields.
-        pub const COLUMNS: &[Column] = &[$(Column(stringify!($name), $sql, $unit, $meaning),)*];
-    };
-}
 
 #[rustfmt::skip]
-record! {
+row! {
+    /// One state at one stop of a ramp; every stop of the plan has a row. Averages are absent when the stop was not
+    /// reached. Meaning and unit of each field are those of [`COLUMNS`].
+    Record:
     packing: i64, "INTEGER", "-", "index of the packing in the plan";
     kind: Kind, "TEXT", "-", "thermal: radii change in fixed walls; mechanics: walls move; wall_shear: bottom and top slip along the grains; paths: a periodic box follows paths of strain";
     discs: u64, "INTEGER", "-", "discs in the packing";
@@ -121,8 +83,50 @@ record! {
 }
 
 /// Columns that files of schema 2 do not have; they are null there.
-pub(super) const LATER: [&str; 7] =
-    ["from_stop", "step_thermal", "step_xx", "step_yy", "step_xy", "probe", "fabric_xy"];
+const LATER: [&str; 7] = ["from_stop", "step_thermal", "step_xx", "step_yy", "step_xy", "probe", "fabric_xy"];
+
+impl Row for Record {
+    const COLUMNS: &'static [Column] = COLUMNS;
+    const SCHEMAS: &'static [Schema] =
+        &[Schema { number: "2", without: &LATER }, Schema { number: "3", without: &[] }];
+    const KEY: &'static str = "packing, ramp, stop";
+    type Place = (RampName, i64);
+
+    fn values(&self) -> Vec<Value> {
+        self.all_values()
+    }
+
+    fn from_cells<'a>(
+        cell: impl Fn(usize) -> Result<ValueRef<'a>, String>,
+    ) -> Result<Self, (&'static str, String)> {
+        Self::of_cells(cell)
+    }
+
+    fn packing(&self) -> i64 {
+        self.packing
+    }
+
+    fn place(&self) -> (RampName, i64) {
+        (self.ramp, self.stop)
+    }
+
+    /// Ramp, then for each ramp the stops outward, those on the negative side first.
+    fn order(&self) -> impl Ord {
+        (self.ramp, self.stop > 0, self.stop.unsigned_abs())
+    }
+
+    fn name_of(packing: i64, (ramp, stop): &(RampName, i64)) -> String {
+        format!("packing {packing}, ramp {}, stop {stop}", ramp.as_str())
+    }
+
+    fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    fn has_failed(&self) -> bool {
+        self.failure.is_some()
+    }
+}
 
 /// Copies averages into the columns of the same name.
 macro_rules! copy {
@@ -253,11 +257,6 @@ impl Record {
     /// Whether the state was reached and bears load.
     pub fn bears_load(&self) -> bool {
         self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
-    }
-
-    /// The name of the row in messages.
-    pub fn name(&self) -> String {
-        format!("packing {}, ramp {}, stop {}", self.packing, self.ramp.as_str(), self.stop)
     }
 }
 

@@ -1,51 +1,25 @@
 //! Checks of an SQLite file before anything is read from it: it must have exactly our tables, and pass SQLite's own
 //! integrity check.
 
-use super::record::{COLUMNS, Column, LATER};
+use super::table::{Row, Schema};
 use rusqlite::limits::Limit;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags};
 use std::path::Path;
-use std::sync::OnceLock;
 
 /// Longest value that is read [bytes]: far longer than any plan.
 const LONGEST: i32 = 1 << 24;
 
-/// Number of the schema of a file; raised when a table changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Schema {
-    /// Without the columns of [`LATER`].
-    Two,
-    Three,
-}
-
-impl Schema {
-    /// That of new files.
-    pub const NOW: Self = Self::Three;
-
-    /// The number in the provenance.
-    pub fn number(self) -> &'static str {
-        match self {
-            Self::Two => "2",
-            Self::Three => "3",
-        }
-    }
-
-    /// Whether the table of rows has the column.
-    pub fn has(self, column: &Column) -> bool {
-        self == Self::Three || !LATER.contains(&column.0)
-    }
-}
-
 /// The statements that make the tables.
-pub(super) fn tables(schema: Schema) -> String {
+pub(super) fn tables<R: Row>(schema: Schema) -> String {
     let columns: Vec<String> =
-        COLUMNS.iter().filter(|column| schema.has(column)).map(|c| format!("{} {}", c.0, c.1)).collect();
+        R::COLUMNS.iter().filter(|column| schema.has(column)).map(|c| format!("{} {}", c.0, c.1)).collect();
     format!(
-        "CREATE TABLE states ({}, PRIMARY KEY (packing, ramp, stop));
+        "CREATE TABLE states ({}, PRIMARY KEY ({}));
              CREATE TABLE provenance (key TEXT PRIMARY KEY, value TEXT NOT NULL);
              CREATE TABLE columns (name TEXT PRIMARY KEY, unit TEXT NOT NULL, meaning TEXT NOT NULL);",
-        columns.join(", ")
+        columns.join(", "),
+        R::KEY
     )
 }
 
@@ -85,20 +59,10 @@ fn entries(connection: &Connection) -> rusqlite::Result<Vec<Entry>> {
     statement.query_map([], entry)?.collect()
 }
 
-fn expected(schema: Schema) -> rusqlite::Result<&'static [Entry]> {
-    static TWO: OnceLock<Vec<Entry>> = OnceLock::new();
-    static THREE: OnceLock<Vec<Entry>> = OnceLock::new();
-    let known = match schema {
-        Schema::Two => &TWO,
-        Schema::Three => &THREE,
-    };
-    if let Some(known) = known.get() {
-        return Ok(known);
-    }
+fn expected<R: Row>(schema: Schema) -> rusqlite::Result<Vec<Entry>> {
     let connection = Connection::open_in_memory()?;
-    connection.execute_batch(&tables(schema))?;
-    let made = entries(&connection)?;
-    Ok(known.get_or_init(|| made))
+    connection.execute_batch(&tables::<R>(schema))?;
+    entries(&connection)
 }
 
 /// Whether the file has no tables, so that nothing was ever stored in it.
@@ -106,12 +70,29 @@ pub(super) fn is_empty(connection: &Connection) -> rusqlite::Result<bool> {
     Ok(entries(connection)?.is_empty())
 }
 
+/// Whether the file has the tables of such rows, in any version.
+pub(super) fn holds<R: Row>(connection: &Connection) -> rusqlite::Result<bool> {
+    let found = entries(connection)?;
+    for &schema in R::SCHEMAS {
+        if found == expected::<R>(schema)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
 /// The schema of the file, or what is wrong with it. All objects are compared by name and statement before anything is
 /// read, so that a malicious view, which could run for ever, is never evaluated.
-pub(super) fn of(connection: &Connection) -> rusqlite::Result<Result<Schema, String>> {
+pub(super) fn of<R: Row>(connection: &Connection) -> rusqlite::Result<Result<Schema, String>> {
     let found = entries(connection)?;
-    let schema = if found == expected(Schema::Two)? { Schema::Two } else { Schema::NOW };
-    let expected = expected(schema)?;
+    let mut schema = (R::schema(), expected::<R>(R::schema())?);
+    for &older in R::SCHEMAS.iter().rev().skip(1) {
+        let expected = expected::<R>(older)?;
+        if found == expected {
+            schema = (older, expected);
+        }
+    }
+    let (schema, expected) = schema;
     if let Some([kind, name, ..]) = found.iter().find(|entry| !expected.contains(entry)) {
         let name = crate::message::shortened(name);
         return Ok(Err(format!("{kind} {name} does not belong to a database or was changed")));

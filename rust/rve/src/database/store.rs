@@ -2,27 +2,28 @@
 
 use super::cell::Cell;
 use super::dataset::undamaged;
-use super::plan::Plan;
-use super::record::{COLUMNS, Column, Record};
-use super::schema::Schema;
-use super::{DatabaseError, Dataset, ENGINE_VERSION, Shard, checksum, schema};
+use super::recipe::Recipe;
+use super::table::{Column, Row, Schema};
+use super::{DatabaseError, Dataset, Shard, checksum, schema};
 use msdd_files::Part;
 use rusqlite::types::ValueRef;
-use rusqlite::{Connection, Row, params_from_iter};
+use rusqlite::{Connection, params_from_iter};
 use std::collections::{BTreeMap, BTreeSet};
+use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
 /// Provenance key that only finished files have; their rows stand in plan order.
 pub(super) const COMPLETE: &str = "complete";
 
-/// An open database.
-pub struct Store {
+/// An open database of rows of one type.
+pub struct Store<R> {
     connection: Connection,
     path: PathBuf,
     schema: Schema,
+    rows: PhantomData<R>,
 }
 
-impl Store {
+impl<R: Row> Store<R> {
     /// Opens an existing database and checks that it has exactly our tables. A transaction that a killed run has left
     /// unfinished is rolled back.
     ///
@@ -31,34 +32,34 @@ impl Store {
     /// check fails, [`DatabaseError::Mismatch`] for another schema version, [`DatabaseError::Sqlite`].
     pub fn open(path: &Path) -> Result<Self, DatabaseError> {
         let connection = schema::open(path, false).map_err(|s| sqlite(path, s))?;
-        let mut store = Self { connection, path: path.to_path_buf(), schema: Schema::NOW };
+        let mut store = Self { connection, path: path.to_path_buf(), schema: R::schema(), rows: PhantomData };
         store.check()?;
         Ok(store)
     }
 
     /// Finds the schema of the file, which its provenance has to name.
     fn check(&mut self) -> Result<(), DatabaseError> {
-        let found = schema::of(&self.connection).map_err(|s| sqlite(&self.path, s))?;
+        let found = schema::of::<R>(&self.connection).map_err(|s| sqlite(&self.path, s))?;
         self.schema = found.map_err(|problem| DatabaseError::Format { path: self.path.clone(), problem })?;
-        self.expect("schema", self.schema.number())
+        self.expect("schema", self.schema.number)
     }
 
     /// Opens the database of a plan's shard, or makes an empty one. Existing content must agree with its checksums.
     /// `commit` is that of the program.
-    pub(crate) fn open_for(
+    pub(crate) fn open_for<P: Recipe<Row = R>>(
         path: &Path,
-        plan: &Plan,
+        plan: &P,
         shard: Shard,
         commit: &str,
     ) -> Result<Self, DatabaseError> {
         let connection = schema::open(path, true).map_err(|s| sqlite(path, s))?;
-        let mut store = Self { connection, path: path.to_path_buf(), schema: Schema::NOW };
+        let mut store = Self { connection, path: path.to_path_buf(), schema: R::schema(), rows: PhantomData };
         if schema::is_empty(&store.connection).map_err(|s| sqlite(path, s))? {
             store.create(provenance(plan, shard, commit), &[]).map_err(|s| sqlite(path, s))?;
         }
         store.check()?;
-        store.expect("schema", Schema::NOW.number())?;
-        store.expect("engine_version", &ENGINE_VERSION.to_string())?;
+        store.expect("schema", R::schema().number)?;
+        store.expect("engine_version", &P::ENGINE_VERSION.to_string())?;
         store.expect("plan_hash", &plan.hash())?;
         store.expect("shard", &shard.to_string())?;
         store.dataset()?;
@@ -71,18 +72,19 @@ impl Store {
     pub(crate) fn write_whole(
         path: &Path,
         mut provenance: BTreeMap<String, String>,
-        records: &[Record],
+        records: &[R],
     ) -> Result<(), DatabaseError> {
         provenance.insert(COMPLETE.to_string(), "yes".to_string());
         // Rows of an older schema are written with the columns of this one.
-        provenance.insert("schema".to_string(), Schema::NOW.number().to_string());
+        provenance.insert("schema".to_string(), R::schema().number.to_string());
         let part = Part::beside(path)?;
         let failed = |source| sqlite(path, source);
         let connection = schema::open(part.path(), false).map_err(failed)?;
         // The temporary file is written to disk before it is renamed, so SQLite's journal for restoring older contents
         // is not needed.
         connection.execute_batch("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;").map_err(failed)?;
-        let mut store = Self { connection, path: part.path().to_path_buf(), schema: Schema::NOW };
+        let mut store =
+            Self { connection, path: part.path().to_path_buf(), schema: R::schema(), rows: PhantomData };
         store.create(provenance, records).map_err(failed)?;
         store.connection.close().map_err(|(_, source)| failed(source))?;
         Ok(part.put()?)
@@ -100,16 +102,12 @@ impl Store {
 
     /// Writes tables, checksums, provenance and rows in one transaction, so that a run that is killed at its start
     /// leaves no incomplete file.
-    fn create(
-        &mut self,
-        mut provenance: BTreeMap<String, String>,
-        records: &[Record],
-    ) -> rusqlite::Result<()> {
+    fn create(&mut self, mut provenance: BTreeMap<String, String>, records: &[R]) -> rusqlite::Result<()> {
         checksum::seal(&mut provenance, records);
         let transaction = self.connection.transaction()?;
-        transaction.execute_batch(&schema::tables(Schema::NOW))?;
+        transaction.execute_batch(&schema::tables::<R>(R::schema()))?;
         write_provenance(&transaction, &provenance)?;
-        for Column(name, _, unit, meaning) in COLUMNS {
+        for Column(name, _, unit, meaning) in R::COLUMNS {
             transaction.execute("INSERT INTO columns VALUES (?1, ?2, ?3)", [name, unit, meaning])?;
         }
         write_rows(&transaction, records)?;
@@ -164,17 +162,13 @@ impl Store {
     }
 
     /// Stores the rows of one packing in one transaction.
-    pub(crate) fn insert(&mut self, records: &[Record]) -> Result<(), DatabaseError> {
+    pub(crate) fn insert(&mut self, records: &[R]) -> Result<(), DatabaseError> {
         let mut provenance = self.provenance()?;
         checksum::add(&mut provenance, records);
         self.write(&provenance, records)
     }
 
-    fn write(
-        &mut self,
-        provenance: &BTreeMap<String, String>,
-        records: &[Record],
-    ) -> Result<(), DatabaseError> {
+    fn write(&mut self, provenance: &BTreeMap<String, String>, records: &[R]) -> Result<(), DatabaseError> {
         let mut write = || -> rusqlite::Result<()> {
             let transaction = self.connection.transaction()?;
             write_rows(&transaction, records)?;
@@ -188,14 +182,13 @@ impl Store {
     ///
     /// # Errors
     /// [`DatabaseError::Value`] for a value of the wrong kind for its column, [`DatabaseError::Sqlite`].
-    pub fn records(&self) -> Result<Vec<Record>, DatabaseError> {
+    pub fn records(&self) -> Result<Vec<R>, DatabaseError> {
         let names: Vec<&str> =
-            COLUMNS.iter().map(|c| if self.schema.has(c) { c.0 } else { "NULL" }).collect();
+            R::COLUMNS.iter().map(|c| if self.schema.has(c) { c.0 } else { "NULL" }).collect();
         let query = format!("SELECT {} FROM states ORDER BY packing, rowid", names.join(", "));
         self.rows(&query, |row, number| {
             let cell = |column| row.get_ref(column).map_err(|error| error.to_string());
-            Record::from_cells(cell)
-                .map_err(|(column, problem)| self.value(("states", number, column), problem))
+            R::from_cells(cell).map_err(|(column, problem)| self.value(("states", number, column), problem))
         })
     }
 
@@ -203,7 +196,7 @@ impl Store {
     ///
     /// # Errors
     /// Those of [`Store::records`].
-    pub(super) fn inspected(&self) -> Result<(Dataset, Vec<String>), DatabaseError> {
+    pub(super) fn inspected(&self) -> Result<(Dataset<R>, Vec<String>), DatabaseError> {
         // Everything is read in one transaction, because a generator may be writing to the file.
         let transaction = self.connection.unchecked_transaction().map_err(|s| sqlite(&self.path, s))?;
         let dataset = Dataset { records: self.records()?, provenance: self.provenance()? };
@@ -223,7 +216,7 @@ impl Store {
     ///
     /// # Errors
     /// [`DatabaseError::Damaged`]; those of [`Store::records`].
-    pub(super) fn dataset(&self) -> Result<Dataset, DatabaseError> {
+    pub(super) fn dataset(&self) -> Result<Dataset<R>, DatabaseError> {
         let (dataset, damage) = self.inspected()?;
         undamaged(&self.path, dataset, &damage)
     }
@@ -232,7 +225,7 @@ impl Store {
     fn rows<T>(
         &self,
         query: &str,
-        mut read: impl FnMut(&Row, u64) -> Result<T, DatabaseError>,
+        mut read: impl FnMut(&rusqlite::Row, u64) -> Result<T, DatabaseError>,
     ) -> Result<Vec<T>, DatabaseError> {
         let failed = |source| sqlite(&self.path, source);
         let mut statement = self.connection.prepare(query).map_err(failed)?;
@@ -261,21 +254,16 @@ pub(super) fn sqlite(path: &Path, source: rusqlite::Error) -> DatabaseError {
     DatabaseError::Sqlite { path: path.to_path_buf(), source }
 }
 
-fn provenance(plan: &Plan, shard: Shard, commit: &str) -> BTreeMap<String, String> {
+fn provenance<P: Recipe>(plan: &P, shard: Shard, commit: &str) -> BTreeMap<String, String> {
     let pairs = [
-        ("schema", Schema::NOW.number().to_string()),
-        ("engine_version", ENGINE_VERSION.to_string()),
+        ("schema", P::Row::schema().number.to_string()),
+        ("engine_version", P::ENGINE_VERSION.to_string()),
         ("commit", commit.to_string()),
         ("shard", shard.to_string()),
-        ("plan", plan.text.clone()),
+        ("plan", plan.text().to_string()),
         ("plan_hash", plan.hash()),
-        ("material", serde_json::json!(plan.material).to_string()),
-        ("radius_distribution", "uniform".to_string()),
-        ("radius_min", plan.radius_min.to_string()),
-        ("radius_max", plan.radius_max.to_string()),
-        ("mean_radius", plan.mean_radius().to_string()),
     ];
-    pairs.into_iter().map(|(key, value)| (key.to_string(), value)).collect()
+    pairs.into_iter().chain(plan.grains()).map(|(key, value)| (key.to_string(), value)).collect()
 }
 
 /// All different commits of several lists, sorted.
@@ -284,8 +272,8 @@ pub(super) fn join_commits<'a>(lists: impl IntoIterator<Item = &'a str>) -> Stri
     all.into_iter().filter(|commit| !commit.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
-fn write_rows(transaction: &rusqlite::Transaction, records: &[Record]) -> rusqlite::Result<()> {
-    let marks = vec!["?"; COLUMNS.len()].join(", ");
+fn write_rows<R: Row>(transaction: &rusqlite::Transaction, records: &[R]) -> rusqlite::Result<()> {
+    let marks = vec!["?"; R::COLUMNS.len()].join(", ");
     let mut statement = transaction.prepare(&format!("INSERT INTO states VALUES ({marks})"))?;
     for record in records {
         statement.execute(params_from_iter(record.values()))?;

@@ -1,11 +1,12 @@
 //! Laws of the rows of paths: each follows from the row that its increment starts from.
 
-use super::laws::{Violation, jobs, tolerance, within};
+use super::planned::{jobs, tolerance, within};
 use crate::Strains;
 use crate::database::kind::{Kind, RampName};
 use crate::database::paths::Increment;
 use crate::database::plan::Job;
-use crate::database::{Dataset, Record};
+use crate::database::table::Row;
+use crate::database::{Dataset, Plan, Record, Violation};
 use std::collections::BTreeMap;
 
 /// Rows by packing, ramp and stop.
@@ -29,7 +30,7 @@ pub(super) fn violations(dataset: &Dataset) -> Vec<Violation> {
         }
     }
     // A plan that cannot be read is a violation of its own.
-    let planned = planned(&jobs(dataset).unwrap_or_default());
+    let planned = planned(&jobs::<Plan>(dataset).unwrap_or_default());
     for record in records.iter().filter(is_path) {
         add(record, row_laws(record, &rows, &planned, tolerance));
     }

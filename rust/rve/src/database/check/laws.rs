@@ -1,41 +1,11 @@
 //! Exact laws (definitions, bounds and conservation of mass) that every row of a database must obey.
 
-use crate::database::dataset::DIGITS;
+use super::planned::{plan_laws, tolerance, within};
 use crate::database::kind::RampName;
-use crate::database::plan::Job;
 use crate::database::record::FAILED;
-use crate::database::{DatabaseError, Dataset, Plan, Record, Shard};
-use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
-
-/// Relative tolerance of the laws; it covers the rounding of exports to nine digits.
-const TOLERANCE: f64 = 1e-9;
-/// Exports with at most this many digits need a larger tolerance.
-const FEW_DIGITS: i32 = 8;
-
-/// The tolerance for this file. When it was exported with few digits: half a unit of the last digit.
-pub(super) fn tolerance(dataset: &Dataset) -> f64 {
-    match dataset.provenance.get(DIGITS).and_then(|digits| digits.parse().ok()) {
-        Some(digits @ 3..=FEW_DIGITS) => 0.5 * 10f64.powi(1 - digits),
-        _ => TOLERANCE,
-    }
-}
-
-/// A law that a row does not obey.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Violation {
-    /// Name of the row, or of the part of the file, that violates the law.
-    pub row: String,
-    pub law: &'static str,
-    /// What was found.
-    pub found: String,
-}
-
-impl fmt::Display for Violation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}: {}", self.row, self.law, self.found)
-    }
-}
+use crate::database::table::Row;
+use crate::database::{Dataset, Plan, Record, Violation};
+use std::collections::BTreeMap;
 
 /// All violated laws of all rows; rows of the plan that are missing; rows that the plan does not have.
 pub(super) fn violations(dataset: &Dataset) -> Vec<Violation> {
@@ -46,7 +16,7 @@ pub(super) fn violations(dataset: &Dataset) -> Vec<Violation> {
         let found = row_laws(record, packed.get(&record.packing).copied(), tolerance);
         found.into_iter().map(|(law, found)| Violation { row: record.name(), law, found })
     };
-    let mut violations = plan_laws(dataset);
+    let mut violations = plan_laws::<Plan>(dataset);
     violations.extend(dataset.records.iter().flat_map(of_row));
     violations
 }
@@ -78,11 +48,6 @@ fn row_laws(record: &Record, packed: Option<&Record>, tolerance: f64) -> Found {
         found.push(("initial values are those of the packed state", format!("{own:?}, packed {initial:?}")));
     }
     found
-}
-
-/// Whether |off| is at most the tolerance; false for NaN.
-pub(super) fn within(off: f64, tolerance: f64) -> bool {
-    off.abs() <= tolerance
 }
 
 /// Conservation of the grains' mass: (1 − η_sum)(1 + ε_xx)(1 + ε_yy) = (1 − η_sum⁰)(1 + ε)², with η_sum the porosity
@@ -160,44 +125,4 @@ impl State {
             .chain(holds.map(|(law, _, value)| (law, value.to_string())))
             .collect()
     }
-}
-
-/// The packings of the plan in the provenance, as far as they belong to the shard of this file.
-pub(super) fn jobs(dataset: &Dataset) -> Result<Vec<Job>, DatabaseError> {
-    let text = dataset.provenance.get("plan").map_or("", String::as_str);
-    let plan = Plan::parse(text, "the plan in the provenance")?;
-    let shard: Shard = dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or_default();
-    Ok(plan.jobs().into_iter().filter(|job| shard.holds(job.packing)).collect())
-}
-
-/// Rows and seeds must be those of the plan in the provenance, as far as it belongs to the shard of this file.
-fn plan_laws(dataset: &Dataset) -> Vec<Violation> {
-    let violation = |row: String, law, found: &str| Violation { row, law, found: found.to_string() };
-    let jobs = match jobs(dataset) {
-        Ok(jobs) => jobs,
-        Err(error) => return vec![violation("provenance".to_string(), "has a plan", &error.to_string())],
-    };
-    let seeds: BTreeMap<i64, u64> = jobs.iter().map(|job| (job.packing, job.spec.seed)).collect();
-    let expected: BTreeSet<_> = jobs
-        .iter()
-        .flat_map(|job| job.rows().into_iter().map(|(ramp, stop)| (job.packing, ramp, stop)))
-        .collect();
-    let mut found = BTreeSet::new();
-    let mut violations = Vec::new();
-    for record in &dataset.records {
-        if !found.insert((record.packing, record.ramp, record.stop)) {
-            violations.push(violation(record.name(), "a row stands once", "twice"));
-        }
-        if seeds.get(&record.packing) != Some(&record.seed) {
-            violations.push(violation(record.name(), "the seed is the plan's", &record.seed.to_string()));
-        }
-    }
-    let name = |&(packing, ramp, stop): &(i64, RampName, i64)| {
-        Record { packing, ramp, stop, ..Record::default() }.name()
-    };
-    let missing =
-        expected.difference(&found).map(|row| violation(name(row), "every row of the plan", "absent"));
-    let foreign =
-        found.difference(&expected).map(|row| violation(name(row), "no row but the plan's", "present"));
-    violations.into_iter().chain(missing).chain(foreign).collect()
 }

@@ -6,21 +6,21 @@
 //! | `increments` | laws of the rows of paths, each against the row that it starts from |
 //! | `twins` | equal packings that were reached by strain of the grains and of the box |
 //! | `statistics` | mirror symmetry of isotropic packings; small packings against large ones |
+//! | `planned` | rows against the plan; the tolerance |
 //! | `noise` | scatter of the outputs at equal inputs |
 //! | `local` | local linear regression |
 
 mod increments;
 mod laws;
-mod local;
+pub(super) mod local;
 mod noise;
+pub(super) mod planned;
 mod statistics;
 mod twins;
 
-use super::{DatabaseError, Dataset};
-pub use laws::Violation;
+use super::{Dataset, Violation};
 pub use noise::Noise;
 pub use statistics::{Mean, SizeEffect};
-use std::path::Path;
 
 /// Results of a check.
 #[derive(Clone, Debug)]
@@ -37,9 +37,6 @@ pub struct Report {
     pub noise: Vec<Noise>,
 }
 
-/// Number of violations that an error message lists.
-const NAMED: usize = 3;
-
 /// All violated laws of a dataset, those of symmetry included.
 pub fn violations(dataset: &Dataset) -> Vec<Violation> {
     let mut violations = laws::violations(dataset);
@@ -47,19 +44,6 @@ pub fn violations(dataset: &Dataset) -> Vec<Violation> {
     violations.extend(twins::violations(dataset));
     violations.extend(statistics::symmetry(&dataset.records).iter().filter_map(Mean::violation));
     violations
-}
-
-/// Returns an error when a law is violated; `path` is the file named in it.
-///
-/// # Errors
-/// [`DatabaseError::Unsound`] with the first violations.
-pub fn sound(path: &Path, dataset: &Dataset) -> Result<(), DatabaseError> {
-    let violations = violations(dataset);
-    if violations.is_empty() {
-        return Ok(());
-    }
-    let first: Vec<String> = violations.iter().take(NAMED).map(ToString::to_string).collect();
-    Err(DatabaseError::Unsound { path: path.to_path_buf(), count: violations.len(), first: first.join("; ") })
 }
 
 /// Checks a database.

@@ -1,10 +1,9 @@
 //! Statistical checks: mirror symmetry, and small packings compared with large ones.
 
-use super::Violation;
 use super::local::{Points, mean, variance};
 use crate::Compression;
-use crate::database::Record;
 use crate::database::plan::{Kind, RampName};
+use crate::database::{Record, Violation};
 use std::collections::BTreeMap;
 
 /// A mean over many packings that is more than this many standard errors off 0 counts as a violation: chance gives that once
@@ -16,8 +15,10 @@ const LEAST_PACKINGS: usize = 10;
 /// A mean over packings with its standard error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mean {
-    pub discs: u64,
-    pub quantity: &'static str,
+    /// Number of grains in a packing, and what they are.
+    pub count: u64,
+    pub grains: &'static str,
+    pub quantity: String,
     pub packings: usize,
     pub mean: f64,
     pub standard_error: f64,
@@ -25,13 +26,13 @@ pub struct Mean {
 
 impl Mean {
     /// A violation when the mean is farther off zero than chance explains.
-    pub(super) fn violation(&self) -> Option<Violation> {
+    pub(crate) fn violation(&self) -> Option<Violation> {
         let off = self.mean / self.standard_error;
         // Student's t: with few packings the same chance allows more standard errors, 6.6 with ten.
         let largest = LARGEST_DEVIATION * (1.0 + 6.0 / (self.packings.max(2) - 1) as f64);
         (self.packings >= LEAST_PACKINGS && off.abs() > largest).then(|| Violation {
-            row: format!("isotropic packings of {} discs", self.discs),
-            law: "x and y are alike",
+            row: format!("isotropic packings of {} {}", self.count, self.grains),
+            law: "axes are alike",
             found: format!("mean {} {:.3e}, {off:.1} standard errors off 0", self.quantity, self.mean),
         })
     }
@@ -65,7 +66,8 @@ pub(super) fn symmetry(records: &[Record]) -> Vec<Mean> {
             let packings = values.len();
             let standard_error = (variance(&values) / packings.max(1) as f64).sqrt();
             if packings > 2 {
-                means.push(Mean { discs, quantity, packings, mean: mean(&values), standard_error });
+                let (count, grains, quantity) = (discs, "discs", quantity.to_string());
+                means.push(Mean { count, grains, quantity, packings, mean: mean(&values), standard_error });
             }
         }
     }

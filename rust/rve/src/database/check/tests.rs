@@ -37,7 +37,7 @@ fn a_generated_database_is_sound_and_its_noise_is_measured() {
     let report = check(&dataset());
     assert_eq!(report.violations, []);
     assert_eq!(report.rows, 16 * 3 + 5);
-    assert!(report.symmetry.iter().all(|mean| mean.packings == 16 && mean.discs == 40));
+    assert!(report.symmetry.iter().all(|mean| mean.packings == 16 && mean.count == 40));
     let pressure = report.noise.iter().find(|noise| noise.output == "stress_xx_reduced").unwrap();
     assert!(pressure.states == 48 && pressure.share > 0.05 && pressure.share < 1.5, "{pressure:?}");
 }
@@ -165,5 +165,5 @@ fn a_preferred_direction_is_found() {
         record.fabric_index = record.fabric_index.map(|f| f + 0.5);
     }
     let violations = check(&skewed).violations;
-    assert!(violations.iter().any(|v| v.law == "x and y are alike" && v.found.contains("fabric_index")));
+    assert!(violations.iter().any(|v| v.law == "axes are alike" && v.found.contains("fabric_index")));
 }

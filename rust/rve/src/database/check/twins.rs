@@ -8,11 +8,12 @@
 //! arrangement in one of the two, which changes a single pair by more. So single pairs have a wide bound, which finds
 //! damage, and the median over all pairs a narrow one.
 
-use super::laws::{Violation, tolerance, within};
 use super::local::median;
+use super::planned::{tolerance, within};
 use crate::Outcome;
 use crate::database::kind::RampName;
-use crate::database::{Dataset, Record};
+use crate::database::table::Row;
+use crate::database::{Dataset, Record, Violation};
 use std::collections::BTreeMap;
 
 /// The median is judged from so many pairs on: those of two packings.

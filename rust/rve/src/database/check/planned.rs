@@ -1,0 +1,63 @@
+//! Rows against the plan that they were made by, and the tolerance of all laws.
+
+use crate::database::dataset::DIGITS;
+use crate::database::recipe::Recipe;
+use crate::database::table::Row;
+use crate::database::{DatabaseError, Dataset, Shard, Violation};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Relative tolerance of the laws; it covers the rounding of exports to nine digits.
+const TOLERANCE: f64 = 1e-9;
+/// Exports with at most this many digits need a larger tolerance.
+const FEW_DIGITS: i32 = 8;
+
+/// The tolerance for this file. When it was exported with few digits: half a unit of the last digit.
+pub fn tolerance<R>(dataset: &Dataset<R>) -> f64 {
+    match dataset.provenance.get(DIGITS).and_then(|digits| digits.parse().ok()) {
+        Some(digits @ 3..=FEW_DIGITS) => 0.5 * 10f64.powi(1 - digits),
+        _ => TOLERANCE,
+    }
+}
+
+/// Whether |off| is at most the tolerance; false for NaN.
+pub fn within(off: f64, tolerance: f64) -> bool {
+    off.abs() <= tolerance
+}
+
+/// The packings of the plan in the provenance, as far as they belong to the shard of this file.
+pub fn jobs<P: Recipe>(dataset: &Dataset<P::Row>) -> Result<Vec<P::Job>, DatabaseError> {
+    let text = dataset.provenance.get("plan").map_or("", String::as_str);
+    let plan = P::parse(text, "the plan in the provenance")?;
+    let shard: Shard = dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or_default();
+    Ok(plan.jobs().into_iter().filter(|job| shard.holds(P::packing(job).0)).collect())
+}
+
+/// Rows and seeds must be those of the plan in the provenance, as far as it belongs to the shard of this file.
+pub fn plan_laws<P: Recipe>(dataset: &Dataset<P::Row>) -> Vec<Violation> {
+    let violation = |row: String, law, found: &str| Violation { row, law, found: found.to_string() };
+    let jobs = match jobs::<P>(dataset) {
+        Ok(jobs) => jobs,
+        Err(error) => return vec![violation("provenance".to_string(), "has a plan", &error.to_string())],
+    };
+    let seeds: BTreeMap<i64, u64> = jobs.iter().map(P::packing).collect();
+    let expected: BTreeSet<_> = jobs
+        .iter()
+        .flat_map(|job| P::places(job).into_iter().map(|place| (P::packing(job).0, place)))
+        .collect();
+    let mut found = BTreeSet::new();
+    let mut violations = Vec::new();
+    for record in &dataset.records {
+        if !found.insert((record.packing(), record.place())) {
+            violations.push(violation(record.name(), "a row stands once", "twice"));
+        }
+        if seeds.get(&record.packing()) != Some(&record.seed()) {
+            violations.push(violation(record.name(), "the seed is the plan's", &record.seed().to_string()));
+        }
+    }
+    let name = |(packing, place): &(i64, <P::Row as Row>::Place)| P::Row::name_of(*packing, place);
+    let missing =
+        expected.difference(&found).map(|row| violation(name(row), "every row of the plan", "absent"));
+    let foreign =
+        found.difference(&expected).map(|row| violation(name(row), "no row but the plan's", "present"));
+    violations.into_iter().chain(missing).chain(foreign).collect()
+}

@@ -1,0 +1,42 @@
+//! What a plan has to know so that a database is made, checked and merged by it.
+
+use super::table::Row;
+use super::{DatabaseError, Dataset, Violation};
+use sha2::{Digest, Sha256};
+
+/// A plan of packings.
+pub trait Recipe: Sized + Sync {
+    type Row: Row;
+    /// One packing.
+    type Job: Sync;
+    /// Increased by one whenever the same plan and seed give other numbers. Databases of different versions cannot be
+    /// mixed.
+    const ENGINE_VERSION: i64;
+
+    /// Reads a plan. `file` names it in errors.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Plan`].
+    fn parse(text: &str, file: &str) -> Result<Self, DatabaseError>;
+    /// The text that the plan was read from.
+    fn text(&self) -> &str;
+    /// Entries of the provenance that say what the grains are.
+    fn grains(&self) -> Vec<(&'static str, String)>;
+    /// The packings.
+    fn jobs(&self) -> Vec<Self::Job>;
+    /// Index of a packing in the plan, and its seed.
+    fn packing(job: &Self::Job) -> (i64, u64);
+    /// Every row that a packing has, in order.
+    fn places(job: &Self::Job) -> Vec<<Self::Row as Row>::Place>;
+    /// A measure of the time that a packing takes; the most expensive are made first.
+    fn cost(job: &Self::Job) -> usize;
+    /// The rows of a packing.
+    fn make(&self, job: &Self::Job) -> Vec<Self::Row>;
+    /// Violated laws of a dataset of such rows.
+    fn violations(dataset: &Dataset<Self::Row>) -> Vec<Violation>;
+
+    /// SHA-256 of the plan's text, hexadecimal.
+    fn hash(&self) -> String {
+        Sha256::digest(self.text().as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}

@@ -1,0 +1,23 @@
+//! The database of spheres: periodic boxes, packed and taken along paths of strain.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`kind`] | names of compressions and paths |
+//! | [`paths`] | the increments of each path |
+//! | [`plan`] | the packings and paths to make |
+//! | [`record`] | one row: one state of one packing |
+//! | `rows` | the rows of one packing |
+//! | [`check`] | exact laws on every row |
+//! | `recipe` | what is common to all plans |
+
+pub mod check;
+pub mod kind;
+pub mod paths;
+pub mod plan;
+mod recipe;
+pub mod record;
+mod rows;
+
+pub use kind::{PathName, SphereCompression};
+pub use plan::SpherePlan;
+pub use record::SphereRecord;

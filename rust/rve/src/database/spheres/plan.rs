@@ -1,0 +1,295 @@
+//! A plan of packings of spheres and of the paths that they follow: a TOML file with blocks `[[spheres]]`.
+
+use super::kind::{PathName, SphereCompression};
+use super::paths::{Planned, Steps, planned};
+use crate::database::DatabaseError;
+use crate::database::seed::packing_seed;
+use crate::spheres::Preparation;
+use serde::{Deserialize, Serialize};
+
+/// Sizes that increments and whole paths may have \[-\], pressures over E*, and spheres of a packing.
+const STEPS: [f64; 2] = [1e-5, 1e-2];
+const STRAINS: [f64; 2] = [1e-4, 5e-2];
+const PRESSURES: [f64; 2] = [1e-8, 1e-3];
+const SPHERES: [usize; 2] = [50, 1_000_000];
+/// Largest friction of spheres.
+const MOST_FRICTION: f64 = 2.0;
+/// A plan with more packings is taken as a typing error: it would compute for months.
+const MOST_PACKINGS: u64 = 1_000_000;
+
+/// A plan: blocks of packings, each of which follows paths.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpherePlan {
+    /// Seed of the whole plan.
+    pub seed: u64,
+    /// μ \[-\] on the paths.
+    #[serde(default = "usual_friction")]
+    pub friction: f64,
+    /// ν \[-\]
+    #[serde(default = "usual_poisson_ratio")]
+    pub poisson_ratio: f64,
+    /// e \[-\]
+    #[serde(default = "usual_restitution")]
+    pub restitution: f64,
+    /// The packings.
+    pub spheres: Vec<SphereBlock>,
+    /// The text that the plan was read from.
+    #[serde(skip)]
+    pub text: String,
+}
+
+/// Packings of one size: every friction while packing with every compression and pressure, `repeats` of each.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SphereBlock {
+    /// Spheres in a packing.
+    pub spheres: usize,
+    /// μ while the box closes \[-\]; default: that of the plan alone.
+    #[serde(default)]
+    pub packing_frictions: Vec<f64>,
+    pub compressions: Vec<SphereCompression>,
+    /// p/E* of the packed states \[-\].
+    pub pressures: Vec<f64>,
+    /// Packings for each friction, compression and pressure.
+    pub repeats: u32,
+    /// Paths that every packing follows, each from the packed state.
+    pub paths: Vec<PathName>,
+    /// How far a path goes \[-\].
+    #[serde(default = "usual_strain")]
+    pub strain: f64,
+    /// Size of an increment \[-\].
+    #[serde(default = "usual_step")]
+    pub step: f64,
+}
+
+fn usual_friction() -> f64 {
+    0.3
+}
+
+fn usual_poisson_ratio() -> f64 {
+    0.25
+}
+
+fn usual_restitution() -> f64 {
+    0.3
+}
+
+fn usual_strain() -> f64 {
+    0.01
+}
+
+fn usual_step() -> f64 {
+    5e-4
+}
+
+/// One packing of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SphereJob {
+    /// Index in the plan.
+    pub packing: i64,
+    pub compression: SphereCompression,
+    pub preparation: Preparation,
+    pub paths: Vec<PathName>,
+    pub steps: Steps,
+}
+
+impl SphereJob {
+    /// The rows of a path, in the order in which they are made.
+    pub fn path(&self, path: PathName) -> Vec<Planned> {
+        planned(path, &self.steps)
+    }
+
+    /// Every row that the packing has, in order: path and stop.
+    pub fn rows(&self) -> Vec<(PathName, i64)> {
+        let mut rows = vec![(PathName::Packed, 0)];
+        for &path in &self.paths {
+            rows.extend(self.path(path).into_iter().map(|planned| (path, planned.stop)));
+        }
+        rows
+    }
+}
+
+impl SpherePlan {
+    /// Whether the text of a plan has blocks of spheres.
+    pub fn is_meant(text: &str) -> bool {
+        text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("spheres"))
+    }
+
+    /// Reads a plan. `file` names it in errors.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Plan`].
+    pub fn parse(text: &str, file: &str) -> Result<Self, DatabaseError> {
+        let problem = |problem: String| DatabaseError::Plan { file: file.to_string(), problem };
+        let mut plan: Self = toml::from_str(text).map_err(|error| problem(error.to_string()))?;
+        plan.text = text.to_string();
+        plan.check().map_err(problem)?;
+        Ok(plan)
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if !(0.0..=MOST_FRICTION).contains(&self.friction) {
+            return Err(format!("friction: {}, allowed: 0 to {MOST_FRICTION}", self.friction));
+        }
+        if !(0.0..=0.5).contains(&self.poisson_ratio) {
+            return Err(format!("poisson_ratio: {}, allowed: 0 to 0.5", self.poisson_ratio));
+        }
+        if !(1e-3..=1.0).contains(&self.restitution) {
+            return Err(format!("restitution: {}, allowed: 0.001 to 1", self.restitution));
+        }
+        if self.spheres.is_empty() {
+            return Err("at least one block of packings is needed".to_string());
+        }
+        for (block, number) in self.spheres.iter().zip(1..) {
+            block.check(self.friction).map_err(|problem| format!("[[spheres]] {number}: {problem}"))?;
+        }
+        let packings = self.spheres.iter().map(|block| block.count(self.friction));
+        let packings = packings.fold(0, u64::saturating_add);
+        match packings > MOST_PACKINGS {
+            true => Err(format!("{packings} packings, allowed: {MOST_PACKINGS}")),
+            false => Ok(()),
+        }
+    }
+
+    /// The packings, in order of block, repeat, friction, compression, pressure: so that any first part of a block has all
+    /// kinds.
+    pub fn jobs(&self) -> Vec<SphereJob> {
+        let mut jobs = Vec::new();
+        for block in &self.spheres {
+            for _ in 0..block.repeats {
+                for &packing_friction in &block.frictions(self.friction) {
+                    for &compression in &block.compressions {
+                        for &pressure in &block.pressures {
+                            let packing = jobs.len() as u64;
+                            jobs.push(self.job(packing, block, (packing_friction, compression, pressure)));
+                        }
+                    }
+                }
+            }
+        }
+        jobs
+    }
+
+    fn job(
+        &self,
+        packing: u64,
+        block: &SphereBlock,
+        (packing_friction, compression, pressure): (f64, SphereCompression, f64),
+    ) -> SphereJob {
+        let seed = packing_seed(self.seed, packing);
+        SphereJob {
+            packing: packing as i64,
+            compression,
+            preparation: Preparation {
+                spheres: block.spheres,
+                seed,
+                poisson_ratio: self.poisson_ratio,
+                restitution: self.restitution,
+                packing_friction,
+                friction: self.friction,
+                rates: compression.rates(),
+                pressure,
+            },
+            paths: block.paths.clone(),
+            steps: Steps { seed, pressure, strain: block.strain, size: block.step },
+        }
+    }
+
+    /// Rows that the plan makes.
+    pub fn rows(&self) -> usize {
+        self.jobs().iter().map(|job| job.rows().len()).sum()
+    }
+}
+
+impl SphereBlock {
+    fn frictions(&self, friction: f64) -> Vec<f64> {
+        if self.packing_frictions.is_empty() { vec![friction] } else { self.packing_frictions.clone() }
+    }
+
+    fn count(&self, friction: f64) -> u64 {
+        let factors = [self.frictions(friction).len(), self.compressions.len(), self.pressures.len()];
+        factors.into_iter().fold(u64::from(self.repeats), |count, factor| count.saturating_mul(factor as u64))
+    }
+
+    fn check(&self, friction: f64) -> Result<(), String> {
+        let [least, most] = SPHERES;
+        if !(least..=most).contains(&self.spheres) {
+            return Err(format!("spheres: {}, allowed: {least} to {most}", self.spheres));
+        }
+        if self.compressions.is_empty() || self.pressures.is_empty() || self.repeats == 0 {
+            return Err("compressions, pressures and repeats: at least one of each is needed".into());
+        }
+        // A packing whose friction is lowered afterwards collapses.
+        if let Some(value) = self.packing_frictions.iter().find(|value| !(0.0..=friction).contains(*value)) {
+            return Err(format!(
+                "packing_frictions: {value}, allowed: 0 to the friction of the plan, {friction}"
+            ));
+        }
+        let [least, most] = PRESSURES;
+        if let Some(value) = self.pressures.iter().find(|value| !(least..=most).contains(*value)) {
+            return Err(format!("pressures: {value:e}, allowed: {least:e} to {most:e}"));
+        }
+        for (key, value, [least, most]) in [("strain", self.strain, STRAINS), ("step", self.step, STEPS)] {
+            if !(least..=most).contains(&value) {
+                return Err(format!("{key}: {value:e}, allowed: {least:e} to {most:e}"));
+            }
+        }
+        if self.paths.is_empty() {
+            return Err("paths: at least one is needed".into());
+        }
+        for (k, path) in self.paths.iter().enumerate() {
+            if *path == PathName::Packed {
+                let allowed = PathName::ALL.map(PathName::as_str).join(", ");
+                return Err(format!("paths: {}: allowed: {allowed}", path.as_str()));
+            }
+            if self.paths[..k].contains(path) {
+                return Err(format!("paths: {}: is named twice", path.as_str()));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAN: &str = "seed = 5\n[[spheres]]\nspheres = 100\npacking_frictions = [0.0, 0.3]\n\
+        compressions = [\"isotropic\", \"sheared\"]\npressures = [1e-6, 1e-4]\nrepeats = 2\npaths = [\"thermal\"]\n";
+
+    #[test]
+    fn a_plan_has_every_packing_once_and_its_own_seed() {
+        let plan = SpherePlan::parse(PLAN, "plan").unwrap();
+        let jobs = plan.jobs();
+        assert_eq!(jobs.len(), 16);
+        let seeds: std::collections::BTreeSet<u64> = jobs.iter().map(|job| job.preparation.seed).collect();
+        assert_eq!(seeds.len(), 16);
+        assert_eq!(plan.rows(), jobs.iter().map(|job| job.rows().len()).sum::<usize>());
+        assert!(SpherePlan::is_meant(PLAN) && !SpherePlan::is_meant("seed = 5\n[[paths]]\ndiscs = 3\n"));
+        assert_eq!(jobs[0].preparation.friction, 0.3);
+    }
+
+    #[test]
+    fn what_is_not_allowed_is_refused_by_file_key_value_and_range() {
+        let cases = [
+            ("spheres = 100", "spheres = 10", "spheres: 10, allowed: 50 to 1000000"),
+            ("[0.0, 0.3]", "[0.4]", "packing_frictions: 0.4, allowed: 0 to the friction of the plan, 0.3"),
+            ("[1e-6, 1e-4]", "[1e-9]", "pressures: 1e-9, allowed: 1e-8 to 1e-3"),
+            ("[1e-6, 1e-4]", "[]", "at least one of each is needed"),
+            ("[\"thermal\"]", "[\"packed\"]", "paths: packed: allowed: isotropic, thermal"),
+            ("[\"thermal\"]", "[\"thermal\", \"thermal\"]", "paths: thermal: is named twice"),
+            ("[\"thermal\"]", "[\"thermal\"]\nstep = 0.1", "step: 1e-1, allowed: 1e-5 to 1e-2"),
+            ("[\"thermal\"]", "[\"thermal\"]\nstrain = 1.0", "strain: 1e0, allowed: 1e-4 to 5e-2"),
+            ("[\"thermal\"]", "[\"circle\"]", "unknown variant `circle`"),
+            ("seed = 5", "seed = 5\nfriction = 3.0", "friction: 3, allowed: 0 to 2"),
+            ("seed = 5", "seed = 5\npoisson_ratio = 0.6", "poisson_ratio: 0.6, allowed: 0 to 0.5"),
+            ("seed = 5", "seed = 5\nrestitution = 0.0", "restitution: 0, allowed: 0.001 to 1"),
+            ("seed = 5", "seed = 5\nradius_min = 1.0", "unknown field `radius_min`"),
+        ];
+        for (from, to, expected) in cases {
+            let error = SpherePlan::parse(&PLAN.replace(from, to), "my.toml").unwrap_err().to_string();
+            assert!(error.starts_with("my.toml: ") && error.contains(expected), "{expected}: {error}");
+        }
+    }
+}

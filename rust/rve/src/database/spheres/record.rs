@@ -1,0 +1,268 @@
+//! One row of the database of spheres: one state of one packing.
+
+use super::kind::{PathName, SphereCompression};
+use super::paths::{Increment, Planned};
+use super::plan::SphereJob;
+use crate::Outcome;
+use crate::database::record::FAILED;
+use crate::database::table::{Column, Row, Schema, row};
+use crate::spheres::{Averages, Rest, Strain, Tensor};
+use rusqlite::types::{Value, ValueRef};
+
+#[rustfmt::skip]
+row! {
+    /// One state of one packing of spheres. Lengths are in diameters, stresses over E*. Averages are absent when the state
+    /// was not reached. Meaning and unit of each field are those of [`COLUMNS`].
+    SphereRecord:
+    packing: i64, "INTEGER", "-", "index of the packing in the plan";
+    spheres: u64, "INTEGER", "-", "spheres in the packing";
+    seed: u64, "INTEGER", "-", "seed of the packing";
+    compression: SphereCompression, "TEXT", "-", "isotropic: the box closed along all axes alike; uniaxial: along z only; sheared: along z, while it opened along x and y, each a quarter as fast";
+    packing_friction: f64, "REAL", "-", "friction while the box closed";
+    friction: f64, "REAL", "-", "friction afterwards";
+    packing_pressure: f64, "REAL", "-", "pressure over E* that the packed state was to bear; it does within 5 %, or it bears more where a box loses its load on the way to so little";
+    path: PathName, "TEXT", "-", "packed: before any strain; others: paths of strain";
+    stop: i64, "INTEGER", "-", "running number on the path, from 1; 0 is the packed state";
+    strain: f64, "REAL", "-", "radial thermal strain relative to the packed state, growth positive";
+    strain_xx: f64, "REAL", "-", "extension of the box along x relative to the packed state, extension positive";
+    strain_yy: f64, "REAL", "-", "extension of the box along y relative to the packed state, extension positive";
+    strain_zz: f64, "REAL", "-", "extension of the box along z relative to the packed state, extension positive";
+    strain_xy: f64, "REAL", "-", "shear of the box relative to the packed state: displacement along x over the distance along y";
+    strain_xz: f64, "REAL", "-", "shear of the box relative to the packed state: displacement along x over the distance along z";
+    strain_yz: f64, "REAL", "-", "shear of the box relative to the packed state: displacement along y over the distance along z";
+    from_stop: Option<i64>, "INTEGER", "-", "stop of the same path from whose state the increment starts; 0 is the packed state";
+    turned: Option<u64>, "INTEGER", "-", "1: the increment was made in a box with other names of its axes (x is y, y is z, z is x), and the averages were turned back; 0: it was not";
+    step_thermal: Option<f64>, "REAL", "-", "increment of the radii relative to the state at from_stop, growth positive";
+    step_xx: Option<f64>, "REAL", "-", "increment of the box along x relative to the state at from_stop, extension positive";
+    step_yy: Option<f64>, "REAL", "-", "increment of the box along y relative to the state at from_stop, extension positive";
+    step_zz: Option<f64>, "REAL", "-", "increment of the box along z relative to the state at from_stop, extension positive";
+    step_xy: Option<f64>, "REAL", "-", "increment of the shear relative to the state at from_stop: displacement along x over the distance along y";
+    step_xz: Option<f64>, "REAL", "-", "increment of the shear relative to the state at from_stop: displacement along x over the distance along z";
+    step_yz: Option<f64>, "REAL", "-", "increment of the shear relative to the state at from_stop: displacement along y over the distance along z";
+    outcome: String, "TEXT", "-", "settled; capped: step cap before balance; unjammed: bears no load; failed: see failure";
+    failure: Option<String>, "TEXT", "-", "why the stop was not reached; absent when it was";
+    steps: u64, "INTEGER", "-", "time steps from the previous stop";
+    unbalanced: Option<f64>, "REAL", "-", "mean resultant force over mean contact force";
+    solid_fraction: Option<f64>, "REAL", "-", "volume of the spheres over that of the box, overlaps counted twice";
+    coordination: Option<f64>, "REAL", "-", "contacts per sphere, all spheres counted";
+    backbone_coordination: Option<f64>, "REAL", "-", "contacts per sphere without rattlers and their contacts";
+    rattlers: Option<f64>, "REAL", "-", "part of the spheres that are rattlers: fewer than 2 contacts (4 without friction)";
+    neighbours: Option<f64>, "REAL", "-", "spheres nearer than 1.18 diameters, per sphere";
+    pressure: Option<f64>, "REAL", "-", "(stress_xx + stress_yy + stress_zz)/3";
+    stress_xx: Option<f64>, "REAL", "-", "xx component of Love's stress over E*, symmetric part, compression positive";
+    stress_yy: Option<f64>, "REAL", "-", "yy component of Love's stress over E*, symmetric part, compression positive";
+    stress_zz: Option<f64>, "REAL", "-", "zz component of Love's stress over E*, symmetric part, compression positive";
+    stress_xy: Option<f64>, "REAL", "-", "xy component of Love's stress over E*, symmetric part, compression positive";
+    stress_xz: Option<f64>, "REAL", "-", "xz component of Love's stress over E*, symmetric part, compression positive";
+    stress_yz: Option<f64>, "REAL", "-", "yz component of Love's stress over E*, symmetric part, compression positive";
+    fabric_xx: Option<f64>, "REAL", "-", "mean of n_x n_x over the contacts";
+    fabric_yy: Option<f64>, "REAL", "-", "mean of n_y n_y over the contacts";
+    fabric_zz: Option<f64>, "REAL", "-", "mean of n_z n_z over the contacts";
+    fabric_xy: Option<f64>, "REAL", "-", "mean of n_x n_y over the contacts";
+    fabric_xz: Option<f64>, "REAL", "-", "mean of n_x n_z over the contacts";
+    fabric_yz: Option<f64>, "REAL", "-", "mean of n_y n_z over the contacts";
+    contact_conductivity_xx: Option<f64>, "REAL", "-", "xx component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_yy: Option<f64>, "REAL", "-", "yy component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_zz: Option<f64>, "REAL", "-", "zz component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_xy: Option<f64>, "REAL", "-", "xy component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_xz: Option<f64>, "REAL", "-", "xz component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_yz: Option<f64>, "REAL", "-", "yz component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
+    gas_conductivity_3_5: Option<f64>, "REAL", "-", "conductivity by the gas over that of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 3.5 of the gas";
+    gas_conductivity_6_0: Option<f64>, "REAL", "-", "conductivity by the gas over that of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 6 of the gas";
+    gas_conductivity_8_5: Option<f64>, "REAL", "-", "conductivity by the gas over that of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 8.5 of the gas";
+}
+
+impl Row for SphereRecord {
+    const COLUMNS: &'static [Column] = COLUMNS;
+    const SCHEMAS: &'static [Schema] = &[Schema { number: "spheres 1", without: &[] }];
+    const KEY: &'static str = "packing, path, stop";
+    type Place = (PathName, i64);
+
+    fn values(&self) -> Vec<Value> {
+        self.all_values()
+    }
+
+    fn from_cells<'a>(
+        cell: impl Fn(usize) -> Result<ValueRef<'a>, String>,
+    ) -> Result<Self, (&'static str, String)> {
+        Self::of_cells(cell)
+    }
+
+    fn packing(&self) -> i64 {
+        self.packing
+    }
+
+    fn place(&self) -> (PathName, i64) {
+        (self.path, self.stop)
+    }
+
+    fn order(&self) -> impl Ord {
+        self.place()
+    }
+
+    fn name_of(packing: i64, (path, stop): &(PathName, i64)) -> String {
+        format!("packing {packing}, path {}, stop {stop}", path.as_str())
+    }
+
+    fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    fn has_failed(&self) -> bool {
+        self.failure.is_some()
+    }
+}
+
+/// Sets the six columns of a tensor.
+macro_rules! set {
+    ($record:ident, $tensor:expr, $($name:ident)*) => {
+        let tensor: Tensor = $tensor;
+        let mut parts = tensor.into_iter();
+        $($record.$name = parts.next().map(Into::into).unwrap_or_default();)*
+    };
+}
+
+impl SphereRecord {
+    /// The packed state, not reached yet.
+    fn of(job: &SphereJob) -> Self {
+        let preparation = &job.preparation;
+        Self {
+            packing: job.packing,
+            spheres: preparation.spheres as u64,
+            seed: preparation.seed,
+            compression: job.compression,
+            packing_friction: preparation.packing_friction,
+            friction: preparation.friction,
+            packing_pressure: preparation.pressure,
+            ..Self::default()
+        }
+    }
+
+    /// The row of the packed state, or of the reason why it was not reached.
+    pub(super) fn packed(job: &SphereJob, state: Result<&(Rest, Averages), &str>) -> Self {
+        let mut record = Self::of(job);
+        record.set_state(state);
+        record
+    }
+
+    /// The row of a state on a path, or of the reason why it was not reached.
+    pub(super) fn on_path(
+        job: &SphereJob,
+        path: PathName,
+        planned: &Planned,
+        state: Result<&(Rest, Averages), &str>,
+    ) -> Self {
+        let Planned { stop, increment: Increment { from_stop, step, turned }, strain } = *planned;
+        let mut record = Self { path, stop, strain: strain.thermal, ..Self::of(job) };
+        set!(record, strain.stretch, strain_xx strain_yy strain_zz strain_xy strain_xz strain_yz);
+        record.from_stop = Some(from_stop);
+        record.turned = Some(u64::from(turned));
+        record.step_thermal = Some(step.thermal);
+        set!(record, step.stretch, step_xx step_yy step_zz step_xy step_xz step_yz);
+        record.set_state(state);
+        record
+    }
+
+    fn set_state(&mut self, state: Result<&(Rest, Averages), &str>) {
+        match state {
+            Ok((rest, averages)) => {
+                self.outcome = rest.outcome.as_str().to_string();
+                self.steps = rest.steps;
+                self.unbalanced = Some(rest.unbalanced);
+                self.set_averages(averages);
+            }
+            Err(reason) => {
+                self.outcome = FAILED.to_string();
+                self.failure = Some(reason.to_string());
+            }
+        }
+    }
+
+    fn set_averages(&mut self, a: &Averages) {
+        self.solid_fraction = Some(a.solid_fraction);
+        self.coordination = Some(a.coordination);
+        self.backbone_coordination = Some(a.backbone_coordination);
+        self.rattlers = Some(a.rattlers);
+        self.neighbours = Some(a.neighbours);
+        self.pressure = Some(a.pressure());
+        set!(self, a.stress, stress_xx stress_yy stress_zz stress_xy stress_xz stress_yz);
+        set!(self, a.fabric, fabric_xx fabric_yy fabric_zz fabric_xy fabric_xz fabric_yz);
+        set!(
+            self,
+            a.contact_conductivity,
+            contact_conductivity_xx contact_conductivity_yy contact_conductivity_zz
+            contact_conductivity_xy contact_conductivity_xz contact_conductivity_yz
+        );
+        let [low, middle, high] = a.gas_conductivity.map(Some);
+        (self.gas_conductivity_3_5, self.gas_conductivity_6_0, self.gas_conductivity_8_5) =
+            (low, middle, high);
+    }
+
+    /// Of a path: the increment that leads to the state; none of the packed state.
+    pub fn increment(&self) -> Option<Increment> {
+        let step = Strain {
+            thermal: self.step_thermal?,
+            stretch: [
+                self.step_xx?,
+                self.step_yy?,
+                self.step_zz?,
+                self.step_xy?,
+                self.step_xz?,
+                self.step_yz?,
+            ],
+        };
+        Some(Increment { from_stop: self.from_stop?, step, turned: self.turned? != 0 })
+    }
+
+    /// Strain relative to the packed state.
+    pub fn strain(&self) -> Strain {
+        let stretch =
+            [self.strain_xx, self.strain_yy, self.strain_zz, self.strain_xy, self.strain_xz, self.strain_yz];
+        Strain { thermal: self.strain, stretch }
+    }
+
+    /// The averages; none when the state was not reached.
+    pub fn averages(&self) -> Option<Averages> {
+        Some(Averages {
+            solid_fraction: self.solid_fraction?,
+            coordination: self.coordination?,
+            backbone_coordination: self.backbone_coordination?,
+            rattlers: self.rattlers?,
+            neighbours: self.neighbours?,
+            fabric: [
+                self.fabric_xx?,
+                self.fabric_yy?,
+                self.fabric_zz?,
+                self.fabric_xy?,
+                self.fabric_xz?,
+                self.fabric_yz?,
+            ],
+            stress: [
+                self.stress_xx?,
+                self.stress_yy?,
+                self.stress_zz?,
+                self.stress_xy?,
+                self.stress_xz?,
+                self.stress_yz?,
+            ],
+            contact_conductivity: [
+                self.contact_conductivity_xx?,
+                self.contact_conductivity_yy?,
+                self.contact_conductivity_zz?,
+                self.contact_conductivity_xy?,
+                self.contact_conductivity_xz?,
+                self.contact_conductivity_yz?,
+            ],
+            gas_conductivity: [
+                self.gas_conductivity_3_5?,
+                self.gas_conductivity_6_0?,
+                self.gas_conductivity_8_5?,
+            ],
+        })
+    }
+
+    /// Whether the state was reached and bears load.
+    pub fn bears_load(&self) -> bool {
+        self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
+    }
+}

@@ -1,0 +1,145 @@
+//! Generation, continuation, shards and export of small databases of spheres; packings against what is known of them.
+
+use msdd_rve::database::{
+    DatabaseError, Grains, PathName, Plan, Run, Shard, SpherePlan, export_csv, generate, grains,
+    has_checksum, merge, read, read_spheres, seal,
+};
+use msdd_rve::spheres::{Preparation, Strain, advance, averages, prepare};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+const PLAN: &str = "seed = 3\n[[spheres]]\nspheres = 60\npacking_frictions = [0.3, 0.0]\n\
+    compressions = [\"isotropic\", \"sheared\"]\npressures = [1e-5, 1e-3]\nrepeats = 1\n\
+    paths = [\"thermal\", \"mixed\"]\nstrain = 4e-3\nstep = 2e-3\n";
+
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn plan() -> SpherePlan {
+    SpherePlan::parse(PLAN, "plan").unwrap()
+}
+
+fn make(path: &Path, threads: usize, shard: &str) {
+    let run = Run { threads, shard: shard.parse::<Shard>().unwrap(), ..Run::default() };
+    generate(&plan(), path, &run, |_| ControlFlow::Continue(())).unwrap();
+}
+
+fn bytes(path: &Path) -> Vec<u8> {
+    std::fs::read(path).unwrap()
+}
+
+#[test]
+fn rows_do_not_depend_on_threads_interruptions_and_shards() {
+    let folder = folder("spheres");
+    let file = |name: &str| folder.join(name);
+    make(&file("one.msdd"), 1, "1/1");
+    make(&file("three.msdd"), 3, "1/1");
+    assert_eq!(bytes(&file("one.msdd")), bytes(&file("three.msdd")));
+    // What a killed run leaves: some packings and no mark of completion.
+    let third = |done: usize| if done < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
+    let run = Run { threads: 1, ..Run::default() };
+    generate(&plan(), &file("killed.msdd"), &run, |progress| third(progress.done)).unwrap();
+    assert_ne!(bytes(&file("one.msdd")), bytes(&file("killed.msdd")));
+    make(&file("killed.msdd"), 1, "1/1");
+    assert_eq!(bytes(&file("one.msdd")), bytes(&file("killed.msdd")));
+    let shards = ["1/3", "2/3", "3/3"].map(|shard| {
+        let path = file(&format!("{}.msdd", shard.replace('/', "of")));
+        make(&path, 1, shard);
+        path
+    });
+    let rows = merge(&shards, &file("merged.msdd")).unwrap();
+    assert_eq!(bytes(&file("one.msdd")), bytes(&file("merged.msdd")));
+    assert_eq!(rows, plan().rows());
+    let missing = merge(&shards[..2], &file("part.msdd")).unwrap_err().to_string();
+    assert!(missing.contains("2 of 8 packings are missing"), "{missing}");
+}
+
+#[test]
+fn a_csv_reads_back_and_readers_of_discs_refuse_it() {
+    let folder = folder("spheres-csv");
+    let (database, csv) = (folder.join("a.msdd"), folder.join("a.csv.gz"));
+    make(&database, 2, "1/1");
+    assert_eq!(export_csv(&database, &csv, None).unwrap(), plan().rows());
+    assert_eq!(read_spheres(&database).unwrap(), read_spheres(&csv).unwrap());
+    for path in [&database, &csv] {
+        assert_eq!(grains(path).unwrap(), Grains::Spheres);
+        assert!(has_checksum(path).unwrap());
+        let error = read(path).unwrap_err().to_string();
+        assert!(error.ends_with("holds rows of spheres, allowed: rows of discs"), "{error}");
+    }
+    assert_eq!(seal(&database).unwrap(), plan().rows());
+    let records = read_spheres(&csv).unwrap().records;
+    assert_eq!(records.iter().filter(|r| r.path == PathName::Packed).count(), 8);
+    let flipped = folder.join("flipped.msdd");
+    let mut broken = bytes(&database);
+    let at = broken.len() / 2;
+    broken[at] ^= 1;
+    std::fs::write(&flipped, broken).unwrap();
+    assert!(read_spheres(&flipped).is_err());
+    // A file of spheres is not continued by a plan of discs.
+    let discs = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n[[thermal]]\ndiscs = 40\nporosities = [0.14]\n\
+        compressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.01]\n";
+    let discs = Plan::parse(discs, "plan").unwrap();
+    let error = generate(&discs, &database, &Run::default(), |_| ControlFlow::Continue(())).unwrap_err();
+    assert!(matches!(error, DatabaseError::Format { .. }), "{error}");
+}
+
+/// What 1000 spheres of friction 0.3 are like at p/E* = 1e-5 (a trial with LAMMPS: φ 0.588 ± 0.01, z 4.56, C 0.926 for E* of ν = 0.3,
+/// κ_g 14.2 at ℓ = 8.5), and that (p/E*)^(2/3) grows in proportion to ln φ: there with the slope 0.122 to 0.168 for p/E, which is 0.18 to
+/// 0.25 for p/E*. Here of 300 spheres.
+#[test]
+fn packings_are_like_those_of_others() {
+    let preparation = Preparation {
+        spheres: 300,
+        seed: 11,
+        poisson_ratio: 0.25,
+        restitution: 0.3,
+        packing_friction: 0.3,
+        friction: 0.3,
+        rates: [1.0; 3],
+        pressure: 1e-5,
+    };
+    let mut simulation = prepare(&preparation).unwrap().simulation;
+    let packed = averages(&simulation).unwrap();
+    assert!((packed.solid_fraction - 0.583).abs() < 0.012, "{packed:?}");
+    assert!((packed.coordination - 4.5).abs() < 0.3, "{packed:?}");
+    let [x, y, z, ..] = packed.contact_conductivity;
+    let factor = (x + y + z) / 3.0 / packed.pressure().cbrt();
+    assert!((factor - 0.92).abs() < 0.08, "{factor}");
+    assert!((packed.gas_conductivity[2] / 14.0 - 1.0).abs() < 0.08, "{packed:?}");
+    let mut powers = vec![packed.pressure().powf(2.0 / 3.0)];
+    for _ in 0..3 {
+        advance(&mut simulation, Strain::thermal(2e-3)).unwrap();
+        powers.push(averages(&simulation).unwrap().pressure().powf(2.0 / 3.0));
+    }
+    for pair in powers.windows(2) {
+        let slope = (pair[1] - pair[0]) / (3.0 * 2e-3);
+        assert!(slope > 0.17 && slope < 0.26, "{slope}");
+    }
+}
+
+/// A loose box that is sheared in a fixed volume loses its load, and the rest of the path says so.
+#[test]
+fn a_path_ends_where_the_box_bears_no_load() {
+    let database = folder("spheres-end").join("a.msdd");
+    let plan = "seed = 1\n[[spheres]]\nspheres = 60\ncompressions = [\"isotropic\"]\npressures = [1e-6]\nrepeats = 2\n\
+        paths = [\"shear\"]\nstrain = 0.05\nstep = 1e-2\n";
+    let plan = SpherePlan::parse(plan, "plan").unwrap();
+    generate(&plan, &database, &Run::default(), |_| ControlFlow::Continue(())).unwrap();
+    let records = read_spheres(&database).unwrap().records;
+    assert_eq!(records.len(), plan.rows());
+    let end = records.iter().position(|record| record.outcome == "unjammed").unwrap();
+    let (packing, stop) = (records[end].packing, records[end].stop);
+    assert!(records[end].pressure.unwrap() < 1e-10);
+    let after: Vec<_> = records.iter().filter(|r| r.packing == packing && r.stop > stop).collect();
+    assert!(!after.is_empty());
+    for record in after {
+        let expected = format!("the path ended at stop {stop}, which bears no load");
+        assert_eq!(record.failure.as_deref(), Some(expected.as_str()));
+        assert!(record.outcome == "failed" && record.pressure.is_none());
+    }
+}
