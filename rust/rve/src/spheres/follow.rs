@@ -13,7 +13,7 @@ use msdd_spheres::{Failure, Partner, Simulation, StepChoice};
 /// compressed by 1 % by 0.04 % (0.13 %).
 const RATE: f64 = 3e-4;
 /// (p/E*)^(2/3) over the increment, for the pressure that an increment is taken to build up or to take away: a box that loses its load
-/// is not strained ever more slowly. Closing builds up about four times as much.
+/// is not strained ever more slowly. Closing on all sides builds up five to seven times as much.
 const BUILDS_UP: f64 = 0.1;
 /// Drag over √(p/ρ)/d.
 const DRAG: f64 = 3.0;

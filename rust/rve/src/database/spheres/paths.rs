@@ -13,8 +13,8 @@ const FIRST: f64 = 0.5;
 /// Growth of the increments, and the first one after a turn over the usual one.
 const GROWTH: f64 = 1.5;
 const TURN: f64 = 0.125;
-/// p/E* from which on some paths begin with opening, their share, and how far they open over (p/E*)^(2/3): about half of what the box
-/// can bear.
+/// p/E* from which on some paths begin with opening, their share, and how far they open over (p/E*)^(2/3): less than what the box can
+/// bear, which is about 1.6.
 const OPENING_FROM: f64 = 0.99e-5;
 const OPENING_SHARE: f64 = 0.3;
 const OPENING: f64 = 1.2;
