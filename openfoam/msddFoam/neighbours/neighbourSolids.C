@@ -22,8 +22,6 @@ License
 #include "mappedPatchBase.H"
 #include "fvmLaplacian.H"
 #include "fvmSup.H"
-#include "SquareMatrix.H"
-#include "scalarMatrices.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -32,7 +30,7 @@ namespace Foam
 
 //- Change of the temperatures of the solids over the largest of them at which
 //- the solutions of bed and solids have met: that of the linear solvers
-static const scalar met = 1e-11;
+static const scalar met = 1e-10;
 
 //- Solutions of a stage
 static const label mostSolutions = 60;
@@ -53,7 +51,6 @@ static const scalar rounding = 1e-8;
 
 Foam::neighbourSolids::neighbourSolids(const Time& runTime)
 :
-    size_(0),
     entered_(0),
     given_(0),
     startHeat_(0),
@@ -121,7 +118,6 @@ void Foam::neighbourSolids::read(const Time& runTime, const word& name)
        .lookupOrDefault<label>("nNonOrthogonalCorrectors", 0);
     s.mesh->solverDict("T");
     update(s);
-    size_ += s.mesh->nCells();
     startHeat_ = storedHeat();
 }
 
@@ -185,26 +181,40 @@ void Foam::neighbourSolids::solve(solid& s, const scalar tau)
 
 Foam::scalarField Foam::neighbourSolids::temperatures()
 {
-    scalarField result(size_);
-    label at = 0;
+    DynamicList<scalar> result;
     for (solid& s : solids_)
     {
-        const scalarField& T = s.T().primitiveField();
-        SubList<scalar>(result, T.size(), at) = T;
-        at += T.size();
+        result.append(s.T().primitiveField());
+        for (const fvPatchScalarField& patch : s.T().boundaryField())
+        {
+            if (isA<mappedPatchBase>(patch.patch().patch()))
+            {
+                result.append(patch);
+            }
+        }
     }
-    return result;
+    return scalarField(result);
 }
 
 
 void Foam::neighbourSolids::setTemperatures(const scalarField& all)
 {
     label at = 0;
-    for (solid& s : solids_)
+    const auto set = [&](scalarField& T)
     {
-        scalarField& T = s.T().primitiveFieldRef();
         T = SubList<scalar>(all, T.size(), at);
         at += T.size();
+    };
+    for (solid& s : solids_)
+    {
+        set(s.T().primitiveFieldRef());
+        for (fvPatchScalarField& patch : s.T().boundaryFieldRef())
+        {
+            if (isA<mappedPatchBase>(patch.patch().patch()))
+            {
+                set(patch);
+            }
+        }
     }
 }
 
