@@ -131,6 +131,21 @@ on_processes() { # the coupled patches are cut along y
         check "solid beside the bed on three processes: $name differs by $e <= 1e-6 K" below "$e" 1e-6
     done
 }
+restarted() { # a run that ends in the middle and goes on has the same bytes as one that does not
+    local name
+    layers_case neighbour-whole 16 'endTime 20; deltaT 2; writeInterval 5; startFrom latestTime;' 'timeScheme secondOrder;'
+    begin_with_mode 16
+    cp -r . "$work/neighbour-halves"
+    logged msddFoam
+    cd "$work/neighbour-halves"
+    controls 'endTime 10;'
+    logged msddFoam
+    controls 'endTime 20;'
+    logged msddFoam
+    for name in T plate/T; do
+        check "solid beside the bed, restarted in the middle: $name has the same bytes" cmp "20/$name" "$work/neighbour-whole/20/$name"
+    done
+}
 within_a_shell() { # grains that move, elastic here: the shell stands where its temperature and the pressure put it
     local e
     layers_case neighbour-shell 16 'endTime 100; deltaT 1; adjustTimeStep yes; writeControl adjustableRunTime; writeInterval 100;' 'timeScheme secondOrder;'
@@ -163,5 +178,6 @@ neighbours_that_cannot_be() {
 orders
 heat_over_all
 on_processes
+restarted
 within_a_shell
 neighbours_that_cannot_be
