@@ -245,29 +245,6 @@ void Foam::wallConditions::read
 }
 
 
-void Foam::wallConditions::readShell(const dictionary& dict, wall& w) const
-{
-    const auto positive = [&](const word& key)
-    {
-        return granularProperties::ranged
-        (
-            dict, key, dict.get<scalar>(key), SMALL, GREAT
-        );
-    };
-    const scalar radius = positive("radius");
-    w.stiffness = positive("youngModulus")*positive("thickness")/sqr(radius);
-
-    // A wall that grows by half of its size is no shell
-    const scalar expansion =
-        granularProperties::ranged(dict, "thermalExpansion", 0, 0, 1e-2);
-    w.growth = expansion*radius;
-    if (expansion > 0)
-    {
-        w.temperature = dict.get<scalar>("temperature");
-    }
-}
-
-
 void Foam::wallConditions::findNormals()
 {
     const label dim = mesh_.dim();
@@ -457,66 +434,6 @@ void Foam::wallConditions::findRubbing()
     length_ = limit_;
     stiffness_ = limit_;
     grip_ = limit_;
-}
-
-
-void Foam::wallConditions::findSupports()
-{
-    // A node has one normal for each shell, so that a shell of plane faces does
-    // not resist when it turns about its axis
-    const label dim = mesh_.dim();
-    DynamicList<label> supports;
-    DynamicList<scalar> normal, support;
-    scalarField weights;
-    forAll(walls_, patchi)
-    {
-        wall& w = walls_[patchi];
-        if (w.type != kind::shell)
-        {
-            continue;
-        }
-        scalarField area(dim*mesh_.size(), Zero);
-        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        for (label i = 0; i < faces.size(); ++i)
-        {
-            const label start = faces.start[i];
-            const label count = faces.start[i + 1] - start;
-            const label* nodes = faces.nodes.cdata() + start;
-            weights.resize(max(weights.size(), 3*count));
-            mesh_.faceWeights(mesh_.points(), nodes, count, weights.data());
-            for (label a = 0; a < count; ++a)
-            {
-                for (label k = 0; k < dim; ++k)
-                {
-                    area[dim*nodes[a] + k] += weights[dim*a + k];
-                }
-            }
-        }
-        mesh_.sum(area);
-        for (label node = 0; node < mesh_.size(); ++node)
-        {
-            scalar square = 0;
-            for (label k = 0; k < dim; ++k)
-            {
-                square += sqr(area[dim*node + k]);
-            }
-            if (!(square > 0))
-            {
-                continue;
-            }
-            const scalar size = std::sqrt(square);
-            w.supports.insert(node, supports.size());
-            supports.append(node);
-            support.append(w.stiffness*size);
-            for (label k = 0; k < dim; ++k)
-            {
-                normal.append(area[dim*node + k]/size);
-            }
-        }
-    }
-    supports_ = supports;
-    normal_ = scalarField(normal);
-    support_ = scalarField(support);
 }
 
 

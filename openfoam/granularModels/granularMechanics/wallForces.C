@@ -353,69 +353,6 @@ void Foam::wallConditions::setStiffness(const scalar pressure)
 }
 
 
-void Foam::wallConditions::addShells
-(
-    const scalarField& u,
-    scalarField& force
-) const
-{
-    const label dim = mesh_.dim();
-    scalarField weights;
-    forAll(walls_, patchi)
-    {
-        const wall& w = walls_[patchi];
-        if (w.type != kind::shell)
-        {
-            continue;
-        }
-
-        // Displacement of the shell if nothing pressed on it, times support_
-        scalarField grown(mesh_.size(), Zero);
-        if (w.growth > 0)
-        {
-            const scalarField& T =
-                mesh_.mesh().lookupObject<volScalarField>("T")
-               .boundaryField()[patchi];
-            const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-            for (label i = 0; i < faces.size(); ++i)
-            {
-                const label start = faces.start[i];
-                const label count = faces.start[i + 1] - start;
-                const label* nodes = faces.nodes.cdata() + start;
-                weights.resize(max(weights.size(), 3*count));
-                mesh_.faceWeights(mesh_.points(), nodes, count, weights.data());
-                for (label a = 0; a < count; ++a)
-                {
-                    const auto support = w.supports.cfind(nodes[a]);
-                    scalar size = 0;
-                    for (label k = 0; support.good() && k < dim; ++k)
-                    {
-                        size += weights[dim*a + k]*normal_[dim*(*support) + k];
-                    }
-                    grown[nodes[a]] +=
-                        w.stiffness*size*w.growth*(T[i] - w.temperature);
-                }
-            }
-            mesh_.sum(grown, 1);
-        }
-        forAllConstIters(w.supports, iter)
-        {
-            const label node = iter.key(), index = iter.val();
-            const scalar* n = normal_.cdata() + dim*index;
-            scalar f = grown[node];
-            for (label k = 0; k < dim; ++k)
-            {
-                f -= support_[index]*n[k]*u[dim*node + k];
-            }
-            for (label k = 0; k < dim; ++k)
-            {
-                force[dim*node + k] += f*n[k];
-            }
-        }
-    }
-}
-
-
 void Foam::wallConditions::addStick
 (
     const scalarField& d,
