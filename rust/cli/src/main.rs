@@ -19,6 +19,7 @@ mod rows;
 mod rve;
 mod score;
 mod simd;
+mod spheres;
 mod summary;
 mod threads;
 mod tracks;

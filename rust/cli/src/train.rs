@@ -4,6 +4,7 @@ use crate::database::warn_without_checksum;
 use crate::error::CliError;
 use crate::rows::training_data;
 use crate::score;
+use crate::spheres;
 use clap::Args;
 use msdd_files::{check_target, write};
 use msdd_rve::database::{Dataset, read_all};
@@ -20,7 +21,7 @@ pub struct Arguments {
     /// Model file (JSON) to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Kind of model: constant, paper or increment.
+    /// Kind of model: constant, paper or increment; spheres for databases of spheres.
     #[arg(long, default_value = models::DEFAULT)]
     model: String,
     /// Name of the model. Default: its kind.
@@ -33,7 +34,7 @@ pub struct Arguments {
     /// model increment has one start.
     #[arg(long)]
     restarts: Option<u32>,
-    /// Largest number of epochs, that is of Levenberg–Marquardt steps. Default: 60 for increment, 200 for paper.
+    /// Largest number of epochs, that is of Levenberg–Marquardt steps. Default: 60 for increment and spheres, 200 for paper.
     #[arg(long)]
     epochs: Option<u32>,
     /// Number of epochs without a smaller validation error after which a training ends.
@@ -44,6 +45,15 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     check_target(&arguments.out)?;
     warn_without_checksum(&arguments.database)?;
+    if arguments.model == spheres::KIND {
+        return spheres::train_and_write(&spheres::Training {
+            database: &arguments.database,
+            out: &arguments.out,
+            name: arguments.name.as_deref(),
+            seed: arguments.seed,
+            epochs: arguments.epochs,
+        });
+    }
     let dataset = read_all(&arguments.database)?;
     let data = training_data(&dataset.records);
     let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };

@@ -25,6 +25,7 @@
 //! | [`region`] | where the training states lie, and how much packings of equal state differ |
 //! | [`wall_friction`] | wall friction |
 //! | [`solid_fraction`] | sum-of-areas solid fraction from porosity |
+//! | [`spheres`] | the law of packings of spheres: its tracks, fit, readouts, model and scores |
 //! | [`predictor`], [`model`] | the part of the paper's network that answers queries; the trained model |
 //! | [`options`], [`report`] | training options and training report |
 //! | [`model_file`], [`document`] | the file of the paper's network; what all model files share |
@@ -56,6 +57,7 @@ pub mod scaling;
 pub mod score;
 pub mod scores;
 pub mod solid_fraction;
+pub mod spheres;
 pub mod surrogate;
 #[cfg(test)]
 mod synthetic;

@@ -5,6 +5,7 @@ mod plot;
 use crate::database::warn_without_checksum;
 use crate::error::CliError;
 use crate::rows::training_data;
+use crate::spheres;
 use clap::Args;
 use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::read_all;
@@ -37,6 +38,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     arguments.json.iter().try_for_each(|json| check_target(json))?;
     warn_without_checksum(&arguments.database)?;
+    if spheres::is_model(&arguments.model[0])? {
+        return spheres::score_models(&arguments.model, &arguments.database, arguments.json.as_deref());
+    }
     let dataset = read_all(&arguments.database)?;
     let data = training_data(&dataset.records);
     let plan_hash = dataset.provenance.get("plan_hash").cloned().unwrap_or_default();

@@ -1,0 +1,145 @@
+//! `msdd train` and `msdd score` for the law of spheres.
+
+mod tracks;
+
+use crate::error::CliError;
+use msdd_files::{read_text, write};
+use msdd_rve::database::read_spheres;
+use msdd_surrogate::document::hash;
+use msdd_surrogate::spheres::model::SphereModel;
+use msdd_surrogate::spheres::score::{PathErrors, score};
+use msdd_surrogate::spheres::tracks::Track;
+use msdd_surrogate::spheres::training::{USUAL_EPOCHS, is_held_out, train};
+use msdd_surrogate::{DatabaseProvenance, TrainingOptions};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Name of the kind of model.
+pub const KIND: &str = "spheres";
+
+/// The paths of all files, packings numbered on, and where they come from.
+fn read(files: &[PathBuf]) -> Result<(Vec<Track>, DatabaseProvenance), CliError> {
+    let (mut all, mut next) = (Vec::new(), 0);
+    let (mut plans, mut rows) = (String::new(), String::new());
+    let mut provenance = DatabaseProvenance::default();
+    for file in files {
+        let mut dataset = read_spheres(file)?;
+        dataset.records.iter_mut().for_each(|record| record.packing += next);
+        next = dataset.records.iter().map(|record| record.packing + 1).max().unwrap_or(next);
+        all.extend(tracks::tracks(&dataset.records));
+        let value = |key: &str| dataset.provenance.get(key).cloned().unwrap_or_default();
+        plans += &value("plan_hash");
+        rows += &serde_json::to_string(&dataset.records)
+            .map_err(|error| CliError::Message(format!("{}: {error}", file.display())))?;
+        provenance.engine_version = value("engine_version");
+        provenance.material = serde_json::from_str(&value("material")).unwrap_or_default();
+    }
+    provenance.plan_hash = if files.len() > 1 { hash(&plans) } else { plans };
+    provenance.rows_hash = Some(hash(&rows));
+    Ok((all, provenance))
+}
+
+/// Options of a training, as far as they matter here.
+pub struct Training<'a> {
+    pub database: &'a [PathBuf],
+    pub out: &'a Path,
+    pub name: Option<&'a str>,
+    pub seed: u64,
+    pub epochs: Option<u32>,
+}
+
+pub fn train_and_write(training: &Training) -> Result<(), CliError> {
+    let (tracks, database) = read(training.database)?;
+    let options = TrainingOptions {
+        name: training.name.unwrap_or(KIND).to_string(),
+        seed: training.seed,
+        max_epochs: training.epochs.unwrap_or(USUAL_EPOCHS),
+        database,
+        ..TrainingOptions::default()
+    };
+    let begin = Instant::now();
+    let failed = |source| CliError::Training { file: training.database[0].clone(), source };
+    let model = train(&tracks, &options).map_err(failed)?;
+    let seconds = begin.elapsed().as_secs_f64();
+    write(training.out, model.to_json().as_bytes())?;
+    let report = model.file.report;
+    outln!(
+        "{} numbers of the law fitted to {} paths of {} packings, {} packings held out: mean square {:.3e} after {} epochs",
+        report.parameters,
+        report.paths[0],
+        report.packings[0],
+        report.packings[1],
+        report.mean_square,
+        report.epochs
+    );
+    print_scores(&model, &tracks)?;
+    outln!("model {} in {}, trained in {seconds:.1} s", model.hash(), training.out.display());
+    Ok(())
+}
+
+/// Whether a file is a model of spheres.
+pub fn is_model(file: &Path) -> Result<bool, CliError> {
+    Ok(SphereModel::is_meant(&read_text(file)?))
+}
+
+pub fn score_models(models: &[PathBuf], database: &[PathBuf], json: Option<&Path>) -> Result<(), CliError> {
+    let (tracks, _) = read(database)?;
+    let mut all = Vec::new();
+    for file in models {
+        let failed = |source| CliError::Model { file: file.clone(), source };
+        let model = SphereModel::read(&read_text(file)?).map_err(failed)?;
+        all.push(print_scores(&model, &tracks)?);
+    }
+    if let Some(path) = json {
+        let text = serde_json::to_string_pretty(&all)
+            .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
+        write(path, (text + "\n").as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Scores over the packings that were held out of the model's training, and scatter over all packings.
+fn print_scores(model: &SphereModel, tracks: &[Track]) -> Result<Vec<PathErrors>, CliError> {
+    let seed = model.file.training.seed;
+    let unseen: Vec<Track> =
+        tracks.iter().filter(|track| is_held_out(track.packing, seed)).cloned().collect();
+    let noise = score(model, tracks);
+    let mut found = score(model, &unseen);
+    for errors in &mut found {
+        errors.noise = noise.iter().find(|all| all.name == errors.name).and_then(|all| all.noise);
+    }
+    outln!(
+        "errors on packings that were held out, % (scatter between packings that were made and strained alike)"
+    );
+    outln!(
+        "{:<11} {:>5} {:>6} {:>15} {:>15} {:>15} {:>9} {:>9} {:>9}",
+        "path",
+        "paths",
+        "states",
+        "pressure",
+        "deviator",
+        "K by contacts",
+        "of state",
+        "direction",
+        "K by gas"
+    );
+    for errors in &found {
+        let with = |error: f64, k: usize| match errors.noise {
+            Some(noise) => format!("{:.1} ({:.1})", 100.0 * error, 100.0 * noise[k]),
+            None => format!("{:.1} (–)", 100.0 * error),
+        };
+        outln!(
+            "{:<11} {:>5} {:>6} {:>15} {:>15} {:>15} {:>9.1} {:>9.1} {:>9.1}",
+            errors.name,
+            errors.paths,
+            errors.states,
+            with(errors.pressure, 0),
+            with(errors.deviator, 1),
+            with(errors.contact, 2),
+            100.0 * errors.contact_of_state,
+            100.0 * errors.direction,
+            100.0 * errors.gas_of_state
+        );
+    }
+    Ok(found)
+}

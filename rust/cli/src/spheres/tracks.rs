@@ -1,0 +1,77 @@
+//! Converts rows of a database of spheres to paths of strain, on which the law of spheres is fitted.
+
+use msdd_rve::database::spheres::{PathName, SphereCompression, SphereRecord};
+use msdd_surrogate::spheres::tracks::{Point, Step, Track};
+use std::collections::BTreeMap;
+
+/// A state that bears load; `None` for others.
+fn point(record: &SphereRecord) -> Option<Point> {
+    if !matches!(record.outcome.as_str(), "settled" | "capped") {
+        return None;
+    }
+    Some(Point {
+        solid: record.solid_fraction?,
+        stress: [
+            record.stress_xx?,
+            record.stress_yy?,
+            record.stress_zz?,
+            record.stress_xy?,
+            record.stress_xz?,
+            record.stress_yz?,
+        ],
+        contact: [
+            record.contact_conductivity_xx?,
+            record.contact_conductivity_yy?,
+            record.contact_conductivity_zz?,
+            record.contact_conductivity_xy?,
+            record.contact_conductivity_xz?,
+            record.contact_conductivity_yz?,
+        ],
+        gas: [record.gas_conductivity_3_5?, record.gas_conductivity_6_0?, record.gas_conductivity_8_5?],
+    })
+}
+
+fn step(record: &SphereRecord) -> Option<Step> {
+    Some(Step {
+        from: usize::try_from(record.from_stop?).ok()?,
+        thermal: record.step_thermal?,
+        stretch: [
+            record.step_xx?,
+            record.step_yy?,
+            record.step_zz?,
+            record.step_xy?,
+            record.step_xz?,
+            record.step_yz?,
+        ],
+        to: point(record)?,
+    })
+}
+
+/// All paths, each as far as the box bears load. Those of `equivalence`, whose strains all start from the packed state, are left out.
+pub fn tracks(records: &[SphereRecord]) -> Vec<Track> {
+    let mut all: BTreeMap<(i64, PathName), Vec<&SphereRecord>> = BTreeMap::new();
+    let mut packed: BTreeMap<i64, Point> = BTreeMap::new();
+    for record in records {
+        match record.path {
+            PathName::Packed => {
+                packed.extend(point(record).map(|point| (record.packing, point)));
+            }
+            PathName::Equivalence => {}
+            path => all.entry((record.packing, path)).or_default().push(record),
+        }
+    }
+    let tracks = all.into_iter().filter_map(|((packing, path), mut rows)| {
+        rows.sort_by_key(|row| row.stop);
+        let first = rows.first()?;
+        let steps: Vec<Step> = rows.iter().map_while(|row| step(row)).collect();
+        let recipe = format!(
+            "{:?} {} {} {}",
+            first.compression, first.packing_friction, first.packing_pressure, first.spheres
+        );
+        let is_isotropic = first.compression == SphereCompression::Isotropic;
+        let (name, spheres) = (path.as_str().to_string(), first.spheres as usize);
+        let packed = *packed.get(&packing)?;
+        (!steps.is_empty()).then_some(Track { packing, name, recipe, is_isotropic, spheres, packed, steps })
+    });
+    tracks.collect()
+}

@@ -1,0 +1,388 @@
+//! The law of a packing of spheres, as in [`super`].
+
+use super::number::Number;
+use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
+use crate::SurrogateError;
+use crate::document::field;
+use serde::{Deserialize, Serialize};
+
+/// Number of elements, each of which bears a part of the deviator.
+pub const ELEMENTS: usize = 2;
+
+/// Numbers of the law. Stresses are over E*, compression positive; x is the solid fraction at jamming less 0.6.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Law {
+    /// A = b₀ e^(b₁ x) v^(3/2) (1 + b₂ √v): b₀, b₁, b₂.
+    pub bulk: [f64; 3],
+    /// c = c₀ e^(c₁ x): growth of the stress ratio by a unit of shear strain over v.
+    pub shear: [f64; 2],
+    pub elements: [Element; ELEMENTS],
+    /// Growth of the pressure by the stress ratios: p = A (1 + `lift` Σ |η_k|²/c_k).
+    pub lift: f64,
+    /// Loss of compression by a unit of sliding: d₀ (d₁ + d₂ x + d₃ x² − η·n), with n the direction of sliding; negative where
+    /// grains climb over each other.
+    pub dilatancy: [f64; 4],
+    /// Loss of compression by a unit of opening: s₀/(1 + (v/v₀)²), v₀ = s₁ e^(−s₂ x), of packings that lose their load.
+    pub settling: [f64; 3],
+}
+
+/// A part of the deviator, which slides when it exceeds `strength` e^(`growth` x + `curvature` x²) times A.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Element {
+    /// Part of the shear stiffness \[0 to 1\]; 1 in sum.
+    pub share: f64,
+    pub strength: f64,
+    pub growth: f64,
+    pub curvature: f64,
+    /// The stress ratio goes with this power of v where the packing is compressed without shear: 0 where new contacts have the
+    /// directions of the old ones, −1 where none are made.
+    pub power: f64,
+}
+
+/// Solid fraction from which x is measured.
+const USUAL_FRACTION: f64 = 0.6;
+/// x of all packings of the training lies between these; others have the numbers of these.
+const MOST_LOOSE: f64 = -0.045;
+const MOST_DENSE: f64 = 0.045;
+/// v below which grains count as touching by this much: its pressure is far below that of any bed.
+pub const LEAST_COMPRESSION: f64 = 1e-7;
+/// Largest v: far beyond the elasticity of real grains.
+const MOST_COMPRESSION: f64 = 0.5;
+/// Largest work of grains that climb over that of friction.
+const MOST_CLIMBING: f64 = 0.9;
+/// Length of a stress ratio over its strength from which an element slides: so little above 1 that a state which slides
+/// stays as it is when it is evaluated again.
+const SLACK: f64 = 1.0 + 1e-9;
+/// Added to squares of lengths before their root is taken, so that its derivative exists.
+const TINY: f64 = 1e-30;
+/// Least p/A; only states far beyond all known ones reach it.
+const LEAST_SHARE: f64 = 0.5;
+/// Largest factor of the strengths.
+pub const MOST_STRENGTH: f64 = 2.0;
+/// Largest exponent of the exponential functions of x.
+const MOST_EXPONENT: f64 = 8.0;
+
+/// What determines the stress of a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<N = f64> {
+    /// φ_J: the solid fraction at which the packing would bear no load \[-\].
+    pub jamming: N,
+    /// v = φ/φ_J − 1; negative where the grains do not touch.
+    pub compression: N,
+    /// η_k: parts of the deviator of the stress over A.
+    pub ratios: [Tensor<N>; ELEMENTS],
+    /// Factor of the strengths, which does not change: 1 but for packings that bear more.
+    pub strength: f64,
+}
+
+impl<N: Number> State<N> {
+    /// x, between those of the packings of the training.
+    fn density(&self) -> N {
+        self.jamming.plus(-USUAL_FRACTION).at_least(MOST_LOOSE).at_most(MOST_DENSE)
+    }
+
+    /// φ: volume of the grains over the volume \[-\].
+    pub fn solid(&self) -> N {
+        self.jamming + self.jamming * self.compression
+    }
+
+    /// Deviator of the stress over A.
+    pub fn ratio(&self) -> Tensor<N> {
+        let [first, second] = &self.ratios;
+        sum(first, second)
+    }
+}
+
+impl State {
+    /// The same state, as numbers that do not depend on the strain.
+    pub fn fixed<N: Number>(&self) -> State<N> {
+        State {
+            jamming: N::of(self.jamming),
+            compression: N::of(self.compression),
+            ratios: self.ratios.map(|ratio| ratio.map(N::of)),
+            strength: self.strength,
+        }
+    }
+}
+
+impl<N: Number> State<N> {
+    pub fn value(&self) -> State {
+        State {
+            jamming: self.jamming.value(),
+            compression: self.compression.value(),
+            ratios: self.ratios.map(|ratio| ratio.map(Number::value)),
+            strength: self.strength,
+        }
+    }
+}
+
+/// Strain of an increment: growth of the radii positive, extension of the cell positive; xy, xz, yz are twice the shears.
+#[derive(Clone, Copy, Debug)]
+pub struct Strain<N = f64> {
+    pub thermal: N,
+    pub cell: Tensor<N>,
+}
+
+impl Law {
+    fn exponential<N: Number>(x: N, rate: f64) -> N {
+        x.times(rate).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp()
+    }
+
+    /// A: the pressure over E* without shear.
+    pub fn pressure<N: Number>(&self, compression: N, x: N) -> N {
+        let v = compression.at_least(LEAST_COMPRESSION).at_most(MOST_COMPRESSION);
+        let root = v.sqrt();
+        let [b0, b1, b2] = self.bulk;
+        (Self::exponential(x, b1) * v * root * root.times(b2).plus(1.0)).times(b0)
+    }
+
+    fn stiffness<N: Number>(&self, k: usize, x: N) -> N {
+        let [c0, c1] = self.shear;
+        Self::exponential(x, c1).times(c0 * self.elements[k].share)
+    }
+
+    fn strength<N: Number>(&self, k: usize, x: N) -> N {
+        let Element { strength, growth, curvature, .. } = self.elements[k];
+        let exponent = x * x.times(curvature).plus(growth);
+        exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
+    }
+
+    /// σ over E*, compression positive.
+    pub fn stress<N: Number>(&self, state: &State<N>) -> Tensor<N> {
+        let x = state.density();
+        let pressure = if state.compression.value() > LEAST_COMPRESSION {
+            self.pressure(state.compression, x)
+        } else {
+            return [N::of(0.0); 6];
+        };
+        let mut lift = N::of(1.0);
+        for (k, ratio) in state.ratios.iter().enumerate() {
+            lift = lift + contraction(ratio, ratio).times(self.lift) * self.stiffness(k, x).inverse();
+        }
+        let mean = pressure * lift.at_least(LEAST_SHARE);
+        let mut stress = scaled(&state.ratio(), pressure);
+        for normal in &mut stress[..3] {
+            *normal = *normal + mean;
+        }
+        stress
+    }
+
+    /// State after a strain, in parts where the packing is hardly compressed. `half` is half of the cell's rotation.
+    pub fn advanced<N: Number>(&self, state: &State<N>, strain: &Strain<N>, half: &Rotation) -> State<N> {
+        let mut next = *state;
+        next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
+        let [xx, yy, zz, xy, xz, yz] = strain.cell;
+        let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
+        let square = square(&cell);
+        let count = parts(state.compression.value());
+        for part in 0..count {
+            // Equal parts of the whole, E/n (1 + k E/n)⁻¹, which compose to it; of the cell to the second order.
+            let (part, share) = (f64::from(part), 1.0 / f64::from(count));
+            let thermal = strain.thermal * strain.thermal.times(part).plus(f64::from(count)).inverse();
+            let cell = std::array::from_fn(|c| cell[c].times(share) - square[c].times(part * share * share));
+            next = self.part(&next, thermal, cell);
+        }
+        next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
+        next
+    }
+
+    /// After growth of the radii and a strain of the cell, whose shears are not doubled.
+    fn part<N: Number>(&self, state: &State<N>, thermal: N, strain: Tensor<N>) -> State<N> {
+        let [xx, yy, zz, xy, xz, yz] = strain;
+        // Growth of the volume of the cell, and of the grains.
+        let second = xx * yy + yy * zz + zz * xx - (xy * xy + xz * xz + yz * yz);
+        let third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+        let cell = xx + yy + zz + second + third;
+        let grains = thermal.times(3.0) + thermal * thermal * thermal.plus(3.0);
+        let denser = (grains - cell) * cell.plus(1.0).inverse();
+        let tried = state.compression + state.compression.plus(1.0) * denser;
+        if tried.value() <= 0.0 {
+            // Grains that do not touch forget the deviator.
+            let zero = [N::of(0.0); 6];
+            return State { compression: tried, ratios: [zero; ELEMENTS], ..*state };
+        }
+        let x = state.density();
+        let before = state.compression.at_least(LEAST_COMPRESSION);
+        let after = tried.at_least(LEAST_COMPRESSION);
+        let over = after.inverse();
+        let opening = after * before.inverse();
+        let distortion = deviator(strain);
+        let total = state.ratio();
+        let [d0, d1, d2, d3] = self.dilatancy;
+        let usual = (x * x.times(d3).plus(d2)).plus(d1);
+        let mut ratios = state.ratios;
+        let mut loss = N::of(0.0);
+        for (k, ratio) in ratios.iter_mut().enumerate() {
+            let stiffness = self.stiffness(k, x);
+            let most = self.strength(k, x).times(state.strength);
+            let faded = scaled(ratio, opening.power(self.elements[k].power));
+            let faded = within(&faded, most).0;
+            let added = scaled(&distortion, stiffness * over);
+            let elastic: Tensor<N> = std::array::from_fn(|c| faded[c] - added[c]);
+            let (kept, excess, length) = within(&elastic, most);
+            *ratio = kept;
+            if let Some(excess) = excess {
+                let slid = excess * after * stiffness.inverse();
+                let along = contraction(&total, &elastic) * length.inverse();
+                let climbing = (usual - along).times(d0);
+                let least = most.times(-MOST_CLIMBING);
+                loss = loss + slid * (if climbing.value() > least.value() { climbing } else { least });
+            }
+        }
+        let [s0, s1, s2] = self.settling;
+        if tried.value() < before.value() {
+            let usual = Self::exponential(x, -s2).times(s1);
+            let level = after * usual.inverse();
+            loss = loss + (before - tried) * (level * level).plus(1.0).inverse().times(s0);
+        }
+        let loss = if loss.value() < tried.value() { loss } else { tried };
+        let compression = tried - loss;
+        let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
+        State { jamming, compression, ratios, strength: state.strength }
+    }
+
+    /// The state with a solid fraction and a stress over E*. The elements share the deviator as after a proportional load:
+    /// each bears its part until it slides. A packing that bears more than all strengths has larger strengths, by a common factor.
+    pub fn start(&self, solid: f64, stress: Tensor) -> State {
+        let (pressure, load) = (super::tensor::mean(stress), deviator(stress));
+        let at = |compression: f64| self.loaded(solid, compression, &load);
+        if pressure <= 0.0 {
+            return State { ratios: [[0.0; 6]; ELEMENTS], strength: 1.0, ..at(0.0) };
+        }
+        // The pressure of a packing with this deviator falls with v, and below some v it would grow again: the larger root counts.
+        let beyond = |compression: f64| super::tensor::mean(self.stress(&at(compression))) - pressure;
+        let (mut high, mut excess) = (MOST_COMPRESSION, beyond(MOST_COMPRESSION));
+        let mut low = high;
+        while low > LEAST_COMPRESSION {
+            low = START_RATIO * high;
+            let found = beyond(low);
+            if found <= 0.0 {
+                break;
+            }
+            if found > excess {
+                return at(high);
+            }
+            (high, excess) = (low, found);
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            match beyond(middle) > 0.0 {
+                true => high = middle,
+                false => low = middle,
+            }
+        }
+        at(high)
+    }
+
+    fn loaded(&self, solid: f64, compression: f64, load: &Tensor) -> State {
+        let mut state = State {
+            jamming: solid / (1.0 + compression),
+            compression,
+            ratios: [[0.0; 6]; ELEMENTS],
+            strength: 1.0,
+        };
+        let x = state.density();
+        let pressure = self.pressure(compression, x).max(f64::MIN_POSITIVE);
+        let size = contraction(load, load).sqrt() / pressure;
+        if size <= 0.0 || size.is_nan() || compression <= LEAST_COMPRESSION {
+            return state;
+        }
+        let strengths: [f64; ELEMENTS] = std::array::from_fn(|k| self.strength(k, x));
+        let stiffness: [f64; ELEMENTS] = std::array::from_fn(|k| self.stiffness(k, x));
+        state.strength = (size / strengths.iter().sum::<f64>()).clamp(1.0, MOST_STRENGTH);
+        let limits: [f64; ELEMENTS] = std::array::from_fn(|k| state.strength * strengths[k] / stiffness[k]);
+        let common = shared(limits, stiffness, size);
+        let length = contraction(load, load).sqrt();
+        state.ratios = std::array::from_fn(|k| {
+            let bears = common.min(limits[k]) * stiffness[k];
+            load.map(|component| component / length * bears)
+        });
+        state
+    }
+
+    /// Refuses numbers for which the law has no meaning.
+    ///
+    /// # Errors
+    /// [`SurrogateError::Field`] with key, value and what is allowed.
+    pub fn check(&self) -> Result<(), SurrogateError> {
+        let [b0, b1, b2] = self.bulk;
+        let [c0, c1] = self.shear;
+        let [d0, ..] = self.dilatancy;
+        let [s0, s1, s2] = self.settling;
+        let mut numbers = vec![
+            ("bulk[0]", b0, (1e-6..=1e6).contains(&b0), "1e-6 to 1e6"),
+            ("bulk[1]", b1, b1.abs() <= LARGE, "-1e4 to 1e4"),
+            ("bulk[2]", b2, (0.0..=1e3).contains(&b2), "0 to 1e3"),
+            ("shear[0]", c0, (1e-6..=1e6).contains(&c0), "1e-6 to 1e6"),
+            ("shear[1]", c1, c1.abs() <= LARGE, "-1e4 to 1e4"),
+            ("lift", self.lift, self.lift.abs() <= 10.0, "-10 to 10"),
+            ("dilatancy[0]", d0, (0.0..=10.0).contains(&d0), "0 to 10"),
+            ("settling[0]", s0, (0.0..=10.0).contains(&s0), "0 to 10"),
+            ("settling[1]", s1, (1e-9..=1.0).contains(&s1), "1e-9 to 1"),
+            ("settling[2]", s2, s2.abs() <= LARGE, "-1e4 to 1e4"),
+        ];
+        numbers
+            .extend(self.dilatancy[1..].iter().map(|d| ("dilatancy", *d, d.abs() <= LARGE, "-1e4 to 1e4")));
+        for element in &self.elements {
+            let Element { share, strength, growth, curvature, power } = *element;
+            numbers.extend([
+                ("element.share", share, share > 0.0 && share < 1.0, "above 0, below 1"),
+                ("element.strength", strength, (1e-6..=2.0).contains(&strength), "1e-6 to 2"),
+                ("element.growth", growth, growth.abs() <= LARGE, "-1e4 to 1e4"),
+                ("element.curvature", curvature, curvature.abs() <= LARGE, "-1e4 to 1e4"),
+                ("element.power", power, (-2.0..=1.0).contains(&power), "-2 to 1"),
+            ]);
+        }
+        let total: f64 = self.elements.iter().map(|element| element.share).sum();
+        numbers.push(("element.share (sum)", total, (total - 1.0).abs() < 1e-9, "1"));
+        match numbers.into_iter().find(|(_, _, good, _)| !good) {
+            Some((key, value, _, allowed)) => field(&format!("law.{key}"), value, allowed),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Largest coefficient of x.
+const LARGE: f64 = 1e4;
+/// Halvings of an interval, after which its ends are neighbouring numbers; and the ratio of the compressions that are looked at before.
+const HALVINGS: usize = 52;
+const START_RATIO: f64 = 0.7;
+
+/// Number of parts of an increment: more where the packing is hardly compressed, because there its stress changes more.
+fn parts(compression: f64) -> u32 {
+    match compression {
+        v if v > 1e-2 => 1,
+        v if v > 1e-3 => 2,
+        v if v > 1e-4 => 4,
+        _ => 8,
+    }
+}
+
+/// The tensor, shortened to `most` where it is longer; then by how much it was longer, and its length.
+fn within<N: Number>(tensor: &Tensor<N>, most: N) -> (Tensor<N>, Option<N>, N) {
+    let length = contraction(tensor, tensor).plus(TINY).sqrt();
+    if length.value() <= most.value() * SLACK {
+        return (*tensor, None, length);
+    }
+    (scaled(tensor, most * length.inverse()), Some(length - most), length)
+}
+
+/// The shear strain over v that all elements have which do not slide, when together they bear a deviator of this size.
+fn shared(limits: [f64; ELEMENTS], stiffness: [f64; ELEMENTS], size: f64) -> f64 {
+    let mut order: [usize; ELEMENTS] = std::array::from_fn(|k| k);
+    order.sort_by(|a, b| limits[*a].total_cmp(&limits[*b]));
+    let (mut rest, mut stiff) = (size, stiffness.iter().sum::<f64>());
+    let mut common = 0.0;
+    for k in order {
+        common = rest / stiff.max(f64::MIN_POSITIVE);
+        if common <= limits[k] {
+            break;
+        }
+        rest -= stiffness[k] * limits[k];
+        stiff -= stiffness[k];
+        common = limits[k];
+    }
+    common
+}

@@ -1,0 +1,35 @@
+//! The law of packings of spheres: stress and conductivity after any strain of the grains and the cell, in three dimensions.
+//!
+//! As for discs (see [`crate::increment`]), grains that grow by ε are the same packing in a cell that is smaller by 1/(1 + ε), so
+//! thermal strain is isotropic compression. Stresses are over E* = E/(2 (1 − ν²)), compression positive.
+//!
+//! **State.** A packing with the solid fraction φ bears no load at the fraction φ_J; its elastic compression is v = φ/φ_J − 1.
+//! The contacts of Hertz give the pressure A ∝ v^(3/2). The deviator of the stress over A is the sum of the stress ratios η_k of two
+//! elements, tensors that turn with the cell. In an increment with the deviator de of the cell's strain (extension
+//! positive),
+//!
+//! dη_k = −c_k de/v + m_k η_k dv/v,    |η_k| ≤ M_k,
+//!
+//! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths and stiffnesses
+//! depend on φ_J: dense packings bear a larger deviator. Pressure and stress are p = A (1 + l Σ |η_k|²/c_k) and σ = p + A Σ η_k.
+//!
+//! **Dilatancy.** Sliding by s changes v by −d₀ (d₁ + d₂ x + d₃ x² − η·n) s with x = φ_J − 0.6, the stress ratio η = Σ η_k, and
+//! n the direction of sliding: φ_J grows where a loose packing is sheared, or any is sheared back, and falls where a dense one is
+//! sheared far (Rowe, 1962, Proc. R. Soc. A 269:500). The factor l above is the dilatancy that goes back when the deviator does.
+//! Where a packing opens and is about to lose its load, it settles: φ_J grows, too.
+//!
+//! **Readouts.** Conductivities by contacts and by gas are functions of this state, see [`readout`].
+//!
+//! Fitted to periodic boxes of spheres with the friction 0.3 along paths of strain (`cases/database/spheres.toml`).
+
+pub mod fit;
+pub mod law;
+pub mod model;
+pub mod number;
+pub mod readout;
+pub mod score;
+pub mod tensor;
+#[cfg(test)]
+mod tests;
+pub mod tracks;
+pub mod training;

@@ -1,0 +1,92 @@
+//! Conductivities as functions of a state of the law.
+//!
+//! K = k_s κ_c + k_g κ_g. By contacts, κ_c = C (p/E*)^(1/3) in the mean, which is the conductance 2 a k of Hertz's contacts
+//! (Batchelor and O'Brien, 1977, Proc. R. Soc. A 355:313), with more of it along the larger stress. By gas, κ_g depends on the
+//! solid fraction and on one number of the gas, ln(R/h).
+
+use super::law::State;
+use super::tensor::{Tensor, contraction, mean};
+use serde::{Deserialize, Serialize};
+
+/// Numbers ln(R/h) of the gas for which κ_g is known: h is the width of the gap at a contact, for heat.
+pub const GAS_NUMBERS: [f64; 3] = [3.5, 6.0, 8.5];
+/// Numbers of gas for which κ_g may be asked: parabolas through the three known ones.
+pub const GAS_RANGE: [f64; 2] = [2.5, 9.5];
+
+/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r² = |η|².
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Readout {
+    /// C: coefficients of 1, s, v, x, x², x s, r², r² s.
+    pub contact: [f64; 8],
+    /// Deviator of κ_c over its mean and over η: coefficients of 1, s, x.
+    pub direction: [f64; 3],
+    /// κ_g at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, s y, r².
+    pub gas: [[f64; 6]; 3],
+}
+
+/// Least and largest κ_g: those of grains that do not touch, and far above all packings.
+const GAS: [f64; 2] = [1.0, 100.0];
+/// Largest length of the deviator of κ_c over its mean, so that the conductivity is positive in every direction.
+const MOST_DEVIATOR: f64 = 0.7;
+
+pub fn contact_row(state: &State) -> [f64; 8] {
+    let (s, v) = (state.compression.max(0.0).sqrt(), state.compression.max(0.0));
+    let x = (state.jamming - 0.6).clamp(-0.05, 0.05);
+    let ratio = state.ratio();
+    let r2 = contraction(&ratio, &ratio);
+    [1.0, s, v, x, x * x, x * s, r2, r2 * s]
+}
+
+pub fn direction_row(state: &State) -> [f64; 3] {
+    [1.0, state.compression.max(0.0).sqrt(), (state.jamming - 0.6).clamp(-0.05, 0.05)]
+}
+
+pub fn gas_row(state: &State) -> [f64; 6] {
+    let s = state.compression.max(0.0).sqrt();
+    let y = (state.solid() - 0.6).clamp(-0.1, 0.1);
+    let ratio = state.ratio();
+    [1.0, y, y * y, s, s * y, contraction(&ratio, &ratio)]
+}
+
+fn product<const M: usize>(row: &[f64; M], coefficients: &[f64; M]) -> f64 {
+    row.iter().zip(coefficients).map(|(a, b)| a * b).sum()
+}
+
+impl Readout {
+    /// κ_c of a state with this stress over E*; 0 without load.
+    pub fn contact(&self, state: &State, stress: &Tensor) -> Tensor {
+        let pressure = mean(*stress);
+        if pressure <= 0.0 {
+            return [0.0; 6];
+        }
+        let size = product(&contact_row(state), &self.contact).max(LEAST_CONTACT) * libm::cbrt(pressure);
+        let along = product(&direction_row(state), &self.direction);
+        let ratio = state.ratio().map(|part| along * part);
+        let length = contraction(&ratio, &ratio).sqrt();
+        let limit = if length > MOST_DEVIATOR { MOST_DEVIATOR / length } else { 1.0 };
+        std::array::from_fn(|k| size * (f64::from(u8::from(k < 3)) + limit * ratio[k]))
+    }
+
+    /// κ_g at each of [`GAS_NUMBERS`].
+    pub fn gases(&self, state: &State) -> [f64; 3] {
+        let row = gas_row(state);
+        self.gas.map(|coefficients| product(&row, &coefficients).clamp(GAS[0], GAS[1]))
+    }
+
+    /// κ_g at a number of the gas.
+    pub fn gas(&self, state: &State, number: f64) -> f64 {
+        let [a, b, c] = GAS_NUMBERS;
+        let [low, high] = GAS_RANGE;
+        let n = number.clamp(low, high);
+        let weights = [
+            (n - b) * (n - c) / ((a - b) * (a - c)),
+            (n - a) * (n - c) / ((b - a) * (b - c)),
+            (n - a) * (n - b) / ((c - a) * (c - b)),
+        ];
+        product(&self.gases(state), &weights).max(GAS[0])
+    }
+}
+
+/// Least C: a third of that of the loosest packings.
+const LEAST_CONTACT: f64 = 0.25;

@@ -1,0 +1,298 @@
+//! What holds for the law whatever its numbers are, and that a training finds them.
+
+use super::fit::{beginning, readout};
+use super::law::{Law, State};
+use super::model::{COLUMNS, Increment, SphereModel, columns, state};
+use super::tensor::{Rotation, Tensor, contraction, deviator, mean, rotation, turned};
+use super::tracks::{Point, Step, Track, advanced, follow};
+use super::training::{is_held_out, train};
+use crate::TrainingOptions;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// A number between −1 and 1.
+fn random(generator: &mut ChaCha8Rng) -> f64 {
+    f64::from(generator.next_u32()) / f64::from(u32::MAX) * 2.0 - 1.0
+}
+
+fn tensor(generator: &mut ChaCha8Rng, size: f64) -> Tensor {
+    std::array::from_fn(|_| size * random(generator))
+}
+
+/// A packing that bears load, with a deviator.
+fn packing(law: &Law, generator: &mut ChaCha8Rng) -> State {
+    let solid = 0.605 + 0.025 * random(generator);
+    let pressure = libm::pow(10.0, -5.0 + 2.5 * random(generator));
+    let mut stress = tensor(generator, 0.15 * pressure);
+    stress[..3].iter_mut().for_each(|normal| *normal += pressure);
+    law.start(solid, stress)
+}
+
+fn model() -> SphereModel {
+    SphereModel::builtin().expect("a good file")
+}
+
+fn worst(a: &Tensor, b: &Tensor) -> f64 {
+    (0..6).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_start_has_the_solid_fraction_and_stress_that_were_given() {
+    let (law, mut generator) = (model().file.law, ChaCha8Rng::seed_from_u64(1));
+    for _ in 0..200 {
+        let solid = 0.6 + 0.03 * random(&mut generator);
+        let pressure = libm::pow(10.0, -5.5 + 2.5 * random(&mut generator));
+        let mut stress = tensor(&mut generator, 0.1 * pressure);
+        stress[..3].iter_mut().for_each(|normal| *normal += pressure);
+        let found = law.start(solid, stress);
+        assert!((found.solid() - solid).abs() < 1e-14);
+        assert!(worst(&law.stress(&found), &stress) < 1e-10 * pressure, "{stress:?} {found:?}");
+    }
+    let empty = law.start(0.6, [0.0; 6]);
+    assert_eq!(law.stress(&empty), [0.0; 6]);
+}
+
+#[test]
+fn no_strain_changes_nothing_and_states_survive_their_columns() {
+    let (model, mut generator) = (model(), ChaCha8Rng::seed_from_u64(2));
+    for _ in 0..100 {
+        let start = columns(&packing(&model.file.law, &mut generator));
+        let answer = model.advance(&start, &Increment::default(), 8.5, true);
+        assert_eq!(answer.state.map(f64::to_bits), start.map(f64::to_bits));
+        let strain = Increment { cell: tensor(&mut generator, 1e-3), thermal: 1e-3, ..Increment::default() };
+        let moved = model.advance(&start, &strain, 8.5, false);
+        assert_eq!(columns(&state(&moved.state)).map(f64::to_bits), moved.state.map(f64::to_bits));
+        let again = model.advance(&moved.state, &Increment::default(), 8.5, false);
+        assert_eq!((again.stress, again.contact, again.gas), (moved.stress, moved.contact, moved.gas));
+    }
+}
+
+#[test]
+fn the_tangent_is_the_derivative_of_the_stress() {
+    let (model, mut generator) = (model(), ChaCha8Rng::seed_from_u64(3));
+    let (mut good, mut all) = (0, 0);
+    for _ in 0..200 {
+        let start = columns(&packing(&model.file.law, &mut generator));
+        let strain = Increment { cell: tensor(&mut generator, 3e-4), thermal: 2e-4, ..Increment::default() };
+        let here = model.advance(&start, &strain, 8.5, true);
+        for k in 0..6 {
+            let step = 1e-9;
+            let stress = |side: f64| {
+                let mut moved = strain;
+                moved.cell[k] += side * step;
+                model.advance(&start, &moved, 8.5, false).stress
+            };
+            let (up, down) = (stress(1.0), stress(-1.0));
+            let numerical: Tensor = std::array::from_fn(|i| (down[i] - up[i]) / (2.0 * step));
+            let column: Tensor = std::array::from_fn(|i| here.tangent[i][k]);
+            let size = contraction(&column, &column).sqrt().max(1e-12);
+            all += 1;
+            good += i32::from(worst(&numerical, &column) < 1e-3 * size);
+        }
+    }
+    // Where an element begins to slide within the step, the numerical derivative is none.
+    assert!(good >= all - all / 50, "{good} of {all}");
+}
+
+#[test]
+fn turned_axes_give_turned_answers() {
+    let (model, mut generator) = (model(), ChaCha8Rng::seed_from_u64(4));
+    for _ in 0..100 {
+        let turn: Rotation = rotation([0.0; 3].map(|_: f64| 1.5 * random(&mut generator)));
+        let start = packing(&model.file.law, &mut generator);
+        let strain = tensor(&mut generator, 1e-3);
+        // Shears are twice the components.
+        let doubled = |t: Tensor| [t[0], t[1], t[2], 2.0 * t[3], 2.0 * t[4], 2.0 * t[5]];
+        let spin: [f64; 3] = std::array::from_fn(|_| 1e-3 * random(&mut generator));
+        let turned_spin: [f64; 3] =
+            std::array::from_fn(|i| (0..3).map(|j| turn[i][j] * spin[j]).sum::<f64>());
+        let of = |start: &State, strain: Tensor, rotation: [f64; 3]| {
+            let strain = Increment { thermal: 5e-4, cell: doubled(strain), rotation };
+            model.advance(&columns(start), &strain, 6.0, false)
+        };
+        let plain = of(&start, strain, spin);
+        let other = State { ratios: start.ratios.map(|ratio| turned(&ratio, &turn)), ..start };
+        let moved = of(&other, turned(&strain, &turn), turned_spin);
+        let size = mean(plain.stress).max(mean(model.file.law.stress(&start)));
+        let found = turned(&plain.stress, &turn);
+        assert!(worst(&found, &moved.stress) < 1e-8 * size, "{found:?} {:?} {size}", moved.stress);
+        assert!(worst(&turned(&plain.contact, &turn), &moved.contact) < 1e-6);
+        assert!((plain.gas - moved.gas).abs() < 1e-8);
+    }
+}
+
+/// Growth of the grains is compression of the cell, exactly.
+#[test]
+fn thermal_strain_is_isotropic_compression() {
+    let (law, mut generator) = (model().file.law, ChaCha8Rng::seed_from_u64(5));
+    for _ in 0..100 {
+        let start = packing(&law, &mut generator);
+        let size = 2e-4 * random(&mut generator);
+        let shrunk = 1.0 / (1.0 + size) - 1.0;
+        let grown = advanced(&law, &start, size, [0.0; 6]);
+        let closed = advanced(&law, &start, 0.0, [shrunk, shrunk, shrunk, 0.0, 0.0, 0.0]);
+        let (a, b) = (law.stress(&grown), law.stress(&closed));
+        assert!(worst(&a, &b) < 1e-6 * mean(law.stress(&start)), "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn many_small_strains_are_one_large_one() {
+    let (model, mut generator) = (model(), ChaCha8Rng::seed_from_u64(6));
+    let mut errors = Vec::new();
+    for _ in 0..60 {
+        let start = columns(&packing(&model.file.law, &mut generator));
+        let mut direction = tensor(&mut generator, 1e-3);
+        // Closing on the whole.
+        direction[..3].iter_mut().for_each(|normal| *normal -= 1e-3);
+        let through = |count: u32| {
+            let mut state = start;
+            let mut stress = [0.0; 6];
+            for part in 0..count {
+                let of = |whole: f64| whole / (f64::from(count) + whole * f64::from(part));
+                let strain = Increment { cell: direction.map(of), ..Increment::default() };
+                let answer = model.advance(&state, &strain, 8.5, false);
+                (state, stress) = (answer.state, answer.stress);
+            }
+            stress
+        };
+        let (coarse, fine) = (through(10), through(5000));
+        errors.push(worst(&coarse, &fine) / mean(fine));
+    }
+    errors.sort_by(f64::total_cmp);
+    assert!(errors[30] < 0.01 && errors[59] < 0.05, "{errors:?}");
+}
+
+/// Closed cycles of strain take work, but for the elastic energy that the packing had at the start.
+#[test]
+fn cycles_give_no_more_work_than_a_packing_had() {
+    let (law, mut generator) = (model().file.law, ChaCha8Rng::seed_from_u64(7));
+    for _ in 0..60 {
+        let mut here = packing(&law, &mut generator);
+        let energy = 0.5 * mean(law.stress(&here)) * here.compression;
+        let size = 0.5 * here.compression;
+        let (one, two) = (tensor(&mut generator, size), tensor(&mut generator, size));
+        let parts = 200;
+        let legs = [(1.0, one), (1.0, two), (-1.0, one), (-1.0, two)];
+        let mut work = 0.0;
+        for _ in 0..6 {
+            for (sign, leg) in legs {
+                for _ in 0..parts {
+                    let step = leg.map(|part| sign * part / f64::from(parts));
+                    let cell = [step[0], step[1], step[2], 2.0 * step[3], 2.0 * step[4], 2.0 * step[5]];
+                    let strain = super::law::Strain { thermal: 0.0, cell };
+                    let next = law.advanced(&here, &strain, &rotation([0.0; 3]));
+                    let (before, after) = (law.stress(&here), law.stress(&next));
+                    let middle: Tensor = std::array::from_fn(|k| 0.5 * (before[k] + after[k]));
+                    work -= contraction(&middle, &step);
+                    here = next;
+                }
+            }
+            assert!(work > -energy, "{work} of {energy}");
+        }
+    }
+}
+
+#[test]
+fn extreme_inputs_give_finite_answers() {
+    let model = model();
+    let extremes = [0.0, 1e-300, 1e300, -1e300, f64::NAN, f64::INFINITY];
+    for a in extremes {
+        for b in extremes {
+            let mut state = [a; COLUMNS];
+            state[1] = b;
+            let strain = Increment { thermal: b, cell: [a; 6], rotation: [b; 3] };
+            for tangent in [false, true] {
+                let answer = model.advance(&state, &strain, a, tangent);
+                let all = answer.stress.iter().chain(&answer.contact).chain(answer.tangent.as_flattened());
+                assert!(all.chain([&answer.gas, &answer.solid]).all(|value| value.is_finite()), "{a} {b}");
+            }
+        }
+    }
+}
+
+/// Tracks that a law made.
+fn tracks(law: &Law, packings: i64) -> Vec<Track> {
+    let mut generator = ChaCha8Rng::seed_from_u64(8);
+    (0..packings)
+        .map(|number| {
+            let start = packing(law, &mut generator);
+            let point = |state: &State| {
+                let stress = law.stress(state);
+                let contact = stress.map(|part| 0.9 * part / mean(stress) * libm::cbrt(mean(stress)));
+                Point {
+                    solid: state.solid(),
+                    stress,
+                    contact,
+                    gas: [5.0, 8.0, 12.0].map(|k| k * state.solid()),
+                }
+            };
+            let packed = point(&start);
+            let mut track = Track {
+                packing: number,
+                name: "mixed".to_string(),
+                recipe: String::new(),
+                is_isotropic: false,
+                spheres: 1000,
+                packed,
+                steps: Vec::new(),
+            };
+            for _ in 0..3 {
+                let mut stretch = tensor(&mut generator, 4e-4);
+                stretch[..3].iter_mut().for_each(|normal| *normal -= 2e-4);
+                for _ in 0..6 {
+                    let from = track.steps.len();
+                    track.steps.push(Step { from, thermal: 1e-4, stretch, to: packed });
+                }
+            }
+            for (step, state) in follow(law, &track.clone()).iter().skip(1).enumerate() {
+                track.steps[step].to = point(state);
+            }
+            track
+        })
+        .collect()
+}
+
+#[test]
+fn a_training_finds_the_law_that_made_the_data() {
+    let mut law = beginning();
+    law.bulk[0] *= 1.2;
+    law.elements[0].strength *= 0.8;
+    law.shear[0] *= 1.3;
+    let all = tracks(&law, 40);
+    let options = TrainingOptions { max_epochs: 40, threads: 2, ..TrainingOptions::default() };
+    let model = train(&all, &options).expect("good data");
+    assert!(model.file.report.mean_square < 1e-6, "{:?}", model.file.report);
+    assert!((model.file.law.bulk[0] / law.bulk[0] - 1.0).abs() < 0.02, "{:?}", model.file.law);
+    // The number of threads does not matter, and the file gives the same model.
+    let other = TrainingOptions { threads: 1, ..options };
+    assert_eq!(train(&all, &other).expect("good data").to_json(), model.to_json());
+    assert_eq!(SphereModel::read(&model.to_json()).expect("own text").hash(), model.hash());
+    let held_out = all.iter().filter(|track| is_held_out(track.packing, 1)).count();
+    assert_eq!(model.file.report.packings, [40 - held_out, held_out]);
+    let few = train(&all[..2], &other).expect_err("too few");
+    assert!(few.to_string().contains("fewer than 100"), "{few}");
+    let gas = readout(&law, &all).gas[2];
+    assert!(gas.iter().all(|coefficient| coefficient.is_finite()));
+}
+
+#[test]
+fn files_that_no_training_wrote_are_refused() {
+    let text = model().to_json();
+    let message = |text: &str| SphereModel::read(text).expect_err("unsound").to_string();
+    assert!(message(&text.replace("spheres-model-1", "spheres-model-2")).contains("spheres-model-2"));
+    assert!(message(&text[..text.len() / 2]).contains("damaged"));
+    let mut file = model().file;
+    file.law.bulk[0] = -1.0;
+    let refused = message(&SphereModel::of(file).to_json());
+    assert!(refused.contains("law.bulk[0]") && refused.contains("allowed: 1e-6 to 1e6"), "{refused}");
+}
+
+#[test]
+fn packings_that_bear_a_large_deviator_start_with_it() {
+    let law = model().file.law;
+    let stress = [2.2e-5, 0.5e-5, 0.3e-5, 0.0, 0.0, 0.0];
+    let start = law.start(0.575, stress);
+    let part = deviator(law.stress(&start));
+    assert!(worst(&part, &deviator(stress)) < 1e-10, "{start:?}");
+}
