@@ -190,6 +190,88 @@ const _: () = {
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
+pub struct msdd_spheres {
+    _unused: [u8; 0],
+}
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct msdd_sphere_batch {
+    pub struct_size: usize,
+    pub cells: usize,
+    pub reduced_modulus: f64,
+    pub state: *const *const f64,
+    pub thermal_strain: *const f64,
+    pub strain: *const *const f64,
+    pub rotation: *const *const f64,
+    pub gas_number: *const f64,
+    pub next_state: *const *mut f64,
+    pub stress: *const *mut f64,
+    pub tangent: *const *mut f64,
+    pub contact_conductivity: *const *mut f64,
+    pub gas_conductivity: *mut f64,
+    pub solid_fraction: *mut f64,
+    pub outside: *mut u8,
+    pub outside_cells: usize,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    [
+        "Size of msdd_sphere_batch",
+    ][::core::mem::size_of::<msdd_sphere_batch>() - 128usize];
+    [
+        "Alignment of msdd_sphere_batch",
+    ][::core::mem::align_of::<msdd_sphere_batch>() - 8usize];
+    [
+        "Offset of field: msdd_sphere_batch::struct_size",
+    ][::core::mem::offset_of!(msdd_sphere_batch, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_sphere_batch::cells",
+    ][::core::mem::offset_of!(msdd_sphere_batch, cells) - 8usize];
+    [
+        "Offset of field: msdd_sphere_batch::reduced_modulus",
+    ][::core::mem::offset_of!(msdd_sphere_batch, reduced_modulus) - 16usize];
+    [
+        "Offset of field: msdd_sphere_batch::state",
+    ][::core::mem::offset_of!(msdd_sphere_batch, state) - 24usize];
+    [
+        "Offset of field: msdd_sphere_batch::thermal_strain",
+    ][::core::mem::offset_of!(msdd_sphere_batch, thermal_strain) - 32usize];
+    [
+        "Offset of field: msdd_sphere_batch::strain",
+    ][::core::mem::offset_of!(msdd_sphere_batch, strain) - 40usize];
+    [
+        "Offset of field: msdd_sphere_batch::rotation",
+    ][::core::mem::offset_of!(msdd_sphere_batch, rotation) - 48usize];
+    [
+        "Offset of field: msdd_sphere_batch::gas_number",
+    ][::core::mem::offset_of!(msdd_sphere_batch, gas_number) - 56usize];
+    [
+        "Offset of field: msdd_sphere_batch::next_state",
+    ][::core::mem::offset_of!(msdd_sphere_batch, next_state) - 64usize];
+    [
+        "Offset of field: msdd_sphere_batch::stress",
+    ][::core::mem::offset_of!(msdd_sphere_batch, stress) - 72usize];
+    [
+        "Offset of field: msdd_sphere_batch::tangent",
+    ][::core::mem::offset_of!(msdd_sphere_batch, tangent) - 80usize];
+    [
+        "Offset of field: msdd_sphere_batch::contact_conductivity",
+    ][::core::mem::offset_of!(msdd_sphere_batch, contact_conductivity) - 88usize];
+    [
+        "Offset of field: msdd_sphere_batch::gas_conductivity",
+    ][::core::mem::offset_of!(msdd_sphere_batch, gas_conductivity) - 96usize];
+    [
+        "Offset of field: msdd_sphere_batch::solid_fraction",
+    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 104usize];
+    [
+        "Offset of field: msdd_sphere_batch::outside",
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 112usize];
+    [
+        "Offset of field: msdd_sphere_batch::outside_cells",
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 120usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
 pub struct msdd_rve {
     _unused: [u8; 0],
 }
@@ -569,6 +651,32 @@ unsafe extern "C" {
         solid_fraction: *mut f64,
     ) -> i32;
     pub fn msdd_surrogate_free(surrogate: *mut msdd_surrogate);
+    pub fn msdd_spheres_load(
+        source: *const ::core::ffi::c_char,
+        out: *mut *mut msdd_spheres,
+    ) -> i32;
+    pub fn msdd_spheres_hash(spheres: *const msdd_spheres) -> *const ::core::ffi::c_char;
+    pub fn msdd_spheres_describe(
+        spheres: *const msdd_spheres,
+    ) -> *const ::core::ffi::c_char;
+    pub fn msdd_spheres_state_size(spheres: *const msdd_spheres) -> usize;
+    pub fn msdd_spheres_state_name(
+        spheres: *const msdd_spheres,
+        column: usize,
+    ) -> *const ::core::ffi::c_char;
+    pub fn msdd_spheres_initial_state(
+        spheres: *const msdd_spheres,
+        reduced_modulus: f64,
+        cells: usize,
+        solid_fraction: *const f64,
+        stress: *const *const f64,
+        state: *const *mut f64,
+    ) -> i32;
+    pub fn msdd_spheres_advance(
+        spheres: *const msdd_spheres,
+        batch: *mut msdd_sphere_batch,
+    ) -> i32;
+    pub fn msdd_spheres_free(spheres: *mut msdd_spheres);
     pub fn msdd_rve_pack(
         specification: *const ::core::ffi::c_char,
         out: *mut *mut msdd_rve,

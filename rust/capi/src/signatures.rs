@@ -13,7 +13,10 @@ macro_rules! same {
     };
 }
 
-use abi::{msdd_averages, msdd_batch, msdd_initial, msdd_material, msdd_progress, msdd_rve, msdd_surrogate};
+use abi::{
+    msdd_averages, msdd_batch, msdd_initial, msdd_material, msdd_progress, msdd_rve, msdd_sphere_batch,
+    msdd_spheres, msdd_surrogate,
+};
 use std::ffi::{c_char, c_void};
 
 same! {
@@ -33,6 +36,14 @@ same! {
     msdd_surrogate_advance(*const msdd_surrogate, *const msdd_material, *mut msdd_batch) -> i32;
     msdd_surrogate_solid_fraction(*const msdd_surrogate, usize, *const f64, *mut f64) -> i32;
     msdd_surrogate_free(*mut msdd_surrogate);
+    msdd_spheres_load(*const c_char, *mut *mut msdd_spheres) -> i32;
+    msdd_spheres_hash(*const msdd_spheres) -> *const c_char;
+    msdd_spheres_describe(*const msdd_spheres) -> *const c_char;
+    msdd_spheres_state_size(*const msdd_spheres) -> usize;
+    msdd_spheres_state_name(*const msdd_spheres, usize) -> *const c_char;
+    msdd_spheres_initial_state(*const msdd_spheres, f64, usize, *const f64, *const *const f64, *const *mut f64) -> i32;
+    msdd_spheres_advance(*const msdd_spheres, *mut msdd_sphere_batch) -> i32;
+    msdd_spheres_free(*mut msdd_spheres);
     msdd_rve_pack(*const c_char, *mut *mut msdd_rve) -> i32;
     msdd_rve_from_json(*const c_char, *mut *mut msdd_rve) -> i32;
     msdd_rve_to_json(*const msdd_rve, *mut *mut c_char) -> i32;

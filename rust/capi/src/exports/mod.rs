@@ -2,10 +2,12 @@
 
 mod database;
 mod rve;
+mod spheres;
 mod surrogate;
 
 pub use database::*;
 pub use rve::*;
+pub use spheres::*;
 pub use surrogate::*;
 
 use crate::abi::MSDD_ABI_VERSION;

@@ -3,6 +3,7 @@
 mod answers;
 mod refusals;
 mod rves;
+mod spheres;
 
 use crate::abi::{self, msdd_batch, msdd_initial, msdd_material, msdd_surrogate};
 use crate::exports::*;

@@ -1,0 +1,328 @@
+//! Functions of `msdd.h` about the law of spheres.
+
+use super::{sized, string, writable};
+use crate::abi::{msdd_sphere_batch, msdd_spheres};
+use crate::batch::{check_length, outputs};
+use crate::columns::{Input, Output};
+use crate::handles::SpheresHandle;
+use crate::si::LARGEST_STRESS;
+use crate::status::{Failure, status, value};
+use ::msdd_surrogate::models::BUILTIN;
+use ::msdd_surrogate::spheres::model::{COLUMNS, Increment, NAMES, SphereModel};
+use ::msdd_surrogate::spheres::readout::GAS_RANGE;
+use ::msdd_surrogate::spheres::tensor::Tensor;
+use std::ffi::c_char;
+use std::ptr::null;
+
+/// Components of a tensor, and what their columns are called in messages.
+const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
+const AXES: [&str; 3] = ["x", "y", "z"];
+/// Largest strain, and angle \[rad\] by which a cell turns, in one step.
+const LARGEST_STEP: f64 = 0.2;
+/// ln(R/h) of a usual gas, air at 1 bar between spheres of millimetres.
+const USUAL_GAS: f64 = 8.5;
+
+/// The law behind a handle.
+///
+/// # Safety
+/// `spheres` is null or a live handle.
+unsafe fn handle<'a>(spheres: *const msdd_spheres) -> Option<&'a SpheresHandle> {
+    // SAFETY: null or live by this function's contract; live handles come from `msdd_spheres_load`.
+    unsafe { spheres.cast::<SpheresHandle>().as_ref() }
+}
+
+/// `msdd_spheres_load`
+///
+/// # Safety
+/// `source` is null or a C string; `out` is null or writable.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_spheres_load(source: *const c_char, out: *mut *mut msdd_spheres) -> i32 {
+    status(|| {
+        let out = writable("out", out)?;
+        let source = match source.is_null() {
+            true => BUILTIN.to_string(),
+            // SAFETY: not null, a C string by this function's contract.
+            false => unsafe { string("source", source)? },
+        };
+        let failed = |error| Failure::Model { path: source.clone(), error };
+        let model = match source == BUILTIN {
+            true => SphereModel::builtin().map_err(failed)?,
+            false => {
+                let text = std::fs::read_to_string(&source)
+                    .map_err(|error| Failure::File { path: source.clone(), error })?;
+                SphereModel::read(&text).map_err(failed)?
+            }
+        };
+        let handle = Box::into_raw(Box::new(SpheresHandle::new(model)));
+        // SAFETY: not null, writable by this function's contract.
+        unsafe { out.write(handle.cast()) };
+        Ok(())
+    })
+}
+
+/// `msdd_spheres_hash`
+///
+/// # Safety
+/// `spheres` is null or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_spheres_hash(spheres: *const msdd_spheres) -> *const c_char {
+    // SAFETY: null or live by this function's contract.
+    let handle = unsafe { handle(spheres) };
+    value(null(), || handle.map_or(null(), |handle| handle.hash.as_ptr()))
+}
+
+/// `msdd_spheres_describe`
+///
+/// # Safety
+/// `spheres` is null or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_spheres_describe(spheres: *const msdd_spheres) -> *const c_char {
+    // SAFETY: null or live by this function's contract.
+    let handle = unsafe { handle(spheres) };
+    value(null(), || handle.map_or(null(), |handle| handle.description.as_ptr()))
+}
+
+/// `msdd_spheres_state_size`
+///
+/// # Safety
+/// `spheres` is null or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_spheres_state_size(spheres: *const msdd_spheres) -> usize {
+    // SAFETY: null or live by this function's contract.
+    let handle = unsafe { handle(spheres) };
+    value(0, || handle.map_or(0, |handle| handle.state_names.len()))
+}
+
+/// `msdd_spheres_state_name`
+///
+/// # Safety
+/// `spheres` is null or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_spheres_state_name(
+    spheres: *const msdd_spheres,
+    column: usize,
+) -> *const c_char {
+    // SAFETY: null or live by this function's contract.
+    let handle = unsafe { handle(spheres) };
+    let name = || handle.and_then(|handle| handle.state_names.get(column));
+    value(null(), || name().map_or(null(), |name| name.as_ptr()))
+}
+
+/// Readable columns from a caller's array of them, with names for messages.
+///
+/// # Safety
+/// `columns`, unless null, points to as many pointers as there are names, each null or to `cells` values.
+unsafe fn inputs<'a>(
+    names: impl IntoIterator<Item = &'a str>,
+    columns: *const *const f64,
+    cells: usize,
+) -> Result<Vec<Input<'a>>, Failure> {
+    let names = names.into_iter().enumerate();
+    // SAFETY: as many pointers, and what they point to, by this function's contract.
+    names.map(|(k, name)| unsafe { Input::new(name, columns.add(k).read(), cells) }).collect()
+}
+
+fn check_modulus(modulus: f64) -> Result<(), Failure> {
+    match (1e-9..=1e15).contains(&modulus) {
+        true => Ok(()),
+        false => Err(Failure::number("reduced_modulus", modulus, "1e-9 to 1e15 Pa")),
+    }
+}
+
+/// `msdd_spheres_initial_state`
+///
+/// # Safety
+/// `spheres` is null or a live handle; the columns are null or hold `cells` values; `stress` is null or holds six columns,
+/// `state` null or as many writable ones as the state has.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_spheres_initial_state(
+    spheres: *const msdd_spheres,
+    reduced_modulus: f64,
+    cells: usize,
+    solid_fraction: *const f64,
+    stress: *const *const f64,
+    state: *const *mut f64,
+) -> i32 {
+    status(|| {
+        // SAFETY: null or live by this function's contract.
+        let handle = unsafe { handle(spheres) }.ok_or_else(|| Failure::null("spheres"))?;
+        check_length(cells)?;
+        check_modulus(reduced_modulus)?;
+        if stress.is_null() {
+            return Err(Failure::null("stress"));
+        }
+        let names = COMPONENTS.map(|component| format!("stress[{component}]"));
+        // SAFETY: `cells` values, six columns, and writable columns by this function's contract.
+        let (solid, stress, state) = unsafe {
+            (
+                Input::new("solid_fraction", solid_fraction, cells)?,
+                inputs(names.iter().map(String::as_str), stress, cells)?,
+                outputs("state", state, COLUMNS, cells)?,
+            )
+        };
+        solid.check_finite()?;
+        solid.check_range(0.3, 0.8, "0.3 to 0.8")?;
+        for column in &stress {
+            column.check_finite()?;
+            column.check_range(-LARGEST_STRESS, LARGEST_STRESS, "-1e30 to 1e30 Pa")?;
+        }
+        for cell in 0..cells {
+            let stress: Tensor = std::array::from_fn(|k| stress[k].at(cell) / reduced_modulus);
+            let found = handle.model.initial_state(solid.at(cell), stress);
+            state.iter().zip(found).for_each(|(column, value)| column.write_one(cell, value));
+        }
+        Ok(())
+    })
+}
+
+/// Checked columns of a batch.
+struct Columns<'a> {
+    state: Vec<Input<'a>>,
+    thermal: Option<Input<'a>>,
+    /// Six and three columns, or none.
+    strain: Vec<Input<'a>>,
+    rotation: Vec<Input<'a>>,
+    gas_number: Option<Input<'a>>,
+    next_state: Vec<Output<f64>>,
+    stress: Vec<Output<f64>>,
+    tangent: Vec<Output<f64>>,
+    contact: Vec<Output<f64>>,
+    gas: Output<f64>,
+    solid: Output<f64>,
+    outside: Output<u8>,
+}
+
+/// Names of the columns of strain and rotation in messages.
+struct Names {
+    strain: [String; 6],
+    rotation: [String; 3],
+}
+
+impl<'a> Columns<'a> {
+    /// # Safety
+    /// The batch's columns are null or hold `cells` values, those of outputs writable by this thread alone.
+    unsafe fn new(batch: &msdd_sphere_batch, names: &'a Names) -> Result<Self, Failure> {
+        let cells = batch.cells;
+        check_length(cells)?;
+        check_modulus(batch.reduced_modulus)?;
+        if batch.state.is_null() {
+            return Err(Failure::null("state"));
+        }
+        let optional = |name, start: *const f64| match start.is_null() {
+            true => Ok(None),
+            // SAFETY: `cells` values by this function's contract.
+            false => unsafe { Input::new(name, start, cells) }.map(Some),
+        };
+        let several = |names: &'a [String], columns: *const *const f64| match columns.is_null() {
+            true => Ok(Vec::new()),
+            // SAFETY: as many columns by this function's contract.
+            false => unsafe { inputs(names.iter().map(String::as_str), columns, cells) },
+        };
+        let wanted = |name, columns: *const *mut f64, count| match columns.is_null() {
+            true => Ok(Vec::new()),
+            // SAFETY: as many columns by this function's contract.
+            false => unsafe { outputs(name, columns, count, cells) },
+        };
+        // SAFETY: the columns are as this function's contract says.
+        let columns = unsafe {
+            Self {
+                state: inputs(NAMES, batch.state, cells)?,
+                thermal: optional("thermal_strain", batch.thermal_strain)?,
+                strain: several(&names.strain, batch.strain)?,
+                rotation: several(&names.rotation, batch.rotation)?,
+                gas_number: optional("gas_number", batch.gas_number)?,
+                next_state: wanted("next_state", batch.next_state, COLUMNS)?,
+                stress: wanted("stress", batch.stress, 6)?,
+                tangent: wanted("tangent", batch.tangent, 36)?,
+                contact: wanted("contact_conductivity", batch.contact_conductivity, 6)?,
+                gas: Output::new(batch.gas_conductivity, cells),
+                solid: Output::new(batch.solid_fraction, cells),
+                outside: Output::new(batch.outside, cells),
+            }
+        };
+        columns.check()?;
+        Ok(columns)
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        self.state.iter().try_for_each(Input::check_finite)?;
+        for column in self.thermal.iter().chain(&self.strain).chain(&self.rotation) {
+            column.check_finite()?;
+            // The lower end does not belong to the range.
+            if let Some(cell) = column.position(|value| value <= -LARGEST_STEP || value > LARGEST_STEP) {
+                let name = format!("{}[{cell}]", column.name);
+                return Err(Failure::number(name, column.at(cell), "above -0.2, to 0.2"));
+            }
+        }
+        let [low, high] = GAS_RANGE;
+        self.gas_number.iter().try_for_each(|column| column.check_range(low, high, "2.5 to 9.5"))
+    }
+
+    /// Takes all cells through the step; returns the number of those outside of the range.
+    fn advance(&self, model: &SphereModel, cells: usize, modulus: f64) -> usize {
+        let mut outside = 0;
+        for cell in 0..cells {
+            let at = |columns: &[Input], k: usize| columns.get(k).map_or(0.0, |column| column.at(cell));
+            let one = |column: &Option<Input>, usual| column.map_or(usual, |column| column.at(cell));
+            let state = std::array::from_fn(|k| at(&self.state, k));
+            let strain = Increment {
+                thermal: one(&self.thermal, 0.0),
+                cell: std::array::from_fn(|k| at(&self.strain, k)),
+                rotation: std::array::from_fn(|k| at(&self.rotation, k)),
+            };
+            let number = one(&self.gas_number, USUAL_GAS);
+            let answer = model.advance(&state, &strain, number, !self.tangent.is_empty());
+            let write = |columns: &[Output<f64>], values: &[f64], scale: f64| {
+                columns.iter().zip(values).for_each(|(column, value)| column.write_one(cell, value * scale));
+            };
+            write(&self.next_state, &answer.state, 1.0);
+            write(&self.stress, &answer.stress, modulus);
+            write(&self.tangent, answer.tangent.as_flattened(), modulus);
+            write(&self.contact, &answer.contact, 1.0);
+            self.gas.write_one(cell, answer.gas);
+            self.solid.write_one(cell, answer.solid);
+            self.outside.write_one(cell, u8::from(answer.outside));
+            outside += usize::from(answer.outside);
+        }
+        outside
+    }
+}
+
+/// `msdd_spheres_advance`
+///
+/// # Safety
+/// `spheres` is null or a live handle; `batch` is null or points to its struct (to its `struct_size` at least); its columns are
+/// null or hold `cells` values, those of outputs writable by this thread alone.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_spheres_advance(
+    spheres: *const msdd_spheres,
+    batch: *mut msdd_sphere_batch,
+) -> i32 {
+    status(|| {
+        // SAFETY: null or live, and null or pointing to its struct, by this function's contract.
+        let (handle, given) = unsafe { (handle(spheres), sized("batch", batch.cast_const())?) };
+        let handle = handle.ok_or_else(|| Failure::null("spheres"))?;
+        let names = Names {
+            strain: COMPONENTS.map(|component| format!("strain[{component}]")),
+            rotation: AXES.map(|axis| format!("rotation[{axis}]")),
+        };
+        // SAFETY: the columns are as this function's contract says.
+        let columns = unsafe { Columns::new(&given, &names)? };
+        let outside = columns.advance(&handle.model, given.cells, given.reduced_modulus);
+        // SAFETY: not null, and of full size, as checked.
+        unsafe { (*batch).outside_cells = outside };
+        Ok(())
+    })
+}
+
+/// `msdd_spheres_free`
+///
+/// # Safety
+/// `spheres` is null or a live handle, which nobody uses from now on.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_spheres_free(spheres: *mut msdd_spheres) {
+    if !spheres.is_null() {
+        // SAFETY: made by `Box::into_raw` in `msdd_spheres_load`, and freed once, by this function's contract.
+        value((), || drop(unsafe { Box::from_raw(spheres.cast::<SpheresHandle>()) }));
+    }
+}

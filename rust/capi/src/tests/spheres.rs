@@ -1,0 +1,190 @@
+//! The law of spheres through the exported functions.
+
+use super::*;
+use crate::abi::{msdd_sphere_batch, msdd_spheres};
+use ::msdd_surrogate::spheres::model::{Increment, SphereModel};
+
+struct Law(*mut msdd_spheres);
+
+impl Law {
+    fn builtin() -> Self {
+        let mut out = null_mut();
+        // SAFETY: null, and writable.
+        let status = unsafe { msdd_spheres_load(null(), &mut out) };
+        assert_eq!(status, MSDD_OK, "{}", last_error());
+        Self(out)
+    }
+}
+
+impl Drop for Law {
+    fn drop(&mut self) {
+        // SAFETY: live, and used no more.
+        unsafe { msdd_spheres_free(self.0) };
+    }
+}
+
+const MODULUS: f64 = 1e11;
+
+fn pointers(columns: &[Vec<f64>]) -> Vec<*const f64> {
+    columns.iter().map(|column| column.as_ptr()).collect()
+}
+
+fn writable(columns: &mut [Vec<f64>]) -> Vec<*mut f64> {
+    columns.iter_mut().map(|column| column.as_mut_ptr()).collect()
+}
+
+/// States of packings under a growing pressure, with one that bears nothing.
+fn start(law: &Law, cells: usize) -> Vec<Vec<f64>> {
+    let solid: Vec<f64> = (0..cells).map(|cell| 0.6 + 1e-3 * cell as f64).collect();
+    let column = |share: f64| (0..cells).map(|cell| share * 1e5 * cell as f64).collect::<Vec<f64>>();
+    let stress = [1.0, 0.9, 1.2, 0.05, 0.0, -0.04].map(column);
+    // SAFETY: live.
+    let mut state = vec![vec![-7.0; cells]; unsafe { msdd_spheres_state_size(law.0) }];
+    let (stress, columns) = (pointers(&stress), writable(&mut state));
+    // SAFETY: live, columns of `cells` values.
+    let status = unsafe {
+        msdd_spheres_initial_state(law.0, MODULUS, cells, solid.as_ptr(), stress.as_ptr(), columns.as_ptr())
+    };
+    assert_eq!(status, MSDD_OK, "{}", last_error());
+    state
+}
+
+const NOTHING: msdd_sphere_batch = msdd_sphere_batch {
+    struct_size: size_of::<msdd_sphere_batch>(),
+    cells: 0,
+    reduced_modulus: MODULUS,
+    state: null(),
+    thermal_strain: null(),
+    strain: null(),
+    rotation: null(),
+    gas_number: null(),
+    next_state: null(),
+    stress: null(),
+    tangent: null(),
+    contact_conductivity: null(),
+    gas_conductivity: null_mut(),
+    solid_fraction: null_mut(),
+    outside: null_mut(),
+    outside_cells: 0,
+};
+
+#[test]
+fn answers_are_those_of_the_model_in_si_units() {
+    let law = Law::builtin();
+    let cells = 7;
+    let mut state = start(&law, cells);
+    let (before, given) = (state.clone(), writable(&mut state));
+    let thermal = vec![2e-4; cells];
+    let strain: Vec<Vec<f64>> = (0..6).map(|k| vec![-1e-4 * f64::from(k); cells]).collect();
+    let rotation = vec![vec![1e-3; cells]; 3];
+    let numbers = vec![6.0; cells];
+    let mut stress = vec![vec![-7.0; cells]; 6];
+    let mut tangent = vec![vec![-7.0; cells]; 36];
+    let mut contact = vec![vec![-7.0; cells]; 6];
+    let (mut gas, mut solid, mut outside) = (vec![-7.0; cells], vec![-7.0; cells], vec![9u8; cells]);
+    let input: Vec<*const f64> = given.iter().map(|column| column.cast_const()).collect();
+    let (strains, turns) = (pointers(&strain), pointers(&rotation));
+    let (stresses, derivatives) = (writable(&mut stress), writable(&mut tangent));
+    let contacts = writable(&mut contact);
+    let mut batch = msdd_sphere_batch {
+        cells,
+        state: input.as_ptr(),
+        thermal_strain: thermal.as_ptr(),
+        strain: strains.as_ptr(),
+        rotation: turns.as_ptr(),
+        gas_number: numbers.as_ptr(),
+        // The same columns as the input.
+        next_state: given.as_ptr(),
+        stress: stresses.as_ptr(),
+        tangent: derivatives.as_ptr(),
+        contact_conductivity: contacts.as_ptr(),
+        gas_conductivity: gas.as_mut_ptr(),
+        solid_fraction: solid.as_mut_ptr(),
+        outside: outside.as_mut_ptr(),
+        ..NOTHING
+    };
+    // SAFETY: live, full struct, columns of `cells` values.
+    assert_eq!(unsafe { msdd_spheres_advance(law.0, &mut batch) }, MSDD_OK, "{}", last_error());
+    let model = SphereModel::builtin().expect("a good file");
+    for cell in 0..cells {
+        let increment =
+            Increment { thermal: 2e-4, cell: std::array::from_fn(|k| strain[k][cell]), rotation: [1e-3; 3] };
+        let from = std::array::from_fn(|k| before[k][cell]);
+        let expected = model.advance(&from, &increment, 6.0, true);
+        for k in 0..6 {
+            assert_eq!(stress[k][cell], expected.stress[k] * MODULUS);
+            assert_eq!(contact[k][cell], expected.contact[k]);
+            assert_eq!(tangent[6 * k + 1][cell], expected.tangent[k][1] * MODULUS);
+        }
+        assert!((0..state.len()).all(|k| state[k][cell] == expected.state[k]));
+        assert_eq!((gas[cell], solid[cell]), (expected.gas, expected.solid));
+        assert_eq!(outside[cell], u8::from(expected.outside));
+    }
+    assert_eq!(batch.outside_cells, outside.iter().map(|&one| usize::from(one)).sum::<usize>());
+}
+
+#[test]
+fn laws_tell_what_they_are() {
+    let law = Law::builtin();
+    // SAFETY: live.
+    unsafe {
+        assert_eq!(text(msdd_spheres_hash(law.0)).len(), 64);
+        assert!(text(msdd_spheres_describe(law.0)).contains("\"jamming_fraction\""));
+        let count = msdd_spheres_state_size(law.0);
+        assert_eq!(text(msdd_spheres_state_name(law.0, 0)), "jamming_fraction");
+        assert!(msdd_spheres_state_name(law.0, count).is_null());
+        assert!(msdd_spheres_hash(null()).is_null() && msdd_spheres_describe(null()).is_null());
+        assert_eq!(msdd_spheres_state_size(null()), 0);
+        msdd_spheres_free(null_mut());
+    }
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let law = Law::builtin();
+    let state = start(&law, 2);
+    let columns = pointers(&state);
+    let refused = |batch: msdd_sphere_batch, expected: i32, said: &str| {
+        let mut batch = batch;
+        // SAFETY: live, and columns of two values.
+        let status = unsafe { msdd_spheres_advance(law.0, &mut batch) };
+        assert!(status == expected && last_error().contains(said), "{status}: {}", last_error());
+    };
+    let good = msdd_sphere_batch { cells: 2, state: columns.as_ptr(), ..NOTHING };
+    let (large, none) = ([0.0, 0.3], [0.0, f64::NAN]);
+    refused(
+        msdd_sphere_batch { thermal_strain: large.as_ptr(), ..good },
+        MSDD_INVALID_ARGUMENT,
+        "thermal_strain[1] = 0.3",
+    );
+    refused(
+        msdd_sphere_batch { thermal_strain: none.as_ptr(), ..good },
+        MSDD_NON_FINITE,
+        "thermal_strain[1]",
+    );
+    refused(
+        msdd_sphere_batch { gas_number: large.as_ptr(), ..good },
+        MSDD_INVALID_ARGUMENT,
+        "gas_number[0] = 0",
+    );
+    refused(msdd_sphere_batch { reduced_modulus: 0.0, ..good }, MSDD_INVALID_ARGUMENT, "reduced_modulus = 0");
+    refused(msdd_sphere_batch { state: null(), ..good }, MSDD_INVALID_ARGUMENT, "state is NULL");
+    refused(msdd_sphere_batch { struct_size: 8, ..good }, MSDD_INVALID_ARGUMENT, "batch.struct_size = 8");
+    let zeros = [0.0; 2];
+    let strains =
+        [zeros.as_ptr(), zeros.as_ptr(), zeros.as_ptr(), large.as_ptr(), zeros.as_ptr(), zeros.as_ptr()];
+    refused(
+        msdd_sphere_batch { strain: strains.as_ptr(), ..good },
+        MSDD_INVALID_ARGUMENT,
+        "strain[xy][1] = 0.3",
+    );
+    let mut out = null_mut();
+    // SAFETY: C strings, and writable.
+    unsafe {
+        assert_eq!(msdd_spheres_load(c"/nowhere.json".as_ptr(), &mut out), MSDD_IO);
+        let discs = concat!(env!("CARGO_MANIFEST_DIR"), "/../surrogate/models/increment.json\0");
+        assert_eq!(msdd_spheres_load(discs.as_ptr().cast(), &mut out), MSDD_MODEL);
+        assert!(last_error().contains("msdd-spheres-model-1"), "{}", last_error());
+    }
+    assert!(out.is_null());
+}
