@@ -84,6 +84,11 @@ struct Free
         const MaskedTraps masked;
         msdd_surrogate_free(surrogate);
     }
+    void operator()(msdd_spheres* spheres) const noexcept
+    {
+        const MaskedTraps masked;
+        msdd_spheres_free(spheres);
+    }
     void operator()(msdd_rve* rve) const noexcept
     {
         const MaskedTraps masked;
@@ -235,6 +240,69 @@ private:
     static std::string text(const char* pointer) { return pointer ? pointer : ""; }
 
     std::unique_ptr<msdd_surrogate, detail::Free> handle_;
+};
+
+/** The law of packings of spheres: immutable, movable, not copyable. */
+class Spheres
+{
+public:
+    /** Loads a law: "builtin" or the path of a model file. Throws Error. */
+    explicit Spheres(const std::string& source = "builtin")
+    {
+        const detail::MaskedTraps masked;
+        detail::checkVersion();
+        msdd_spheres* handle = nullptr;
+        detail::check(msdd_spheres_load(source.c_str(), &handle));
+        handle_.reset(handle);
+    }
+
+    /** Number of state columns; 0 for an object that was moved from. */
+    std::size_t stateSize() const
+    {
+        const detail::MaskedTraps masked;
+        return msdd_spheres_state_size(handle_.get());
+    }
+
+    /** Name of a state column, counted from 0; empty beyond the last. */
+    std::string stateName(std::size_t column) const
+    {
+        const detail::MaskedTraps masked;
+        return text(msdd_spheres_state_name(handle_.get(), column));
+    }
+
+    /** Fills the state columns of packings with these solid fractions and stresses (six columns [Pa], compression positive).
+     *  Throws Error. */
+    void initialState
+    (
+        const msdd_sphere_material& material,
+        std::size_t cells,
+        const double* solidFraction,
+        const double* const* stress,
+        double* const* state
+    ) const
+    {
+        const detail::MaskedTraps masked;
+        detail::check(msdd_spheres_initial_state(handle_.get(), &material, cells, solidFraction, stress, state));
+    }
+
+    /** One step of every cell of the batch; fills its outputs. Throws Error, and then has written nothing. */
+    void advance(const msdd_sphere_material& material, msdd_sphere_batch& batch) const
+    {
+        const detail::MaskedTraps masked;
+        detail::check(msdd_spheres_advance(handle_.get(), &material, &batch));
+    }
+
+    /** SHA-256 of the model file, 64 hexadecimal digits; empty for an object that was moved from. */
+    std::string hash() const
+    {
+        const detail::MaskedTraps masked;
+        return text(msdd_spheres_hash(handle_.get()));
+    }
+
+private:
+    static std::string text(const char* pointer) { return pointer ? pointer : ""; }
+
+    std::unique_ptr<msdd_spheres, detail::Free> handle_;
 };
 
 /** A box of grains, simulated by discrete elements. It can be moved, and copied by clone() alone. Only one thread at a time

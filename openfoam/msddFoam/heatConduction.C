@@ -268,6 +268,12 @@ void Foam::heatEquation::setTensor(const granularState::conductivityColumns& K)
     {
         cells[celli].xy() = K.xy[celli];
     }
+    forAll(K.zz, celli)
+    {
+        cells[celli].zz() = K.zz[celli];
+        cells[celli].xz() = K.xz[celli];
+        cells[celli].yz() = K.yz[celli];
+    }
     K_().correctBoundaryConditions();
     insulateWalls();
 }

@@ -293,6 +293,9 @@ const Foam::granularState::conductivityColumns& Foam::heatEquation::scaled
     scaledK_.xx = factor_*K.xx;
     scaledK_.yy = factor_*K.yy;
     scaledK_.xy = factor_*K.xy;
+    scaledK_.zz = factor_*K.zz;
+    scaledK_.xz = factor_*K.xz;
+    scaledK_.yz = factor_*K.yz;
     return scaledK_;
 }
 

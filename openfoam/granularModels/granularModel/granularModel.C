@@ -79,6 +79,42 @@ Foam::autoPtr<Foam::granularModel> Foam::granularModel::New
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
+Foam::word Foam::granularModel::fieldName(const std::string& column)
+{
+    word name;
+    bool capital = false;
+    for (const char c : column)
+    {
+        if (c != '_')
+        {
+            name += capital ? char(std::toupper(c)) : c;
+        }
+        capital = (c == '_');
+    }
+    return name;
+}
+
+
+void Foam::granularModel::checkHash
+(
+    const fileName& source,
+    const std::string& hash
+) const
+{
+    string wanted;
+    if
+    (
+        coeffs_.readIfPresent("hash", wanted) && !wanted.empty()
+     && wanted != hash
+    )
+    {
+        FatalIOErrorInFunction(coeffs_)
+            << "Entry 'hash' is " << wanted << " but model " << source
+            << " has the hash " << hash << exit(FatalIOError);
+    }
+}
+
+
 void Foam::granularModel::refuse
 (
     const word& key,

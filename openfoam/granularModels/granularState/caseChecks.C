@@ -116,14 +116,18 @@ void Foam::checkTimeStep(const Time& runTime)
 void Foam::checkPlane(const fvMesh& mesh, const dictionary& surrogate)
 {
     const word type(surrogate.lookupOrDefault<word>("type", word::null));
-    if (mesh.solutionD()[vector::Z] != -1 && type != "constant")
+    if
+    (
+        mesh.solutionD()[vector::Z] != -1
+     && type != "constant" && type != "spheres"
+    )
     {
         FatalErrorInFunction
             << "The mesh " << mesh.objectRegistry::objectPath()
             << " is three-dimensional, allowed: two-dimensional in x and y,"
-            << " with empty patches in z. The models are made from discs and"
-            << " know no third direction; only surrogate type constant takes"
-            << " any mesh" << exit(FatalError);
+            << " with empty patches in z. This model is made from discs and"
+            << " knows no third direction; the surrogate types spheres and"
+            << " constant take any mesh" << exit(FatalError);
     }
 }
 

@@ -36,10 +36,19 @@ static const scalar smallestScale = 0.02;
 void Foam::granularState::select(const scalarField& strain)
 {
     rows_.clear();
+    const bool all = model_->followsTemperature();
     forAll(strain, celli)
     {
         const scalar e = strain[celli];
-        if (bound_ > 0 ? mag(e) >= bound_ : (e != 0 || lastStrain_[celli] != 0))
+        if
+        (
+            all
+         || (
+                bound_ > 0
+              ? mag(e) >= bound_
+              : (e != 0 || lastStrain_[celli] != 0)
+            )
+        )
         {
             rows_.append(celli);
         }
@@ -66,6 +75,7 @@ void Foam::granularState::gather
     {
         strain_[row] = strain[rows_[row]];
         total_[row] = total[rows_[row]];
+        askedTemperature_[row] = temperature_[rows_[row]];
     }
 }
 
@@ -106,6 +116,16 @@ Foam::label Foam::granularState::ask
     query.stressXX = askedXX_.data();
     query.stressYY = askedYY_.data();
     query.stressXY = askedXY_.empty() ? nullptr : askedXY_.data();
+    if (model_->spatial())
+    {
+        query.conductivityZZ = askedK_.zz.data();
+        query.conductivityXZ = askedK_.xz.data();
+        query.conductivityYZ = askedK_.yz.data();
+        query.stressZZ = askedRest_[0].data();
+        query.stressXZ = askedRest_[1].data();
+        query.stressYZ = askedRest_[2].data();
+        query.temperature = askedTemperature_.cdata();
+    }
     query.outside = wantOutside ? outside_.pointers.cdata() : nullptr;
     query.trial = trial;
 
@@ -202,6 +222,15 @@ void Foam::granularState::scatterConductivity(conductivityColumns& K) const
             K.xy[rows_[row]] = askedK_.xy[row];
         }
     }
+    if (K.zz.size())
+    {
+        forAll(rows_, row)
+        {
+            K.zz[rows_[row]] = askedK_.zz[row];
+            K.xz[rows_[row]] = askedK_.xz[row];
+            K.yz[rows_[row]] = askedK_.yz[row];
+        }
+    }
 }
 
 
@@ -215,6 +244,7 @@ void Foam::granularState::strain(const scalarField& from, const scalarField& to)
     const scalarField& total = thermalStrain_.primitiveField();
     const scalarField& waiting = thermalStrainIncrement_.primitiveField();
     const scalarField& start = initialTemperature_.primitiveField();
+    temperature_ = to;
 
     forAll(to, celli)
     {
@@ -322,6 +352,13 @@ void Foam::granularState::commit()
         stressXX_[celli] = askedXX_[row];
         stressYY_[celli] = askedYY_[row];
         stressXY_[celli] = askedXY_.empty() ? 0 : askedXY_[row];
+        forAll(stressRest_, i)
+        {
+            if (stressRest_[i].size())
+            {
+                stressRest_[i][celli] = askedRest_[i][row];
+            }
+        }
         lastStrain_[celli] = strain_[row];
         waiting[celli] = 0;
     }
@@ -340,6 +377,7 @@ Foam::granularState::memory Foam::granularState::remember() const
     now.stressXX = stressXX_;
     now.stressYY = stressYY_;
     now.stressXY = stressXY_;
+    now.stressRest = stressRest_;
     now.increment = thermalStrainIncrement_.primitiveField();
     now.strain = thermalStrain_.primitiveField();
     now.lastStrain = lastStrain_;
@@ -363,6 +401,7 @@ void Foam::granularState::restore(const memory& before)
     stressXX_ = before.stressXX;
     stressYY_ = before.stressYY;
     stressXY_ = before.stressXY;
+    stressRest_ = before.stressRest;
     thermalStrainIncrement_.primitiveFieldRef() = before.increment;
     thermalStrain_.primitiveFieldRef() = before.strain;
     lastStrain_ = before.lastStrain;
@@ -384,6 +423,9 @@ Foam::granularState::trialConductivity()
     trialK_.xx = K_.xx;
     trialK_.yy = K_.yy;
     trialK_.xy = K_.xy;
+    trialK_.zz = K_.zz;
+    trialK_.xz = K_.xz;
+    trialK_.yz = K_.yz;
 
     select(nextIncrement_);
     gather(nextIncrement_, nextStrain_);

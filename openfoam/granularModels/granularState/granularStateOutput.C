@@ -91,6 +91,19 @@ void Foam::granularState::refresh()
         }
         p[celli] = -0.5*(sigma[celli].xx() + sigma[celli].yy());
     }
+    forAll(K_.zz, celli)
+    {
+        K[celli].zz() = K_.zz[celli];
+        K[celli].xz() = K_.xz[celli];
+        K[celli].yz() = K_.yz[celli];
+        if (otherStress_.empty())
+        {
+            sigma[celli].zz() = -stressRest_[0][celli];
+            sigma[celli].xz() = 0 - stressRest_[1][celli];
+            sigma[celli].yz() = 0 - stressRest_[2][celli];
+        }
+        p[celli] = -tr(sigma[celli])/3;
+    }
     forAll(K_.xy, celli)
     {
         K[celli].xy() = K_.xy[celli];

@@ -170,6 +170,7 @@ Foam::granularState::granularState
         properties_.thermalExpansion().value()
        *(T.primitiveField() - initialTemperature_.primitiveField());
     inRegion_.primitiveFieldRef() = 1;
+    temperature_ = T.primitiveField();
 
     readState();
     allocate();
@@ -280,7 +281,7 @@ void Foam::granularState::readState()
         (
             given<symmTensor>("conductivity", conductivity_.dimensions())
         );
-        scalarField xx, yy, xy, Kxx, Kyy, Kxy;
+        scalarField xx, yy, xy, zz, xz, yz, Kxx, Kyy, Kxy;
         granularModel::known known;
         known.size = mesh_.nCells();
         if (stress.valid())
@@ -294,6 +295,15 @@ void Foam::granularState::readState()
             {
                 xy = -stress().primitiveField().component(symmTensor::XY);
                 known.stressXY = xy.cdata();
+            }
+            if (model_->spatial())
+            {
+                zz = -stress().primitiveField().component(symmTensor::ZZ);
+                xz = -stress().primitiveField().component(symmTensor::XZ);
+                yz = -stress().primitiveField().component(symmTensor::YZ);
+                known.stressZZ = zz.cdata();
+                known.stressXZ = xz.cdata();
+                known.stressYZ = yz.cdata();
             }
         }
         if (conductivity.valid() && missing)
@@ -358,6 +368,10 @@ void Foam::granularState::allocate()
         K->xx.resize(cells, Zero);
         K->yy.resize(cells, Zero);
         K->xy.resize(model_->diagonal() ? 0 : cells, Zero);
+        for (scalarField* column : {&K->zz, &K->xz, &K->yz})
+        {
+            column->resize(model_->spatial() ? cells : 0, Zero);
+        }
     }
     for
     (
@@ -372,6 +386,12 @@ void Foam::granularState::allocate()
         column->resize(cells, Zero);
     }
     askedXY_.resize(model_->diagonal() ? 0 : cells, Zero);
+    askedTemperature_.resize(cells, Zero);
+    forAll(stressRest_, i)
+    {
+        stressRest_[i].resize(model_->spatial() ? cells : 0, Zero);
+        askedRest_[i].resize(stressRest_[i].size(), Zero);
+    }
     rows_.setCapacity(cells);
     before_.setSize(count, cells);
     after_.setSize(count, cells);

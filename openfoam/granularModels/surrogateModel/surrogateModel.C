@@ -16,30 +16,12 @@ License
 
 #include "surrogateModel.H"
 
-#include <cctype>
 #include <cmath>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-
-//- reduced_pressure becomes reducedPressure
-static word fieldName(const std::string& column)
-{
-    word name;
-    bool capital = false;
-    for (const char c : column)
-    {
-        if (c != '_')
-        {
-            name += capital ? char(std::toupper(c)) : c;
-        }
-        capital = (c == '_');
-    }
-    return name;
-}
-
 
 //- Names of the solver's own fields and folders, which no column may have
 static const wordList& ownNames()
@@ -99,7 +81,7 @@ Foam::granularModels::surrogateModel::surrogateModel
         columnNames_[i] = model_.stateName(i);
         stateNames_[i] = fieldName(columnNames_[i]);
     }
-    checkHash();
+    checkHash(source_, model_.hash());
     checkNames();
 }
 
@@ -126,22 +108,6 @@ msdd::Surrogate Foam::granularModels::surrogateModel::load
     {
         refuse(key, '"' + source_ + '"', allowed + ": " + error.what());
         throw;
-    }
-}
-
-
-void Foam::granularModels::surrogateModel::checkHash() const
-{
-    string wanted;
-    if
-    (
-        coeffs_.readIfPresent("hash", wanted) && !wanted.empty()
-     && wanted != model_.hash()
-    )
-    {
-        FatalIOErrorInFunction(coeffs_)
-            << "Entry 'hash' is " << wanted << " but model " << source_
-            << " has the hash " << model_.hash() << exit(FatalIOError);
     }
 }
 

@@ -195,19 +195,71 @@ pub struct msdd_spheres {
 }
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
+pub struct msdd_sphere_material {
+    pub struct_size: usize,
+    pub diameter: f64,
+    pub young_modulus: f64,
+    pub poisson_ratio: f64,
+    pub conductivity: f64,
+    pub roughness: f64,
+    pub hardness: f64,
+    pub gas: *const ::core::ffi::c_char,
+    pub gas_pressure: f64,
+    pub accommodation: f64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    [
+        "Size of msdd_sphere_material",
+    ][::core::mem::size_of::<msdd_sphere_material>() - 80usize];
+    [
+        "Alignment of msdd_sphere_material",
+    ][::core::mem::align_of::<msdd_sphere_material>() - 8usize];
+    [
+        "Offset of field: msdd_sphere_material::struct_size",
+    ][::core::mem::offset_of!(msdd_sphere_material, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_sphere_material::diameter",
+    ][::core::mem::offset_of!(msdd_sphere_material, diameter) - 8usize];
+    [
+        "Offset of field: msdd_sphere_material::young_modulus",
+    ][::core::mem::offset_of!(msdd_sphere_material, young_modulus) - 16usize];
+    [
+        "Offset of field: msdd_sphere_material::poisson_ratio",
+    ][::core::mem::offset_of!(msdd_sphere_material, poisson_ratio) - 24usize];
+    [
+        "Offset of field: msdd_sphere_material::conductivity",
+    ][::core::mem::offset_of!(msdd_sphere_material, conductivity) - 32usize];
+    [
+        "Offset of field: msdd_sphere_material::roughness",
+    ][::core::mem::offset_of!(msdd_sphere_material, roughness) - 40usize];
+    [
+        "Offset of field: msdd_sphere_material::hardness",
+    ][::core::mem::offset_of!(msdd_sphere_material, hardness) - 48usize];
+    [
+        "Offset of field: msdd_sphere_material::gas",
+    ][::core::mem::offset_of!(msdd_sphere_material, gas) - 56usize];
+    [
+        "Offset of field: msdd_sphere_material::gas_pressure",
+    ][::core::mem::offset_of!(msdd_sphere_material, gas_pressure) - 64usize];
+    [
+        "Offset of field: msdd_sphere_material::accommodation",
+    ][::core::mem::offset_of!(msdd_sphere_material, accommodation) - 72usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
 pub struct msdd_sphere_batch {
     pub struct_size: usize,
     pub cells: usize,
-    pub reduced_modulus: f64,
     pub state: *const *const f64,
     pub thermal_strain: *const f64,
     pub strain: *const *const f64,
     pub rotation: *const *const f64,
-    pub gas_number: *const f64,
+    pub temperature: *const f64,
     pub next_state: *const *mut f64,
     pub stress: *const *mut f64,
     pub tangent: *const *mut f64,
-    pub contact_conductivity: *const *mut f64,
+    pub conductivity: *const *mut f64,
     pub gas_conductivity: *mut f64,
     pub solid_fraction: *mut f64,
     pub outside: *mut u8,
@@ -217,7 +269,7 @@ pub struct msdd_sphere_batch {
 const _: () = {
     [
         "Size of msdd_sphere_batch",
-    ][::core::mem::size_of::<msdd_sphere_batch>() - 128usize];
+    ][::core::mem::size_of::<msdd_sphere_batch>() - 120usize];
     [
         "Alignment of msdd_sphere_batch",
     ][::core::mem::align_of::<msdd_sphere_batch>() - 8usize];
@@ -228,47 +280,44 @@ const _: () = {
         "Offset of field: msdd_sphere_batch::cells",
     ][::core::mem::offset_of!(msdd_sphere_batch, cells) - 8usize];
     [
-        "Offset of field: msdd_sphere_batch::reduced_modulus",
-    ][::core::mem::offset_of!(msdd_sphere_batch, reduced_modulus) - 16usize];
-    [
         "Offset of field: msdd_sphere_batch::state",
-    ][::core::mem::offset_of!(msdd_sphere_batch, state) - 24usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, state) - 16usize];
     [
         "Offset of field: msdd_sphere_batch::thermal_strain",
-    ][::core::mem::offset_of!(msdd_sphere_batch, thermal_strain) - 32usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, thermal_strain) - 24usize];
     [
         "Offset of field: msdd_sphere_batch::strain",
-    ][::core::mem::offset_of!(msdd_sphere_batch, strain) - 40usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, strain) - 32usize];
     [
         "Offset of field: msdd_sphere_batch::rotation",
-    ][::core::mem::offset_of!(msdd_sphere_batch, rotation) - 48usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, rotation) - 40usize];
     [
-        "Offset of field: msdd_sphere_batch::gas_number",
-    ][::core::mem::offset_of!(msdd_sphere_batch, gas_number) - 56usize];
+        "Offset of field: msdd_sphere_batch::temperature",
+    ][::core::mem::offset_of!(msdd_sphere_batch, temperature) - 48usize];
     [
         "Offset of field: msdd_sphere_batch::next_state",
-    ][::core::mem::offset_of!(msdd_sphere_batch, next_state) - 64usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, next_state) - 56usize];
     [
         "Offset of field: msdd_sphere_batch::stress",
-    ][::core::mem::offset_of!(msdd_sphere_batch, stress) - 72usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, stress) - 64usize];
     [
         "Offset of field: msdd_sphere_batch::tangent",
-    ][::core::mem::offset_of!(msdd_sphere_batch, tangent) - 80usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, tangent) - 72usize];
     [
-        "Offset of field: msdd_sphere_batch::contact_conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, contact_conductivity) - 88usize];
+        "Offset of field: msdd_sphere_batch::conductivity",
+    ][::core::mem::offset_of!(msdd_sphere_batch, conductivity) - 80usize];
     [
         "Offset of field: msdd_sphere_batch::gas_conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, gas_conductivity) - 96usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, gas_conductivity) - 88usize];
     [
         "Offset of field: msdd_sphere_batch::solid_fraction",
-    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 104usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 96usize];
     [
         "Offset of field: msdd_sphere_batch::outside",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 112usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 104usize];
     [
         "Offset of field: msdd_sphere_batch::outside_cells",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 120usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 112usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -666,7 +715,7 @@ unsafe extern "C" {
     ) -> *const ::core::ffi::c_char;
     pub fn msdd_spheres_initial_state(
         spheres: *const msdd_spheres,
-        reduced_modulus: f64,
+        material: *const msdd_sphere_material,
         cells: usize,
         solid_fraction: *const f64,
         stress: *const *const f64,
@@ -674,6 +723,7 @@ unsafe extern "C" {
     ) -> i32;
     pub fn msdd_spheres_advance(
         spheres: *const msdd_spheres,
+        material: *const msdd_sphere_material,
         batch: *mut msdd_sphere_batch,
     ) -> i32;
     pub fn msdd_spheres_free(spheres: *mut msdd_spheres);

@@ -14,6 +14,7 @@
 //! | [`gas`] | law of heat through gas: between two spheres, and to a plate |
 //! | [`named_gases`] | air, nitrogen, helium, argon, vacuum |
 //! | [`solid`] | law of heat through a contact, smooth or rough; stress in it |
+//! | [`effective`] | from the reduced conductivities of the law of spheres to those of a bed |
 //! | [`links`] | conductances between the spheres of a simulation: contact, gas |
 //! | [`correlation`] | published correlation for packed beds |
 //! | `solve` | conjugate gradients |
@@ -32,6 +33,7 @@ pub mod bed;
 pub mod case;
 pub mod conductivity;
 pub mod correlation;
+pub mod effective;
 pub mod experiment;
 pub mod gas;
 pub mod links;

@@ -190,36 +190,49 @@ void msdd_surrogate_free(msdd_surrogate *surrogate);
 
 /* ------------------------------------------------------------------------------------------------- law of spheres */
 
-/** The law of packings of spheres, in three dimensions: opaque, immutable. Its results are over E* and over the conductivities
- *  of solid and gas, so that it holds for spheres of any size and material with a friction of about 0.3:
- *  K = k_s * contact_conductivity + k_g * gas_conductivity. */
+/** The law of packings of spheres, in three dimensions: opaque, immutable. It holds for equal spheres of any size and material
+ *  with a friction of about 0.3. */
 typedef struct msdd_spheres msdd_spheres;
+
+/** Equal spheres and the gas between them. */
+typedef struct msdd_sphere_material {
+    size_t struct_size;   /**< sizeof(msdd_sphere_material) */
+    double diameter;      /**< [m], 1e-9 to 1e3 */
+    double young_modulus; /**< [Pa], 1e-9 to 1e15 */
+    double poisson_ratio; /**< -0.99 to 0.5 */
+    double conductivity;  /**< of the spheres, k_s [W/(m K)], 1e-12 to 1e12 */
+    double roughness;     /**< height of the asperities (root mean square) over their slope [m], 0 to 1; 0: smooth */
+    double hardness;      /**< of the rough surface [Pa], 1 to 1e15; not used when smooth */
+    const char *gas;      /**< "air", "nitrogen", "helium", "argon" or "vacuum"; NULL = "vacuum" */
+    double gas_pressure;  /**< [Pa], 1e-3 to 1e9; not used in a vacuum */
+    double accommodation; /**< of the gas at the spheres, 0.01 to 1; not used in a vacuum */
+} msdd_sphere_material;
 
 /** Inputs and outputs of one step of a batch of cells. Six columns of a tensor are xx, yy, zz, xy, xz, yz; of a strain the last
  *  three are twice the shears, du_x/dy + du_y/dx and so on. The same column may be given as input and as output. */
 typedef struct msdd_sphere_batch {
-    size_t struct_size;                  /**< sizeof(msdd_sphere_batch) */
-    size_t cells;                        /**< length of every column */
-    double reduced_modulus;              /**< E* = E/(2 (1 - nu^2)) of the spheres [Pa], 1e-9 to 1e15 */
+    size_t struct_size;            /**< sizeof(msdd_sphere_batch) */
+    size_t cells;                  /**< length of every column */
     /* in */
-    const double *const *state;          /**< msdd_spheres_state_size columns before the step */
-    const double *thermal_strain;        /**< relative growth of the radii in this step; above -0.2, to 0.2; NULL = 0 */
-    const double *const *strain;         /**< six columns: strain of the cell in this step, above -0.2, to 0.2; NULL = 0 */
-    const double *const *rotation;       /**< three columns: vector of the angle by which the cell turns, half of the curl of
-                                              the displacement [rad], above -0.2, to 0.2; NULL = 0 */
-    const double *gas_number;            /**< ln(R/h) of radius and width of the gap for the gas, 2.5 to 9.5; NULL = 8.5 */
+    const double *const *state;    /**< msdd_spheres_state_size columns before the step */
+    const double *thermal_strain;  /**< relative growth of the radii in this step; above -0.2, to 0.2; NULL = 0 */
+    const double *const *strain;   /**< six columns: strain of the cell in this step, above -0.2, to 0.2; NULL = 0 */
+    const double *const *rotation; /**< three columns: vector of the angle by which the cell turns, half of the curl of the
+                                        displacement [rad], above -0.2, to 0.2; NULL = 0 */
+    const double *temperature;     /**< [K], 0 to 1e5, of the gas; NULL = 293.15. Beyond the temperatures at which the gas is known
+                                        the nearest of them is taken */
     /* out; any of them may be NULL when not wanted, and so may single columns of next_state, stress, tangent and
-     * contact_conductivity */
-    double *const *next_state;           /**< state columns after the step */
-    double *const *stress;               /**< six columns after the step [Pa] */
-    double *const *tangent;              /**< 36 columns [Pa], row by row: -d sigma_i/d strain_j at the end of the step. It is the
-                                              derivative of exactly the stress that is answered, and not symmetric */
-    double *const *contact_conductivity; /**< six columns: conductivity by contacts over that of the solid [-], 0 without load */
-    double *gas_conductivity;            /**< conductivity by the gas over that of the gas [-] */
-    double *solid_fraction;              /**< volume of the spheres over the volume [-] */
-    uint8_t *outside;                    /**< 1 where jamming fraction, pressure or stress ratio after the step are outside of those
-                                              of the training, else 0 */
-    size_t outside_cells;                /**< number of these cells */
+     * conductivity */
+    double *const *next_state;     /**< state columns after the step */
+    double *const *stress;         /**< six columns after the step [Pa] */
+    double *const *tangent;        /**< 36 columns [Pa], row by row: -d sigma_i/d strain_j at the end of the step. It is the
+                                        derivative of exactly the stress that is answered, and not symmetric */
+    double *const *conductivity;   /**< six columns after the step [W/(m K)], contacts and gas together */
+    double *gas_conductivity;      /**< the part of it by the gas [W/(m K)], in every direction alike */
+    double *solid_fraction;        /**< volume of the spheres over the volume [-] */
+    uint8_t *outside;              /**< 1 where jamming fraction, pressure or stress ratio after the step, or the number of the gas,
+                                        are outside of those of the training, else 0 */
+    size_t outside_cells;          /**< number of these cells */
 } msdd_sphere_batch;
 
 /** Loads a law. `source`: NULL or "builtin" for the one compiled into the library, else the path of a model file. On success
@@ -240,11 +253,12 @@ const char *msdd_spheres_state_name(const msdd_spheres *spheres, size_t column);
 
 /** Computes the state of packings with a solid fraction (0.3 to 0.8) and a stress [Pa, compression positive; six columns]. A
  *  pressure of 0 or less is that of spheres that just do not touch. `state`: state_size writable columns. */
-int32_t msdd_spheres_initial_state(const msdd_spheres *spheres, double reduced_modulus, size_t cells,
+int32_t msdd_spheres_initial_state(const msdd_spheres *spheres, const msdd_sphere_material *material, size_t cells,
                                    const double *solid_fraction, const double *const *stress, double *const *state);
 
-/** Takes every cell of the batch through one step. Cells are independent. Zero strain leaves the state as it is, bit for bit. */
-int32_t msdd_spheres_advance(const msdd_spheres *spheres, msdd_sphere_batch *batch);
+/** Takes every cell of the batch through one step. Cells are independent. Zero strain leaves the state as it is, bit for bit.
+ *  Spheres that conduct less than 30 times as well as the gas are refused: the law of the gas does not hold for them. */
+int32_t msdd_spheres_advance(const msdd_spheres *spheres, const msdd_sphere_material *material, msdd_sphere_batch *batch);
 
 /** Frees a law; NULL is allowed. */
 void msdd_spheres_free(msdd_spheres *spheres);

@@ -9,6 +9,7 @@
 //! | `columns` | columns of the caller: arrays with one value per cell |
 //! | `batch` | checks and evaluation of a batch |
 //! | `si` | conversion of dimensionless results to SI units |
+//! | `sphere_material` | spheres and gas of a caller, and the conductivity of a bed of them |
 //! | `status` | conversion of errors to status codes and texts |
 //! | `panics` | panics are caught and become errors |
 #![allow(unsafe_code)] // the C boundary
@@ -23,6 +24,7 @@ mod model;
 mod panics;
 mod si;
 mod signatures;
+mod sphere_material;
 mod status;
 #[cfg(test)]
 mod tests;

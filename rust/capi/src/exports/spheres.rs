@@ -1,15 +1,15 @@
 //! Functions of `msdd.h` about the law of spheres.
 
 use super::{sized, string, writable};
-use crate::abi::{msdd_sphere_batch, msdd_spheres};
+use crate::abi::{msdd_sphere_batch, msdd_sphere_material, msdd_spheres};
 use crate::batch::{check_length, outputs};
 use crate::columns::{Input, Output};
 use crate::handles::SpheresHandle;
 use crate::si::LARGEST_STRESS;
+use crate::sphere_material::Material;
 use crate::status::{Failure, status, value};
 use ::msdd_surrogate::models::BUILTIN;
 use ::msdd_surrogate::spheres::model::{COLUMNS, Increment, NAMES, SphereModel};
-use ::msdd_surrogate::spheres::readout::GAS_RANGE;
 use ::msdd_surrogate::spheres::tensor::Tensor;
 use std::ffi::c_char;
 use std::ptr::null;
@@ -19,8 +19,8 @@ const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
 const AXES: [&str; 3] = ["x", "y", "z"];
 /// Largest strain, and angle \[rad\] by which a cell turns, in one step.
 const LARGEST_STEP: f64 = 0.2;
-/// ln(R/h) of a usual gas, air at 1 bar between spheres of millimetres.
-const USUAL_GAS: f64 = 8.5;
+/// \[K\]
+const USUAL_TEMPERATURE: f64 = 293.15;
 
 /// The law behind a handle.
 ///
@@ -122,22 +122,15 @@ unsafe fn inputs<'a>(
     names.map(|(k, name)| unsafe { Input::new(name, columns.add(k).read(), cells) }).collect()
 }
 
-fn check_modulus(modulus: f64) -> Result<(), Failure> {
-    match (1e-9..=1e15).contains(&modulus) {
-        true => Ok(()),
-        false => Err(Failure::number("reduced_modulus", modulus, "1e-9 to 1e15 Pa")),
-    }
-}
-
 /// `msdd_spheres_initial_state`
 ///
 /// # Safety
-/// `spheres` is null or a live handle; the columns are null or hold `cells` values; `stress` is null or holds six columns,
-/// `state` null or as many writable ones as the state has.
+/// `spheres` is null or a live handle; `material` is null or points to its struct, whose gas is null or a C string; the columns are
+/// null or hold `cells` values; `stress` is null or holds six columns, `state` null or as many writable ones as the state has.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn msdd_spheres_initial_state(
     spheres: *const msdd_spheres,
-    reduced_modulus: f64,
+    material: *const msdd_sphere_material,
     cells: usize,
     solid_fraction: *const f64,
     stress: *const *const f64,
@@ -147,7 +140,8 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
         // SAFETY: null or live by this function's contract.
         let handle = unsafe { handle(spheres) }.ok_or_else(|| Failure::null("spheres"))?;
         check_length(cells)?;
-        check_modulus(reduced_modulus)?;
+        // SAFETY: null or pointing to its struct with a C string, by this function's contract.
+        let material = unsafe { Material::new(&sized("material", material)?)? };
         if stress.is_null() {
             return Err(Failure::null("stress"));
         }
@@ -167,7 +161,7 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
             column.check_range(-LARGEST_STRESS, LARGEST_STRESS, "-1e30 to 1e30 Pa")?;
         }
         for cell in 0..cells {
-            let stress: Tensor = std::array::from_fn(|k| stress[k].at(cell) / reduced_modulus);
+            let stress: Tensor = std::array::from_fn(|k| stress[k].at(cell) / material.modulus());
             let found = handle.model.initial_state(solid.at(cell), stress);
             state.iter().zip(found).for_each(|(column, value)| column.write_one(cell, value));
         }
@@ -182,11 +176,11 @@ struct Columns<'a> {
     /// Six and three columns, or none.
     strain: Vec<Input<'a>>,
     rotation: Vec<Input<'a>>,
-    gas_number: Option<Input<'a>>,
+    temperature: Option<Input<'a>>,
     next_state: Vec<Output<f64>>,
     stress: Vec<Output<f64>>,
     tangent: Vec<Output<f64>>,
-    contact: Vec<Output<f64>>,
+    conductivity: Vec<Output<f64>>,
     gas: Output<f64>,
     solid: Output<f64>,
     outside: Output<u8>,
@@ -204,7 +198,6 @@ impl<'a> Columns<'a> {
     unsafe fn new(batch: &msdd_sphere_batch, names: &'a Names) -> Result<Self, Failure> {
         let cells = batch.cells;
         check_length(cells)?;
-        check_modulus(batch.reduced_modulus)?;
         if batch.state.is_null() {
             return Err(Failure::null("state"));
         }
@@ -230,11 +223,11 @@ impl<'a> Columns<'a> {
                 thermal: optional("thermal_strain", batch.thermal_strain)?,
                 strain: several(&names.strain, batch.strain)?,
                 rotation: several(&names.rotation, batch.rotation)?,
-                gas_number: optional("gas_number", batch.gas_number)?,
+                temperature: optional("temperature", batch.temperature)?,
                 next_state: wanted("next_state", batch.next_state, COLUMNS)?,
                 stress: wanted("stress", batch.stress, 6)?,
                 tangent: wanted("tangent", batch.tangent, 36)?,
-                contact: wanted("contact_conductivity", batch.contact_conductivity, 6)?,
+                conductivity: wanted("conductivity", batch.conductivity, 6)?,
                 gas: Output::new(batch.gas_conductivity, cells),
                 solid: Output::new(batch.solid_fraction, cells),
                 outside: Output::new(batch.outside, cells),
@@ -254,53 +247,69 @@ impl<'a> Columns<'a> {
                 return Err(Failure::number(name, column.at(cell), "above -0.2, to 0.2"));
             }
         }
-        let [low, high] = GAS_RANGE;
-        self.gas_number.iter().try_for_each(|column| column.check_range(low, high, "2.5 to 9.5"))
+        for column in &self.temperature {
+            column.check_finite()?;
+            column.check_range(0.0, 1e5, "0 to 1e5 K")?;
+        }
+        Ok(())
     }
 
     /// Takes all cells through the step; returns the number of those outside of the range.
-    fn advance(&self, model: &SphereModel, cells: usize, modulus: f64) -> usize {
-        let mut outside = 0;
+    fn advance(&self, model: &SphereModel, material: &Material, cells: usize) -> Result<usize, Failure> {
+        let one = |column: &Option<Input>, usual, cell| column.map_or(usual, |column: Input| column.at(cell));
+        // Everything that can be refused, before anything is written.
+        for cell in 0..cells {
+            material.gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
+        }
+        let mut count = 0;
         for cell in 0..cells {
             let at = |columns: &[Input], k: usize| columns.get(k).map_or(0.0, |column| column.at(cell));
-            let one = |column: &Option<Input>, usual| column.map_or(usual, |column| column.at(cell));
             let state = std::array::from_fn(|k| at(&self.state, k));
             let strain = Increment {
-                thermal: one(&self.thermal, 0.0),
+                thermal: one(&self.thermal, 0.0, cell),
                 cell: std::array::from_fn(|k| at(&self.strain, k)),
                 rotation: std::array::from_fn(|k| at(&self.rotation, k)),
             };
-            let number = one(&self.gas_number, USUAL_GAS);
-            let answer = model.advance(&state, &strain, number, !self.tangent.is_empty());
+            let gas = material.gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
+            let answer = model.advance(&state, &strain, gas.number, !self.tangent.is_empty());
+            let found = material.conductivity(&answer, &gas);
+            let outside = answer.outside || gas.outside;
             let write = |columns: &[Output<f64>], values: &[f64], scale: f64| {
                 columns.iter().zip(values).for_each(|(column, value)| column.write_one(cell, value * scale));
             };
             write(&self.next_state, &answer.state, 1.0);
-            write(&self.stress, &answer.stress, modulus);
-            write(&self.tangent, answer.tangent.as_flattened(), modulus);
-            write(&self.contact, &answer.contact, 1.0);
-            self.gas.write_one(cell, answer.gas);
+            write(&self.stress, &answer.stress, material.modulus());
+            write(&self.tangent, answer.tangent.as_flattened(), material.modulus());
+            write(&self.conductivity, &found.tensor, 1.0);
+            self.gas.write_one(cell, found.gas);
             self.solid.write_one(cell, answer.solid);
-            self.outside.write_one(cell, u8::from(answer.outside));
-            outside += usize::from(answer.outside);
+            self.outside.write_one(cell, u8::from(outside));
+            count += usize::from(outside);
         }
-        outside
+        Ok(count)
     }
 }
 
 /// `msdd_spheres_advance`
 ///
 /// # Safety
-/// `spheres` is null or a live handle; `batch` is null or points to its struct (to its `struct_size` at least); its columns are
-/// null or hold `cells` values, those of outputs writable by this thread alone.
+/// `spheres` is null or a live handle; the structs' pointers are null or point to their struct (to its `struct_size` at least), the
+/// material's gas is null or a C string; the batch's columns are null or hold `cells` values, those of outputs writable by this thread alone.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn msdd_spheres_advance(
     spheres: *const msdd_spheres,
+    material: *const msdd_sphere_material,
     batch: *mut msdd_sphere_batch,
 ) -> i32 {
     status(|| {
         // SAFETY: null or live, and null or pointing to its struct, by this function's contract.
-        let (handle, given) = unsafe { (handle(spheres), sized("batch", batch.cast_const())?) };
+        let (handle, material, given) = unsafe {
+            (
+                handle(spheres),
+                Material::new(&sized("material", material)?)?,
+                sized("batch", batch.cast_const())?,
+            )
+        };
         let handle = handle.ok_or_else(|| Failure::null("spheres"))?;
         let names = Names {
             strain: COMPONENTS.map(|component| format!("strain[{component}]")),
@@ -308,7 +317,7 @@ pub unsafe extern "C" fn msdd_spheres_advance(
         };
         // SAFETY: the columns are as this function's contract says.
         let columns = unsafe { Columns::new(&given, &names)? };
-        let outside = columns.advance(&handle.model, given.cells, given.reduced_modulus);
+        let outside = columns.advance(&handle.model, &material, given.cells)?;
         // SAFETY: not null, and of full size, as checked.
         unsafe { (*batch).outside_cells = outside };
         Ok(())

@@ -1,7 +1,8 @@
 //! The law of spheres through the exported functions.
 
 use super::*;
-use crate::abi::{msdd_sphere_batch, msdd_spheres};
+use crate::abi::{msdd_sphere_batch, msdd_sphere_material, msdd_spheres};
+use crate::sphere_material::Material;
 use ::msdd_surrogate::spheres::model::{Increment, SphereModel};
 
 struct Law(*mut msdd_spheres);
@@ -23,7 +24,22 @@ impl Drop for Law {
     }
 }
 
+/// E*.
 const MODULUS: f64 = 1e11;
+
+/// Smooth spheres of steel in air.
+const STEEL: msdd_sphere_material = msdd_sphere_material {
+    struct_size: size_of::<msdd_sphere_material>(),
+    diameter: 6.4e-3,
+    young_modulus: 2e11,
+    poisson_ratio: 0.0,
+    conductivity: 42.0,
+    roughness: 0.0,
+    hardness: 3e9,
+    gas: c"air".as_ptr(),
+    gas_pressure: 1.013e5,
+    accommodation: 0.7,
+};
 
 fn pointers(columns: &[Vec<f64>]) -> Vec<*const f64> {
     columns.iter().map(|column| column.as_ptr()).collect()
@@ -43,7 +59,7 @@ fn start(law: &Law, cells: usize) -> Vec<Vec<f64>> {
     let (stress, columns) = (pointers(&stress), writable(&mut state));
     // SAFETY: live, columns of `cells` values.
     let status = unsafe {
-        msdd_spheres_initial_state(law.0, MODULUS, cells, solid.as_ptr(), stress.as_ptr(), columns.as_ptr())
+        msdd_spheres_initial_state(law.0, &STEEL, cells, solid.as_ptr(), stress.as_ptr(), columns.as_ptr())
     };
     assert_eq!(status, MSDD_OK, "{}", last_error());
     state
@@ -52,16 +68,15 @@ fn start(law: &Law, cells: usize) -> Vec<Vec<f64>> {
 const NOTHING: msdd_sphere_batch = msdd_sphere_batch {
     struct_size: size_of::<msdd_sphere_batch>(),
     cells: 0,
-    reduced_modulus: MODULUS,
     state: null(),
     thermal_strain: null(),
     strain: null(),
     rotation: null(),
-    gas_number: null(),
+    temperature: null(),
     next_state: null(),
     stress: null(),
     tangent: null(),
-    contact_conductivity: null(),
+    conductivity: null(),
     gas_conductivity: null_mut(),
     solid_fraction: null_mut(),
     outside: null_mut(),
@@ -77,7 +92,7 @@ fn answers_are_those_of_the_model_in_si_units() {
     let thermal = vec![2e-4; cells];
     let strain: Vec<Vec<f64>> = (0..6).map(|k| vec![-1e-4 * f64::from(k); cells]).collect();
     let rotation = vec![vec![1e-3; cells]; 3];
-    let numbers = vec![6.0; cells];
+    let temperature = vec![350.0; cells];
     let mut stress = vec![vec![-7.0; cells]; 6];
     let mut tangent = vec![vec![-7.0; cells]; 36];
     let mut contact = vec![vec![-7.0; cells]; 6];
@@ -92,32 +107,38 @@ fn answers_are_those_of_the_model_in_si_units() {
         thermal_strain: thermal.as_ptr(),
         strain: strains.as_ptr(),
         rotation: turns.as_ptr(),
-        gas_number: numbers.as_ptr(),
+        temperature: temperature.as_ptr(),
         // The same columns as the input.
         next_state: given.as_ptr(),
         stress: stresses.as_ptr(),
         tangent: derivatives.as_ptr(),
-        contact_conductivity: contacts.as_ptr(),
+        conductivity: contacts.as_ptr(),
         gas_conductivity: gas.as_mut_ptr(),
         solid_fraction: solid.as_mut_ptr(),
         outside: outside.as_mut_ptr(),
         ..NOTHING
     };
     // SAFETY: live, full struct, columns of `cells` values.
-    assert_eq!(unsafe { msdd_spheres_advance(law.0, &mut batch) }, MSDD_OK, "{}", last_error());
+    assert_eq!(unsafe { msdd_spheres_advance(law.0, &STEEL, &mut batch) }, MSDD_OK, "{}", last_error());
     let model = SphereModel::builtin().expect("a good file");
+    // SAFETY: its gas is a C string.
+    let material = unsafe { Material::new(&STEEL) }.expect("good");
+    let air = material.gas(350.0).expect("good");
     for cell in 0..cells {
         let increment =
             Increment { thermal: 2e-4, cell: std::array::from_fn(|k| strain[k][cell]), rotation: [1e-3; 3] };
         let from = std::array::from_fn(|k| before[k][cell]);
-        let expected = model.advance(&from, &increment, 6.0, true);
+        let expected = model.advance(&from, &increment, air.number, true);
+        // Air at 350 K conducts 0.030 W/(m K).
+        assert!((gas[cell] / (0.030 * expected.gas) - 1.0).abs() < 0.02);
         for k in 0..6 {
+            let by_gas = if k < 3 { gas[cell] } else { 0.0 };
+            assert_eq!(contact[k][cell], 42.0 * expected.contact[k] + by_gas);
             assert_eq!(stress[k][cell], expected.stress[k] * MODULUS);
-            assert_eq!(contact[k][cell], expected.contact[k]);
             assert_eq!(tangent[6 * k + 1][cell], expected.tangent[k][1] * MODULUS);
         }
         assert!((0..state.len()).all(|k| state[k][cell] == expected.state[k]));
-        assert_eq!((gas[cell], solid[cell]), (expected.gas, expected.solid));
+        assert_eq!(solid[cell], expected.solid);
         assert_eq!(outside[cell], u8::from(expected.outside));
     }
     assert_eq!(batch.outside_cells, outside.iter().map(|&one| usize::from(one)).sum::<usize>());
@@ -144,40 +165,33 @@ fn what_cannot_be_is_refused() {
     let law = Law::builtin();
     let state = start(&law, 2);
     let columns = pointers(&state);
-    let refused = |batch: msdd_sphere_batch, expected: i32, said: &str| {
+    let refused = |material: msdd_sphere_material, batch: msdd_sphere_batch, expected: i32, said: &str| {
         let mut batch = batch;
         // SAFETY: live, and columns of two values.
-        let status = unsafe { msdd_spheres_advance(law.0, &mut batch) };
+        let status = unsafe { msdd_spheres_advance(law.0, &material, &mut batch) };
         assert!(status == expected && last_error().contains(said), "{status}: {}", last_error());
     };
     let good = msdd_sphere_batch { cells: 2, state: columns.as_ptr(), ..NOTHING };
     let (large, none) = ([0.0, 0.3], [0.0, f64::NAN]);
-    refused(
-        msdd_sphere_batch { thermal_strain: large.as_ptr(), ..good },
-        MSDD_INVALID_ARGUMENT,
-        "thermal_strain[1] = 0.3",
-    );
-    refused(
-        msdd_sphere_batch { thermal_strain: none.as_ptr(), ..good },
-        MSDD_NON_FINITE,
-        "thermal_strain[1]",
-    );
-    refused(
-        msdd_sphere_batch { gas_number: large.as_ptr(), ..good },
-        MSDD_INVALID_ARGUMENT,
-        "gas_number[0] = 0",
-    );
-    refused(msdd_sphere_batch { reduced_modulus: 0.0, ..good }, MSDD_INVALID_ARGUMENT, "reduced_modulus = 0");
-    refused(msdd_sphere_batch { state: null(), ..good }, MSDD_INVALID_ARGUMENT, "state is NULL");
-    refused(msdd_sphere_batch { struct_size: 8, ..good }, MSDD_INVALID_ARGUMENT, "batch.struct_size = 8");
+    let batch = |batch, said| refused(STEEL, batch, MSDD_INVALID_ARGUMENT, said);
+    batch(msdd_sphere_batch { thermal_strain: large.as_ptr(), ..good }, "thermal_strain[1] = 0.3");
+    batch(msdd_sphere_batch { state: null(), ..good }, "state is NULL");
+    batch(msdd_sphere_batch { struct_size: 8, ..good }, "batch.struct_size = 8");
     let zeros = [0.0; 2];
-    let strains =
-        [zeros.as_ptr(), zeros.as_ptr(), zeros.as_ptr(), large.as_ptr(), zeros.as_ptr(), zeros.as_ptr()];
-    refused(
-        msdd_sphere_batch { strain: strains.as_ptr(), ..good },
-        MSDD_INVALID_ARGUMENT,
-        "strain[xy][1] = 0.3",
+    let mut strains = [zeros.as_ptr(); 6];
+    strains[3] = large.as_ptr();
+    batch(msdd_sphere_batch { strain: strains.as_ptr(), ..good }, "strain[xy][1] = 0.3");
+    let none = msdd_sphere_batch { thermal_strain: none.as_ptr(), ..good };
+    refused(STEEL, none, MSDD_NON_FINITE, "thermal_strain[1]");
+    let material = |material, said| refused(material, good, MSDD_INVALID_ARGUMENT, said);
+    material(
+        msdd_sphere_material { diameter: 0.0, ..STEEL },
+        "material.diameter = 0, allowed: 1e-9 to 1e3 m",
     );
+    material(msdd_sphere_material { gas: c"steam".as_ptr(), ..STEEL }, "material.gas = steam, allowed: air");
+    material(msdd_sphere_material { gas_pressure: 0.0, ..STEEL }, "material.gas_pressure = 0");
+    material(msdd_sphere_material { roughness: 1e-6, hardness: 0.0, ..STEEL }, "material.hardness = 0");
+    material(msdd_sphere_material { conductivity: 0.5, ..STEEL }, "at least 30 times that of the gas");
     let mut out = null_mut();
     // SAFETY: C strings, and writable.
     unsafe {

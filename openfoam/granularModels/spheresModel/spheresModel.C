@@ -1,0 +1,259 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "spheresModel.H"
+#include "addToRunTimeSelectionTable.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace granularModels
+{
+    defineTypeNameAndDebug(spheres, 0);
+    addToRunTimeSelectionTable(granularModel, spheres, dictionary);
+}
+
+//- End the run: the library failed
+static void failed(const char* what, const std::exception& error)
+{
+    FatalErrorInFunction
+        << "The law of spheres failed on " << what << ": " << error.what()
+        << exit(FatalError);
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::granularModels::spheres::spheres
+(
+    const granularProperties& properties,
+    const fvMesh& mesh
+)
+:
+    granularModel(typeName, properties, mesh),
+    source_(coeffs_.getOrDefault<fileName>("model", "builtin")),
+    law_(load()),
+    gas_(coeffs_.getOrDefault<word>("gas", "vacuum")),
+    material_(material()),
+    outside_(0)
+{
+    if (&coeffs_ == &properties.surrogateDict())
+    {
+        FatalIOErrorInFunction(coeffs_)
+            << "Entry 'spheresCoeffs' is missing: surrogate type spheres needs"
+            << " spheresCoeffs { poissonRatio; gas; }" << exit(FatalIOError);
+    }
+    granularProperties::checkKeys
+    (
+        coeffs_,
+        {
+            "model", "hash", "poissonRatio", "roughness", "hardness", "gas",
+            "gasPressure", "accommodation"
+        }
+    );
+    checkHash(source_, law_.hash());
+    const label own = stateNames_.size();
+    const label count = label(law_.stateSize());
+    stateNames_.resize(own + count);
+    columnNames_.resize(own + count);
+    for (label i = 0; i < count; ++i)
+    {
+        columnNames_[own + i] = law_.stateName(i);
+        stateNames_[own + i] = fieldName(columnNames_[own + i]);
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+msdd::Spheres Foam::granularModels::spheres::load() const
+{
+    try
+    {
+        return msdd::Spheres
+        (
+            source_ == "builtin"
+          ? std::string(source_)
+          : std::string(properties_.path(source_))
+        );
+    }
+    catch (const std::exception& error)
+    {
+        refuse
+        (
+            "model",
+            '"' + source_ + '"',
+            string("builtin, or a readable model file of spheres: ")
+          + error.what()
+        );
+        throw;
+    }
+}
+
+
+msdd_sphere_material Foam::granularModels::spheres::material() const
+{
+    const auto ranged = [&]
+    (
+        const word& key,
+        const scalar deflt,
+        const scalar low,
+        const scalar high
+    )
+    {
+        return granularProperties::ranged(coeffs_, key, deflt, low, high);
+    };
+    msdd_sphere_material result = msdd_sphere_material();
+    result.struct_size = sizeof(msdd_sphere_material);
+    result.diameter = 2*properties_.meanRadius().value();
+    result.young_modulus = properties_.youngModulus().value();
+    result.conductivity = properties_.thermalConductivity().value();
+    if (&coeffs_ != &properties_.surrogateDict())
+    {
+        coeffs_.get<scalar>("poissonRatio");
+    }
+    result.poisson_ratio = ranged("poissonRatio", 0.3, -0.99, 0.5);
+    result.roughness = ranged("roughness", 0, 0, 1);
+    if (result.roughness > 0)
+    {
+        coeffs_.get<scalar>("hardness");
+        result.hardness = ranged("hardness", 1, 1, 1e15);
+    }
+    const wordList gases({"air", "nitrogen", "helium", "argon", "vacuum"});
+    if (!gases.found(gas_))
+    {
+        refuse("gas", gas_, granularProperties::listed(gases));
+    }
+    result.gas = gas_.c_str();
+    result.gas_pressure = ranged("gasPressure", 1.013e5, 1e-3, 1e9);
+    result.accommodation = ranged("accommodation", 0.9, 0.01, 1);
+    return result;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularModels::spheres::initialState
+(
+    const known& cells,
+    scalar* const* state
+)
+{
+    if (!cells.stressXX)
+    {
+        FatalErrorInFunction
+            << "Field stress is missing in "
+            << (mesh_.time().path()/mesh_.time().timeName()).c_str()
+            << ": surrogate type spheres needs the stress at the start [Pa],"
+            << " tension positive, for example (-2000 0 0 -2000 0 -2000) of the"
+            << " weight of a bed. Without it neither contacts nor stiffness are"
+            << " known" << exit(FatalError);
+    }
+    const std::vector<const scalar*> stress
+    ({
+        cells.stressXX, cells.stressYY, cells.stressZZ,
+        cells.stressXY, cells.stressXZ, cells.stressYZ
+    });
+    scalarField solid(cells.size);
+    forAll(solid, celli)
+    {
+        solid[celli] = 1 - cells.porosity[celli];
+    }
+    try
+    {
+        law_.initialState
+        (
+            material_, cells.size, solid.cdata(), stress.data(), state + 2
+        );
+    }
+    catch (const std::exception& error)
+    {
+        failed("the initial state (solid_fraction is 1 - porosity)", error);
+    }
+}
+
+
+Foam::label Foam::granularModels::spheres::advance(const query& cells)
+{
+    const std::vector<scalar*> stress
+    ({
+        cells.stressXX, cells.stressYY, cells.stressZZ,
+        cells.stressXY, cells.stressXZ, cells.stressYZ
+    });
+    const std::vector<scalar*> conductivity
+    ({
+        cells.conductivityXX, cells.conductivityYY, cells.conductivityZZ,
+        cells.conductivityXY, cells.conductivityXZ, cells.conductivityYZ
+    });
+    scalarField solid(cells.size);
+
+    msdd_sphere_batch batch = msdd_sphere_batch();
+    batch.struct_size = sizeof(msdd_sphere_batch);
+    batch.cells = cells.size;
+    batch.state = cells.state + 2;
+    batch.next_state = cells.nextState + 2;
+    batch.thermal_strain = cells.strain;
+    batch.temperature = cells.temperature;
+    batch.stress = stress.data();
+    batch.conductivity = conductivity.data();
+    batch.solid_fraction = solid.data();
+    try
+    {
+        law_.advance(material_, batch);
+    }
+    catch (const std::exception& error)
+    {
+        failed("the state of the cells", error);
+    }
+    for (label row = 0; row < cells.size; ++row)
+    {
+        // Exactly as before without strain
+        cells.nextState[0][row] =
+            cells.strain[row] == 0 ? cells.state[0][row] : 1 - solid[row];
+        cells.nextState[1][row] = cells.state[1][row];
+        if (cells.outside)
+        {
+            for (label i = 0; i <= stateNames_.size(); ++i)
+            {
+                cells.outside[i][row] = 0;
+            }
+        }
+    }
+    outside_ += cells.trial ? 0 : int64_t(batch.outside_cells);
+    return 0;
+}
+
+
+void Foam::granularModels::spheres::solidFraction
+(
+    const scalarField& porosity,
+    scalarField& fraction
+) const
+{
+    fraction = 1 - porosity;
+}
+
+
+Foam::granularModel::counters Foam::granularModels::spheres::count() const
+{
+    return counters{{"answersOutsideOfTheLaw", outside_}};
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,118 @@
+//! Spheres and gas of a caller, and the conductivity of a bed of them.
+
+use crate::abi::msdd_sphere_material;
+use crate::status::{Failure, utf8};
+use ::msdd_surrogate::spheres::model::Answer;
+use ::msdd_surrogate::spheres::readout::GAS_RANGE;
+use ::msdd_surrogate::spheres::tensor::{Tensor, mean};
+use msdd_beds::effective::BedMaterial;
+use msdd_beds::named_gases::GasName;
+use msdd_beds::solid::{Roughness, Solid};
+use std::ffi::CStr;
+
+/// A checked material.
+pub(crate) struct Material {
+    bed: BedMaterial,
+}
+
+/// The gas at a temperature.
+pub(crate) struct GasThere {
+    /// ln(R/h).
+    pub number: f64,
+    /// Whether that is outside of the range of the law.
+    pub outside: bool,
+    /// k_g \[W/(m K)\]; 0 in a vacuum.
+    conductivity: f64,
+}
+
+/// Conductivity of a bed \[W/(m K)\], and the part of it by gas.
+pub(crate) struct Conductivity {
+    pub tensor: Tensor,
+    pub gas: f64,
+}
+
+/// Contacts per sphere over C, the conductivity by contacts over (p/E*)^(1/3): within 3 % for packings of the database, and needed
+/// only for the mean force of rough contacts.
+const CONTACTS: f64 = 5.1;
+/// Least number of contacts per sphere of a packing that bears load.
+const LEAST_CONTACTS: f64 = 2.0;
+
+impl Material {
+    /// # Safety
+    /// The material's gas is null or a C string.
+    pub unsafe fn new(given: &msdd_sphere_material) -> Result<Self, Failure> {
+        let ranged = |name: &str, value: f64, [low, high]: [f64; 2], allowed: &str| match (low..=high)
+            .contains(&value)
+        {
+            true => Ok(value),
+            false => Err(Failure::number(format!("material.{name}"), value, allowed)),
+        };
+        let diameter = ranged("diameter", given.diameter, [1e-9, 1e3], "1e-9 to 1e3 m")?;
+        let young = ranged("young_modulus", given.young_modulus, [1e-9, 1e15], "1e-9 to 1e15 Pa")?;
+        let poisson = ranged("poisson_ratio", given.poisson_ratio, [-0.99, 0.5], "-0.99 to 0.5")?;
+        let conductivity =
+            ranged("conductivity", given.conductivity, [1e-12, 1e12], "1e-12 to 1e12 W/(m K)")?;
+        let height_over_slope = ranged("roughness", given.roughness, [0.0, 1.0], "0 to 1 m; 0 is smooth")?;
+        let roughness = match height_over_slope > 0.0 {
+            true => {
+                let hardness = ranged("hardness", given.hardness, [1.0, 1e15], "1 to 1e15 Pa")?;
+                Some(Roughness { height_over_slope, hardness })
+            }
+            false => None,
+        };
+        let gas = match given.gas.is_null() {
+            true => GasName::Vacuum,
+            // SAFETY: not null, a C string by this function's contract.
+            false => named(&utf8("material.gas", unsafe { CStr::from_ptr(given.gas) })?)?,
+        };
+        let (mut gas_pressure, mut accommodation) = (1.0, 1.0);
+        if gas != GasName::Vacuum {
+            gas_pressure = ranged("gas_pressure", given.gas_pressure, [1e-3, 1e9], "1e-3 to 1e9 Pa")?;
+            accommodation = ranged("accommodation", given.accommodation, [0.01, 1.0], "0.01 to 1")?;
+        }
+        let effective_modulus = 0.5 * young / (1.0 - poisson * poisson);
+        let solid = Solid { conductivity, effective_modulus, roughness };
+        Ok(Self { bed: BedMaterial { radius: 0.5 * diameter, solid, gas, gas_pressure, accommodation } })
+    }
+
+    /// E* \[Pa\].
+    pub fn modulus(&self) -> f64 {
+        self.bed.solid.effective_modulus
+    }
+
+    /// The gas at a temperature \[K\].
+    pub fn gas(&self, temperature: f64) -> Result<GasThere, Failure> {
+        let Some(gas) = self.bed.gas_at(temperature) else {
+            return Ok(GasThere { number: GAS_RANGE[1], outside: false, conductivity: 0.0 });
+        };
+        if !self.bed.conducts_well(&gas) {
+            let least = format!(
+                "at least 30 times that of the gas, which is {:.4} at {temperature} K: for poorer solids the law of the gas does \
+                 not hold",
+                gas.conductivity
+            );
+            return Err(Failure::number("material.conductivity", self.bed.solid.conductivity, least));
+        }
+        let (number, [low, high]) = (self.bed.gas_number(&gas), GAS_RANGE);
+        Ok(GasThere { number, outside: number < low || number > high, conductivity: gas.conductivity })
+    }
+
+    /// Conductivity of a bed for which the law answers this.
+    pub fn conductivity(&self, answer: &Answer, gas: &GasThere) -> Conductivity {
+        let pressure = mean(answer.stress);
+        let contacts = mean(answer.contact);
+        let mut solid = self.bed.solid.conductivity;
+        if pressure > 0.0 {
+            let coordination = (CONTACTS * contacts / pressure.cbrt()).max(LEAST_CONTACTS);
+            solid *= self.bed.roughness_factor(pressure * self.modulus(), answer.solid, coordination);
+        }
+        let gas = gas.conductivity * answer.gas;
+        let tensor = std::array::from_fn(|k| solid * answer.contact[k] + if k < 3 { gas } else { 0.0 });
+        Conductivity { tensor, gas }
+    }
+}
+
+fn named(name: &str) -> Result<GasName, Failure> {
+    let known = GasName::ALL.into_iter().find(|gas| gas.as_str() == name);
+    known.ok_or_else(|| Failure::argument("material.gas", name, GasName::ALL.map(GasName::as_str).join(", ")))
+}
