@@ -71,8 +71,8 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
         FatalIOErrorInFunction(dict)
             << "Entry 'law' is grains (the default), and the mesh "
             << (mesh.dim() == 3 ? "has three dimensions" : "is a wedge")
-            << ": the models of this version are made from discs in the plane"
-            << " and know no third direction. Allowed here: law elastic, with"
+            << ": grains that move are known in the plane alone, also those of"
+            << " the law of spheres. Allowed here: law elastic, with"
             << " elasticCoeffs { youngModulus; poissonRatio; }. Grains need a"
             << " mesh of one layer between patches of type empty"
             << exit(FatalIOError);

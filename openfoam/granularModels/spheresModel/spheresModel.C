@@ -252,7 +252,7 @@ void Foam::granularModels::spheres::solidFraction
 
 Foam::granularModel::counters Foam::granularModels::spheres::count() const
 {
-    return counters{{"answersOutsideOfTheLaw", outside_}};
+    return counters{{"answers_outside", outside_}};
 }
 
 

@@ -104,6 +104,13 @@ Foam::granularSolidThermo::granularSolidThermo
 {
     checkEntries();
     checkPlane(mesh, properties_.surrogateDict());
+    if (grains_.model().spatial())
+    {
+        FatalIOErrorInFunction(properties_)
+            << "Entry 'type' of surrogate is " << grains_.model().type()
+            << ", allowed in a region of granularSolidThermo: the types that"
+            << " know the plane alone. msddFoam takes it" << exit(FatalIOError);
+    }
 
     rho_ == grains_.bulkDensity();
     mu_ == dimensionedScalar(mu_.dimensions(), Zero);

@@ -247,7 +247,7 @@ impl<'a> Columns<'a> {
                 return Err(Failure::number(name, column.at(cell), "above -0.2, to 0.2"));
             }
         }
-        for column in &self.temperature {
+        if let Some(column) = &self.temperature {
             column.check_finite()?;
             column.check_range(0.0, 1e5, "0 to 1e5 K")?;
         }

@@ -26,6 +26,12 @@ pub fn check(
     model
 }
 
+/// Whether the model of these properties knows the plane alone.
+pub fn is_plane(properties: &Dictionary) -> bool {
+    let kind = properties.dictionary_at("surrogate").and_then(|surrogate| surrogate.text("type"));
+    !matches!(kind.as_deref(), Ok("spheres" | "constant"))
+}
+
 fn check_surrogate(
     folder: &Path,
     surrogate: &Dictionary,
@@ -37,6 +43,7 @@ fn check_surrogate(
         "constant" => keys::CONSTANT,
         "plugin" => keys::PLUGIN,
         "onlineRve" => keys::ONLINE_RVE,
+        "spheres" => keys::SPHERES,
         _ => &[],
     };
     let coefficients = match surrogate.get(&format!("{kind}Coeffs")) {
@@ -71,7 +78,7 @@ fn check_surrogate(
 
 /// Reports unknown keys of `surrogate` itself. The solver ignores them, so a mistyped key has no effect.
 fn stray_keys(surrogate: &Dictionary, table: &[Key], found: &mut Findings) {
-    let all = [keys::SURROGATE, keys::NETWORK, keys::CONSTANT, keys::PLUGIN, keys::ONLINE_RVE];
+    let all = [keys::SURROGATE, keys::NETWORK, keys::CONSTANT, keys::PLUGIN, keys::ONLINE_RVE, keys::SPHERES];
     let is_known = |name: &str| all.iter().flat_map(|list| list.iter()).any(|key| key.name == name);
     for key in surrogate.keys().filter(|key| !is_known(&key.text)) {
         let names: Vec<&str> = keys::SURROGATE.iter().chain(table).map(|key| key.name).collect();

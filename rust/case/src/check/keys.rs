@@ -64,13 +64,14 @@ pub const THERMO: &[Key] = &[
 
 /// `surrogate` in `constant/granularProperties`, whatever its type.
 pub const SURROGATE: &[Key] = &[
-    must("type", Kind::Word(&["constant", "network", "onlineRve", "plugin"])),
+    must("type", Kind::Word(&["constant", "network", "onlineRve", "plugin", "spheres"])),
     may("smallestStrain", Kind::Range(0.0, 0.01, "")),
     may("outOfRegion", Kind::Dictionary),
     may("networkCoeffs", Kind::Dictionary),
     may("constantCoeffs", Kind::Dictionary),
     may("pluginCoeffs", Kind::Dictionary),
     may("onlineRveCoeffs", Kind::Dictionary),
+    may("spheresCoeffs", Kind::Dictionary),
 ];
 
 /// `networkCoeffs`.
@@ -105,6 +106,18 @@ pub const ONLINE_RVE: &[Key] = &[
     may("fabricTolerance", Kind::Range(1e-6, 2.0, "")),
     may("rvePer", Kind::Word(&["cell", "history"])),
     may("strainTolerance", Kind::Range(1e-6, 0.1, "")),
+];
+
+/// `spheresCoeffs`.
+pub const SPHERES: &[Key] = &[
+    may("model", Kind::Any),
+    may("hash", Kind::Any),
+    must("poissonRatio", Kind::Range(-0.99, 0.5, "")),
+    may("roughness", Kind::Range(0.0, 1.0, "m")),
+    may("hardness", Kind::Range(1.0, 1e15, "Pa")),
+    may("gas", Kind::Word(&["air", "argon", "helium", "nitrogen", "vacuum"])),
+    may("gasPressure", Kind::Range(1e-3, 1e9, "Pa")),
+    may("accommodation", Kind::Range(0.01, 1.0, "")),
 ];
 
 /// What the solver does when a state is outside of the model's trained range.

@@ -34,11 +34,11 @@ impl Mesh {
 }
 
 /// Checks the mesh and returns what is known of it; `constant` is the folder that holds `polyMesh`, `blocks` is
-/// `system/blockMeshDict`.
-pub fn check(constant: &Path, blocks: Option<&Dictionary>, found: &mut Findings) -> Mesh {
+/// `system/blockMeshDict`; `is_plane`: whether the case's model knows the plane alone.
+pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found: &mut Findings) -> Mesh {
     let mut mesh = Mesh::default();
     if let Some(blocks) = blocks {
-        read_blocks(blocks, &mut mesh, found);
+        read_blocks(blocks, is_plane, &mut mesh, found);
     }
     // The solver reads the mesh in constant/polyMesh; blockMeshDict may have been changed after that was made.
     let boundary = constant.join("polyMesh/boundary");
@@ -67,16 +67,16 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, found: &mut Findings)
     mesh
 }
 
-fn read_blocks(blocks: &Dictionary, mesh: &mut Mesh, found: &mut Findings) {
+fn read_blocks(blocks: &Dictionary, is_plane: bool, mesh: &mut Mesh, found: &mut Findings) {
     mesh.bounds = crate::case::bounds(blocks).ok().map(|(low, high)| [low, high]);
     match blocks.value("blocks").map(joined) {
         Ok(text) => {
             let numbers = cells_in(&text);
             mesh.cells = (!numbers.is_empty()).then(|| numbers.iter().map(|[x, y, z]| x * y * z).sum());
             if let [[nx, ny, nz]] = numbers[..] {
-                mesh.shape = Some([nx, ny]);
-                if nz != 1 {
-                    let advice = "The solver is two-dimensional: one cell in z, with patches of type empty in front and behind";
+                mesh.shape = (nz == 1).then_some([nx, ny]);
+                if nz != 1 && is_plane {
+                    let advice = "This model is two-dimensional: one cell in z, with patches of type empty in front and behind; the surrogate types spheres and constant take any mesh";
                     found.error(
                         [BLOCKS, "blocks"],
                         &format!("( {nx} {ny} {nz} )"),
@@ -151,7 +151,7 @@ mod tests {
             boundary ( left { type wall; faces ((0 4 7 3)); } front { type empty; faces ((0 3 2 1)); } );";
         let blocks = Dictionary::parse(Path::new(BLOCKS), text).unwrap();
         let mut found = Findings::default();
-        let mesh = check(Path::new("no such folder"), Some(&blocks), &mut found);
+        let mesh = check(Path::new("no such folder"), Some(&blocks), true, &mut found);
         assert_eq!(found, Findings::default());
         assert_eq!(
             (mesh.cells, mesh.shape, mesh.names()),
@@ -162,9 +162,11 @@ mod tests {
         assert!((x - 0.01).abs() < 1e-12 && (y - 0.01).abs() < 1e-12);
         let deep =
             Dictionary::parse(Path::new(BLOCKS), &text.replace("(20 10 1)", "zone (20 10 3)")).unwrap();
-        check(Path::new("no such folder"), Some(&deep), &mut found);
+        let any = check(Path::new("no such folder"), Some(&deep), false, &mut found);
+        assert!(found == Findings::default() && any.cells == Some(600) && any.shape.is_none());
+        check(Path::new("no such folder"), Some(&deep), true, &mut found);
         assert!(found.0[0].to_string().contains("( 20 10 3 ), allowed: one cell along z"), "{}", found.0[0]);
-        check(Path::new("no such folder"), None, &mut found);
+        check(Path::new("no such folder"), None, true, &mut found);
         assert!(found.0[1].to_string().starts_with("error: system/blockMeshDict: missing"), "{}", found.0[1]);
     }
 

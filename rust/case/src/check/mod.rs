@@ -64,7 +64,8 @@ pub fn check(folder: &Path) -> Findings {
     }
     let files = bed::read(folder, &FILES, str::to_string, &mut found);
     let file = |name: &str| bed::file(&files, name);
-    let mesh = mesh::check(&folder.join("constant"), file(mesh::BLOCKS), &mut found);
+    let is_plane = file(grains::FILE).is_none_or(grains::is_plane);
+    let mesh = mesh::check(&folder.join("constant"), file(mesh::BLOCKS), is_plane, &mut found);
     let times = file(control::CONTROL)
         .and_then(|control| control::check(control, file(control::SOLUTION), &mut found));
     bed::check(folder, &files, &mesh, times, &mut found);

@@ -96,7 +96,7 @@ fn check_bed(folder: &Path, region: &str, times: Option<control::Times>, found: 
         let advice = "Grains move in msddFoam, which solves a bed alone";
         found.error([grains::FILE, "mechanics"], &mechanics, "none in a region", advice);
     }
-    let mesh = mesh::check(&folder.join("constant").join(region), file(mesh::BLOCKS), found);
+    let mesh = mesh::check(&folder.join("constant").join(region), file(mesh::BLOCKS), true, found);
     bed::check(folder, &files, &mesh, times, found);
 }
 

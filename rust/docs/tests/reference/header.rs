@@ -5,18 +5,21 @@ use crate::sources::{all, firsts, text};
 
 const PAGE: &str = "reference/c-interface.md";
 const HEADER: &str = "rust/capi/include/msdd.h";
-const STRUCTURES: [&str; 7] = [
+const STRUCTURES: [&str; 9] = [
     "msdd_material",
     "msdd_batch",
     "msdd_initial",
+    "msdd_sphere_material",
+    "msdd_sphere_batch",
     "msdd_averages",
     "msdd_plugin_start",
     "msdd_plugin_step",
     "msdd_plugin_v2",
 ];
 /// Beginnings of the functions' names, and the table that has them.
-const GROUPS: [(&str, &str); 5] = [
+const GROUPS: [(&str, &str); 6] = [
     ("msdd_surrogate_", "functions of models"),
+    ("msdd_spheres_", "functions of spheres"),
     ("msdd_rve_", "functions of boxes"),
     ("msdd_database_", "functions of databases"),
     ("msdd_plugin_", "functions of plug-ins"),

@@ -1,0 +1,133 @@
+# Beds of spheres in three dimensions: the case steel beside its measurement, what pressure, gas and stress change, growth in cells
+# that keep their shape, a restart, several processes, and the messages at input that cannot work.
+
+steel() { # folder: a copy of the case steel with a coarse mesh and few steps
+    rm -rf "${work:?}/$1"
+    mkdir -p "$work"
+    cp -r "$checkout/cases/steel" "$work/$1"
+    cd "$work/$1"
+    "$checkout/cases/common/clean" > /dev/null
+    # As deep as in the sources, but beside the tests.
+    sed -i "s#../../common#$checkout/cases/common#" system/*
+    sed -i 's/(2 2 100)/(1 1 20)/; s/^stopAt .*/stopAt endTime;/; s/^endTime .*/endTime 100;/; s/^writeInterval .*/writeInterval 50;/' \
+        system/blockMeshDict system/controlDict
+    logged blockMesh
+}
+component() { # file of a symmTensor field, component from 1: its value in the last cell
+    grep -o '([-+0-9.e]* [-+0-9.e]* [-+0-9.e]* [-+0-9.e]* [-+0-9.e]* [-+0-9.e]*)' "$1" | tail -n 1 | tr -d '()' | cut -d ' ' -f "$2"
+}
+apart() { # two files of a scalar field: largest difference
+    paste -d ' ' <(field "$1") <(field "$2") | awk 'BEGIN { worst = 0 }
+        { e = $1 - $2; if (e < 0) e = -e; if (!(e <= worst)) worst = e; n++ } END { print (n > 1 ? worst : "nan") }'
+}
+is_within() { awk -v value="$1" -v low="$2" -v high="$3" 'BEGIN { exit !(value + 0 == value && value >= low && value <= high) }'; }
+coefficient() { sed -i "s/^\( *\)$1 .*;/\1$1 $2;/" constant/granularProperties; }
+
+measured_bed() {
+    local end worst
+    steel steel
+    sed -i 's/(1 1 20)/(1 1 50)/' system/blockMeshDict
+    sed -i 's/^endTime .*/endTime 4000;/; s/^writeInterval .*/writeInterval 4000;/' system/controlDict
+    logged blockMesh
+    logged msddFoam
+    end=$(component 4000/conductivity 6)
+    check "steel spheres in air conduct $end W/(m K), elements 0.48 to 0.50" is_within "$end" 0.43 0.53
+    # The last measurement at each place, in the order of the probes.
+    worst=$(awk -F, '!/^#/ && $1 + 0 > 0 { last[$1] = $3 } END { print last["0.040"], last["0.060"], last["0.073"] }' \
+        "$checkout/cases/beaulieu/experiment.csv" | paste -d ' ' - <(tail -n 1 postProcessing/probes/0/T) \
+        | awk '{ for (i = 1; i <= 3; i++) { e = $(4 + i) - 273.15 - $i; if (e < 0) e = -e; if (!(e <= worst)) worst = e }; print worst }')
+    check "after 4000 s within $worst <= 1.5 K of the measured temperatures" below "$worst" 1.5
+    check "all answers inside the range of the law" grep -qx 'answers_outside: 0' log
+}
+what_changes_it() {
+    local plain other
+    steel spheres-air
+    logged msddFoam
+    plain=$(component 100/conductivity 6)
+    check "isotropic stress conducts alike in all directions" [ "$plain" = "$(component 100/conductivity 1)" ]
+    steel spheres-vacuum
+    coefficient gas vacuum
+    logged msddFoam
+    other=$(component 100/conductivity 6)
+    check "in a vacuum contacts alone conduct: $other of $plain" is_within "$other" 0.05 0.12
+    steel spheres-pressed
+    coefficient gas vacuum
+    sed -i 's/^internalField .*/internalField uniform (-2.48e6 0 0 -2.48e6 0 -2.48e6);/' 0/stress
+    logged msddFoam
+    plain=$(component 100/conductivity 6)
+    # (1000)^(1/3) = 10, with more contacts, and roughness counts less
+    check "under a thousand times the pressure contacts conduct $plain, 10 to 18 times as well" \
+        is_within "$(awk "BEGIN { print $plain/$other }")" 10 18
+    steel spheres-uniaxial
+    coefficient gas vacuum
+    sed -i 's/^internalField .*/internalField uniform (-1.98e6 0 0 -1.98e6 0 -3.48e6);/' 0/stress
+    logged msddFoam
+    check "more along the larger stress" is_within \
+        "$(awk "BEGIN { print $(component 100/conductivity 6)/$(component 100/conductivity 1) }")" 1.05 1.4
+}
+growth() {
+    local p strain
+    steel spheres-growing
+    sed -i 's/^thermalExpansion .*/thermalExpansion 1.2e-5;/' constant/granularProperties
+    sed -i 's/zeroGradient/fixedValue; value uniform 326.15/; s/^internalField .*/internalField uniform 293.15;/' 0/T
+    sed -i 's/^endTime .*/endTime 40000;/; s/^deltaT .*/deltaT 400;/; s/^writeInterval .*/writeInterval 40000;/' system/controlDict
+    logged msddFoam
+    p=$(component 40000/stress 1)
+    # 33 K grow the spheres by 4e-4: boxes that begin under little pressure come to 1.4e-6 to 2.6e-6 E*, with E* = 1.09e11 Pa.
+    check "33 K in a rigid box press by $p Pa" is_within "$p" -5e5 -1e5
+    check "the stress is three-dimensional" is_within "$(awk "BEGIN { print $(component 40000/stress 6)/($p) }")" 0.99 1.01
+}
+again_and_in_parts() {
+    steel spheres-straight
+    sed -i 's/^thermalExpansion .*/thermalExpansion 1.2e-6;/' constant/granularProperties
+    logged msddFoam
+    rm -rf ../spheres-restarted ../spheres-processes
+    cp -r . ../spheres-restarted
+    cp -r . ../spheres-processes
+    cd ../spheres-restarted
+    rm -rf 100
+    sed -i 's/^startFrom .*/startFrom latestTime;/' system/controlDict
+    logged msddFoam
+    local e
+    e=$(apart 100/T ../spheres-straight/100/T)
+    check "a restart in the middle gives temperatures that differ by $e <= 1e-4 K" below "$e" 1e-4
+    e=$(apart 100/elasticCompression ../spheres-straight/100/elasticCompression)
+    check "and compressions that differ by $e <= 1e-10" below "$e" 1e-10
+    cd ../spheres-processes
+    rm -rf 50 100
+    cat > system/decomposeParDict <<-END
+	FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }
+	numberOfSubdomains 3;
+	method simple;
+	simpleCoeffs { n (1 1 3); delta 1e-3; }
+	END
+    logged decomposePar
+    logged mpirun --oversubscribe -np 3 msddFoam -parallel
+    logged reconstructPar
+    e=$(apart 100/T ../spheres-straight/100/T)
+    check "three processes: T differs by $e <= 1e-4 K" below "$e" 1e-4
+}
+refusals() {
+    steel spheres-bad
+    mv 0/stress stress
+    check "refused: no stress at the start" refused 'Field stress is missing'
+    mv stress 0/stress
+    coefficient gas steam
+    check "refused: an unknown gas" refused "Entry 'gas' is steam, allowed: air, nitrogen, helium, argon, vacuum"
+    coefficient gas helium
+    sed -i 's/^thermalConductivity .*/thermalConductivity 2;/' constant/granularProperties
+    check "refused: a solid for which the law of the gas does not hold" refused 'at least 30 times that of the gas'
+    sed -i 's/^thermalConductivity .*/thermalConductivity 42;/' constant/granularProperties
+    sed -i 's/uniform 0.413/uniform 0.9/' 0/porosity
+    check "refused: a porosity that no packing has" refused 'solid_fraction[0]'
+    sed -i 's/uniform 0.9/uniform 0.413/' 0/porosity
+    sed -i 's/^mechanics .*/mechanics equilibrium;/' constant/granularProperties
+    check "refused: grains that move" refused 'the mesh has three dimensions'
+    sed -i 's/^mechanics .*/mechanics none;/; s/gas .*;/gass air;/' constant/granularProperties
+    check "refused: an unknown key" refused "Unknown entry 'gass'"
+}
+measured_bed
+what_changes_it
+growth
+again_and_in_parts
+refusals
