@@ -35,6 +35,7 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
         }
     }
     forms(&mut section, &Json::read(root, &format!("{INPUTS}/score_forms.json"))?)?;
+    spheres(&mut section, &Json::read(root, &format!("{INPUTS}/score_spheres.json"))?)?;
     let columns = ["model", "porosity increment", "fabric increment", "conductivity", "stress"];
     let meaning = "coefficient of determination of one step on packings that training never saw";
     section.add_table("surrogate-one-step", meaning, "msdd score", &columns, one_step_rows);
@@ -149,6 +150,40 @@ fn paths(section: &mut Section, score: &Json) -> Result<(), DocsError> {
     let meaning = "rms error along paths of strain of packings that training never saw: pressure and deviator over the mean pressure of \
                    the path, mean conductivity over that of the state";
     section.add_table("surrogate-paths", meaning, "msdd score", &columns, rows);
+    Ok(())
+}
+
+/// The law of spheres along paths, beside the scatter between packings that were made and strained alike.
+fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
+    let mut rows = Vec::new();
+    for kind in scores.list("/0")? {
+        let percent = |name: &str| kind.number(name).map(|value| decimals(100.0 * value, 1));
+        let mut row = vec![format!("`{}`", kind.text("/name")?)];
+        row.extend([grouped(kind.number("/paths")?), grouped(kind.number("/states")?)]);
+        for (k, name) in ["/pressure", "/deviator", "/contact"].into_iter().enumerate() {
+            let scatter = kind.maybe(&format!("/noise/{k}"));
+            let scatter = scatter.map_or("–".to_string(), |value| decimals(100.0 * value, 1));
+            row.push(format!("{} ({scatter})", percent(name)?));
+        }
+        for name in ["/contact_of_state", "/direction", "/gas_of_state"] {
+            row.push(percent(name)?);
+        }
+        rows.push(row);
+    }
+    let columns = [
+        "path",
+        "paths",
+        "states",
+        "pressure [%]",
+        "deviator [%]",
+        "K by contacts [%]",
+        "of the state",
+        "its direction",
+        "K by gas",
+    ];
+    let meaning = "rms errors of the law of spheres along paths of strain of packings that its training never saw; in brackets the \
+                   scatter between packings that were made and strained alike";
+    section.add_table("spheres-law", meaning, "msdd score", &columns, rows);
     Ok(())
 }
 
