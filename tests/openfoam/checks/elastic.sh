@@ -349,7 +349,7 @@ refusals() {
     solid grains-in-space "walls { }"
     cube 2
     sed -i 's/law elastic;/law grains;/' constant/granularProperties
-    check "refused: grains in three dimensions" refused 'has three dimensions: the models of this version are made from discs'
+    check "refused: grains in three dimensions" refused 'has three dimensions: grains that move are known in the plane alone'
     solid friction-in-space 'walls { ".*" { type rigid; friction 0.3; slip 1e-3; } }'
     cube 2
     check "refused: friction in three dimensions" refused 'allowed in meshes of three dimensions: 0'
