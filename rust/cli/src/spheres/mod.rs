@@ -7,7 +7,7 @@ use msdd_files::{read_text, write};
 use msdd_rve::database::read_spheres;
 use msdd_surrogate::document::hash;
 use msdd_surrogate::spheres::model::SphereModel;
-use msdd_surrogate::spheres::score::{PathErrors, score};
+use msdd_surrogate::spheres::score::{Errors, PathErrors, score};
 use msdd_surrogate::spheres::tracks::Track;
 use msdd_surrogate::spheres::training::{USUAL_EPOCHS, is_held_out, train};
 use msdd_surrogate::{DatabaseProvenance, TrainingOptions};
@@ -108,38 +108,48 @@ fn print_scores(model: &SphereModel, tracks: &[Track]) -> Result<Vec<PathErrors>
     for errors in &mut found {
         errors.noise = noise.iter().find(|all| all.name == errors.name).and_then(|all| all.noise);
     }
-    outln!(
-        "errors on packings that were held out, % (scatter between packings that were made and strained alike)"
-    );
-    outln!(
-        "{:<11} {:>5} {:>6} {:>15} {:>15} {:>15} {:>9} {:>9} {:>9}",
-        "path",
-        "paths",
-        "states",
-        "pressure",
-        "deviator",
-        "K by contacts",
-        "of state",
-        "direction",
-        "K by gas"
-    );
-    for errors in &found {
-        let with = |error: f64, k: usize| match errors.noise {
-            Some(noise) => format!("{:.1} ({:.1})", 100.0 * error, 100.0 * noise[k]),
-            None => format!("{:.1} (–)", 100.0 * error),
-        };
-        outln!(
-            "{:<11} {:>5} {:>6} {:>15} {:>15} {:>15} {:>9.1} {:>9.1} {:>9.1}",
-            errors.name,
-            errors.paths,
-            errors.states,
-            with(errors.pressure, 0),
-            with(errors.deviator, 1),
-            with(errors.contact, 2),
-            100.0 * errors.contact_of_state,
-            100.0 * errors.direction,
-            100.0 * errors.gas_of_state
-        );
-    }
+    print_along(&found);
+    print_of_state(&found);
     Ok(found)
+}
+
+/// Errors along paths, beside the scatter.
+fn print_along(found: &[PathErrors]) {
+    outln!(
+        "errors along the paths of packings that were held out, % (scatter between packings that were made and strained alike)"
+    );
+    let columns = ["pressure", "deviator", "K by contacts", "K by gas"];
+    out!("{:<11} {:>5} {:>6}", "path", "paths", "states");
+    columns.iter().for_each(|column| out!(" {column:>13}"));
+    outln!();
+    for errors in found {
+        out!("{:<11} {:>5} {:>6}", errors.name, errors.paths, errors.states);
+        let scatter = errors.noise.as_ref().map(numbers);
+        for (k, error) in numbers(&errors.along).into_iter().enumerate() {
+            let scatter = scatter.map_or("–".to_string(), |scatter| format!("{:.1}", 100.0 * scatter[k]));
+            out!(" {:>13}", format!("{:.1} ({scatter})", 100.0 * error));
+        }
+        outln!();
+    }
+}
+
+/// Errors of the conductivities of known states, and those along paths where less is known at the start.
+fn print_of_state(found: &[PathErrors]) {
+    outln!("errors of known states, %; and along the paths where solid fraction and stress alone are known at their start, %");
+    let of_state = ["K by contacts", "direction", "K by gas"];
+    let along = ["pressure", "deviator", "K by contacts", "K by gas"];
+    out!("{:<11}", "path");
+    of_state.iter().chain(&along).for_each(|column| out!(" {column:>13}"));
+    outln!();
+    for errors in found {
+        let of_state = [errors.contact_of_state, errors.direction, errors.gas_of_state];
+        out!("{:<11}", errors.name);
+        let all = of_state.into_iter().chain(numbers(&errors.of_stress_alone));
+        all.for_each(|error| out!(" {:>13.1}", 100.0 * error));
+        outln!();
+    }
+}
+
+fn numbers(errors: &Errors) -> [f64; 4] {
+    [errors.pressure, errors.deviator, errors.contact, errors.gas]
 }

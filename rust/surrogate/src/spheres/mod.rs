@@ -22,10 +22,14 @@
 //!
 //! Fitted to periodic boxes of spheres with the friction 0.3 along paths of strain (`cases/database/spheres.toml`).
 
+pub mod contacts;
 pub mod fit;
+pub mod fit_state;
 pub mod law;
 pub mod model;
+pub mod noise;
 pub mod number;
+pub mod parameters;
 pub mod readout;
 pub mod score;
 pub mod tensor;
