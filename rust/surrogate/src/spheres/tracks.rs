@@ -83,10 +83,15 @@ pub fn follow_from(law: &Law, track: &Track, packed: State) -> Vec<State> {
     states
 }
 
+/// In how many parts a strain is applied.
+pub fn parts(thermal: f64, stretch: Tensor) -> f64 {
+    let largest = stretch.iter().fold(thermal.abs(), |a, b| a.max(b.abs()));
+    (largest / PART).ceil().clamp(1.0, MOST_PARTS)
+}
+
 /// The state after a straight line of strain, in as many parts as it is long.
 pub fn advanced(law: &Law, state: &State, thermal: f64, stretch: Tensor) -> State {
-    let largest = stretch.iter().fold(thermal.abs(), |a, b| a.max(b.abs()));
-    let parts = (largest / PART).ceil().clamp(1.0, MOST_PARTS);
+    let parts = parts(thermal, stretch);
     (0..parts as u32).fold(*state, |state, part| {
         let of = |whole: f64| whole / (parts + whole * f64::from(part));
         let [xx, yy, zz, xy, xz, yz] = stretch.map(of);
