@@ -337,9 +337,15 @@ impl Law {
         }
         let ratio = load.map(|part| part * over);
         let [per_anisotropy, usual] = self.fabric;
+        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, root));
+        let strongest = MOST_STRENGTH * strengths.iter().sum::<f64>();
         let of_fabric = match fabric {
             Some(fabric) => fabric.map(|part| per_anisotropy * part),
-            None => ratio.map(|part| usual * part),
+            // At least what the other elements cannot bear.
+            None => {
+                let least = 1.0 - strongest / contraction(&ratio, &ratio).sqrt().max(f64::MIN_POSITIVE);
+                ratio.map(|part| usual.max(least) * part)
+            }
         };
         state.ratios[FABRIC] = within(&of_fabric, self.strength(FABRIC, x, root)).0;
         let rest: Tensor = std::array::from_fn(|k| ratio[k] - state.ratios[FABRIC][k]);
@@ -347,7 +353,6 @@ impl Law {
         if size <= 0.0 {
             return state;
         }
-        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, root));
         let shear = self.shear(compression, x);
         let stiffness: [f64; FABRIC] = std::array::from_fn(|k| shear * self.elements[k].stiffness);
         state.strength = (size / strengths.iter().sum::<f64>()).clamp(1.0, MOST_STRENGTH);
