@@ -37,6 +37,23 @@ class Answers(WithLaw):
         np.testing.assert_allclose(step.solid_fraction, [0.58, 0.62], rtol=1e-9)
         self.assertTrue((step.gas_conductivity > 0).all() and (step.conductivity[:3] > step.gas_conductivity).all())
 
+    def test_more_contacts_conduct_better_and_fabric_bears_a_deviator(self) -> None:
+        stress = [1e4, 1e4, 1.4e4, 0, 0, 0]
+        few, many = self.law.initial_state(STEEL, 0.6, 1e4, coordination=[4.5, 5.5])["coordination"]
+        self.assertEqual((few, many), (4.5, 5.5))
+        step = self.law.advance(STEEL, self.law.initial_state(STEEL, 0.6, 1e4, coordination=[4.5, 5.5]))
+        self.assertGreater(step.conductivity[0, 1], 1.05 * step.conductivity[0, 0])
+        fabric = [0.3, 0.3, 0.4, 0, 0, 0]
+        known = self.law.initial_state(STEEL, 0.6, stress, fabric=fabric)
+        even = self.law.initial_state(STEEL, 0.6, stress, fabric=[1 / 3] * 3 + [0] * 3)
+        kept = [self.law.advance(STEEL, state, 1e-3).stress for state in (known, even)]
+        ratios = [(each[2] - each[0]) / each[0] for each in kept]
+        self.assertGreater(ratios[0], 1.5 * ratios[1])
+        with self.assertRaisesRegex(msdd.InvalidArgument, r"coordination\[0\] = 13"):
+            self.law.initial_state(STEEL, 0.6, 1e4, coordination=13)
+        with self.assertRaisesRegex(ValueError, "fabric is 6 components"):
+            self.law.initial_state(STEEL, 0.6, 1e4, fabric=0.3)
+
     def test_growth_is_the_strain_of_a_smaller_cell(self) -> None:
         grown = self.law.advance(STEEL, self.state(), 1e-3)
         pressed = self.law.advance(STEEL, self.state(), strain=[1 / 1.001 - 1] * 3 + [0] * 3)

@@ -64,6 +64,28 @@ what_changes_it() {
     check "more along the larger stress" is_within \
         "$(awk "BEGIN { print $(component 100/conductivity 6)/$(component 100/conductivity 1) }")" 1.05 1.4
 }
+contacts() {
+    local few many
+    steel spheres-few
+    coefficient gas vacuum
+    coefficient coordination 4
+    logged msddFoam
+    few=$(component 100/conductivity 6)
+    steel spheres-many
+    coefficient gas vacuum
+    coefficient coordination 6
+    logged msddFoam
+    many=$(component 100/conductivity 6)
+    # C grows by about a fifth with a contact per sphere.
+    check "six contacts per sphere conduct $many, four $few W/(m K)" \
+        is_within "$(awk "BEGIN { print $many/$few }")" 1.3 1.8
+    sed 's/object *porosity;/object coordination;/; s/^internalField .*/internalField uniform 4;/' 0/porosity > 0/coordination
+    rm -rf 50 100
+    logged msddFoam
+    check "a field of contacts comes before the key" [ "$(component 100/conductivity 6)" = "$few" ]
+    coefficient coordination 13
+    check "refused: more contacts than spheres have" refused "Entry 'coordination' is 13"
+}
 growth() {
     local p strain
     steel spheres-growing
@@ -125,6 +147,7 @@ refusals() {
 }
 measured_bed
 what_changes_it
+contacts
 growth
 again_and_in_parts
 refusals
