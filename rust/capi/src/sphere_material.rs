@@ -31,9 +31,6 @@ pub(crate) struct Conductivity {
     pub gas: f64,
 }
 
-/// Contacts per sphere over C, the conductivity by contacts over (p/E*)^(1/3): within 3 % for packings of the database, and needed
-/// only for the mean force of rough contacts.
-const CONTACTS: f64 = 5.1;
 /// Least number of contacts per sphere of a packing that bears load.
 const LEAST_CONTACTS: f64 = 2.0;
 
@@ -100,10 +97,9 @@ impl Material {
     /// Conductivity of a bed for which the law answers this.
     pub fn conductivity(&self, answer: &Answer, gas: &GasThere) -> Conductivity {
         let pressure = mean(answer.stress);
-        let contacts = mean(answer.contact);
         let mut solid = self.bed.solid.conductivity;
         if pressure > 0.0 {
-            let coordination = (CONTACTS * contacts / pressure.cbrt()).max(LEAST_CONTACTS);
+            let coordination = answer.coordination.max(LEAST_CONTACTS);
             solid *= self.bed.roughness_factor(pressure * self.modulus(), answer.solid, coordination);
         }
         let gas = gas.conductivity * answer.gas;

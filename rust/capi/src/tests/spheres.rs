@@ -59,7 +59,16 @@ fn start(law: &Law, cells: usize) -> Vec<Vec<f64>> {
     let (stress, columns) = (pointers(&stress), writable(&mut state));
     // SAFETY: live, columns of `cells` values.
     let status = unsafe {
-        msdd_spheres_initial_state(law.0, &STEEL, cells, solid.as_ptr(), stress.as_ptr(), columns.as_ptr())
+        msdd_spheres_initial_state(
+            law.0,
+            &STEEL,
+            cells,
+            solid.as_ptr(),
+            stress.as_ptr(),
+            null(),
+            null(),
+            columns.as_ptr(),
+        )
     };
     assert_eq!(status, MSDD_OK, "{}", last_error());
     state
