@@ -19,14 +19,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
     let (spheres, seeds, count) = (number(100)? as usize, number(1)?, number(96)? as usize);
-    println!("friction,seed,solid_fraction,ratio,coarse,middle,fine,extrapolated,network,zehner_bauer_schluender");
+    println!(
+        "friction,seed,solid_fraction,ratio,coarse,middle,fine,extrapolated,network,zehner_bauer_schluender"
+    );
     for friction in FRICTIONS {
         for seed in 1..=seeds {
             let stiffness = Stiffness::HertzMindlin { young_modulus: 1.0, poisson_ratio: 0.25 };
             let material =
                 Material { density: 1.0, stiffness, friction, wall_friction: 0.0, restitution: 0.3 };
-            let packing =
-                Packing { spheres, seed, diameter: 1.0, material, pressure: 1e-6, steps: 400_000 };
+            let packing = Packing { spheres, seed, diameter: 1.0, material, pressure: 1e-6, steps: 400_000 };
             let simulation = pack(&packing)?.simulation;
             let volume = simulation.cell().map_or(0.0, |cell| cell.volume());
             let edge = volume.cbrt();
@@ -37,7 +38,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             for ratio in RATIOS {
                 let mut found = [f64::NAN; 3];
                 for (found, voxels) in found.iter_mut().zip(&solved) {
-                    let along: Option<Vec<f64>> = (0..3).map(|axis| voxels.conductivity(ratio, axis)).collect();
+                    let along: Option<Vec<f64>> =
+                        (0..3).map(|axis| voxels.conductivity(ratio, axis)).collect();
                     *found = along.map_or(f64::NAN, |along| along.iter().sum::<f64>() / 3.0);
                 }
                 let [coarse, middle, fine] = found;

@@ -155,8 +155,7 @@ mod tests {
         let (phi, ratio) = (0.3f64, 10.0);
         let beta = |n: f64| (ratio - 1.0) / (ratio + (n + 1.0) / n);
         let over = 1.0 / beta(1.0);
-        let expected =
-            1.0 + 3.0 * phi / (over - phi - 1.3047 * beta(3.0) * phi.powf(10.0 / 3.0));
+        let expected = 1.0 + 3.0 * phi / (over - phi - 1.3047 * beta(3.0) * phi.powf(10.0 / 3.0));
         let [coarse, fine] = [16, 32].map(|count| cubic(radius, count).conductivity(ratio, 2).unwrap());
         let found = 2.0 * fine - coarse;
         assert!((found / expected - 1.0).abs() < 3e-3, "{coarse} {fine} {expected}");

@@ -168,7 +168,7 @@ class Spheres:
         rotation: vector of the angle by which the cell turns, half of the curl of the displacement [rad], three components. None = 0.
         temperature: of the gas [K], 0 to 1e5. None = 293.15.
         tangent: whether to compute it, too.
-        Raises InvalidArgument, also where the spheres conduct less than 30 times as well as the gas; NonFinite; KeyError for a
+        Raises InvalidArgument, also where the spheres conduct less than the gas; NonFinite; KeyError for a
         missing column of the state.
         """
         if not hasattr(state, "keys"):

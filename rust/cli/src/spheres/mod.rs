@@ -136,7 +136,9 @@ fn print_along(found: &[PathErrors]) {
 
 /// Errors of the conductivities of known states, and those along paths where less is known at the start.
 fn print_of_state(found: &[PathErrors]) {
-    outln!("errors of known states, %; and along the paths where solid fraction and stress alone are known at their start, %");
+    outln!(
+        "errors of known states, %; and along the paths where solid fraction and stress alone are known at their start, %"
+    );
     let of_state = ["K by contacts", "direction", "K by gas"];
     let along = ["pressure", "deviator", "K by contacts", "K by gas"];
     out!("{:<11}", "path");
@@ -169,10 +171,24 @@ pub fn print_ablation(
     let lines = ablation(&tracks, &options).map_err(failed)?;
     let law = SphereModel::builtin().map_err(failed)?.file.law;
     let time = nanoseconds(&law, &tracks);
-    outln!("errors along the paths of packings that were held out, %, means over the kinds of path, where all is known at their start");
-    outln!("{:<44} {:>7} {:>9} {:>9} {:>13} {:>9}", "law of spheres", "numbers", "pressure", "deviator", "K by contacts", "K by gas");
+    outln!(
+        "errors along the paths of packings that were held out, %, means over the kinds of path, where all is known at their start"
+    );
+    outln!(
+        "{:<44} {:>7} {:>9} {:>9} {:>13} {:>9}",
+        "law of spheres",
+        "numbers",
+        "pressure",
+        "deviator",
+        "K by contacts",
+        "K by gas"
+    );
     for line in &lines {
-        out!("{:<44} {:>7}", line.without.map_or("whole".to_string(), |part| format!("without {part}")), line.numbers);
+        out!(
+            "{:<44} {:>7}",
+            line.without.map_or("whole".to_string(), |part| format!("without {part}")),
+            line.numbers
+        );
         let [pressure, deviator, contact, gas] = numbers(&line.along).map(|error| 100.0 * error);
         outln!(" {pressure:>9.1} {deviator:>9.1} {contact:>13.1} {gas:>9.1}");
     }

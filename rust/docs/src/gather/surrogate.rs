@@ -163,8 +163,7 @@ fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
     for kind in scores.list("/0")? {
         let percent = |name: &str| kind.number(name).map(|value| decimals(100.0 * value, 1));
         let name = format!("`{}`", kind.text("/name")?);
-        let mut row =
-            vec![name.clone(), grouped(kind.number("/paths")?), grouped(kind.number("/states")?)];
+        let mut row = vec![name.clone(), grouped(kind.number("/paths")?), grouped(kind.number("/states")?)];
         for error in ALONG {
             let scatter = kind.maybe(&format!("/noise/{error}"));
             let scatter = or_none(scatter, |value| decimals(100.0 * value, 1));
@@ -218,7 +217,13 @@ fn spheres_parts(section: &mut Section, ablation: &Json) -> Result<(), DocsError
                    of the packings";
     section.add_table("spheres-law-parts", meaning, "msdd ablation --spheres", &columns, rows);
     let time = decimals(ablation.number("/nanoseconds")?, 0);
-    section.number("spheres.nanoseconds", time, "ns", "an increment of the law of spheres", "msdd ablation --spheres");
+    section.number(
+        "spheres.nanoseconds",
+        time,
+        "ns",
+        "an increment of the law of spheres",
+        "msdd ablation --spheres",
+    );
     Ok(())
 }
 

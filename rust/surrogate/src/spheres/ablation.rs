@@ -29,7 +29,10 @@ const NONE: f64 = -13.8;
 
 const LINES: [LeftOut; 6] = [
     (None, &[]),
-    (Some("fabric (third element)"), &[(15, 0.0), (26, 0.0), (27, NONE), (28, 0.0), (29, 0.0), (30, 0.0), (31, 0.0)]),
+    (
+        Some("fabric (third element)"),
+        &[(15, 0.0), (26, 0.0), (27, NONE), (28, 0.0), (29, 0.0), (30, 0.0), (31, 0.0)],
+    ),
     (Some("second element"), &[(20, 0.0), (21, NONE), (22, 0.0), (23, 0.0), (24, 0.0), (25, 0.0)]),
     (Some("stiffness and strengths by compression"), &[(6, 0.0), (24, 0.0), (30, 0.0)]),
     (Some("powers of the pressure other than Hertz's"), &[(3, 0.0), (4, 0.0)]),
@@ -77,7 +80,8 @@ pub fn nanoseconds(law: &super::law::Law, tracks: &[Track]) -> f64 {
         .sum();
     let round = |_| {
         let begin = Instant::now();
-        let sum: f64 = tracks.iter().flat_map(|track| follow(law, track)).map(|state| state.compression).sum();
+        let sum: f64 =
+            tracks.iter().flat_map(|track| follow(law, track)).map(|state| state.compression).sum();
         std::hint::black_box(sum);
         begin.elapsed().as_secs_f64()
     };

@@ -51,7 +51,8 @@ impl Contacts {
 
     /// Numbers for [`super::law::Law::check`]: name, value, whether it is allowed, and what is.
     pub fn numbers(&self) -> impl Iterator<Item = (&'static str, f64, bool, &'static str)> {
-        let usual = self.usual.into_iter().map(|value| ("contacts.usual", value, value.abs() <= 1e6, "-1e6 to 1e6"));
+        let usual =
+            self.usual.into_iter().map(|value| ("contacts.usual", value, value.abs() <= 1e6, "-1e6 to 1e6"));
         let fading = |value: f64| ("contacts.fading", value, (0.0..=100.0).contains(&value), "0 to 100");
         usual.chain(self.fading.into_iter().map(fading))
     }

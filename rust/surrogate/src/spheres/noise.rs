@@ -74,7 +74,14 @@ mod tests {
     fn track(packing: i64, stretch: Tensor, stress: Tensor) -> Track {
         let [gas, coordination, fabric] = [1.0, 5.0, 1.0 / 3.0];
         let contact = [0.01, 0.01, 0.01, 0.0, 0.0, 0.0];
-        let point = Point { solid: 0.6, stress, contact, gas: [gas; 3], coordination, fabric: [fabric, fabric, fabric, 0.0, 0.0, 0.0] };
+        let point = Point {
+            solid: 0.6,
+            stress,
+            contact,
+            gas: [gas; 3],
+            coordination,
+            fabric: [fabric, fabric, fabric, 0.0, 0.0, 0.0],
+        };
         Track {
             packing,
             name: "any".to_string(),

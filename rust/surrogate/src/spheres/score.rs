@@ -99,9 +99,8 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
             }
             let known = step.to.state(law);
             let (found, contact) = (readout.contact(&known, &step.to.stress), mean(step.to.contact));
-            let wrong = deviator(std::array::from_fn(|k| {
-                found[k] / mean(found) - step.to.contact[k] / contact
-            }));
+            let wrong =
+                deviator(std::array::from_fn(|k| found[k] / mean(found) - step.to.contact[k] / contact));
             of_state[0] += (mean(found) / contact - 1.0).powi(2);
             of_state[1] += contraction(&wrong, &wrong);
             of_state[2] += (readout.gases(&known)[2] / step.to.gas[2] - 1.0).powi(2);

@@ -310,7 +310,10 @@ fn parameters_are_the_numbers_of_the_law() {
     law.bulk[1] *= 1.5;
     law.settling[1] *= 2.0;
     let again = law_of(&parameters(&law));
-    assert!((again.bulk[1] - law.bulk[1]).abs() < 1e-12 && (again.settling[1] / law.settling[1] - 1.0).abs() < 1e-12);
+    assert!(
+        (again.bulk[1] - law.bulk[1]).abs() < 1e-12
+            && (again.settling[1] / law.settling[1] - 1.0).abs() < 1e-12
+    );
     // Bounds are kept, so that every file of a training can be read.
     let mut far = parameters(&law);
     far.fill(1e3);
@@ -356,7 +359,11 @@ fn a_known_fabric_bears_its_part_of_the_deviator() {
     let part = deviator(fabric).map(|part| law.fabric[0] * part);
     assert!(worst(&start.ratios[FABRIC], &part) < 1e-12, "{start:?}");
     // The same stress without this fabric loses more of its deviator.
-    let without = law.start(0.6, stress, &Known { fabric: Some([1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0]), coordination: None });
+    let without = law.start(
+        0.6,
+        stress,
+        &Known { fabric: Some([1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0]), coordination: None },
+    );
     let left = |start: &State| {
         let state = advanced(&law, start, 2e-3, [0.0; 6]);
         let (stress, part) = (law.stress(&state), deviator(law.stress(&state)));
