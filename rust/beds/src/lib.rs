@@ -24,6 +24,7 @@
 //! | [`experiment`] | measured temperatures, and how far a simulation is from them |
 //! | [`profile`] | a bed between two distances from a plate; probes |
 //! | [`bed`] | a measured bed from pouring to temperatures |
+//! | [`voxels`] | direct solutions of the heat equation, to hold the laws against |
 //! | [`vtk`] | grains for ParaView |
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
@@ -49,6 +50,7 @@ pub mod settle;
 pub mod solid;
 mod solve;
 pub mod transient;
+pub mod voxels;
 pub mod vtk;
 
 pub use averages::{Averages, averages};

@@ -261,7 +261,8 @@ int32_t msdd_spheres_initial_state(const msdd_spheres *spheres, const msdd_spher
                                    const double *const *fabric, double *const *state);
 
 /** Takes every cell of the batch through one step. Cells are independent. Zero strain leaves the state as it is, bit for bit.
- *  Spheres that conduct less than 30 times as well as the gas are refused: the law of the gas does not hold for them. */
+ *  Spheres that conduct less than 20 times as well as the gas conduct by another law than better ones, those up to 60 times by a
+ *  mixture of both; spheres that conduct less than the gas are refused. */
 int32_t msdd_spheres_advance(const msdd_spheres *spheres, const msdd_sphere_material *material, msdd_sphere_batch *batch);
 
 /** Frees a law; NULL is allowed. */

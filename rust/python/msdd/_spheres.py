@@ -170,7 +170,7 @@ class Spheres:
         temperature: of the gas [K], 0 to 1e5. None = 293.15.
         solid_conductivity: k_s of the spheres [W/(m K)], 1e-12 to 1e12, where it is not that of the material. None = the material's.
         tangent: whether to compute it, too.
-        Raises InvalidArgument, also where the spheres conduct less than 30 times as well as the gas; NonFinite; KeyError for a
+        Raises InvalidArgument, also where the spheres conduct less than the gas; NonFinite; KeyError for a
         missing column of the state.
         """
         if not hasattr(state, "keys"):
