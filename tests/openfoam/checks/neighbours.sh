@@ -198,6 +198,25 @@ follows_its_temperature() {
         if (-4*(T - 300) + 0.015*(T*T - 90000) < q) low = T; else high = T }; print q/0.6 }' | awk -v T="$(field 1000000000/T | head -n 1)" '{ e = (500 - T)*2/(0.4/48)/$1 - 1; print (e < 0 ? -e : e) }')
     check "solid whose properties follow its temperature, at rest: the heat is that of the closed form to $e <= 1e-4" below "$e" 1e-4
 }
+slanted() { # cells are parallelograms, K has an xy component, and T changes along the wall: both sides must see the same heat
+    local e mesh
+    layers_case neighbour-slanted 12 'endTime 100; deltaT 10; writeInterval 10;' 'timeScheme secondOrder; nNonOrthogonalCorrectors 3;'
+    begin_with_mode 12
+    for mesh in system system/plate; do # the upper corners move to the right
+        awk '/^vertices/ { gsub(/[()]/, " "); sub(/;/, ""); printf "vertices ("; for (i = 2; i <= NF; i += 3) printf "(%s %s %s)", $i + 0.4*$(i + 1), $(i + 1), $(i + 2); print ");"; next } { print }' \
+            $mesh/blockMeshDict > dict && mv dict $mesh/blockMeshDict
+    done
+    logged blockMesh
+    logged blockMesh -region plate
+    sed -i 's/PIMPLE {}/PIMPLE { nNonOrthogonalCorrectors 3; }/' system/plate/fvSolution
+    sed -i 's/conductivity (2 0 0 1 0 0)/conductivity (2 0.5 0 1 0 0)/' constant/granularProperties
+    sed -i 's/".*" { type zeroGradient; }/bottom { type fixedValue; value uniform 400; } &/' 0/T
+    logged msddFoam
+    e=$(heat_closes)
+    check "solid beside the bed, slanted cells and K_xy: heat closes to $e <= 1e-9" below "$e" 1e-9
+    e=$(sed -n 's/.*"relative_difference": \([^}]*\)}.*/\1/p' postProcessing/msddFoam/summary.json)
+    check "solid beside the bed, slanted cells and K_xy: heat of the bed closes to $e <= 1e-9" below "$e" 1e-9
+}
 within_a_shell() { # grains that move, elastic here: the shell stands where its temperature and the pressure put it
     local e
     layers_case neighbour-shell 16 'endTime 100; deltaT 1; adjustTimeStep yes; writeControl adjustableRunTime; writeInterval 100;' 'timeScheme secondOrder;'
@@ -233,5 +252,6 @@ on_processes
 restarted
 killed_with_a_solid
 follows_its_temperature
+slanted
 within_a_shell
 neighbours_that_cannot_be

@@ -187,8 +187,7 @@ fn beds() -> Vec<Set> {
             .but(&[("FoamFile", "head of every file of OpenFOAM")]);
     let contact = source(CONTACT);
     let keys = firsts(r#"\bdict\.\w+(?:<\w+>)?\(\s*"(\w+)""#, &contact);
-    let condition = Set::new(BEDS, "granularContact", CONTACT, keys)
-        .but(&[("refValue", "written by OpenFOAM for a restart")]);
+    let condition = Set::new(BEDS, "granularContact", CONTACT, keys);
     vec![with_literals(set, &source(AXES)), with_literals(condition, &contact)]
 }
 
