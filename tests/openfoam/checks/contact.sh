@@ -137,6 +137,29 @@ own_contact() {
     check "gas takes from the resistance of the wall" awk "BEGIN { exit !($(sed -n '/^    right/,/}/p' 100000000000/bed/wallResistance \
         | grep -o 'uniform [0-9.e+-]*' | head -n 1 | sed 's/uniform //') < 0.2*$R) }"
 }
+contact_in_parts() { # the wall is cut; helium, whose conductivity follows the temperature
+    local e name
+    contact_case contact-parts "$steel_wall" "$own"
+    sphere_grains "gas helium; $steel_wall" ''
+    for name in bed plate; do
+        sed -i 's/(\([0-9]*\) 1 1)/(\1 6 1)/' system/$name/blockMeshDict
+        logged blockMesh -region $name
+    done
+    sed -i 's/right { type granularContact; value uniform 350; }/& top { type fixedValue; value uniform 380; }/' 0/bed/T
+    controls 'endTime 40; deltaT 4; writeInterval 10;'
+    logged chtMultiRegionFoam
+    mv 40 whole
+    foam_file system/decomposeParDict dictionary <<< 'numberOfSubdomains 3; method simple; simpleCoeffs { n (1 3 1); delta 1e-3; }'
+    cp system/decomposeParDict system/bed
+    cp system/decomposeParDict system/plate
+    logged decomposePar -allRegions
+    logged timeout 600 mpirun --oversubscribe -np 3 chtMultiRegionFoam -parallel
+    logged reconstructPar -allRegions -latestTime
+    for name in bed plate; do
+        e=$(largest_difference 100 "field whole/$name/T" "field 40/$name/T")
+        check "three processes, the wall cut: T of $name differs by $e <= 1e-10 of the range" below "$e" 1e-10
+    done
+}
 of_discs() { # discs touch a wall better than each other: the wall adds nothing
     local e
     for name in own stock; do
@@ -170,5 +193,6 @@ region_heat() { controls 'functions { regionHeat { type regionHeat; libs ("libgr
 
 spheres_in_space
 own_contact
+contact_in_parts
 of_discs
 walls_that_cannot_be
