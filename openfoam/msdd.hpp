@@ -300,6 +300,26 @@ public:
         detail::check(msdd_spheres_advance(handle_.get(), &material, &batch));
     }
 
+    /** What a wall adds to the resistance of a bed [m2 K/W], from the stress normal to it [Pa, compression positive], the temperature
+     *  of the gas [K] and the conductivity of the bed across it [W/(m K)] at each face. Throws Error. */
+    static void wallResistance
+    (
+        const msdd_sphere_material& material,
+        const msdd_sphere_wall& wall,
+        std::size_t faces,
+        const double* stress,
+        const double* temperature,
+        const double* conductivity,
+        double* resistance
+    )
+    {
+        const detail::MaskedTraps masked;
+        detail::check
+        (
+            msdd_spheres_wall_resistance(&material, &wall, faces, stress, temperature, conductivity, resistance)
+        );
+    }
+
     /** SHA-256 of the model file, 64 hexadecimal digits; empty for an object that was moved from. */
     std::string hash() const
     {

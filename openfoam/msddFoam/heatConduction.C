@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "heatEquation.H"
+#include "mappedPatchBase.H"
 #include "fvcGrad.H"
 #include "fvmLaplacian.H"
 
@@ -238,7 +239,8 @@ void Foam::heatEquation::insulateWalls()
     forAll(mesh_.boundary(), patchi)
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
-        if (patch.coupled() || T_.boundaryField()[patchi].fixesValue())
+        const bool given = T_.boundaryField()[patchi].fixesValue();
+        if (patch.coupled() || (given && !isA<mappedPatchBase>(patch.patch())))
         {
             continue;
         }
@@ -315,11 +317,11 @@ void Foam::heatEquation::addWallCorrection()
 
     forAll(feet_, patchi)
     {
-        const fvPatch& patch = mesh_.boundary()[patchi];
-        if (patch.coupled())
+        if (feet_[patchi].empty())
         {
             continue;
         }
+        const fvPatch& patch = mesh_.boundary()[patchi];
         const labelUList& cells = patch.faceCells();
         const scalarField& internal = TEqn_.internalCoeffs()[patchi];
         forAll(cells, facei)

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "heatEquation.H"
+#include "mappedPatchBase.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "unitConversion.H"
 
@@ -232,7 +233,9 @@ void Foam::heatEquation::findFeet()
     forAll(feet_, patchi)
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
-        if (patch.coupled())
+        // At a wall to another region both sides have to see the same heat,
+        // and its condition knows nothing of the feet
+        if (patch.coupled() || isA<mappedPatchBase>(patch.patch()))
         {
             continue;
         }

@@ -369,6 +369,7 @@ void Foam::granularState::commit()
         lastStrain_[celli] = strain_[row];
         waiting[celli] = 0;
     }
+    setWallResistance();
 }
 
 
@@ -387,6 +388,15 @@ Foam::granularState::memory Foam::granularState::remember() const
     now.lastStrain = lastStrain_;
     now.origin = origin_.values;
     now.originStrain = originStrain_;
+    if (wallResistance_.valid())
+    {
+        const auto& patches = wallResistance_().boundaryField();
+        now.walls.resize(patches.size());
+        forAll(patches, patchi)
+        {
+            now.walls[patchi] = patches[patchi];
+        }
+    }
     now.queries = queries_;
     now.asked = asked_;
     now.cellSteps = cellSteps_;
@@ -411,6 +421,10 @@ void Foam::granularState::restore(const memory& before)
         origin_.values[i] = before.origin[i];
     }
     originStrain_ = before.originStrain;
+    forAll(before.walls, patchi)
+    {
+        wallResistance_().boundaryFieldRef()[patchi] == before.walls[patchi];
+    }
     queries_ = before.queries;
     asked_ = before.asked;
     cellSteps_ = before.cellSteps;

@@ -178,6 +178,7 @@ Foam::granularState::granularState
     {
         setInitialBulkDensity();
     }
+    findWalls(T);
     askStart();
     findReaders();
     refresh();

@@ -130,17 +130,21 @@ void Foam::runRecord::compare(const dictionary& settings)
 void Foam::runRecord::findFiles()
 {
     files_ = fileNameList(1, fileName("uniform/time"));
-    for (const word& name : mesh_.thisDb().sortedNames())
+    for (const word& region : mesh_.time().sortedNames<fvMesh>())
     {
-        const regIOobject& object =
-            mesh_.thisDb().lookupObject<regIOobject>(name);
-        if
-        (
-            object.writeOpt() == IOobject::AUTO_WRITE
-         && object.instance() == mesh_.time().timeName()
-        )
+        const fvMesh& mesh = mesh_.time().lookupObject<fvMesh>(region);
+        for (const word& name : mesh.thisDb().sortedNames())
         {
-            files_.append(object.local()/name);
+            const regIOobject& object =
+                mesh.thisDb().lookupObject<regIOobject>(name);
+            if
+            (
+                object.writeOpt() == IOobject::AUTO_WRITE
+             && object.instance() == mesh_.time().timeName()
+            )
+            {
+                files_.append(mesh.dbDir()/object.local()/name);
+            }
         }
     }
 }

@@ -30,6 +30,9 @@ namespace granularModels
 //- Change of the stress at the start, over the pressure, that is told
 static const scalar notable = 1e-3;
 
+//- Spheres at a wall along which they were poured, on the square of a diameter
+static const scalar usualSpheres = 0.87;
+
 //- End the run: the library failed
 static void failed(const char* what, const std::exception& error)
 {
@@ -54,6 +57,8 @@ Foam::granularModels::spheres::spheres
     law_(load()),
     gas_(coeffs_.getOrDefault<word>("gas", "vacuum")),
     material_(material()),
+    hasWall_(coeffs_.isDict("wall")),
+    wall_(wall()),
     outside_(0)
 {
     if (&coeffs_ == &properties.surrogateDict())
@@ -67,7 +72,7 @@ Foam::granularModels::spheres::spheres
         coeffs_,
         {
             "model", "hash", "poissonRatio", "roughness", "hardness", "gas",
-            "gasPressure", "accommodation", "coordination"
+            "gasPressure", "accommodation", "coordination", "wall"
         }
     );
     checkHash(source_, law_.hash());
@@ -146,6 +151,42 @@ msdd_sphere_material Foam::granularModels::spheres::material() const
     result.gas = gas_.c_str();
     result.gas_pressure = ranged("gasPressure", 1.013e5, 1e-3, 1e9);
     result.accommodation = ranged("accommodation", 0.9, 0.01, 1);
+    return result;
+}
+
+
+msdd_sphere_wall Foam::granularModels::spheres::wall() const
+{
+    msdd_sphere_wall result = msdd_sphere_wall();
+    if (!hasWall_)
+    {
+        return result;
+    }
+    const dictionary& dict = coeffs_.subDict("wall");
+    granularProperties::checkKeys
+    (
+        dict,
+        {
+            "thermalConductivity", "youngModulus", "poissonRatio", "roughness",
+            "hardness", "spheres"
+        }
+    );
+    const auto required = [&](const word& key, scalar low, scalar high)
+    {
+        dict.get<scalar>(key);
+        return granularProperties::ranged(dict, key, low, low, high);
+    };
+    result.struct_size = sizeof(msdd_sphere_wall);
+    result.conductivity = required("thermalConductivity", 1e-12, 1e12);
+    result.young_modulus = required("youngModulus", 1e-9, 1e15);
+    result.poisson_ratio = required("poissonRatio", -0.99, 0.5);
+    result.roughness = granularProperties::ranged(dict, "roughness", 0, 0, 1);
+    if (result.roughness > 0)
+    {
+        result.hardness = required("hardness", 1, 1e15);
+    }
+    result.spheres =
+        granularProperties::ranged(dict, "spheres", usualSpheres, 0.01, 1.16);
     return result;
 }
 
@@ -323,6 +364,37 @@ void Foam::granularModels::spheres::solidFraction
 ) const
 {
     fraction = 1 - porosity;
+}
+
+
+void Foam::granularModels::spheres::wallResistance
+(
+    const scalarField& stress,
+    const scalarField& temperature,
+    const scalarField& conductivity,
+    scalarField& resistance
+) const
+{
+    if (!hasWall_)
+    {
+        FatalIOErrorInFunction(coeffs_)
+            << "Entry 'wall' is missing: the condition granularContact of T"
+            << " needs spheresCoeffs { wall { thermalConductivity; youngModulus;"
+            << " poissonRatio; } }, the properties of the wall"
+            << exit(FatalIOError);
+    }
+    try
+    {
+        msdd::Spheres::wallResistance
+        (
+            material_, wall_, stress.size(), stress.cdata(),
+            temperature.cdata(), conductivity.cdata(), resistance.data()
+        );
+    }
+    catch (const std::exception& error)
+    {
+        failed("a wall", error);
+    }
 }
 
 

@@ -104,13 +104,6 @@ Foam::granularSolidThermo::granularSolidThermo
 {
     checkEntries();
     checkPlane(mesh, properties_.surrogateDict());
-    if (grains_.model().spatial())
-    {
-        FatalIOErrorInFunction(properties_)
-            << "Entry 'type' of surrogate is " << grains_.model().type()
-            << ", allowed in a region of granularSolidThermo: the types that"
-            << " know the plane alone. msddFoam takes it" << exit(FatalIOError);
-    }
 
     rho_ == grains_.bulkDensity();
     mu_ == dimensionedScalar(mu_.dimensions(), Zero);
@@ -129,7 +122,8 @@ Foam::granularSolidThermo::~granularSolidThermo()
     grains_.writeReport();
     if (axes_.error() > 0)
     {
-        Info<< "Largest relative error of the heat flux without K_xy: "
+        Info<< "Largest relative error of the heat flux by what the axes leave"
+            << " out: "
             << axes_.error() << nl;
     }
 }
@@ -213,10 +207,13 @@ void Foam::granularSolidThermo::setConductivity()
     Kappa_.correctBoundaryConditions();
 
     const scalar c = properties_.heatCapacity().value();
+    const bool space = he_.mesh().nSolutionD() == 3;
     scalarField& alpha = alpha_.primitiveFieldRef();
     forAll(alpha, celli)
     {
-        alpha[celli] = 0.5*(along[celli].x() + along[celli].y())/c;
+        const vector& K = along[celli];
+        alpha[celli] =
+            (space ? (K.x() + K.y() + K.z())/3 : 0.5*(K.x() + K.y()))/c;
     }
     forAll(alpha_.boundaryField(), patchi)
     {

@@ -42,6 +42,45 @@ static scalar leftOut(const scalar Kxx, const scalar Kyy, const scalar Kxy)
 }
 
 
+//- The same of all three components beside the diagonal
+static scalar leftOut(const symmTensor& K)
+{
+    if (K.xz() == 0 && K.yz() == 0)
+    {
+        return leftOut(K.xx(), K.yy(), K.xy());
+    }
+    const scalar least = min(K.xx(), min(K.yy(), K.zz()));
+    const scalar most = max(mag(K.xy()), max(mag(K.xz()), mag(K.yz())));
+    if (most < roundOff*least)
+    {
+        return most/least;
+    }
+    const symmTensor beside(0, K.xy(), K.xz(), 0, K.yz(), 0);
+    return cmptMax(cmptMag(eigenValues(beside)))/cmptMin(eigenValues(K));
+}
+
+
+//- Conductivity of a cell
+static symmTensor tensorOf
+(
+    const granularState::conductivityColumns& K,
+    const scalar Kzz,
+    const label celli
+)
+{
+    const bool spatial = K.zz.size();
+    return symmTensor
+    (
+        K.xx[celli],
+        K.xy.size() ? K.xy[celli] : 0,
+        spatial ? K.xz[celli] : 0,
+        K.yy[celli],
+        spatial ? K.yz[celli] : 0,
+        spatial ? K.zz[celli] : Kzz
+    );
+}
+
+
 //- A number with so many digits, whatever the writePrecision of the case
 static string shown(const scalar value, const int digits = 3)
 {
@@ -102,9 +141,8 @@ Foam::scalar Foam::principalAxes::turn
     vectorField& along
 ) const
 {
-    const bool crossed = K.xy.size();
     scalar error = 0;
-    if (rotation_.empty())
+    if (rotation_.empty() && K.zz.empty())
     {
         forAll(along, celli)
         {
@@ -121,73 +159,80 @@ Foam::scalar Foam::principalAxes::turn
     }
     forAll(along, celli)
     {
-        const symmTensor mine
-        (
-            K.xx[celli], crossed ? K.xy[celli] : 0, 0, K.yy[celli], 0, Kzz
-        );
-        const symmTensor turned
-        (
-            Foam::transform(rotation_[celli].T(), mine)
-        );
+        symmTensor turned(tensorOf(K, Kzz, celli));
+        if (rotation_.size())
+        {
+            turned = Foam::transform(rotation_[celli].T(), turned);
+        }
         along[celli] = vector(turned.xx(), turned.yy(), turned.zz());
-        error = max(error, leftOut(turned.xx(), turned.yy(), turned.xy()));
+        error = max(error, leftOut(turned));
     }
     return error;
 }
 
 
-void Foam::principalAxes::bestAngle
+Foam::tensor Foam::principalAxes::bestAxes
 (
     const granularState::conductivityColumns& K,
-    scalar& angle,
-    scalar& error
+    const scalar Kzz
 ) const
 {
-    const bool crossed = K.xy.size();
-    const scalarField& V = mesh_.V();
-    const scalar half = 0.5*gSum(V*(K.xx - K.yy));
-    angle = 0.5*std::atan2(crossed ? gSum(V*K.xy) : 0, half);
-
-    const scalar c = std::cos(angle), s = std::sin(angle);
-    error = 0;
+    symmTensor sum(Zero);
     forAll(K.xx, celli)
     {
-        const scalar x = K.xx[celli], y = K.yy[celli];
-        const scalar xy = crossed ? K.xy[celli] : 0;
-        error = max
-        (
-            error,
-            leftOut
-            (
-                c*c*x + s*s*y + 2*c*s*xy,
-                s*s*x + c*c*y - 2*c*s*xy,
-                (c*c - s*s)*xy - c*s*(x - y)
-            )
-        );
+        sum += mesh_.V()[celli]*tensorOf(K, Kzz, celli);
     }
-    reduce(error, maxOp<scalar>());
+    reduce(sum, sumOp<symmTensor>());
+    if (K.zz.empty())
+    {
+        const scalar half = 0.5*(sum.xx() - sum.yy());
+        const scalar angle = 0.5*std::atan2(sum.xy(), half);
+        const scalar c = std::cos(angle), s = std::sin(angle);
+        return tensor(c, s, 0, -s, c, 0, 0, 0, 1);
+    }
+    // The first axis along the largest conductivity
+    const tensor ascending(eigenVectors(sum));
+    const vector e1(ascending.z()), e3(ascending.x());
+    const vector e2(e3 ^ e1);
+    return tensor(e1.x(), e1.y(), e1.z(), e2.x(), e2.y(), e2.z(),
+        e3.x(), e3.y(), e3.z());
 }
 
 
 void Foam::principalAxes::refuse
 (
     const granularState::conductivityColumns& K,
+    const scalar Kzz,
     const scalar error
 ) const
 {
-    scalar angle, left;
-    bestAngle(K, angle, left);
+    const tensor axes(bestAxes(K, Kzz));
+    scalar left = 0;
+    forAll(K.xx, celli)
+    {
+        left = max
+        (
+            left, leftOut(Foam::transform(axes, tensorOf(K, Kzz, celli)))
+        );
+    }
+    reduce(left, maxOp<scalar>());
+    const auto text = [](const vector& e) -> string
+    {
+        return '(' + shown(e.x(), 12) + ' ' + shown(e.y(), 12) + ' '
+          + shown(e.z(), 12) + ')';
+    };
     FatalIOErrorInFunction(dict_)
         << "The conductivity of region " << mesh_.name() << " at time "
-        << mesh_.time().timeName() << " has a component K_xy besides those"
+        << mesh_.time().timeName() << " has a component "
+        << (K.zz.empty() ? "K_xy" : "K_xy, K_xz or K_yz") << " besides those"
         << " along the axes of coordinateSystem, which this solver cannot take:"
         << " without it the heat flux errs by up to "
         << shown(100*error).c_str() << " %, allowed: "
         << shown(100*tolerance_).c_str()
         << " % (crossTolerance " << shown(tolerance_).c_str() << "). With"
         << " coordinateSystem { type cartesian; origin (0 0 0); rotation { type"
-        << " axes; e1 (" << shown(std::cos(angle), 12).c_str() << ' '
-        << shown(std::sin(angle), 12).c_str() << " 0); e3 (0 0 1); } } it would"
+        << " axes; e1 " << text(axes.x()).c_str() << "; e3 "
+        << text(axes.z()).c_str() << "; } } it would"
         << " err by up to " << shown(100*left).c_str() << " %; msddFoam, which"
         << " solves the bed alone, takes any tensor" << exit(FatalIOError);
 }
@@ -210,12 +255,12 @@ void Foam::principalAxes::apply
     const scalar error = returnReduce(mine, maxOp<scalar>());
     if (error > tolerance_)
     {
-        refuse(K, error);
+        refuse(K, Kzz, error);
     }
     if (error > roundOff && error_ <= roundOff)
     {
-        Info<< "Region " << mesh_.name() << ": without K_xy, which this solver"
-            << " cannot take, the heat flux errs by up to "
+        Info<< "Region " << mesh_.name() << ": without what the conductivity"
+            << " has beside its axes, the heat flux errs by up to "
             << shown(100*error).c_str() << " %, allowed: "
             << shown(100*tolerance_).c_str() << " %" << endl;
     }

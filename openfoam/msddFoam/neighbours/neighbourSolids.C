@@ -83,7 +83,15 @@ Foam::neighbourSolids::neighbourSolids(const Time& runTime)
     }
 
     // The boundary conditions that couple regions
-    const_cast<Time&>(runTime).libs().open("libturbulentFluidThermoModels.so");
+    // (open() of a text without its type would take it as a switch)
+    for
+    (
+        const fileName library :
+        {"libturbulentFluidThermoModels.so", "libgranularThermo.so"}
+    )
+    {
+        const_cast<Time&>(runTime).libs().open(library);
+    }
     for (const word& name : regions.lookup("solid", wordList()))
     {
         read(runTime, name);
@@ -117,6 +125,7 @@ void Foam::neighbourSolids::read(const Time& runTime, const word& name)
         s.mesh->solutionDict().subOrEmptyDict("PIMPLE")
        .lookupOrDefault<label>("nNonOrthogonalCorrectors", 0);
     s.mesh->solverDict("T");
+    s.rho.reset(new volScalarField("solidRho", s.thermo->rho()));
     update(s);
     startHeat_ = storedHeat();
 }
@@ -124,10 +133,9 @@ void Foam::neighbourSolids::read(const Time& runTime, const word& name)
 
 void Foam::neighbourSolids::update(solid& s)
 {
-    s.capacity.reset
-    (
-        new volScalarField("rhoCp", s.thermo->rho()*s.thermo->Cp())
-    );
+    s.thermo->he() = s.thermo->he(s.thermo->p(), s.T());
+    s.thermo->correct();
+    s.capacity.reset(new volScalarField("rhoCp", s.rho()*s.thermo->Cp()));
     s.kappa.reset(new volScalarField("kappa", s.thermo->kappa()));
 }
 
@@ -137,17 +145,22 @@ void Foam::neighbourSolids::solve(solid& s, const scalar tau)
     volScalarField& T = s.T();
     const fvMesh& mesh = s.mesh();
     fv::options& sources = fv::options::New(mesh);
-    const scalarField& C = s.capacity->primitiveField();
+    const scalarField& rho = s.rho->primitiveField();
 
     for (label corrector = 0; corrector <= s.correctors; ++corrector)
     {
+        // rho (h - h*)/tau with h = h(Tk) + c(Tk) (T - Tk)
+        update(s);
+        const scalarField& C = s.capacity->primitiveField();
+        const scalarField& Tk = T.primitiveField();
+        const scalarField& hk = s.h();
         T.correctBoundaryConditions();
         fvScalarMatrix equation
         (
           - fvm::laplacian(s.kappa(), T, "laplacian(kappa,T)")
         );
         equation.diag() += C*mesh.V()/tau;
-        equation.source() += C*mesh.V()*s.Tstar/tau;
+        equation.source() += (C*Tk - rho*(hk - s.hstar))*mesh.V()/tau;
         s.heat = 0;
         if (!sources.optionList::empty())
         {
@@ -276,8 +289,7 @@ Foam::scalar Foam::neighbourSolids::storedHeat()
     scalar heat = 0;
     for (solid& s : solids_)
     {
-        const scalarField& C = s.capacity->primitiveField();
-        heat += gSum(C*s.T().primitiveField()*s.mesh->V());
+        heat += gSum(s.rho->primitiveField()*s.h()*s.mesh->V());
     }
     return heat;
 }
@@ -291,6 +303,8 @@ void Foam::neighbourSolids::begin()
     {
         s.Told = s.T().primitiveField();
         s.Tstar = s.Told;
+        s.hold = s.h();
+        s.hstar = s.hold;
     }
 }
 
@@ -301,6 +315,7 @@ void Foam::neighbourSolids::restore()
     {
         s.T().primitiveFieldRef() = s.Told;
         s.Tstar = s.Told;
+        s.hstar = s.hold;
     }
 }
 
@@ -309,7 +324,9 @@ void Foam::neighbourSolids::secondStage(const scalar share)
 {
     for (solid& s : solids_)
     {
+        update(s);
         scalarField& T = s.T().primitiveFieldRef();
+        s.hstar = s.hold + (1 - share)*(s.h() - s.hold)/share;
         s.rate = (T - s.Told)/share;
         s.Tstar = s.Told + (1 - share)*s.rate;
         T = s.Told + s.rate;
@@ -390,8 +407,6 @@ void Foam::neighbourSolids::finish(const scalar entered, const scalar given)
     given_ += given;
     for (solid& s : solids_)
     {
-        s.thermo->he() = s.thermo->he(s.thermo->p(), s.T());
-        s.thermo->correct();
         update(s);
     }
 }

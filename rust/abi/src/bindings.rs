@@ -325,6 +325,45 @@ const _: () = {
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
+pub struct msdd_sphere_wall {
+    pub struct_size: usize,
+    pub conductivity: f64,
+    pub young_modulus: f64,
+    pub poisson_ratio: f64,
+    pub roughness: f64,
+    pub hardness: f64,
+    pub spheres: f64,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    ["Size of msdd_sphere_wall"][::core::mem::size_of::<msdd_sphere_wall>() - 56usize];
+    [
+        "Alignment of msdd_sphere_wall",
+    ][::core::mem::align_of::<msdd_sphere_wall>() - 8usize];
+    [
+        "Offset of field: msdd_sphere_wall::struct_size",
+    ][::core::mem::offset_of!(msdd_sphere_wall, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_sphere_wall::conductivity",
+    ][::core::mem::offset_of!(msdd_sphere_wall, conductivity) - 8usize];
+    [
+        "Offset of field: msdd_sphere_wall::young_modulus",
+    ][::core::mem::offset_of!(msdd_sphere_wall, young_modulus) - 16usize];
+    [
+        "Offset of field: msdd_sphere_wall::poisson_ratio",
+    ][::core::mem::offset_of!(msdd_sphere_wall, poisson_ratio) - 24usize];
+    [
+        "Offset of field: msdd_sphere_wall::roughness",
+    ][::core::mem::offset_of!(msdd_sphere_wall, roughness) - 32usize];
+    [
+        "Offset of field: msdd_sphere_wall::hardness",
+    ][::core::mem::offset_of!(msdd_sphere_wall, hardness) - 40usize];
+    [
+        "Offset of field: msdd_sphere_wall::spheres",
+    ][::core::mem::offset_of!(msdd_sphere_wall, spheres) - 48usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
 pub struct msdd_rve {
     _unused: [u8; 0],
 }
@@ -733,6 +772,15 @@ unsafe extern "C" {
         batch: *mut msdd_sphere_batch,
     ) -> i32;
     pub fn msdd_spheres_free(spheres: *mut msdd_spheres);
+    pub fn msdd_spheres_wall_resistance(
+        material: *const msdd_sphere_material,
+        wall: *const msdd_sphere_wall,
+        faces: usize,
+        stress: *const f64,
+        temperature: *const f64,
+        conductivity: *const f64,
+        resistance: *mut f64,
+    ) -> i32;
     pub fn msdd_rve_pack(
         specification: *const ::core::ffi::c_char,
         out: *mut *mut msdd_rve,

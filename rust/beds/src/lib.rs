@@ -15,6 +15,7 @@
 //! | [`named_gases`] | air, nitrogen, helium, argon, vacuum |
 //! | [`solid`] | law of heat through a contact, smooth or rough; stress in it |
 //! | [`effective`] | from the reduced conductivities of the law of spheres to those of a bed |
+//! | [`wall`] | what a wall adds to the resistance of a bed |
 //! | [`links`] | conductances between the spheres of a simulation: contact, gas |
 //! | [`correlation`] | published correlation for packed beds |
 //! | `solve` | conjugate gradients |
@@ -52,6 +53,7 @@ mod solve;
 pub mod transient;
 pub mod voxels;
 pub mod vtk;
+pub mod wall;
 
 pub use averages::{Averages, averages};
 pub use pack::{Packed, Packing, pack, pack_along};

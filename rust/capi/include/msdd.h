@@ -268,6 +268,25 @@ int32_t msdd_spheres_advance(const msdd_spheres *spheres, const msdd_sphere_mate
 /** Frees a law; NULL is allowed. */
 void msdd_spheres_free(msdd_spheres *spheres);
 
+/** The surface of a wall beside a bed of spheres. */
+typedef struct msdd_sphere_wall {
+    size_t struct_size;   /**< sizeof(msdd_sphere_wall) */
+    double conductivity;  /**< of the wall [W/(m K)], 1e-12 to 1e12 */
+    double young_modulus; /**< of the wall [Pa], 1e-9 to 1e15 */
+    double poisson_ratio; /**< of the wall, -0.99 to 0.5 */
+    double roughness;     /**< of sphere and wall together: height of the asperities (root mean square) over their slope [m], 0 to 1;
+                               0: smooth */
+    double hardness;      /**< of the softer of both surfaces [Pa], 1 to 1e15; not used when smooth */
+    double spheres;       /**< spheres at the wall on the square of a diameter, 0.01 to 1.16 */
+} msdd_sphere_wall;
+
+/** What a wall adds to the resistance of a bed that is taken to conduct alike up to its surface [m2 K/W], for each of `faces` faces:
+ *  0 at least and 1e9 at most. `stress`: normal to the wall [Pa], compression positive; of 0 or less: gas alone conducts.
+ *  `temperature`: of the gas [K], 0 to 1e5. `conductivity`: of the bed across the wall [W/(m K)], above 0. */
+int32_t msdd_spheres_wall_resistance(const msdd_sphere_material *material, const msdd_sphere_wall *wall, size_t faces,
+                                    const double *stress, const double *temperature, const double *conductivity,
+                                    double *resistance);
+
 /* ---------------------------------------------------------------------------------------------------------- RVEs */
 
 /** A box of grains, simulated by discrete elements. */

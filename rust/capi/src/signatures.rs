@@ -15,7 +15,7 @@ macro_rules! same {
 
 use abi::{
     msdd_averages, msdd_batch, msdd_initial, msdd_material, msdd_progress, msdd_rve, msdd_sphere_batch,
-    msdd_sphere_material, msdd_spheres, msdd_surrogate,
+    msdd_sphere_material, msdd_sphere_wall, msdd_spheres, msdd_surrogate,
 };
 use std::ffi::{c_char, c_void};
 
@@ -44,6 +44,7 @@ same! {
     msdd_spheres_initial_state(*const msdd_spheres, *const msdd_sphere_material, usize, *const f64, *const *const f64, *const f64, *const *const f64, *const *mut f64) -> i32;
     msdd_spheres_advance(*const msdd_spheres, *const msdd_sphere_material, *mut msdd_sphere_batch) -> i32;
     msdd_spheres_free(*mut msdd_spheres);
+    msdd_spheres_wall_resistance(*const msdd_sphere_material, *const msdd_sphere_wall, usize, *const f64, *const f64, *const f64, *mut f64) -> i32;
     msdd_rve_pack(*const c_char, *mut *mut msdd_rve) -> i32;
     msdd_rve_from_json(*const c_char, *mut *mut msdd_rve) -> i32;
     msdd_rve_to_json(*const msdd_rve, *mut *mut c_char) -> i32;

@@ -36,29 +36,45 @@ pub(crate) struct Conductivity {
 /// Least number of contacts per sphere of a packing that bears load.
 const LEAST_CONTACTS: f64 = 2.0;
 
+/// A value within its range.
+pub(crate) fn ranged(name: &str, value: f64, [low, high]: [f64; 2], allowed: &str) -> Result<f64, Failure> {
+    match (low..=high).contains(&value) {
+        true => Ok(value),
+        false => Err(Failure::number(name.to_string(), value, allowed)),
+    }
+}
+
+/// k \[W/(m K)\] of a body called `of`.
+pub(crate) fn conductivity(of: &str, value: f64) -> Result<f64, Failure> {
+    ranged(&format!("{of}.conductivity"), value, [1e-12, 1e12], "1e-12 to 1e12 W/(m K)")
+}
+
+/// (1 − ν²)/E \[1/Pa\].
+pub(crate) fn compliance(of: &str, young: f64, poisson: f64) -> Result<f64, Failure> {
+    let young = ranged(&format!("{of}.young_modulus"), young, [1e-9, 1e15], "1e-9 to 1e15 Pa")?;
+    let poisson = ranged(&format!("{of}.poisson_ratio"), poisson, [-0.99, 0.5], "-0.99 to 0.5")?;
+    Ok((1.0 - poisson * poisson) / young)
+}
+
+/// None for a smooth surface.
+pub(crate) fn roughness(of: &str, height: f64, hardness: f64) -> Result<Option<Roughness>, Failure> {
+    let height_over_slope = ranged(&format!("{of}.roughness"), height, [0.0, 1.0], "0 to 1 m; 0 is smooth")?;
+    if height_over_slope == 0.0 {
+        return Ok(None);
+    }
+    let hardness = ranged(&format!("{of}.hardness"), hardness, [1.0, 1e15], "1 to 1e15 Pa")?;
+    Ok(Some(Roughness { height_over_slope, hardness }))
+}
+
 impl Material {
     /// # Safety
     /// The material's gas is null or a C string.
     pub unsafe fn new(given: &msdd_sphere_material) -> Result<Self, Failure> {
-        let ranged = |name: &str, value: f64, [low, high]: [f64; 2], allowed: &str| match (low..=high)
-            .contains(&value)
-        {
-            true => Ok(value),
-            false => Err(Failure::number(format!("material.{name}"), value, allowed)),
-        };
-        let diameter = ranged("diameter", given.diameter, [1e-9, 1e3], "1e-9 to 1e3 m")?;
-        let young = ranged("young_modulus", given.young_modulus, [1e-9, 1e15], "1e-9 to 1e15 Pa")?;
-        let poisson = ranged("poisson_ratio", given.poisson_ratio, [-0.99, 0.5], "-0.99 to 0.5")?;
-        let conductivity =
-            ranged("conductivity", given.conductivity, [1e-12, 1e12], "1e-12 to 1e12 W/(m K)")?;
-        let height_over_slope = ranged("roughness", given.roughness, [0.0, 1.0], "0 to 1 m; 0 is smooth")?;
-        let roughness = match height_over_slope > 0.0 {
-            true => {
-                let hardness = ranged("hardness", given.hardness, [1.0, 1e15], "1 to 1e15 Pa")?;
-                Some(Roughness { height_over_slope, hardness })
-            }
-            false => None,
-        };
+        const OF: &str = "material";
+        let diameter = ranged("material.diameter", given.diameter, [1e-9, 1e3], "1e-9 to 1e3 m")?;
+        let effective_modulus = 0.5 / compliance(OF, given.young_modulus, given.poisson_ratio)?;
+        let conductivity = conductivity(OF, given.conductivity)?;
+        let roughness = roughness(OF, given.roughness, given.hardness)?;
         let gas = match given.gas.is_null() {
             true => GasName::Vacuum,
             // SAFETY: not null, a C string by this function's contract.
@@ -66,10 +82,10 @@ impl Material {
         };
         let (mut gas_pressure, mut accommodation) = (1.0, 1.0);
         if gas != GasName::Vacuum {
-            gas_pressure = ranged("gas_pressure", given.gas_pressure, [1e-3, 1e9], "1e-3 to 1e9 Pa")?;
-            accommodation = ranged("accommodation", given.accommodation, [0.01, 1.0], "0.01 to 1")?;
+            gas_pressure =
+                ranged("material.gas_pressure", given.gas_pressure, [1e-3, 1e9], "1e-3 to 1e9 Pa")?;
+            accommodation = ranged("material.accommodation", given.accommodation, [0.01, 1.0], "0.01 to 1")?;
         }
-        let effective_modulus = 0.5 * young / (1.0 - poisson * poisson);
         let solid = Solid { conductivity, effective_modulus, roughness };
         Ok(Self { bed: BedMaterial { radius: 0.5 * diameter, solid, gas, gas_pressure, accommodation } })
     }
@@ -83,6 +99,10 @@ impl Material {
     pub fn with_conductivity(mut self, conductivity: f64) -> Self {
         self.bed.solid.conductivity = conductivity;
         self
+    }
+
+    pub fn bed(&self) -> &BedMaterial {
+        &self.bed
     }
 
     /// E* \[Pa\].

@@ -39,7 +39,7 @@ from ._library import version as __version__
 from ._mesh import Mesh, read_mesh
 from ._model import Material, Model, Step, WallFriction, load_model
 from ._rve import Averages, Contacts, Grains, Rve, pack
-from ._spheres import SphereMaterial, Spheres, SphereStep, load_spheres
+from ._spheres import SphereMaterial, Spheres, SphereStep, SphereWall, load_spheres, wall_resistance
 
 __all__ = [
     "Averages",
@@ -61,6 +61,7 @@ __all__ = [
     "RveError",
     "SphereMaterial",
     "SphereStep",
+    "SphereWall",
     "Spheres",
     "Step",
     "WallFriction",
@@ -78,6 +79,7 @@ __all__ = [
     "read_summary",
     "read_table",
     "time_folders",
+    "wall_resistance",
 ]
 
 

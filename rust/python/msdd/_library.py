@@ -49,6 +49,10 @@ SphereMaterialStruct = _struct(
     ("gas", c.c_char_p),
     *_each(c.c_double, "gas_pressure accommodation"),
 )
+SphereWallStruct = _struct(
+    "msdd_sphere_wall",
+    *_each(c.c_double, "conductivity young_modulus poisson_ratio roughness hardness spheres"),
+)
 SphereBatchStruct = _struct(
     "msdd_sphere_batch",
     ("cells", c.c_size_t),
@@ -98,6 +102,10 @@ SIGNATURES: dict[str, tuple[Optional[type], list[type]]] = {
     "msdd_spheres_initial_state": (_STATUS, [_HANDLE, _SPHERES, c.c_size_t, Doubles, _OUT, Doubles, _OUT, _OUT]),
     "msdd_spheres_advance": (_STATUS, [_HANDLE, _SPHERES, c.POINTER(SphereBatchStruct)]),
     "msdd_spheres_free": (None, [_HANDLE]),
+    "msdd_spheres_wall_resistance": (
+        _STATUS,
+        [_SPHERES, c.POINTER(SphereWallStruct), c.c_size_t, Doubles, Doubles, Doubles, Doubles],
+    ),
     "msdd_rve_pack": (_STATUS, [_TEXT, _OUT]),
     "msdd_rve_from_json": (_STATUS, [_TEXT, _OUT]),
     "msdd_rve_to_json": (_STATUS, [_HANDLE, _OUT]),

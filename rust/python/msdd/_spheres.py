@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._columns import Array, State, address, aligned, table
-from ._library import Handle, SphereBatchStruct, SphereMaterialStruct, check, encoded, library
+from ._library import Handle, SphereBatchStruct, SphereMaterialStruct, SphereWallStruct, check, encoded, library
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 """Order of the components of stress, strain and conductivity along the first axis of their arrays."""
@@ -49,6 +49,31 @@ class SphereMaterial:
             *map(float, (self.roughness, self.hardness)),
             encoded("gas", self.gas),
             *map(float, (self.gas_pressure, self.accommodation)),
+        )
+
+
+@dataclass(frozen=True)
+class SphereWall:
+    """The surface of a wall beside a bed of spheres."""
+
+    conductivity: float
+    """of the wall [W/(m K)], 1e-12 to 1e12"""
+    young_modulus: float
+    """of the wall [Pa], 1e-9 to 1e15"""
+    poisson_ratio: float
+    """of the wall, -0.99 to 0.5"""
+    roughness: float = 0.0
+    """of sphere and wall together: height of the asperities (root mean square) over their slope [m], 0 to 1; 0: smooth"""
+    hardness: float = 1e9
+    """of the softer of both [Pa], 1 to 1e15; not used when smooth"""
+    spheres: float = 0.87
+    """spheres at the wall on the square of a diameter, 0.01 to 1.16"""
+
+    def _struct(self) -> c.Structure:
+        return SphereWallStruct(
+            c.sizeof(SphereWallStruct),
+            *map(float, (self.conductivity, self.young_modulus, self.poisson_ratio)),
+            *map(float, (self.roughness, self.hardness, self.spheres)),
         )
 
 
@@ -226,6 +251,31 @@ def load_spheres(source: Union[str, os.PathLike[str]] = "builtin") -> Spheres:
     made = c.c_void_p()
     check(library.msdd_spheres_load(encoded("source", source), c.byref(made)))
     return Spheres._own(made)
+
+
+def wall_resistance(
+    material: SphereMaterial,
+    wall: SphereWall,
+    stress: ArrayLike,
+    conductivity: ArrayLike,
+    temperature: ArrayLike = 293.15,
+) -> Array:
+    """What a wall adds to the resistance of a bed that conducts alike up to its surface [m2 K/W], 0 to 1e9.
+
+    stress: normal to the wall [Pa], compression positive; where it is 0 or less, gas alone conducts.
+    conductivity: of the bed across the wall [W/(m K)], above 0.
+    temperature: of the gas [K], 0 to 1e5.
+    Arrays of any shapes that broadcast to one; the answer has that shape.
+    Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
+    """
+    if not isinstance(wall, SphereWall):
+        raise TypeError(f"wall is a msdd.SphereWall, not {type(wall).__name__}")
+    shape, columns = aligned({"stress": stress, "temperature": temperature, "conductivity": conductivity}, {})
+    found = np.empty(shape)
+    given = [address(column) for column in columns.values()]
+    surface = c.byref(wall._struct())
+    check(library.msdd_spheres_wall_resistance(_scales(material), surface, _count(shape), *given, address(found)))
+    return found
 
 
 def _scales(material: SphereMaterial) -> Any:

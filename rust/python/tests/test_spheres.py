@@ -92,6 +92,24 @@ class Answers(WithLaw):
         self.assertEqual(step.outside.dtype, bool)
 
 
+class Walls(unittest.TestCase):
+    def test_contacts_of_hertz_in_a_vacuum(self) -> None:
+        grains = msdd.SphereMaterial(6e-3, 2e11, 0.3, 40)
+        wall = msdd.SphereWall(40, 2e11, 0.3, spheres=0.5)
+        found = msdd.wall_resistance(grains, wall, stress=[1e4, 8e4, 0], conductivity=0.5)
+        square = 6e-3**2 / 0.5
+        radius = np.cbrt(0.75 * 1e4 * square * 3e-3 / (1e11 / (1 - 0.3**2)))
+        self.assertAlmostEqual(found[0] / (square / (2 * radius * 40) - 3e-3 / 0.5), 1, places=10)
+        self.assertEqual(found[2], 1e9)
+        self.assertLess(found[1], found[0])
+
+    def test_mistakes(self) -> None:
+        with self.assertRaisesRegex(msdd.InvalidArgument, "wall.spheres = 2"):
+            msdd.wall_resistance(STEEL, msdd.SphereWall(40, 2e11, 0.3, spheres=2), 1e4, 0.5)
+        with self.assertRaisesRegex(TypeError, "SphereWall"):
+            msdd.wall_resistance(STEEL, STEEL, 1e4, 0.5)  # type: ignore[arg-type]
+
+
 class Mistakes(WithLaw):
     def test_values(self) -> None:
         with self.assertRaisesRegex(msdd.InvalidArgument, "solid_fraction"):

@@ -146,6 +146,77 @@ restarted() { # a run that ends in the middle and goes on has the same bytes as 
         check "solid beside the bed, restarted in the middle: $name has the same bytes" cmp "20/$name" "$work/neighbour-whole/20/$name"
     done
 }
+killed_with_a_solid() { # killed (-9) three times while it writes every step; a damaged file of the solid
+    local after solver
+    layers_case neighbour-killed 16 'endTime 20; deltaT 1; writeInterval 1; startFrom latestTime;' 'timeScheme secondOrder;'
+    begin_with_mode 16
+    echo 'thermalExpansion 1e-6;' >> constant/granularProperties
+    rm -rf "$work/neighbour-unkilled"
+    cp -r . "$work/neighbour-unkilled"
+    (cd "$work/neighbour-unkilled" && logged msddFoam)
+    for after in 3 9 15; do
+        (exec msddFoam >> log 2>&1) &
+        solver=$!
+        while [ ! -e $after/plate/T ] && kill -0 $solver 2> /dev/null; do sleep 0.002; done
+        kill -9 $solver 2> /dev/null || true
+        wait $solver 2> /dev/null || true
+    done
+    check "solid beside the bed, killed three times: $(grep -c '^Create time' log) runs so far, stopped before the end" test ! -e 20
+    logged msddFoam
+    check "solid beside the bed, killed three times: the last time has the same bytes" diff -rq -x functionObjects 20 "$work/neighbour-unkilled/20"
+    truncate -s -40 20/plate/T
+    logged msddFoam
+    check "solid beside the bed: a time whose file of the solid is damaged is skipped" grep -q 'Time 20 is skipped: not as written: plate/T' log
+    check "and computed again to the same bytes" diff -rq -x functionObjects 20 "$work/neighbour-unkilled/20"
+}
+by_temperature() { # folder, scheme, steps of 200 s in all: conductivity and heat capacity of the plate follow its temperature
+    layers_case "$1" 24 "endTime ${4:-200}; deltaT $(awk "BEGIN { print ${4:-200}/$3 }"); writeInterval $3;" "timeScheme $2;"
+    begin_with_mode 24
+    file_of constant/plate/thermophysicalProperties dictionary <<< 'thermoType { type heSolidThermo; mixture pureMixture; transport polynomial;
+        thermo hPolynomial; equationOfState icoPolynomial; specie specie; energy sensibleEnthalpy; }
+        mixture { specie { molWeight 1; } transport { kappaCoeffs<8> (-4 0.03 0 0 0 0 0 0); }
+        thermodynamics { Hf 0; Sf 0; CpCoeffs<8> (-3 0.02 0 0 0 0 0 0); } equationOfState { rhoCoeffs<8> (800 0 0 0 0 0 0 0); } }'
+}
+apart_at() { paste -d ' ' <(field "$work/$1/200/plate/T") <(field "$work/$2/200/plate/T") | awk '{ e = $1 - $2; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR > 3 ? w : "nan") }'; }
+follows_its_temperature() {
+    local coarse fine e n
+    for n in 4 8 16; do
+        by_temperature neighbour-follows-$n secondOrder $n
+        logged msddFoam
+    done
+    coarse=$(apart_at neighbour-follows-4 neighbour-follows-8)
+    fine=$(apart_at neighbour-follows-8 neighbour-follows-16)
+    check "solid whose properties follow its temperature: 4 and 8 steps differ by $coarse K, 8 and 16 by $fine K, of second order" \
+        awk "BEGIN { exit !($coarse > 1e-6 && $coarse >= 2^1.7*$fine) }"
+    e=$(heat_closes)
+    check "solid whose properties follow its temperature: heat closes to $e <= 1e-9" below "$e" 1e-9
+    # At rest: the heat through bed and contact is that through the plate, the integral of its conductivity -4 + 0.03 T
+    by_temperature neighbour-follows-rest paper 1 1e9
+    sed -i 's/left { type fixedValue; value uniform 300/left { type fixedValue; value uniform 500/' 0/T
+    logged msddFoam
+    e=$(awk 'BEGIN { low = 300; high = 500; for (i = 0; i < 100; i++) { T = (low + high)/2; q = ((500 - T)/(0.4/2 + 0.1))*0.6
+        if (-4*(T - 300) + 0.015*(T*T - 90000) < q) low = T; else high = T }; print q/0.6 }' | awk -v T="$(field 1000000000/T | head -n 1)" '{ e = (500 - T)*2/(0.4/48)/$1 - 1; print (e < 0 ? -e : e) }')
+    check "solid whose properties follow its temperature, at rest: the heat is that of the closed form to $e <= 1e-4" below "$e" 1e-4
+}
+slanted() { # cells are parallelograms, K has an xy component, and T changes along the wall: both sides must see the same heat
+    local e mesh
+    layers_case neighbour-slanted 12 'endTime 100; deltaT 10; writeInterval 10;' 'timeScheme secondOrder; nNonOrthogonalCorrectors 3;'
+    begin_with_mode 12
+    for mesh in system system/plate; do # the upper corners move to the right
+        awk '/^vertices/ { gsub(/[()]/, " "); sub(/;/, ""); printf "vertices ("; for (i = 2; i <= NF; i += 3) printf "(%s %s %s)", $i + 0.4*$(i + 1), $(i + 1), $(i + 2); print ");"; next } { print }' \
+            $mesh/blockMeshDict > dict && mv dict $mesh/blockMeshDict
+    done
+    logged blockMesh
+    logged blockMesh -region plate
+    sed -i 's/PIMPLE {}/PIMPLE { nNonOrthogonalCorrectors 3; }/' system/plate/fvSolution
+    sed -i 's/conductivity (2 0 0 1 0 0)/conductivity (2 0.5 0 1 0 0)/' constant/granularProperties
+    sed -i 's/".*" { type zeroGradient; }/bottom { type fixedValue; value uniform 400; } &/' 0/T
+    logged msddFoam
+    e=$(heat_closes)
+    check "solid beside the bed, slanted cells and K_xy: heat closes to $e <= 1e-9" below "$e" 1e-9
+    e=$(sed -n 's/.*"relative_difference": \([^}]*\)}.*/\1/p' postProcessing/msddFoam/summary.json)
+    check "solid beside the bed, slanted cells and K_xy: heat of the bed closes to $e <= 1e-9" below "$e" 1e-9
+}
 within_a_shell() { # grains that move, elastic here: the shell stands where its temperature and the pressure put it
     local e
     layers_case neighbour-shell 16 'endTime 100; deltaT 1; adjustTimeStep yes; writeControl adjustableRunTime; writeInterval 100;' 'timeScheme secondOrder;'
@@ -179,5 +250,8 @@ orders
 heat_over_all
 on_processes
 restarted
+killed_with_a_solid
+follows_its_temperature
+slanted
 within_a_shell
 neighbours_that_cannot_be

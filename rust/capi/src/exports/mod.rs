@@ -2,11 +2,13 @@
 
 mod database;
 mod rve;
+mod sphere_wall;
 mod spheres;
 mod surrogate;
 
 pub use database::*;
 pub use rve::*;
+pub use sphere_wall::*;
 pub use spheres::*;
 pub use surrogate::*;
 

@@ -1,7 +1,7 @@
 //! The law of spheres through the exported functions.
 
 use super::*;
-use crate::abi::{msdd_sphere_batch, msdd_sphere_material, msdd_spheres};
+use crate::abi::{msdd_sphere_batch, msdd_sphere_material, msdd_sphere_wall, msdd_spheres};
 use crate::sphere_material::Material;
 use ::msdd_surrogate::spheres::law::Known;
 use ::msdd_surrogate::spheres::model::{Increment, SphereModel};
@@ -292,4 +292,56 @@ fn what_cannot_be_is_refused() {
         assert!(last_error().contains("msdd-spheres-model-1"), "{}", last_error());
     }
     assert!(out.is_null());
+}
+
+/// A smooth steel wall.
+const WALL: msdd_sphere_wall = msdd_sphere_wall {
+    struct_size: size_of::<msdd_sphere_wall>(),
+    conductivity: 42.0,
+    young_modulus: 2e11,
+    poisson_ratio: 0.0,
+    roughness: 0.0,
+    hardness: 0.0,
+    spheres: 0.9,
+};
+
+/// Contacts of Hertz in a vacuum: 2 a k with a^3 = 3 F R/(4 E*). Gas takes from the resistance, and no load leaves none but gas.
+#[test]
+fn walls_have_the_resistance_of_their_spheres() {
+    let vacuum = msdd_sphere_material { gas: null(), ..STEEL };
+    let ask = |material: &msdd_sphere_material, wall: &msdd_sphere_wall, stress: [f64; 2]| {
+        let (temperature, conductivity, mut found) = ([300.0; 2], [0.5; 2], [0.0; 2]);
+        let [s, t, k] = [stress, temperature, conductivity];
+        // SAFETY: columns of two values.
+        let status = unsafe {
+            msdd_spheres_wall_resistance(
+                material,
+                wall,
+                2,
+                s.as_ptr(),
+                t.as_ptr(),
+                k.as_ptr(),
+                found.as_mut_ptr(),
+            )
+        };
+        (status, found)
+    };
+    let (status, found) = ask(&vacuum, &WALL, [1e4, 0.0]);
+    let square = 6.4e-3 * 6.4e-3 / 0.9;
+    let a = (0.75 * 1e4 * square * 3.2e-3 / MODULUS).cbrt();
+    let expected = square / (2.0 * a * 42.0) - 3.2e-3 / 0.5;
+    assert!(status == MSDD_OK && (found[0] / expected - 1.0).abs() < 1e-12, "{found:?} {expected}");
+    assert_eq!(found[1], 1e9);
+    let (_, gas) = ask(&STEEL, &WALL, [1e4, 0.0]);
+    assert!(gas[0] < found[0] && gas[0] < gas[1] && gas[1] < 0.1, "{gas:?}");
+    for (wall, said) in [
+        (msdd_sphere_wall { spheres: 2.0, ..WALL }, "wall.spheres = 2, allowed: 0.01 to 1.16"),
+        (msdd_sphere_wall { roughness: 1e-6, ..WALL }, "wall.hardness = 0"),
+        (msdd_sphere_wall { conductivity: 0.0, ..WALL }, "wall.conductivity = 0"),
+        (msdd_sphere_wall { struct_size: 8, ..WALL }, "wall.struct_size = 8"),
+    ] {
+        let (status, _) = ask(&STEEL, &wall, [1e4; 2]);
+        assert!(status == MSDD_INVALID_ARGUMENT && last_error().contains(said), "{status}: {}", last_error());
+    }
+    assert_eq!(ask(&STEEL, &WALL, [f64::NAN, 0.0]).0, MSDD_NON_FINITE);
 }

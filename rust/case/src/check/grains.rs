@@ -49,6 +49,9 @@ fn check_surrogate(
     let coefficients = match surrogate.get(&format!("{kind}Coeffs")) {
         Some(Entry::Dictionary(own)) => {
             keys::check(own, FILE, table, &[], found);
+            if let ("spheres", Ok(wall)) = (kind.as_str(), own.dictionary_at("wall")) {
+                keys::check(wall, FILE, keys::SPHERE_WALL, &[], found);
+            }
             own
         }
         _ => {

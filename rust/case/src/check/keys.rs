@@ -129,6 +129,17 @@ pub const SPHERES: &[Key] = &[
     may("gasPressure", Kind::Range(1e-3, 1e9, "Pa")),
     may("accommodation", Kind::Range(0.01, 1.0, "")),
     may("coordination", Kind::Range(0.0, 12.0, "")),
+    may("wall", Kind::Dictionary),
+];
+
+/// `wall` of `spheresCoeffs`.
+pub const SPHERE_WALL: &[Key] = &[
+    must("thermalConductivity", Kind::Range(1e-12, 1e12, "W/(m K)")),
+    must("youngModulus", Kind::Range(1e-9, 1e15, "Pa")),
+    must("poissonRatio", Kind::Range(-0.99, 0.5, "")),
+    may("roughness", Kind::Range(0.0, 1.0, "m")),
+    may("hardness", Kind::Range(1.0, 1e15, "Pa")),
+    may("spheres", Kind::Range(0.01, 1.16, "")),
 ];
 
 /// What the solver does when a state is outside of the model's trained range.

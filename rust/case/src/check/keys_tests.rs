@@ -29,6 +29,7 @@ fn tables_hold_exactly_the_keys_that_the_solver_allows() {
         ("pluginModel/pluginModel.C", "coeffs_", PLUGIN),
         ("onlineRveModel/onlineRveModel.C", "coeffs_", ONLINE_RVE),
         ("spheresModel/spheresModel.C", "coeffs_", SPHERES),
+        ("spheresModel/spheresModel.C", "dict", SPHERE_WALL),
         ("granularMechanics/equilibrium.C", "dict_", EQUILIBRIUM),
         ("granularMechanics/wallConditions.C", "dict", WALL),
         ("granularMechanics/stressLaw.C", "dict", ELASTIC),

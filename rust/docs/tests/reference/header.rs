@@ -5,11 +5,12 @@ use crate::sources::{all, firsts, text};
 
 const PAGE: &str = "reference/c-interface.md";
 const HEADER: &str = "rust/capi/include/msdd.h";
-const STRUCTURES: [&str; 9] = [
+const STRUCTURES: [&str; 10] = [
     "msdd_material",
     "msdd_batch",
     "msdd_initial",
     "msdd_sphere_material",
+    "msdd_sphere_wall",
     "msdd_sphere_batch",
     "msdd_averages",
     "msdd_plugin_start",

@@ -22,6 +22,7 @@ const LINEAR: &str = "openfoam/granularModels/granularMechanics/equilibriumSolve
 const SCHEME: &str = "openfoam/msddFoam/timeScheme/timeScheme.C";
 const THERMO: &str = "openfoam/granularThermo/granularSolidThermo/granularSolidThermo.C";
 const AXES: &str = "openfoam/granularThermo/principalAxes/principalAxes.C";
+const CONTACT: &str = "openfoam/granularThermo/granularContact/granularContactFvPatchScalarField.C";
 const SECOND: &str = "openfoam/msddFoam/timeScheme/secondOrderScheme.C";
 
 /// Texts that are looked up in the solver and are no keys of a user.
@@ -112,6 +113,10 @@ fn surrogates() -> Vec<Set> {
             sources::files(&folder, &["C", "H"]).iter().map(|(_, text)| without_comments(text)).collect();
         let set = Set::new(GRAINS, &format!("{name}Coeffs"), &folder, allowed_keys(&text, "coeffs_"));
         sets.push(with_literals(set, &text));
+        if name == "spheres" {
+            let wall = Set::new(GRAINS, "wall of spheresCoeffs", &folder, allowed_keys(&text, "dict"));
+            sets.push(with_literals(wall, &text));
+        }
     }
     sets
 }
@@ -185,7 +190,10 @@ fn beds() -> Vec<Set> {
     let set =
         Set::new(BEDS, "thermophysicalProperties of a bed", THERMO, allowed_keys(&source(THERMO), "*this"))
             .but(&[("FoamFile", "head of every file of OpenFOAM")]);
-    vec![with_literals(set, &source(AXES))]
+    let contact = source(CONTACT);
+    let keys = firsts(r#"\bdict\.\w+(?:<\w+>)?\(\s*"(\w+)""#, &contact);
+    let condition = Set::new(BEDS, "granularContact", CONTACT, keys);
+    vec![with_literals(set, &source(AXES)), with_literals(condition, &contact)]
 }
 
 fn function_objects() -> Vec<Set> {

@@ -1,0 +1,96 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "granularState.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::granularState::findWalls(const volScalarField& T)
+{
+    for (const fvPatchScalarField& patch : T.boundaryField())
+    {
+        if (patch.type() == "granularContact")
+        {
+            wallResistance_.reset
+            (
+                new volScalarField
+                (
+                    io("wallResistance"),
+                    mesh_,
+                    dimensionedScalar
+                    (
+                        dimArea*dimTemperature/dimPower, Zero
+                    )
+                )
+            );
+            return;
+        }
+    }
+}
+
+
+void Foam::granularState::setWallResistance()
+{
+    if (!wallResistance_.valid())
+    {
+        return;
+    }
+    const volScalarField& T = mesh_.lookupObject<volScalarField>("T");
+    const bool spatial = stressRest_[0].size();
+    forAll(mesh_.boundary(), patchi)
+    {
+        if (T.boundaryField()[patchi].type() != "granularContact")
+        {
+            continue;
+        }
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        const labelUList& cells = patch.faceCells();
+        const vectorField n(patch.nf());
+        scalarField stress(n.size()), temperature(n.size());
+        scalarField conductivity(n.size()), resistance(n.size());
+        forAll(n, facei)
+        {
+            const label celli = cells[facei];
+            const symmTensor sigma
+            (
+                stressXX_[celli],
+                stressXY_[celli],
+                spatial ? stressRest_[1][celli] : 0,
+                stressYY_[celli],
+                spatial ? stressRest_[2][celli] : 0,
+                spatial ? stressRest_[0][celli] : 0
+            );
+            const symmTensor K
+            (
+                K_.xx[celli],
+                K_.xy.size() ? K_.xy[celli] : 0,
+                spatial ? K_.xz[celli] : 0,
+                K_.yy[celli],
+                spatial ? K_.yz[celli] : 0,
+                spatial ? K_.zz[celli] : 0
+            );
+            stress[facei] = n[facei] & (sigma & n[facei]);
+            temperature[facei] = temperature_[celli];
+            conductivity[facei] = properties_.conductivityFactor()
+               *(n[facei] & (K & n[facei]));
+        }
+        model_->wallResistance(stress, temperature, conductivity, resistance);
+        wallResistance_().boundaryFieldRef()[patchi] == resistance;
+    }
+}
+
+
+// ************************************************************************* //

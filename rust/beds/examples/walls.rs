@@ -1,0 +1,148 @@
+//! What a wall adds to the resistance of a bed of spheres: `walls [SPHERES] [SEEDS]`.
+//!
+//! Spheres are poured into a box, a lid is pressed on, and heat is led from the lid to the floor through contacts and gas. A straight
+//! line through the temperatures far from both gives the conductivity K and, prolonged to floor and lid, the difference of temperature
+//! that each takes, over the heat flux: its resistance beside a bed that conducts alike up to its surface. It is printed in
+//! diameters of the bed (times K/d), beside what the law of walls gives ([`msdd_beds::wall`]), whose one number, the spheres at
+//! the wall on d², is counted: those nearer than half a radius.
+
+use msdd_beds::effective::BedMaterial;
+use msdd_beds::named_gases::GasName;
+use msdd_beds::network::{Materials, Network, Plate, PlateLaw};
+use msdd_beds::pour::{Container, Pouring, pour};
+use msdd_beds::press::press;
+use msdd_beds::property::Property;
+use msdd_beds::solid::{Roughness, Solid};
+use msdd_beds::wall::Wall;
+use msdd_spheres::law::effective_modulus;
+use msdd_spheres::{Material, Simulation, Stiffness};
+
+const DIAMETER: f64 = 2e-3;
+const T: f64 = 293.15;
+/// Length of the base, and distance from both ends that the straight line leaves out \[d\].
+const BASE: f64 = 12.0;
+const END: f64 = 4.0;
+const ROUGH: Roughness = Roughness { height_over_slope: 3.4e-7, hardness: 3e9 };
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
+    let (spheres, seeds) = (number(2500)? as usize, number(3)?);
+    println!("pressure seed gas K[W/mK] wall n R/(d/K) law h[W/m2K] law");
+    let stiffness = Stiffness::HertzMindlin { young_modulus: 5e9, poisson_ratio: 0.29 };
+    let material =
+        Material { density: 7750.0, stiffness, friction: 0.3, wall_friction: 0.3, restitution: 0.8 };
+    let container = Container::Box { base: [BASE * DIAMETER; 2] };
+    for seed in 1..=seeds {
+        let (diameter, gravity, longest, threads) = (DIAMETER, 9.81, 10.0, 1);
+        let material = material.clone();
+        let pouring = Pouring { spheres, seed, diameter, material, container, gravity, longest, threads };
+        let (mut bed, _) = pour(&pouring, |_| ())?;
+        for pressure in [2e3, 2e4, 2e5] {
+            press(&mut bed, 5, (pressure, container.area()), longest, |_| ())?;
+            for gas in [GasName::Air, GasName::Helium, GasName::Vacuum] {
+                report(&bed, pressure, seed, gas, container.area());
+            }
+        }
+    }
+    Ok(())
+}
+
+fn report(bed: &Simulation, pressure: f64, seed: u64, gas: GasName, area: f64) {
+    let modulus = effective_modulus(200e9, 0.29);
+    let materials = Materials {
+        conductivity: Property::Constant(42.0),
+        heat_capacity: Property::Constant(464.0),
+        effective_modulus: modulus,
+        roughness: Some(ROUGH),
+        gas,
+        gas_pressure: 1.013e5,
+        accommodation: 0.9,
+    };
+    let law =
+        PlateLaw::Resisting { conductivity: None, effective_modulus: 2.0 * modulus, roughness: Some(ROUGH) };
+    let walls = [0, 5];
+    let network = Network::new(bed, materials, &walls.map(|wall| Plate { wall, law }));
+    let count = bed.spheres.len();
+    let found = network.conductances(&vec![T; count], &[T; 2]);
+    let temperatures = steady(count, &found.links, &found.plates);
+    let top = bed.boundary.walls()[5].point[2];
+    let inside: Vec<[f64; 2]> = (bed.spheres.iter().zip(&temperatures))
+        .map(|(sphere, &t)| [sphere.position[2], t])
+        .filter(|[z, t]| *z > END * DIAMETER && *z < top - END * DIAMETER && t.is_finite())
+        .collect();
+    let (at_zero, slope) = line(&inside);
+    for (plate, wall) in walls.into_iter().enumerate() {
+        let through = |&&(_, p, _): &&(usize, usize, f64)| p == plate;
+        let heat: f64 = (found.plates.iter().filter(through))
+            .map(|&(k, p, g)| g * (temperatures[k] - p as f64) * if p == 0 { 1.0 } else { -1.0 })
+            .sum();
+        let h: f64 = found.plates.iter().filter(through).map(|link| link.2).sum::<f64>() / area;
+        let flux = heat / area;
+        let conductivity = flux / slope;
+        let jump = if plate == 0 { at_zero } else { 1.0 - at_zero - slope * top };
+        let n = found.plates.iter().filter(through).count() as f64 * DIAMETER * DIAMETER / area;
+        let force: f64 = bed.wall_force[wall].map(|f| f * f).iter().sum::<f64>().sqrt() / area;
+        let solid = Solid { conductivity: 42.0, effective_modulus: modulus, roughness: Some(ROUGH) };
+        let bed =
+            BedMaterial { radius: 0.5 * DIAMETER, solid, gas, gas_pressure: 1.013e5, accommodation: 0.9 };
+        let surface =
+            Wall { conductivity: None, effective_modulus: 2.0 * modulus, roughness: Some(ROUGH), spheres: n };
+        let said = surface.conductance(&bed, force, T);
+        println!(
+            "{pressure:.0e} {seed} {} {conductivity:.4} {} {n:.3} {:.3} {:.3} {h:.1} {said:.1}",
+            gas.as_str(),
+            ["floor", "lid"][plate],
+            jump / flux * conductivity / DIAMETER,
+            surface.resistance(&bed, force, T, conductivity) * conductivity / DIAMETER,
+        );
+    }
+}
+
+/// T of spheres between plates of 0 and 1 K, at which no heat stays at any sphere; conjugate gradients.
+fn steady(count: usize, links: &[(usize, usize, f64)], plates: &[(usize, usize, f64)]) -> Vec<f64> {
+    let mut diagonal = vec![1e-12; count];
+    let mut rest = vec![0.0; count];
+    for &(i, j, g) in links {
+        diagonal[i] += g;
+        diagonal[j] += g;
+    }
+    for &(k, plate, g) in plates {
+        diagonal[k] += g;
+        rest[k] += g * plate as f64;
+    }
+    let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let scaled = |r: &[f64]| r.iter().zip(&diagonal).map(|(r, d)| r / d).collect::<Vec<f64>>();
+    let mut t = vec![0.0; count];
+    let mut direction = scaled(&rest);
+    let mut product = inner(&rest, &direction);
+    let first = product;
+    while product > 1e-22 * first {
+        let mut flow: Vec<f64> = direction.iter().zip(&diagonal).map(|(x, d)| x * d).collect();
+        for &(i, j, g) in links {
+            flow[i] -= g * direction[j];
+            flow[j] -= g * direction[i];
+        }
+        let step = product / inner(&direction, &flow);
+        for k in 0..count {
+            t[k] += step * direction[k];
+            rest[k] -= step * flow[k];
+        }
+        let next = scaled(&rest);
+        let new_product = inner(&rest, &next);
+        direction.iter_mut().zip(next).for_each(|(d, n)| *d = n + new_product / product * *d);
+        product = new_product;
+    }
+    // Spheres that nothing touches have no temperature.
+    (0..count).map(|k| if diagonal[k] > 1e-11 { t[k] } else { f64::NAN }).collect()
+}
+
+/// Value at 0 and slope of the straight line through points.
+fn line(points: &[[f64; 2]]) -> (f64, f64) {
+    let n = points.len() as f64;
+    let [x, y] = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
+    let product: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
+    let square: f64 = points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum();
+    let slope = product / square;
+    (y - slope * x, slope)
+}

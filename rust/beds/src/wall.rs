@@ -1,0 +1,95 @@
+//! What a wall adds to the resistance of a bed of spheres.
+//!
+//! A bed is taken as a body of the conductivity K up to its surface. The spheres at a wall pass heat to it through their contacts
+//! and through the gas beside these, by the laws of [`crate::solid`] and [`crate::gas`]. With n spheres on d² of the wall, each of which bears
+//! the force p d²/n, that is the conductance per area h = n (G_contact + G_gas)/d² between the wall and the centres of these
+//! spheres, which lie R away from it. The body has conducted over this distance, too: so what the wall adds is R_w = 1/h − R/K, or
+//! nothing if that is negative.
+
+use crate::effective::BedMaterial;
+use crate::gas::plate_conductance;
+use crate::solid::{Roughness, Solid};
+
+/// The surface of a wall beside a bed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wall {
+    /// k \[W/(m K)\] of the wall; none: its surface has one temperature.
+    pub conductivity: Option<f64>,
+    /// E* \[Pa\] of a sphere and the wall.
+    pub effective_modulus: f64,
+    /// Of sphere and wall together; none: smooth.
+    pub roughness: Option<Roughness>,
+    /// n, spheres at the wall on the square of a diameter \[-\].
+    pub spheres: f64,
+}
+
+impl Wall {
+    /// h \[W/(m² K)\] between the wall and the centres of the spheres at it, under a stress normal to the wall \[Pa\] and at a temperature
+    /// of the gas \[K\].
+    pub fn conductance(&self, bed: &BedMaterial, stress: f64, temperature: f64) -> f64 {
+        let diameter = 2.0 * bed.radius;
+        let force = stress.max(0.0) * diameter * diameter / self.spheres;
+        let solid = bed.solid.conductivity;
+        let pair =
+            Solid { conductivity: 1.0, effective_modulus: self.effective_modulus, roughness: self.roughness };
+        // 2 a k of two half-spaces of one k; of two different ones, their harmonic mean. A surface of one temperature: twice k.
+        let harmonic = self.conductivity.map_or(2.0 * solid, |wall| 2.0 * solid * wall / (solid + wall));
+        let contact = harmonic * pair.contact_size(force, bed.radius);
+        let by_gas = bed.gas_at(temperature).map_or(0.0, |gas| {
+            let distance = gas.plate_distance(0.0, bed.radius, solid);
+            plate_conductance(gas.conductivity, bed.radius, distance, gas.jump_length())
+        });
+        self.spheres * (contact + by_gas) / (diameter * diameter)
+    }
+
+    /// R_w \[m² K/W\] beside a bed that conducts `conductivity` \[W/(m K)\] across the wall, 0 at least. Infinite where nothing
+    /// conducts.
+    pub fn resistance(&self, bed: &BedMaterial, stress: f64, temperature: f64, conductivity: f64) -> f64 {
+        (1.0 / self.conductance(bed, stress, temperature) - bed.radius / conductivity).max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::named_gases::GasName;
+
+    fn steel(gas: GasName) -> BedMaterial {
+        let solid = Solid { conductivity: 42.0, effective_modulus: 1.09e11, roughness: None };
+        BedMaterial { radius: 1e-3, solid, gas, gas_pressure: 1.013e5, accommodation: 0.9 }
+    }
+
+    const SMOOTH: Wall =
+        Wall { conductivity: Some(42.0), effective_modulus: 1.09e11, roughness: None, spheres: 1.0 };
+
+    /// Hertz: contacts conduct 2 a k, with a = (3 F R/(4 E*))^(1/3).
+    #[test]
+    fn in_a_vacuum_contacts_alone_conduct() {
+        let bed = steel(GasName::Vacuum);
+        let force: f64 = 1e4 * 4e-6;
+        let a = (0.75 * force * 1e-3 / 1.09e11).cbrt();
+        let found = SMOOTH.conductance(&bed, 1e4, 300.0);
+        assert!((found / (2.0 * a * 42.0 / 4e-6) - 1.0).abs() < 1e-12, "{found}");
+        // Eight times the pressure, twice the conductance; fewer spheres that bear more each: n^(2/3).
+        assert!((SMOOTH.conductance(&bed, 8e4, 300.0) / found - 2.0).abs() < 1e-12);
+        let few = Wall { spheres: 0.125, ..SMOOTH };
+        assert!((few.conductance(&bed, 1e4, 300.0) / found - 0.25).abs() < 1e-12);
+        assert_eq!(SMOOTH.resistance(&bed, 0.0, 300.0, 0.5), f64::INFINITY);
+    }
+
+    /// Gas, poor walls and rough surfaces each count in the right direction; the bed's own half diameter is taken off.
+    #[test]
+    fn a_wall_adds_what_its_spheres_do_not_conduct() {
+        let (air, bed) = (steel(GasName::Air), steel(GasName::Vacuum));
+        let at = |wall: &Wall, bed: &BedMaterial| wall.conductance(bed, 1e4, 300.0);
+        assert!(at(&SMOOTH, &air) > at(&SMOOTH, &bed));
+        let poor = Wall { conductivity: Some(0.2), ..SMOOTH };
+        assert!(at(&poor, &bed) < 0.02 * at(&SMOOTH, &bed));
+        let rough = Wall { roughness: Some(Roughness { height_over_slope: 2e-6, hardness: 3e9 }), ..SMOOTH };
+        assert!(at(&rough, &bed) < at(&SMOOTH, &bed));
+        let h = at(&SMOOTH, &air);
+        let found = SMOOTH.resistance(&air, 1e4, 300.0, 2e-3 * h);
+        assert!((found * h - 0.5).abs() < 1e-12, "{found}");
+        assert_eq!(SMOOTH.resistance(&air, 1e4, 300.0, 1e-4 * h), 0.0);
+    }
+}
