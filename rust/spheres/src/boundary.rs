@@ -150,6 +150,9 @@ impl Cell {
 pub enum Boundary {
     Walls(Vec<Wall>),
     Periodic(Cell),
+    /// A cell at whose sides the assembly repeats itself, with walls above and below. Its third edge is so long that nothing above
+    /// the upper wall meets what is below the lower one.
+    Between(Cell, Vec<Wall>),
 }
 
 impl Boundary {
@@ -157,15 +160,30 @@ impl Boundary {
     pub fn cell(&self) -> Option<&Cell> {
         match self {
             Self::Walls(_) => None,
-            Self::Periodic(cell) => Some(cell),
+            Self::Periodic(cell) | Self::Between(cell, _) => Some(cell),
+        }
+    }
+
+    pub(crate) fn cell_mut(&mut self) -> Option<&mut Cell> {
+        match self {
+            Self::Walls(_) => None,
+            Self::Periodic(cell) | Self::Between(cell, _) => Some(cell),
         }
     }
 
     /// The walls; none in a periodic box.
     pub fn walls(&self) -> &[Wall] {
         match self {
-            Self::Walls(walls) => walls,
+            Self::Walls(walls) | Self::Between(_, walls) => walls,
             Self::Periodic(_) => &[],
+        }
+    }
+
+    /// The walls, to set their velocities.
+    pub fn walls_mut(&mut self) -> &mut [Wall] {
+        match self {
+            Self::Walls(walls) | Self::Between(_, walls) => walls,
+            Self::Periodic(_) => &mut [],
         }
     }
 }
