@@ -120,6 +120,11 @@ Foam::dictionary Foam::granularState::settings() const
         granularProperties::bulkDensityModelNames[properties_.bulkDensity()]
     );
     add("mechanics", mechanics);
+    if (mag(properties_.gravity()) > 0)
+    {
+        const vector& g = properties_.gravity();
+        add("g", shown(g.x()) + " " + shown(g.y()) + " " + shown(g.z()));
+    }
     add
     (
         "mechanicsCoeffs",

@@ -209,6 +209,9 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     batch.state = cells.state + 2;
     batch.next_state = cells.nextState + 2;
     batch.thermal_strain = cells.strain;
+    batch.strain = cells.cellStrain;
+    batch.rotation = cells.rotation;
+    batch.tangent = cells.tangent;
     batch.temperature = cells.temperature;
     batch.stress = stress.data();
     batch.conductivity = conductivity.data();
@@ -224,8 +227,13 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     for (label row = 0; row < cells.size; ++row)
     {
         // Exactly as before without strain
+        bool still = cells.strain[row] == 0;
+        for (label i = 0; cells.cellStrain && i < components(); ++i)
+        {
+            still = still && cells.cellStrain[i][row] == 0;
+        }
         cells.nextState[0][row] =
-            cells.strain[row] == 0 ? cells.state[0][row] : 1 - solid[row];
+            still ? cells.state[0][row] : 1 - solid[row];
         cells.nextState[1][row] = cells.state[1][row];
         if (cells.outside)
         {
