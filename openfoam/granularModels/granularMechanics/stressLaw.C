@@ -370,8 +370,33 @@ void Foam::grainLaw::find()
             angle[celli] = half*(lower - upper);
         }
     }
+    if (e.size() == 6)
+    {
+        findStretch();
+    }
     grains_.tryStrain(strain_, found_, derivatives_);
     take();
+}
+
+
+void Foam::grainLaw::findStretch()
+{
+    columns& e = strain_.strain;
+    forAll(e[0], celli)
+    {
+        const symmTensor h
+        (
+            0.5*e[0][celli], 0.25*e[3][celli], 0.25*e[4][celli],
+            0.5*e[1][celli], 0.25*e[5][celli], 0.5*e[2][celli]
+        );
+        const tensor stretch(2*(h & inv(symmTensor::I - h)));
+        e[0][celli] = stretch.xx();
+        e[1][celli] = stretch.yy();
+        e[2][celli] = stretch.zz();
+        e[3][celli] = stretch.xy() + stretch.yx();
+        e[4][celli] = stretch.xz() + stretch.zx();
+        e[5][celli] = stretch.yz() + stretch.zy();
+    }
 }
 
 
