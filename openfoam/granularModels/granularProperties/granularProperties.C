@@ -49,9 +49,9 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
     youngModulus_(positive("youngModulus", dimPressure)),
     thermalConductivity_
     (
-        positive("thermalConductivity", dimPower/dimLength/dimTemperature)
+        *this, "thermalConductivity", dimPower/dimLength/dimTemperature
     ),
-    heatCapacity_(positive("heatCapacity", dimSpecificHeatCapacity)),
+    heatCapacity_(*this, "heatCapacity", dimSpecificHeatCapacity),
     thermalExpansion_("thermalExpansion", dimless/dimTemperature, *this),
     meanRadius_(positive("meanRadius", dimLength)),
     conductivityFactor_(ranged(*this, "conductivityFactor", 1, 0.1, 10)),

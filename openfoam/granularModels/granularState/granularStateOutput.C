@@ -240,7 +240,14 @@ Foam::scalar Foam::granularState::storedHeat(const volScalarField& T) const
     const scalarField& bulk = bulkDensity_.primitiveField();
     const scalarField& start = initialTemperature_.primitiveField();
     return properties_.heatCapacity().value()
-       *gSum(bulk*mesh_.V().field()*(T.primitiveField() - start));
+       *gSum
+        (
+            bulk*mesh_.V().field()
+           *(
+                properties_.heatFunction().equivalent(T.primitiveField())
+              - properties_.heatFunction().equivalent(start)
+            )
+        );
 }
 
 

@@ -264,6 +264,13 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     batch.rotation = cells.rotation;
     batch.tangent = cells.tangent;
     batch.temperature = cells.temperature;
+    const temperatureFunction& k = properties_.conductivityFunction();
+    scalarField conducting(k.isNumber() ? 0 : cells.size);
+    forAll(conducting, row)
+    {
+        conducting[row] = k.value(cells.temperature[row]);
+    }
+    batch.solid_conductivity = k.isNumber() ? nullptr : conducting.cdata();
     batch.stress = stress.data();
     batch.conductivity = conductivity.data();
     batch.solid_fraction = solid.data();

@@ -139,6 +139,7 @@ class Spheres:
         strain: Optional[ArrayLike] = None,
         rotation: Optional[ArrayLike] = None,
         temperature: Optional[ArrayLike] = None,
+        solid_conductivity: Optional[ArrayLike] = None,
         tangent: bool = False,
     ) -> SphereStep:
         """Takes cells through one step. What was given is left as it is.
@@ -149,6 +150,7 @@ class Spheres:
             list or along the first axis; the last three are twice the shears, du_x/dy + du_y/dx and so on. None = 0.
         rotation: vector of the angle by which the cell turns, half of the curl of the displacement [rad], three components. None = 0.
         temperature: of the gas [K], 0 to 1e5. None = 293.15.
+        solid_conductivity: k_s of the spheres [W/(m K)], 1e-12 to 1e12, where it is not that of the material. None = the material's.
         tangent: whether to compute it, too.
         Raises InvalidArgument, also where the spheres conduct less than 30 times as well as the gas; NonFinite; KeyError for a
         missing column of the state.
@@ -162,7 +164,8 @@ class Spheres:
         strains = {} if strain is None else _components("strain", strain, COMPONENTS)
         angles = {} if rotation is None else _components("rotation", rotation, ("x", "y", "z"))
         shape, columns = aligned(
-            {**before, "thermal_strain": thermal_strain, **strains, **angles}, {"temperature": temperature}
+            {**before, "thermal_strain": thermal_strain, **strains, **angles},
+            {"temperature": temperature, "solid_conductivity": solid_conductivity},
         )
         after = {name: np.empty(shape) for name in self._state_names}
         stress, conductivity = np.empty((6, *shape)), np.empty((6, *shape))
@@ -185,7 +188,7 @@ class Spheres:
         batch = SphereBatchStruct(struct_size=c.sizeof(SphereBatchStruct), cells=_count(shape), outside=address(outside))
         for name, pointers in tables.items():
             setattr(batch, name, c.addressof(pointers))
-        for name in ("thermal_strain", "temperature"):
+        for name in ("thermal_strain", "temperature", "solid_conductivity"):
             if name in columns:
                 setattr(batch, name, address(columns[name]))
         for name, column in answers.items():

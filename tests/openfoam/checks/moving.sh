@@ -2,35 +2,7 @@
 # spheres.c asks; growth in a rigid box and under a given pressure; a wedge beside the sector in space; restart, processes, heat, grain
 # size, gravity, and what is refused.
 
-bed() { # folder, walls: spheres of 2 mm under 5 kPa and 300 K, insulated
-    rm -rf "${work:?}/$1"
-    mkdir -p "$work/$1/0" "$work/$1/constant" "$work/$1/system"
-    cd "$work/$1"
-    start_field T '[0 0 0 1 0 0 0]' 300
-    start_field porosity '[0 0 0 0 0 0 0]' 0.41
-    start_field fabricIndex '[0 0 0 0 0 0 0]' 0
-    start_field stress '[1 -1 -2 0 0 0 0]' '(-5000 0 0 -5000 0 -5000)'
-    sed -i s/volScalarField/volSymmTensorField/ 0/stress
-    cat > constant/granularProperties <<-END
-	FoamFile { version 2.0; format ascii; class dictionary; object granularProperties; }
-	surrogate { type spheres; spheresCoeffs { poissonRatio 0.25; gas air; } }
-	density 2500; youngModulus 5e9; thermalConductivity 40; heatCapacity 800; thermalExpansion 1e-5; meanRadius 1e-3;
-	mechanics equilibrium;
-	equilibriumCoeffs { $2 }
-	END
-    cat > system/controlDict <<-'END'
-	FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
-	endTime 1; deltaT 1; writeInterval 1; writeFormat ascii; writePrecision 17; timePrecision 6;
-	END
-    cp "$here/small/system/fvSchemes" system
-    cat > system/fvSolution <<-'END'
-	FoamFile { version 2.0; format ascii; class dictionary; object fvSolution; }
-	solvers { T { solver PCG; preconditioner DIC; tolerance 1e-12; relTol 0; } }
-	msddFoam { nNonOrthogonalCorrectors 5; }
-	END
-}
 growth_is() { start_field thermalStrainIncrement '[0 0 0 0 0 0 0]' "$1"; } # growth of the radii, which the first step applies
-heated() { sed -i "s/^    \"\\.\\*\" { type zeroG/    $1 { type fixedValue; value uniform $2; }\\n&/" 0/T; } # patch, temperature
 asked() { "$work/spheres-law" 0.59 5000 5000 5000 0 0 0; } # reads steps, see spheres.c
 # Largest difference between the stress of all cells and one of six components xx xy xz yy yz zz (tension positive), over the largest of these
 from_stress() { # file, components
@@ -86,10 +58,8 @@ growth_of_spheres() {
     d=$(field 1/nodeDisplacement | awk '{ for (k = 1; k <= 3; k++) if ($k > w) w = $k } END { print w/4e-4 - 1 }')
     check "and the bed grows by as much as the spheres: relative difference $d, at most 1e-6" is_within "$d" -1e-6 1e-6
 }
-is_within() { awk -v value="$1" -v low="$2" -v high="$3" 'BEGIN { exit !(value + 0 == value && value >= low && value <= high) }'; }
 
 # A column of 1 m under its weight: 2500*0.59 kg/m3, 9.81 m/s2. Stress over that of the closed form at the bottom.
-gravity_is() { echo "FoamFile { version 2.0; format ascii; class uniformDimensionedVectorField; object g; } dimensions [0 1 -2 0 0 0 0]; value ($1);" > constant/g; }
 from_weight() { # component of the position, of the stress along it; density: largest error of the vertical stress, over that at the bottom
     paste -d ' ' <(field 0/C) <(field 1/stress) | awk -v x="$1" -v s="$2" -v full="$(awk "BEGIN { printf \"%.17g\", $3*9.81 }")" '
         { e = $(3 + s) + full*(1 - $x); if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR > 3 ? w/full : "nan") }'
@@ -116,6 +86,31 @@ weights() {
     logged msddFoam
     e=$(from_weight 3 6 "2500*0.59")
     check "a column from uniform stress: vertical stress differs from the closed form by $e <= 1e-5" below "$e" 1e-5
+    # The same for a hollow cylinder with its axis upright, as a wedge, and for discs in the plane
+    bed spheres-upright "walls { \"inner|outer|low\" { type frictionless; } top { type pressure; pressure constant 0; } }"
+    rm 0/stress
+    grains 'restStress { lateral 0.7; }'
+    gravity_is '-9.81 0 0'
+    wedge_mesh 4
+    sed -i 's/ends { type symmetry; faces ((0 4 7 3) (1 2 6 5)); }/low { type wall; faces ((0 4 7 3)); } top { type wall; faces ((1 2 6 5)); }/' \
+        system/blockMeshDict
+    logged blockMesh
+    cell_geometry
+    logged msddFoam
+    e=$(from_weight 1 1 "2500*0.59")
+    check "a wedge with its axis upright stays at rest: vertical stress differs from the closed form by $e <= 1e-10" below "$e" 1e-10
+    changed discs-at-rest
+    sed -i 's/fixedValue;/zeroGradient;/; /value /d' 0/T
+    grains 'density 300; thermalExpansion 0; restStress { lateral 0.8; } mechanics equilibrium;
+        equilibriumCoeffs { residual 1e-6; walls { ".*" { type frictionless; } top { type pressure; pressure constant 0; } } }'
+    gravity_is '0 -9.81 0'
+    box quadrilaterals '4 6'
+    cell_geometry
+    controls 'endTime 0.05; writeInterval 1; writePrecision 17;'
+    logged msddFoam
+    e=$(paste -d ' ' <(field 0/C) <(field 0.05/stress) <(field 0.05/bulkDensity) | awk '{ e = $7 + $10*9.81*(0.645 - $2); if (e < 0) e = -e; if (!(e <= w)) w = e
+        f = $10*9.81*0.645 } END { print (NR > 3 ? w/f : "nan") }')
+    check "discs at rest under their weight: vertical stress differs from the closed form by $e <= 1e-6" below "$e" 1e-6
     bed spheres-wedge-weight "walls { \"inner|outer\" { type frictionless; } }"
     gravity_is '0 0 -9.81'
     wedge_mesh 4
@@ -136,8 +131,8 @@ weights() {
 # and as a quarter in space. Rows: for each radius T and the stress along the radius, the hoop and the axis.
 hollow() { # folder, mesh
     bed "$1" 'residual 1e-2; walls { ".*" { type rigid; } inner { type pressure; pressure constant 5000; } }'
-    heated inner 340
-    heated outer 300
+    hot_wall inner 340
+    hot_wall outer 300
     "$2" 16
     if [ "$2" = ring_mesh ]; then
         sed -i 's/type empty/type wall/' system/blockMeshDict
@@ -170,7 +165,7 @@ hot_column() { # folder, size of the spheres [m]: a column under its weight and 
     bed "$1" 'walls { ".*" { type frictionless; } top { type pressure; pressure table ((0 5000) (8e4 20000)); } }'
     sed -i "s/meanRadius 1e-3/meanRadius $2/; s/gas air/gas vacuum/" constant/granularProperties
     gravity_is '0 0 -9.81'
-    heated top 340
+    hot_wall top 340
     cube 5
     moved_points
     controls 'endTime 8e4; deltaT 2e4; writeInterval 2; startFrom latestTime; functions { #include "'"$here"'/audits" }'

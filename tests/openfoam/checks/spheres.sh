@@ -20,7 +20,6 @@ apart() { # two files of a scalar field: largest difference
     paste -d ' ' <(field "$1") <(field "$2") | awk 'BEGIN { worst = 0 }
         { e = $1 - $2; if (e < 0) e = -e; if (!(e <= worst)) worst = e; n++ } END { print (n > 1 ? worst : "nan") }'
 }
-is_within() { awk -v value="$1" -v low="$2" -v high="$3" 'BEGIN { exit !(value + 0 == value && value >= low && value <= high) }'; }
 coefficient() { sed -i "s/^\( *\)$1 .*;/\1$1 $2;/" constant/granularProperties; }
 
 measured_bed() {
