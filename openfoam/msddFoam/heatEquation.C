@@ -27,6 +27,11 @@ namespace Foam
 //- points are given with about ten digits
 static const scalar alignedSine = 1e-7;
 
+//- Change of T over its largest value at which Newton's method ends: the error
+//- of the heat is its square; and how often it is repeated at most
+static const scalar settled = 1e-8;
+static const label mostNewton = 30;
+
 //- Non-orthogonality above which the user is warned, as by checkMesh [degrees]
 static const scalar largestAngle = 70;
 
@@ -62,6 +67,7 @@ Foam::heatEquation::heatEquation
     mesh_(T.mesh()),
     sources_(fv::options::New(mesh_)),
     neighbours_(neighbours),
+    heat_(properties.heatFunction()),
     heatCapacity_
     (
         "volumetricHeatCapacity",
@@ -278,6 +284,33 @@ void Foam::heatEquation::setStorage(const scalarField& Tstar, const scalar tau)
         diag[celli] = rate*capacity[celli]*V[celli];
         source[celli] = rate*capacity[celli]*Tstar[celli]*V[celli];
     }
+    if (heat_.isNumber())
+    {
+        return;
+    }
+    // H(T) is about H(T_k) + c/c0 (T - T_k)
+    const scalar c0 = heat_.usual().value();
+    forAll(diag, celli)
+    {
+        const scalar T = T_[celli], slope = heat_.value(T)/c0;
+        source[celli] -= diag[celli]*(heat_.equivalent(T) - slope*T);
+        diag[celli] *= slope;
+    }
+}
+
+
+bool Foam::heatEquation::hasSettled(const scalarField& before) const
+{
+    const scalarField& T = T_.primitiveField();
+    scalar change = 0, size = 0;
+    forAll(T, celli)
+    {
+        change = max(change, mag(T[celli] - before[celli]));
+        size = max(size, mag(T[celli]));
+    }
+    return
+        returnReduce(change, maxOp<scalar>())
+     <= settled*returnReduce(size, maxOp<scalar>());
 }
 
 
@@ -338,8 +371,17 @@ void Foam::heatEquation::solveBed
     const granularState::conductivityColumns& K
 )
 {
-    for (label corrector = 0; corrector <= correctors_; ++corrector)
+    // Explicit parts and a heat capacity that depends on the temperature need
+    // repetitions
+    const bool explicitly = !aligned_ || crossed_;
+    const label least = explicitly ? correctors_ : 0;
+    scalarField before;
+    for (label corrector = 0; corrector <= least + mostNewton; ++corrector)
     {
+        if (!heat_.isNumber())
+        {
+            before = T_.primitiveField();
+        }
         T_.boundaryFieldRef().updateCoeffs();
         patchHeat_ = 0;
         setStorage(Tstar, tau);
@@ -358,7 +400,7 @@ void Foam::heatEquation::solveBed
         addSources();
         TEqn_.solve(controls_);
 
-        if (aligned_ && !crossed_)
+        if (corrector >= least && (heat_.isNumber() || hasSettled(before)))
         {
             break;
         }

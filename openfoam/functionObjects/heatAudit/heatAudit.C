@@ -72,7 +72,10 @@ bool Foam::functionObjects::heatAudit::write()
     const scalar stored = grains.heatCapacity().value()*gSum
     (
         tbulk().primitiveField()*V
-       *(tT().primitiveField() - tT0().primitiveField())
+       *(
+            grains.heatFunction().equivalent(tT().primitiveField())
+          - grains.heatFunction().equivalent(tT0().primitiveField())
+        )
     );
     const scalar patches = returnReduce(sum(known.heat), sumOp<scalar>());
     const scalar sources = returnReduce(known.sourceHeat, sumOp<scalar>());

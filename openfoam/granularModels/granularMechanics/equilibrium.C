@@ -44,35 +44,19 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     dict_(properties.subOrEmptyDict("equilibriumCoeffs")),
     nodes_(mesh_),
     law_(stressLaw::New(dict_, properties, grains, nodes_)),
-    tolerance_
-    (
-        granularProperties::ranged
-        (
-            dict_,
-            "residual",
-            (law_->elastic() ? 1e-9 : 1e-4)*law_->scale(),
-            2e-14*law_->scale(),
-            2e4*law_->scale()
-        )
-    ),
+    tolerance_(0),
     maxIterations_
     (
         label(granularProperties::ranged(dict_, "maxIterations", 30, 1, 1000))
     ),
-    maxResidual_
-    (
-        granularProperties::ranged
-        (
-            dict_, "maxResidual", 20*tolerance_, tolerance_, 2e7*law_->scale()
-        )
-    ),
+    maxResidual_(0),
     walls_
     (
         dict_.subOrEmptyDict("walls"),
         grains.model(),
         nodes_,
         properties.meanRadius().value(),
-        law_->elastic()
+        law_->elastic() || grains.model().spatial()
     ),
     nodeDisplacement_
     (
@@ -107,6 +91,8 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     ),
     u_(nodes_.dim()*nodes_.size(), Zero),
     traction_(u_),
+    gravity_(properties.gravity()),
+    weight_(u_),
     start_(u_),
     nodeSize_(nodes_.size(), Zero),
     lastTime_(mesh_.time().value()),
@@ -135,6 +121,8 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         }
     );
 
+    law_->begin(initialStress_);
+    setResidual();
     if (!law_->elastic())
     {
         grains_.letDeform(walls_.strength());
@@ -150,6 +138,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
             << "; checkMesh tells more" << exit(FatalError);
     }
     shapes_ = reference_;
+    setWeight();
     setStart();
     setSolver();
     findMetric();
@@ -170,6 +159,65 @@ Foam::IOobject Foam::granularMechanicsModels::equilibrium::io
     (
         name, mesh_.time().timeName(), mesh_, read, IOobject::AUTO_WRITE
     );
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::setResidual()
+{
+    const scalar scale = law_->scale();
+    tolerance_ = granularProperties::ranged
+    (
+        dict_, "residual", law_->residual(), 2e-14*scale, 2e4*scale
+    );
+    if (!dict_.found("residual"))
+    {
+        tolerance_ =
+            min(tolerance_, dict_.getOrDefault<scalar>("maxResidual", GREAT));
+    }
+    maxResidual_ = granularProperties::ranged
+    (
+        dict_, "maxResidual", 20*tolerance_, tolerance_, 2e7*scale
+    );
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::setWeight()
+{
+    const label dim = nodes_.dim(), r = nodes_.radial();
+    vector across(gravity_);    // where nothing can move
+    for (label k = 0; k < dim; ++k)
+    {
+        across[k] = k == r ? across[k] : 0;
+    }
+    if (mag(across) > 1e-9*mag(gravity_))
+    {
+        FatalErrorInFunction
+            << "Gravity in constant/g is " << gravity_ << ", allowed in "
+            << (r < 0 ? "the plane: along x and y" : "a wedge: along its axis")
+            << exit(FatalError);
+    }
+    // The cells are material and so keep their weight. In bodies of revolution
+    // the nodes that are farther out bear more of it, as on rectangles
+    const scalarField& density = grains_.bulkDensity().primitiveField();
+    nodes_.each([&](const auto& e)
+    {
+        const scalar middle = nodes_.unfittedScale(e.cell, reference_);
+        for (label a = 0; a < e.size(); ++a)
+        {
+            const label node = e.nodes[a];
+            const scalar share =
+                r < 0
+              ? 1
+              : (nodes_.points()[2*node + r] + 2*middle)/(3*middle);
+            for (label k = 0; k < dim; ++k)
+            {
+                weight_[dim*node + k] +=
+                    share*reference_.volume[e.cell]/e.size()
+                   *density[e.cell]*gravity_[k];
+            }
+        }
+    });
+    nodes_.sum(weight_);
 }
 
 
@@ -200,30 +248,20 @@ void Foam::granularMechanicsModels::equilibrium::setStart()
         }
     }
 
-    // Imbalance of the initial fields: it is the reference for all later steps
-    // and so is never relaxed
+    // Imbalance of the initial fields: without gravity it is the reference for
+    // all later steps and so is never relaxed
     if (!law_->elastic())
     {
-        const symmTensorField& sigma = initialStress_.primitiveField();
-        addStress
-        (
-            List<scalarField>
-            ({
-                sigma.component(symmTensor::XX),
-                sigma.component(symmTensor::YY),
-                sigma.component(symmTensor::XY)
-            }),
-            start_
-        );
+        addStress(law_->split(initialStress_.primitiveField()), start_);
         nodes_.sum(start_);
     }
     const label dim = nodes_.dim();
-    nodeField free(start_);
+    nodeField free(start_ - weight_);
     walls_.release(free);
     scalar most = 0;
     forAll(start_, i)
     {
-        start_[i] *= walls_.balanced()[i/dim];
+        start_[i] *= mag(gravity_) > 0 ? 0 : walls_.balanced()[i/dim];
         most = max
         (
             most, mag(walls_.balanced()[i/dim]*free[i])/nodeSize_[i/dim]
@@ -231,7 +269,8 @@ void Foam::granularMechanicsModels::equilibrium::setStart()
     }
     Info<< "Equilibrium: residual " << tolerance_
         << " Pa; initial fields are out of balance by "
-        << returnReduce(most, maxOp<scalar>()) << " Pa, which is kept" << nl
+        << returnReduce(most, maxOp<scalar>()) << " Pa, which "
+        << (mag(gravity_) > 0 ? "the first step mends" : "is kept") << nl
         << endl;
 }
 
@@ -384,6 +423,16 @@ void Foam::granularMechanicsModels::equilibrium::findMetric()
     {
         return;
     }
+    if (grains_.model().spatial())
+    {
+        inverse_.resize(mesh_.nCells());
+        forAll(inverse_, celli)
+        {
+            const tensor F(gradient(celli));
+            inverse_[celli] = inv(F)*std::sqrt(det(F));
+        }
+        return;
+    }
     metric_.resize(mesh_.nCells());
     forAll(metric_, celli)
     {
@@ -410,6 +459,23 @@ Foam::granularMechanicsModels::equilibrium::pulledBack
         return K;
     }
     pulledBack_ = K;
+    forAll(inverse_, celli)
+    {
+        // J F^-1.K.F^-T
+        const tensor& m = inverse_[celli];
+        const symmTensor here
+        (
+            K.xx[celli], K.xy[celli], K.xz[celli],
+            K.yy[celli], K.yz[celli], K.zz[celli]
+        );
+        const tensor back(m & here & m.T());
+        pulledBack_.xx[celli] = back.xx();
+        pulledBack_.yy[celli] = back.yy();
+        pulledBack_.zz[celli] = back.zz();
+        pulledBack_.xy[celli] = back.xy();
+        pulledBack_.xz[celli] = back.xz();
+        pulledBack_.yz[celli] = back.yz();
+    }
     forAll(metric_, celli)
     {
         // J F^-1.K.F^-T, in which the adjugate of F is J F^-1

@@ -21,8 +21,118 @@ License
 namespace Foam
 {
 
-//- Pressure of the uniform medium for the preconditioner, divided by E r/l
-static const scalar uniformPressure = 0.05;
+//- Tangent of the cells with Dim dimensions, and Ring the hoop strain of bodies
+//- of revolution: the stress of a gradient, columns as in stressLaw
+template<label Dim, bool Ring>
+class cellTangent
+{
+public:
+
+    //- Number of components
+    static constexpr label count = Dim == 3 ? 6 : Ring ? 4 : 3;
+
+    typedef scalar square[Dim][Dim];
+    typedef scalar vector[count];
+
+
+private:
+
+    const scalar* columns_[count*count];
+
+
+public:
+
+    //- Of columns as many as there are entries, else of nothing
+    explicit cellTangent(const granularState::tangentColumns& columns)
+    :
+        columns_()
+    {
+        for (label k = 0; columns.size() == count*count && k < count*count; ++k)
+        {
+            columns_[k] = columns[k].cdata();
+        }
+    }
+
+    //- Entry of a cell
+    scalar operator()(const label i, const label j, const label celli) const
+    {
+        return columns_[count*i + j][celli];
+    }
+
+    void stress
+    (
+        const label celli,
+        const square& g,
+        const scalar ring,
+        vector& sigma
+    ) const
+    {
+        vector e;
+        strain(g, ring, e);
+        for (label i = 0; i < count; ++i)
+        {
+            sigma[i] = 0;
+            for (label j = 0; j < count; ++j)
+            {
+                sigma[i] += columns_[count*i + j][celli]*e[j];
+            }
+        }
+    }
+
+    //- Components of the strain of a gradient
+    static void strain(const square& g, const scalar ring, vector& e)
+    {
+        for (label k = 0; k < Dim; ++k)
+        {
+            e[k] = g[k][k];
+            if (Dim == 3)
+            {
+                const label next = (k + 1) % Dim;
+                e[count/2 + k] = g[k][next] + g[next][k];
+            }
+        }
+        if (Dim == 2)
+        {
+            e[2] = g[0][1] + g[1][0];
+            e[count - 1] = Ring ? ring : e[2];
+        }
+    }
+
+    //- The stress as a square, and that of the hoop
+    static void spread(const vector& from, square& sigma, scalar& ring)
+    {
+        for (label k = 0; k < Dim; ++k)
+        {
+            const label next = (k + 1) % Dim;
+            sigma[k][k] = from[k];
+            sigma[k][next] = sigma[next][k] = from[Dim == 3 ? 3 + k : 2];
+        }
+        ring = Ring && Dim == 2 ? from[count - 1] : 0;
+    }
+};
+
+//- The same for the number of dimensions that the loops over the cells know
+template<bool Ring>
+struct cellTangents
+{
+    const cellTangent<2, Ring> flat;
+    const cellTangent<3, Ring> solid;
+
+    explicit cellTangents(const granularState::tangentColumns& columns)
+    :
+        flat(columns),
+        solid(columns)
+    {}
+
+    const cellTangent<2, Ring>& of(std::integral_constant<label, 2>) const
+    {
+        return flat;
+    }
+    const cellTangent<3, Ring>& of(std::integral_constant<label, 3>) const
+    {
+        return solid;
+    }
+};
 
 } // End namespace Foam
 
@@ -44,7 +154,7 @@ void Foam::granularMechanicsModels::equilibrium::setSolver()
 {
     const scalar lambda = law_->lambda(), G = law_->shear();
     const label r = nodes_.radial();
-    walls_.setStiffness(law_->scale()*uniformPressure);
+    walls_.setStiffness(law_->usualPressure());
 
     nodeField uniform(u_.size(), Zero);
     nodes_.each([&](const auto& e)
@@ -101,28 +211,58 @@ void Foam::granularMechanicsModels::equilibrium::findDiagonal()
     {
         return;     // that of the preconditioner, which does not change
     }
-    const granularState::tangentColumns& C = law_->tangent();
     const scalar s = unfitted*law_->shear();
+    const label r = nodes_.radial();
     diagonal_ = 0;
-    nodes_.each([&](const auto& e)
+    const auto add = [&](auto ring)
     {
-        constexpr label dim = std::decay<decltype(e)>::type::dim;
-        const scalar V = shapes_.volume[e.cell];
-        for (label a = 0; a < e.size(); ++a)
+        constexpr bool round = decltype(ring)::value;
+        const cellTangents<round> tangents(law_->tangent());
+        nodes_.each([&](const auto& e)
         {
-            const scalar b = shapes_.gradient[dim*(e.start + a)];
-            const scalar c = shapes_.gradient[dim*(e.start + a) + 1];
-            const scalar own = s*nodes_.unfitted(e, a, a);
-            scalar* to = diagonal_.data() + dim*e.nodes[a];
-            to[0] += V*(C[0][e.cell]*b*b + C[8][e.cell]*c*c) + own;
-            to[1] += V*(C[4][e.cell]*c*c + C[8][e.cell]*b*b) + own;
-        }
-    });
+            constexpr label dim = std::decay<decltype(e)>::type::dim;
+            typedef cellTangent<dim, round> tangent;
+            const tangent& C =
+                tangents.of(std::integral_constant<label, dim>());
+            const scalar V = shapes_.volume[e.cell];
+            const scalar resistance =
+                s*nodes_.unfittedScale(e.cell, reference_);
+            for (label a = 0; a < e.size(); ++a)
+            {
+                const scalar* B =
+                    shapes_.gradient.cdata() + dim*(e.start + a);
+                const scalar own = resistance*nodes_.unfitted(e, a, a);
+                scalar* to = diagonal_.data() + dim*e.nodes[a];
+                for (label k = 0; k < dim; ++k)
+                {
+                    scalar sum = C(k, k, e.cell)*B[k]*B[k];
+                    for (label j = 1; j < dim; ++j)
+                    {
+                        // The shear of k and another axis
+                        const label other = (k + j) % dim;
+                        const label shear =
+                            dim == 2 ? 2 : 3 + (j == 1 ? k : other);
+                        sum += C(shear, shear, e.cell)*B[other]*B[other];
+                    }
+                    to[k] += V*sum + own;
+                }
+                if (round)
+                {
+                    const scalar h = shapes_.hoop[e.start + a];
+                    to[r] +=
+                        V*C(tangent::count - 1, tangent::count - 1, e.cell)*h*h;
+                }
+            }
+        });
+    };
+    r < 0 ? add(std::false_type()) : add(std::true_type());
     nodes_.sum(diagonal_);
     walls_.eachStick([&](const label node, const scalar* t, const scalar k)
     {
-        diagonal_[2*node] += k*sqr(t[0]);
-        diagonal_[2*node + 1] += k*sqr(t[1]);
+        for (label j = 0; j < nodes_.dim(); ++j)
+        {
+            diagonal_[nodes_.dim()*node + j] += k*sqr(t[j]);
+        }
     });
 }
 
@@ -183,6 +323,80 @@ inline void Foam::granularMechanicsModels::equilibrium::multiply
 }
 
 
+template<bool Ring>
+void Foam::granularMechanicsModels::equilibrium::multiplyGrains
+(
+    const scalar s,
+    const nodeField& d,
+    nodeField& result
+) const
+{
+    const cellTangents<Ring> tangents(law_->tangent());
+    nodes_.each([&](const auto& e)
+    {
+        constexpr label dim = std::decay<decltype(e)>::type::dim;
+        typedef cellTangent<dim, Ring> tangent;
+        const tangent& C = tangents.of(std::integral_constant<label, dim>());
+        multiply
+        (
+            e,
+            s*nodes_.unfittedScale(e.cell, reference_),
+            [&]
+            (
+                const label celli,
+                const scalar (&g)[dim][dim],
+                scalar& ring,
+                scalar (&sigma)[dim][dim]
+            )
+            {
+                typename tangent::vector all;
+                C.stress(celli, g, ring, all);
+                tangent::spread(all, sigma, ring);
+            },
+            d,
+            result
+        );
+    });
+    if (!coupled_ || !walls_.grips())
+    {
+        return;
+    }
+    // Walls rub in two dimensions only
+    typedef cellTangent<2, Ring> tangent;
+    const tangent& C = tangents.flat;
+    const label r = nodes_.radial();
+    nodeField change(d.size(), Zero);
+    walls_.addGrip
+    (
+        [&](const label celli)
+        {
+            scalar g[2][2] = {}, ring = 0;
+            for
+            (
+                label i = nodes_.cellStarts()[celli];
+                i < nodes_.cellStarts()[celli + 1];
+                ++i
+            )
+            {
+                const scalar* v = d.cdata() + 2*nodes_.cellNodes()[i];
+                const scalar* B = shapes_.gradient.cdata() + 2*i;
+                for (label k = 0; k < 2; ++k)
+                {
+                    g[k][0] += v[k]*B[0];
+                    g[k][1] += v[k]*B[1];
+                }
+                ring += Ring ? v[r]*shapes_.hoop[i] : 0;
+            }
+            typename tangent::vector all;
+            C.stress(celli, g, ring, all);
+            return FixedList<scalar, 3>({all[0], all[1], all[2]});
+        },
+        change
+    );
+    result -= change;
+}
+
+
 void Foam::granularMechanicsModels::equilibrium::multiply
 (
     const nodeField& d,
@@ -234,84 +448,9 @@ void Foam::granularMechanicsModels::equilibrium::multiply
     }
     else
     {
-        const granularState::tangentColumns& columns = law_->tangent();
-        const scalar* C[9];
-        for (label k = 0; k < 9; ++k)
-        {
-            C[k] = columns[k].cdata();
-        }
-        const auto strained = [&C]
-        (
-            const label celli,
-            const scalar exx,
-            const scalar eyy,
-            const scalar exy
-        )
-        {
-            FixedList<scalar, 3> sigma;
-            for (label k = 0; k < 3; ++k)
-            {
-                sigma[k] =
-                    C[3*k][celli]*exx + C[3*k + 1][celli]*eyy
-                  + C[3*k + 2][celli]*exy;
-            }
-            return sigma;
-        };
-        nodes_.each([&](const auto& e)
-        {
-            constexpr label dim = std::decay<decltype(e)>::type::dim;
-            multiply
-            (
-                e,
-                s,
-                [&]
-                (
-                    const label celli,
-                    const scalar (&g)[dim][dim],
-                    scalar&,
-                    scalar (&sigma)[dim][dim]
-                )
-                {
-                    const FixedList<scalar, 3> all
-                    (
-                        strained(celli, g[0][0], g[1][1], g[0][1] + g[1][0])
-                    );
-                    sigma[0][0] = all[0];
-                    sigma[1][1] = all[1];
-                    sigma[0][1] = sigma[1][0] = all[2];
-                },
-                d,
-                result
-            );
-        });
-        if (coupled_ && walls_.grips())
-        {
-            nodeField change(d.size(), Zero);
-            walls_.addGrip
-            (
-                [&](const label celli)
-                {
-                    scalar xx = 0, yy = 0, xy = 0;
-                    for
-                    (
-                        label i = nodes_.cellStarts()[celli];
-                        i < nodes_.cellStarts()[celli + 1];
-                        ++i
-                    )
-                    {
-                        const scalar* v = d.cdata() + 2*nodes_.cellNodes()[i];
-                        const scalar b = shapes_.gradient[2*i];
-                        const scalar c = shapes_.gradient[2*i + 1];
-                        xx += b*v[0];
-                        yy += c*v[1];
-                        xy += c*v[0] + b*v[1];
-                    }
-                    return strained(celli, xx, yy, xy);
-                },
-                change
-            );
-            result -= change;
-        }
+        nodes_.radial() < 0
+      ? multiplyGrains<false>(s, d, result)
+      : multiplyGrains<true>(s, d, result);
     }
     nodes_.sum(result);
     walls_.addStick(d, result);

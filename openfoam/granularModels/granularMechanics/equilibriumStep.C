@@ -222,7 +222,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
         law_->stress(), now, slip, traction_, friction_, newTraction_
     );
 
-    r_ = start_ - inner + friction_;
+    r_ = start_ - inner + friction_ + weight_;
     walls_.addShells(nodeField(u_ + du), r_);
     if (share_ < 1)
     {
@@ -436,6 +436,7 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
 {
     const counters at(counters_);
     label parts = 1;
+    setResidual();
 
     while (!advance(parts))
     {

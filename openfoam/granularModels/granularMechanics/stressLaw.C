@@ -29,6 +29,31 @@ namespace Foam
 static const scalar uniformLambda = 0.25;
 static const scalar uniformShear = 0.3;
 
+//- Usual pressure, and usual imbalance that is accepted, of discs and of elastic
+//- solids, divided by the unit of the stiffness
+static const scalar pressureShare = 0.05;
+static const scalar grainResidual = 1e-4;
+static const scalar elasticResidual = 1e-9;
+
+//- Spheres: unit of the stiffness over E* (p/E*)^(1/3), of which packings have
+//- 0.4 to 0.55 in uniaxial compression and 0.12 to 0.17 in shear; imbalance over the mean
+//- pressure; and least pressure over E* for both, a tenth of that of a bed under
+//- its own weight, for beds that bear nothing
+static const scalar hertzStiffness = 0.5;
+static const scalar sphereResidual = 1e-3;
+static const scalar leastPressure = 1e-9;
+
+//- Components of a symmTensor in the order of the granularModel
+static const label modelOrder[] =
+{
+    symmTensor::XX, symmTensor::YY, symmTensor::ZZ,
+    symmTensor::XY, symmTensor::XZ, symmTensor::YZ
+};
+static const label planeOrder[] =
+{
+    symmTensor::XX, symmTensor::YY, symmTensor::XY
+};
+
 //- Least ratio of a pivot to its diagonal of a cell's stiffness matrix, and
 //- factor by which the other components are reduced until it is reached
 static const scalar leastPivot = 0.05;
@@ -38,6 +63,32 @@ static const scalar reduction = 0.8;
 //- uniaxial compression
 static const scalar cautiousPivot = 0.8;
 static const scalar cautiousShear = 0.35;
+
+//- Whether all pivots of the Cholesky factorisation of a symmetric matrix exceed
+//- this share of their diagonal
+template<label N>
+static bool hasPivots(const scalar (&c)[N][N], const scalar least)
+{
+    scalar v[N][N], pivot[N];
+    for (label i = 0; i < N; ++i)
+    {
+        pivot[i] = c[i][i];
+        for (label j = 0; j < i; ++j)
+        {
+            v[i][j] = c[i][j];
+            for (label k = 0; k < j; ++k)
+            {
+                v[i][j] -= v[i][k]*v[j][k]/pivot[k];
+            }
+            pivot[i] -= sqr(v[i][j])/pivot[j];
+        }
+        if (i && !(pivot[i] > least*c[i][i]))
+        {
+            return false;
+        }
+    }
+    return true;
+}
 
 } // End namespace Foam
 
@@ -66,15 +117,19 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
             << "Entry 'law' is " << name << ", allowed: grains, elastic"
             << exit(FatalIOError);
     }
+    if (grains.model().spatial())
+    {
+        return autoPtr<stressLaw>(new sphereLaw(properties, grains, mesh));
+    }
     if (!mesh.plane())
     {
         FatalIOErrorInFunction(dict)
             << "Entry 'law' is grains (the default), and the mesh "
             << (mesh.dim() == 3 ? "has three dimensions" : "is a wedge")
-            << ": grains that move are known in the plane alone, also those of"
-            << " the law of spheres. Allowed here: law elastic, with"
-            << " elasticCoeffs { youngModulus; poissonRatio; }. Grains need a"
-            << " mesh of one layer between patches of type empty"
+            << ": discs that move are known in the plane alone, on a mesh of one"
+            << " layer between patches of type empty. Allowed here: surrogate"
+            << " type spheres, or law elastic, with"
+            << " elasticCoeffs { youngModulus; poissonRatio; }"
             << exit(FatalIOError);
     }
     return autoPtr<stressLaw>(new grainLaw(properties, grains, mesh));
@@ -86,12 +141,21 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
 Foam::stressLaw::stressLaw(granularState& grains, const elementMesh& mesh)
 :
     grains_(grains),
-    stress_(mesh.dim() == 3 ? 6 : mesh.radial() < 0 ? 3 : 4)
+    order_({symmTensor::XX, symmTensor::YY, symmTensor::XY})
 {
-    for (scalarField& column : stress_)
+    if (mesh.dim() == 3)
     {
-        column.resize(mesh.mesh().nCells(), Zero);
+        order_ = labelList
+        ({
+            symmTensor::XX, symmTensor::YY, symmTensor::ZZ,
+            symmTensor::XY, symmTensor::YZ, symmTensor::XZ
+        });
     }
+    else if (mesh.radial() >= 0)
+    {
+        order_.append(symmTensor::ZZ);
+    }
+    stress_ = columns(order_.size(), scalarField(mesh.mesh().nCells(), Zero));
 }
 
 
@@ -103,6 +167,7 @@ Foam::grainLaw::grainLaw
 )
 :
     stressLaw(grains, mesh),
+    shears_(mesh.dim() == 3 ? 3 : 1),
     scale_
     (
         properties.youngModulus().value()*properties.meanRadius().value()
@@ -115,20 +180,74 @@ Foam::grainLaw::grainLaw
             << grains.model().source() << " has no mechanical tangent"
             << exit(FatalIOError);
     }
-    // The columns of the gradient become those of the strain in place: see
-    // take()
-    gradient_.resize(4);
-    label i = 0;
-    for
-    (
-        scalarField* column :
-        {&strain_.xx, &strain_.xy, &strain_.rotation, &strain_.yy}
-    )
+    const label cells = mesh.mesh().nCells();
+    const bool spatial = grains.model().spatial();
+    const label own = grains.model().components(), n = order_.size();
+    places_.resize(own);
+    forAll(places_, i)
     {
-        column->resize(mesh.mesh().nCells(), Zero);
-        gradient_.set(i++, column);
+        places_[i] = order_.find(spatial ? modelOrder[i] : planeOrder[i]);
+    }
+    tangent_ = columns(n*n, scalarField(cells, Zero));
+    derivatives_ = List<scalar*>(own*own, nullptr);
+    for (label i = 0; i < own; ++i)
+    {
+        for (label j = 0; j < own; ++j)
+        {
+            if (places_[i] >= 0 && places_[j] >= 0)
+            {
+                derivatives_[own*i + j] =
+                    tangent_[n*places_[i] + places_[j]].data();
+            }
+        }
+    }
+
+    // The columns of the gradient become those of strain and rotation in place:
+    // see find()
+    strain_.strain = columns(own, scalarField(cells, Zero));
+    strain_.rotation = columns(spatial ? 3 : 1, scalarField(cells, Zero));
+    columns& e = strain_.strain;
+    columns& turn = strain_.rotation;
+    List<scalarField*> from;
+    if (mesh.dim() == 3)
+    {
+        from = List<scalarField*>
+        ({
+            &e[0], &e[3], &e[4], &turn[2], &e[1], &e[5], &turn[1], &turn[0],
+            &e[2]
+        });
+    }
+    else
+    {
+        from = List<scalarField*>
+        ({
+            &e[0], spatial ? &e[3] : &e[2], &turn.last(), &e[1]
+        });
+        if (mesh.radial() >= 0)
+        {
+            from.append(&e[2]);
+        }
+    }
+    gradient_.resize(from.size());
+    forAll(from, i)
+    {
+        gradient_.set(i, from[i]);
     }
 }
+
+
+Foam::sphereLaw::sphereLaw
+(
+    const granularProperties& properties,
+    granularState& grains,
+    const elementMesh& mesh
+)
+:
+    grainLaw(properties, grains, mesh),
+    mesh_(mesh.mesh()),
+    modulus_(grains.model().contactModulus()),
+    pressure_(leastPressure*modulus_)
+{}
 
 
 Foam::elasticLaw::elasticLaw
@@ -158,8 +277,8 @@ Foam::elasticLaw::elasticLaw
     if (mesh.plane())
     {
         // The stress along z, which does no work
-        stress_.resize(4);
-        stress_[3].resize(mesh.mesh().nCells(), Zero);
+        order_.append(symmTensor::ZZ);
+        stress_.append(scalarField(mesh.mesh().nCells(), Zero));
     }
     gradient_.resize(own_.size());
     forAll(own_, i)
@@ -174,13 +293,45 @@ Foam::elasticLaw::elasticLaw
 
 void Foam::grainLaw::take()
 {
-    stress_[0].transfer(found_.xx);
-    stress_[1].transfer(found_.yy);
-    stress_[2].transfer(found_.xy);
+    forAll(places_, i)
+    {
+        if (places_[i] >= 0)
+        {
+            stress_[places_[i]].transfer(found_[i]);
+        }
+    }
+}
+
+
+Foam::scalar Foam::sphereLaw::mean(const scalarField& pressure) const
+{
+    const scalarField& V = mesh_.V();
+    return max
+    (
+        gSum(V*max(pressure, scalar(0)))/gSum(V), leastPressure*modulus_
+    );
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::stressLaw::columns
+Foam::stressLaw::split(const symmTensorField& stress) const
+{
+    columns result(order_.size());
+    forAll(order_, k)
+    {
+        result[k] = stress.component(order_[k]);
+    }
+    return result;
+}
+
+
+Foam::scalar Foam::stressLaw::usualPressure() const
+{
+    return pressureShare*scale();
+}
+
 
 Foam::scalar Foam::grainLaw::lambda() const
 {
@@ -203,76 +354,156 @@ void Foam::grainLaw::present()
 
 void Foam::grainLaw::find()
 {
-    // On entry xy and rotation are the components xy and yx of the gradient
-    forAll(strain_.xy, celli)
+    // On entry a shear and its rotation are the components ij and ji of the
+    // gradient, i before j; the angle about y turns z towards x
+    columns& e = strain_.strain;
+    columns& turn = strain_.rotation;
+    for (label k = 0; k < shears_; ++k)
     {
-        const scalar xy = strain_.xy[celli], yx = strain_.rotation[celli];
-        strain_.xy[celli] = xy + yx;
-        strain_.rotation[celli] = 0.5*(yx - xy);
+        scalarField& shear = e[e.size() - (e.size() == 6 ? 3 : 1) + k];
+        scalarField& angle = turn[turn.size() - 1 - k];
+        const scalar half = k == 1 ? -0.5 : 0.5;
+        forAll(shear, celli)
+        {
+            const scalar upper = shear[celli], lower = angle[celli];
+            shear[celli] = upper + lower;
+            angle[celli] = half*(lower - upper);
+        }
     }
-    grains_.tryStrain(strain_, found_, tangent_);
+    if (e.size() == 6)
+    {
+        findStretch();
+    }
+    grains_.tryStrain(strain_, found_, derivatives_);
     take();
+}
+
+
+void Foam::grainLaw::findStretch()
+{
+    columns& e = strain_.strain;
+    forAll(e[0], celli)
+    {
+        const symmTensor h
+        (
+            0.5*e[0][celli], 0.25*e[3][celli], 0.25*e[4][celli],
+            0.5*e[1][celli], 0.25*e[5][celli], 0.5*e[2][celli]
+        );
+        const tensor stretch(2*(h & inv(symmTensor::I - h)));
+        e[0][celli] = stretch.xx();
+        e[1][celli] = stretch.yy();
+        e[2][celli] = stretch.zz();
+        e[3][celli] = stretch.xy() + stretch.yx();
+        e[4][celli] = stretch.xz() + stretch.zx();
+        e[5][celli] = stretch.yz() + stretch.zy();
+    }
 }
 
 
 void Foam::grainLaw::findTangent()
 {
-    strain_.xx = 0;
-    strain_.yy = 0;
-    strain_.xy = 0;
-    strain_.rotation = 0;
-    grains_.tryStrain(strain_, found_, tangent_);
+    for (columns* all : {&strain_.strain, &strain_.rotation})
+    {
+        for (scalarField& column : *all)
+        {
+            column = 0;
+        }
+    }
+    grains_.tryStrain(strain_, found_, derivatives_);
 }
 
 
 void Foam::grainLaw::stiffen(const label caution, const scalar leastShare)
 {
+    switch (order_.size())
+    {
+        case 3: stiffen<3>(caution, leastShare); break;
+        case 4: stiffen<4>(caution, leastShare); break;
+        default: stiffen<6>(caution, leastShare);
+    }
+}
+
+
+template<Foam::label N>
+void Foam::grainLaw::stiffen(const label caution, const scalar leastShare)
+{
     const scalar least = leastShare*scale_;
     const scalar leastRatio = caution > 1 ? cautiousPivot : leastPivot;
     const scalar factor = caution > 1 ? std::pow(2.0, caution - 2) : 1;
+    bool normal[N];
+    for (label i = 0; i < N; ++i)
+    {
+        const label k = order_[i];
+        normal[i] =
+            k == symmTensor::XX || k == symmTensor::YY || k == symmTensor::ZZ;
+    }
 
     forAll(tangent_[0], celli)
     {
-        scalar c[9];
-        for (label k = 0; k < 9; ++k)
+        scalar c[N][N];
+        for (label k = 0; k < N*N; ++k)
         {
-            c[k] = tangent_[k][celli];
+            c[k/N][k % N] = tangent_[k][celli];
         }
-        c[0] = max(c[0], least);
-        c[4] = max(c[4], least);
-        c[8] = max(c[8], 0.5*least);
+        scalar most = 0;
+        for (label i = 0; i < N; ++i)
+        {
+            c[i][i] = max(c[i][i], normal[i] ? least : 0.5*least);
+            most = normal[i] ? max(most, c[i][i]) : most;
+        }
         if (caution)
         {
             // A matrix that is symmetric and positive
-            c[1] = c[3] = 0.5*(c[1] + c[3]);
-            c[2] = c[6] = 0.5*(c[2] + c[6]);
-            c[5] = c[7] = 0.5*(c[5] + c[7]);
-            if (caution > 1)
+            for (label i = 0; i < N; ++i)
             {
-                c[0] = c[4] = factor*max(c[0], c[4]);
-                c[8] = max(factor*c[8], cautiousShear*c[0]);
-            }
-            // Pivots of the Cholesky factorisation
-            for (label k = 0; k < 20; ++k)
-            {
-                const scalar second = c[4] - sqr(c[1])/c[0];
-                const scalar other = c[5] - c[1]*c[2]/c[0];
-                const scalar third = c[8] - sqr(c[2])/c[0] - sqr(other)/second;
-                if (second > leastRatio*c[4] && third > leastRatio*c[8])
+                for (label j = 0; j < i; ++j)
                 {
-                    break;
+                    c[i][j] = c[j][i] = 0.5*(c[i][j] + c[j][i]);
                 }
-                for (const label j : {1, 2, 3, 5, 6, 7})
+            }
+            for (label i = 0; caution > 1 && i < N; ++i)
+            {
+                c[i][i] =
+                    normal[i]
+                  ? factor*most
+                  : max(factor*c[i][i], cautiousShear*factor*most);
+            }
+            for (label k = 0; k < 20 && !hasPivots(c, leastRatio); ++k)
+            {
+                for (label i = 0; i < N; ++i)
                 {
-                    c[j] *= reduction;
+                    for (label j = 0; j < N; ++j)
+                    {
+                        c[i][j] *= i == j ? 1 : reduction;
+                    }
                 }
             }
         }
-        for (label k = 0; k < 9; ++k)
+        for (label k = 0; k < N*N; ++k)
         {
-            tangent_[k][celli] = c[k];
+            tangent_[k][celli] = c[k/N][k % N];
         }
     }
+}
+
+
+Foam::scalar Foam::grainLaw::residual() const
+{
+    return grainResidual*scale_;
+}
+
+
+Foam::scalar Foam::sphereLaw::residual() const
+{
+    const granularState::stressColumns s(grains_.presentStress());
+    return sphereResidual*mean((s[0] + s[1] + s[2])/(-3));
+}
+
+
+void Foam::sphereLaw::begin(const volSymmTensorField& initialStress)
+{
+    pressure_ = mean(tr(initialStress.primitiveField())/(-3));
+    scale_ = hertzStiffness*modulus_*std::cbrt(pressure_/modulus_);
 }
 
 
@@ -285,6 +516,12 @@ Foam::tmp<Foam::volSymmTensorField> Foam::grainLaw::initialStress() const
 Foam::scalar Foam::elasticLaw::scale() const
 {
     return shear_/uniformShear;
+}
+
+
+Foam::scalar Foam::elasticLaw::residual() const
+{
+    return elasticResidual*scale();
 }
 
 
@@ -326,21 +563,9 @@ void Foam::elasticLaw::find()
         (
             (shear_*left + symmTensor::I*(lambda_*logJ))/J
         );
-        if (solid)
+        forAll(order_, k)
         {
-            stress_[0][celli] = sigma.xx();
-            stress_[1][celli] = sigma.yy();
-            stress_[2][celli] = sigma.zz();
-            stress_[3][celli] = sigma.xy();
-            stress_[4][celli] = sigma.yz();
-            stress_[5][celli] = sigma.xz();
-        }
-        else
-        {
-            stress_[0][celli] = sigma.xx();
-            stress_[1][celli] = sigma.yy();
-            stress_[2][celli] = sigma.xy();
-            stress_[3][celli] = sigma.zz();
+            stress_[k][celli] = sigma[order_[k]];
         }
     }
 }
@@ -349,24 +574,9 @@ void Foam::elasticLaw::find()
 void Foam::elasticLaw::output()
 {
     symmTensorField all(stress_[0].size(), Zero);
-    const bool solid = mesh_.dim() == 3;
-    forAll(all, celli)
+    forAll(order_, k)
     {
-        symmTensor& sigma = all[celli];
-        sigma.xx() = stress_[0][celli];
-        sigma.yy() = stress_[1][celli];
-        if (solid)
-        {
-            sigma.zz() = stress_[2][celli];
-            sigma.xy() = stress_[3][celli];
-            sigma.yz() = stress_[4][celli];
-            sigma.xz() = stress_[5][celli];
-        }
-        else
-        {
-            sigma.xy() = stress_[2][celli];
-            sigma.zz() = stress_[3][celli];
-        }
+        all.replace(order_[k], stress_[k]);
     }
     grains_.setStress(all);
 }

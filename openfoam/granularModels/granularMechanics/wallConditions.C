@@ -218,7 +218,7 @@ void Foam::wallConditions::read
         (
             dict,
             "layerStrength",
-            max(scalar(1), min(scalar(3), w.friction/usualRatio)),
+            known ? max(scalar(1), min(scalar(3), w.friction/usualRatio)) : 1,
             0.1,
             3
         );

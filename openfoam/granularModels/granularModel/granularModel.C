@@ -73,7 +73,15 @@ Foam::autoPtr<Foam::granularModel> Foam::granularModel::New
             << granularProperties::listed(types).c_str() << exit(FatalIOError);
     }
     Info<< "Selecting granularModel " << type << endl;
-    return (*constructor)(properties, mesh);
+    autoPtr<granularModel> model((*constructor)(properties, mesh));
+    if (!model->followsTemperature() && !properties.conductivityFunction().isNumber())
+    {
+        FatalIOErrorInFunction(properties)
+            << "Entry 'thermalConductivity' is a function of the temperature,"
+            << " allowed with surrogate type " << type << ": a number"
+            << exit(FatalIOError);
+    }
+    return model;
 }
 
 

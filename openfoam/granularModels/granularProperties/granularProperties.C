@@ -16,6 +16,7 @@ License
 
 #include "granularProperties.H"
 #include "Time.H"
+#include "uniformDimensionedFields.H"
 
 #include <sstream>
 
@@ -48,12 +49,13 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
     youngModulus_(positive("youngModulus", dimPressure)),
     thermalConductivity_
     (
-        positive("thermalConductivity", dimPower/dimLength/dimTemperature)
+        *this, "thermalConductivity", dimPower/dimLength/dimTemperature
     ),
-    heatCapacity_(positive("heatCapacity", dimSpecificHeatCapacity)),
+    heatCapacity_(*this, "heatCapacity", dimSpecificHeatCapacity),
     thermalExpansion_("thermalExpansion", dimless/dimTemperature, *this),
     meanRadius_(positive("meanRadius", dimLength)),
     conductivityFactor_(ranged(*this, "conductivityFactor", 1, 0.1, 10)),
+    gravity_(Zero),
     bulkDensity_
     (
         bulkDensityModelNames.getOrDefault
@@ -71,7 +73,7 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
             "FoamFile", "surrogate", "density", "youngModulus",
             "thermalConductivity", "heatCapacity", "thermalExpansion",
             "meanRadius", "conductivityFactor", "bulkDensity", "mechanics",
-            "equilibriumCoeffs"
+            "equilibriumCoeffs", "restStress"
         }
     );
     if (!(thermalExpansion_.value() >= 0))
@@ -79,6 +81,30 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
         FatalIOErrorInFunction(*this)
             << "Entry 'thermalExpansion' is " << thermalExpansion_.value()
             << ", allowed: >= 0 [1/K]"
+            << exit(FatalIOError);
+    }
+    IOobject header
+    (
+        "g", registry.time().constant(), registry,
+        IOobject::MUST_READ, IOobject::NO_WRITE, false
+    );
+    if (header.typeHeaderOk<uniformDimensionedVectorField>(true))
+    {
+        const uniformDimensionedVectorField g(header);
+        if (g.dimensions() != dimAcceleration || !(mag(g.value()) < 1e6))
+        {
+            FatalIOErrorInFunction(*this)
+                << "Gravity in " << header.objectPath() << " is " << g.value()
+                << " with dimensions " << g.dimensions()
+                << ", allowed: a vector shorter than 1e6, in units "
+                << dimAcceleration << exit(FatalIOError);
+        }
+        gravity_ = g.value();
+    }
+    if (found("restStress") && mag(gravity_) <= VSMALL)
+    {
+        FatalIOErrorInFunction(*this)
+            << "Entry 'restStress' needs gravity, in " << header.objectPath()
             << exit(FatalIOError);
     }
 }

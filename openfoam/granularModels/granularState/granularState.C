@@ -94,6 +94,31 @@ void Foam::granularState::keepOrigin()
 }
 
 
+void Foam::granularState::answer
+(
+    granularModel::query& query,
+    conductivityColumns& K,
+    stressColumns& sigma
+) const
+{
+    query.conductivityXX = K.xx.data();
+    query.conductivityYY = K.yy.data();
+    query.conductivityXY = K.xy.empty() ? nullptr : K.xy.data();
+    query.stressXX = sigma[0].data();
+    query.stressYY = sigma[1].data();
+    query.stressXY = K.xy.empty() ? nullptr : sigma[shearColumn()].data();
+    if (model_->spatial())
+    {
+        query.conductivityZZ = K.zz.data();
+        query.conductivityXZ = K.xz.data();
+        query.conductivityYZ = K.yz.data();
+        query.stressZZ = sigma[2].data();
+        query.stressXZ = sigma[4].data();
+        query.stressYZ = sigma[5].data();
+    }
+}
+
+
 Foam::label Foam::granularState::ask
 (
     columns& from,
@@ -110,22 +135,9 @@ Foam::label Foam::granularState::ask
     query.nextState = to.pointers.cdata();
     query.strain = strain.cdata();
     query.totalStrain = total_.cdata();
-    query.conductivityXX = askedK_.xx.data();
-    query.conductivityYY = askedK_.yy.data();
-    query.conductivityXY = askedK_.xy.empty() ? nullptr : askedK_.xy.data();
-    query.stressXX = askedXX_.data();
-    query.stressYY = askedYY_.data();
-    query.stressXY = askedXY_.empty() ? nullptr : askedXY_.data();
-    if (model_->spatial())
-    {
-        query.conductivityZZ = askedK_.zz.data();
-        query.conductivityXZ = askedK_.xz.data();
-        query.conductivityYZ = askedK_.yz.data();
-        query.stressZZ = askedRest_[0].data();
-        query.stressXZ = askedRest_[1].data();
-        query.stressYZ = askedRest_[2].data();
-        query.temperature = askedTemperature_.cdata();
-    }
+    answer(query, askedK_, askedSigma_);
+    query.temperature =
+        model_->spatial() ? askedTemperature_.cdata() : nullptr;
     query.outside = wantOutside ? outside_.pointers.cdata() : nullptr;
     query.trial = trial;
 
@@ -349,15 +361,10 @@ void Foam::granularState::commit()
     forAll(rows_, row)
     {
         const label celli = rows_[row];
-        stressXX_[celli] = askedXX_[row];
-        stressYY_[celli] = askedYY_[row];
-        stressXY_[celli] = askedXY_.empty() ? 0 : askedXY_[row];
-        forAll(stressRest_, i)
+        // Models without shear leave its column as it is, zero
+        forAll(sigma_, i)
         {
-            if (stressRest_[i].size())
-            {
-                stressRest_[i][celli] = askedRest_[i][row];
-            }
+            sigma_[i][celli] = askedSigma_[i][row];
         }
         lastStrain_[celli] = strain_[row];
         waiting[celli] = 0;
@@ -374,10 +381,7 @@ Foam::granularState::memory Foam::granularState::remember() const
         now.state[i] = state_[i].primitiveField();
     }
     now.K = K_;
-    now.stressXX = stressXX_;
-    now.stressYY = stressYY_;
-    now.stressXY = stressXY_;
-    now.stressRest = stressRest_;
+    now.stress = sigma_;
     now.increment = thermalStrainIncrement_.primitiveField();
     now.strain = thermalStrain_.primitiveField();
     now.lastStrain = lastStrain_;
@@ -398,10 +402,7 @@ void Foam::granularState::restore(const memory& before)
         state_[i].primitiveFieldRef() = before.state[i];
     }
     K_ = before.K;
-    stressXX_ = before.stressXX;
-    stressYY_ = before.stressYY;
-    stressXY_ = before.stressXY;
-    stressRest_ = before.stressRest;
+    sigma_ = before.stress;
     thermalStrainIncrement_.primitiveFieldRef() = before.increment;
     thermalStrain_.primitiveFieldRef() = before.strain;
     lastStrain_ = before.lastStrain;
@@ -442,7 +443,7 @@ bool Foam::granularState::diagonal() const
     return model_->diagonal()
      || (
             properties_.getOrDefault<word>("mechanics", "none") == "none"
-         && gSum(mag(K_.xy)) + gSum(mag(stressXY_)) == 0
+         && gSum(mag(K_.xy)) + gSum(mag(sigma_[shearColumn()])) == 0
         );
 }
 

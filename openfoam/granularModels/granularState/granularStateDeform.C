@@ -21,7 +21,12 @@ License
 Foam::granularState::stressColumns
 Foam::granularState::presentStress() const
 {
-    return stressColumns{-stressXX_, -stressYY_, -stressXY_};
+    stressColumns stress(sigma_);
+    for (scalarField& column : stress)
+    {
+        column.negate();
+    }
+    return stress;
 }
 
 
@@ -40,17 +45,8 @@ void Foam::granularState::letDeform(const scalarField& strength)
     origin_.setSize(state_.size(), cells);
     originStrain_.resize(cells, Zero);
     deformed_.setSize(state_.size(), cells);
-    for
-    (
-        scalarField* column :
-        {
-            &deformedK_.xx, &deformedK_.yy, &deformedK_.xy,
-            &deformedXX_, &deformedYY_, &deformedXY_
-        }
-    )
-    {
-        column->resize(cells, Zero);
-    }
+    deformedK_ = K_;
+    deformedSigma_ = sigma_;
     rows_.clear();
     keepOrigin();
 }
@@ -60,41 +56,42 @@ void Foam::granularState::tryStrain
 (
     const strainColumns& strain,
     stressColumns& stress,
-    tangentColumns& tangent
+    const UList<scalar*>& tangent
 )
 {
-    const label cells = mesh_.nCells();
-    FixedList<scalar*, 9> derivatives;
-    forAll(tangent, k)
+    const auto pointers = [](const List<scalarField>& columns)
     {
-        tangent[k].resize(cells);
-        derivatives[k] = tangent[k].data();
-    }
+        List<const scalar*> result(columns.size());
+        forAll(result, i)
+        {
+            result[i] = columns[i].cdata();
+        }
+        return result;
+    };
+    const List<const scalar*> strained(pointers(strain.strain));
+    const List<const scalar*> turned(pointers(strain.rotation));
 
     granularModel::query query;
-    query.size = cells;
+    query.size = mesh_.nCells();
     query.state = origin_.pointers.cdata();
     query.nextState = deformed_.pointers.cdata();
     query.strain = originStrain_.cdata();
     query.totalStrain = thermalStrain_.primitiveField().cdata();
-    query.strainXX = strain.xx.cdata();
-    query.strainYY = strain.yy.cdata();
-    query.strainXY = strain.xy.cdata();
-    query.rotation = strain.rotation.cdata();
-    query.conductivityXX = deformedK_.xx.data();
-    query.conductivityYY = deformedK_.yy.data();
-    query.conductivityXY = deformedK_.xy.data();
-    query.stressXX = deformedXX_.data();
-    query.stressYY = deformedYY_.data();
-    query.stressXY = deformedXY_.data();
-    query.tangent = derivatives.cdata();
+    query.cellStrain = strained.cdata();
+    query.rotation = turned.cdata();
+    query.temperature = model_->spatial() ? temperature_.cdata() : nullptr;
+    answer(query, deformedK_, deformedSigma_);
+    query.tangent = tangent.cdata();
+    query.trial = true;
     model_->advance(query);
 
     // Compression positive becomes tension positive, of which the derivative
     // is the same
-    stress.xx = -deformedXX_;
-    stress.yy = -deformedYY_;
-    stress.xy = -deformedXY_;
+    stress.resize(deformedSigma_.size());
+    forAll(stress, i)
+    {
+        stress[i] = -deformedSigma_[i];
+    }
 }
 
 
@@ -108,9 +105,7 @@ void Foam::granularState::acceptStrain()
     deformed_.swap(origin_);
     originStrain_ = 0;
     K_ = deformedK_;
-    stressXX_ = deformedXX_;
-    stressYY_ = deformedYY_;
-    stressXY_ = deformedXY_;
+    sigma_ = deformedSigma_;
 }
 
 

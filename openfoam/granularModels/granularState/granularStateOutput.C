@@ -75,6 +75,7 @@ void Foam::granularState::refresh()
     symmTensorField& K = conductivity_.primitiveFieldRef();
     symmTensorField& sigma = stress_.primitiveFieldRef();
     scalarField& p = pressure_.primitiveFieldRef();
+    const label shear = shearColumn();
 
     forAll(K, celli)
     {
@@ -82,9 +83,9 @@ void Foam::granularState::refresh()
         K[celli].yy() = K_.yy[celli];
 
         // Compression positive becomes tension positive
-        sigma[celli].xx() = -stressXX_[celli];
-        sigma[celli].yy() = -stressYY_[celli];
-        sigma[celli].xy() = 0 - stressXY_[celli];    // not -0
+        sigma[celli].xx() = -sigma_[0][celli];
+        sigma[celli].yy() = -sigma_[1][celli];
+        sigma[celli].xy() = 0 - sigma_[shear][celli];    // not -0
         if (otherStress_.size())
         {
             sigma[celli] = otherStress_[celli];
@@ -98,9 +99,9 @@ void Foam::granularState::refresh()
         K[celli].yz() = K_.yz[celli];
         if (otherStress_.empty())
         {
-            sigma[celli].zz() = -stressRest_[0][celli];
-            sigma[celli].xz() = 0 - stressRest_[1][celli];
-            sigma[celli].yz() = 0 - stressRest_[2][celli];
+            sigma[celli].zz() = -sigma_[2][celli];
+            sigma[celli].xz() = 0 - sigma_[4][celli];
+            sigma[celli].yz() = 0 - sigma_[5][celli];
         }
         p[celli] = -tr(sigma[celli])/3;
     }
@@ -153,8 +154,13 @@ Foam::string Foam::granularState::describe(const label celli) const
     {
         text<< state_[i].name() << ' ' << state_[i][celli] << ", ";
     }
-    text<< "stress (xx yy xy, tension positive) " << -stressXX_[celli] << ' '
-        << -stressYY_[celli] << ' ' << -stressXY_[celli] << " Pa";
+    text<< "stress (" << (model_->spatial() ? "xx yy zz xy xz yz" : "xx yy xy")
+        << ", tension positive)";
+    for (const scalarField& column : sigma_)
+    {
+        text<< ' ' << 0 - column[celli];
+    }
+    text<< " Pa";
     return text.str();
 }
 
@@ -234,7 +240,14 @@ Foam::scalar Foam::granularState::storedHeat(const volScalarField& T) const
     const scalarField& bulk = bulkDensity_.primitiveField();
     const scalarField& start = initialTemperature_.primitiveField();
     return properties_.heatCapacity().value()
-       *gSum(bulk*mesh_.V().field()*(T.primitiveField() - start));
+       *gSum
+        (
+            bulk*mesh_.V().field()
+           *(
+                properties_.heatFunction().equivalent(T.primitiveField())
+              - properties_.heatFunction().equivalent(start)
+            )
+        );
 }
 
 

@@ -110,8 +110,21 @@ Foam::dictionary Foam::granularState::settings() const
     );
     number(properties_.density());
     number(properties_.youngModulus());
-    number(properties_.thermalConductivity());
-    number(properties_.heatCapacity());
+    for
+    (
+        const temperatureFunction* f :
+        {&properties_.conductivityFunction(), &properties_.heatFunction()}
+    )
+    {
+        if (f->isNumber())
+        {
+            number(f->usual());
+        }
+        else
+        {
+            add(f->usual().name(), shown(f->given(), wordHashSet()));
+        }
+    }
     number(properties_.thermalExpansion());
     number(properties_.meanRadius());
     add
@@ -120,6 +133,11 @@ Foam::dictionary Foam::granularState::settings() const
         granularProperties::bulkDensityModelNames[properties_.bulkDensity()]
     );
     add("mechanics", mechanics);
+    if (mag(properties_.gravity()) > 0)
+    {
+        const vector& g = properties_.gravity();
+        add("g", shown(g.x()) + " " + shown(g.y()) + " " + shown(g.z()));
+    }
     add
     (
         "mechanicsCoeffs",

@@ -276,7 +276,23 @@ void Foam::granularState::readState()
     // only porosity and fabric index, no other field is needed
     if (missing || names.size() == 2)
     {
-        const auto stress(given<symmTensor>("stress", dimPressure));
+        const auto givenStress(given<symmTensor>("stress", dimPressure));
+        tmp<symmTensorField> stress;
+        if (properties_.found("restStress") && mesh_.time().timeIndex() == 0)
+        {
+            if (givenStress.valid())
+            {
+                FatalIOErrorInFunction(properties_)
+                    << "Entry 'restStress' stands beside the field stress in "
+                    << givenStress().objectPath()
+                    << ", allowed: one of both" << exit(FatalIOError);
+            }
+            stress = restStress();
+        }
+        else if (givenStress.valid())
+        {
+            stress = tmp<symmTensorField>::New(givenStress().primitiveField());
+        }
         const auto conductivity
         (
             given<symmTensor>("conductivity", conductivity_.dimensions())
@@ -287,20 +303,20 @@ void Foam::granularState::readState()
         if (stress.valid())
         {
             // Tension positive becomes compression positive
-            xx = -stress().primitiveField().component(symmTensor::XX);
-            yy = -stress().primitiveField().component(symmTensor::YY);
+            xx = -stress().component(symmTensor::XX);
+            yy = -stress().component(symmTensor::YY);
             known.stressXX = xx.cdata();
             known.stressYY = yy.cdata();
             if (!model_->diagonal())
             {
-                xy = -stress().primitiveField().component(symmTensor::XY);
+                xy = -stress().component(symmTensor::XY);
                 known.stressXY = xy.cdata();
             }
             if (model_->spatial())
             {
-                zz = -stress().primitiveField().component(symmTensor::ZZ);
-                xz = -stress().primitiveField().component(symmTensor::XZ);
-                yz = -stress().primitiveField().component(symmTensor::YZ);
+                zz = -stress().component(symmTensor::ZZ);
+                xz = -stress().component(symmTensor::XZ);
+                yz = -stress().component(symmTensor::YZ);
                 known.stressZZ = zz.cdata();
                 known.stressXZ = xz.cdata();
                 known.stressYZ = yz.cdata();
@@ -377,47 +393,70 @@ void Foam::granularState::allocate()
     (
         scalarField* column :
         {
-            &stressXX_, &stressYY_, &lastStrain_,
-            &nextIncrement_, &nextStrain_, &strain_, &halfStrain_, &total_,
-            &zero_, &askedXX_, &askedYY_, &stressXY_
+            &lastStrain_, &nextIncrement_, &nextStrain_, &strain_,
+            &halfStrain_, &total_, &zero_, &askedTemperature_
         }
     )
     {
         column->resize(cells, Zero);
     }
-    askedXY_.resize(model_->diagonal() ? 0 : cells, Zero);
-    askedTemperature_.resize(cells, Zero);
-    forAll(stressRest_, i)
-    {
-        stressRest_[i].resize(model_->spatial() ? cells : 0, Zero);
-        askedRest_[i].resize(stressRest_[i].size(), Zero);
-    }
+    sigma_ = stressColumns(model_->components(), scalarField(cells, Zero));
+    askedSigma_ = sigma_;
     rows_.setCapacity(cells);
     before_.setSize(count, cells);
     after_.setSize(count, cells);
 }
 
 
-void Foam::granularState::setInitialBulkDensity()
+Foam::scalarField Foam::granularState::initialSolid() const
 {
     // The paper's rho (1 - porosity) counts the overlaps of grains once and so
     // loses their mass; the mass-consistent density counts every grain in full
-    scalarField& density = bulkDensity_.primitiveFieldRef();
-
+    scalarField solid(1 - porosity().primitiveField());
     if
     (
         properties_.bulkDensity()
      == granularProperties::bulkDensityModel::massConsistent
     )
     {
-        model_->solidFraction(porosity().primitiveField(), density);
-        density *= properties_.density().value();
+        model_->solidFraction(porosity().primitiveField(), solid);
     }
-    else
-    {
-        density =
-            properties_.density().value()*(1 - porosity().primitiveField());
-    }
+    return solid;
+}
+
+
+Foam::tmp<Foam::symmTensorField> Foam::granularState::restStress() const
+{
+    const dictionary dict(properties_.restStressDict());
+    granularProperties::checkKeys(dict, {"lateral", "surface"});
+    const scalar lateral = granularProperties::ranged
+    (
+        dict, "lateral", dict.get<scalar>("lateral"), 0, 10
+    );
+    const scalar above =
+        granularProperties::ranged(dict, "surface", 0, 0, 1e12);
+
+    // With the mean density: where it varies, the first step finds the rest
+    const scalarField& V = mesh_.V();
+    const scalar density =
+        properties_.density().value()*gSum(V*initialSolid())/gSum(V);
+    const vector& g = properties_.gravity();
+    const vector up(-g/mag(g));
+    const scalar top = gMax((mesh_.points() & up)());
+    const symmTensor shape
+    (
+        lateral*symmTensor(symmTensor::I) + (1 - lateral)*sqr(up)
+    );
+    return
+        -(above + density*mag(g)*(top - (mesh_.C().primitiveField() & up)))
+       *shape;
+}
+
+
+void Foam::granularState::setInitialBulkDensity()
+{
+    scalarField& density = bulkDensity_.primitiveFieldRef();
+    density = properties_.density().value()*initialSolid();
     bulkDensity_.correctBoundaryConditions();
     record_.initialMass = gSum(density*mesh_.V());
 }

@@ -27,6 +27,9 @@ namespace granularModels
     addToRunTimeSelectionTable(granularModel, spheres, dictionary);
 }
 
+//- Change of the stress at the start, over the pressure, that is told
+static const scalar notable = 1e-3;
+
 //- End the run: the library failed
 static void failed(const char* what, const std::exception& error)
 {
@@ -186,6 +189,54 @@ void Foam::granularModels::spheres::initialState
     {
         failed("the initial state (solid_fraction is 1 - porosity)", error);
     }
+    reportStart(cells.size, stress, state);
+}
+
+
+void Foam::granularModels::spheres::reportStart
+(
+    const label size,
+    const std::vector<const scalar*>& given,
+    scalar* const* state
+) const
+{
+    List<scalarField> found(6, scalarField(size));
+    std::vector<scalar*> stress;
+    for (scalarField& column : found)
+    {
+        stress.push_back(column.data());
+    }
+    std::vector<const scalar*> before(state + 2, state + stateNames_.size());
+    msdd_sphere_batch batch = msdd_sphere_batch();
+    batch.struct_size = sizeof(msdd_sphere_batch);
+    batch.cells = size;
+    batch.state = before.data();
+    batch.stress = stress.data();
+    try
+    {
+        law_.advance(material_, batch);
+    }
+    catch (const std::exception& error)
+    {
+        failed("the stress at the start", error);
+    }
+    scalar most = 0;
+    for (label celli = 0; celli < size; ++celli)
+    {
+        const scalar p =
+            (given[0][celli] + given[1][celli] + given[2][celli])/3;
+        for (label i = 0; p > 0 && i < 6; ++i)
+        {
+            most = max(most, mag(found[i][celli] - given[i][celli])/p);
+        }
+    }
+    reduce(most, maxOp<scalar>());
+    if (most > notable)
+    {
+        Info<< "The stress at the start is more than packings of this porosity"
+            << " bear: it is changed by up to " << most << " of the pressure, to"
+            << " what the law can bear" << nl << endl;
+    }
 }
 
 
@@ -209,7 +260,17 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     batch.state = cells.state + 2;
     batch.next_state = cells.nextState + 2;
     batch.thermal_strain = cells.strain;
+    batch.strain = cells.cellStrain;
+    batch.rotation = cells.rotation;
+    batch.tangent = cells.tangent;
     batch.temperature = cells.temperature;
+    const temperatureFunction& k = properties_.conductivityFunction();
+    scalarField conducting(k.isNumber() ? 0 : cells.size);
+    forAll(conducting, row)
+    {
+        conducting[row] = k.value(cells.temperature[row]);
+    }
+    batch.solid_conductivity = k.isNumber() ? nullptr : conducting.cdata();
     batch.stress = stress.data();
     batch.conductivity = conductivity.data();
     batch.solid_fraction = solid.data();
@@ -224,8 +285,13 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     for (label row = 0; row < cells.size; ++row)
     {
         // Exactly as before without strain
+        bool still = cells.strain[row] == 0;
+        for (label i = 0; cells.cellStrain && i < components(); ++i)
+        {
+            still = still && cells.cellStrain[i][row] == 0;
+        }
         cells.nextState[0][row] =
-            cells.strain[row] == 0 ? cells.state[0][row] : 1 - solid[row];
+            still ? cells.state[0][row] : 1 - solid[row];
         cells.nextState[1][row] = cells.state[1][row];
         if (cells.outside)
         {

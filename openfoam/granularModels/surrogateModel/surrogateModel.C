@@ -175,10 +175,13 @@ Foam::label Foam::granularModels::surrogateModel::advance(const query& cells)
     batch.stress_yy = cells.stressYY;
     batch.stress_xy = cells.stressXY;
     batch.outside = cells.outside;
-    batch.strain_xx = cells.strainXX;
-    batch.strain_yy = cells.strainYY;
-    batch.strain_xy = cells.strainXY;
-    batch.rotation = cells.rotation;
+    if (cells.cellStrain)
+    {
+        batch.strain_xx = cells.cellStrain[0];
+        batch.strain_yy = cells.cellStrain[1];
+        batch.strain_xy = cells.cellStrain[2];
+        batch.rotation = cells.rotation[0];
+    }
     batch.tangent = cells.tangent;
 
     try

@@ -158,6 +158,13 @@ void Foam::granularSolidThermo::checkEntries() const
             << " of " << typeName << ": none. msddFoam, which solves the bed"
             << " alone, can move the grains" << exit(FatalIOError);
     }
+    if (!properties_.heatFunction().isNumber())
+    {
+        FatalIOErrorInFunction(properties_)
+            << "Entry 'heatCapacity' is a function of the temperature, allowed"
+            << " in a region of " << typeName << ": a number. msddFoam takes it"
+            << exit(FatalIOError);
+    }
 }
 
 

@@ -84,7 +84,7 @@ void Foam::timeSchemes::paper::step()
     const scalar deltaT = time_.deltaTValue();
     heat_.solve
     (
-        Told_,
+        heat_.equivalent(Told_)(),
         deltaT,
         mechanics_.pulledBack(grains_.conductivityOfCells())
     );

@@ -198,9 +198,10 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
 
     // Boundary values are evaluated at the time of the stage
     time_.value() = start + gamma2*deltaT;
+    const scalarField before(heat_.equivalent(Told_));
     heat_.solve
     (
-        Told_,
+        before,
         gamma2*deltaT,
         mechanics_.pulledBack(grains_.conductivityOfCells())
     );
@@ -217,10 +218,13 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     const granularState::conductivityColumns& K =
         mechanics_.pulledBack(grains_.trialConductivity());
 
+    // The stages of the heat; only the first guess is one of T
+    const scalarField first(heat_.equivalent(T));
     forAll(T, celli)
     {
-        stage_[celli] = Told_[celli] + (1 - gamma2)*rate_[celli];
-        T[celli] = Told_[celli] + rate_[celli];     // first guess
+        T[celli] = Told_[celli] + rate_[celli];
+        rate_[celli] = (first[celli] - before[celli])/gamma2;
+        stage_[celli] = before[celli] + (1 - gamma2)*rate_[celli];
     }
     neighbours_.secondStage(gamma2);
     time_.value() = start + deltaT;
@@ -228,12 +232,13 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     time_.value() = start;
 
     scalar error = neighbours_.stageError(gamma2);
+    const scalarField last(heat_.equivalent(T));
     forAll(T, celli)
     {
         error = max
         (
             error,
-            mag(T[celli] - stage_[celli] - gamma2*rate_[celli])
+            mag(last[celli] - stage_[celli] - gamma2*rate_[celli])
         );
     }
     return returnReduce(error, maxOp<scalar>());

@@ -256,6 +256,7 @@ pub struct msdd_sphere_batch {
     pub strain: *const *const f64,
     pub rotation: *const *const f64,
     pub temperature: *const f64,
+    pub solid_conductivity: *const f64,
     pub next_state: *const *mut f64,
     pub stress: *const *mut f64,
     pub tangent: *const *mut f64,
@@ -269,7 +270,7 @@ pub struct msdd_sphere_batch {
 const _: () = {
     [
         "Size of msdd_sphere_batch",
-    ][::core::mem::size_of::<msdd_sphere_batch>() - 120usize];
+    ][::core::mem::size_of::<msdd_sphere_batch>() - 128usize];
     [
         "Alignment of msdd_sphere_batch",
     ][::core::mem::align_of::<msdd_sphere_batch>() - 8usize];
@@ -295,29 +296,32 @@ const _: () = {
         "Offset of field: msdd_sphere_batch::temperature",
     ][::core::mem::offset_of!(msdd_sphere_batch, temperature) - 48usize];
     [
+        "Offset of field: msdd_sphere_batch::solid_conductivity",
+    ][::core::mem::offset_of!(msdd_sphere_batch, solid_conductivity) - 56usize];
+    [
         "Offset of field: msdd_sphere_batch::next_state",
-    ][::core::mem::offset_of!(msdd_sphere_batch, next_state) - 56usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, next_state) - 64usize];
     [
         "Offset of field: msdd_sphere_batch::stress",
-    ][::core::mem::offset_of!(msdd_sphere_batch, stress) - 64usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, stress) - 72usize];
     [
         "Offset of field: msdd_sphere_batch::tangent",
-    ][::core::mem::offset_of!(msdd_sphere_batch, tangent) - 72usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, tangent) - 80usize];
     [
         "Offset of field: msdd_sphere_batch::conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, conductivity) - 80usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, conductivity) - 88usize];
     [
         "Offset of field: msdd_sphere_batch::gas_conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, gas_conductivity) - 88usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, gas_conductivity) - 96usize];
     [
         "Offset of field: msdd_sphere_batch::solid_fraction",
-    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 96usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 104usize];
     [
         "Offset of field: msdd_sphere_batch::outside",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 104usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 112usize];
     [
         "Offset of field: msdd_sphere_batch::outside_cells",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 112usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 120usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]

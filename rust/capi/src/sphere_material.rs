@@ -11,6 +11,7 @@ use msdd_beds::solid::{Roughness, Solid};
 use std::ffi::CStr;
 
 /// A checked material.
+#[derive(Clone, Copy)]
 pub(crate) struct Material {
     bed: BedMaterial,
 }
@@ -73,6 +74,17 @@ impl Material {
         let effective_modulus = 0.5 * young / (1.0 - poisson * poisson);
         let solid = Solid { conductivity, effective_modulus, roughness };
         Ok(Self { bed: BedMaterial { radius: 0.5 * diameter, solid, gas, gas_pressure, accommodation } })
+    }
+
+    /// k_s \[W/(m K)\].
+    pub fn solid_conductivity(&self) -> f64 {
+        self.bed.solid.conductivity
+    }
+
+    /// The same with this k_s.
+    pub fn with_conductivity(mut self, conductivity: f64) -> Self {
+        self.bed.solid.conductivity = conductivity;
+        self
     }
 
     /// E* \[Pa\].

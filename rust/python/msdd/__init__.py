@@ -6,6 +6,10 @@
     state = model.initial_state(glass, porosity=[0.12, 0.14])     # arrays of any shape
     step = model.advance(glass, state, thermal_strain=0.01)       # step.conductivity_xx, step.stress_xx, ...
 
+    steel = msdd.SphereMaterial(diameter=6e-3, young_modulus=2e11, poisson_ratio=0.3, conductivity=40, gas="air")
+    bed = msdd.load_spheres()                                     # law of packings of spheres with gas
+    step = bed.advance(steel, bed.initial_state(steel, solid_fraction=0.6, stress=1e4), thermal_strain=1e-4)
+
     box = msdd.pack(discs=500, porosity=0.13)                     # discrete elements
     box.strain(thermal=0.01)
     box.average().conductivity_network_xx
@@ -35,6 +39,7 @@ from ._library import version as __version__
 from ._mesh import Mesh, read_mesh
 from ._model import Material, Model, Step, WallFriction, load_model
 from ._rve import Averages, Contacts, Grains, Rve, pack
+from ._spheres import SphereMaterial, Spheres, SphereStep, load_spheres
 
 __all__ = [
     "Averages",
@@ -54,6 +59,9 @@ __all__ = [
     "Probes",
     "Rve",
     "RveError",
+    "SphereMaterial",
+    "SphereStep",
+    "Spheres",
     "Step",
     "WallFriction",
     "__version__",
@@ -61,6 +69,7 @@ __all__ = [
     "generate_database",
     "library_path",
     "load_model",
+    "load_spheres",
     "pack",
     "read_database",
     "read_field",

@@ -43,6 +43,19 @@ BatchStruct = _struct(
     *_each(Doubles, "tangent clamped outside spread"),
     ("clamped_cells", c.c_size_t),
 )
+SphereMaterialStruct = _struct(
+    "msdd_sphere_material",
+    *_each(c.c_double, "diameter young_modulus poisson_ratio conductivity roughness hardness"),
+    ("gas", c.c_char_p),
+    *_each(c.c_double, "gas_pressure accommodation"),
+)
+SphereBatchStruct = _struct(
+    "msdd_sphere_batch",
+    ("cells", c.c_size_t),
+    *_each(Doubles, "state thermal_strain strain rotation temperature solid_conductivity"),
+    *_each(Doubles, "next_state stress tangent conductivity gas_conductivity solid_fraction outside"),
+    ("outside_cells", c.c_size_t),
+)
 AveragesStruct = _struct(
     "msdd_averages",
     *_each(c.c_double, "porosity porosity_sum_of_areas fabric_index fabric_conductivity"),
@@ -57,6 +70,7 @@ Progress = c.CFUNCTYPE(c.c_int32, c.c_void_p, c.c_uint64, c.c_uint64, c.c_uint64
 _STATUS, _TEXT, _HANDLE = c.c_int32, c.c_char_p, c.c_void_p
 _OUT = c.POINTER(c.c_void_p)
 _MATERIAL = c.POINTER(MaterialStruct)
+_SPHERES = c.POINTER(SphereMaterialStruct)
 
 # Name: what it returns, what it takes.
 SIGNATURES: dict[str, tuple[Optional[type], list[type]]] = {
@@ -76,6 +90,14 @@ SIGNATURES: dict[str, tuple[Optional[type], list[type]]] = {
     "msdd_surrogate_advance": (_STATUS, [_HANDLE, _MATERIAL, c.POINTER(BatchStruct)]),
     "msdd_surrogate_solid_fraction": (_STATUS, [_HANDLE, c.c_size_t, Doubles, Doubles]),
     "msdd_surrogate_free": (None, [_HANDLE]),
+    "msdd_spheres_load": (_STATUS, [_TEXT, _OUT]),
+    "msdd_spheres_hash": (_TEXT, [_HANDLE]),
+    "msdd_spheres_describe": (_TEXT, [_HANDLE]),
+    "msdd_spheres_state_size": (c.c_size_t, [_HANDLE]),
+    "msdd_spheres_state_name": (_TEXT, [_HANDLE, c.c_size_t]),
+    "msdd_spheres_initial_state": (_STATUS, [_HANDLE, _SPHERES, c.c_size_t, Doubles, _OUT, _OUT]),
+    "msdd_spheres_advance": (_STATUS, [_HANDLE, _SPHERES, c.POINTER(SphereBatchStruct)]),
+    "msdd_spheres_free": (None, [_HANDLE]),
     "msdd_rve_pack": (_STATUS, [_TEXT, _OUT]),
     "msdd_rve_from_json": (_STATUS, [_TEXT, _OUT]),
     "msdd_rve_to_json": (_STATUS, [_HANDLE, _OUT]),

@@ -79,7 +79,12 @@ class Header(unittest.TestCase):
 
     def test_version_and_structs(self) -> None:
         lines = [f'#include "{HEADER}"', f'_Static_assert(MSDD_ABI_VERSION == {_library.ABI_VERSION}, "version");']
-        for struct in (_library.MaterialStruct, _library.InitialStruct, _library.BatchStruct, _library.AveragesStruct):
+        structs = [getattr(_library, name) for name in dir(_library) if name.endswith("Struct")]
+        # Those that callers fill or read, without the handles and what plug-ins get.
+        declared = re.findall(r"^typedef struct (msdd_\w+) {", HEADER.read_text(), re.MULTILINE)
+        wanted = {name for name in declared if not name.startswith("msdd_plugin")}
+        self.assertEqual({struct.__name__ for struct in structs}, wanted)
+        for struct in structs:
             name = struct.__name__
             lines.append(f'_Static_assert(sizeof({name}) == {c.sizeof(struct)}, "{name}");')
             for field, *_ in struct._fields_:

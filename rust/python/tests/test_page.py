@@ -18,7 +18,7 @@ import msdd
 
 CHECKOUT = Path(__file__).resolve().parents[3]
 PAGE = (CHECKOUT / "docs/src/reference/python.md").read_text(encoding="utf-8")
-CHAPTERS = {"Install", "Models", "Boxes of grains", "Databases", "Results of cases", "Failures"}
+CHAPTERS = {"Install", "Models", "Law of spheres", "Boxes of grains", "Databases", "Results of cases", "Failures"}
 
 
 def sections() -> dict[str, str]:
@@ -72,11 +72,11 @@ class Page(unittest.TestCase):
                 self.assertEqual(first_column(sections()[name]), {field.name for field in fields(kind)}, name)
             elif hasattr(kind, "_fields") and name != "WallFriction":
                 self.assertEqual(first_column(sections()[name]), set(kind._fields), name)
-        for kind in (msdd.Material, msdd.Grains):
+        for kind in (msdd.Material, msdd.SphereMaterial, msdd.Grains):
             self.same_arguments(kind.__name__, calls(sections()[kind.__name__])[kind.__name__], arguments_of(kind))
 
     def test_methods_and_attributes(self) -> None:
-        for kind in (msdd.Model, msdd.Rve):
+        for kind in (msdd.Model, msdd.Spheres, msdd.Rve):
             text = sections()[kind.__name__]
             members = {name: value for name, value in vars(kind).items() if not name.startswith("_")}
             methods = {name for name, value in members.items() if not isinstance(value, property)}
@@ -86,7 +86,8 @@ class Page(unittest.TestCase):
                 drop = 0 if isinstance(members[name], staticmethod) else 1
                 self.same_arguments(name, arguments, arguments_of(getattr(kind, name), drop))
             # Arguments of methods have tables, too, below those of the attributes.
-            attributes = first_column(text.split("`model.")[0]) if kind is msdd.Model else set()
+            head = re.split("`(?:model|spheres)\\.", text)[0]
+            attributes = first_column(head) if kind is not msdd.Rve else set()
             self.assertEqual(attributes, set(members) - methods)
 
     def test_failures(self) -> None:
@@ -97,7 +98,7 @@ class Page(unittest.TestCase):
 
     def test_examples(self) -> None:
         blocks = re.findall(r"^```python\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
-        self.assertEqual(len(blocks), 4)
+        self.assertEqual(len(blocks), 5)
         with tempfile.TemporaryDirectory() as folder:
             # What the page finds in the checkout after scripts/run.
             case = Path(folder) / "cases/H"

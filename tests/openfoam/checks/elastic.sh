@@ -2,18 +2,6 @@
 # against closed forms, bending of a body that is nearly incompressible, three processes, restart on another number of them, and meshes and walls
 # that cannot work.
 
-start_field() { # name, dimensions, value
-    cat > "0/$1" <<-END
-	FoamFile { version 2.0; format ascii; class volScalarField; object $1; }
-	dimensions $2;
-	internalField uniform $3;
-	boundaryField
-	{
-	    #includeEtc "caseDicts/setConstraintTypes"
-	    ".*" { type zeroGradient; }
-	}
-	END
-}
 solid() { # folder, entries of equilibriumCoeffs: a case with an elastic body and steady heat
     rm -rf "${work:?}/$1"
     mkdir -p "$work/$1/0" "$work/$1/constant" "$work/$1/system"
@@ -39,34 +27,6 @@ solid() { # folder, entries of equilibriumCoeffs: a case with an elastic body an
 	msddFoam { nNonOrthogonalCorrectors 20; }
 	END
 }
-block_mesh() { # vertices, blocks, edges, patches
-    cat > system/blockMeshDict <<-END
-	FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; }
-	vertices ($1);
-	blocks ($2);
-	edges ($3);
-	boundary ($4);
-	END
-    logged blockMesh
-}
-awk_mesh() { # kind, n, irregular
-    awk -v kind="$1" -v n="$2" -v irregular="$3" -f "$here/mesh.awk" > mesh.msh
-    logged gmshToFoam mesh.msh
-}
-patch_type() { logged foamDictionary -entry "entry0.$1.type" -set "$2" constant/polyMesh/boundary; }
-cube() { # n: hexahedra, of which those inside are moved by hand in moved_points()
-    block_mesh '(0 0 0) (1 0 0) (1 1 0) (0 1 0) (0 0 1) (1 0 1) (1 1 1) (0 1 1)' "hex (0 1 2 3 4 5 6 7) ($1 $1 $1) simpleGrading (1 2 0.5)" '' '
-        bottom { type wall; faces ((0 3 2 1)); } top { type wall; faces ((4 5 6 7)); } front { type wall; faces ((0 1 5 4)); }
-        back { type wall; faces ((3 7 6 2)); } low { type wall; faces ((0 4 7 3)); } high { type wall; faces ((1 2 6 5)); }'
-}
-moved_points() { # moves the points inside the unit cube, so that no face is plane
-    awk '/^\(/ && NF == 3 && match($0, /^\(.*\)$/) { gsub(/[()]/, ""); n++
-            for (k = 1; k <= 3; k++) { x[k] = $k; inside = 1 }
-            for (k = 1; k <= 3; k++) if ($k < 1e-9 || $k > 1 - 1e-9) inside = 0
-            for (k = 1; k <= 3; k++) { s = sin(12.9898*(3*n + k))*43758.5453; x[k] += inside*0.06*(s - int(s)) }
-            printf "(%.17g %.17g %.17g)\n", x[1], x[2], x[3]; next } { print }' constant/polyMesh/points > points.new
-    mv points.new constant/polyMesh/points
-}
 
 stretched_walls() { # strains along x, y, z: walls that move so that all cells must have these strains
     echo "residual 1e-5; walls { \".*\" { type frictionless; } high { type frictionless; displacement constant ($1 0 0); }
@@ -91,46 +51,6 @@ patch_tests() {
     solid patch-polyhedra "$walls"; awk_mesh tet 4 1; logged polyDualMesh 60 -overwrite; uniform_stress "polyhedra about the nodes of tetrahedra"
     solid patch-snappy "$walls"; cube 6; snappy; uniform_stress "polyhedra of snappyHexMesh"
 }
-refine_some() { # dimensions: halves the cells in the corner near the origin
-    cat > system/topoSetDict <<-'END'
-	FoamFile { version 2.0; format ascii; class dictionary; object topoSetDict; }
-	actions ({ name corner; type cellSet; action new; source boxToCell; box (-1 -1 -1) (0.4 0.5 2); });
-	END
-    cat > system/refineMeshDict <<-'END'
-	FoamFile { version 2.0; format ascii; class dictionary; object refineMeshDict; }
-	set corner; coordinateSystem global; globalCoeffs { tan1 (1 0 0); tan2 (0 1 0); } directions (tan1 tan2);
-	useHexTopology no; geometricCut yes; writeMesh no;
-	END
-    logged topoSet
-    logged refineMesh -overwrite
-}
-snappy() { # refines a sphere within the cube
-    cat > system/snappyHexMeshDict <<-'END'
-	FoamFile { version 2.0; format ascii; class dictionary; object snappyHexMeshDict; }
-	castellatedMesh true; snap false; addLayers false;
-	geometry { ball { type searchableSphere; centre (0.3 0.4 0.5); radius 0.3; } }
-	castellatedMeshControls
-	{
-	    maxLocalCells 100000; maxGlobalCells 1000000; minRefinementCells 0; nCellsBetweenLevels 1; features (); refinementSurfaces {}
-	    resolveFeatureAngle 30; refinementRegions { ball { mode inside; levels ((1e15 1)); } } locationInMesh (0.511 0.523 0.537);
-	    allowFreeStandingZoneFaces false;
-	}
-	snapControls { nSmoothPatch 3; tolerance 2; nSolveIter 30; nRelaxIter 5; }
-	addLayersControls
-	{
-	    relativeSizes true; layers {} expansionRatio 1; finalLayerThickness 0.3; minThickness 0.1; nGrow 0; featureAngle 60; nRelaxIter 3;
-	    nSmoothSurfaceNormals 1; nSmoothNormals 3; nSmoothThickness 10; maxFaceThicknessRatio 0.5; maxThicknessToMedialRatio 0.3;
-	    minMedianAxisAngle 90; nBufferCellsNoExtrude 0; nLayerIter 50;
-	}
-	meshQualityControls
-	{
-	    maxNonOrtho 65; maxBoundarySkewness 20; maxInternalSkewness 4; maxConcave 80; minVol 1e-13; minTetQuality 1e-30; minArea -1; minTwist 0.02;
-	    minDeterminant 0.001; minFaceWeight 0.02; minVolRatio 0.01; minTriangleTwist -1; nSmoothScale 4; errorReduction 0.75;
-	}
-	mergeTolerance 1e-6;
-	END
-    logged snappyHexMesh -overwrite
-}
 
 # Radii 1 and 2, pressure and temperature inside; strains so small that Hooke's law holds. See Timoshenko and Goodier, Theory of
 # Elasticity, for the stresses; no strain along the axis.
@@ -149,25 +69,6 @@ against_cylinder() { # angle from the middle plane to the points of a wedge: lar
           e = u - U; f = rr - srr; g = tt - stt; if (e < 0) e = -e; if (f < 0) f = -f; if (g < 0) g = -g; if (f < g) f = g
           if (!(e <= we)) we = e; if (!(f <= wf)) wf = f; if (U > mu) mu = U; s = stt < 0 ? -stt : stt; if (s > ms) ms = s }
         END { print (NR > 3 ? we/mu " " wf/ms : "nan nan") }'
-}
-ring_mesh() { # cells across
-    local z vertices='' edges='' o=0
-    for z in 0 0.1; do
-        vertices+="(1 0 $z) (2 0 $z) (0 2 $z) (0 1 $z) "
-        edges+="arc $o $((o + 3)) (0.70710678118654757 0.70710678118654757 $z) arc $((o + 1)) $((o + 2)) (1.4142135623730951 1.4142135623730951 $z) "
-        o=4
-    done
-    block_mesh "$vertices" "hex (0 1 2 3 4 5 6 7) ($1 $(($1*3/2)) 1) simpleGrading (1 1 1)" "$edges" '
-        inner { type wall; faces ((0 4 7 3)); } outer { type wall; faces ((1 2 6 5)); } low { type symmetryPlane; faces ((0 1 5 4)); }
-        left { type symmetryPlane; faces ((3 7 6 2)); } frontAndBack { type empty; faces ((0 3 2 1) (4 5 6 7)); }'
-}
-wedge_mesh() { # cells across
-    local vertices
-    vertices=$(awk 'BEGIN { t = atan2(0, -1)/72; for (s = -1; s < 2; s += 2) { split("0 1 1 1 1 2 0 2", v, " ")
-        for (i = 1; i < 8; i += 2) printf "(%d %.17g %.17g) ", v[i], v[i + 1]*cos(t), s*v[i + 1]*sin(t) } }')
-    block_mesh "$vertices" "hex (0 1 2 3 4 5 6 7) (4 $1 1) simpleGrading (1 1 1)" '' '
-        inner { type wall; faces ((0 1 5 4)); } outer { type wall; faces ((3 7 6 2)); } ends { type symmetry; faces ((0 4 7 3) (1 2 6 5)); }
-        front { type wedge; faces ((0 3 2 1)); } back { type wedge; faces ((4 5 6 7)); }'
 }
 triangle_ring() { # linear interpolation, on which Gauss gradients rely, is not consistent on triangles
     echo 'gradSchemes { default leastSquares; }' >> system/fvSchemes
@@ -349,7 +250,7 @@ refusals() {
     solid grains-in-space "walls { }"
     cube 2
     sed -i 's/law elastic;/law grains;/' constant/granularProperties
-    check "refused: grains in three dimensions" refused 'has three dimensions: grains that move are known in the plane alone'
+    check "refused: discs in three dimensions" refused 'has three dimensions: discs that move are known in the plane alone'
     solid friction-in-space 'walls { ".*" { type rigid; friction 0.3; slip 1e-3; } }'
     cube 2
     check "refused: friction in three dimensions" refused 'allowed in meshes of three dimensions: 0'

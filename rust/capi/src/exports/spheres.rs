@@ -177,6 +177,7 @@ struct Columns<'a> {
     strain: Vec<Input<'a>>,
     rotation: Vec<Input<'a>>,
     temperature: Option<Input<'a>>,
+    solid_conductivity: Option<Input<'a>>,
     next_state: Vec<Output<f64>>,
     stress: Vec<Output<f64>>,
     tangent: Vec<Output<f64>>,
@@ -224,6 +225,7 @@ impl<'a> Columns<'a> {
                 strain: several(&names.strain, batch.strain)?,
                 rotation: several(&names.rotation, batch.rotation)?,
                 temperature: optional("temperature", batch.temperature)?,
+                solid_conductivity: optional("solid_conductivity", batch.solid_conductivity)?,
                 next_state: wanted("next_state", batch.next_state, COLUMNS)?,
                 stress: wanted("stress", batch.stress, 6)?,
                 tangent: wanted("tangent", batch.tangent, 36)?,
@@ -251,15 +253,20 @@ impl<'a> Columns<'a> {
             column.check_finite()?;
             column.check_range(0.0, 1e5, "0 to 1e5 K")?;
         }
+        if let Some(column) = &self.solid_conductivity {
+            column.check_finite()?;
+            column.check_range(1e-12, 1e12, "1e-12 to 1e12 W/(m K)")?;
+        }
         Ok(())
     }
 
     /// Takes all cells through the step; returns the number of those outside of the range.
     fn advance(&self, model: &SphereModel, material: &Material, cells: usize) -> Result<usize, Failure> {
         let one = |column: &Option<Input>, usual, cell| column.map_or(usual, |column: Input| column.at(cell));
+        let there = |cell| material.with_conductivity(one(&self.solid_conductivity, material.solid_conductivity(), cell));
         // Everything that can be refused, before anything is written.
         for cell in 0..cells {
-            material.gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
+            there(cell).gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
         }
         let mut count = 0;
         for cell in 0..cells {
@@ -270,6 +277,7 @@ impl<'a> Columns<'a> {
                 cell: std::array::from_fn(|k| at(&self.strain, k)),
                 rotation: std::array::from_fn(|k| at(&self.rotation, k)),
             };
+            let material = there(cell);
             let gas = material.gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
             let answer = model.advance(&state, &strain, gas.number, !self.tangent.is_empty());
             let found = material.conductivity(&answer, &gas);

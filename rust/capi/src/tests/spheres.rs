@@ -73,6 +73,7 @@ const NOTHING: msdd_sphere_batch = msdd_sphere_batch {
     strain: null(),
     rotation: null(),
     temperature: null(),
+    solid_conductivity: null(),
     next_state: null(),
     stress: null(),
     tangent: null(),
@@ -82,6 +83,32 @@ const NOTHING: msdd_sphere_batch = msdd_sphere_batch {
     outside: null_mut(),
     outside_cells: 0,
 };
+
+#[test]
+fn conductivity_of_the_spheres_can_differ_between_cells() {
+    let law = Law::builtin();
+    let mut state = start(&law, 2);
+    let given = writable(&mut state);
+    let input: Vec<*const f64> = given.iter().map(|column| column.cast_const()).collect();
+    let conducting = |material: &msdd_sphere_material, cells: *const f64| {
+        let mut tensor = vec![vec![-7.0; 2]; 6];
+        let columns = writable(&mut tensor);
+        let mut batch = msdd_sphere_batch {
+            cells: 2,
+            state: input.as_ptr(),
+            solid_conductivity: cells,
+            conductivity: columns.as_ptr(),
+            ..NOTHING
+        };
+        // SAFETY: live, full struct, columns of two values.
+        assert_eq!(unsafe { msdd_spheres_advance(law.0, material, &mut batch) }, MSDD_OK, "{}", last_error());
+        tensor[0].clone()
+    };
+    let mixed = conducting(&STEEL, [42.0, 21.0].as_ptr());
+    let poorer = msdd_sphere_material { conductivity: 21.0, ..STEEL };
+    assert_eq!(mixed, [conducting(&STEEL, null())[0], conducting(&poorer, null())[1]]);
+    assert!(mixed[1] < mixed[0]);
+}
 
 #[test]
 fn answers_are_those_of_the_model_in_si_units() {
@@ -181,6 +208,10 @@ fn what_cannot_be_is_refused() {
     let mut strains = [zeros.as_ptr(); 6];
     strains[3] = large.as_ptr();
     batch(msdd_sphere_batch { strain: strains.as_ptr(), ..good }, "strain[xy][1] = 0.3");
+    let cold = [40.0, 0.0];
+    batch(msdd_sphere_batch { solid_conductivity: cold.as_ptr(), ..good }, "solid_conductivity[1] = 0");
+    let poor = [40.0, 0.1];
+    batch(msdd_sphere_batch { solid_conductivity: poor.as_ptr(), ..good }, "material.conductivity = 0.1");
     let none = msdd_sphere_batch { thermal_strain: none.as_ptr(), ..good };
     refused(STEEL, none, MSDD_NON_FINITE, "thermal_strain[1]");
     let material = |material, said| refused(material, good, MSDD_INVALID_ARGUMENT, said);

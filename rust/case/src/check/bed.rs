@@ -3,7 +3,7 @@
 use super::fields::{self, FIELDS};
 use super::finding::Findings;
 use super::mesh::Mesh;
-use super::{control, grains, scales, state};
+use super::{control, grains, gravity, scales, state};
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
 use rayon::prelude::*;
@@ -53,6 +53,9 @@ pub fn check(folder: &Path, files: &Files, mesh: &Mesh, times: Option<control::T
     let file = |name: &str| file(files, name);
     let properties = file(grains::FILE);
     let model = properties.and_then(|properties| grains::check(folder, properties, &mesh.names(), found));
+    if let Some(properties) = properties {
+        gravity::check(properties, file(gravity::FILE), file("0/stress").is_some(), found);
+    }
     let values = FIELDS
         .each_ref()
         .map(|field| file(field.file).and_then(|dictionary| fields::check(field, dictionary, mesh, found)));

@@ -217,8 +217,9 @@ fn check_mechanics(
     }
     keys::check(settings, FILE, keys::EQUILIBRIUM, &[], found);
     let value = |key: &str| keys::number(file, key, "").unwrap_or(0.0);
-    let mut scale = value("youngModulus") * value("meanRadius");
-    let mut usual = 1e-4;
+    let scale = value("youngModulus") * value("meanRadius");
+    let mut scales = [scale, scale];
+    let mut usual = 1e-4 * scale;
     if elastic {
         let Ok(solid) = settings.dictionary_at("elasticCoeffs") else {
             let allowed = "a dictionary with youngModulus and poissonRatio";
@@ -227,13 +228,18 @@ fn check_mechanics(
         };
         keys::check(solid, FILE, keys::ELASTIC, &[], found);
         let number = |key: &str| keys::number(solid, key, "").unwrap_or(0.0);
-        scale = number("youngModulus") / (2.0 + 2.0 * number("poissonRatio")) / 0.3;
-        usual = 1e-9;
+        let scale = number("youngModulus") / (2.0 + 2.0 * number("poissonRatio")) / 0.3;
+        scales = [scale, scale];
+        usual = 1e-9 * scale;
+    } else if let Some(modulus) = contact_modulus(file) {
+        // E* (p/E*)^(1/3) with the mean pressure at the start, which lies between these in any bed.
+        scales = [1e-9, 1e-3].map(|pressure: f64| modulus * pressure.cbrt());
+        usual = 1e-12 * modulus;
     }
-    if scale > 0.0 {
-        between(settings, "residual", [2e-14 * scale, 2e4 * scale], "Pa", found);
-        let residual = keys::number(settings, "residual", "").unwrap_or(usual * scale);
-        between(settings, "maxResidual", [residual, 2e7 * scale], "Pa", found);
+    if scales[0] > 0.0 {
+        between(settings, "residual", [2e-14 * scales[0], 2e4 * scales[1]], "Pa", found);
+        let residual = keys::number(settings, "residual", "").unwrap_or(usual);
+        between(settings, "maxResidual", [residual, 2e7 * scales[1]], "Pa", found);
     }
     let Ok(walls) = settings.dictionary_at("walls") else { return };
     for key in walls.keys() {
@@ -249,6 +255,15 @@ fn check_mechanics(
             between(wall, "slip", [2e-7 * radius, 2000.0 * radius], "m", found);
         }
     }
+}
+
+/// E* = E/(2 - 2 nu^2) [Pa] of the surrogate type spheres.
+fn contact_modulus(file: &Dictionary) -> Option<f64> {
+    let surrogate = file.dictionary_at("surrogate").ok()?;
+    let own = surrogate.dictionary_at("spheresCoeffs").ok()?;
+    let ratio = keys::number(own, "poissonRatio", "")?;
+    let modulus = keys::number(file, "youngModulus", "")?;
+    surrogate.text("type").is_ok_and(|kind| kind == "spheres").then(|| 0.5 * modulus / (1.0 - ratio * ratio))
 }
 
 /// Checks a value against a range that depends on the grains.

@@ -9,6 +9,8 @@ use msdd_rve::message::number as number_text;
 pub enum Kind {
     /// A number above 0: its unit, and its dimensions as OpenFOAM writes them.
     Positive(&'static str, &'static str),
+    /// The same, or a function of the temperature \[K\] in a form of OpenFOAM's Function1.
+    OfTemperature(&'static str, &'static str),
     /// A number of 0 or above: its unit, and its dimensions as OpenFOAM writes them.
     NotNegative(&'static str, &'static str),
     /// A number from the first to the second, and its unit.
@@ -19,6 +21,9 @@ pub enum Kind {
     /// Any value here: it is checked elsewhere, or by OpenFOAM itself.
     Any,
 }
+
+/// Forms of a function of the temperature, of OpenFOAM's Function1.
+pub const FUNCTIONS: &[&str] = &["constant", "polynomial", "table", "tableFile", "csvFile"];
 
 /// A key of a dictionary.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,15 +47,20 @@ pub const GRAINS: &[Key] = &[
     must("surrogate", Kind::Dictionary),
     must("density", Kind::Positive("kg/m3", "[ 1 -3 0 0 0 0 0 ]")),
     must("youngModulus", Kind::Positive("Pa", "[ 1 -1 -2 0 0 0 0 ]")),
-    must("thermalConductivity", Kind::Positive("W/(m K)", "[ 1 1 -3 -1 0 0 0 ]")),
-    must("heatCapacity", Kind::Positive("J/(kg K)", "[ 0 2 -2 -1 0 0 0 ]")),
+    must("thermalConductivity", Kind::OfTemperature("W/(m K)", "[ 1 1 -3 -1 0 0 0 ]")),
+    must("heatCapacity", Kind::OfTemperature("J/(kg K)", "[ 0 2 -2 -1 0 0 0 ]")),
     must("thermalExpansion", Kind::NotNegative("1/K", "[ 0 0 0 -1 0 0 0 ]")),
     must("meanRadius", Kind::Positive("m", "[ 0 1 0 0 0 0 0 ]")),
     may("conductivityFactor", Kind::Range(0.1, 10.0, "")),
     may("bulkDensity", Kind::Word(&["massConsistent", "paper"])),
     may("mechanics", Kind::Word(&["equilibrium", "none"])),
     may("equilibriumCoeffs", Kind::Dictionary),
+    may("restStress", Kind::Dictionary),
 ];
+
+/// `restStress`.
+pub const REST_STRESS: &[Key] =
+    &[must("lateral", Kind::Range(0.0, 10.0, "")), may("surface", Kind::Range(0.0, 1e12, "Pa"))];
 
 /// `constant/<region>/thermophysicalProperties` of a bed.
 pub const THERMO: &[Key] = &[
@@ -242,6 +252,13 @@ pub fn value(dictionary: &Dictionary, file: &str, key: &Key, found: &mut Finding
         (Kind::Positive(_, dimensions), Entry::Value(_)) => {
             number(dictionary, key.name, dimensions).is_some_and(|value| value > 0.0)
         }
+        (Kind::OfTemperature(_, dimensions), Entry::Value(tokens)) => {
+            number(dictionary, key.name, dimensions).is_some_and(|value| value > 0.0)
+                || tokens.first().is_some_and(|word| FUNCTIONS.contains(&word.text.as_str()))
+        }
+        (Kind::OfTemperature(..), Entry::Dictionary(own)) => {
+            own.text("type").is_ok_and(|kind| FUNCTIONS.contains(&kind.as_str()))
+        }
         (Kind::NotNegative(_, dimensions), Entry::Value(_)) => {
             number(dictionary, key.name, dimensions).is_some_and(|value| value >= 0.0)
         }
@@ -284,6 +301,10 @@ impl Kind {
     pub fn allowed(self) -> String {
         match self {
             Self::Positive(unit, dimensions) => format!("> 0 {unit} {}", of(dimensions)).trim().to_string(),
+            Self::OfTemperature(unit, dimensions) => {
+                let number = Self::Positive(unit, dimensions).allowed();
+                format!("{number}; or a function of the temperature [K]: {}", FUNCTIONS.join(", "))
+            }
             Self::NotNegative(unit, dimensions) => {
                 format!(">= 0 {unit} {}", of(dimensions)).trim().to_string()
             }

@@ -23,6 +23,7 @@ fn tables_hold_exactly_the_keys_that_the_solver_allows() {
     let models = "granularModels";
     for (source, dictionary, keys) in [
         ("granularProperties/granularProperties.C", "*this", GRAINS),
+        ("granularState/granularStateStart.C", "dict", REST_STRESS),
         ("networkModel/networkModel.C", "coeffs_", NETWORK),
         ("constantModel/constantModel.C", "coeffs_", CONSTANT),
         ("pluginModel/pluginModel.C", "coeffs_", PLUGIN),

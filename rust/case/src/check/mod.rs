@@ -7,6 +7,7 @@
 //! | [`finding`] | the findings |
 //! | [`keys`] | the keys of the solver's dictionaries and what they may hold |
 //! | [`grains`] | `constant/granularProperties` and the model |
+//! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
 //! | [`mesh`] | mesh and `system/blockMeshDict` |
 //! | [`fields`] | the fields in `0` |
@@ -18,6 +19,7 @@ pub mod control;
 pub mod fields;
 pub mod finding;
 pub mod grains;
+pub mod gravity;
 pub mod keys;
 pub mod mesh;
 pub mod regions;
@@ -30,12 +32,13 @@ use crate::path;
 use std::path::Path;
 
 /// Files that are read through `foamDictionary`, and whether the solver needs them.
-const FILES: [(&str, bool); 11] = [
+const FILES: [(&str, bool); 12] = [
     (control::CONTROL, true),
     (control::SOLUTION, true),
     ("system/fvSchemes", true),
     (mesh::BLOCKS, false),
     (grains::FILE, true),
+    (gravity::FILE, false),
     (scales::SOURCES, false),
     ("0/T", true),
     ("0/porosity", true),

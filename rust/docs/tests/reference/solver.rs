@@ -17,6 +17,7 @@ const REGION: &str = "openfoam/granularModels/regionPolicy/regionPolicy.C";
 const WALLS: &str = "openfoam/granularModels/granularMechanics/wallConditions.C";
 const EQUILIBRIUM: &str = "openfoam/granularModels/granularMechanics/equilibrium.C";
 const LAW: &str = "openfoam/granularModels/granularMechanics/stressLaw.C";
+const START: &str = "openfoam/granularModels/granularState/granularStateStart.C";
 const LINEAR: &str = "openfoam/granularModels/granularMechanics/equilibriumSolver.C";
 const SCHEME: &str = "openfoam/msddFoam/timeScheme/timeScheme.C";
 const THERMO: &str = "openfoam/granularThermo/granularSolidThermo/granularSolidThermo.C";
@@ -143,6 +144,10 @@ fn equilibrium() -> Vec<Set> {
         ),
         with_literals(set, &walls),
         Set::new(GRAINS, "types of walls", WALLS, kinds),
+        with_literals(
+            Set::new(GRAINS, "restStress", START, allowed_keys(&source(START), "dict")),
+            &source(START),
+        ),
         Set::new(GRAINS, "elasticCoeffs", LAW, allowed_keys(&source(LAW), "dict")),
         Set::new(SYSTEM, "solvers.equilibrium", LINEAR, allowed_keys(&source(LINEAR), "controls")),
     ]

@@ -1,0 +1,108 @@
+"""The law of spheres: answers, arrays of all kinds, and mistakes that end in an exception and never in a crash."""
+
+import unittest
+from typing import Any
+
+import numpy as np
+
+import msdd
+
+STEEL = msdd.SphereMaterial(
+    diameter=6e-3, young_modulus=2e11, poisson_ratio=0.3, conductivity=40, roughness=3e-7, hardness=3e9, gas="air"
+)
+
+
+class WithLaw(unittest.TestCase):
+    law: msdd.Spheres
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.law = msdd.load_spheres()
+
+    def state(self, solid_fraction: Any = 0.6, stress: Any = 1e4) -> dict[str, Any]:
+        return self.law.initial_state(STEEL, solid_fraction, stress)
+
+
+class Answers(WithLaw):
+    def test_what_the_law_says_of_itself(self) -> None:
+        self.assertRegex(self.law.hash, "^[0-9a-f]{64}$")
+        self.assertIn(self.law.hash[:12], repr(self.law))
+        self.assertEqual(set(self.state()), set(self.law.state_names))
+        self.assertIn("law", self.law.info)
+
+    def test_the_start_has_the_stress_and_the_solid_fraction_that_were_given(self) -> None:
+        stress = [2e4, 1.8e4, 2.2e4, 1e3, -5e2, 0]
+        step = self.law.advance(STEEL, self.state(np.array([0.58, 0.62]), stress))
+        np.testing.assert_allclose(step.stress, np.transpose([stress, stress]), rtol=1e-6, atol=1e-6)
+        np.testing.assert_allclose(step.solid_fraction, [0.58, 0.62], rtol=1e-9)
+        self.assertTrue((step.gas_conductivity > 0).all() and (step.conductivity[:3] > step.gas_conductivity).all())
+
+    def test_growth_is_the_strain_of_a_smaller_cell(self) -> None:
+        grown = self.law.advance(STEEL, self.state(), 1e-3)
+        pressed = self.law.advance(STEEL, self.state(), strain=[1 / 1.001 - 1] * 3 + [0] * 3)
+        # The parts of a large step compose to it to the second order.
+        np.testing.assert_allclose(grown.stress, pressed.stress, rtol=1e-6)
+        self.assertGreater(grown.stress[0], 1e4)
+
+    def test_the_tangent_is_the_derivative(self) -> None:
+        state, strain, step = self.state(), np.array([-1e-4, 0, 0, 5e-5, 0, 0]), 1e-8
+        tangent = self.law.advance(STEEL, state, strain=strain, tangent=True).tangent
+        for j, change in enumerate(step * np.eye(6)):
+            ends = [self.law.advance(STEEL, state, strain=strain + sign * change).stress for sign in (1, -1)]
+            difference = (ends[1] - ends[0]) / (2 * step)
+            np.testing.assert_allclose(tangent[:, j], difference, rtol=1e-4, atol=1e-5 * tangent[0, 0])
+
+    def test_a_cell_that_turns_takes_its_stress_along(self) -> None:
+        angle = 0.1
+        turned = self.law.advance(STEEL, self.state(stress=[1.2e4, 1e4, 1e4, 0, 0, 0]), rotation=[0, 0, angle]).stress
+        # Two turns by half of it, each taken as twice the arc tangent of its own half.
+        angle = 4 * np.arctan(angle / 4)
+        wanted = [1.1e4 + 1e3 * np.cos(2 * angle), 1.1e4 - 1e3 * np.cos(2 * angle), 1e4, 1e3 * np.sin(2 * angle), 0, 0]
+        np.testing.assert_allclose(turned, wanted, rtol=1e-9, atol=1e-6)
+
+    def test_arrays_of_any_shape(self) -> None:
+        state = self.state(np.full((2, 1), 0.6), np.full((6, 1, 3), 1e4) * np.array([1, 1, 1, 0, 0, 0])[:, None, None])
+        step = self.law.advance(STEEL, state, strain=np.zeros((6, 2, 3)), temperature=400, tangent=True)
+        self.assertEqual(step.stress.shape, (6, 2, 3))
+        self.assertEqual(step.tangent.shape, (6, 6, 2, 3))
+        self.assertEqual(step.outside.dtype, bool)
+
+
+class Mistakes(WithLaw):
+    def test_values(self) -> None:
+        with self.assertRaisesRegex(msdd.InvalidArgument, "solid_fraction"):
+            self.state(0.9)
+        with self.assertRaises(msdd.NonFinite):
+            self.state(np.nan)
+        with self.assertRaisesRegex(msdd.InvalidArgument, "strain"):
+            self.law.advance(STEEL, self.state(), strain=[0.5, 0, 0, 0, 0, 0])
+        with self.assertRaisesRegex(msdd.InvalidArgument, "neon.*air"):
+            self.law.initial_state(msdd.SphereMaterial(6e-3, 2e11, 0.3, 40, gas="neon"), 0.6, 1e4)
+        with self.assertRaisesRegex(msdd.InvalidArgument, "30"):
+            glass = msdd.SphereMaterial(6e-3, 7e10, 0.2, 1, gas="helium")
+            self.law.advance(glass, self.law.initial_state(glass, 0.6, 1e4))
+
+    def test_kinds_and_shapes(self) -> None:
+        with self.assertRaisesRegex(TypeError, "SphereMaterial"):
+            self.law.initial_state(msdd.Material(1, 1, 1), 0.6, 1e4)  # type: ignore[arg-type]
+        for stress in ([1e4, 1e4], np.full(7, 1e4)):
+            with self.assertRaisesRegex(ValueError, "stress is a number, or 6 components"):
+                self.state(0.6, stress)
+        with self.assertRaisesRegex(ValueError, "rotation is 3 components"):
+            self.law.advance(STEEL, self.state(), rotation=0.1)
+        with self.assertRaisesRegex(KeyError, self.law.state_names[0]):
+            self.law.advance(STEEL, {})
+        with self.assertRaisesRegex(ValueError, "do not go together"):
+            self.law.advance(STEEL, self.state([0.6, 0.61]), [1e-4, 1e-4, 1e-4])
+        with self.assertRaises(TypeError):
+            msdd.Spheres()
+
+    def test_files(self) -> None:
+        with self.assertRaises(msdd.FileError):
+            msdd.load_spheres("/no/such.json")
+        with self.assertRaises(msdd.ModelError):
+            msdd.load_spheres(__file__)
+
+
+if __name__ == "__main__":
+    unittest.main()
