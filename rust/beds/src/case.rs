@@ -384,9 +384,19 @@ impl Grains {
         all.extend([
             ("grains.number", self.number as f64, "1 to 1000000", (1..=1_000_000).contains(&self.number)),
             ("grains.friction", self.friction, "0 to 10", (0.0..=10.0).contains(&self.friction)),
-            ("grains.wall_friction", self.wall_friction, "0 to 10", (0.0..=10.0).contains(&self.wall_friction)),
+            (
+                "grains.wall_friction",
+                self.wall_friction,
+                "0 to 10",
+                (0.0..=10.0).contains(&self.wall_friction),
+            ),
             ("grains.restitution", self.restitution, "0.001 to 1", (1e-3..=1.0).contains(&self.restitution)),
-            ("grains.poisson_ratio", self.poisson_ratio, "0 to 0.5", (0.0..=0.5).contains(&self.poisson_ratio)),
+            (
+                "grains.poisson_ratio",
+                self.poisson_ratio,
+                "0 to 0.5",
+                (0.0..=0.5).contains(&self.poisson_ratio),
+            ),
             (
                 "grains.simulated_young_modulus",
                 self.simulated_young_modulus,

@@ -6,7 +6,7 @@
 //! the other half. The motion is not that of the real time: a bed at rest knows none, and how far from rest it is is recorded.
 
 use crate::BedError;
-use crate::give::{Hold, Moving, drag, wall_area};
+use crate::give::{BLOCK, Hold, Moving, drag, steered, wall_area};
 use crate::harden::harden;
 use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::{Pouring, pour};
@@ -21,8 +21,6 @@ use msdd_spheres::law::effective_modulus;
 use msdd_spheres::space::length;
 use msdd_spheres::{Material, Partner, Simulation, Stiffness};
 
-/// Steps between two changes of radii and walls.
-const BLOCK: u64 = 25;
 /// First time step of heat \[s\].
 const FIRST_STEP: f64 = 0.1;
 
@@ -115,7 +113,8 @@ pub fn prepare(
     let rest = press(&mut simulation, lid, load, allowed, |a| watch("lid", progress(a)))?;
     stages.push(rested("lid", rest)?);
     let depth = simulation.boundary.walls()[lid].point[2];
-    let rest = harden(&mut simulation, grains.young_modulus, lid, load, depth, |share| watch("harden", share))?;
+    let rest =
+        harden(&mut simulation, grains.young_modulus, lid, load, depth, |share| watch("harden", share))?;
     stages.push(rested("harden", rest)?);
     Ok(Prepared { simulation, stages })
 }
@@ -181,7 +180,9 @@ impl<'a> Coupled<'a> {
         };
         bed.depth_at_start = bed.depth();
         let at_start = bed.shell.as_ref().map_or(0.0, |shell| bed.pressure(shell.wall));
-        if let (Some(shell), Some(keys), Some(radius)) = (&mut bed.shell, &scene.shell, scene.container.radius) {
+        if let (Some(shell), Some(keys), Some(radius)) =
+            (&mut bed.shell, &scene.shell, scene.container.radius)
+        {
             let stiffness = keys.young_modulus * keys.thickness / (radius * radius);
             shell.hold = Hold::Shell { stiffness, at_start, grown: 0.0 };
         }
@@ -201,7 +202,8 @@ impl<'a> Coupled<'a> {
     }
 
     fn heat(&mut self, [from, to]: [f64; 2], step: &mut f64) -> Result<(), BedError> {
-        let at = |time: f64| -> Vec<f64> { self.scene.heated.iter().map(|h| h.temperature.at(time)).collect() };
+        let at =
+            |time: f64| -> Vec<f64> { self.scene.heated.iter().map(|h| h.temperature.at(time)).collect() };
         let mut transient = Transient::from(&self.network, &self.temperatures, at(0.5 * (from + to)));
         transient.run_to(to - from, self.scene.time.tolerance, step)?;
         self.run.stored += transient.stored();
@@ -234,12 +236,19 @@ impl<'a> Coupled<'a> {
                 }
                 self.simulation.resize(&radii);
             }
-            self.steer(from + share * (to - from));
-            let begin = self.simulation.time;
-            self.simulation.run(BLOCK)?;
-            let elapsed = self.simulation.time - begin;
-            self.lid.note(&self.simulation, elapsed);
+            self.aim(from + share * (to - from));
+            let (area, depth) = (self.scene.vessel().area(), self.depth());
+            let walls = [Some(&mut self.lid), self.shell.as_mut()];
+            let mut walls: Vec<&mut Moving> = walls.into_iter().flatten().collect();
+            steered(&mut self.simulation, |simulation, dt, left| {
+                for wall in &mut walls {
+                    let pressure =
+                        simulation.wall_load(wall.wall) / wall_area(simulation, wall.wall, area, depth);
+                    wall.steer(simulation, pressure, dt, left);
+                }
+            })?;
         }
+        self.simulation.drag = 0.0;
         self.lid.stop(&mut self.simulation);
         if let Some(shell) = &mut self.shell {
             shell.stop(&mut self.simulation);
@@ -249,9 +258,8 @@ impl<'a> Coupled<'a> {
         Ok(())
     }
 
-    /// Chooses how the walls move in the next block of steps, towards what `time` \[s\] wants.
-    fn steer(&mut self, time: f64) {
-        let dt = self.simulation.time_step;
+    /// What holds the walls at a time \[s\], and the drag.
+    fn aim(&mut self, time: f64) {
         self.simulation.drag = drag(&self.simulation, self.depth());
         let keys = &self.scene.lid;
         self.lid.hold = match (&keys.strain, &keys.pressing) {
@@ -259,15 +267,9 @@ impl<'a> Coupled<'a> {
             (None, Some(pressing)) => Hold::Pressure { pressure: pressing.at(time) },
             (None, None) => Hold::Place { moved: 0.0 },
         };
-        let pressure = self.pressure(self.lid.wall);
-        self.lid.steer(&mut self.simulation, pressure, BLOCK as f64 * dt);
         let wall = self.wall_growth(time);
-        let pressure = self.shell.as_ref().map(|shell| self.pressure(shell.wall));
-        if let (Some(shell), Some(pressure)) = (&mut self.shell, pressure) {
-            if let Hold::Shell { grown, .. } = &mut shell.hold {
-                *grown = wall;
-            }
-            shell.steer(&mut self.simulation, pressure, BLOCK as f64 * dt);
+        if let Some(Hold::Shell { grown, .. }) = self.shell.as_mut().map(|shell| &mut shell.hold) {
+            *grown = wall;
         }
     }
 
@@ -292,7 +294,8 @@ impl<'a> Coupled<'a> {
             Ok(probe.temperature(&self.temperatures))
         };
         let temperatures = keys.distances.iter().map(temperature).collect::<Result<_, BedError>>()?;
-        let inside = simulation.spheres.iter().zip(&self.temperatures).filter(|(s, _)| region.holds(s.position));
+        let inside =
+            simulation.spheres.iter().zip(&self.temperatures).filter(|(s, _)| region.holds(s.position));
         let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (_, t)| (sum + t, count + 1.0));
         let mean_temperature: f64 = sum / count;
         if !mean_temperature.is_finite() {
@@ -317,9 +320,10 @@ impl<'a> Coupled<'a> {
             contact_conductivity: averages.contact_conductivity,
             gas_conductivity: averages.gas_conductivity,
             depth: self.depth(),
-            radius: scene.container.radius.map_or(f64::NAN, |radius| {
-                radius - self.shell.as_ref().map_or(0.0, |shell| shell.moved)
-            }),
+            radius: scene
+                .container
+                .radius
+                .map_or(f64::NAN, |radius| radius - self.shell.as_ref().map_or(0.0, |shell| shell.moved)),
             unbalanced: (along + weight).abs() / lid.max(weight),
             yielding: peak.map_or(f64::NAN, |peak| peak.beyond as f64 / peak.contacts.max(1) as f64),
             peak: peak.map_or(f64::NAN, |peak| peak.largest / (crate::solid::YIELD_AT * peak.yield_stress)),

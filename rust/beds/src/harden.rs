@@ -4,15 +4,14 @@
 //! contacts, which is small beside m g r, so hardly a grain changes its place.
 
 use crate::BedError;
-use crate::give::{Hold, Moving, drag};
+use crate::give::{Hold, Moving, drag, steered};
 use crate::settle::Rest;
 use msdd_spheres::{Simulation, Sphere, Stiffness};
 
-/// Steps between two changes of the modulus, and such changes while it doubles.
-const BLOCK: u64 = 25;
-const BLOCKS: f64 = 40.0;
+/// Blocks of steps, in each of which the modulus changes once, while it doubles.
+const BLOCKS: f64 = 20.0;
 /// Blocks after which a bed that is not at rest is given up.
-const MOST: u64 = 20_000;
+const MOST: u64 = 10_000;
 /// Relative error of the pressure, and kinetic energy over p V, at which the bed counts as at rest.
 const BALANCED: [f64; 2] = [2e-3, 1e-8];
 
@@ -39,19 +38,28 @@ pub fn harden(
     loop {
         block += 1;
         let share = (block as f64 / hard as f64).min(1.0);
-        let modulus = if block >= hard { young_modulus } else { soft * libm::pow(young_modulus / soft, share) };
+        let modulus =
+            if block >= hard { young_modulus } else { soft * libm::pow(young_modulus / soft, share) };
         simulation.material.stiffness = Stiffness::HertzMindlin { young_modulus: modulus, poisson_ratio };
         simulation.drag = drag(simulation, depth);
-        let borne = simulation.wall_load(lid.wall) / area;
-        lid.steer(simulation, borne, BLOCK as f64 * simulation.time_step);
-        simulation.run(BLOCK)?;
+        steered(simulation, |simulation, dt, left| {
+            let borne = simulation.wall_load(lid.wall) / area;
+            lid.steer(simulation, borne, dt, left);
+        })?;
         watch(share);
-        let kinetic = simulation.spheres.iter().map(Sphere::kinetic_energy).sum::<f64>() / (pressure * area * depth);
+        let borne = simulation.wall_load(lid.wall) / area;
+        let kinetic =
+            simulation.spheres.iter().map(Sphere::kinetic_energy).sum::<f64>() / (pressure * area * depth);
         let at_rest = block >= hard && (borne / pressure - 1.0).abs() < BALANCED[0] && kinetic < BALANCED[1];
         if at_rest || block >= hard + MOST {
             simulation.drag = 0.0;
             lid.stop(simulation);
-            return Ok(Rest { at_rest, kinetic, time: simulation.time - start, steps: simulation.steps - first });
+            return Ok(Rest {
+                at_rest,
+                kinetic,
+                time: simulation.time - start,
+                steps: simulation.steps - first,
+            });
         }
     }
 }

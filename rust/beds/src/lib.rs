@@ -29,6 +29,7 @@
 //! | [`region`] | stresses in the inner part of a bed |
 //! | [`scene`] | the description of a bed whose walls move while heat flows |
 //! | [`coupled`] | such a bed: heat, growth of the grains, walls, averages over time |
+//! | [`rows`] | its averages as a file |
 //! | [`bed`] | a measured bed from pouring to temperatures |
 //! | [`vtk`] | grains for ParaView |
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
@@ -54,6 +55,7 @@ pub mod press;
 pub mod profile;
 pub mod property;
 pub mod region;
+pub mod rows;
 pub mod scatter;
 pub mod scene;
 pub mod schedule;

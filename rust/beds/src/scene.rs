@@ -131,7 +131,8 @@ impl Scene {
     }
 
     fn check(&self) -> Result<(), Wrong> {
-        let wrong = |key: &str, value: String, allowed: &str| Err((key.to_string(), value, allowed.to_string()));
+        let wrong =
+            |key: &str, value: String, allowed: &str| Err((key.to_string(), value, allowed.to_string()));
         let mut numbers = self.grains.numbers();
         numbers.extend(self.container.numbers(&self.grains));
         numbers.extend(self.gas.numbers());
@@ -159,7 +160,8 @@ impl Scene {
                 path.check([-0.2, 0.2]).map_err(|(value, allowed)| ("lid.strain".into(), value, allowed))?;
             }
             (None, Some(path)) => {
-                path.check([1e-12, 1e15]).map_err(|(value, allowed)| ("lid.pressing".into(), value, allowed))?;
+                path.check([1e-12, 1e15])
+                    .map_err(|(value, allowed)| ("lid.pressing".into(), value, allowed))?;
             }
             (None, None) => {}
         }
@@ -194,7 +196,12 @@ impl Scene {
             ),
             ("time.output_every", time.output_every, "interval to end", time.output_every <= time.end),
             ("time.steps", time.steps as f64, "100 to 10000000", (100..=10_000_000).contains(&time.steps)),
-            ("record.distances", self.record.distances.len() as f64, "one at least", !self.record.distances.is_empty()),
+            (
+                "record.distances",
+                self.record.distances.len() as f64,
+                "one at least",
+                !self.record.distances.is_empty(),
+            ),
         ];
         for (key, value) in [
             ("time.end", time.end),

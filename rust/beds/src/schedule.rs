@@ -22,17 +22,22 @@ impl Schedule {
         match self {
             Self::Constant(value) if inside(*value) => Ok(()),
             Self::Constant(value) => Err((number(*value), allowed())),
-            Self::Table(rows) if rows.is_empty() => Err(("no rows".to_string(), "one row at least".to_string())),
+            Self::Table(rows) if rows.is_empty() => {
+                Err(("no rows".to_string(), "one row at least".to_string()))
+            }
             Self::Table(rows) => {
                 if let Some(row) = rows.iter().find(|row| !inside(row[1])) {
                     return Err((number(row[1]), allowed()));
                 }
-                let falling = rows.windows(2).find(|pair| pair[0][0].partial_cmp(&pair[1][0]) != Some(std::cmp::Ordering::Less));
+                let falling = rows
+                    .windows(2)
+                    .find(|pair| pair[0][0].partial_cmp(&pair[1][0]) != Some(std::cmp::Ordering::Less));
                 let bad = falling.map(|pair| [pair[0][0], pair[1][0]]);
                 match bad {
-                    Some([a, b]) => {
-                        Err((format!("times {} s and {} s in this order", number(a), number(b)), "rising times".to_string()))
-                    }
+                    Some([a, b]) => Err((
+                        format!("times {} s and {} s in this order", number(a), number(b)),
+                        "rising times".to_string(),
+                    )),
                     None if rows.iter().all(|row| row[0].is_finite()) => Ok(()),
                     None => Err(("a time that is not finite".to_string(), "finite times".to_string())),
                 }
@@ -73,7 +78,10 @@ mod tests {
     #[test]
     fn a_table_is_straight_between_its_rows_and_constant_outside() {
         let table = Schedule::Table(vec![[10.0, 300.0], [20.0, 320.0], [40.0, 310.0]]);
-        assert_eq!([0.0, 10.0, 15.0, 20.0, 30.0, 99.0].map(|t| table.at(t)), [300.0, 300.0, 310.0, 320.0, 315.0, 310.0]);
+        assert_eq!(
+            [0.0, 10.0, 15.0, 20.0, 30.0, 99.0].map(|t| table.at(t)),
+            [300.0, 300.0, 310.0, 320.0, 315.0, 310.0]
+        );
         assert_eq!(table.range(), [300.0, 320.0]);
         assert_eq!(table.check([1.0, 5000.0]), Ok(()));
     }

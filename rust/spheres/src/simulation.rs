@@ -1,6 +1,6 @@
 //! The state of one assembly, and one step of it.
 
-use crate::boundary::{Boundary, SmallCell, Surface};
+use crate::boundary::{Boundary, SmallCell};
 use crate::contact::{Contact, Touching};
 use crate::forces::Load;
 use crate::kernel::Motion;
@@ -238,8 +238,7 @@ impl Simulation {
         let skin = &mut self.neighbours.skin;
         let mut fastest = 0.0f64;
         for wall in self.boundary.walls_mut() {
-            wall.point = plus(wall.point, dt, wall.velocity);
-            fastest = fastest.max(dot(wall.velocity, wall.velocity));
+            fastest = fastest.max(wall.advance(dt));
         }
         if let Some(cell) = self.boundary.cell_mut() {
             let rate2 = cell.velocity_gradient.iter().flatten().fold(0.0, |sum, x| sum + x * x);
@@ -251,7 +250,7 @@ impl Simulation {
                 skin.record_flow(rate2.sqrt(), dt);
             }
         }
-        skin.record_motion(self.largest_speed, fastest.sqrt(), growth / dt, dt);
+        skin.record_motion(self.largest_speed, fastest, growth / dt, dt);
     }
 
     /// Gives each sphere its radius \[m\] at once; masses stay. They are its radii at the present strain.
@@ -267,17 +266,6 @@ impl Simulation {
             sphere.reference_radius = radius / (1.0 + self.strain);
         }
         self.neighbours.skin.record_motion(0.0, 0.0, growth, 1.0);
-    }
-
-    /// Gives a cylinder its radius \[m\] at once, by the number of the wall; does nothing to a flat one.
-    pub fn set_cylinder_radius(&mut self, wall: usize, new: f64) {
-        if let Some(Surface::Cylinder { radius, .. }) =
-            self.boundary.walls_mut().get_mut(wall).map(|wall| &mut wall.surface)
-        {
-            let nearer = (*radius - new).abs();
-            *radius = new;
-            self.neighbours.skin.record_motion(0.0, nearer, 0.0, 1.0);
-        }
     }
 
     /// Sets the radii by the strain while it changes; returns the largest growth [m].

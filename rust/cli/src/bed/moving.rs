@@ -3,6 +3,7 @@
 use crate::error::CliError;
 use crate::progress::Progress;
 use msdd_beds::coupled::{Prepared, Row, Run, prepare, run};
+use msdd_beds::rows::elements;
 use msdd_beds::scene::{FILE, Scene};
 use msdd_files::{check_target, write};
 use std::fmt::Write;
@@ -11,25 +12,6 @@ use std::time::Instant;
 
 /// Name of the file of results.
 pub const RESULTS: &str = "elements.csv";
-/// Columns of it, between those of the temperatures and of the walls.
-const COLUMNS: [&str; 16] = [
-    "T_mean",
-    "stress_1",
-    "stress_2",
-    "stress_3",
-    "p",
-    "porosity",
-    "coordination",
-    "K_contacts",
-    "K_gas",
-    "K",
-    "depth",
-    "radius",
-    "unbalanced",
-    "yielding",
-    "peak",
-    "time",
-];
 /// Shares of the stages and of the run in the progress, in hundredths.
 const STAGES: [(&str, u64, u64); 3] = [("pour", 0, 20), ("lid", 20, 5), ("harden", 25, 15)];
 const RUN: u64 = 40;
@@ -52,58 +34,15 @@ pub fn compute(folder: &Path, seed: Option<u64>, threads: usize, out: &Path) -> 
     });
     let prepared = prepared.map_err(failed)?;
     let ready = begin.elapsed().as_secs_f64();
-    let found = run(&scene, &prepared, |share| show(RUN as f64 + (100 - RUN) as f64 * share.min(0.999), "heat"));
+    let found =
+        run(&scene, &prepared, |share| show(RUN as f64 + (100 - RUN) as f64 * share.min(0.999), "heat"));
     let found = found.map_err(failed)?;
     progress.finish();
-    write(&target, text(&scene, &prepared, &found).as_bytes())?;
+    write(&target, elements(&scene, &prepared, &found).as_bytes())?;
     out!("{}", summary(&scene, &prepared, &found));
     outln!("{ready:.0} s to prepare the bed, {:.0} s to heat it", begin.elapsed().as_secs_f64() - ready);
     outln!("results: {}", target.display());
     Ok(())
-}
-
-fn text(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
-    let walls = scene.vessel().walls(0.0);
-    let mut text = format!(
-        "# Discrete elements: {} spheres, seed {}, {} steps; made by 'msdd bed run' of msdd {} from elements.toml\n",
-        prepared.simulation.spheres.len(),
-        scene.seed,
-        found.steps,
-        env!("CARGO_PKG_VERSION"),
-    );
-    let _ = writeln!(
-        text,
-        "# heat stored {:.6} J, residual of its balance {:.1e} J. Columns: docs/src/reference/beds.md",
-        found.stored, found.residual
-    );
-    let temperatures = scene.record.distances.iter().map(|d| format!("T_{d}"));
-    let pressures = walls.iter().map(|(name, _)| format!("p_{name}"));
-    let middle = COLUMNS[..15].iter().map(ToString::to_string);
-    let header: Vec<String> =
-        [COLUMNS[15].to_string()].into_iter().chain(temperatures).chain(middle).chain(pressures).collect();
-    let _ = writeln!(text, "{}", header.join(","));
-    for row in &found.rows {
-        let [a, b, c] = row.stress;
-        let conductivity = row.contact_conductivity + row.gas_conductivity;
-        let mut cells = vec![row.time.to_string()];
-        cells.extend(row.temperatures.iter().chain([&row.mean_temperature]).map(|t| format!("{t:.4}")));
-        cells.extend([a, b, c, (a + b + c) / 3.0].map(|stress| format!("{stress:.1}")));
-        cells.push(format!("{:.5}", row.porosity));
-        cells.push(format!("{:.4}", row.coordination));
-        let conductivities = [row.contact_conductivity, row.gas_conductivity, conductivity];
-        cells.extend(conductivities.map(|k| format!("{k:.5}")));
-        cells.extend([row.depth, row.radius].map(finite(7)));
-        cells.push(format!("{:.1e}", row.unbalanced));
-        cells.extend([row.yielding, row.peak].map(finite(4)));
-        cells.extend(row.walls.iter().map(|pressure| format!("{pressure:.1}")));
-        let _ = writeln!(text, "{}", cells.join(","));
-    }
-    text
-}
-
-/// A number with so many digits, or nothing.
-fn finite(digits: usize) -> impl Fn(f64) -> String {
-    move |value| if value.is_finite() { format!("{value:.digits$}") } else { String::new() }
 }
 
 fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
@@ -111,7 +50,8 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     for (stage, rest) in &prepared.stages {
         let _ = writeln!(text, "{stage:<8}{:>9} steps", rest.steps);
     }
-    let _ = writeln!(text, "    t [s]   T mean [K]   p [kPa]   lid [kPa]   porosity   contacts   K [W/(m K)]");
+    let _ =
+        writeln!(text, "    t [s]   T mean [K]   p [kPa]   lid [kPa]   porosity   contacts   K [W/(m K)]");
     let shown = (found.rows.len() / 10).max(1);
     let lid = scene.wall("lid").unwrap_or_default();
     let line = |text: &mut String, row: &Row| {
