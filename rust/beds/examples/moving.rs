@@ -4,7 +4,7 @@ use std::time::Instant;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::read(std::path::Path::new(&std::env::args().nth(1).unwrap()))?;
     let t = Instant::now();
-    let prepared = prepare(&scene, 1, |_, _| ())?;
+    let prepared = prepare(&scene, std::env::args().nth(3).map_or(1, |n| n.parse().unwrap()), |_, _| ())?;
     for (stage, rest) in &prepared.stages {
         println!("{stage} {rest:?}");
     }
