@@ -171,7 +171,8 @@ impl Scene {
         if self.record.radius.is_some() != self.container.radius.is_some() {
             return wrong("record.radius", "given or not".into(), "given in a cylinder, and nowhere else");
         }
-        if !(self.record.heights[0] < self.record.heights[1]) {
+        let [low, high] = self.record.heights;
+        if !low.is_finite() || !high.is_finite() || low >= high {
             return wrong("record.heights", format!("{:?}", self.record.heights), "two rising heights");
         }
         Ok(())

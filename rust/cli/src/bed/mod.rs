@@ -25,7 +25,7 @@ pub enum Command {
   msdd bed run cases/beaulieu --vary     what the uncertain inputs change, one at a time
 
 The folder holds bed.toml (every key is explained in the book, Reference, Measured beds) and, if there is an experiment, its
-measurements. Into the folder of results go
+measurements. If it holds elements.toml instead, a bed whose walls move while heat flows, the only result is elements.csv. Into the folder of results go
   temperature.csv   T over time at the probes, for both ways to take the plate
   comparison.csv    differences from the measurements
   bed.json          the packing, heat and its balance, and how each stage came to rest

@@ -29,8 +29,8 @@ fn beds() -> Vec<Set> {
     let text = crate::sources::text(ROWS);
     let rows = strings(&between(&text, r"const MOVING: \[&str; \d+\] =", ";", ROWS));
     vec![
-        moving("moving bed", "Scene"),
-        moving("lid of moving beds", "LidKeys"),
+        fields_of(BEDS, "moving bed", SCENE, "Scene"),
+        fields_of(BEDS, "lid of moving beds", SCENE, "LidKeys"),
         moving("heated", "Heated"),
         moving("shell of moving beds", "Shell"),
         moving("time of moving beds", "Time"),
