@@ -263,7 +263,9 @@ impl<'a> Columns<'a> {
     /// Takes all cells through the step; returns the number of those outside of the range.
     fn advance(&self, model: &SphereModel, material: &Material, cells: usize) -> Result<usize, Failure> {
         let one = |column: &Option<Input>, usual, cell| column.map_or(usual, |column: Input| column.at(cell));
-        let there = |cell| material.with_conductivity(one(&self.solid_conductivity, material.solid_conductivity(), cell));
+        let there = |cell| {
+            material.with_conductivity(one(&self.solid_conductivity, material.solid_conductivity(), cell))
+        };
         // Everything that can be refused, before anything is written.
         for cell in 0..cells {
             there(cell).gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;

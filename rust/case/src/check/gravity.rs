@@ -30,7 +30,9 @@ pub fn check(properties: &Dictionary, gravity: Option<&Dictionary>, stress: bool
             found.error([FILE, ""], "missing", "", advice);
         }
     }
-    let spheres = properties.dictionary_at("surrogate").is_ok_and(|own| own.text("type").is_ok_and(|kind| kind == "spheres"));
+    let spheres = properties
+        .dictionary_at("surrogate")
+        .is_ok_and(|own| own.text("type").is_ok_and(|kind| kind == "spheres"));
     if spheres && !stress && rest.is_none() {
         let advice = "The law of spheres needs the stress at the start; or, under the weight of the bed, restStress in \
                       constant/granularProperties";
@@ -45,7 +47,10 @@ fn check_vector(gravity: &Dictionary, found: &mut Findings) {
     }
     let tokens = gravity.value("value").unwrap_or_default();
     let numbers: Vec<f64> = tokens.iter().filter_map(|token| token.text.parse().ok()).collect();
-    if numbers.len() != 3 || numbers.iter().map(|x| x * x).sum::<f64>().sqrt().is_nan() || numbers.iter().any(|x| x.abs() >= MOST) {
+    if numbers.len() != 3
+        || numbers.iter().map(|x| x * x).sum::<f64>().sqrt().is_nan()
+        || numbers.iter().any(|x| x.abs() >= MOST)
+    {
         let value = if tokens.is_empty() { "missing".to_string() } else { joined(tokens) };
         found.error([FILE, "value"], &value, "(x y z), a vector shorter than 1e6 m/s2", "");
     }
@@ -77,13 +82,24 @@ mod tests {
         assert!(lines(rest, Some(EARTH), true)[0].contains("restStress = {...}, allowed: one of both"));
         assert!(lines(rest, None, false)[0].starts_with("error: constant/g: missing"));
         let twice = lines("surrogate { type spheres; } restStress { latera 0.6; }", Some(EARTH), false);
-        assert!(twice[0].contains("Is 'lateral' meant?") || twice[0].contains("is 'lateral' meant?"), "{twice:#?}");
+        assert!(
+            twice[0].contains("Is 'lateral' meant?") || twice[0].contains("is 'lateral' meant?"),
+            "{twice:#?}"
+        );
     }
 
     #[test]
     fn gravity_is_a_vector_with_its_dimensions() {
         let wrong = lines("", Some("dimensions [0 1 -1 0 0 0 0]; value (0 -9.81);"), false);
-        assert!(wrong[0].starts_with("error: constant/g: dimensions = [ 0 1 -1 0 0 0 0 ], allowed: [ 0 1 -2 0 0 0 0 ]"), "{wrong:#?}");
-        assert!(wrong[1].starts_with("error: constant/g: value = ( 0 -9.81 ), allowed: (x y z)"), "{wrong:#?}");
+        assert!(
+            wrong[0].starts_with(
+                "error: constant/g: dimensions = [ 0 1 -1 0 0 0 0 ], allowed: [ 0 1 -2 0 0 0 0 ]"
+            ),
+            "{wrong:#?}"
+        );
+        assert!(
+            wrong[1].starts_with("error: constant/g: value = ( 0 -9.81 ), allowed: (x y z)"),
+            "{wrong:#?}"
+        );
     }
 }
