@@ -70,6 +70,14 @@ static string shown(const dictionary& dict, const wordHashSet& but)
     return text.empty() ? string("default") : text;
 }
 
+static string shown(const temperatureFunction& f)
+{
+    return
+        f.isNumber()
+      ? shown(f.usual().value())
+      : shown(f.given(), wordHashSet());
+}
+
 } // End namespace Foam
 
 
@@ -110,21 +118,8 @@ Foam::dictionary Foam::granularState::settings() const
     );
     number(properties_.density());
     number(properties_.youngModulus());
-    for
-    (
-        const temperatureFunction* f :
-        {&properties_.conductivityFunction(), &properties_.heatFunction()}
-    )
-    {
-        if (f->isNumber())
-        {
-            number(f->usual());
-        }
-        else
-        {
-            add(f->usual().name(), shown(f->given(), wordHashSet()));
-        }
-    }
+    add("thermalConductivity", shown(properties_.conductivityFunction()));
+    add("heatCapacity", shown(properties_.heatFunction()));
     number(properties_.thermalExpansion());
     number(properties_.meanRadius());
     add
@@ -133,9 +128,9 @@ Foam::dictionary Foam::granularState::settings() const
         granularProperties::bulkDensityModelNames[properties_.bulkDensity()]
     );
     add("mechanics", mechanics);
-    if (mag(properties_.gravity()) > 0)
+    const vector& g = properties_.gravity();
+    if (mechanics != "none")
     {
-        const vector& g = properties_.gravity();
         add("g", shown(g.x()) + " " + shown(g.y()) + " " + shown(g.z()));
     }
     add

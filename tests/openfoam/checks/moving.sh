@@ -108,8 +108,8 @@ weights() {
     cell_geometry
     controls 'endTime 0.05; writeInterval 1; writePrecision 17;'
     logged msddFoam
-    e=$(paste -d ' ' <(field 0/C) <(field 0.05/stress) <(field 0.05/bulkDensity) | awk '{ e = $7 + $10*9.81*(0.645 - $2); if (e < 0) e = -e; if (!(e <= w)) w = e
-        f = $10*9.81*0.645 } END { print (NR > 3 ? w/f : "nan") }')
+    e=$(paste -d ' ' <(field 0/C) <(field 0.05/stress) | awk -v bulk="$(field 0.05/bulkDensity | head -n 1)" '{ e = $7 + bulk*9.81*(0.645 - $2); if (e < 0) e = -e; if (!(e <= w)) w = e
+        f = bulk*9.81*0.645 } END { print (NR > 3 ? w/f : "nan") }')
     check "discs at rest under their weight: vertical stress differs from the closed form by $e <= 1e-6" below "$e" 1e-6
     bed spheres-wedge-weight "walls { \"inner|outer\" { type frictionless; } }"
     gravity_is '0 0 -9.81'

@@ -18,7 +18,7 @@ heated_through() { # heat capacity, time scheme, heat [J/kg] that it must have t
 	FoamFile { version 2.0; format ascii; class dictionary; object fvOptions; }
 	heating { type scalarSemiImplicitSource; active yes; selectionMode all; volumeMode specific; injectionRateSuSp { T (5e6 0); } }
 	END
-    controls 'endTime 100; deltaT 20; writeInterval 100; functions { heatAudit { type heatAudit; libs ("libgranularFunctionObjects.so"); } }'
+    controls 'endTime 100; deltaT 20; writeInterval 5; functions { heatAudit { type heatAudit; libs ("libgranularFunctionObjects.so"); } }'
     logged msddFoam
     e=$(field 100/T | awk 'function heat(T) { return '"$3"' } { e = (heat($1) - heat(300))/(5e8/(2500*0.59)) - 1; if (e < 0) e = -e; if (!(e <= w)) w = e }
         END { print (NR ? w : "nan") }')
@@ -35,7 +35,7 @@ heat_balance() { # time scheme: grains that move, a hot wall, a heat capacity wi
     cube 4
     moved_points
     scheme "timeScheme $1; nNonOrthogonalCorrectors 5;"
-    controls 'endTime 8e4; deltaT 2e4; writeInterval 8e4; functions { heatAudit { type heatAudit; libs ("libgranularFunctionObjects.so"); } }'
+    controls 'endTime 8e4; deltaT 2e4; writeInterval 4; functions { heatAudit { type heatAudit; libs ("libgranularFunctionObjects.so"); } }'
     logged msddFoam
     e=$(awk '!/^#/ { if ($6 > w) w = $6; n++ } END { print (n ? w + 0 : "nan") }' postProcessing/heatAudit/0/heatAudit.dat)
     check "heatCapacity and thermalConductivity of the temperature, grains that move, $1: heat balance closes to $e <= 1e-9" below "$e" 1e-9
@@ -50,6 +50,7 @@ conductivity_of_temperature() {
     e=$(paste -d ' ' <(field 1/conductivity) <(field ../properties-number/1/conductivity) | awk '{ e = $1/$7 - 1; print e < 0 ? -e : e }' | tail -n 1)
     check "thermalConductivity 10 + T/10 at 300 K: the bed conducts as with 40, to $e <= 1e-12" below "$e" 1e-12
     sed -i 's/uniform 300/uniform 400/' 0/T ../properties-number/0/T
+    rm -r 1 ../properties-number/1
     logged msddFoam
     cd ../properties-number
     logged msddFoam
