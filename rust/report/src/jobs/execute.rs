@@ -357,7 +357,10 @@ mod tests {
         assert_eq!((failed.outcome, failed.message.as_str()), (Outcome::Failed, "msdd: no such file"));
         let endless = execute(&place(), &shell("while true; do true; done", 1), "endless").unwrap();
         assert_eq!(endless.outcome, Outcome::TimedOut);
-        assert!(endless.is_settled() && !msdd_files::list(&place().work).unwrap().iter().any(|f| f.is_dir()));
+        assert!(!msdd_files::list(&place().work).unwrap().iter().any(|f| f.is_dir()));
+        // How much processor time it got depends on what else the machine does.
+        let [short, whole] = [0.5, 1.0].map(|cpu_seconds| Record { cpu_seconds, ..endless.clone() });
+        assert!(!short.is_settled() && whole.is_settled());
         std::fs::remove_dir_all(place().work).unwrap();
     }
 
