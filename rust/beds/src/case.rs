@@ -49,6 +49,8 @@ pub struct Grains {
     pub roughness: Option<f64>,
     pub hardness: Option<f64>,
     pub yield_stress: Option<f64>,
+    /// α [1/K]; of beds whose walls move ([`crate::scene`]).
+    pub thermal_expansion: Option<f64>,
 }
 
 /// What the grains are poured into: `base` or `radius`.
@@ -57,6 +59,9 @@ pub struct Grains {
 pub struct Vessel {
     pub base: Option<[f64; 2]>,
     pub radius: Option<f64>,
+    /// Whether the bed repeats itself beyond the base; of beds whose walls move ([`crate::scene`]).
+    #[serde(default)]
+    pub endless: bool,
     #[serde(default = "usual_gravity")]
     pub gravity: f64,
 }
@@ -259,56 +264,14 @@ impl BedCase {
                 return Err((key.to_string(), number(value), allowed.to_string()));
             }
         }
-        let (g, p) = (&self.grains, &self.plate);
-        for (key, rough, hard) in
-            [("grains.hardness", g.roughness, g.hardness), ("plate.hardness", p.roughness, p.hardness)]
-        {
-            if rough.is_some_and(|height| height > 0.0) && hard.is_none() {
-                let allowed = "a value, because a roughness is given".to_string();
-                return Err((key.to_string(), "not given".to_string(), allowed));
-            }
+        hardness("plate.hardness", self.plate.roughness, self.plate.hardness)?;
+        if self.grains.thermal_expansion.is_some() || self.container.endless {
+            let key = if self.container.endless { "container.endless" } else { "grains.thermal_expansion" };
+            let allowed = "only in elements.toml, where grains expand".to_string();
+            return Err((key.into(), "given".into(), allowed));
         }
-        for (key, property) in [
-            ("grains.conductivity", &self.grains.conductivity),
-            ("grains.heat_capacity", &self.grains.heat_capacity),
-        ] {
-            property.check(range).map_err(|error| {
-                let text = error.to_string();
-                let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
-                (key.to_string(), value.to_string(), allowed.to_string())
-            })?;
-        }
-        let [low, high] = self.gas.name.range();
-        if range[0] < low || range[1] > high {
-            let allowed = format!("a gas that is known there; this one: {low} to {high} K");
-            return Err((
-                "gas.name".into(),
-                format!("{} at {} K to {} K", self.gas.name.as_str(), number(range[0]), number(range[1])),
-                allowed,
-            ));
-        }
-        let ratio = |t: f64| {
-            let gas = self.gas.name.at(t, self.gas.pressure, self.gas.accommodation);
-            gas.map_or(f64::INFINITY, |gas| self.grains.conductivity.at(t) / gas.conductivity)
-        };
-        // A table may dip at a row, and the gas is no straight line between two.
-        let between = (0..=LOOKS).map(|k| range[0] + (range[1] - range[0]) * f64::from(k) / f64::from(LOOKS));
-        let rows = self.grains.conductivity.rows().into_iter().filter(|t| (range[0]..=range[1]).contains(t));
-        let least = between.chain(rows).map(ratio).fold(f64::INFINITY, f64::min);
-        if least < crate::gas::LEAST_RATIO {
-            let allowed = format!(
-                "grains that conduct {} times as well as the gas, at least: the heat of poorer ones does not go from grain to grain (msddFoam has a law for such beds)",
-                crate::gas::LEAST_RATIO
-            );
-            return Err(("grains.conductivity".into(), format!("{least:.1} times that of the gas"), allowed));
-        }
-        match (self.container.base, self.container.radius) {
-            (Some(_), None) | (None, Some(_)) => {}
-            _ => {
-                let value = "both or neither of base and radius".to_string();
-                return Err(("container".into(), value, "one of base and radius".into()));
-            }
-        }
+        self.grains.check(range, &self.gas)?;
+        self.container.check()?;
         let names = self.wall_names();
         let turned = self.turn.iter().map(|turn| ("turn.down", &turn.down));
         for (key, name) in turned.chain([("plate.wall", &self.plate.wall)]) {
@@ -340,56 +303,27 @@ impl BedCase {
 
     /// The container.
     pub fn vessel(&self) -> crate::pour::Container {
-        match (self.container.base, self.container.radius) {
-            (Some(base), _) => crate::pour::Container::Box { base },
-            (None, radius) => crate::pour::Container::Cylinder { radius: radius.unwrap_or_default() },
-        }
+        self.container.container()
     }
 
-    fn numbers(&self) -> Vec<(&'static str, f64, &'static str, bool)> {
-        const POSITIVE: &str = "1e-12 to 1e15";
-        const TEMPERATURE: &str = "1 to 5000 K";
-        let positive = |v: f64| (1e-12..=1e15).contains(&v);
-        let none_or = |v: Option<f64>| v.is_none_or(positive);
-        let (g, p, h) = (&self.grains, &self.plate, &self.heat);
-        let base = self.container.base.unwrap_or([2.0 * g.diameter; 2]);
-        let radius = self.container.radius.unwrap_or(g.diameter);
-        // The other one of base and radius is just large enough.
-        let floor = (base[0] * base[1]).max(std::f64::consts::PI * radius * radius);
-        let floor = floor / (g.number as f64 * g.diameter * g.diameter);
-        let wide = "a floor of at most 10 squares of the diameter for each grain";
-        let mut all = Vec::new();
+    fn numbers(&self) -> Vec<Ranged> {
+        let (p, h) = (&self.plate, &self.heat);
+        let mut all = self.grains.numbers();
+        all.extend(self.container.numbers(&self.grains));
+        all.extend(self.gas.numbers());
         for (key, value) in [
-            ("grains.diameter", g.diameter),
-            ("grains.density", g.density),
-            ("grains.young_modulus", g.young_modulus),
-            ("container.gravity", self.container.gravity),
-            ("gas.pressure", self.gas.pressure),
             ("plate.young_modulus", p.young_modulus),
             ("heat.end", h.end),
             ("heat.tolerance", h.tolerance),
+            ("plate.hardness", p.hardness.unwrap_or(1.0)),
+            ("plate.conductivity", p.conductivity.unwrap_or(1.0)),
+            ("plate.pressure", p.pressure.unwrap_or(1.0)),
+            ("lid.pressure", self.lid.as_ref().map_or(1.0, |lid| lid.pressure)),
         ] {
             all.push((key, value, POSITIVE, positive(value)));
         }
         all.extend([
-            ("grains.number", g.number as f64, "1 to 1000000", (1..=1_000_000).contains(&g.number)),
-            ("grains.friction", g.friction, "0 to 10", (0.0..=10.0).contains(&g.friction)),
-            ("grains.wall_friction", g.wall_friction, "0 to 10", (0.0..=10.0).contains(&g.wall_friction)),
-            ("grains.restitution", g.restitution, "0.001 to 1", (1e-3..=1.0).contains(&g.restitution)),
-            ("grains.poisson_ratio", g.poisson_ratio, "0 to 0.5", (0.0..=0.5).contains(&g.poisson_ratio)),
             ("plate.poisson_ratio", p.poisson_ratio, "0 to 0.5", (0.0..=0.5).contains(&p.poisson_ratio)),
-            (
-                "gas.accommodation",
-                self.gas.accommodation,
-                "0 < accommodation <= 1",
-                self.gas.accommodation > 0.0 && self.gas.accommodation <= 1.0,
-            ),
-            (
-                "grains.simulated_young_modulus",
-                g.simulated_young_modulus,
-                "1e-12 to that of the material, young_modulus",
-                positive(g.simulated_young_modulus) && g.simulated_young_modulus <= g.young_modulus,
-            ),
             ("heat.probes", h.probes.len() as f64, "one at least", !h.probes.is_empty()),
             (
                 "heat.output_every",
@@ -397,38 +331,180 @@ impl BedCase {
                 "a hundred-thousandth of end, to end",
                 h.output_every <= h.end && h.output_every >= 1e-5 * h.end,
             ),
-            ("container.base", base[0], "two diameters at least", base[0] >= 2.0 * g.diameter),
-            ("container.base", base[1], "two diameters at least", base[1] >= 2.0 * g.diameter),
-            ("container.radius", radius, "one diameter at least", radius >= g.diameter),
-            (
-                if self.container.base.is_some() { "container.base" } else { "container.radius" },
-                if self.container.base.is_some() { base[0].max(base[1]) } else { radius },
-                wide,
-                floor.is_finite() && floor <= WIDEST.max(4.0 / g.number as f64),
-            ),
+            rough("plate.roughness", p.roughness),
         ]);
-        for (key, value) in [
-            ("grains.hardness", g.hardness),
-            ("grains.yield_stress", g.yield_stress),
-            ("plate.hardness", p.hardness),
-            ("plate.conductivity", p.conductivity),
-            ("plate.pressure", p.pressure),
-            ("lid.pressure", self.lid.as_ref().map(|lid| lid.pressure)),
-        ] {
-            all.push((key, value.unwrap_or(1.0), POSITIVE, none_or(value)));
-        }
-        for (key, value) in [("grains.roughness", g.roughness), ("plate.roughness", p.roughness)] {
-            let good = value.is_none_or(|v| v == 0.0 || positive(v));
-            all.push((key, value.unwrap_or_default(), "0 (smooth), or 1e-12 to 1e15", good));
-        }
         for (key, value) in
             [("plate.temperature", p.temperature), ("heat.initial_temperature", h.initial_temperature)]
         {
-            all.push((key, value, TEMPERATURE, (1.0..=5000.0).contains(&value)));
+            all.push((key, value, "1 to 5000 K", (1.0..=5000.0).contains(&value)));
         }
         for &probe in &h.probes {
             all.push(("heat.probes", probe, POSITIVE, positive(probe)));
         }
         all
+    }
+}
+
+/// A number: its key, the value, what is allowed, whether it is so.
+pub(crate) type Ranged = (&'static str, f64, &'static str, bool);
+/// A value that is wrong: its key, the value, what is allowed.
+type Wrong = (String, String, String);
+
+const POSITIVE: &str = "1e-12 to 1e15";
+
+fn positive(value: f64) -> bool {
+    (1e-12..=1e15).contains(&value)
+}
+
+fn rough(key: &'static str, value: Option<f64>) -> Ranged {
+    let good = value.is_none_or(|v| v == 0.0 || positive(v));
+    (key, value.unwrap_or_default(), "0 (smooth), or 1e-12 to 1e15", good)
+}
+
+fn hardness(key: &str, roughness: Option<f64>, hardness: Option<f64>) -> Result<(), Wrong> {
+    if roughness.is_some_and(|height| height > 0.0) && hardness.is_none() {
+        let allowed = "a value, because a roughness is given".to_string();
+        return Err((key.to_string(), "not given".to_string(), allowed));
+    }
+    Ok(())
+}
+
+impl Grains {
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
+        let mut all = Vec::new();
+        for (key, value) in [
+            ("grains.diameter", self.diameter),
+            ("grains.density", self.density),
+            ("grains.young_modulus", self.young_modulus),
+            ("grains.hardness", self.hardness.unwrap_or(1.0)),
+            ("grains.yield_stress", self.yield_stress.unwrap_or(1.0)),
+        ] {
+            all.push((key, value, POSITIVE, positive(value)));
+        }
+        all.extend([
+            ("grains.number", self.number as f64, "1 to 1000000", (1..=1_000_000).contains(&self.number)),
+            ("grains.friction", self.friction, "0 to 10", (0.0..=10.0).contains(&self.friction)),
+            (
+                "grains.wall_friction",
+                self.wall_friction,
+                "0 to 10",
+                (0.0..=10.0).contains(&self.wall_friction),
+            ),
+            ("grains.restitution", self.restitution, "0.001 to 1", (1e-3..=1.0).contains(&self.restitution)),
+            (
+                "grains.poisson_ratio",
+                self.poisson_ratio,
+                "0 to 0.5",
+                (0.0..=0.5).contains(&self.poisson_ratio),
+            ),
+            (
+                "grains.simulated_young_modulus",
+                self.simulated_young_modulus,
+                "1e-12 to that of the material, young_modulus",
+                positive(self.simulated_young_modulus) && self.simulated_young_modulus <= self.young_modulus,
+            ),
+            rough("grains.roughness", self.roughness),
+        ]);
+        all
+    }
+
+    /// Checks what depends on the temperatures of a run \[K\] and on the gas.
+    pub(crate) fn check(&self, range: [f64; 2], keys: &GasKeys) -> Result<(), Wrong> {
+        hardness("grains.hardness", self.roughness, self.hardness)?;
+        for (key, property) in
+            [("grains.conductivity", &self.conductivity), ("grains.heat_capacity", &self.heat_capacity)]
+        {
+            property.check(range).map_err(|error| {
+                let text = error.to_string();
+                let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
+                (key.to_string(), value.to_string(), allowed.to_string())
+            })?;
+        }
+        let [low, high] = keys.name.range();
+        if range[0] < low || range[1] > high {
+            let allowed = format!("a gas that is known there; this one: {low} to {high} K");
+            return Err((
+                "gas.name".into(),
+                format!("{} at {} K to {} K", keys.name.as_str(), number(range[0]), number(range[1])),
+                allowed,
+            ));
+        }
+        let ratio = |t: f64| {
+            let gas = keys.name.at(t, keys.pressure, keys.accommodation);
+            gas.map_or(f64::INFINITY, |gas| self.conductivity.at(t) / gas.conductivity)
+        };
+        // A table may dip at a row, and the gas is no straight line between two.
+        let between = (0..=LOOKS).map(|k| range[0] + (range[1] - range[0]) * f64::from(k) / f64::from(LOOKS));
+        let rows = self.conductivity.rows().into_iter().filter(|t| (range[0]..=range[1]).contains(t));
+        let least = between.chain(rows).map(ratio).fold(f64::INFINITY, f64::min);
+        if least < crate::gas::LEAST_RATIO {
+            let allowed = format!(
+                "grains that conduct {} times as well as the gas, at least: heat does not go from grain to grain between poorer \
+                 ones (msddFoam has a law for such beds)",
+                crate::gas::LEAST_RATIO
+            );
+            return Err(("grains.conductivity".into(), format!("{least:.1} times that of the gas"), allowed));
+        }
+        Ok(())
+    }
+}
+
+impl GasKeys {
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
+        let accommodation = self.accommodation;
+        vec![
+            ("gas.pressure", self.pressure, POSITIVE, positive(self.pressure)),
+            (
+                "gas.accommodation",
+                accommodation,
+                "0 < accommodation <= 1",
+                accommodation > 0.0 && accommodation <= 1.0,
+            ),
+        ]
+    }
+}
+
+impl Vessel {
+    pub(crate) fn container(&self) -> crate::pour::Container {
+        match (self.base, self.radius) {
+            (Some(base), _) if self.endless => crate::pour::Container::Endless { base },
+            (Some(base), _) => crate::pour::Container::Box { base },
+            (None, radius) => crate::pour::Container::Cylinder { radius: radius.unwrap_or_default() },
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), Wrong> {
+        let (value, allowed) = match (self.base, self.radius) {
+            (None, Some(_)) if self.endless => ("endless with a radius", "endless with a base"),
+            (Some(_), None) | (None, Some(_)) => return Ok(()),
+            _ => ("both or neither of base and radius", "one of base and radius"),
+        };
+        Err(("container".into(), value.into(), allowed.into()))
+    }
+
+    pub(crate) fn numbers(&self, grains: &Grains) -> Vec<Ranged> {
+        let (d, count) = (grains.diameter, grains.number as f64);
+        let base = self.base.unwrap_or([2.0 * d; 2]);
+        let radius = self.radius.unwrap_or(d);
+        // The other one of base and radius is just large enough.
+        let floor = (base[0] * base[1]).max(std::f64::consts::PI * radius * radius) / (count * d * d);
+        let wide = "a floor of at most 10 squares of the diameter for each grain";
+        // A grain must not meet two images of another.
+        let (least, narrow) = match self.endless {
+            false => (2.0, "two diameters at least"),
+            true => (2.5, "two and a half diameters at least"),
+        };
+        vec![
+            ("container.gravity", self.gravity, POSITIVE, positive(self.gravity)),
+            ("container.base", base[0], narrow, self.base.is_none() || base[0] >= least * d),
+            ("container.base", base[1], narrow, self.base.is_none() || base[1] >= least * d),
+            ("container.radius", radius, "one diameter at least", radius >= d),
+            (
+                if self.base.is_some() { "container.base" } else { "container.radius" },
+                if self.base.is_some() { base[0].max(base[1]) } else { radius },
+                wide,
+                floor.is_finite() && floor <= WIDEST.max(4.0 / count),
+            ),
+        ]
     }
 }

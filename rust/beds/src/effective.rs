@@ -38,7 +38,7 @@ pub fn poor_spheres(solid_fraction: f64, ratio: f64) -> f64 {
 
 /// What the conductivity of a bed depends on, beside its material.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Packed {
+pub struct BedState {
     /// \[Pa\]
     pub pressure: f64,
     /// φ \[-\]
@@ -94,7 +94,7 @@ impl BedMaterial {
     }
 
     /// Conduction with this gas, or in a vacuum.
-    pub fn conduction(&self, gas: Option<&Gas>, bed: &Packed) -> Conduction {
+    pub fn conduction(&self, gas: Option<&Gas>, bed: &BedState) -> Conduction {
         let rough = self.roughness_factor(bed.pressure, bed.solid_fraction, bed.coordination);
         let Some(gas) = gas else { return Conduction { gas: 0.0, contacts: rough } };
         let (pairs, ratio) = (self.share_of_pairs(gas), self.ratio(gas));
@@ -113,7 +113,7 @@ impl BedMaterial {
     }
 
     /// Radius of a smooth contact \[m\] at the mean force p π d²/(φ z).
-    fn mean_contact(&self, bed: &Packed) -> f64 {
+    fn mean_contact(&self, bed: &BedState) -> f64 {
         if bed.pressure <= 0.0 {
             return 0.0;
         }
@@ -191,7 +191,7 @@ mod tests {
     /// The closure and the law of pairs meet: no jump as the gas gets better, and more of it conducts more.
     #[test]
     fn conduction_goes_over_from_one_law_to_the_other() {
-        let bed = Packed { pressure: 1e5, solid_fraction: 0.6, coordination: 5.0, gas: 6.0 };
+        let bed = BedState { pressure: 1e5, solid_fraction: 0.6, coordination: 5.0, gas: 6.0 };
         let at = |conductivity: f64| {
             let solid = Solid { conductivity, ..steel().solid };
             let material = BedMaterial { solid, ..steel() };

@@ -9,7 +9,10 @@
 //! | [`settle`](mod@settle) | coming to rest under gravity; turning it |
 //! | [`pour`](mod@pour) | grains rain into a box or cylinder until they are at rest |
 //! | [`press`](mod@press) | a wall that is pressed onto a bed |
+//! | [`mod@harden`] | grains that were poured soft get their stiffness under a lid |
+//! | [`give`] | walls that move on a path, under a pressure, or as a shell gives way |
 //! | [`pack`](mod@pack) | compression of a periodic box to a pressure |
+//! | [`schedule`] | a quantity that is given over time |
 //! | [`property`] | properties by temperature |
 //! | [`gas`] | law of heat through gas: between two spheres, and to a plate |
 //! | [`named_gases`] | air, nitrogen, helium, argon, vacuum |
@@ -24,6 +27,10 @@
 //! | [`case`](mod@case) | the description of a bed that was measured |
 //! | [`experiment`] | measured temperatures, and how far a simulation is from them |
 //! | [`profile`] | a bed between two distances from a plate; probes |
+//! | [`region`] | stresses in the inner part of a bed |
+//! | [`scene`] | the description of a bed whose walls move while heat flows |
+//! | [`coupled`] | such a bed: heat, growth of the grains, walls, averages over time |
+//! | [`rows`] | its averages as a file |
 //! | [`bed`] | a measured bed from pouring to temperatures |
 //! | [`voxels`] | direct solutions of the heat equation, to hold the laws against |
 //! | [`vtk`] | grains for ParaView |
@@ -35,9 +42,12 @@ pub mod bed;
 pub mod case;
 pub mod conductivity;
 pub mod correlation;
+pub mod coupled;
 pub mod effective;
 pub mod experiment;
 pub mod gas;
+pub mod give;
+pub mod harden;
 pub mod links;
 pub mod named_gases;
 pub mod network;
@@ -46,7 +56,11 @@ pub mod pour;
 pub mod press;
 pub mod profile;
 pub mod property;
+pub mod region;
+pub mod rows;
 pub mod scatter;
+pub mod scene;
+pub mod schedule;
 pub mod settle;
 pub mod solid;
 mod solve;

@@ -10,7 +10,7 @@ use crate::solid::Solid;
 use msdd_engine::grid::{pairs_within, pairs_within_cell};
 use msdd_engine::lattice::Image;
 use msdd_spheres::space::{length, minus};
-use msdd_spheres::{Boundary, Partner, Simulation};
+use msdd_spheres::{Partner, Simulation};
 
 /// Distance of the centres over the sum of the radii, up to which gas conducts between two spheres.
 pub const NEAR: f64 = 1.18;
@@ -57,9 +57,9 @@ pub fn near_pairs(simulation: &Simulation) -> Vec<Near> {
     let spheres = &simulation.spheres;
     let largest = spheres.iter().fold(0.0f64, |largest, sphere| largest.max(sphere.radius));
     let skin = 2.0 * (NEAR - 1.0) * largest;
-    let (rows, ghosts) = match &simulation.boundary {
-        Boundary::Periodic(cell) => pairs_within_cell(spheres, skin, &cell.lattice),
-        Boundary::Walls(_) => (pairs_within(spheres, skin), Vec::new()),
+    let (rows, ghosts) = match simulation.cell() {
+        Some(cell) => pairs_within_cell(spheres, skin, &cell.lattice),
+        None => (pairs_within(spheres, skin), Vec::new()),
     };
     let mut pairs = Vec::new();
     for (&i, &j) in rows.i().iter().zip(rows.j()) {

@@ -6,7 +6,7 @@
 use crate::BedError;
 use crate::scatter::Random;
 use crate::settle::{Rest, descent, settle};
-use msdd_spheres::{Boundary, Material, Simulation, Sphere, Wall};
+use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Wall};
 use std::f64::consts::PI;
 
 /// Solid fraction of the grains in the column above the floor. Not settled by any reference; chosen because random places are found quickly up
@@ -22,6 +22,8 @@ const ATTEMPTS: u32 = 2000;
 pub enum Container {
     /// From the origin to these lengths along x and y \[m\].
     Box { base: [f64; 2] },
+    /// The same without sides: the bed repeats itself along x and y \[m\].
+    Endless { base: [f64; 2] },
     /// Upright, with the z axis as its axis \[m\].
     Cylinder { radius: f64 },
 }
@@ -30,7 +32,7 @@ impl Container {
     /// \[m²\]
     pub fn area(&self) -> f64 {
         match *self {
-            Self::Box { base: [x, y] } => x * y,
+            Self::Box { base: [x, y] } | Self::Endless { base: [x, y] } => x * y,
             Self::Cylinder { radius } => PI * radius * radius,
         }
     }
@@ -48,7 +50,7 @@ impl Container {
     /// Corners of the block that holds it, along x and y \[m\].
     fn extent(&self) -> [[f64; 2]; 2] {
         match *self {
-            Self::Box { base: [x, y] } => [[0.0, x], [0.0, y]],
+            Self::Box { base: [x, y] } | Self::Endless { base: [x, y] } => [[0.0, x], [0.0, y]],
             Self::Cylinder { radius } => [[-radius, radius]; 2],
         }
     }
@@ -64,6 +66,7 @@ impl Container {
                 ("y_low", at([0.0; 3], [0.0, 1.0, 0.0])),
                 ("y_high", at([0.0, y, 0.0], [0.0, -1.0, 0.0])),
             ]),
+            Self::Endless { .. } => {}
             Self::Cylinder { radius } => {
                 walls.push(("side", Wall::cylinder([0.0; 3], [0.0, 0.0, 1.0], radius)));
             }
@@ -72,10 +75,19 @@ impl Container {
         walls
     }
 
+    /// The same as an assembly has them. Without sides, the upper face of the cell is as far above the lid as that above the floor.
+    pub(crate) fn boundary(&self, height: f64) -> Boundary {
+        let walls = self.walls(height).into_iter().map(|(_, wall)| wall).collect();
+        match *self {
+            Self::Endless { base: [x, y] } => Boundary::Between(Cell::block([x, y, 2.0 * height]), walls),
+            _ => Boundary::Walls(walls),
+        }
+    }
+
     /// Whether a sphere fits beside the walls at a place.
     fn holds(&self, [x, y]: [f64; 2], sphere: f64) -> bool {
         match *self {
-            Self::Box { .. } => true,
+            Self::Box { .. } | Self::Endless { .. } => true,
             Self::Cylinder { radius } => libm::hypot(x, y) <= radius - sphere,
         }
     }
@@ -174,8 +186,8 @@ impl Pouring {
 pub fn pour(pouring: &Pouring, watch: impl FnMut(f64)) -> Result<(Simulation, Rest), BedError> {
     pouring.check()?;
     let (spheres, height) = pouring.rain()?;
-    let walls = pouring.container.walls(height).into_iter().map(|(_, wall)| wall).collect();
-    let mut simulation = Simulation::new(pouring.material.clone(), spheres, Boundary::Walls(walls))?;
+    let boundary = pouring.container.boundary(height);
+    let mut simulation = Simulation::new(pouring.material.clone(), spheres, boundary)?;
     simulation.gravity = [0.0, 0.0, -pouring.gravity];
     simulation.set_threads(pouring.threads).map_err(|error| BedError::Threads(error.to_string()))?;
     let rest = settle(&mut simulation, pouring.longest, watch)?;

@@ -3,7 +3,7 @@
 use crate::BedError;
 use crate::settle::{Rest, agitation, descent};
 use msdd_spheres::space::{dot, length};
-use msdd_spheres::{Boundary, Simulation, Surface};
+use msdd_spheres::{Simulation, Surface};
 
 /// Steps between two changes of the wall's velocity, and such changes between two looks.
 const STEPS: u64 = 20;
@@ -62,16 +62,15 @@ pub fn press(
     }
 }
 
-fn set_speed(simulation: &mut Simulation, wall: usize, velocity: [f64; 3]) {
-    if let Boundary::Walls(walls) = &mut simulation.boundary {
-        walls[wall].velocity = velocity;
+pub(crate) fn set_speed(simulation: &mut Simulation, wall: usize, velocity: [f64; 3]) {
+    if let Some(wall) = simulation.boundary.walls_mut().get_mut(wall) {
+        wall.velocity = velocity;
     }
 }
 
 /// Moves the wall to the nearest grain. Returns its normal.
 fn approach(simulation: &mut Simulation, wall: usize) -> Result<[f64; 3], BedError> {
-    let Boundary::Walls(walls) = &mut simulation.boundary else { return Err(BedError::NotFlat) };
-    let Some(moved) = walls.get_mut(wall) else { return Err(BedError::NotFlat) };
+    let Some(moved) = simulation.boundary.walls_mut().get_mut(wall) else { return Err(BedError::NotFlat) };
     let Surface::Flat { normal } = moved.surface else { return Err(BedError::NotFlat) };
     let gap = simulation.spheres.iter().map(|s| moved.distance(s.position) - s.radius);
     let gap = gap.fold(f64::INFINITY, f64::min);

@@ -3,7 +3,7 @@
 use crate::network::Network;
 use crate::solve::{conjugate_gradients, inner};
 use msdd_spheres::space::{dot, minus};
-use msdd_spheres::{Partner, Simulation, Wall};
+use msdd_spheres::{Partner, Simulation, Sphere, Wall};
 use std::f64::consts::PI;
 
 /// Averages over a slab of a bed. Compression is positive.
@@ -143,6 +143,21 @@ impl Probe {
                 (wall.distance(sphere.position) - distance).abs() < 1.5 * d && (0..3).all(near)
             })
             .map(|(number, sphere)| (number, wall.distance(sphere.position)))
+            .collect();
+        (!spheres.is_empty()).then_some(Self { spheres, distance })
+    }
+
+    /// All spheres within 1.5 d of the distance that `used` takes.
+    pub fn layer(
+        simulation: &Simulation,
+        wall: &Wall,
+        distance: f64,
+        used: impl Fn(&Sphere) -> bool,
+    ) -> Option<Self> {
+        let spheres: Vec<_> = (simulation.spheres.iter().enumerate())
+            .map(|(number, sphere)| (number, sphere, wall.distance(sphere.position)))
+            .filter(|(_, sphere, from)| (from - distance).abs() < 3.0 * sphere.radius && used(sphere))
+            .map(|(number, _, from)| (number, from))
             .collect();
         (!spheres.is_empty()).then_some(Self { spheres, distance })
     }

@@ -57,7 +57,14 @@ pub struct NotConverged {
 impl<'a> Transient<'a> {
     /// A bed of one temperature \[K\] whose plates have theirs from now on.
     pub fn new(network: &'a Network, initial: f64, plates: Vec<f64>) -> Self {
-        let temperatures = network.held.iter().map(|held| held.map_or(initial, |k| plates[k])).collect();
+        Self::from(network, &vec![initial; network.held.len()], plates)
+    }
+
+    /// A bed whose spheres have `temperatures` \[K\], and whose plates have theirs from now on.
+    pub fn from(network: &'a Network, temperatures: &[f64], plates: Vec<f64>) -> Self {
+        let temperatures = (network.held.iter().zip(temperatures))
+            .map(|(held, &temperature)| held.map_or(temperature, |k| plates[k]))
+            .collect();
         let given = vec![0.0; plates.len()];
         let mut transient = Self { network, temperatures, plates, time: 0.0, given, steps: 0, stored: 0.0 };
         transient.stored = transient.enthalpy();

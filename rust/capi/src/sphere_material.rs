@@ -5,7 +5,7 @@ use crate::status::{Failure, utf8};
 use ::msdd_surrogate::spheres::model::Answer;
 use ::msdd_surrogate::spheres::readout::GAS_RANGE;
 use ::msdd_surrogate::spheres::tensor::{Tensor, mean};
-use msdd_beds::effective::{BedMaterial, LEAST_RATIO, Packed};
+use msdd_beds::effective::{BedMaterial, BedState, LEAST_RATIO};
 use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::solid::{Roughness, Solid};
@@ -131,7 +131,7 @@ impl Material {
         let pressure = mean(answer.stress);
         let conduction = self.bed.conduction(
             gas.gas.as_ref(),
-            &Packed {
+            &BedState {
                 pressure: pressure * self.modulus(),
                 solid_fraction: answer.solid,
                 coordination: answer.coordination.max(LEAST_CONTACTS),

@@ -14,7 +14,7 @@
 //! | walls | mean force of this step and the one before on the spheres times the wall's velocity Δt |
 //!
 //! All losses are at least 0, up to round-off. Kinetic energy is accounted for exactly; the work of the elastic forces is
-//! taken by the trapezoidal rule, as explained for discs (`msdd_dem::audit`); the error of the balance falls with Δt. Boxes that deform and spheres that grow are not audited.
+//! taken by the trapezoidal rule, as explained for discs (`msdd_dem::audit`); the error of the balance falls with Δt. Boxes that deform, spheres and cylinders that grow are not audited.
 
 use crate::contact::{Contact, Partner};
 use crate::law::{self, History, Touch};
@@ -102,7 +102,7 @@ fn velocity(simulation: &Simulation, spheres: &[Sphere], contact: &Contact) -> [
     match contact.i {
         Partner::Wall(wall) => {
             let arm = of_j.radius - contact.overlap;
-            let apart = minus(of_j.velocity, simulation.boundary.walls()[wall].velocity);
+            let apart = minus(of_j.velocity, simulation.boundary.walls()[wall].velocity_at(contact.normal));
             minus(apart, cross(scaled(arm, of_j.angular_velocity), contact.normal))
         }
         Partner::Sphere(i) => {

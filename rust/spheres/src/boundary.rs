@@ -20,10 +20,13 @@ pub enum Surface {
         axis: [f64; 3],
         /// [m]
         radius: f64,
+        /// Rate at which the radius grows [m/s].
+        #[serde(default)]
+        growth: f64,
     },
 }
 
-/// A rigid wall, which moves without turning.
+/// A rigid wall, which moves without turning; the radius of a cylinder may change.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
@@ -42,7 +45,7 @@ impl Wall {
 
     /// The inner side of a cylinder at rest; `axis` is a unit vector.
     pub fn cylinder(point: [f64; 3], axis: [f64; 3], radius: f64) -> Self {
-        Self { point, surface: Surface::Cylinder { axis, radius }, velocity: [0.0; 3] }
+        Self { point, surface: Surface::Cylinder { axis, radius, growth: 0.0 }, velocity: [0.0; 3] }
     }
 
     /// Distance of a point from the wall, positive on the side of the spheres [m], and the unit normal of the wall at the
@@ -52,10 +55,32 @@ impl Wall {
         let from = minus(point, self.point);
         match self.surface {
             Surface::Flat { normal } => (dot(from, normal), normal),
-            Surface::Cylinder { axis, radius } => {
+            Surface::Cylinder { axis, radius, .. } => {
                 let out = plus(from, -dot(from, axis), axis);
                 let off = length(out);
                 (radius - off, scaled(if off > 0.0 { -1.0 / off } else { 0.0 }, out))
+            }
+        }
+    }
+
+    /// Velocity [m/s] of the wall where its normal is `normal`.
+    #[inline]
+    pub fn velocity_at(&self, normal: [f64; 3]) -> [f64; 3] {
+        match self.surface {
+            Surface::Flat { .. } => self.velocity,
+            Surface::Cylinder { growth, .. } => plus(self.velocity, -growth, normal),
+        }
+    }
+
+    /// Moves it for the time `dt` [s]; returns its largest speed [m/s].
+    pub(crate) fn advance(&mut self, dt: f64) -> f64 {
+        self.point = plus(self.point, dt, self.velocity);
+        let speed = length(self.velocity);
+        match &mut self.surface {
+            Surface::Flat { .. } => speed,
+            Surface::Cylinder { radius, growth, .. } => {
+                *radius += *growth * dt;
+                speed + growth.abs()
             }
         }
     }
@@ -150,6 +175,9 @@ impl Cell {
 pub enum Boundary {
     Walls(Vec<Wall>),
     Periodic(Cell),
+    /// A cell at whose sides the assembly repeats itself, with walls above and below. Its third edge is so long that nothing above
+    /// the upper wall meets what is below the lower one.
+    Between(Cell, Vec<Wall>),
 }
 
 impl Boundary {
@@ -157,15 +185,30 @@ impl Boundary {
     pub fn cell(&self) -> Option<&Cell> {
         match self {
             Self::Walls(_) => None,
-            Self::Periodic(cell) => Some(cell),
+            Self::Periodic(cell) | Self::Between(cell, _) => Some(cell),
+        }
+    }
+
+    pub(crate) fn cell_mut(&mut self) -> Option<&mut Cell> {
+        match self {
+            Self::Walls(_) => None,
+            Self::Periodic(cell) | Self::Between(cell, _) => Some(cell),
         }
     }
 
     /// The walls; none in a periodic box.
     pub fn walls(&self) -> &[Wall] {
         match self {
-            Self::Walls(walls) => walls,
+            Self::Walls(walls) | Self::Between(_, walls) => walls,
             Self::Periodic(_) => &[],
+        }
+    }
+
+    /// The walls, to set their velocities.
+    pub fn walls_mut(&mut self) -> &mut [Wall] {
+        match self {
+            Self::Walls(walls) | Self::Between(_, walls) => walls,
+            Self::Periodic(_) => &mut [],
         }
     }
 }

@@ -96,19 +96,24 @@ impl Touching<'_> {
                 pairs.history(k),
             ));
         }
-        for (number, (wall, contacts)) in self.boundary.walls().iter().zip(&self.neighbours.walls).enumerate()
-        {
-            for (&j, &history) in contacts.sphere.iter().zip(&contacts.history) {
-                let sphere = &self.spheres[j as usize];
-                let (distance, normal) = wall.foot(sphere.position);
-                visit(self.contact(
-                    (Partner::Wall(number), j as usize, [0; 3]),
-                    (normal, scaled(distance, normal)),
-                    sphere.radius - distance,
-                    sphere.radius,
-                    history,
-                ));
-            }
+        for number in 0..self.boundary.walls().len() {
+            self.for_each_candidate_at(number, &mut visit);
+        }
+    }
+
+    /// Likewise with the candidates of one wall.
+    pub fn for_each_candidate_at(&self, number: usize, mut visit: impl FnMut(Contact)) {
+        let (wall, contacts) = (&self.boundary.walls()[number], &self.neighbours.walls[number]);
+        for (&j, &history) in contacts.sphere.iter().zip(&contacts.history) {
+            let sphere = &self.spheres[j as usize];
+            let (distance, normal) = wall.foot(sphere.position);
+            visit(self.contact(
+                (Partner::Wall(number), j as usize, [0; 3]),
+                (normal, scaled(distance, normal)),
+                sphere.radius - distance,
+                sphere.radius,
+                history,
+            ));
         }
     }
 

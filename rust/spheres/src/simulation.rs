@@ -152,7 +152,7 @@ impl Simulation {
     /// Sets the velocity gradient of a periodic box [1/s], whose entries below the diagonal must be 0; does nothing
     /// between walls.
     pub fn set_velocity_gradient(&mut self, gradient: Matrix) {
-        if let Boundary::Periodic(cell) = &mut self.boundary {
+        if let Some(cell) = self.boundary.cell_mut() {
             cell.velocity_gradient = gradient;
         }
     }
@@ -181,6 +181,13 @@ impl Simulation {
     /// Calls `visit` with every contact: pairs row by row, then the walls.
     pub fn for_each_contact(&self, visit: impl FnMut(Contact)) {
         self.touching().for_each(visit);
+    }
+
+    /// Sum of the normal forces of the spheres on a wall, by its number, without damping \[N\].
+    pub fn wall_load(&self, wall: usize) -> f64 {
+        let mut sum = 0.0;
+        self.touching().for_each_candidate_at(wall, |contact| sum += contact.normal_force);
+        sum
     }
 
     /// The present contacts.
@@ -229,27 +236,36 @@ impl Simulation {
         self.strain += self.strain_rate * dt;
         let growth = self.set_radii();
         let skin = &mut self.neighbours.skin;
-        match &mut self.boundary {
-            Boundary::Walls(walls) => {
-                let mut fastest = 0.0f64;
-                for wall in walls {
-                    wall.point = plus(wall.point, dt, wall.velocity);
-                    fastest = fastest.max(dot(wall.velocity, wall.velocity));
+        let mut fastest = 0.0f64;
+        for wall in self.boundary.walls_mut() {
+            fastest = fastest.max(wall.advance(dt));
+        }
+        if let Some(cell) = self.boundary.cell_mut() {
+            let rate2 = cell.velocity_gradient.iter().flatten().fold(0.0, |sum, x| sum + x * x);
+            if rate2 > 0.0 {
+                for sphere in &mut self.spheres {
+                    sphere.position = plus(sphere.position, dt, cell.flow(sphere.position));
                 }
-                skin.record_motion(self.largest_speed, fastest.sqrt(), growth / dt, dt);
-            }
-            Boundary::Periodic(cell) => {
-                let rate2 = cell.velocity_gradient.iter().flatten().fold(0.0, |sum, x| sum + x * x);
-                if rate2 > 0.0 {
-                    for sphere in &mut self.spheres {
-                        sphere.position = plus(sphere.position, dt, cell.flow(sphere.position));
-                    }
-                    cell.advance(dt);
-                    skin.record_flow(rate2.sqrt(), dt);
-                }
-                skin.record_motion(self.largest_speed, 0.0, growth / dt, dt);
+                cell.advance(dt);
+                skin.record_flow(rate2.sqrt(), dt);
             }
         }
+        skin.record_motion(self.largest_speed, fastest, growth / dt, dt);
+    }
+
+    /// Gives each sphere its radius \[m\] at once; masses stay. They are its radii at the present strain.
+    ///
+    /// # Panics
+    /// When there are not as many radii as spheres.
+    pub fn resize(&mut self, radii: &[f64]) {
+        assert_eq!(radii.len(), self.spheres.len());
+        let mut growth = 0.0f64;
+        for (sphere, &radius) in self.spheres.iter_mut().zip(radii) {
+            growth = growth.max(radius - sphere.radius);
+            sphere.radius = radius;
+            sphere.reference_radius = radius / (1.0 + self.strain);
+        }
+        self.neighbours.skin.record_motion(0.0, 0.0, growth, 1.0);
     }
 
     /// Sets the radii by the strain while it changes; returns the largest growth [m].

@@ -1,6 +1,7 @@
 //! `msdd bed`: beds of spheres that were measured.
 
 mod files;
+mod moving;
 mod plot;
 mod results;
 mod table;
@@ -24,7 +25,7 @@ pub enum Command {
   msdd bed run cases/beaulieu --vary     what the uncertain inputs change, one at a time
 
 The folder holds bed.toml (every key is explained in the book, Reference, Measured beds) and, if there is an experiment, its
-measurements. Into the folder of results go
+measurements. If it holds elements.toml instead, a bed whose walls move while heat flows, the only result is elements.csv. Into the folder of results go
   temperature.csv   T over time at the probes, for both ways to take the plate
   comparison.csv    differences from the measurements
   bed.json          the packing, heat and its balance, and how each stage came to rest
@@ -58,6 +59,9 @@ pub fn run(command: &Command) -> Result<(), CliError> {
 
 fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     let folder = &arguments.case;
+    if folder.join(msdd_beds::scene::FILE).exists() {
+        return run_moving(arguments);
+    }
     let mut case = BedCase::read(folder)?;
     if let Some(seed) = arguments.seed {
         case.seed = seed;
@@ -88,6 +92,15 @@ fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     out!("{}", table::text(&results));
     outln!("results: {}", out.display());
     Ok(())
+}
+
+fn run_moving(arguments: &RunArguments) -> Result<(), CliError> {
+    if arguments.vary {
+        return Err(CliError::Message("--vary, allowed: with a bed.toml".to_string()));
+    }
+    let name = arguments.case.file_name().map_or_else(|| "bed".into(), |name| name.to_owned());
+    let out = arguments.out.clone().unwrap_or_else(|| Path::new("results/beds").join(name));
+    moving::compute(&arguments.case, arguments.seed, arguments.threads as usize, &out)
 }
 
 /// The measurements of a case; none without an experiment.

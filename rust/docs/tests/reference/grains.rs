@@ -23,7 +23,19 @@ fn beds() -> Vec<Set> {
         let list = between(&text, &format!(r"const {name}: \[&str; \d+\] ="), ";", FILES);
         Set::new(BEDS, table, FILES, strings(&list))
     };
+    const SCENE: &str = "rust/beds/src/scene";
+    const ROWS: &str = "rust/beds/src/rows.rs";
+    let moving = |table: &str, name: &str| with_required(fields_of(BEDS, table, SCENE, name), SCENE, name);
+    let text = crate::sources::text(ROWS);
+    let rows = strings(&between(&text, r"const MOVING: \[&str; \d+\] =", ";", ROWS));
     vec![
+        fields_of(BEDS, "moving bed", SCENE, "Scene"),
+        fields_of(BEDS, "lid of moving beds", SCENE, "LidKeys"),
+        moving("heated", "Heated"),
+        moving("shell of moving beds", "Shell"),
+        moving("time of moving beds", "Time"),
+        fields_of(BEDS, "record", SCENE, "RecordKeys"),
+        Set::new(BEDS, "rows of moving beds", ROWS, rows),
         fields_of(BEDS, "bed", CASE, "BedCase"),
         fields_of(BEDS, "grains of beds", CASE, "Grains"),
         fields_of(BEDS, "container", CASE, "Vessel"),

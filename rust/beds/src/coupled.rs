@@ -1,0 +1,364 @@
+//! A bed whose walls move while heat flows through it: grains grow with their temperature, walls give way or follow a path, and
+//! contacts conduct as they are pressed.
+//!
+//! Time goes on in intervals. In each, heat first flows through the network of the contacts as they are at its start; then grains and
+//! walls move to where the end of the interval wants them, in half of a number of steps of the discrete elements, and come to rest in
+//! the other half. The motion is not that of the real time: a bed at rest knows none, and how far from rest it is is recorded.
+
+use crate::BedError;
+use crate::give::{BLOCK, Hold, Moving, drag, steered, wall_area};
+use crate::harden::harden;
+use crate::network::{Materials, Network, Plate, PlateLaw};
+use crate::pour::{Pouring, pour};
+use crate::press::press;
+use crate::profile::{Probe, slab};
+use crate::region::Region;
+use crate::scene::Scene;
+use crate::settle::{Rest, longest, progress};
+use crate::solid::{PeakStress, Roughness};
+use crate::transient::Transient;
+use msdd_spheres::law::effective_modulus;
+use msdd_spheres::space::length;
+use msdd_spheres::{Material, Partner, Simulation, Stiffness};
+
+/// First time step of heat \[s\].
+const FIRST_STEP: f64 = 0.1;
+
+/// A bed at rest under its lid.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    pub simulation: Simulation,
+    /// Stages, and how each came to rest.
+    pub stages: Vec<(&'static str, Rest)>,
+}
+
+/// What a bed is like at one time. Compression is positive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// t \[s\]
+    pub time: f64,
+    /// T \[K\] at the distances of the scene, and the mean of the grains in its region.
+    pub temperatures: Vec<f64>,
+    pub mean_temperature: f64,
+    /// Pressure of the grains on each wall \[Pa\].
+    pub walls: Vec<f64>,
+    /// Mean stresses \[Pa\] in the region, see [`Region::stress`].
+    pub stress: [f64; 3],
+    /// Between the heights of the region, over the whole width.
+    pub porosity: f64,
+    pub coordination: f64,
+    /// K \[W/(m K)\] along z there, by contacts and by gas.
+    pub contact_conductivity: f64,
+    pub gas_conductivity: f64,
+    /// Of the bed \[m\], and the radius of the cylinder \[m\], NaN in a box.
+    pub depth: f64,
+    pub radius: f64,
+    /// Force along z that is not in balance, over that on the lid.
+    pub unbalanced: f64,
+    /// Contacts that yield, over all; largest of Hertz's peak stresses over the one at which yielding begins. NaN without a yield stress.
+    pub yielding: f64,
+    pub peak: f64,
+}
+
+/// A bed over time.
+#[derive(Clone, Debug)]
+pub struct Run {
+    pub rows: Vec<Row>,
+    /// Heat that the grains stored which no wall holds, and the residual of its balance \[J\].
+    pub stored: f64,
+    pub residual: f64,
+    /// Steps of heat, and of the discrete elements.
+    pub heat_steps: u64,
+    pub steps: u64,
+}
+
+/// Pours, presses the lid on, and hardens. `watch` is told the stage, and how far it has come, from 0 to 1.
+///
+/// # Errors
+/// Those of the stages; a stage that does not come to rest.
+pub fn prepare(
+    scene: &Scene,
+    threads: usize,
+    mut watch: impl FnMut(&'static str, f64),
+) -> Result<Prepared, BedError> {
+    let (grains, container) = (&scene.grains, scene.vessel());
+    let (d, g) = (grains.diameter, scene.container.gravity);
+    let allowed = longest(d, g, container.loose_height(grains.number, d).max(container.width()));
+    let pouring = Pouring {
+        spheres: grains.number,
+        seed: scene.seed,
+        diameter: d,
+        material: Material {
+            density: grains.density,
+            stiffness: Stiffness::HertzMindlin {
+                young_modulus: grains.simulated_young_modulus,
+                poisson_ratio: grains.poisson_ratio,
+            },
+            friction: grains.friction,
+            wall_friction: grains.wall_friction,
+            restitution: grains.restitution,
+        },
+        container,
+        gravity: g,
+        longest: allowed,
+        threads,
+    };
+    let rested = |stage: &'static str, rest: Rest| match rest.at_rest {
+        true => Ok((stage, rest)),
+        false => Err(BedError::Restless { stage, time: rest.time, kinetic: rest.kinetic }),
+    };
+    let (mut simulation, rest) = pour(&pouring, |agitation| watch("pour", progress(agitation)))?;
+    let mut stages = vec![rested("pour", rest)?];
+    let (lid, load) = (scene.wall("lid").unwrap_or_default(), (scene.lid.pressure, container.area()));
+    let rest = press(&mut simulation, lid, load, allowed, |a| watch("lid", progress(a)))?;
+    stages.push(rested("lid", rest)?);
+    let depth = simulation.boundary.walls()[lid].point[2];
+    let rest =
+        harden(&mut simulation, grains.young_modulus, lid, load, depth, |share| watch("harden", share))?;
+    stages.push(rested("harden", rest)?);
+    Ok(Prepared { simulation, stages })
+}
+
+/// The bed on its way.
+struct Coupled<'a> {
+    scene: &'a Scene,
+    simulation: Simulation,
+    network: Network,
+    /// Which spheres have the temperature of which heated wall, from the start on.
+    held: Vec<Option<usize>>,
+    temperatures: Vec<f64>,
+    /// Radii at the initial temperature.
+    radii: Vec<f64>,
+    lid: Moving,
+    shell: Option<Moving>,
+    depth_at_start: f64,
+    run: Run,
+}
+
+/// Heats and moves. `watch` is told how far it has come, from 0 to 1.
+///
+/// # Errors
+/// A distance without grains; heat that does not converge; those of [`Simulation::run`].
+pub fn run(scene: &Scene, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Result<Run, BedError> {
+    let mut bed = Coupled::new(scene, prepared.simulation.clone());
+    let time = &scene.time;
+    bed.record(0.0)?;
+    let outputs = (time.end / time.output_every - 1e-9).ceil() as u64;
+    let (mut step, mut now) = (FIRST_STEP.min(time.interval), 0.0);
+    for output in 1..=outputs {
+        let next = (output as f64 * time.output_every).min(time.end);
+        let intervals = ((next - now) / time.interval - 1e-9).ceil().max(1.0) as u64;
+        let begin = now;
+        for interval in 1..=intervals {
+            let end = begin + (next - begin) * interval as f64 / intervals as f64;
+            bed.heat([now, end], &mut step)?;
+            bed.motion([now, end])?;
+            now = end;
+            watch(now / time.end);
+        }
+        bed.record(now)?;
+    }
+    Ok(bed.run)
+}
+
+impl<'a> Coupled<'a> {
+    fn new(scene: &'a Scene, simulation: Simulation) -> Self {
+        let network = network(scene, &simulation);
+        let start = scene.time.initial_temperature;
+        let number = |name: &str| scene.wall(name).unwrap_or_default();
+        let mut bed = Self {
+            scene,
+            held: network.held.clone(),
+            network,
+            temperatures: vec![start; simulation.spheres.len()],
+            radii: simulation.spheres.iter().map(|sphere| sphere.radius).collect(),
+            lid: Moving::new(number("lid"), Hold::Place { moved: 0.0 }),
+            shell: scene.shell.as_ref().map(|_| Moving::new(number("side"), Hold::Place { moved: 0.0 })),
+            depth_at_start: 0.0,
+            run: Run { rows: Vec::new(), stored: 0.0, residual: 0.0, heat_steps: 0, steps: simulation.steps },
+            simulation,
+        };
+        bed.depth_at_start = bed.depth();
+        let at_start = bed.shell.as_ref().map_or(0.0, |shell| bed.pressure(shell.wall));
+        if let (Some(shell), Some(keys), Some(radius)) =
+            (&mut bed.shell, &scene.shell, scene.container.radius)
+        {
+            let stiffness = keys.young_modulus * keys.thickness / (radius * radius);
+            shell.hold = Hold::Shell { stiffness, at_start, grown: 0.0 };
+        }
+        bed
+    }
+
+    /// Of the bed, from the floor to the lid \[m\].
+    fn depth(&self) -> f64 {
+        let walls = self.simulation.boundary.walls();
+        walls[self.lid.wall].point[2] - walls[0].point[2]
+    }
+
+    /// Of the grains on a wall \[Pa\].
+    fn pressure(&self, wall: usize) -> f64 {
+        let area = wall_area(&self.simulation, wall, self.scene.vessel().area(), self.depth());
+        self.simulation.wall_load(wall) / area
+    }
+
+    fn heat(&mut self, [from, to]: [f64; 2], step: &mut f64) -> Result<(), BedError> {
+        let at =
+            |time: f64| -> Vec<f64> { self.scene.heated.iter().map(|h| h.temperature.at(time)).collect() };
+        let mut transient = Transient::from(&self.network, &self.temperatures, at(0.5 * (from + to)));
+        transient.run_to(to - from, self.scene.time.tolerance, step)?;
+        self.run.stored += transient.stored();
+        self.run.residual += transient.residual();
+        self.run.heat_steps += transient.steps;
+        let plates = at(to);
+        for ((temperature, found), held) in
+            self.temperatures.iter_mut().zip(&transient.temperatures).zip(&self.held)
+        {
+            *temperature = held.map_or(*found, |plate| plates[plate]);
+        }
+        Ok(())
+    }
+
+    /// Moves grains and walls from where they are to where the end of the interval wants them.
+    fn motion(&mut self, [from, to]: [f64; 2]) -> Result<(), BedError> {
+        let expansion = self.scene.grains.thermal_expansion.unwrap_or(0.0);
+        let start = self.scene.time.initial_temperature;
+        let before: Vec<f64> = self.simulation.spheres.iter().map(|sphere| sphere.radius).collect();
+        let after: Vec<f64> = (self.radii.iter().zip(&self.temperatures))
+            .map(|(radius, temperature)| radius * (1.0 + expansion * (temperature - start)))
+            .collect();
+        let blocks = self.scene.time.steps.div_ceil(BLOCK);
+        let mut radii = before.clone();
+        for block in 1..=blocks {
+            let share = (2.0 * block as f64 / blocks as f64).min(1.0);
+            if 2 * (block - 1) < blocks {
+                for ((radius, a), b) in radii.iter_mut().zip(&before).zip(&after) {
+                    *radius = a + share * (b - a);
+                }
+                self.simulation.resize(&radii);
+            }
+            self.aim(from + share * (to - from));
+            let (area, depth) = (self.scene.vessel().area(), self.depth());
+            let walls = [Some(&mut self.lid), self.shell.as_mut()];
+            let mut walls: Vec<&mut Moving> = walls.into_iter().flatten().collect();
+            steered(&mut self.simulation, |simulation, dt, left| {
+                for wall in &mut walls {
+                    let pressure =
+                        simulation.wall_load(wall.wall) / wall_area(simulation, wall.wall, area, depth);
+                    wall.steer(simulation, pressure, dt, left);
+                }
+            })?;
+        }
+        self.simulation.drag = 0.0;
+        self.lid.stop(&mut self.simulation);
+        if let Some(shell) = &mut self.shell {
+            shell.stop(&mut self.simulation);
+        }
+        self.network = network(self.scene, &self.simulation);
+        self.network.held.clone_from(&self.held);
+        Ok(())
+    }
+
+    /// What holds the walls at a time \[s\], and the drag.
+    fn aim(&mut self, time: f64) {
+        self.simulation.drag = drag(&self.simulation, self.depth());
+        let keys = &self.scene.lid;
+        self.lid.hold = match (&keys.strain, &keys.pressing) {
+            (Some(strain), _) => Hold::Place { moved: strain.at(time) * self.depth_at_start },
+            (None, Some(pressing)) => Hold::Pressure { pressure: pressing.at(time) },
+            (None, None) => Hold::Place { moved: 0.0 },
+        };
+        let wall = self.wall_growth(time);
+        if let Some(Hold::Shell { grown, .. }) = self.shell.as_mut().map(|shell| &mut shell.hold) {
+            *grown = wall;
+        }
+    }
+
+    /// Growth of the radius of a shell by its own temperature, which is that of the heated side, else that of the start \[m\].
+    fn wall_growth(&self, time: f64) -> f64 {
+        let expansion = self.scene.shell.as_ref().map_or(0.0, |shell| shell.thermal_expansion);
+        let side = self.scene.heated.iter().find(|heated| heated.wall == "side");
+        let rise = side.map_or(0.0, |side| side.temperature.at(time) - self.scene.time.initial_temperature);
+        expansion * rise * self.scene.container.radius.unwrap_or(0.0)
+    }
+
+    fn record(&mut self, time: f64) -> Result<(), BedError> {
+        let (scene, simulation) = (self.scene, &self.simulation);
+        let keys = &scene.record;
+        let region = Region { heights: keys.heights, radius: keys.radius, area: scene.vessel().area() };
+        let wall = simulation.boundary.walls()[scene.wall(&keys.wall).unwrap_or_default()];
+        let round = scene.wall("side") == scene.wall(&keys.wall);
+        let temperature = |&distance: &f64| {
+            let used = |z: f64| !round || (keys.heights[0]..keys.heights[1]).contains(&z);
+            let probe = Probe::layer(simulation, &wall, distance, |sphere| used(sphere.position[2]));
+            let probe = probe.ok_or(BedError::NoGrains { distance })?;
+            Ok(probe.temperature(&self.temperatures))
+        };
+        let temperatures = keys.distances.iter().map(temperature).collect::<Result<_, BedError>>()?;
+        let inside =
+            simulation.spheres.iter().zip(&self.temperatures).filter(|(s, _)| region.holds(s.position));
+        let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (_, t)| (sum + t, count + 1.0));
+        let mean_temperature: f64 = sum / count;
+        if !mean_temperature.is_finite() {
+            return Err(BedError::NoGrains { distance: keys.heights[0] });
+        }
+        let floor = simulation.boundary.walls()[0];
+        let averages = slab(simulation, &self.network, &floor, keys.heights, region.area, mean_temperature)
+            .ok_or(BedError::NoGrains { distance: keys.heights[0] })?;
+        let weight: f64 = simulation.spheres.iter().map(|s| s.mass).sum::<f64>() * length(simulation.gravity);
+        let along: f64 = simulation.wall_force.iter().map(|force| force[2]).sum();
+        let lid = simulation.wall_load(self.lid.wall);
+        let peak = self.peak();
+        self.run.steps = simulation.steps;
+        self.run.rows.push(Row {
+            time,
+            temperatures,
+            mean_temperature,
+            walls: (0..simulation.wall_force.len()).map(|wall| self.pressure(wall)).collect(),
+            stress: region.stress(simulation),
+            porosity: 1.0 - averages.solid_fraction,
+            coordination: averages.coordination,
+            contact_conductivity: averages.contact_conductivity,
+            gas_conductivity: averages.gas_conductivity,
+            depth: self.depth(),
+            radius: scene
+                .container
+                .radius
+                .map_or(f64::NAN, |radius| radius - self.shell.as_ref().map_or(0.0, |shell| shell.moved)),
+            unbalanced: (along + weight).abs() / lid.max(weight),
+            yielding: peak.map_or(f64::NAN, |peak| peak.beyond as f64 / peak.contacts.max(1) as f64),
+            peak: peak.map_or(f64::NAN, |peak| peak.largest / (crate::solid::YIELD_AT * peak.yield_stress)),
+        });
+        Ok(())
+    }
+
+    fn peak(&self) -> Option<PeakStress> {
+        let mut contacts = Vec::new();
+        self.simulation.for_each_contact(|contact| {
+            if let Partner::Sphere(_) = contact.i {
+                contacts.push((contact.normal_force, contact.effective_radius));
+            }
+        });
+        let grains = &self.scene.grains;
+        let modulus = effective_modulus(grains.young_modulus, grains.poisson_ratio);
+        grains.yield_stress.map(|limit| PeakStress::new(contacts.into_iter(), modulus, limit))
+    }
+}
+
+/// The network of a bed whose heated walls hold the first layer of grains.
+fn network(scene: &Scene, simulation: &Simulation) -> Network {
+    let grains = &scene.grains;
+    let roughness = grains.roughness.zip(grains.hardness);
+    let materials = Materials {
+        conductivity: grains.conductivity.clone(),
+        heat_capacity: grains.heat_capacity.clone(),
+        effective_modulus: effective_modulus(grains.young_modulus, grains.poisson_ratio),
+        roughness: roughness.map(|(height_over_slope, hardness)| Roughness { height_over_slope, hardness }),
+        gas: scene.gas.name,
+        gas_pressure: scene.gas.pressure,
+        accommodation: scene.gas.accommodation,
+    };
+    let plates: Vec<Plate> = (scene.heated.iter())
+        .map(|heated| Plate { wall: scene.wall(&heated.wall).unwrap_or_default(), law: PlateLaw::Held })
+        .collect();
+    Network::new(simulation, materials, &plates)
+}

@@ -1,0 +1,228 @@
+//! The description of a bed whose walls move while heat flows through it: a TOML file that says what is poured, which walls have
+//! which temperature, and how they move.
+
+use crate::case::{CaseError, GasKeys, Grains, Vessel};
+use crate::pour::Container;
+use crate::schedule::Schedule;
+use msdd_engine::message::number;
+use msdd_files::read_text;
+use serde::Deserialize;
+use std::path::Path;
+
+/// Name of the file in the folder of a case.
+pub const FILE: &str = "elements.toml";
+
+/// A bed. SI units.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Seed of the packing.
+    #[serde(default = "one")]
+    pub seed: u64,
+    pub grains: Grains,
+    pub container: Vessel,
+    pub lid: LidKeys,
+    pub gas: GasKeys,
+    /// Walls of given temperature; the others are insulated.
+    pub heated: Vec<Heated>,
+    pub shell: Option<Shell>,
+    pub time: Time,
+    pub record: RecordKeys,
+}
+
+/// The lid: pressed on while the grains harden, and then moved.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LidKeys {
+    pub pressure: f64,
+    /// How far it is moved towards the grains since then, over the depth of the bed; or with which pressure it goes on pressing. It stays
+    /// where it is if neither is given.
+    pub strain: Option<Schedule>,
+    pub pressing: Option<Schedule>,
+}
+
+/// A wall of given temperature.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Heated {
+    pub wall: String,
+    pub temperature: Schedule,
+}
+
+/// The side of a cylinder, when it gives way.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shell {
+    pub young_modulus: f64,
+    pub thickness: f64,
+    #[serde(default)]
+    pub thermal_expansion: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    pub initial_temperature: f64,
+    pub end: f64,
+    /// Between two looks at the contacts: heat flows, then grains grow and walls move.
+    pub interval: f64,
+    /// Of the motion in each interval.
+    pub steps: u64,
+    pub output_every: f64,
+    #[serde(default = "usual_tolerance")]
+    pub tolerance: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordKeys {
+    /// The wall from which distances are counted.
+    pub wall: String,
+    /// Distances at which T is recorded.
+    pub distances: Vec<f64>,
+    /// Heights between which averages are taken.
+    pub heights: [f64; 2],
+    /// In a cylinder, the radius within which stresses are averaged.
+    pub radius: Option<f64>,
+}
+
+fn one() -> u64 {
+    1
+}
+
+fn usual_tolerance() -> f64 {
+    0.02
+}
+
+/// A value that is wrong: its key, the value, what is allowed.
+type Wrong = (String, String, String);
+
+impl Scene {
+    /// Reads and checks the description in the folder of a case.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn read(folder: &Path) -> Result<Self, CaseError> {
+        let file = folder.join(FILE);
+        let scene: Self = toml::from_str(&read_text(&file)?).map_err(|error| CaseError::Read {
+            file: file.clone(),
+            problem: error.to_string().trim().to_string(),
+        })?;
+        scene.check().map_err(|(key, value, allowed)| CaseError::Value { file, key, value, allowed })?;
+        Ok(scene)
+    }
+
+    pub fn vessel(&self) -> Container {
+        self.container.container()
+    }
+
+    /// Number of a wall by its name.
+    pub fn wall(&self, name: &str) -> Option<usize> {
+        self.vessel().walls(0.0).iter().position(|(known, _)| *known == name)
+    }
+
+    /// Temperatures \[K\] between which everything stays.
+    pub fn temperatures(&self) -> [f64; 2] {
+        let start = self.time.initial_temperature;
+        self.heated.iter().fold([start, start], |[low, high], heated| {
+            let [a, b] = heated.temperature.range();
+            [low.min(a), high.max(b)]
+        })
+    }
+
+    fn check(&self) -> Result<(), Wrong> {
+        let wrong =
+            |key: &str, value: String, allowed: &str| Err((key.to_string(), value, allowed.to_string()));
+        let mut numbers = self.grains.numbers();
+        numbers.extend(self.container.numbers(&self.grains));
+        numbers.extend(self.gas.numbers());
+        numbers.extend(self.numbers());
+        if let Some((key, value, allowed, _)) = numbers.into_iter().find(|number| !number.3) {
+            return wrong(key, number(value), allowed);
+        }
+        self.container.check()?;
+        for heated in &self.heated {
+            let told = |(value, allowed)| ("heated.temperature".to_string(), value, allowed);
+            heated.temperature.check([1.0, 5000.0]).map_err(told)?;
+        }
+        self.grains.check(self.temperatures(), &self.gas)?;
+        for name in self.heated.iter().map(|heated| &heated.wall).chain([&self.record.wall]) {
+            if self.wall(name).is_none() {
+                let names: Vec<&str> = self.vessel().walls(0.0).into_iter().map(|(name, _)| name).collect();
+                return wrong("wall", name.clone(), &names.join(", "));
+            }
+        }
+        match (&self.lid.strain, &self.lid.pressing) {
+            (Some(_), Some(_)) => {
+                return wrong("lid", "strain and pressing".into(), "one of strain and pressing, or neither");
+            }
+            (Some(path), None) => {
+                path.check([-0.2, 0.2]).map_err(|(value, allowed)| ("lid.strain".into(), value, allowed))?;
+            }
+            (None, Some(path)) => {
+                path.check([1e-12, 1e15])
+                    .map_err(|(value, allowed)| ("lid.pressing".into(), value, allowed))?;
+            }
+            (None, None) => {}
+        }
+        if self.shell.is_some() && self.container.radius.is_none() {
+            return wrong("shell", "a box".into(), "a shell around a cylinder: container.radius");
+        }
+        if self.record.radius.is_some() != self.container.radius.is_some() {
+            return wrong("record.radius", "given or not".into(), "given in a cylinder, and nowhere else");
+        }
+        let [low, high] = self.record.heights;
+        if !low.is_finite() || !high.is_finite() || low >= high {
+            return wrong("record.heights", format!("{:?}", self.record.heights), "two rising heights");
+        }
+        Ok(())
+    }
+
+    fn numbers(&self) -> Vec<(&'static str, f64, &'static str, bool)> {
+        const POSITIVE: &str = "1e-12 to 1e15";
+        let positive = |v: f64| (1e-12..=1e15).contains(&v);
+        let time = &self.time;
+        let mut all = vec![
+            (
+                "time.initial_temperature",
+                time.initial_temperature,
+                "1 to 5000 K",
+                (1.0..=5000.0).contains(&time.initial_temperature),
+            ),
+            (
+                "time.interval",
+                time.interval,
+                "a hundred-thousandth of end, to output_every",
+                time.interval >= 1e-5 * time.end && time.interval <= time.output_every,
+            ),
+            ("time.output_every", time.output_every, "interval to end", time.output_every <= time.end),
+            ("time.steps", time.steps as f64, "100 to 10000000", (100..=10_000_000).contains(&time.steps)),
+            (
+                "record.distances",
+                self.record.distances.len() as f64,
+                "one at least",
+                !self.record.distances.is_empty(),
+            ),
+        ];
+        for (key, value) in [
+            ("time.end", time.end),
+            ("time.tolerance", time.tolerance),
+            ("lid.pressure", self.lid.pressure),
+            ("shell.young_modulus", self.shell.as_ref().map_or(1.0, |shell| shell.young_modulus)),
+            ("shell.thickness", self.shell.as_ref().map_or(1.0, |shell| shell.thickness)),
+            ("record.radius", self.record.radius.unwrap_or(1.0)),
+        ] {
+            all.push((key, value, POSITIVE, positive(value)));
+        }
+        for (key, value) in [
+            ("shell.thermal_expansion", self.shell.as_ref().map_or(0.0, |shell| shell.thermal_expansion)),
+            ("grains.thermal_expansion", self.grains.thermal_expansion.unwrap_or(0.0)),
+        ] {
+            all.push((key, value, "0 to 0.01", (0.0..=0.01).contains(&value)));
+        }
+        for &distance in &self.record.distances {
+            all.push(("record.distances", distance, POSITIVE, positive(distance)));
+        }
+        all
+    }
+}

@@ -1,0 +1,190 @@
+//! Beds whose walls move while heat flows, at small size: balances of heat and force, the path of the lid, the stiffness of the shell,
+//! nothing moves without a reason; bad descriptions.
+
+use msdd_beds::coupled::{Prepared, Run, prepare, run};
+use msdd_beds::scene::{FILE, Scene};
+use std::path::PathBuf;
+
+/// With places for the container, the keys of the lid, the walls, further sections, and what is recorded.
+const TEXT: &str = r#"
+seed = 2
+[grains]
+number = 250
+diameter = 6.4e-3
+density = 7800
+young_modulus = 2e10
+poisson_ratio = 0.3
+simulated_young_modulus = 5e7
+friction = 0.3
+wall_friction = 0
+restitution = 0.5
+thermal_expansion = 1.2e-5
+conductivity = 46
+heat_capacity = 475
+yield_stress = 2e9
+[container]
+CONTAINER
+[lid]
+pressure = 20000
+LID
+[gas]
+name = "air"
+accommodation = 0.9
+HEATED
+[time]
+initial_temperature = 293.15
+end = 1200
+interval = 200
+steps = 3000
+output_every = 400
+[record]
+RECORD
+"#;
+
+const ENDLESS: &str = "base = [0.032, 0.032]\nendless = true";
+const COLUMN: &str = "wall = \"floor\"\ndistances = [0.02, 0.04]\nheights = [0.015, 0.045]";
+const FLOOR: &str = "[[heated]]\nwall = \"floor\"\ntemperature = [[0, 293.15], [400, 323.15]]";
+
+/// A folder with a description, removed at the end.
+struct Folder(PathBuf);
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn read(text: &str) -> Result<Scene, String> {
+    use std::sync::atomic::{AtomicU32, Ordering};
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let number = COUNT.fetch_add(1, Ordering::Relaxed);
+    let folder = Folder(std::env::temp_dir().join(format!("msdd-moving-{}-{number}", std::process::id())));
+    std::fs::create_dir_all(&folder.0).unwrap();
+    std::fs::write(folder.0.join(FILE), text).unwrap();
+    Scene::read(&folder.0).map_err(|error| error.to_string())
+}
+
+fn text([container, lid, heated, record]: [&str; 4]) -> String {
+    let parts = [("CONTAINER", container), ("LID", lid), ("HEATED", heated), ("RECORD", record)];
+    parts.into_iter().fold(TEXT.to_string(), |text, (place, part)| text.replace(place, part))
+}
+
+fn bed(parts: [&str; 4]) -> (Scene, Prepared, Run) {
+    let scene = read(&text(parts)).unwrap();
+    let prepared = prepare(&scene, 1, |_, _| ()).unwrap();
+    let found = run(&scene, &prepared, |_| ()).unwrap();
+    (scene, prepared, found)
+}
+
+/// The lid goes where it is told; what the bed bears above and below is in balance, and is the stress in its middle; heat is kept.
+#[test]
+fn a_column_is_pressed_and_heated() {
+    let (_, _, found) = bed([ENDLESS, "strain = [[0, 0], [400, 1e-3], [1200, 5e-4]]", FLOOR, COLUMN]);
+    assert!(
+        found.stored > 1.0 && found.residual.abs() < 1e-8 * found.stored,
+        "{} {}",
+        found.stored,
+        found.residual
+    );
+    let depth = found.rows[0].depth;
+    for (row, strain) in found.rows.iter().zip([0.0, 1e-3, 7.5e-4, 5e-4]) {
+        assert!((row.depth / depth - 1.0 + strain).abs() < 1e-9, "{} {depth} {strain}", row.depth);
+        assert!(row.unbalanced < 1e-2, "{row:?}");
+        let [floor, lid] = [row.walls[0], row.walls[1]];
+        // The weight lies between: half of the bed is above the middle.
+        let middle = 0.5 * (floor + lid);
+        assert!((row.stress[2] / middle - 1.0).abs() < 0.05, "{row:?}");
+    }
+    let pressed = &found.rows[1];
+    assert!(pressed.stress[2] > 2.0 * found.rows[0].stress[2], "{pressed:?}");
+    assert!(pressed.contact_conductivity > found.rows[0].contact_conductivity, "{pressed:?}");
+    // It is hot below, and not yet above.
+    assert!(pressed.temperatures[0] > pressed.temperatures[1] + 0.1, "{pressed:?}");
+}
+
+/// Nothing is heated, nothing is moved: no heat flows, and no wall moves. The few spheres still creep a little where the lid no longer
+/// follows, which takes a tenth of the pressure; with 20 000 it is less than a hundredth.
+#[test]
+fn a_bed_at_rest_stays_at_rest() {
+    let heated = "[[heated]]\nwall = \"floor\"\ntemperature = 293.15";
+    let (_, _, found) = bed([ENDLESS, "", heated, COLUMN]);
+    let (first, last) = (&found.rows[0], &found.rows[3]);
+    for k in 0..3 {
+        let kept = last.stress[k] / first.stress[k];
+        assert!((0.85..1.01).contains(&kept), "{first:?} {last:?}");
+    }
+    assert!((last.temperatures[0] - 293.15).abs() < 1e-9 && found.stored.abs() < 1e-6, "{last:?}");
+    assert_eq!(first.depth, last.depth);
+}
+
+/// The shell stands where its stiffness and the pressure on it say, and a warm one beyond that; the lid keeps its pressure.
+#[test]
+fn a_shell_gives_way() {
+    let heated = "[[heated]]\nwall = \"side\"\ntemperature = [[0, 293.15], [400, 323.15]]\n\
+                  [shell]\nyoung_modulus = 2e9\nthickness = 1e-3\nthermal_expansion = 2e-6";
+    let record = "wall = \"side\"\ndistances = [0.008]\nheights = [0.012, 0.04]\nradius = 0.014";
+    let (_, _, found) = bed(["radius = 0.02", "pressing = 20000", heated, record]);
+    let stiffness = 2e9 * 1e-3 / (0.02f64 * 0.02);
+    let start = found.rows[0].walls[1];
+    for row in &found.rows[1..] {
+        let expected = (row.walls[1] - start) / stiffness + 2e-6 * 30.0 * 0.02;
+        let found = row.radius - 0.02;
+        assert!((found - expected).abs() < 0.02 * expected.abs() + 1e-9, "{row:?} {expected}");
+        assert!((row.walls[2] / 20000.0 - 1.0).abs() < 0.02, "{row:?}");
+    }
+    assert!(found.rows[3].walls[1] > 1.05 * start, "{:?}", found.rows[3]);
+}
+
+/// The bed without sides rests on its floor alone, and its spheres touch beyond the sides.
+#[test]
+fn an_endless_bed_reaches_beyond_its_sides() {
+    let scene = read(&text([ENDLESS, "", FLOOR, COLUMN])).unwrap();
+    let Prepared { simulation, stages } = prepare(&scene, 1, |_, _| ()).unwrap();
+    assert_eq!(stages.iter().map(|stage| stage.0).collect::<Vec<_>>(), ["pour", "lid", "harden"]);
+    let weight: f64 = simulation.spheres.iter().map(|s| 9.81 * s.mass).sum();
+    let floor = -simulation.wall_force[0][2];
+    let lid = 2e4 * 0.032 * 0.032;
+    assert!((floor / (weight + lid) - 1.0).abs() < 5e-3, "{floor} {weight} {lid}");
+    let mut beyond = 0;
+    simulation.for_each_contact(|contact| beyond += usize::from(contact.shift != [0; 3]));
+    assert!(beyond > 50, "{beyond}");
+    let again = prepare(&scene, 2, |_, _| ()).unwrap().simulation;
+    assert_eq!(again.spheres, simulation.spheres);
+}
+
+#[test]
+fn bad_descriptions_are_refused_with_key_and_value() {
+    let good = text([ENDLESS, "", FLOOR, COLUMN]);
+    assert!(read(&good).is_ok());
+    for (from, to, message) in [
+        (
+            "pressure = 20000",
+            "pressure = 20000\nstrain = 0\npressing = 1",
+            "lid = strain and pressing, allowed: one of",
+        ),
+        (
+            "pressure = 20000",
+            "pressure = 20000\nstrain = [[0, 0], [1, 0.5]]",
+            "lid.strain = 0.5, allowed: -0.2 to 0.2",
+        ),
+        ("wall = \"floor\"\nt", "wall = \"x_low\"\nt", "wall = x_low, allowed: floor, lid"),
+        ("interval = 200", "interval = 500", "time.interval = 500, allowed:"),
+        ("steps = 3000", "steps = 3", "time.steps = 3, allowed: 100 to"),
+        ("[time]", "[shell]\nyoung_modulus = 1e9\nthickness = 1e-3\n[time]", "shell = a box, allowed:"),
+        ("endless = true", "radius = 0.1", "container = both or neither"),
+        ("base = [0.032, 0.032]", "base = [0.01, 0.032]", "container.base = 0.01, allowed: two and a half"),
+        ("1.2e-5", "-1", "grains.thermal_expansion = -1, allowed: 0 to 0.01"),
+        (
+            "[400, 323.15]",
+            "[0, 323.15]",
+            "heated.temperature = times 0 s and 0 s in this order, allowed: rising",
+        ),
+        ("conductivity = 46", "conductivity = 0.1", "grains.conductivity = "),
+        ("heights = [0.015, 0.045]", "heights = [0.045, 0.015]", "record.heights = [0.045, 0.015], allowed:"),
+        ("seed = 2", "seeds = 2", "unknown field `seeds`"),
+    ] {
+        assert!(good.contains(from), "{from}");
+        let error = read(&good.replacen(from, to, 1)).unwrap_err();
+        assert!(error.contains(message) && error.contains(FILE), "{message}: {error}");
+    }
+}

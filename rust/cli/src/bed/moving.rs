@@ -1,0 +1,86 @@
+//! `msdd bed run` of a folder with `elements.toml`: a bed whose walls move while heat flows.
+
+use crate::error::CliError;
+use crate::progress::Progress;
+use msdd_beds::coupled::{Prepared, Row, Run, prepare, run};
+use msdd_beds::rows::elements;
+use msdd_beds::scene::{FILE, Scene};
+use msdd_files::{check_target, write};
+use std::fmt::Write;
+use std::path::Path;
+use std::time::Instant;
+
+/// Name of the file of results.
+pub const RESULTS: &str = "elements.csv";
+/// Shares of the stages and of the run in the progress, in hundredths.
+const STAGES: [(&str, u64, u64); 3] = [("pour", 0, 20), ("lid", 20, 5), ("harden", 25, 15)];
+const RUN: u64 = 40;
+
+/// Computes a bed, writes [`RESULTS`] into `out`, and prints a summary.
+pub fn compute(folder: &Path, seed: Option<u64>, threads: usize, out: &Path) -> Result<(), CliError> {
+    let mut scene = Scene::read(folder)?;
+    if let Some(seed) = seed {
+        scene.seed = seed;
+    }
+    let target = out.join(RESULTS);
+    check_target(&target)?;
+    let failed = |source| CliError::Bed { file: folder.join(FILE), source };
+    let mut progress = Progress::new("bed", 1000);
+    let mut show = |percent: f64, note: &str| progress.set((10.0 * percent) as u64, 1000, note);
+    let begin = Instant::now();
+    let prepared = prepare(&scene, threads, |stage, share| {
+        let (_, from, width) = STAGES.into_iter().find(|known| known.0 == stage).unwrap_or(STAGES[0]);
+        show(from as f64 + width as f64 * share.min(0.999), stage);
+    });
+    let prepared = prepared.map_err(failed)?;
+    let ready = begin.elapsed().as_secs_f64();
+    let found =
+        run(&scene, &prepared, |share| show(RUN as f64 + (100 - RUN) as f64 * share.min(0.999), "heat"));
+    let found = found.map_err(failed)?;
+    progress.finish();
+    write(&target, elements(&scene, &prepared, &found).as_bytes())?;
+    out!("{}", summary(&scene, &prepared, &found));
+    outln!("{ready:.0} s to prepare the bed, {:.0} s to heat it", begin.elapsed().as_secs_f64() - ready);
+    outln!("results: {}", target.display());
+    Ok(())
+}
+
+fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
+    let mut text = format!("{} grains, seed {}\n", prepared.simulation.spheres.len(), scene.seed);
+    for (stage, rest) in &prepared.stages {
+        let _ = writeln!(text, "{stage:<8}{:>9} steps", rest.steps);
+    }
+    let _ =
+        writeln!(text, "    t [s]   T mean [K]   p [kPa]   lid [kPa]   porosity   contacts   K [W/(m K)]");
+    let shown = (found.rows.len() / 10).max(1);
+    let lid = scene.wall("lid").unwrap_or_default();
+    let line = |text: &mut String, row: &Row| {
+        let p = row.stress.iter().sum::<f64>() / 3.0;
+        let _ = writeln!(
+            text,
+            "{:>9.0}   {:>10.2}   {:>7.2}   {:>9.2}   {:>8.4}   {:>8.3}   {:>11.4}",
+            row.time,
+            row.mean_temperature,
+            1e-3 * p,
+            1e-3 * row.walls[lid],
+            row.porosity,
+            row.coordination,
+            row.contact_conductivity + row.gas_conductivity
+        );
+    };
+    found.rows.iter().step_by(shown).for_each(|row| line(&mut text, row));
+    let worst = found.rows.iter().map(|row| row.unbalanced).fold(0.0, f64::max);
+    let _ = writeln!(text, "largest force out of balance: {:.2} % of that on the lid", 100.0 * worst);
+    let peak = found.rows.iter().map(|row| row.peak).fold(f64::NAN, f64::max);
+    let yielding = found.rows.iter().map(|row| row.yielding).fold(0.0, f64::max);
+    if peak > 1.0 {
+        let _ = writeln!(
+            text,
+            "Note: up to {:.2} % of the contacts yield; Hertz's peak stress is up to {peak:.2} times that at which yielding begins",
+            100.0 * yielding
+        );
+    } else if peak.is_finite() {
+        let _ = writeln!(text, "Hertz's peak stress is at most {peak:.2} of that at which yielding begins");
+    }
+    text
+}
