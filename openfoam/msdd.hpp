@@ -270,19 +270,27 @@ public:
         return text(msdd_spheres_state_name(handle_.get(), column));
     }
 
-    /** Fills the state columns of packings with these solid fractions and stresses (six columns [Pa], compression positive).
-     *  Throws Error. */
+    /** Fills the state columns of packings with these solid fractions and stresses (six columns [Pa], compression positive), and
+     *  contacts per sphere and fabric (six columns) or null. Throws Error. */
     void initialState
     (
         const msdd_sphere_material& material,
         std::size_t cells,
         const double* solidFraction,
         const double* const* stress,
+        const double* coordination,
+        const double* const* fabric,
         double* const* state
     ) const
     {
         const detail::MaskedTraps masked;
-        detail::check(msdd_spheres_initial_state(handle_.get(), &material, cells, solidFraction, stress, state));
+        detail::check
+        (
+            msdd_spheres_initial_state
+            (
+                handle_.get(), &material, cells, solidFraction, stress, coordination, fabric, state
+            )
+        );
     }
 
     /** One step of every cell of the batch; fills its outputs. Throws Error, and then has written nothing. */

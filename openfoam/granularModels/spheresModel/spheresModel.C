@@ -67,7 +67,7 @@ Foam::granularModels::spheres::spheres
         coeffs_,
         {
             "model", "hash", "poissonRatio", "roughness", "hardness", "gas",
-            "gasPressure", "accommodation"
+            "gasPressure", "accommodation", "coordination"
         }
     );
     checkHash(source_, law_.hash());
@@ -178,11 +178,21 @@ void Foam::granularModels::spheres::initialState
     {
         solid[celli] = 1 - cells.porosity[celli];
     }
+    scalarField contacts;
+    if (coeffs_.found("coordination"))
+    {
+        contacts.resize
+        (
+            cells.size,
+            granularProperties::ranged(coeffs_, "coordination", 5, 0, 12)
+        );
+    }
     try
     {
         law_.initialState
         (
-            material_, cells.size, solid.cdata(), stress.data(), state + 2
+            material_, cells.size, solid.cdata(), stress.data(),
+            contacts.empty() ? nullptr : contacts.cdata(), nullptr, state + 2
         );
     }
     catch (const std::exception& error)

@@ -723,6 +723,8 @@ unsafe extern "C" {
         cells: usize,
         solid_fraction: *const f64,
         stress: *const *const f64,
+        coordination: *const f64,
+        fabric: *const *const f64,
         state: *const *mut f64,
     ) -> i32;
     pub fn msdd_spheres_advance(

@@ -438,8 +438,10 @@ impl Grains {
         let rows = self.conductivity.rows().into_iter().filter(|t| (range[0]..=range[1]).contains(t));
         let least = between.chain(rows).map(ratio).fold(f64::INFINITY, f64::min);
         if least < crate::gas::LEAST_RATIO {
-            let allowed =
-                format!("grains that conduct {} times as well as the gas, at least", crate::gas::LEAST_RATIO);
+            let allowed = format!(
+                "grains that conduct {} times as well as the gas, at least: the heat of poorer ones does not go from grain to grain (msddFoam has a law for such beds)",
+                crate::gas::LEAST_RATIO
+            );
             return Err(("grains.conductivity".into(), format!("{least:.1} times that of the gas"), allowed));
         }
         Ok(())

@@ -22,7 +22,7 @@
 
 use std::f64::consts::PI;
 
-/// k_s/k_g below which the law for gas does not hold.
+/// k_s/k_g below which the law for gas does not hold; beds as a whole then follow [`crate::effective`].
 pub const LEAST_RATIO: f64 = 30.0;
 /// What a plate gains on the integral over straight lines, over R.
 const AROUND: f64 = 0.56;

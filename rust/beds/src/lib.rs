@@ -31,6 +31,7 @@
 //! | [`coupled`] | such a bed: heat, growth of the grains, walls, averages over time |
 //! | [`rows`] | its averages as a file |
 //! | [`bed`] | a measured bed from pouring to temperatures |
+//! | [`voxels`] | direct solutions of the heat equation, to hold the laws against |
 //! | [`vtk`] | grains for ParaView |
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
@@ -63,6 +64,7 @@ pub mod settle;
 pub mod solid;
 mod solve;
 pub mod transient;
+pub mod voxels;
 pub mod vtk;
 
 pub use averages::{Averages, averages};

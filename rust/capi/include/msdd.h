@@ -253,12 +253,16 @@ size_t msdd_spheres_state_size(const msdd_spheres *spheres);
 const char *msdd_spheres_state_name(const msdd_spheres *spheres, size_t column);
 
 /** Computes the state of packings with a solid fraction (0.3 to 0.8) and a stress [Pa, compression positive; six columns]. A
- *  pressure of 0 or less is that of spheres that just do not touch. `state`: state_size writable columns. */
+ *  pressure of 0 or less is that of spheres that just do not touch. `coordination`: contacts per sphere, all spheres counted
+ *  (0 to 12); `fabric`: mean of n n over the contacts, with the normals n (six columns, -1 to 1). Either may be NULL, and then is
+ *  that of usual packings. `state`: state_size writable columns. */
 int32_t msdd_spheres_initial_state(const msdd_spheres *spheres, const msdd_sphere_material *material, size_t cells,
-                                   const double *solid_fraction, const double *const *stress, double *const *state);
+                                   const double *solid_fraction, const double *const *stress, const double *coordination,
+                                   const double *const *fabric, double *const *state);
 
 /** Takes every cell of the batch through one step. Cells are independent. Zero strain leaves the state as it is, bit for bit.
- *  Spheres that conduct less than 30 times as well as the gas are refused: the law of the gas does not hold for them. */
+ *  Spheres that conduct less than 20 times as well as the gas conduct by another law than better ones, those up to 60 times by a
+ *  mixture of both; spheres that conduct less than the gas are refused. */
 int32_t msdd_spheres_advance(const msdd_spheres *spheres, const msdd_sphere_material *material, msdd_sphere_batch *batch);
 
 /** Frees a law; NULL is allowed. */

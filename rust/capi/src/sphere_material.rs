@@ -5,7 +5,8 @@ use crate::status::{Failure, utf8};
 use ::msdd_surrogate::spheres::model::Answer;
 use ::msdd_surrogate::spheres::readout::GAS_RANGE;
 use ::msdd_surrogate::spheres::tensor::{Tensor, mean};
-use msdd_beds::effective::BedMaterial;
+use msdd_beds::effective::{BedMaterial, LEAST_RATIO, Packed};
+use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::solid::{Roughness, Solid};
 use std::ffi::CStr;
@@ -22,8 +23,8 @@ pub(crate) struct GasThere {
     pub number: f64,
     /// Whether that is outside of the range of the law.
     pub outside: bool,
-    /// k_g \[W/(m K)\]; 0 in a vacuum.
-    conductivity: f64,
+    /// None in a vacuum.
+    gas: Option<Gas>,
 }
 
 /// Conductivity of a bed \[W/(m K)\], and the part of it by gas.
@@ -32,9 +33,6 @@ pub(crate) struct Conductivity {
     pub gas: f64,
 }
 
-/// Contacts per sphere over C, the conductivity by contacts over (p/E*)^(1/3): within 3 % for packings of the database, and needed
-/// only for the mean force of rough contacts.
-const CONTACTS: f64 = 5.1;
 /// Least number of contacts per sphere of a packing that bears load.
 const LEAST_CONTACTS: f64 = 2.0;
 
@@ -95,32 +93,35 @@ impl Material {
     /// The gas at a temperature \[K\].
     pub fn gas(&self, temperature: f64) -> Result<GasThere, Failure> {
         let Some(gas) = self.bed.gas_at(temperature) else {
-            return Ok(GasThere { number: GAS_RANGE[1], outside: false, conductivity: 0.0 });
+            return Ok(GasThere { number: GAS_RANGE[1], outside: false, gas: None });
         };
-        if !self.bed.conducts_well(&gas) {
-            let least = format!(
-                "at least 30 times that of the gas, which is {:.4} at {temperature} K: for poorer solids the law of the gas does \
-                 not hold",
-                gas.conductivity
-            );
+        if self.bed.ratio(&gas) < LEAST_RATIO {
+            let least =
+                format!("at least that of the gas, which is {:.4} at {temperature} K", gas.conductivity);
             return Err(Failure::number("material.conductivity", self.bed.solid.conductivity, least));
         }
         let (number, [low, high]) = (self.bed.gas_number(&gas), GAS_RANGE);
-        Ok(GasThere { number, outside: number < low || number > high, conductivity: gas.conductivity })
+        // The number is that of the law of pairs, which poor conductors do not have.
+        let outside = (number < low || number > high) && self.bed.share_of_pairs(&gas) > 0.0;
+        Ok(GasThere { number, outside, gas: Some(gas) })
     }
 
     /// Conductivity of a bed for which the law answers this.
     pub fn conductivity(&self, answer: &Answer, gas: &GasThere) -> Conductivity {
         let pressure = mean(answer.stress);
-        let contacts = mean(answer.contact);
-        let mut solid = self.bed.solid.conductivity;
-        if pressure > 0.0 {
-            let coordination = (CONTACTS * contacts / pressure.cbrt()).max(LEAST_CONTACTS);
-            solid *= self.bed.roughness_factor(pressure * self.modulus(), answer.solid, coordination);
-        }
-        let gas = gas.conductivity * answer.gas;
-        let tensor = std::array::from_fn(|k| solid * answer.contact[k] + if k < 3 { gas } else { 0.0 });
-        Conductivity { tensor, gas }
+        let conduction = self.bed.conduction(
+            gas.gas.as_ref(),
+            &Packed {
+                pressure: pressure * self.modulus(),
+                solid_fraction: answer.solid,
+                coordination: answer.coordination.max(LEAST_CONTACTS),
+                gas: answer.gas,
+            },
+        );
+        let solid = self.bed.solid.conductivity * conduction.contacts;
+        let normal = |k: usize| if k < 3 { conduction.gas } else { 0.0 };
+        let tensor = std::array::from_fn(|k| solid * answer.contact[k] + normal(k));
+        Conductivity { tensor, gas: conduction.gas }
     }
 }
 

@@ -4,6 +4,7 @@ use crate::database::warn_without_checksum;
 use crate::error::CliError;
 use crate::rows::training_data;
 use crate::score::print_paths;
+use crate::spheres;
 use clap::Args;
 use msdd_files::{check_target, write};
 use msdd_rve::database::read_all;
@@ -32,6 +33,9 @@ pub struct Arguments {
     /// Only compare the law of the increments with a learned form of it.
     #[arg(long)]
     forms: bool,
+    /// Only the parts of the law of spheres; the database is one of spheres.
+    #[arg(long, conflicts_with = "forms")]
+    spheres: bool,
     /// JSON file to write.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -40,6 +44,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     arguments.json.iter().try_for_each(|json| check_target(json))?;
     warn_without_checksum(&arguments.database)?;
+    if arguments.spheres {
+        let (epochs, json) = (arguments.epochs, arguments.json.as_deref());
+        return spheres::print_ablation(&arguments.database, arguments.seed, epochs, json);
+    }
     let dataset = read_all(&arguments.database)?;
     let data = training_data(&dataset.records);
     let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };

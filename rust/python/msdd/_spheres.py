@@ -113,21 +113,39 @@ class Spheres:
         """Names of the state's columns."""
         return self._state_names
 
-    def initial_state(self, material: SphereMaterial, solid_fraction: ArrayLike, stress: ArrayLike) -> State:
+    def initial_state(
+        self,
+        material: SphereMaterial,
+        solid_fraction: ArrayLike,
+        stress: ArrayLike,
+        *,
+        coordination: Optional[ArrayLike] = None,
+        fabric: Optional[ArrayLike] = None,
+    ) -> State:
         """State of packings at the start.
 
         solid_fraction: volume of the spheres over the volume, 0.3 to 0.8.
         stress: [Pa], compression positive: either one number or array, the pressure, or six of them in the order of `COMPONENTS`
             in a list or along the first axis. Spheres under no pressure just do not touch.
+        coordination: contacts per sphere, all spheres counted, 0 to 12. None: that of usual packings.
+        fabric: mean of n n over the contacts, with the normals n, six components as of the stress, -1 to 1. None: that of usual
+            packings.
         Arrays of any shapes that broadcast to one; the state has that shape.
         Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
         """
         load = _components("stress", stress, COMPONENTS, isotropic=True)
-        shape, columns = aligned({"solid_fraction": solid_fraction, **load}, {})
+        directions = {} if fabric is None else _components("fabric", fabric, COMPONENTS)
+        shape, columns = aligned({"solid_fraction": solid_fraction, **load}, {"coordination": coordination, **directions})
         state = {name: np.empty(shape) for name in self._state_names}
         count, solid, given = _count(shape), address(columns["solid_fraction"]), table(columns[name] for name in load)
+        contacts = None if coordination is None else address(columns["coordination"])
+        normals = table(columns[name] for name in directions) if directions else None
         answer = table(state.values())
-        check(library.msdd_spheres_initial_state(self._handle, _scales(material), count, solid, given, answer))
+        check(
+            library.msdd_spheres_initial_state(
+                self._handle, _scales(material), count, solid, given, contacts, normals, answer
+            )
+        )
         return state
 
     def advance(
@@ -152,7 +170,7 @@ class Spheres:
         temperature: of the gas [K], 0 to 1e5. None = 293.15.
         solid_conductivity: k_s of the spheres [W/(m K)], 1e-12 to 1e12, where it is not that of the material. None = the material's.
         tangent: whether to compute it, too.
-        Raises InvalidArgument, also where the spheres conduct less than 30 times as well as the gas; NonFinite; KeyError for a
+        Raises InvalidArgument, also where the spheres conduct less than the gas; NonFinite; KeyError for a
         missing column of the state.
         """
         if not hasattr(state, "keys"):

@@ -9,6 +9,7 @@ use crate::si::LARGEST_STRESS;
 use crate::sphere_material::Material;
 use crate::status::{Failure, status, value};
 use ::msdd_surrogate::models::BUILTIN;
+use ::msdd_surrogate::spheres::law::Known;
 use ::msdd_surrogate::spheres::model::{COLUMNS, Increment, NAMES, SphereModel};
 use ::msdd_surrogate::spheres::tensor::Tensor;
 use std::ffi::c_char;
@@ -126,7 +127,8 @@ unsafe fn inputs<'a>(
 ///
 /// # Safety
 /// `spheres` is null or a live handle; `material` is null or points to its struct, whose gas is null or a C string; the columns are
-/// null or hold `cells` values; `stress` is null or holds six columns, `state` null or as many writable ones as the state has.
+/// null or hold `cells` values; `stress` and `fabric` are null or hold six columns, `state` null or as many writable ones as the state
+/// has.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn msdd_spheres_initial_state(
     spheres: *const msdd_spheres,
@@ -134,6 +136,8 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
     cells: usize,
     solid_fraction: *const f64,
     stress: *const *const f64,
+    coordination: *const f64,
+    fabric: *const *const f64,
     state: *const *mut f64,
 ) -> i32 {
     status(|| {
@@ -146,11 +150,20 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
             return Err(Failure::null("stress"));
         }
         let names = COMPONENTS.map(|component| format!("stress[{component}]"));
+        let fabric_names = COMPONENTS.map(|component| format!("fabric[{component}]"));
         // SAFETY: `cells` values, six columns, and writable columns by this function's contract.
-        let (solid, stress, state) = unsafe {
+        let (solid, stress, coordination, fabric, state) = unsafe {
             (
                 Input::new("solid_fraction", solid_fraction, cells)?,
                 inputs(names.iter().map(String::as_str), stress, cells)?,
+                match coordination.is_null() {
+                    true => None,
+                    false => Some(Input::new("coordination", coordination, cells)?),
+                },
+                match fabric.is_null() {
+                    true => None,
+                    false => Some(inputs(fabric_names.iter().map(String::as_str), fabric, cells)?),
+                },
                 outputs("state", state, COLUMNS, cells)?,
             )
         };
@@ -160,9 +173,21 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
             column.check_finite()?;
             column.check_range(-LARGEST_STRESS, LARGEST_STRESS, "-1e30 to 1e30 Pa")?;
         }
+        if let Some(column) = &coordination {
+            column.check_finite()?;
+            column.check_range(0.0, 12.0, "0 to 12")?;
+        }
+        for column in fabric.iter().flatten() {
+            column.check_finite()?;
+            column.check_range(-1.0, 1.0, "-1 to 1")?;
+        }
         for cell in 0..cells {
             let stress: Tensor = std::array::from_fn(|k| stress[k].at(cell) / material.modulus());
-            let found = handle.model.initial_state(solid.at(cell), stress);
+            let known = Known {
+                coordination: coordination.map(|column| column.at(cell)),
+                fabric: fabric.as_ref().map(|columns| std::array::from_fn(|k| columns[k].at(cell))),
+            };
+            let found = handle.model.initial_state(solid.at(cell), stress, &known);
             state.iter().zip(found).for_each(|(column, value)| column.write_one(cell, value));
         }
         Ok(())

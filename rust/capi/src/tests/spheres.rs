@@ -3,6 +3,7 @@
 use super::*;
 use crate::abi::{msdd_sphere_batch, msdd_sphere_material, msdd_spheres};
 use crate::sphere_material::Material;
+use ::msdd_surrogate::spheres::law::Known;
 use ::msdd_surrogate::spheres::model::{Increment, SphereModel};
 
 struct Law(*mut msdd_spheres);
@@ -59,7 +60,16 @@ fn start(law: &Law, cells: usize) -> Vec<Vec<f64>> {
     let (stress, columns) = (pointers(&stress), writable(&mut state));
     // SAFETY: live, columns of `cells` values.
     let status = unsafe {
-        msdd_spheres_initial_state(law.0, &STEEL, cells, solid.as_ptr(), stress.as_ptr(), columns.as_ptr())
+        msdd_spheres_initial_state(
+            law.0,
+            &STEEL,
+            cells,
+            solid.as_ptr(),
+            stress.as_ptr(),
+            null(),
+            null(),
+            columns.as_ptr(),
+        )
     };
     assert_eq!(status, MSDD_OK, "{}", last_error());
     state
@@ -172,6 +182,56 @@ fn answers_are_those_of_the_model_in_si_units() {
 }
 
 #[test]
+fn contacts_and_fabric_are_those_that_were_counted() {
+    let law = Law::builtin();
+    let (solid, contacts) = ([0.6, 0.6], [4.0, 5.5]);
+    let stress = [1e5, 1e5, 1.3e5, 0.0, 0.0, 0.0].map(|part| vec![part; 2]);
+    let fabric = [0.32, 0.32, 0.36, 0.0, 0.0, 0.0].map(|part| vec![part; 2]);
+    // SAFETY: live.
+    let size = unsafe { msdd_spheres_state_size(law.0) };
+    let (stress, normals) = (pointers(&stress), pointers(&fabric));
+    let found = |contacts: *const f64, fabric: *const *const f64| {
+        let mut state = vec![vec![-7.0; 2]; size];
+        let columns = writable(&mut state);
+        // SAFETY: live, columns of two values.
+        let status = unsafe {
+            msdd_spheres_initial_state(
+                law.0,
+                &STEEL,
+                2,
+                solid.as_ptr(),
+                stress.as_ptr(),
+                contacts,
+                fabric,
+                columns.as_ptr(),
+            )
+        };
+        (status, state)
+    };
+    let (status, state) = found(contacts.as_ptr(), normals.as_ptr());
+    assert_eq!(status, MSDD_OK, "{}", last_error());
+    let model = SphereModel::builtin().expect("a good file");
+    let load = [1e5, 1e5, 1.3e5, 0.0, 0.0, 0.0].map(|part| part / MODULUS);
+    let tensor = Some([0.32, 0.32, 0.36, 0.0, 0.0, 0.0]);
+    for cell in 0..2 {
+        let known = Known { coordination: Some(contacts[cell]), fabric: tensor };
+        let expected = model.initial_state(0.6, load, &known);
+        assert!((0..size).all(|k| state[k][cell] == expected[k]), "{expected:?}");
+    }
+    let (many, wrong) = ([5.0, 13.0], [[f64::NAN; 2]; 6].map(|column| column.to_vec()));
+    let (status, untouched) = found(many.as_ptr(), null());
+    assert!(
+        status == MSDD_INVALID_ARGUMENT && last_error().contains("coordination[1] = 13"),
+        "{}",
+        last_error()
+    );
+    assert_eq!(untouched, vec![vec![-7.0; 2]; size]);
+    let wrong = pointers(&wrong);
+    let (status, _) = found(null(), wrong.as_ptr());
+    assert!(status == MSDD_NON_FINITE && last_error().contains("fabric[xx]"), "{}", last_error());
+}
+
+#[test]
 fn laws_tell_what_they_are() {
     let law = Law::builtin();
     // SAFETY: live.
@@ -222,7 +282,7 @@ fn what_cannot_be_is_refused() {
     material(msdd_sphere_material { gas: c"steam".as_ptr(), ..STEEL }, "material.gas = steam, allowed: air");
     material(msdd_sphere_material { gas_pressure: 0.0, ..STEEL }, "material.gas_pressure = 0");
     material(msdd_sphere_material { roughness: 1e-6, hardness: 0.0, ..STEEL }, "material.hardness = 0");
-    material(msdd_sphere_material { conductivity: 0.5, ..STEEL }, "at least 30 times that of the gas");
+    material(msdd_sphere_material { conductivity: 0.01, ..STEEL }, "at least that of the gas, which is 0.02");
     let mut out = null_mut();
     // SAFETY: C strings, and writable.
     unsafe {

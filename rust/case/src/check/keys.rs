@@ -128,6 +128,7 @@ pub const SPHERES: &[Key] = &[
     may("gas", Kind::Word(&["air", "argon", "helium", "nitrogen", "vacuum"])),
     may("gasPressure", Kind::Range(1e-3, 1e9, "Pa")),
     may("accommodation", Kind::Range(0.01, 1.0, "")),
+    may("coordination", Kind::Range(0.0, 12.0, "")),
 ];
 
 /// What the solver does when a state is outside of the model's trained range.

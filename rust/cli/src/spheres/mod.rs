@@ -6,8 +6,9 @@ use crate::error::CliError;
 use msdd_files::{read_text, write};
 use msdd_rve::database::read_spheres;
 use msdd_surrogate::document::hash;
+use msdd_surrogate::spheres::ablation::{ablation, nanoseconds};
 use msdd_surrogate::spheres::model::SphereModel;
-use msdd_surrogate::spheres::score::{PathErrors, score};
+use msdd_surrogate::spheres::score::{Errors, PathErrors, score};
 use msdd_surrogate::spheres::tracks::Track;
 use msdd_surrogate::spheres::training::{USUAL_EPOCHS, is_held_out, train};
 use msdd_surrogate::{DatabaseProvenance, TrainingOptions};
@@ -108,38 +109,94 @@ fn print_scores(model: &SphereModel, tracks: &[Track]) -> Result<Vec<PathErrors>
     for errors in &mut found {
         errors.noise = noise.iter().find(|all| all.name == errors.name).and_then(|all| all.noise);
     }
+    print_along(&found);
+    print_of_state(&found);
+    Ok(found)
+}
+
+/// Errors along paths, beside the scatter.
+fn print_along(found: &[PathErrors]) {
     outln!(
-        "errors on packings that were held out, % (scatter between packings that were made and strained alike)"
+        "errors along the paths of packings that were held out, % (scatter between packings that were made and strained alike)"
+    );
+    let columns = ["pressure", "deviator", "K by contacts", "K by gas"];
+    out!("{:<11} {:>5} {:>6}", "path", "paths", "states");
+    columns.iter().for_each(|column| out!(" {column:>13}"));
+    outln!();
+    for errors in found {
+        out!("{:<11} {:>5} {:>6}", errors.name, errors.paths, errors.states);
+        let scatter = errors.noise.as_ref().map(numbers);
+        for (k, error) in numbers(&errors.along).into_iter().enumerate() {
+            let scatter = scatter.map_or("–".to_string(), |scatter| format!("{:.1}", 100.0 * scatter[k]));
+            out!(" {:>13}", format!("{:.1} ({scatter})", 100.0 * error));
+        }
+        outln!();
+    }
+}
+
+/// Errors of the conductivities of known states, and those along paths where less is known at the start.
+fn print_of_state(found: &[PathErrors]) {
+    outln!(
+        "errors of known states, %; and along the paths where solid fraction and stress alone are known at their start, %"
+    );
+    let of_state = ["K by contacts", "direction", "K by gas"];
+    let along = ["pressure", "deviator", "K by contacts", "K by gas"];
+    out!("{:<11}", "path");
+    of_state.iter().chain(&along).for_each(|column| out!(" {column:>13}"));
+    outln!();
+    for errors in found {
+        let of_state = [errors.contact_of_state, errors.direction, errors.gas_of_state];
+        out!("{:<11}", errors.name);
+        let all = of_state.into_iter().chain(numbers(&errors.of_stress_alone));
+        all.for_each(|error| out!(" {:>13.1}", 100.0 * error));
+        outln!();
+    }
+}
+
+fn numbers(errors: &Errors) -> [f64; 4] {
+    [errors.pressure, errors.deviator, errors.contact, errors.gas]
+}
+
+/// Fits the law without each of its parts; prints and writes the errors, and the time of an increment of the law that is shipped.
+pub fn print_ablation(
+    database: &[PathBuf],
+    seed: u64,
+    epochs: u32,
+    json: Option<&Path>,
+) -> Result<(), CliError> {
+    let (tracks, database_of) = read(database)?;
+    let options =
+        TrainingOptions { seed, max_epochs: epochs, database: database_of, ..TrainingOptions::default() };
+    let failed = |source| CliError::Training { file: database[0].clone(), source };
+    let lines = ablation(&tracks, &options).map_err(failed)?;
+    let law = SphereModel::builtin().map_err(failed)?.file.law;
+    let time = nanoseconds(&law, &tracks);
+    outln!(
+        "errors along the paths of packings that were held out, %, means over the kinds of path, where all is known at their start"
     );
     outln!(
-        "{:<11} {:>5} {:>6} {:>15} {:>15} {:>15} {:>9} {:>9} {:>9}",
-        "path",
-        "paths",
-        "states",
+        "{:<44} {:>7} {:>9} {:>9} {:>13} {:>9}",
+        "law of spheres",
+        "numbers",
         "pressure",
         "deviator",
         "K by contacts",
-        "of state",
-        "direction",
         "K by gas"
     );
-    for errors in &found {
-        let with = |error: f64, k: usize| match errors.noise {
-            Some(noise) => format!("{:.1} ({:.1})", 100.0 * error, 100.0 * noise[k]),
-            None => format!("{:.1} (–)", 100.0 * error),
-        };
-        outln!(
-            "{:<11} {:>5} {:>6} {:>15} {:>15} {:>15} {:>9.1} {:>9.1} {:>9.1}",
-            errors.name,
-            errors.paths,
-            errors.states,
-            with(errors.pressure, 0),
-            with(errors.deviator, 1),
-            with(errors.contact, 2),
-            100.0 * errors.contact_of_state,
-            100.0 * errors.direction,
-            100.0 * errors.gas_of_state
+    for line in &lines {
+        out!(
+            "{:<44} {:>7}",
+            line.without.map_or("whole".to_string(), |part| format!("without {part}")),
+            line.numbers
         );
+        let [pressure, deviator, contact, gas] = numbers(&line.along).map(|error| 100.0 * error);
+        outln!(" {pressure:>9.1} {deviator:>9.1} {contact:>13.1} {gas:>9.1}");
     }
-    Ok(found)
+    outln!("{time:.0} ns for an increment of the law");
+    if let Some(path) = json {
+        let text = serde_json::to_string_pretty(&serde_json::json!({ "lines": lines, "nanoseconds": time }))
+            .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
+        write(path, (text + "\n").as_bytes())?;
+    }
+    Ok(())
 }

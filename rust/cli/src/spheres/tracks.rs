@@ -28,6 +28,15 @@ fn point(record: &SphereRecord) -> Option<Point> {
             record.contact_conductivity_yz?,
         ],
         gas: [record.gas_conductivity_3_5?, record.gas_conductivity_6_0?, record.gas_conductivity_8_5?],
+        coordination: record.coordination?,
+        fabric: [
+            record.fabric_xx?,
+            record.fabric_yy?,
+            record.fabric_zz?,
+            record.fabric_xy?,
+            record.fabric_xz?,
+            record.fabric_yz?,
+        ],
     })
 }
 

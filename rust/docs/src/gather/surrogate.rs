@@ -36,6 +36,7 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
     }
     forms(&mut section, &Json::read(root, &format!("{INPUTS}/score_forms.json"))?)?;
     spheres(&mut section, &Json::read(root, &format!("{INPUTS}/score_spheres.json"))?)?;
+    spheres_parts(&mut section, &Json::read(root, &format!("{INPUTS}/ablation_spheres.json"))?)?;
     let columns = ["model", "porosity increment", "fabric increment", "conductivity", "stress"];
     let meaning = "coefficient of determination of one step on packings that training never saw";
     section.add_table("surrogate-one-step", meaning, "msdd score", &columns, one_step_rows);
@@ -153,37 +154,76 @@ fn paths(section: &mut Section, score: &Json) -> Result<(), DocsError> {
     Ok(())
 }
 
-/// The law of spheres along paths, beside the scatter between packings that were made and strained alike.
+/// Errors of the law of spheres along paths, as they are called in files.
+const ALONG: [&str; 4] = ["pressure", "deviator", "contact", "gas"];
+
+/// The law of spheres along paths, beside the scatter between packings that were made and strained alike; and of known states.
 fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
-    let mut rows = Vec::new();
+    let (mut along, mut known) = (Vec::new(), Vec::new());
     for kind in scores.list("/0")? {
         let percent = |name: &str| kind.number(name).map(|value| decimals(100.0 * value, 1));
-        let mut row = vec![format!("`{}`", kind.text("/name")?)];
-        row.extend([grouped(kind.number("/paths")?), grouped(kind.number("/states")?)]);
-        for (k, name) in ["/pressure", "/deviator", "/contact"].into_iter().enumerate() {
-            let scatter = kind.maybe(&format!("/noise/{k}"));
-            let scatter = scatter.map_or("–".to_string(), |value| decimals(100.0 * value, 1));
-            row.push(format!("{} ({scatter})", percent(name)?));
+        let name = format!("`{}`", kind.text("/name")?);
+        let mut row = vec![name.clone(), grouped(kind.number("/paths")?), grouped(kind.number("/states")?)];
+        for error in ALONG {
+            let scatter = kind.maybe(&format!("/noise/{error}"));
+            let scatter = or_none(scatter, |value| decimals(100.0 * value, 1));
+            row.push(format!("{} ({scatter})", percent(&format!("/along/{error}"))?));
         }
-        for name in ["/contact_of_state", "/direction", "/gas_of_state"] {
-            row.push(percent(name)?);
+        along.push(row);
+        let mut row = vec![name];
+        for error in ["/contact_of_state", "/direction", "/gas_of_state"] {
+            row.push(percent(error)?);
         }
-        rows.push(row);
+        for error in ALONG {
+            row.push(percent(&format!("/of_stress_alone/{error}"))?);
+        }
+        known.push(row);
     }
+    let columns =
+        ["path", "paths", "states", "pressure [%]", "deviator [%]", "K by contacts [%]", "K by gas [%]"];
+    let meaning = "rms errors of the law of spheres along paths of strain of packings that its training never saw; in brackets the \
+                   scatter between packings that were made and strained alike";
+    section.add_table("spheres-law", meaning, "msdd score", &columns, along);
     let columns = [
         "path",
-        "paths",
-        "states",
+        "K by contacts of the state [%]",
+        "its direction [%]",
+        "K by gas of the state [%]",
         "pressure [%]",
         "deviator [%]",
         "K by contacts [%]",
-        "of the state",
-        "its direction",
-        "K by gas",
+        "K by gas [%]",
     ];
-    let meaning = "rms errors of the law of spheres along paths of strain of packings that its training never saw; in brackets the \
-                   scatter between packings that were made and strained alike";
-    section.add_table("spheres-law", meaning, "msdd score", &columns, rows);
+    let meaning = "rms errors of conductivities of known states, and errors along paths where solid fraction and stress alone are known \
+                   at the start";
+    section.add_table("spheres-law-known", meaning, "msdd score", &columns, known);
+    Ok(())
+}
+
+/// The law of spheres without each of its parts, and the time that it takes.
+fn spheres_parts(section: &mut Section, ablation: &Json) -> Result<(), DocsError> {
+    let mut rows = Vec::new();
+    for line in ablation.list("/lines")? {
+        let name = line.text("/without").map_or("whole law".to_string(), |part| format!("without {part}"));
+        let mut row = vec![name, grouped(line.number("/numbers")?)];
+        for error in ALONG {
+            row.push(decimals(100.0 * line.number(&format!("/along/{error}"))?, 1));
+        }
+        rows.push(row);
+    }
+    let columns =
+        ["law", "fitted numbers", "pressure [%]", "deviator [%]", "K by contacts [%]", "K by gas [%]"];
+    let meaning = "rms errors along paths, means over the kinds of path, of the law of spheres fitted without each of its parts to a third \
+                   of the packings";
+    section.add_table("spheres-law-parts", meaning, "msdd ablation --spheres", &columns, rows);
+    let time = decimals(ablation.number("/nanoseconds")?, 0);
+    section.number(
+        "spheres.nanoseconds",
+        time,
+        "ns",
+        "an increment of the law of spheres",
+        "msdd ablation --spheres",
+    );
     Ok(())
 }
 

@@ -1,10 +1,9 @@
-//! Fit of the law to paths of strain: least squares of the stress along them, and of the conductivities after that.
+//! Fit of the law to paths of strain: least squares of the stress along them.
 
-use super::law::{ELEMENTS, Element, Law, State};
-use super::readout::{Readout, contact_row, direction_row, gas_row};
+use super::law::Law;
+use super::parameters::{PARAMETERS, beginning, law, parameters};
 use super::tensor::{Tensor, contraction, deviator, mean};
 use super::tracks::{Track, follow};
-use crate::least_squares;
 use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};
 use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
@@ -17,13 +16,6 @@ const MOST: [f64; 2] = [5.0, 3.0];
 const STEP: f64 = 1e-4;
 /// Number of spheres of a packing whose errors have the weight 1; that of others goes with the root of their number.
 const USUAL_SPHERES: f64 = 1000.0;
-/// Number of parameters.
-pub const PARAMETERS: usize = 21;
-/// Usual sizes of coefficients of x and x², by which they are divided so that all parameters are of about equal size.
-const SIZE: f64 = 10.0;
-const SQUARE: f64 = 100.0;
-/// The same of the compression at which packings settle.
-const SETTLING: f64 = 0.01;
 
 /// A stress counts over the largest of these: the pressure, that of the packing, a share of the largest on the path so far, and
 /// the pressure that a share of the path's length would build up. So an error of strain that is small beside the strain counts
@@ -48,87 +40,6 @@ pub fn scales(track: &Track) -> Vec<f64> {
         pressure.max(packed).max(SHARE_OF_LARGEST * largest).max(built_up)
     });
     each.collect()
-}
-
-/// The law's numbers as parameters without bounds.
-pub fn parameters(law: &Law) -> DVector<f64> {
-    let [b0, b1, b2] = law.bulk;
-    let [c0, c1] = law.shear;
-    let [first, second] = law.elements;
-    let [d0, d1, d2, d3] = law.dilatancy;
-    let [s0, s1, s2] = law.settling;
-    DVector::from_vec(vec![
-        b0.ln(),
-        b1 / SIZE,
-        b2,
-        c0.ln(),
-        c1 / SIZE,
-        (first.share / second.share).ln(),
-        first.strength.ln(),
-        first.growth / SIZE,
-        second.strength.ln(),
-        second.growth / SIZE,
-        second.curvature / SQUARE,
-        first.power,
-        second.power,
-        law.lift,
-        d0,
-        d1,
-        d2 / SIZE,
-        d3 / SQUARE,
-        s0,
-        (s1 / SETTLING).ln(),
-        s2 / SIZE,
-    ])
-}
-
-/// The law of these parameters, with the nearest numbers that [`Law::check`] allows.
-pub fn law(x: &DVector<f64>) -> Law {
-    let positive = |k: usize, least: f64, most: f64| x[k].exp().clamp(least, most);
-    let of_x = |k: usize, size: f64| (size * x[k]).clamp(-1e4, 1e4);
-    let share = (1.0 / (1.0 + (-x[5]).exp())).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
-    Law {
-        bulk: [positive(0, 1e-6, 1e6), of_x(1, SIZE), x[2].clamp(0.0, 1e3)],
-        shear: [positive(3, 1e-6, 1e6), of_x(4, SIZE)],
-        elements: [
-            Element {
-                share,
-                strength: positive(6, 1e-6, 2.0),
-                growth: of_x(7, SIZE),
-                curvature: 0.0,
-                power: x[11].clamp(-2.0, 1.0),
-            },
-            Element {
-                share: 1.0 - share,
-                strength: positive(8, 1e-6, 2.0),
-                growth: of_x(9, SIZE),
-                curvature: of_x(10, SQUARE),
-                power: x[12].clamp(-2.0, 1.0),
-            },
-        ],
-        lift: x[13].clamp(-10.0, 10.0),
-        dilatancy: [x[14].clamp(0.0, 10.0), x[15].clamp(-1e4, 1e4), of_x(16, SIZE), of_x(17, SQUARE)],
-        settling: [x[18].clamp(0.0, 10.0), SETTLING * positive(19, 1e-7, 100.0), of_x(20, SIZE)],
-    }
-}
-const _: () = assert!(ELEMENTS == 2);
-
-/// Least part of the shear stiffness that an element has.
-const LEAST_SHARE: f64 = 1e-4;
-
-/// Where the fit begins: values of a fit to fewer packings, to two digits.
-pub fn beginning() -> Law {
-    Law {
-        bulk: [0.073, 8.2, 3.2],
-        shear: [1.6, 3.5],
-        elements: [
-            Element { share: 0.89, strength: 0.28, growth: 17.0, curvature: 0.0, power: -1.1 },
-            Element { share: 0.11, strength: 1.3, growth: -10.0, curvature: 260.0, power: -0.62 },
-        ],
-        lift: 0.25,
-        dilatancy: [0.052, 1.9, -190.0, 4400.0],
-        settling: [6.3, 1.2e-5, 200.0],
-    }
 }
 
 /// Residuals of the stress along tracks.
@@ -229,41 +140,4 @@ pub fn fit(problem: &PathFit, epochs: u32) -> (Law, Minimum) {
     let limits = Limits { max_epochs: epochs, gradient: 1e-10 };
     let minimum = minimise(problem, start, limits, |_, _, _| ControlFlow::Continue(()));
     (law(&minimum.parameters), minimum)
-}
-
-/// Least p/E* of states to which the readouts are fitted, less than that of a bed under its own weight.
-const LEAST_PRESSURE: f64 = 3e-9;
-
-/// Fits the conductivities to the states of the data with the hidden state that the law has there: its compression is that which
-/// bears the pressure of the data.
-pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
-    let mut all: Vec<(State, &super::tracks::Point)> = Vec::new();
-    for track in tracks {
-        for k in 0..=track.steps.len() {
-            let point = track.point(k);
-            if mean(point.stress) >= LEAST_PRESSURE {
-                all.push((law.start(point.solid, point.stress), point));
-            }
-        }
-    }
-    let contact = all.iter().filter_map(|(state, point)| {
-        let size = mean(point.contact) / libm::cbrt(mean(point.stress));
-        (size > 0.0).then(|| (contact_row(state).map(|x| x / size), 1.0, 1.0))
-    });
-    let direction = all.iter().filter(|(_, point)| mean(point.contact) > 0.0).flat_map(|(state, point)| {
-        let (part, size) = (deviator(point.contact), mean(point.contact));
-        let (row, ratio) = (direction_row(state), state.ratio());
-        (0..6).map(move |k| (row.map(|x| x * ratio[k]), part[k] / size, if k < 3 { 1.0 } else { 2.0 }))
-    });
-    let gas = |number: usize| {
-        let known = all.iter().filter(move |(_, point)| point.gas[number] > 0.0);
-        least_squares::fit(
-            known.map(move |(state, point)| (gas_row(state).map(|x| x / point.gas[number]), 1.0, 1.0)),
-        )
-    };
-    Readout {
-        contact: least_squares::fit(contact),
-        direction: least_squares::fit(direction),
-        gas: [gas(0), gas(1), gas(2)],
-    }
 }

@@ -1,41 +1,50 @@
 //! The law of a packing of spheres, as in [`super`].
 
+use super::contacts::Contacts;
 use super::number::Number;
 use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
 use crate::SurrogateError;
 use crate::document::field;
 use serde::{Deserialize, Serialize};
 
-/// Number of elements, each of which bears a part of the deviator.
-pub const ELEMENTS: usize = 2;
+/// Number of elements, each of which bears a part of the deviator. The last is that of the fabric.
+pub const ELEMENTS: usize = 3;
+/// The element whose stress ratio is that of the directions of the contacts.
+pub const FABRIC: usize = ELEMENTS - 1;
 
-/// Numbers of the law. Stresses are over E*, compression positive; x is the solid fraction at jamming less 0.6.
+/// Numbers of the law. Stresses are over E*, compression positive; x is the solid fraction at jamming less 0.6, u = v/0.005.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Law {
-    /// A = b₀ e^(b₁ x) v^(3/2) (1 + b₂ √v): b₀, b₁, b₂.
-    pub bulk: [f64; 3],
-    /// c = c₀ e^(c₁ x): growth of the stress ratio by a unit of shear strain over v.
+    /// A = b₀ e^(b₁ x + b₂ x²) v^(3/2) u^(b₃ + b₄ x).
+    pub bulk: [f64; 5],
+    /// Stiffnesses go with e^(`shear`₀ x) u^`shear`₁.
     pub shear: [f64; 2],
-    pub elements: [Element; ELEMENTS],
     /// Growth of the pressure by the stress ratios: p = A (1 + `lift` Σ |η_k|²/c_k).
     pub lift: f64,
+    pub elements: [Element; ELEMENTS],
     /// Loss of compression by a unit of sliding: d₀ (d₁ + d₂ x + d₃ x² − η·n), with n the direction of sliding; negative where
     /// grains climb over each other.
     pub dilatancy: [f64; 4],
     /// Loss of compression by a unit of opening: s₀/(1 + (v/v₀)²), v₀ = s₁ e^(−s₂ x), of packings that lose their load.
     pub settling: [f64; 3],
+    /// Stress ratio of the fabric over the deviator of the fabric, and its usual part of the stress ratio, for packings whose
+    /// fabric is not known.
+    pub fabric: [f64; 2],
+    pub contacts: Contacts,
 }
 
-/// A part of the deviator, which slides when it exceeds `strength` e^(`growth` x + `curvature` x²) times A.
+/// A part of the deviator.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Element {
-    /// Part of the shear stiffness \[0 to 1\]; 1 in sum.
-    pub share: f64,
+    /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1.
+    pub stiffness: f64,
+    /// It slides when it exceeds `strength` e^(`growth` x + `curvature` x² + `hardening` √v) times A.
     pub strength: f64,
     pub growth: f64,
     pub curvature: f64,
+    pub hardening: f64,
     /// The stress ratio goes with this power of v where the packing is compressed without shear: 0 where new contacts have the
     /// directions of the old ones, −1 where none are made.
     pub power: f64,
@@ -43,6 +52,8 @@ pub struct Element {
 
 /// Solid fraction from which x is measured.
 const USUAL_FRACTION: f64 = 0.6;
+/// A usual elastic compression, over which u is counted.
+const USUAL_COMPRESSION: f64 = 0.005;
 /// x of all packings of the training lies between these; others have the numbers of these.
 const MOST_LOOSE: f64 = -0.045;
 const MOST_DENSE: f64 = 0.045;
@@ -73,13 +84,24 @@ pub struct State<N = f64> {
     pub compression: N,
     /// η_k: parts of the deviator of the stress over A.
     pub ratios: [Tensor<N>; ELEMENTS],
-    /// Factor of the strengths, which does not change: 1 but for packings that bear more.
+    /// Factor of the strengths but that of the fabric, which does not change: 1 but for packings that bear more.
     pub strength: f64,
+    /// z: contacts per sphere, all spheres counted. It changes the conductivity, not the stress.
+    pub coordination: f64,
+}
+
+/// What may be known of a packing beside its solid fraction and stress. What is not known is as it usually is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Known {
+    /// Contacts per sphere, all spheres counted.
+    pub coordination: Option<f64>,
+    /// Mean of n n over the contacts, with the normals n.
+    pub fabric: Option<Tensor>,
 }
 
 impl<N: Number> State<N> {
     /// x, between those of the packings of the training.
-    fn density(&self) -> N {
+    pub fn density(&self) -> N {
         self.jamming.plus(-USUAL_FRACTION).at_least(MOST_LOOSE).at_most(MOST_DENSE)
     }
 
@@ -90,8 +112,8 @@ impl<N: Number> State<N> {
 
     /// Deviator of the stress over A.
     pub fn ratio(&self) -> Tensor<N> {
-        let [first, second] = &self.ratios;
-        sum(first, second)
+        let [first, second, fabric] = &self.ratios;
+        sum(&sum(first, second), fabric)
     }
 }
 
@@ -103,6 +125,7 @@ impl State {
             compression: N::of(self.compression),
             ratios: self.ratios.map(|ratio| ratio.map(N::of)),
             strength: self.strength,
+            coordination: self.coordination,
         }
     }
 }
@@ -114,6 +137,7 @@ impl<N: Number> State<N> {
             compression: self.compression.value(),
             ratios: self.ratios.map(|ratio| ratio.map(Number::value)),
             strength: self.strength,
+            coordination: self.coordination,
         }
     }
 }
@@ -130,22 +154,30 @@ impl Law {
         x.times(rate).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp()
     }
 
+    /// v, and u, between bounds.
+    fn compressions<N: Number>(compression: N) -> (N, N) {
+        let v = compression.at_least(LEAST_COMPRESSION).at_most(MOST_COMPRESSION);
+        (v, v.times(1.0 / USUAL_COMPRESSION))
+    }
+
     /// A: the pressure over E* without shear.
     pub fn pressure<N: Number>(&self, compression: N, x: N) -> N {
-        let v = compression.at_least(LEAST_COMPRESSION).at_most(MOST_COMPRESSION);
-        let root = v.sqrt();
-        let [b0, b1, b2] = self.bulk;
-        (Self::exponential(x, b1) * v * root * root.times(b2).plus(1.0)).times(b0)
+        let (v, u) = Self::compressions(compression);
+        let [b0, b1, b2, b3, b4] = self.bulk;
+        let exponent = x * x.times(b2).plus(b1) + u.ln() * x.times(b4).plus(b3);
+        (exponent.exp() * v * v.sqrt()).times(b0)
     }
 
-    fn stiffness<N: Number>(&self, k: usize, x: N) -> N {
-        let [c0, c1] = self.shear;
-        Self::exponential(x, c1).times(c0 * self.elements[k].share)
+    /// The stiffnesses' dependence on the state.
+    fn shear<N: Number>(&self, compression: N, x: N) -> N {
+        let [stiffening, power] = self.shear;
+        Self::exponential(x, stiffening) * Self::compressions(compression).1.power(power)
     }
 
-    fn strength<N: Number>(&self, k: usize, x: N) -> N {
-        let Element { strength, growth, curvature, .. } = self.elements[k];
-        let exponent = x * x.times(curvature).plus(growth);
+    /// Strength of an element, by the root of v.
+    fn strength<N: Number>(&self, k: usize, x: N, root: N) -> N {
+        let Element { strength, growth, curvature, hardening, .. } = self.elements[k];
+        let exponent = x * x.times(curvature).plus(growth) + root.times(hardening);
         exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
     }
 
@@ -158,8 +190,9 @@ impl Law {
             return [N::of(0.0); 6];
         };
         let mut lift = N::of(1.0);
-        for (k, ratio) in state.ratios.iter().enumerate() {
-            lift = lift + contraction(ratio, ratio).times(self.lift) * self.stiffness(k, x).inverse();
+        let over = self.shear(state.compression, x).inverse();
+        for (ratio, element) in state.ratios.iter().zip(&self.elements) {
+            lift = lift + contraction(ratio, ratio).times(self.lift / element.stiffness) * over;
         }
         let mean = pressure * lift.at_least(LEAST_SHARE);
         let mut stress = scaled(&state.ratio(), pressure);
@@ -177,14 +210,19 @@ impl Law {
         let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
         let square = square(&cell);
         let count = parts(state.compression.value());
+        let mut forgotten = 0.0;
         for part in 0..count {
             // Equal parts of the whole, E/n (1 + k E/n)⁻¹, which compose to it; of the cell to the second order.
             let (part, share) = (f64::from(part), 1.0 / f64::from(count));
             let thermal = strain.thermal * strain.thermal.times(part).plus(f64::from(count)).inverse();
             let cell = std::array::from_fn(|c| cell[c].times(share) - square[c].times(part * share * share));
+            let before = next.compression.value();
             next = self.part(&next, thermal, cell);
+            forgotten += self.contacts.forgotten(before, next.compression.value(), &cell.map(Number::value));
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
+        let usual = |state: &State<N>| self.contacts.usual(&state.value());
+        next.coordination = usual(&next) + (state.coordination - usual(state)) * libm::exp(-forgotten);
         next
     }
 
@@ -212,11 +250,12 @@ impl Law {
         let total = state.ratio();
         let [d0, d1, d2, d3] = self.dilatancy;
         let usual = (x * x.times(d3).plus(d2)).plus(d1);
+        let (shear, root) = (self.shear(after, x), Self::compressions(after).0.sqrt());
         let mut ratios = state.ratios;
         let mut loss = N::of(0.0);
         for (k, ratio) in ratios.iter_mut().enumerate() {
-            let stiffness = self.stiffness(k, x);
-            let most = self.strength(k, x).times(state.strength);
+            let stiffness = shear.times(self.elements[k].stiffness);
+            let most = self.strength(k, x, root).times(if k == FABRIC { 1.0 } else { state.strength });
             let faded = scaled(ratio, opening.power(self.elements[k].power));
             let faded = within(&faded, most).0;
             let added = scaled(&distortion, stiffness * over);
@@ -240,14 +279,21 @@ impl Law {
         let loss = if loss.value() < tried.value() { loss } else { tried };
         let compression = tried - loss;
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
-        State { jamming, compression, ratios, strength: state.strength }
+        State { jamming, compression, ratios, ..*state }
     }
 
-    /// The state with a solid fraction and a stress over E*. The elements share the deviator as after a proportional load:
-    /// each bears its part until it slides. A packing that bears more than all strengths has larger strengths, by a common factor.
-    pub fn start(&self, solid: f64, stress: Tensor) -> State {
+    /// The state with a solid fraction, a stress over E*, and what else is known. The fabric bears its part; the other elements
+    /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
+    /// than all strengths has larger strengths, by a common factor.
+    pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
+        let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator));
+        state.coordination = known.coordination.unwrap_or_else(|| self.contacts.usual(&state));
+        state
+    }
+
+    fn start_of_stress(&self, solid: f64, stress: Tensor, fabric: Option<Tensor>) -> State {
         let (pressure, load) = (super::tensor::mean(stress), deviator(stress));
-        let at = |compression: f64| self.loaded(solid, compression, &load);
+        let at = |compression: f64| self.loaded(solid, compression, &load, fabric.as_ref());
         if pressure <= 0.0 {
             return State { ratios: [[0.0; 6]; ELEMENTS], strength: 1.0, ..at(0.0) };
         }
@@ -276,29 +322,46 @@ impl Law {
         at(high)
     }
 
-    fn loaded(&self, solid: f64, compression: f64, load: &Tensor) -> State {
+    fn loaded(&self, solid: f64, compression: f64, load: &Tensor, fabric: Option<&Tensor>) -> State {
         let mut state = State {
             jamming: solid / (1.0 + compression),
             compression,
             ratios: [[0.0; 6]; ELEMENTS],
             strength: 1.0,
+            coordination: 0.0,
         };
-        let x = state.density();
-        let pressure = self.pressure(compression, x).max(f64::MIN_POSITIVE);
-        let size = contraction(load, load).sqrt() / pressure;
-        if size <= 0.0 || size.is_nan() || compression <= LEAST_COMPRESSION {
+        let (x, root) = (state.density(), Self::compressions(compression).0.sqrt());
+        let over = 1.0 / self.pressure(compression, x).max(f64::MIN_POSITIVE);
+        if compression <= LEAST_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
             return state;
         }
-        let strengths: [f64; ELEMENTS] = std::array::from_fn(|k| self.strength(k, x));
-        let stiffness: [f64; ELEMENTS] = std::array::from_fn(|k| self.stiffness(k, x));
+        let ratio = load.map(|part| part * over);
+        let [per_anisotropy, usual] = self.fabric;
+        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, root));
+        let strongest = MOST_STRENGTH * strengths.iter().sum::<f64>();
+        let of_fabric = match fabric {
+            Some(fabric) => fabric.map(|part| per_anisotropy * part),
+            // At least what the other elements cannot bear.
+            None => {
+                let least = 1.0 - strongest / contraction(&ratio, &ratio).sqrt().max(f64::MIN_POSITIVE);
+                ratio.map(|part| usual.max(least) * part)
+            }
+        };
+        state.ratios[FABRIC] = within(&of_fabric, self.strength(FABRIC, x, root)).0;
+        let rest: Tensor = std::array::from_fn(|k| ratio[k] - state.ratios[FABRIC][k]);
+        let size = contraction(&rest, &rest).sqrt();
+        if size <= 0.0 {
+            return state;
+        }
+        let shear = self.shear(compression, x);
+        let stiffness: [f64; FABRIC] = std::array::from_fn(|k| shear * self.elements[k].stiffness);
         state.strength = (size / strengths.iter().sum::<f64>()).clamp(1.0, MOST_STRENGTH);
-        let limits: [f64; ELEMENTS] = std::array::from_fn(|k| state.strength * strengths[k] / stiffness[k]);
+        let limits: [f64; FABRIC] = std::array::from_fn(|k| state.strength * strengths[k] / stiffness[k]);
         let common = shared(limits, stiffness, size);
-        let length = contraction(load, load).sqrt();
-        state.ratios = std::array::from_fn(|k| {
-            let bears = common.min(limits[k]) * stiffness[k];
-            load.map(|component| component / length * bears)
-        });
+        for k in 0..FABRIC {
+            let bears = common.min(limits[k]) * stiffness[k] / size;
+            state.ratios[k] = rest.map(|part| part * bears);
+        }
         state
     }
 
@@ -307,36 +370,42 @@ impl Law {
     /// # Errors
     /// [`SurrogateError::Field`] with key, value and what is allowed.
     pub fn check(&self) -> Result<(), SurrogateError> {
-        let [b0, b1, b2] = self.bulk;
-        let [c0, c1] = self.shear;
+        let [b0, b1, b2, b3, b4] = self.bulk;
+        let [stiffening, shear_power] = self.shear;
         let [d0, ..] = self.dilatancy;
         let [s0, s1, s2] = self.settling;
+        let [per_anisotropy, usual] = self.fabric;
         let mut numbers = vec![
             ("bulk[0]", b0, (1e-6..=1e6).contains(&b0), "1e-6 to 1e6"),
             ("bulk[1]", b1, b1.abs() <= LARGE, "-1e4 to 1e4"),
-            ("bulk[2]", b2, (0.0..=1e3).contains(&b2), "0 to 1e3"),
-            ("shear[0]", c0, (1e-6..=1e6).contains(&c0), "1e-6 to 1e6"),
-            ("shear[1]", c1, c1.abs() <= LARGE, "-1e4 to 1e4"),
+            ("bulk[2]", b2, b2.abs() <= LARGE, "-1e4 to 1e4"),
+            // The pressure grows with the compression at any x.
+            ("bulk[3]", b3, b3.abs() <= 0.5, "-0.5 to 0.5"),
+            ("bulk[4]", b4, b4.abs() <= 20.0, "-20 to 20"),
+            ("shear[0]", stiffening, stiffening.abs() <= LARGE, "-1e4 to 1e4"),
+            ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
             ("lift", self.lift, self.lift.abs() <= 10.0, "-10 to 10"),
             ("dilatancy[0]", d0, (0.0..=10.0).contains(&d0), "0 to 10"),
             ("settling[0]", s0, (0.0..=10.0).contains(&s0), "0 to 10"),
             ("settling[1]", s1, (1e-9..=1.0).contains(&s1), "1e-9 to 1"),
             ("settling[2]", s2, s2.abs() <= LARGE, "-1e4 to 1e4"),
+            ("fabric[0]", per_anisotropy, (0.0..=100.0).contains(&per_anisotropy), "0 to 100"),
+            ("fabric[1]", usual, (0.0..=1.0).contains(&usual), "0 to 1"),
         ];
         numbers
             .extend(self.dilatancy[1..].iter().map(|d| ("dilatancy", *d, d.abs() <= LARGE, "-1e4 to 1e4")));
         for element in &self.elements {
-            let Element { share, strength, growth, curvature, power } = *element;
+            let Element { stiffness, strength, growth, curvature, hardening, power } = *element;
             numbers.extend([
-                ("element.share", share, share > 0.0 && share < 1.0, "above 0, below 1"),
+                ("element.stiffness", stiffness, (1e-6..=1e6).contains(&stiffness), "1e-6 to 1e6"),
                 ("element.strength", strength, (1e-6..=2.0).contains(&strength), "1e-6 to 2"),
                 ("element.growth", growth, growth.abs() <= LARGE, "-1e4 to 1e4"),
                 ("element.curvature", curvature, curvature.abs() <= LARGE, "-1e4 to 1e4"),
+                ("element.hardening", hardening, hardening.abs() <= 100.0, "-100 to 100"),
                 ("element.power", power, (-2.0..=1.0).contains(&power), "-2 to 1"),
             ]);
         }
-        let total: f64 = self.elements.iter().map(|element| element.share).sum();
-        numbers.push(("element.share (sum)", total, (total - 1.0).abs() < 1e-9, "1"));
+        numbers.extend(self.contacts.numbers());
         match numbers.into_iter().find(|(_, _, good, _)| !good) {
             Some((key, value, _, allowed)) => field(&format!("law.{key}"), value, allowed),
             None => Ok(()),
@@ -370,8 +439,8 @@ fn within<N: Number>(tensor: &Tensor<N>, most: N) -> (Tensor<N>, Option<N>, N) {
 }
 
 /// The shear strain over v that all elements have which do not slide, when together they bear a deviator of this size.
-fn shared(limits: [f64; ELEMENTS], stiffness: [f64; ELEMENTS], size: f64) -> f64 {
-    let mut order: [usize; ELEMENTS] = std::array::from_fn(|k| k);
+fn shared(limits: [f64; FABRIC], stiffness: [f64; FABRIC], size: f64) -> f64 {
+    let mut order: [usize; FABRIC] = std::array::from_fn(|k| k);
     order.sort_by(|a, b| limits[*a].total_cmp(&limits[*b]));
     let (mut rest, mut stiff) = (size, stiffness.iter().sum::<f64>());
     let mut common = 0.0;

@@ -4,14 +4,21 @@
 //! thermal strain is isotropic compression. Stresses are over E* = E/(2 (1 − ν²)), compression positive.
 //!
 //! **State.** A packing with the solid fraction φ bears no load at the fraction φ_J; its elastic compression is v = φ/φ_J − 1.
-//! The contacts of Hertz give the pressure A ∝ v^(3/2). The deviator of the stress over A is the sum of the stress ratios η_k of two
-//! elements, tensors that turn with the cell. In an increment with the deviator de of the cell's strain (extension
+//! The contacts of Hertz give the pressure A, about ∝ v^(3/2). The deviator of the stress over A is the sum of the stress ratios η_k of
+//! three elements, tensors that turn with the cell. In an increment with the deviator de of the cell's strain (extension
 //! positive),
 //!
 //! dη_k = −c_k de/v + m_k η_k dv/v,    |η_k| ≤ M_k,
 //!
 //! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths and stiffnesses
-//! depend on φ_J: dense packings bear a larger deviator. Pressure and stress are p = A (1 + l Σ |η_k|²/c_k) and σ = p + A Σ η_k.
+//! depend on φ_J, since dense packings bear a larger deviator, and on v. Pressure and stress are p = A (1 + l Σ |η_k|²/c_k) and
+//! σ = p + A Σ η_k.
+//!
+//! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
+//! isotropic compression loads that axis more. Two elements more stand for the friction of contacts, which compression makes
+//! forget.
+//!
+//! **Contacts.** The number of contacts per sphere is state, too, see [`contacts`]. It changes conductivities, not the stress.
 //!
 //! **Dilatancy.** Sliding by s changes v by −d₀ (d₁ + d₂ x + d₃ x² − η·n) s with x = φ_J − 0.6, the stress ratio η = Σ η_k, and
 //! n the direction of sliding: φ_J grows where a loose packing is sheared, or any is sheared back, and falls where a dense one is
@@ -22,10 +29,15 @@
 //!
 //! Fitted to periodic boxes of spheres with the friction 0.3 along paths of strain (`cases/database/spheres.toml`).
 
+pub mod ablation;
+pub mod contacts;
 pub mod fit;
+pub mod fit_state;
 pub mod law;
 pub mod model;
+pub mod noise;
 pub mod number;
+pub mod parameters;
 pub mod readout;
 pub mod score;
 pub mod tensor;

@@ -1,6 +1,6 @@
 //! The model of spheres: law and readouts, and their file.
 
-use super::law::{ELEMENTS, Law, State, Strain};
+use super::law::{ELEMENTS, Known, Law, State, Strain};
 use super::number::Dual;
 use super::readout::Readout;
 use super::tensor::{Rotation, Tensor, contraction};
@@ -10,16 +10,18 @@ use crate::options::TrainingOptions;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
-pub const SCHEMA: &str = "msdd-spheres-model-1";
+pub const SCHEMA: &str = "msdd-spheres-model-2";
 
-/// Number of state columns of a cell.
-pub const COLUMNS: usize = 3 + 5 * ELEMENTS;
+/// Number of state columns of a cell, and of those before the stress ratios.
+pub const COLUMNS: usize = SCALARS + 5 * ELEMENTS;
+const SCALARS: usize = 4;
 
 /// Names of the state columns. The component zz of a stress ratio is that without which its trace is not 0.
 pub const NAMES: [&str; COLUMNS] = [
     "jamming_fraction",
     "elastic_compression",
     "strength",
+    "coordination",
     "stress_ratio_1_xx",
     "stress_ratio_1_yy",
     "stress_ratio_1_xy",
@@ -30,6 +32,11 @@ pub const NAMES: [&str; COLUMNS] = [
     "stress_ratio_2_xy",
     "stress_ratio_2_xz",
     "stress_ratio_2_yz",
+    "stress_ratio_3_xx",
+    "stress_ratio_3_yy",
+    "stress_ratio_3_xy",
+    "stress_ratio_3_xz",
+    "stress_ratio_3_yz",
 ];
 
 /// Ranges of the states of the training.
@@ -90,6 +97,8 @@ pub struct Answer {
     pub gas: f64,
     /// φ.
     pub solid: f64,
+    /// z.
+    pub coordination: f64,
     /// Whether jamming fraction, pressure or stress ratio are outside of those of the training.
     pub outside: bool,
 }
@@ -108,6 +117,7 @@ pub struct Increment {
 const JAMMING: [f64; 2] = [0.3, 0.8];
 const COMPRESSION: [f64; 2] = [-0.9, 0.5];
 const STRENGTH: [f64; 2] = [0.01, super::law::MOST_STRENGTH];
+const COORDINATION: [f64; 2] = [0.0, 12.0];
 const MOST_RATIO: f64 = 2.0;
 const MOST_STRAIN: f64 = 0.2;
 
@@ -123,10 +133,11 @@ fn small(value: f64, most: f64) -> f64 {
 
 /// The columns of a state.
 pub fn columns(state: &State) -> [f64; COLUMNS] {
-    let mut columns =
-        [state.jamming, state.compression, state.strength, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let mut columns = [0.0; COLUMNS];
+    let State { jamming, compression, strength, coordination, .. } = *state;
+    columns[..SCALARS].copy_from_slice(&[jamming, compression, strength, coordination]);
     for (k, [xx, yy, _, xy, xz, yz]) in state.ratios.into_iter().enumerate() {
-        columns[3 + 5 * k..8 + 5 * k].copy_from_slice(&[xx, yy, xy, xz, yz]);
+        columns[SCALARS + 5 * k..][..5].copy_from_slice(&[xx, yy, xy, xz, yz]);
     }
     columns
 }
@@ -134,7 +145,7 @@ pub fn columns(state: &State) -> [f64; COLUMNS] {
 /// The state of columns.
 pub fn state(columns: &[f64; COLUMNS]) -> State {
     let ratios = std::array::from_fn(|k| {
-        let part = |i: usize| small(columns[3 + 5 * k + i], MOST_RATIO);
+        let part = |i: usize| small(columns[SCALARS + 5 * k + i], MOST_RATIO);
         let (xx, yy) = (part(0), part(1));
         [xx, yy, -xx - yy, part(2), part(3), part(4)]
     });
@@ -142,6 +153,7 @@ pub fn state(columns: &[f64; COLUMNS]) -> State {
         jamming: limited(columns[0], JAMMING),
         compression: limited(columns[1], COMPRESSION),
         strength: limited(columns[2], STRENGTH),
+        coordination: limited(columns[3], COORDINATION),
         ratios,
     }
 }
@@ -194,9 +206,9 @@ impl SphereModel {
         &self.hash
     }
 
-    /// The state of a cell with this solid fraction φ and stress over E*.
-    pub fn initial_state(&self, solid: f64, stress: Tensor) -> [f64; COLUMNS] {
-        columns(&self.file.law.start(limited(solid, JAMMING), stress))
+    /// The state of a cell with this solid fraction φ, stress over E*, and what else is known of it.
+    pub fn initial_state(&self, solid: f64, stress: Tensor, known: &Known) -> [f64; COLUMNS] {
+        columns(&self.file.law.start(limited(solid, JAMMING), stress, known))
     }
 
     /// Strains a cell. Finite inputs give finite answers.
@@ -235,6 +247,7 @@ impl SphereModel {
             contact: self.file.readout.contact(&next, &stress),
             gas: self.file.readout.gas(&next, gas_number),
             solid: next.solid(),
+            coordination: next.coordination,
             outside: !inside,
         }
     }

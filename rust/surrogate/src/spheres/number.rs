@@ -33,6 +33,11 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
         self.chain(value, value)
     }
     /// Of values above 0.
+    fn ln(self) -> Self {
+        let value = self.value();
+        self.chain(libm::log(value), 1.0 / value)
+    }
+    /// Of values above 0.
     fn power(self, exponent: f64) -> Self {
         let value = libm::pow(self.value(), exponent);
         self.chain(value, exponent * value / self.value())

@@ -1,10 +1,10 @@
 //! Conductivities as functions of a state of the law.
 //!
 //! K = k_s κ_c + k_g κ_g. By contacts, κ_c = C (p/E*)^(1/3) in the mean, which is the conductance 2 a k of Hertz's contacts
-//! (Batchelor and O'Brien, 1977, Proc. R. Soc. A 355:313), with more of it along the larger stress. By gas, κ_g depends on the
-//! solid fraction and on one number of the gas, ln(R/h).
+//! (Batchelor and O'Brien, 1977, Proc. R. Soc. A 355:313), with more of it along the larger stress and along more contacts. C grows
+//! with the number of contacts. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
 
-use super::law::State;
+use super::law::{FABRIC, State};
 use super::tensor::{Tensor, contraction, mean};
 use serde::{Deserialize, Serialize};
 
@@ -13,16 +13,16 @@ pub const GAS_NUMBERS: [f64; 3] = [3.5, 6.0, 8.5];
 /// Numbers of gas for which κ_g may be asked: parabolas through the three known ones.
 pub const GAS_RANGE: [f64; 2] = [2.5, 9.5];
 
-/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r² = |η|².
+/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r² = |η|², and n = z − 5.5 with the contacts per sphere z.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
-    /// C: coefficients of 1, s, v, x, x², x s, r², r² s.
+    /// C: coefficients of 1, n, n², s, v, n s, x, r².
     pub contact: [f64; 8],
-    /// Deviator of κ_c over its mean and over η: coefficients of 1, s, x.
-    pub direction: [f64; 3],
-    /// κ_g at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, s y, r².
-    pub gas: [[f64; 6]; 3],
+    /// Deviator of κ_c over its mean: coefficients of η without the fabric's part, and of that.
+    pub direction: [f64; 2],
+    /// κ_g at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s.
+    pub gas: [[f64; 8]; 3],
 }
 
 /// Least and largest κ_g: those of grains that do not touch, and far above all packings.
@@ -30,24 +30,36 @@ const GAS: [f64; 2] = [1.0, 100.0];
 /// Largest length of the deviator of κ_c over its mean, so that the conductivity is positive in every direction.
 const MOST_DEVIATOR: f64 = 0.7;
 
+/// Largest compression, least and largest numbers of contacts, and solid fractions less 0.6, of the training, roughly.
+const MOST_COMPRESSION: f64 = 0.15;
+const CONTACTS: [f64; 2] = [2.0, 9.0];
+const SOLID: [f64; 2] = [-0.1, 0.15];
+
+/// √v, v and n.
+fn common(state: &State) -> [f64; 3] {
+    let v = state.compression.clamp(0.0, MOST_COMPRESSION);
+    [v.sqrt(), v, state.coordination.clamp(CONTACTS[0], CONTACTS[1]) - USUAL_CONTACTS]
+}
+
 pub fn contact_row(state: &State) -> [f64; 8] {
-    let (s, v) = (state.compression.max(0.0).sqrt(), state.compression.max(0.0));
-    let x = (state.jamming - 0.6).clamp(-0.05, 0.05);
-    let ratio = state.ratio();
-    let r2 = contraction(&ratio, &ratio);
-    [1.0, s, v, x, x * x, x * s, r2, r2 * s]
+    let ([s, v, n], ratio) = (common(state), state.ratio());
+    [1.0, n, n * n, s, v, n * s, state.density(), contraction(&ratio, &ratio)]
 }
 
-pub fn direction_row(state: &State) -> [f64; 3] {
-    [1.0, state.compression.max(0.0).sqrt(), (state.jamming - 0.6).clamp(-0.05, 0.05)]
+/// η without the fabric's part, and that.
+pub fn directions(state: &State) -> [Tensor; 2] {
+    let (all, fabric) = (state.ratio(), state.ratios[FABRIC]);
+    [std::array::from_fn(|k| all[k] - fabric[k]), fabric]
 }
 
-pub fn gas_row(state: &State) -> [f64; 6] {
-    let s = state.compression.max(0.0).sqrt();
-    let y = (state.solid() - 0.6).clamp(-0.1, 0.1);
-    let ratio = state.ratio();
-    [1.0, y, y * y, s, s * y, contraction(&ratio, &ratio)]
+pub fn gas_row(state: &State) -> [f64; 8] {
+    let [s, v, n] = common(state);
+    let y = (state.solid() - 0.6).clamp(SOLID[0], SOLID[1]);
+    [1.0, y, y * y, s, v, s * y, n, n * s]
 }
+
+/// Contacts per sphere from which n is counted.
+const USUAL_CONTACTS: f64 = 5.5;
 
 fn product<const M: usize>(row: &[f64; M], coefficients: &[f64; M]) -> f64 {
     row.iter().zip(coefficients).map(|(a, b)| a * b).sum()
@@ -61,8 +73,9 @@ impl Readout {
             return [0.0; 6];
         }
         let size = product(&contact_row(state), &self.contact).max(LEAST_CONTACT) * libm::cbrt(pressure);
-        let along = product(&direction_row(state), &self.direction);
-        let ratio = state.ratio().map(|part| along * part);
+        let [elastic, fabric] = directions(state);
+        let [of_elastic, of_fabric] = self.direction;
+        let ratio: Tensor = std::array::from_fn(|k| of_elastic * elastic[k] + of_fabric * fabric[k]);
         let length = contraction(&ratio, &ratio).sqrt();
         let limit = if length > MOST_DEVIATOR { MOST_DEVIATOR / length } else { 1.0 };
         std::array::from_fn(|k| size * (f64::from(u8::from(k < 3)) + limit * ratio[k]))

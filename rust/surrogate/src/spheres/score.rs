@@ -1,9 +1,11 @@
 //! Errors of the model of spheres along paths, beside the scatter between packings.
 
 use super::fit::scales;
+use super::law::{Known, State};
 use super::model::SphereModel;
+use super::noise::noise;
 use super::tensor::{contraction, deviator, mean};
-use super::tracks::{Point, Track, follow};
+use super::tracks::{Track, follow, follow_from};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -13,26 +15,64 @@ pub struct PathErrors {
     pub name: String,
     pub paths: usize,
     pub states: usize,
-    /// Of the pressure and the deviator along the path from the packed state on, over [`scales`].
+    /// Along the path from the packed state on, of which solid fraction, stress, number of contacts and fabric are known.
+    pub along: Errors,
+    /// The same where solid fraction and stress alone are known.
+    pub of_stress_alone: Errors,
+    /// The deviator itself over the same as its error, for comparison.
+    pub size: f64,
+    /// Relative, of the mean conductivity by contacts where solid fraction, stress, number of contacts and fabric are those of the box.
+    pub contact_of_state: f64,
+    /// The same of the deviator of the conductivity by contacts over its mean.
+    pub direction: f64,
+    /// The same of the conductivity by gas at ln(R/h) = 8.5, relative.
+    pub gas_of_state: f64,
+    /// Scatter between packings that were made and strained alike; absent when there are none.
+    pub noise: Option<Errors>,
+}
+
+/// Root mean squares along paths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Errors {
+    /// Of pressure and deviator, over [`scales`].
     pub pressure: f64,
     pub deviator: f64,
-    /// The deviator itself over the same, for comparison.
-    pub size: f64,
-    /// Relative, of the mean conductivity by contacts along the path.
+    /// Relative, of the conductivities by contacts, and by gas at ln(R/h) = 8.5.
     pub contact: f64,
-    /// The same where solid fraction and stress are those of the box.
-    pub contact_of_state: f64,
-    /// Deviator of the conductivity by contacts over its mean, of the state.
-    pub direction: f64,
-    /// Relative, of the conductivity by gas at ln(R/h) = 8.5, of the state.
-    pub gas_of_state: f64,
-    /// Scatter of pressure, length of the deviator, and conductivity by contacts between packings that were made and strained alike; absent
-    /// when there are none.
-    pub noise: Option<[f64; 3]>,
+    pub gas: f64,
+}
+
+/// Sums of squares of [`Errors`], over all states, and over those that conduct well.
+#[derive(Default)]
+pub(super) struct Sums {
+    stress: [f64; 2],
+    conductivity: [f64; 2],
+    states: usize,
+    conducting: usize,
+}
+
+impl Sums {
+    pub fn add_stress(&mut self, squares: [f64; 2]) {
+        self.states += 1;
+        (0..2).for_each(|k| self.stress[k] += squares[k]);
+    }
+
+    pub fn add_conductivity(&mut self, squares: [f64; 2]) {
+        self.conducting += 1;
+        (0..2).for_each(|k| self.conductivity[k] += squares[k]);
+    }
+
+    /// `None` without states.
+    pub fn errors(&self) -> Option<Errors> {
+        let root = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
+        let [pressure, deviator] = self.stress.map(|sum| root(sum, self.states));
+        let [contact, gas] = self.conductivity.map(|sum| root(sum, self.conducting));
+        (self.states > 0).then_some(Errors { pressure, deviator, contact, gas })
+    }
 }
 
 /// Least p/E* of states whose conductivity is judged.
-const LEAST_PRESSURE: f64 = 1e-7;
+pub(super) const LEAST_PRESSURE: f64 = 1e-7;
 
 /// Errors by kind of path, in the order of the names.
 pub fn score(model: &SphereModel, tracks: &[Track]) -> Vec<PathErrors> {
@@ -45,93 +85,55 @@ pub fn score(model: &SphereModel, tracks: &[Track]) -> Vec<PathErrors> {
 
 fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
     let (law, readout) = (&model.file.law, &model.file.readout);
-    let mut found = PathErrors { name: name.to_string(), paths: tracks.len(), ..PathErrors::default() };
-    let (mut sums, mut conducting) = ([0.0; 7], 0usize);
+    let (mut all, mut alone) = (Sums::default(), Sums::default());
+    let (mut size, mut of_state) = (0.0, [0.0; 3]);
     for track in tracks {
-        let states = follow(law, track);
-        for ((step, state), scale) in track.steps.iter().zip(&states[1..]).zip(scales(track)) {
-            let (stress, data) = (law.stress(state), step.to.stress);
-            let wrong = deviator(std::array::from_fn(|k| (stress[k] - data[k]) / scale));
-            let size = deviator(data.map(|part| part / scale));
-            found.states += 1;
-            sums[0] += ((mean(stress) - mean(data)) / scale).powi(2);
-            sums[1] += contraction(&wrong, &wrong);
-            sums[2] += contraction(&size, &size);
-            if mean(data) < LEAST_PRESSURE || mean(step.to.contact) <= 0.0 {
+        add(&mut all, model, track, &follow(law, track));
+        let packed = law.start(track.packed.solid, track.packed.stress, &Known::default());
+        add(&mut alone, model, track, &follow_from(law, track, packed));
+        for (step, scale) in track.steps.iter().zip(scales(track)) {
+            let part = deviator(step.to.stress.map(|part| part / scale));
+            size += contraction(&part, &part);
+            if mean(step.to.stress) < LEAST_PRESSURE || mean(step.to.contact) <= 0.0 {
                 continue;
             }
-            conducting += 1;
-            let known = law.start(step.to.solid, data);
-            let (along, of_state) = (readout.contact(state, &stress), readout.contact(&known, &data));
-            let contact = mean(step.to.contact);
-            sums[3] += (mean(along) / contact - 1.0).powi(2);
-            sums[4] += (mean(of_state) / contact - 1.0).powi(2);
-            let wrong = deviator(std::array::from_fn(|k| {
-                of_state[k] / mean(of_state) - step.to.contact[k] / contact
-            }));
-            sums[5] += contraction(&wrong, &wrong);
-            sums[6] += (readout.gases(&known)[2] / step.to.gas[2] - 1.0).powi(2);
+            let known = step.to.state(law);
+            let (found, contact) = (readout.contact(&known, &step.to.stress), mean(step.to.contact));
+            let wrong =
+                deviator(std::array::from_fn(|k| found[k] / mean(found) - step.to.contact[k] / contact));
+            of_state[0] += (mean(found) / contact - 1.0).powi(2);
+            of_state[1] += contraction(&wrong, &wrong);
+            of_state[2] += (readout.gases(&known)[2] / step.to.gas[2] - 1.0).powi(2);
         }
     }
-    let root = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
-    [found.pressure, found.deviator, found.size] = [0, 1, 2].map(|k| root(sums[k], found.states));
-    [found.contact, found.contact_of_state, found.direction, found.gas_of_state] =
-        [3, 4, 5, 6].map(|k| root(sums[k], conducting));
-    found.noise = noise(tracks);
-    found
+    let [contact_of_state, direction, gas_of_state] =
+        of_state.map(|sum| (sum / all.conducting.max(1) as f64).sqrt());
+    PathErrors {
+        name: name.to_string(),
+        paths: tracks.len(),
+        states: all.states,
+        along: all.errors().unwrap_or_default(),
+        of_stress_alone: alone.errors().unwrap_or_default(),
+        size: (size / all.states.max(1) as f64).sqrt(),
+        contact_of_state,
+        direction,
+        gas_of_state,
+        noise: noise(tracks),
+    }
 }
 
-/// Scatter between packings of the same recipe at the same strain: half of the mean square of the differences of all pairs.
-fn noise(tracks: &[&Track]) -> Option<[f64; 3]> {
-    let (mut sums, mut count) = ([0.0; 3], 0usize);
-    for (k, one) in tracks.iter().enumerate() {
-        for other in tracks[k + 1..].iter().filter(|other| are_alike(one, other)) {
-            let scales = scales(one).into_iter().zip(scales(other));
-            for ((a, b), (first, second)) in one.steps.iter().zip(&other.steps).zip(scales) {
-                let scale = 0.5 * (first + second);
-                let (p, q) = difference(&a.to, &b.to);
-                let contact = mean(a.to.contact) / mean(b.to.contact) - 1.0;
-                if !contact.is_finite() {
-                    continue;
-                }
-                count += 1;
-                sums[0] += 0.5 * (p / scale).powi(2);
-                sums[1] += 0.5 * (q / scale).powi(2);
-                sums[2] += 0.5 * contact.powi(2);
-            }
+/// Adds the errors of a model's states along a track.
+fn add(sums: &mut Sums, model: &SphereModel, track: &Track, states: &[State]) {
+    let (law, readout) = (&model.file.law, &model.file.readout);
+    for ((step, state), scale) in track.steps.iter().zip(&states[1..]).zip(scales(track)) {
+        let (stress, data) = (law.stress(state), step.to.stress);
+        let wrong = deviator(std::array::from_fn(|k| (stress[k] - data[k]) / scale));
+        let pressure = (mean(stress) - mean(data)) / scale;
+        sums.add_stress([pressure * pressure, contraction(&wrong, &wrong)]);
+        if mean(data) >= LEAST_PRESSURE && mean(step.to.contact) > 0.0 {
+            let contact = mean(readout.contact(state, &stress)) / mean(step.to.contact) - 1.0;
+            let gas = readout.gases(state)[2] / step.to.gas[2] - 1.0;
+            sums.add_conductivity([contact * contact, gas * gas]);
         }
     }
-    (count > 0).then(|| sums.map(|sum| (sum / count as f64).sqrt()))
-}
-
-fn difference(a: &Point, b: &Point) -> (f64, f64) {
-    let length = |point: &Point| {
-        let part = deviator(point.stress);
-        contraction(&part, &part).sqrt()
-    };
-    (mean(a.stress) - mean(b.stress), length(a) - length(b))
-}
-
-/// Whether two packings have the same recipe and the same strains, but for the names of the axes where packings have none.
-fn are_alike(a: &Track, b: &Track) -> bool {
-    let sorted = |step: &super::tracks::Step| {
-        let mut normal = [step.stretch[0], step.stretch[1], step.stretch[2]];
-        let mut shear = [step.stretch[3], step.stretch[4], step.stretch[5]];
-        normal.sort_by(f64::total_cmp);
-        shear.sort_by(f64::total_cmp);
-        [normal, shear].concat()
-    };
-    let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * (a.abs() + b.abs()) + 1e-15;
-    a.packing != b.packing
-        && a.recipe == b.recipe
-        && !a.steps.is_empty()
-        && !b.steps.is_empty()
-        && a.steps.iter().zip(&b.steps).all(|(a, b)| {
-            let alike = match a.stretch == b.stretch {
-                true => true,
-                false => sorted(a).into_iter().zip(sorted(b)).all(|(a, b)| near(a, b)),
-            };
-            alike && near(a.thermal, b.thermal)
-        })
-        && (a.is_isotropic || a.steps.iter().zip(&b.steps).all(|(a, b)| a.stretch == b.stretch))
 }

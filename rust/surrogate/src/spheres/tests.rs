@@ -1,8 +1,10 @@
 //! What holds for the law whatever its numbers are, and that a training finds them.
 
-use super::fit::{beginning, readout};
-use super::law::{Law, State};
+use super::contacts::{COEFFICIENTS, Contacts};
+use super::fit_state::readout;
+use super::law::{FABRIC, Known, Law, State};
 use super::model::{COLUMNS, Increment, SphereModel, columns, state};
+use super::parameters::{beginning, law as law_of, parameters};
 use super::tensor::{Rotation, Tensor, contraction, deviator, mean, rotation, turned};
 use super::tracks::{Point, Step, Track, advanced, follow};
 use super::training::{is_held_out, train};
@@ -25,7 +27,7 @@ fn packing(law: &Law, generator: &mut ChaCha8Rng) -> State {
     let pressure = libm::pow(10.0, -5.0 + 2.5 * random(generator));
     let mut stress = tensor(generator, 0.15 * pressure);
     stress[..3].iter_mut().for_each(|normal| *normal += pressure);
-    law.start(solid, stress)
+    law.start(solid, stress, &Known::default())
 }
 
 fn model() -> SphereModel {
@@ -44,11 +46,11 @@ fn a_start_has_the_solid_fraction_and_stress_that_were_given() {
         let pressure = libm::pow(10.0, -5.5 + 2.5 * random(&mut generator));
         let mut stress = tensor(&mut generator, 0.1 * pressure);
         stress[..3].iter_mut().for_each(|normal| *normal += pressure);
-        let found = law.start(solid, stress);
+        let found = law.start(solid, stress, &Known::default());
         assert!((found.solid() - solid).abs() < 1e-14);
         assert!(worst(&law.stress(&found), &stress) < 1e-10 * pressure, "{stress:?} {found:?}");
     }
-    let empty = law.start(0.6, [0.0; 6]);
+    let empty = law.start(0.6, [0.0; 6], &Known::default());
     assert_eq!(law.stress(&empty), [0.0; 6]);
 }
 
@@ -225,6 +227,8 @@ fn tracks(law: &Law, packings: i64) -> Vec<Track> {
                     stress,
                     contact,
                     gas: [5.0, 8.0, 12.0].map(|k| k * state.solid()),
+                    coordination: state.coordination,
+                    fabric: state.ratios[FABRIC].map(|part| part / law.fabric[0]),
                 }
             };
             let packed = point(&start);
@@ -258,7 +262,9 @@ fn a_training_finds_the_law_that_made_the_data() {
     let mut law = beginning();
     law.bulk[0] *= 1.2;
     law.elements[0].strength *= 0.8;
-    law.shear[0] *= 1.3;
+    law.elements[1].stiffness *= 1.3;
+    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading: [0.2, 1.0] };
+    law.contacts.usual[..2].copy_from_slice(&[4.5, 10.0]);
     let all = tracks(&law, 40);
     let options = TrainingOptions { max_epochs: 40, threads: 2, ..TrainingOptions::default() };
     let model = train(&all, &options).expect("good data");
@@ -280,7 +286,7 @@ fn a_training_finds_the_law_that_made_the_data() {
 fn files_that_no_training_wrote_are_refused() {
     let text = model().to_json();
     let message = |text: &str| SphereModel::read(text).expect_err("unsound").to_string();
-    assert!(message(&text.replace("spheres-model-1", "spheres-model-2")).contains("spheres-model-2"));
+    assert!(message(&text.replace("spheres-model-2", "spheres-model-1")).contains("spheres-model-1"));
     assert!(message(&text[..text.len() / 2]).contains("damaged"));
     let mut file = model().file;
     file.law.bulk[0] = -1.0;
@@ -292,7 +298,76 @@ fn files_that_no_training_wrote_are_refused() {
 fn packings_that_bear_a_large_deviator_start_with_it() {
     let law = model().file.law;
     let stress = [2.2e-5, 0.5e-5, 0.3e-5, 0.0, 0.0, 0.0];
-    let start = law.start(0.575, stress);
+    let start = law.start(0.575, stress, &Known::default());
     let part = deviator(law.stress(&start));
     assert!(worst(&part, &deviator(stress)) < 1e-10, "{start:?}");
+}
+
+#[test]
+fn parameters_are_the_numbers_of_the_law() {
+    let mut law = beginning();
+    assert_eq!(law_of(&parameters(&law)).elements[2].hardening, law.elements[2].hardening);
+    law.bulk[1] *= 1.5;
+    law.settling[1] *= 2.0;
+    let again = law_of(&parameters(&law));
+    assert!(
+        (again.bulk[1] - law.bulk[1]).abs() < 1e-12
+            && (again.settling[1] / law.settling[1] - 1.0).abs() < 1e-12
+    );
+    // Bounds are kept, so that every file of a training can be read.
+    let mut far = parameters(&law);
+    far.fill(1e3);
+    assert!(law_of(&far).check().is_ok());
+    far.fill(-1e3);
+    assert!(law_of(&far).check().is_ok());
+}
+
+/// What a packing has more contacts than usual it keeps where it is hardly strained, and forgets where it is strained far; it
+/// conducts better for it, but bears no more.
+#[test]
+fn packings_with_more_contacts_keep_them_as_long_as_they_are_hardly_strained() {
+    let model = model();
+    let stress = [2e-8, 2e-8, 2e-8, 0.0, 0.0, 0.0];
+    let usual = model.initial_state(0.59, stress, &Known::default());
+    let counted = Known { coordination: Some(usual[3] + 0.8), ..Known::default() };
+    let more = model.initial_state(0.59, stress, &counted);
+    assert_eq!((more[3], &more[..3], &more[4..]), (usual[3] + 0.8, &usual[..3], &usual[4..]));
+    let after = |start: &[f64; COLUMNS], size: f64| {
+        let strain = Increment { cell: [-size, -size, -size, 0.0, 0.0, 0.0], ..Increment::default() };
+        model.advance(start, &strain, 8.5, false)
+    };
+    let kept = |size: f64| {
+        let (a, b) = (after(&usual, size), after(&more, size));
+        assert_eq!(a.stress, b.stress);
+        assert!(mean(b.contact) > mean(a.contact) && b.gas > a.gas);
+        b.coordination - a.coordination
+    };
+    assert!((kept(0.0) - 0.8).abs() < 1e-12);
+    let (little, far) = (kept(1e-6), kept(3e-3));
+    assert!(little > 0.75 && far < 0.6 && far > 0.0, "{little} {far}");
+}
+
+/// The fabric of a packing bears a part of its deviator, which stays where isotropic compression takes the rest.
+#[test]
+fn a_known_fabric_bears_its_part_of_the_deviator() {
+    let law = model().file.law;
+    let fabric = [0.30, 0.32, 0.38, 0.0, 0.0, 0.0];
+    let stress = [0.9e-5, 0.95e-5, 1.15e-5, 0.0, 0.0, 0.0];
+    let known = Known { fabric: Some(fabric), coordination: None };
+    let start = law.start(0.6, stress, &known);
+    assert!(worst(&law.stress(&start), &stress) < 1e-10 * 1e-5, "{start:?}");
+    let part = deviator(fabric).map(|part| law.fabric[0] * part);
+    assert!(worst(&start.ratios[FABRIC], &part) < 1e-12, "{start:?}");
+    // The same stress without this fabric loses more of its deviator.
+    let without = law.start(
+        0.6,
+        stress,
+        &Known { fabric: Some([1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0]), coordination: None },
+    );
+    let left = |start: &State| {
+        let state = advanced(&law, start, 2e-3, [0.0; 6]);
+        let (stress, part) = (law.stress(&state), deviator(law.stress(&state)));
+        part[2] / mean(stress)
+    };
+    assert!(left(&start) > 2.0 * left(&without), "{} {}", left(&start), left(&without));
 }

@@ -1,6 +1,6 @@
 //! Paths of strain of boxes of spheres, and the law along them.
 
-use super::law::{Law, State, Strain};
+use super::law::{Known, Law, State, Strain};
 use super::tensor::{Tensor, rotation};
 
 /// A state of a box. Stresses over E*, compression positive.
@@ -13,6 +13,22 @@ pub struct Point {
     pub contact: Tensor,
     /// Conductivity by gas over that of the gas, at [`super::readout::GAS_NUMBERS`].
     pub gas: [f64; 3],
+    /// Contacts per sphere, all spheres counted.
+    pub coordination: f64,
+    /// Mean of n n over the contacts, with the normals n.
+    pub fabric: Tensor,
+}
+
+impl Point {
+    /// What is known of the packing beside solid fraction and stress.
+    pub fn known(&self) -> Known {
+        Known { coordination: Some(self.coordination), fabric: Some(self.fabric) }
+    }
+
+    /// The law's state of this packing.
+    pub fn state(&self, law: &Law) -> State {
+        law.start(self.solid, self.stress, &self.known())
+    }
 }
 
 /// An increment from an earlier state of the track.
@@ -54,7 +70,12 @@ const MOST_PARTS: f64 = 40.0;
 
 /// The law's states along a track: number k as [`Step::from`].
 pub fn follow(law: &Law, track: &Track) -> Vec<State> {
-    let mut states = vec![law.start(track.packed.solid, track.packed.stress)];
+    follow_from(law, track, track.packed.state(law))
+}
+
+/// The same where the packing has this state.
+pub fn follow_from(law: &Law, track: &Track, packed: State) -> Vec<State> {
+    let mut states = vec![packed];
     for step in &track.steps {
         let next = advanced(law, &states[step.from], step.thermal, step.stretch);
         states.push(next);
@@ -62,10 +83,15 @@ pub fn follow(law: &Law, track: &Track) -> Vec<State> {
     states
 }
 
+/// In how many parts a strain is applied.
+pub fn parts(thermal: f64, stretch: Tensor) -> f64 {
+    let largest = stretch.iter().fold(thermal.abs(), |a, b| a.max(b.abs()));
+    (largest / PART).ceil().clamp(1.0, MOST_PARTS)
+}
+
 /// The state after a straight line of strain, in as many parts as it is long.
 pub fn advanced(law: &Law, state: &State, thermal: f64, stretch: Tensor) -> State {
-    let largest = stretch.iter().fold(thermal.abs(), |a, b| a.max(b.abs()));
-    let parts = (largest / PART).ceil().clamp(1.0, MOST_PARTS);
+    let parts = parts(thermal, stretch);
     (0..parts as u32).fold(*state, |state, part| {
         let of = |whole: f64| whole / (parts + whole * f64::from(part));
         let [xx, yy, zz, xy, xz, yz] = stretch.map(of);

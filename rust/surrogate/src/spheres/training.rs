@@ -1,7 +1,9 @@
 //! Training: the law is fitted to the stress along paths, then the readouts to the states on them.
 
-use super::fit::{PARAMETERS, PathFit, fit, readout};
+use super::fit::{PathFit, fit};
+use super::fit_state::{contacts, readout, usual_fabric};
 use super::model::{File, Ranges, Report, SCHEMA, SphereModel};
+use super::parameters::PARAMETERS;
 use super::tensor::{Tensor, contraction, deviator, mean};
 use super::tracks::{Track, follow};
 use crate::SurrogateError;
@@ -10,8 +12,8 @@ use crate::scaling::Range;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 
-/// Usual number of epochs, after which the fit is at its minimum for all practical purposes.
-pub const USUAL_EPOCHS: u32 = 60;
+/// Usual number of epochs: the fit begins near its minimum, and after these it is there for all practical purposes.
+pub const USUAL_EPOCHS: u32 = 20;
 /// One packing in so many is held out of the training.
 const HELD_OUT: u64 = 5;
 /// Least number of states to which the law is fitted.
@@ -49,7 +51,9 @@ pub fn train_without(
         return Err(SurrogateError::Data(text.to_string()));
     }
     let problem = PathFit { tracks: &seen, threads: options.threads_used(), fixed };
-    let (law, minimum) = fit(&problem, options.max_epochs);
+    let (mut law, minimum) = fit(&problem, options.max_epochs);
+    law.fabric[1] = usual_fabric(&law, &seen);
+    law.contacts = contacts(&law, &seen);
     let readout = readout(&law, &seen);
     let ranges = ranges(&law, &seen);
     let packings = |tracks: &[Track]| tracks.iter().map(|track| track.packing).collect::<BTreeSet<_>>().len();

@@ -1,0 +1,91 @@
+//! How much each part of the law of spheres contributes: the law is fitted again without it.
+
+use super::score::{Errors, score};
+use super::tracks::{Track, follow};
+use super::training::{is_held_out, train_without};
+use crate::SurrogateError;
+use crate::options::TrainingOptions;
+use serde::Serialize;
+use std::time::Instant;
+
+/// Errors along held-out paths without a part of the law.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Line {
+    /// The part that was left out; none for the whole law.
+    pub without: Option<&'static str>,
+    /// Numbers that were fitted to stresses.
+    pub numbers: usize,
+    /// Means over the kinds of path.
+    pub along: Errors,
+    /// The same where solid fraction and stress alone are known at the start.
+    pub of_stress_alone: Errors,
+}
+
+/// What a line is fitted without: name, and values of parameters (their numbers in [`super::parameters`]) that do it.
+type LeftOut = (Option<&'static str>, &'static [(usize, f64)]);
+
+/// ln of the least strength that a file may have.
+const NONE: f64 = -13.8;
+
+const LINES: [LeftOut; 6] = [
+    (None, &[]),
+    (
+        Some("fabric (third element)"),
+        &[(15, 0.0), (26, 0.0), (27, NONE), (28, 0.0), (29, 0.0), (30, 0.0), (31, 0.0)],
+    ),
+    (Some("second element"), &[(20, 0.0), (21, NONE), (22, 0.0), (23, 0.0), (24, 0.0), (25, 0.0)]),
+    (Some("stiffness and strengths by compression"), &[(6, 0.0), (24, 0.0), (30, 0.0)]),
+    (Some("powers of the pressure other than Hertz's"), &[(3, 0.0), (4, 0.0)]),
+    (Some("dilatancy"), &[(7, 0.0), (8, 0.0), (9, 0.0), (10, 0.0), (11, 0.0)]),
+];
+
+/// One packing in so many is used, of those that a training sees.
+const USED: i64 = 3;
+
+/// Fits the law, and the law without each of its parts, to a third of the packings; errors are those on the held-out packings.
+///
+/// # Errors
+/// [`SurrogateError::Data`] for unusable data.
+pub fn ablation(tracks: &[Track], options: &TrainingOptions) -> Result<Vec<Line>, SurrogateError> {
+    let (unseen, seen): (Vec<Track>, Vec<Track>) =
+        tracks.iter().cloned().partition(|track| is_held_out(track.packing, options.seed));
+    let used: Vec<Track> = seen.into_iter().filter(|track| track.packing % USED == 0).collect();
+    let line = |(without, fixed): &LeftOut| {
+        let model = train_without(&used, options, fixed)?;
+        let kinds = score(&model, &unseen);
+        let mean = |of: fn(&super::score::PathErrors) -> Errors| {
+            let sum = |part: fn(&Errors) -> f64| {
+                kinds.iter().map(|kind| part(&of(kind))).sum::<f64>() / kinds.len().max(1) as f64
+            };
+            Errors {
+                pressure: sum(|errors| errors.pressure),
+                deviator: sum(|errors| errors.deviator),
+                contact: sum(|errors| errors.contact),
+                gas: sum(|errors| errors.gas),
+            }
+        };
+        let numbers = model.file.report.parameters;
+        let (along, of_stress_alone) = (mean(|kind| kind.along), mean(|kind| kind.of_stress_alone));
+        Ok(Line { without: *without, numbers, along, of_stress_alone })
+    };
+    LINES.iter().map(line).collect()
+}
+
+/// Time of one increment of the law \[ns\]: the least of several rounds over these tracks.
+pub fn nanoseconds(law: &super::law::Law, tracks: &[Track]) -> f64 {
+    let increments: f64 = tracks
+        .iter()
+        .flat_map(|track| &track.steps)
+        .map(|step| super::tracks::parts(step.thermal, step.stretch))
+        .sum();
+    let round = |_| {
+        let begin = Instant::now();
+        let sum: f64 =
+            tracks.iter().flat_map(|track| follow(law, track)).map(|state| state.compression).sum();
+        std::hint::black_box(sum);
+        begin.elapsed().as_secs_f64()
+    };
+    1e9 * (0..ROUNDS).map(round).fold(f64::INFINITY, f64::min) / increments.max(1.0)
+}
+
+const ROUNDS: u32 = 5;

@@ -1,0 +1,93 @@
+//! Fit of what depends on the state of the law: usual fabric, number of contacts, conductivities.
+
+use super::contacts::{self, COEFFICIENTS, Contacts};
+use super::law::{FABRIC, Law, State};
+use super::readout::{Readout, contact_row, directions, gas_row};
+use super::tensor::{contraction, deviator, mean};
+use super::tracks::{Point, Track, follow_from};
+use crate::least_squares;
+
+/// Least p/E* of states to which is fitted, less than that of a bed under its own weight.
+const LEAST_PRESSURE: f64 = 3e-9;
+/// Numbers of [`Contacts::fading`] that are tried.
+const OF_COMPRESSION: [f64; 5] = [0.0, 0.1, 0.2, 0.4, 0.8];
+const OF_SHEAR: [f64; 5] = [0.1, 0.3, 1.0, 3.0, 10.0];
+
+/// The fabric's usual part of the stress ratio: that of the packings before any strain, by least squares.
+pub fn usual_fabric(law: &Law, tracks: &[Track]) -> f64 {
+    let (mut both, mut square) = (0.0, 0.0);
+    for state in tracks.iter().map(|track| track.packed.state(law)) {
+        let ratio = state.ratio();
+        both += contraction(&ratio, &state.ratios[FABRIC]);
+        square += contraction(&ratio, &ratio);
+    }
+    if square > 0.0 { (both / square).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// The number of contacts along tracks: z − z̄ at their start is known there.
+pub fn contacts(law: &Law, tracks: &[Track]) -> Contacts {
+    let all = OF_COMPRESSION.into_iter().flat_map(|a| OF_SHEAR.map(|b| [a, b]));
+    let found = all.map(|fading| contacts_that_fade(law, tracks, fading));
+    let best = found.reduce(|best, other| if other.1 < best.1 { other } else { best });
+    best.map_or(law.contacts, |(contacts, _)| contacts)
+}
+
+fn contacts_that_fade(law: &Law, tracks: &[Track], fading: [f64; 2]) -> (Contacts, f64) {
+    // Without a mean, the number of contacts goes from 1 to what is left of z − z̄.
+    let mut law = law.clone();
+    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading };
+    let mut samples: Vec<([f64; COEFFICIENTS], f64, f64)> = Vec::new();
+    for track in tracks {
+        let packed = State { coordination: 1.0, ..track.packed.state(&law) };
+        let first = contacts::row(&packed);
+        let states = follow_from(&law, track, packed);
+        for (step, state) in track.steps.iter().zip(&states[1..]) {
+            if mean(step.to.stress) < LEAST_PRESSURE || state.compression <= 0.0 {
+                continue;
+            }
+            let (left, row) = (state.coordination, contacts::row(state));
+            let row = std::array::from_fn(|k| row[k] - left * first[k]);
+            samples.push((row, step.to.coordination - left * track.packed.coordination, 1.0));
+        }
+    }
+    let usual = least_squares::fit(samples.iter().copied());
+    let error = |(row, z, _): &([f64; COEFFICIENTS], f64, f64)| {
+        let sum: f64 = row.iter().zip(&usual).map(|(a, b)| a * b).sum();
+        (sum - z) * (sum - z)
+    };
+    (Contacts { usual, fading }, samples.iter().map(error).sum())
+}
+
+/// Fits the conductivities to the states of the data with the hidden state that the law has there: its compression is that which
+/// bears the pressure of the data.
+pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
+    let mut all: Vec<(State, &Point)> = Vec::new();
+    for track in tracks {
+        for k in 0..=track.steps.len() {
+            let point = track.point(k);
+            if mean(point.stress) >= LEAST_PRESSURE {
+                all.push((point.state(law), point));
+            }
+        }
+    }
+    let contact = all.iter().filter_map(|(state, point)| {
+        let size = mean(point.contact) / libm::cbrt(mean(point.stress));
+        (size > 0.0).then(|| (contact_row(state).map(|x| x / size), 1.0, 1.0))
+    });
+    let direction = all.iter().filter(|(_, point)| mean(point.contact) > 0.0).flat_map(|(state, point)| {
+        let (part, size) = (deviator(point.contact), mean(point.contact));
+        let [elastic, fabric] = directions(state);
+        (0..6).map(move |k| ([elastic[k], fabric[k]], part[k] / size, if k < 3 { 1.0 } else { 2.0 }))
+    });
+    let gas = |number: usize| {
+        let known = all.iter().filter(move |(_, point)| point.gas[number] > 0.0);
+        least_squares::fit(
+            known.map(move |(state, point)| (gas_row(state).map(|x| x / point.gas[number]), 1.0, 1.0)),
+        )
+    };
+    Readout {
+        contact: least_squares::fit(contact),
+        direction: least_squares::fit(direction),
+        gas: [gas(0), gas(1), gas(2)],
+    }
+}

@@ -1,0 +1,110 @@
+//! The numbers of the law that are fitted to stresses, as parameters without bounds and of about equal size.
+
+use super::contacts::{COEFFICIENTS, Contacts};
+use super::law::{Element, Law};
+use nalgebra::DVector;
+
+/// How a number becomes a parameter, and its bounds.
+enum Scale {
+    /// Its logarithm.
+    Logarithm([f64; 2]),
+    /// The number over this.
+    Over(f64, [f64; 2]),
+}
+
+use Scale::{Logarithm, Over};
+
+/// Where a number is in the law.
+type Place = fn(&mut Law) -> &mut f64;
+
+const FREE: [f64; 2] = [-1e4, 1e4];
+const SIZE: [f64; 2] = [1e-6, 1e6];
+const STRENGTH: [f64; 2] = [1e-6, 2.0];
+const POWER: [f64; 2] = [-2.0, 1.0];
+
+/// Number of parameters.
+pub const PARAMETERS: usize = 32;
+
+/// Coefficients of x are divided by 10, those of x² by 100.
+const TABLE: [(Place, Scale); PARAMETERS] = [
+    (|law| &mut law.bulk[0], Logarithm(SIZE)),
+    (|law| &mut law.bulk[1], Over(10.0, FREE)),
+    (|law| &mut law.bulk[2], Over(100.0, FREE)),
+    (|law| &mut law.bulk[3], Over(1.0, [-0.5, 0.5])),
+    (|law| &mut law.bulk[4], Over(1.0, [-20.0, 20.0])),
+    (|law| &mut law.shear[0], Over(10.0, FREE)),
+    (|law| &mut law.shear[1], Over(1.0, [-1.0, 1.0])),
+    (|law| &mut law.lift, Over(1.0, [-10.0, 10.0])),
+    (|law| &mut law.dilatancy[0], Over(1.0, [0.0, 10.0])),
+    (|law| &mut law.dilatancy[1], Over(1.0, FREE)),
+    (|law| &mut law.dilatancy[2], Over(10.0, FREE)),
+    (|law| &mut law.dilatancy[3], Over(100.0, FREE)),
+    (|law| &mut law.settling[0], Over(1.0, [0.0, 10.0])),
+    (|law| &mut law.settling[1], Logarithm([1e-9, 1.0])),
+    (|law| &mut law.settling[2], Over(10.0, FREE)),
+    (|law| &mut law.fabric[0], Over(1.0, [0.0, 100.0])),
+    (|law| &mut law.elements[0].stiffness, Logarithm(SIZE)),
+    (|law| &mut law.elements[0].strength, Logarithm(STRENGTH)),
+    (|law| &mut law.elements[0].growth, Over(10.0, FREE)),
+    (|law| &mut law.elements[0].power, Over(1.0, POWER)),
+    (|law| &mut law.elements[1].stiffness, Logarithm(SIZE)),
+    (|law| &mut law.elements[1].strength, Logarithm(STRENGTH)),
+    (|law| &mut law.elements[1].growth, Over(10.0, FREE)),
+    (|law| &mut law.elements[1].curvature, Over(100.0, FREE)),
+    (|law| &mut law.elements[1].hardening, Over(1.0, [-100.0, 100.0])),
+    (|law| &mut law.elements[1].power, Over(1.0, POWER)),
+    (|law| &mut law.elements[2].stiffness, Logarithm(SIZE)),
+    (|law| &mut law.elements[2].strength, Logarithm(STRENGTH)),
+    (|law| &mut law.elements[2].growth, Over(10.0, FREE)),
+    (|law| &mut law.elements[2].curvature, Over(100.0, FREE)),
+    (|law| &mut law.elements[2].hardening, Over(1.0, [-100.0, 100.0])),
+    (|law| &mut law.elements[2].power, Over(1.0, POWER)),
+];
+
+/// The law's numbers as parameters.
+pub fn parameters(law: &Law) -> DVector<f64> {
+    let mut law = law.clone();
+    let all = TABLE.iter().map(|(place, scale)| match scale {
+        Logarithm(_) => place(&mut law).ln(),
+        Over(size, _) => *place(&mut law) / size,
+    });
+    DVector::from_vec(all.collect())
+}
+
+/// The law of these parameters, with the nearest numbers that [`Law::check`] allows; what is not fitted is as in [`beginning`].
+pub fn law(parameters: &DVector<f64>) -> Law {
+    let mut law = beginning();
+    for ((place, scale), value) in TABLE.iter().zip(parameters.iter()) {
+        *place(&mut law) = match scale {
+            Logarithm([least, most]) => value.exp().clamp(*least, *most),
+            Over(size, [least, most]) => (size * value).clamp(*least, *most),
+        };
+    }
+    law
+}
+
+/// Where the fit begins: values of an earlier fit, to two digits.
+pub fn beginning() -> Law {
+    let element = |[stiffness, strength, growth, curvature, hardening, power]: [f64; 6]| Element {
+        stiffness,
+        strength,
+        growth,
+        curvature,
+        hardening,
+        power,
+    };
+    Law {
+        bulk: [0.091, 11.0, -62.0, 0.11, -1.0],
+        shear: [5.9, 0.2],
+        lift: 0.32,
+        elements: [
+            element([1.15, 0.24, 8.3, 0.0, 0.0, -1.1]),
+            element([0.26, 0.088, 99.0, -1900.0, 2.0, -1.2]),
+            element([0.15, 1.6, -64.0, 1400.0, 8.2, -0.43]),
+        ],
+        dilatancy: [0.034, 1.9, -120.0, 2200.0],
+        settling: [3.2, 3.5e-6, 270.0],
+        fabric: [8.5, 0.4],
+        contacts: Contacts { usual: [0.0; COEFFICIENTS], fading: [0.0; 2] },
+    }
+}
