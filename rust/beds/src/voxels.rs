@@ -73,9 +73,9 @@ impl Voxels {
         };
         let total = count * count * count;
         let (mut diagonal, mut residual) = (vec![0.0; total], vec![0.0; total]);
-        for a in 0..3 {
-            for n in 0..total {
-                let (other, face) = (next(n, a), faces[a][n]);
+        for (a, faces) in faces.iter().enumerate() {
+            for (n, &face) in faces.iter().enumerate() {
+                let other = next(n, a);
                 diagonal[n] += face;
                 diagonal[other] += face;
                 if a == axis {
@@ -86,10 +86,10 @@ impl Voxels {
         }
         let scale = inner(&residual, &residual);
         let apply = |direction: &[f64], flow: &mut [f64]| {
-            for a in 0..3 {
-                for n in 0..total {
+            for (a, faces) in faces.iter().enumerate() {
+                for (n, face) in faces.iter().enumerate() {
                     let other = next(n, a);
-                    let heat = faces[a][n] * (direction[n] - direction[other]);
+                    let heat = face * (direction[n] - direction[other]);
                     flow[n] += heat;
                     flow[other] -= heat;
                 }
