@@ -293,7 +293,8 @@ impl Law {
 
     fn start_of_stress(&self, solid: f64, stress: Tensor, fabric: Option<Tensor>) -> State {
         let (pressure, load) = (super::tensor::mean(stress), deviator(stress));
-        let at = |compression: f64| self.loaded(solid, compression, &load, fabric.as_ref());
+        let fabric = fabric.map_or(Borne::Usual(pressure), Borne::Fabric);
+        let at = |compression: f64| self.loaded(solid, compression, &load, &fabric);
         if pressure <= 0.0 {
             return State { ratios: [[0.0; 6]; ELEMENTS], strength: 1.0, ..at(0.0) };
         }
@@ -322,7 +323,7 @@ impl Law {
         at(high)
     }
 
-    fn loaded(&self, solid: f64, compression: f64, load: &Tensor, fabric: Option<&Tensor>) -> State {
+    fn loaded(&self, solid: f64, compression: f64, load: &Tensor, fabric: &Borne) -> State {
         let mut state = State {
             jamming: solid / (1.0 + compression),
             compression,
@@ -340,11 +341,13 @@ impl Law {
         let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, root));
         let strongest = MOST_STRENGTH * strengths.iter().sum::<f64>();
         let of_fabric = match fabric {
-            Some(fabric) => fabric.map(|part| per_anisotropy * part),
+            Borne::Fabric(fabric) => fabric.map(|part| per_anisotropy * part),
             // At least what the other elements cannot bear.
-            None => {
+            Borne::Usual(pressure) => {
                 let least = 1.0 - strongest / contraction(&ratio, &ratio).sqrt().max(f64::MIN_POSITIVE);
-                ratio.map(|part| usual.max(least) * part)
+                // A share of the deviator over the pressure, which a deviator makes larger than A.
+                let share = (usual / (over * pressure)).min(usual).max(least);
+                ratio.map(|part| share * part)
             }
         };
         state.ratios[FABRIC] = within(&of_fabric, self.strength(FABRIC, x, root)).0;
@@ -411,6 +414,14 @@ impl Law {
             None => Ok(()),
         }
     }
+}
+
+/// What tells the part of the deviator that the fabric bears.
+enum Borne {
+    /// The deviator of the fabric, which is known.
+    Fabric(Tensor),
+    /// The pressure over E* of a packing whose fabric is not known: it is that of usual packings.
+    Usual(f64),
 }
 
 /// Largest coefficient of x.
