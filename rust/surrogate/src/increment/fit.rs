@@ -22,7 +22,7 @@ const PRESSURE_SCALE: f64 = 0.003;
 /// Error above which a residual counts less than by its square, since some packings rearrange suddenly.
 const ROBUST: f64 = 0.03;
 /// Weight of the differences of probes over their strain.
-pub(super) const PROBE_WEIGHT: f64 = 0.15;
+pub(super) const PROBE_WEIGHT: f64 = 0.6;
 /// Number of grains of a packing whose errors have the weight 1; that of others goes with the root of their number.
 pub(super) const USUAL_DISCS: f64 = 500.0;
 /// Largest residual.
