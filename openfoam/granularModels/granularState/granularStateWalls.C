@@ -49,7 +49,8 @@ void Foam::granularState::setWallResistance()
         return;
     }
     const volScalarField& T = mesh_.lookupObject<volScalarField>("T");
-    const bool spatial = stressRest_[0].size();
+    const bool spatial = sigma_.size() == 6;
+    const label shear = shearColumn();
     forAll(mesh_.boundary(), patchi)
     {
         if (T.boundaryField()[patchi].type() != "granularContact")
@@ -66,21 +67,21 @@ void Foam::granularState::setWallResistance()
             const label celli = cells[facei];
             const symmTensor sigma
             (
-                stressXX_[celli],
-                stressXY_[celli],
-                spatial ? stressRest_[1][celli] : 0,
-                stressYY_[celli],
-                spatial ? stressRest_[2][celli] : 0,
-                spatial ? stressRest_[0][celli] : 0
+                sigma_[0][celli],
+                sigma_[shear][celli],
+                spatial ? sigma_[4][celli] : 0,
+                sigma_[1][celli],
+                spatial ? sigma_[5][celli] : 0,
+                spatial ? sigma_[2][celli] : 0
             );
             const symmTensor K
             (
                 K_.xx[celli],
                 K_.xy.size() ? K_.xy[celli] : 0,
-                spatial ? K_.xz[celli] : 0,
+                K_.zz.size() ? K_.xz[celli] : 0,
                 K_.yy[celli],
-                spatial ? K_.yz[celli] : 0,
-                spatial ? K_.zz[celli] : 0
+                K_.zz.size() ? K_.yz[celli] : 0,
+                K_.zz.size() ? K_.zz[celli] : 0
             );
             stress[facei] = n[facei] & (sigma & n[facei]);
             temperature[facei] = temperature_[celli];
