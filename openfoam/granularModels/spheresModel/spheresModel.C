@@ -225,7 +225,7 @@ void Foam::granularModels::spheres::initialState
         contacts.resize
         (
             cells.size,
-            granularProperties::ranged(coeffs_, "coordination", 5, 0, 12)
+            granularProperties::ranged(coeffs_, "coordination", Zero, 0, 12)
         );
     }
     try

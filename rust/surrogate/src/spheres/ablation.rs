@@ -1,6 +1,7 @@
 //! How much each part of the law of spheres contributes: the law is fitted again without it.
 
-use super::score::{Errors, score};
+use super::errors::Errors;
+use super::score::score;
 use super::tracks::{Track, follow};
 use super::training::{is_held_out, train_without};
 use crate::SurrogateError;

@@ -4,7 +4,6 @@
 //! compression as well as shear: dζ = −ζ (a |dv|/v + b |de|/v), with the deviator de of the strain. So a packing whose contacts were
 //! counted at the start keeps what it has more, or less, as long as it is hardly strained.
 
-use super::law::{LEAST_COMPRESSION, State};
 use super::tensor::{Tensor, contraction, deviator};
 use serde::{Deserialize, Serialize};
 
@@ -25,24 +24,24 @@ const OPENED: f64 = 1.5e-4;
 /// Bounds of z: none has more than equal spheres of the densest packings.
 const CONTACTS: [f64; 2] = [0.0, 12.0];
 
-/// 1, s, v, x, x², x s, r², r² x, r² s, o, o x, with s = √v, x = φ_J − 0.6, r² = |η|² and o = 1/(1 + v/1.5e-4).
-pub fn row(state: &State) -> [f64; COEFFICIENTS] {
-    let v = state.compression.max(0.0);
-    let (s, x, ratio) = (v.sqrt(), state.density(), state.ratio());
-    let (r2, opened) = (contraction(&ratio, &ratio), 1.0 / (1.0 + v / OPENED));
+/// 1, s, v, x, x², x s, r², r² x, r² s, o, o x, with s = √v, x = φ_J − 0.6, r² = |η|² and o = 1/(1 + v/1.5e-4), of the elastic
+/// compression v, x, and the stress ratio η.
+pub fn row(compression: f64, x: f64, ratio: &Tensor) -> [f64; COEFFICIENTS] {
+    let v = compression.max(0.0);
+    let s = v.sqrt();
+    let (r2, opened) = (contraction(ratio, ratio), 1.0 / (1.0 + v / OPENED));
     [1.0, s, v, x, x * x, x * s, r2, r2 * x, r2 * s, opened, opened * x]
 }
 
 impl Contacts {
-    /// z̄ of a state.
-    pub fn usual(&self, state: &State) -> f64 {
-        let sum: f64 = row(state).iter().zip(&self.usual).map(|(a, b)| a * b).sum();
+    /// z̄ of a state with this [`row`].
+    pub fn usual(&self, row: &[f64; COEFFICIENTS]) -> f64 {
+        let sum: f64 = row.iter().zip(&self.usual).map(|(a, b)| a * b).sum();
         sum.clamp(CONTACTS[0], CONTACTS[1])
     }
 
-    /// −ln of what is left of ζ after a strain between two compressions.
+    /// −ln of what is left of ζ after a strain between two compressions above 0.
     pub fn forgotten(&self, before: f64, after: f64, strain: &Tensor) -> f64 {
-        let (before, after) = (before.max(LEAST_COMPRESSION), after.max(LEAST_COMPRESSION));
         let [of_compression, of_shear] = self.fading;
         let distortion = deviator(*strain);
         let length = contraction(&distortion, &distortion).sqrt() / after;

@@ -1,6 +1,6 @@
 //! Fit of what depends on the state of the law: usual fabric, number of contacts, conductivities.
 
-use super::contacts::{self, COEFFICIENTS, Contacts};
+use super::contacts::{COEFFICIENTS, Contacts};
 use super::law::{FABRIC, Law, State};
 use super::readout::{Readout, contact_row, directions, gas_row};
 use super::tensor::{contraction, deviator, mean};
@@ -39,13 +39,13 @@ fn contacts_that_fade(law: &Law, tracks: &[Track], fading: [f64; 2]) -> (Contact
     let mut samples: Vec<([f64; COEFFICIENTS], f64, f64)> = Vec::new();
     for track in tracks {
         let packed = State { coordination: 1.0, ..track.packed.state(&law) };
-        let first = contacts::row(&packed);
+        let first = packed.contact_row();
         let states = follow_from(&law, track, packed);
         for (step, state) in track.steps.iter().zip(&states[1..]) {
             if mean(step.to.stress) < LEAST_PRESSURE || state.compression <= 0.0 {
                 continue;
             }
-            let (left, row) = (state.coordination, contacts::row(state));
+            let (left, row) = (state.coordination, state.contact_row());
             let row = std::array::from_fn(|k| row[k] - left * first[k]);
             samples.push((row, step.to.coordination - left * track.packed.coordination, 1.0));
         }

@@ -1,6 +1,6 @@
 //! The law of a packing of spheres, as in [`super`].
 
-use super::contacts::Contacts;
+use super::contacts::{COEFFICIENTS, Contacts, row};
 use super::number::Number;
 use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
 use crate::SurrogateError;
@@ -118,6 +118,11 @@ impl<N: Number> State<N> {
 }
 
 impl State {
+    /// What the usual number of contacts depends on.
+    pub fn contact_row(&self) -> [f64; COEFFICIENTS] {
+        row(self.compression, self.density(), &self.ratio())
+    }
+
     /// The same state, as numbers that do not depend on the strain.
     pub fn fixed<N: Number>(&self) -> State<N> {
         State {
@@ -218,10 +223,11 @@ impl Law {
             let cell = std::array::from_fn(|c| cell[c].times(share) - square[c].times(part * share * share));
             let before = next.compression.value();
             next = self.part(&next, thermal, cell);
-            forgotten += self.contacts.forgotten(before, next.compression.value(), &cell.map(Number::value));
+            let [before, after] = [before, next.compression.value()].map(|v| v.max(LEAST_COMPRESSION));
+            forgotten += self.contacts.forgotten(before, after, &cell.map(Number::value));
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
-        let usual = |state: &State<N>| self.contacts.usual(&state.value());
+        let usual = |state: &State<N>| self.contacts.usual(&state.value().contact_row());
         next.coordination = usual(&next) + (state.coordination - usual(state)) * libm::exp(-forgotten);
         next
     }
@@ -287,7 +293,7 @@ impl Law {
     /// than all strengths has larger strengths, by a common factor.
     pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
         let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator));
-        state.coordination = known.coordination.unwrap_or_else(|| self.contacts.usual(&state));
+        state.coordination = known.coordination.unwrap_or_else(|| self.contacts.usual(&state.contact_row()));
         state
     }
 

@@ -31,6 +31,7 @@
 
 pub mod ablation;
 pub mod contacts;
+pub mod errors;
 pub mod fit;
 pub mod fit_state;
 pub mod law;

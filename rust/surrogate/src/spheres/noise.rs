@@ -4,8 +4,8 @@
 //! the length of the difference of two tensors. Where packings have no directions of their own, their axes are named so that their
 //! strains agree.
 
+use super::errors::{Errors, LEAST_PRESSURE, Sums};
 use super::fit::scales;
-use super::score::{Errors, LEAST_PRESSURE, Sums};
 use super::tensor::{Tensor, contraction, deviator, mean};
 use super::tracks::Track;
 

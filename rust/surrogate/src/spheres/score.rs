@@ -1,5 +1,6 @@
 //! Errors of the model of spheres along paths, beside the scatter between packings.
 
+use super::errors::{Errors, LEAST_PRESSURE, Sums};
 use super::fit::scales;
 use super::law::{Known, State};
 use super::model::SphereModel;
@@ -30,49 +31,6 @@ pub struct PathErrors {
     /// Scatter between packings that were made and strained alike; absent when there are none.
     pub noise: Option<Errors>,
 }
-
-/// Root mean squares along paths.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Errors {
-    /// Of pressure and deviator, over [`scales`].
-    pub pressure: f64,
-    pub deviator: f64,
-    /// Relative, of the conductivities by contacts, and by gas at ln(R/h) = 8.5.
-    pub contact: f64,
-    pub gas: f64,
-}
-
-/// Sums of squares of [`Errors`], over all states, and over those that conduct well.
-#[derive(Default)]
-pub(super) struct Sums {
-    stress: [f64; 2],
-    conductivity: [f64; 2],
-    states: usize,
-    conducting: usize,
-}
-
-impl Sums {
-    pub fn add_stress(&mut self, squares: [f64; 2]) {
-        self.states += 1;
-        (0..2).for_each(|k| self.stress[k] += squares[k]);
-    }
-
-    pub fn add_conductivity(&mut self, squares: [f64; 2]) {
-        self.conducting += 1;
-        (0..2).for_each(|k| self.conductivity[k] += squares[k]);
-    }
-
-    /// `None` without states.
-    pub fn errors(&self) -> Option<Errors> {
-        let root = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
-        let [pressure, deviator] = self.stress.map(|sum| root(sum, self.states));
-        let [contact, gas] = self.conductivity.map(|sum| root(sum, self.conducting));
-        (self.states > 0).then_some(Errors { pressure, deviator, contact, gas })
-    }
-}
-
-/// Least p/E* of states whose conductivity is judged.
-pub(super) const LEAST_PRESSURE: f64 = 1e-7;
 
 /// Errors by kind of path, in the order of the names.
 pub fn score(model: &SphereModel, tracks: &[Track]) -> Vec<PathErrors> {
@@ -107,14 +65,14 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
         }
     }
     let [contact_of_state, direction, gas_of_state] =
-        of_state.map(|sum| (sum / all.conducting.max(1) as f64).sqrt());
+        of_state.map(|sum| (sum / all.conducting().max(1) as f64).sqrt());
     PathErrors {
         name: name.to_string(),
         paths: tracks.len(),
-        states: all.states,
+        states: all.states(),
         along: all.errors().unwrap_or_default(),
         of_stress_alone: alone.errors().unwrap_or_default(),
-        size: (size / all.states.max(1) as f64).sqrt(),
+        size: (size / all.states().max(1) as f64).sqrt(),
         contact_of_state,
         direction,
         gas_of_state,

@@ -1,0 +1,54 @@
+//! Errors along paths: of the law, and of packings beside each other.
+
+use serde::Serialize;
+
+/// Root mean squares along paths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Errors {
+    /// Of pressure and deviator, over [`super::fit::scales`].
+    pub pressure: f64,
+    pub deviator: f64,
+    /// Relative, of the conductivities by contacts, and by gas at ln(R/h) = 8.5.
+    pub contact: f64,
+    pub gas: f64,
+}
+
+/// Sums of squares of [`Errors`], over all states, and over those that conduct well.
+#[derive(Default)]
+pub struct Sums {
+    stress: [f64; 2],
+    conductivity: [f64; 2],
+    states: usize,
+    conducting: usize,
+}
+
+impl Sums {
+    pub fn add_stress(&mut self, squares: [f64; 2]) {
+        self.states += 1;
+        (0..2).for_each(|k| self.stress[k] += squares[k]);
+    }
+
+    pub fn add_conductivity(&mut self, squares: [f64; 2]) {
+        self.conducting += 1;
+        (0..2).for_each(|k| self.conductivity[k] += squares[k]);
+    }
+
+    pub fn states(&self) -> usize {
+        self.states
+    }
+
+    pub fn conducting(&self) -> usize {
+        self.conducting
+    }
+
+    /// `None` without states.
+    pub fn errors(&self) -> Option<Errors> {
+        let root = |sum: f64, count: usize| (sum / count.max(1) as f64).sqrt();
+        let [pressure, deviator] = self.stress.map(|sum| root(sum, self.states));
+        let [contact, gas] = self.conductivity.map(|sum| root(sum, self.conducting));
+        (self.states > 0).then_some(Errors { pressure, deviator, contact, gas })
+    }
+}
+
+/// Least p/E* of states whose conductivity is judged.
+pub const LEAST_PRESSURE: f64 = 1e-7;
