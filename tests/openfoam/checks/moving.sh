@@ -23,14 +23,14 @@ as_the_law() { # what, strains along x, y, z: one step, after which all cells ha
 patch_tests_of_spheres() {
     local walls plane press
     walls=$(stretched -1e-4 5e-5 -3e-4) plane=$(stretched -1e-4 -2e-4 0) press=$(stretched 0 0 -5e-4)
-    bed spheres-hexahedra "$walls"; cube 4; moved_points; as_the_law "hexahedra whose faces are not plane" -1e-4 5e-5 -3e-4
-    bed spheres-tetrahedra "$walls"; awk_mesh tet 3 1; as_the_law "tetrahedra" -1e-4 5e-5 -3e-4
-    bed spheres-polyhedra "$walls"; awk_mesh tet 3 1; logged polyDualMesh 60 -overwrite; as_the_law "polyhedra" -1e-4 5e-5 -3e-4
-    bed spheres-snappy "$walls"; cube 4; snappy; as_the_law "polyhedra of snappyHexMesh" -1e-4 5e-5 -3e-4
-    bed spheres-pressed "$press"; cube 4; as_the_law "uniaxial compression" 0 0 -5e-4
-    bed spheres-plane "${plane/top*\}/\}}"; awk_mesh tri 4 1; patch_type frontAndBack empty; as_the_law "triangles in the plane" -1e-4 -2e-4 0
+    spheres_bed spheres-hexahedra "$walls"; cube 4; moved_points; as_the_law "hexahedra whose faces are not plane" -1e-4 5e-5 -3e-4
+    spheres_bed spheres-tetrahedra "$walls"; awk_mesh tet 3 1; as_the_law "tetrahedra" -1e-4 5e-5 -3e-4
+    spheres_bed spheres-polyhedra "$walls"; awk_mesh tet 3 1; logged polyDualMesh 60 -overwrite; as_the_law "polyhedra" -1e-4 5e-5 -3e-4
+    spheres_bed spheres-snappy "$walls"; cube 4; snappy; as_the_law "polyhedra of snappyHexMesh" -1e-4 5e-5 -3e-4
+    spheres_bed spheres-pressed "$press"; cube 4; as_the_law "uniaxial compression" 0 0 -5e-4
+    spheres_bed spheres-plane "${plane/top*\}/\}}"; awk_mesh tri 4 1; patch_type frontAndBack empty; as_the_law "triangles in the plane" -1e-4 -2e-4 0
     # A body of revolution about x: the radius, from 1 to 2, grows by the same strain as the hoops
-    bed spheres-wedge 'residual 1e-4; walls { inner { type displacement; displacement constant (0 -1e-4 0); } outer { type displacement; displacement constant (0 -2e-4 0); } }'
+    spheres_bed spheres-wedge 'residual 1e-4; walls { inner { type displacement; displacement constant (0 -1e-4 0); } outer { type displacement; displacement constant (0 -2e-4 0); } }'
     wedge_mesh 4
     as_the_law "a wedge" 0 -1e-4 -1e-4
 }
@@ -39,7 +39,7 @@ patch_tests_of_spheres() {
 growth_of_spheres() {
     local e d
     # In a rigid box of irregular cells nothing moves, and all cells go along the isotropic path of the law
-    bed spheres-confined 'walls { ".*" { type frictionless; } }'
+    spheres_bed spheres-confined 'walls { ".*" { type frictionless; } }'
     cube 4
     moved_points
     growth_is 4e-4
@@ -48,7 +48,7 @@ growth_of_spheres() {
     check "spheres that grow in a rigid box: the stress is that of the law to $e <= 1e-10" below "$e" 1e-10
     check "and nothing moves" grep -q 'largest displacement [0-9.]*e-1[0-9] m\|largest displacement 0 m' log
     # Under the pressure of the start they keep their stress, and the bed grows as they do
-    bed spheres-free 'residual 1e-6; walls { "low|front|bottom" { type symmetry; } "high|back|top" { type pressure; pressure constant 5000; } }'
+    spheres_bed spheres-free 'residual 1e-6; walls { "low|front|bottom" { type symmetry; } "high|back|top" { type pressure; pressure constant 5000; } }'
     cube 4
     moved_points
     growth_is 4e-4
@@ -67,7 +67,7 @@ from_weight() { # component of the position, of the stress along it; density: la
 column_walls='walls { ".*" { type frictionless; } "top|outer" { type pressure; pressure constant 0; } }'
 weights() {
     local e
-    bed spheres-at-rest "$column_walls"
+    spheres_bed spheres-at-rest "$column_walls"
     rm 0/stress
     grains 'restStress { lateral 0.7; }'
     gravity_is '0 0 -9.81'
@@ -79,7 +79,7 @@ weights() {
     e=$(field 1/stress | awk '{ e = $1/$6 - 0.7; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print w }')
     check "with the lateral stress that was given, to $e <= 1e-10" below "$e" 1e-10
     # From a uniform stress the bed finds its rest by itself
-    bed spheres-settling "residual 1e-2; $column_walls"
+    spheres_bed spheres-settling "residual 1e-2; $column_walls"
     gravity_is '0 0 -9.81'
     cube 6
     cell_geometry
@@ -87,7 +87,7 @@ weights() {
     e=$(from_weight 3 6 "2500*0.59")
     check "a column from uniform stress: vertical stress differs from the closed form by $e <= 1e-5" below "$e" 1e-5
     # The same for a hollow cylinder with its axis upright, as a wedge, and for discs in the plane
-    bed spheres-upright "walls { \"inner|outer|low\" { type frictionless; } top { type pressure; pressure constant 0; } }"
+    spheres_bed spheres-upright "walls { \"inner|outer|low\" { type frictionless; } top { type pressure; pressure constant 0; } }"
     rm 0/stress
     grains 'restStress { lateral 0.7; }'
     gravity_is '-9.81 0 0'
@@ -111,11 +111,11 @@ weights() {
     e=$(paste -d ' ' <(field 0/C) <(field 0.05/stress) | awk -v bulk="$(field 0.05/bulkDensity | head -n 1)" '{ e = $7 + bulk*9.81*(0.645 - $2); if (e < 0) e = -e; if (!(e <= w)) w = e
         f = bulk*9.81*0.645 } END { print (NR > 3 ? w/f : "nan") }')
     check "discs at rest under their weight: vertical stress differs from the closed form by $e <= 1e-6" below "$e" 1e-6
-    bed spheres-wedge-weight "walls { \"inner|outer\" { type frictionless; } }"
+    spheres_bed spheres-wedge-weight "walls { \"inner|outer\" { type frictionless; } }"
     gravity_is '0 0 -9.81'
     wedge_mesh 4
     check "refused: gravity across the axis of a wedge" refused 'allowed in a wedge: along its axis'
-    bed spheres-both "$column_walls"
+    spheres_bed spheres-both "$column_walls"
     grains 'restStress { lateral 0.5; }'
     gravity_is '0 0 -9.81'
     cube 2
@@ -130,7 +130,7 @@ weights() {
 # A hollow cylinder, from radius 1 to 2 m, is heated from within for a day, in a rigid ring and with a given pressure inside: as a wedge
 # and as a quarter in space. Rows: for each radius T and the stress along the radius, the hoop and the axis.
 hollow() { # folder, mesh
-    bed "$1" 'residual 1e-2; walls { ".*" { type rigid; } inner { type pressure; pressure constant 5000; } }'
+    spheres_bed "$1" 'residual 1e-2; walls { ".*" { type rigid; } inner { type pressure; pressure constant 5000; } }'
     hot_wall inner 340
     hot_wall outer 300
     "$2" 16
@@ -162,7 +162,7 @@ wedge_and_sector() {
 }
 
 hot_column() { # folder, size of the spheres [m]: a column under its weight and a load that grows, heated from above
-    bed "$1" 'walls { ".*" { type frictionless; } top { type pressure; pressure table ((0 5000) (8e4 20000)); } }'
+    spheres_bed "$1" 'walls { ".*" { type frictionless; } top { type pressure; pressure table ((0 5000) (8e4 20000)); } }'
     sed -i "s/meanRadius 1e-3/meanRadius $2/; s/gas air/gas vacuum/" constant/granularProperties
     gravity_is '0 0 -9.81'
     hot_wall top 340

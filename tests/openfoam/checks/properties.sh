@@ -2,7 +2,7 @@
 # conductivity of spheres against that of a number; what is refused.
 
 bed_at_rest() { # folder: a block of eight cells that keep their place
-    bed "$1" 'walls { ".*" { type frictionless; } }'
+    spheres_bed "$1" 'walls { ".*" { type frictionless; } }'
     sed -i 's/mechanics equilibrium/mechanics none/; /^\tequilibriumCoeffs\|^equilibriumCoeffs/d; s/thermalExpansion 1e-5/thermalExpansion 0/' \
         constant/granularProperties
     cube 2
