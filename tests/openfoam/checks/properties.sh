@@ -28,7 +28,7 @@ heated_through() { # heat capacity, time scheme, heat [J/kg] that it must have t
 }
 heat_balance() { # time scheme: grains that move, a hot wall, a heat capacity with kinks
     local e
-    bed "properties-moving-$1" 'walls { ".*" { type frictionless; } top { type pressure; pressure constant 5000; } }'
+    spheres_bed "properties-moving-$1" 'walls { ".*" { type frictionless; } top { type pressure; pressure constant 5000; } }'
     property heatCapacity 'table ((280 500) (310 900) (330 600) (400 800))'
     property thermalConductivity 'polynomial ((10 0) (0.1 1))'
     hot_wall top 400
