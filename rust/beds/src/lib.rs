@@ -70,7 +70,7 @@ pub mod vtk;
 pub mod wall;
 
 pub use averages::{Averages, averages};
-pub use pack::{Packed, Packing, pack, pack_along};
+pub use pack::{Packed, Packing, pack, pack_along, shake};
 
 /// What can go wrong with a box.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -21,6 +21,11 @@ const FASTEST: f64 = 1e-2;
 const GAIN: f64 = 0.1;
 /// Drag over √(p/ρ)/d once they do.
 const DRAG: f64 = 1.0;
+/// Mixing: largest velocity along each axis over √(p/ρ), and its path over the opening, so that a sphere collides some fifty times.
+const MIXING_SPEED: f64 = 0.3;
+const MIXING_PATH: f64 = 50.0;
+/// Makes the random numbers of mixing others than those of the first places.
+const MIXING_SEED: u64 = 0x5bd1_e995;
 /// Relative error of the pressure, and kinetic energy over pV, at which a packing counts as at rest.
 const BALANCED: [f64; 2] = [1e-4, 1e-8];
 
@@ -105,6 +110,41 @@ pub fn pack_along(packing: &Packing, rates: [f64; 3]) -> Result<Packed, BedError
     Ok(Packed { simulation, averages, settled })
 }
 
+/// Shakes a packed box and presses it again with the friction and to the pressure of `packing`. First it is opened by `opening` along
+/// all axes, so that no spheres touch, and their places are mixed by random velocities without friction or damping. So it
+/// is nearly as dense as before, but every contact was made under friction, as where grains rain down or are shaken (Agnolin and
+/// Roux, 2007, Phys. Rev. E 76:061302, packings C). `packing.steps` are counted from here.
+///
+/// # Errors
+/// A parameter outside its range; a run that fails.
+pub fn shake(
+    simulation: &mut Simulation,
+    packing: &Packing,
+    rates: [f64; 3],
+    opening: f64,
+) -> Result<bool, BedError> {
+    packing.check()?;
+    let &Packing { seed, diameter, pressure, .. } = packing;
+    let per_time = (pressure / packing.material.density).sqrt() / diameter;
+    simulation.scale_cell(1.0 + opening);
+    let mut random = Random::new(seed ^ MIXING_SEED);
+    let speed = MIXING_SPEED * per_time * diameter;
+    for sphere in &mut simulation.spheres {
+        sphere.velocity = std::array::from_fn(|_| random.uniform(-speed, speed));
+        sphere.angular_velocity = [0.0; 3];
+    }
+    simulation.material = Material { friction: 0.0, restitution: 1.0, ..packing.material.clone() };
+    simulation.drag = 0.0;
+    let until = simulation.time + MIXING_PATH * opening * diameter / speed;
+    while simulation.time < until {
+        simulation.run(LOOK_EVERY)?;
+    }
+    simulation.material = packing.material.clone();
+    let settled = compress(simulation, packing, rates, per_time)?;
+    simulation.drag = 0.0;
+    Ok(settled)
+}
+
 /// `per_time` \[1/s\] is √(p/ρ)/d.
 fn compress(
     simulation: &mut Simulation,
@@ -117,7 +157,8 @@ fn compress(
     let target = packing.pressure;
     let fastest = FASTEST * per_time;
     let mut borne = false;
-    while simulation.steps < packing.steps {
+    let end = simulation.steps + packing.steps;
+    while simulation.steps < end {
         let stress = stress(simulation);
         let pressure = (stress[0][0] + stress[1][1] + stress[2][2]) / 3.0;
         let error = (pressure - target) / target;

@@ -4,7 +4,7 @@ use super::follow::{Rest, UNJAMMED_PRESSURE, advance, pressure, rest};
 use super::material;
 use super::strain::Strain;
 use crate::stopwatch::{self, Stage};
-use msdd_beds::{BedError, Packing, pack_along};
+use msdd_beds::{BedError, Packing, pack_along, shake};
 use msdd_spheres::{Failure, Simulation};
 
 /// Least p/E* at which a box is packed; lower ones are reached by opening it. A packing below has to creep for hundreds of
@@ -35,6 +35,9 @@ pub struct Preparation {
     pub friction: f64,
     /// Ratio of the rates at which the box closes along its axes, see [`pack_along`].
     pub rates: [f64; 3],
+    /// How far the packed box is opened along all axes to be shaken, and then pressed again with the friction of
+    /// afterwards, see [`shake`]; 0: it is not.
+    pub shaking: f64,
     /// p/E*.
     pub pressure: f64,
 }
@@ -63,7 +66,7 @@ pub enum PrepareError {
 /// A parameter outside its range; a run that fails; a pressure that is not reached.
 pub fn prepare(preparation: &Preparation) -> Result<Prepared, PrepareError> {
     let &Preparation { spheres, seed, poisson_ratio, restitution, rates, .. } = preparation;
-    let packing = Packing {
+    let mut packing = Packing {
         spheres,
         seed,
         diameter: 1.0,
@@ -72,7 +75,13 @@ pub fn prepare(preparation: &Preparation) -> Result<Prepared, PrepareError> {
         steps: PACKING_STEPS,
     };
     let mut simulation = stopwatch::time(Stage::Packing, || pack_along(&packing, rates))?.simulation;
-    simulation.material = material(poisson_ratio, preparation.friction, restitution);
+    packing.material = material(poisson_ratio, preparation.friction, restitution);
+    if preparation.shaking > 0.0 {
+        packing.pressure = preparation.pressure;
+        let opening = preparation.shaking;
+        stopwatch::time(Stage::Packing, || shake(&mut simulation, &packing, rates, opening))?;
+    }
+    simulation.material = packing.material;
     let rest = stopwatch::time(Stage::PackingSettle, || rest(&mut simulation, 0))?;
     let sum: f64 = rates.iter().sum();
     let rates = rates.map(|rate| 3.0 * rate / sum);

@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 const STEPS: [f64; 2] = [1e-5, 1e-2];
 const STRAINS: [f64; 2] = [1e-4, 5e-2];
 const PRESSURES: [f64; 2] = [1e-8, 1e-3];
+/// Opening of boxes that are shaken: with less, spheres still touch.
+const SHAKING: [f64; 2] = [0.002, 0.1];
 const SPHERES: [usize; 2] = [50, 1_000_000];
 /// Largest friction of spheres.
 const MOST_FRICTION: f64 = 2.0;
@@ -48,6 +50,10 @@ pub struct SphereBlock {
     /// μ while the box closes \[-\]; default: that of the plan alone.
     #[serde(default)]
     pub packing_frictions: Vec<f64>,
+    /// How far a packed box is opened along all axes to be shaken and pressed again with the friction of the plan \[-\]; 0: it
+    /// is not. So boxes are dense though every contact was made under friction, as in beds that were poured.
+    #[serde(default)]
+    pub shaking: f64,
     pub compressions: Vec<SphereCompression>,
     /// p/E* of the packed states \[-\].
     pub pressures: Vec<f64>,
@@ -189,6 +195,7 @@ impl SpherePlan {
                 packing_friction,
                 friction: self.friction,
                 rates: compression.rates(),
+                shaking: block.shaking,
                 pressure,
             },
             paths: block.paths.clone(),
@@ -225,6 +232,10 @@ impl SphereBlock {
             return Err(format!(
                 "packing_frictions: {value}, allowed: 0 to the friction of the plan, {friction}"
             ));
+        }
+        let [least, most] = SHAKING;
+        if self.shaking != 0.0 && !(least..=most).contains(&self.shaking) {
+            return Err(format!("shaking: {}, allowed: 0, or {least} to {most}", self.shaking));
         }
         let [least, most] = PRESSURES;
         if let Some(value) = self.pressures.iter().find(|value| !(least..=most).contains(*value)) {

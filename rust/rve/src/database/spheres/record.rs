@@ -19,6 +19,7 @@ row! {
     seed: u64, "INTEGER", "-", "seed of the packing";
     compression: SphereCompression, "TEXT", "-", "isotropic: the box closed along all axes alike; uniaxial: along z only; sheared: along z, while it opened along x and y, each a quarter as fast";
     packing_friction: f64, "REAL", "-", "friction while the box closed";
+    shaking: Option<f64>, "REAL", "-", "how far the packed box was opened along all axes to be shaken and pressed again, with the friction of afterwards; absent when it was not";
     friction: f64, "REAL", "-", "friction afterwards";
     packing_pressure: f64, "REAL", "-", "pressure over E* that the packed state was to bear; it does within 5 %, or it bears more where a box loses its load on the way to so little";
     path: PathName, "TEXT", "-", "packed: before any strain; others: paths of strain";
@@ -74,7 +75,10 @@ row! {
 
 impl Row for SphereRecord {
     const COLUMNS: &'static [Column] = COLUMNS;
-    const SCHEMAS: &'static [Schema] = &[Schema { number: "spheres 1", without: &[] }];
+    const SCHEMAS: &'static [Schema] = &[
+        Schema { number: "spheres 1", without: &["shaking"] },
+        Schema { number: "spheres 2", without: &[] },
+    ];
     const KEY: &'static str = "packing, path, stop";
     type Place = (PathName, i64);
 
@@ -132,6 +136,7 @@ impl SphereRecord {
             seed: preparation.seed,
             compression: job.compression,
             packing_friction: preparation.packing_friction,
+            shaking: (preparation.shaking > 0.0).then_some(preparation.shaking),
             friction: preparation.friction,
             packing_pressure: preparation.pressure,
             ..Self::default()
