@@ -43,7 +43,7 @@ pub const MODELS: [Kind; 3] = [
     },
     Kind {
         name: "increment",
-        about: "one law for thermal and mechanical strain: elastic energy, and sliding that remembers; 15 numbers of stress, 9 of porosity and fabric, 14 of each conductivity",
+        about: "one law for thermal and mechanical strain: elastic energy, and sliding that remembers; 16 numbers of stress, 9 of porosity and fabric, 14 of each conductivity",
         epochs: increment::training::USUAL_EPOCHS,
         schema: "msdd-increment-model-",
         train: |data, options| Ok(Box::new(increment::training::train(data, options)?)),

@@ -362,6 +362,36 @@ fn sliding_ends_where_grains_lose_contact() {
     assert!(after[JAMMING] > state[JAMMING] && stress[0] >= 0.0, "{after:?} {stress:?}");
 }
 
+/// Grains that have parted touch again later, by the settling times how far they parted, or by that of 0.02 when they parted
+/// further, in one strain as in many.
+#[test]
+fn grains_that_part_settle() {
+    let core = core();
+    let start = packed(0.16, 0.024, [0.0; 2]);
+    let parted = |compression: f64, parts: i32| {
+        let mut state = start;
+        let step = ((1.0 + state[COMPRESSION]) / (1.0 + compression)).powf(0.5 / f64::from(parts)) - 1.0;
+        for _ in 0..parts {
+            state = advanced(&state, [0.0, step, step, 0.0, 0.0]).0;
+        }
+        state[JAMMING] / start[JAMMING] - 1.0
+    };
+    assert_eq!(parted(0.001, 1), 0.0);
+    let settling = core.law.settling;
+    assert!(settling > 0.01);
+    for (compression, share) in [(-0.01, 0.01), (-0.02, 0.02), (-0.05, 0.02)] {
+        let once = parted(compression, 1);
+        // The gap from which φ_J is found shrinks with φ_J itself.
+        assert!((once / (settling * share) - 1.0).abs() < 0.1, "{compression}: {once}");
+        assert!((parted(compression, 500) / once - 1.0).abs() < 0.1, "{compression}");
+    }
+    // The way back changes nothing.
+    let open = advanced(&start, [0.0, 0.03, 0.03, 0.0, 0.0]).0;
+    let shut = advanced(&open, [0.0, -0.02, -0.02, 0.0, 0.0]).0;
+    assert_eq!(shut[JAMMING], open[JAMMING]);
+    assert!(shut[COMPRESSION] > open[COMPRESSION]);
+}
+
 #[test]
 fn stronger_packings_bear_more() {
     let mut ends = Vec::new();

@@ -33,7 +33,7 @@ const STEP: f64 = 1e-4;
 /// a tenth of this number's inverse.
 const SIZE: f64 = 10.0;
 /// Number of parameters.
-const PARAMETERS: usize = 15;
+const PARAMETERS: usize = 16;
 
 /// The law's numbers as parameters without bounds.
 pub fn parameters(law: &Law) -> DVector<f64> {
@@ -56,6 +56,7 @@ pub fn parameters(law: &Law) -> DVector<f64> {
         law.dilatancy_of_looseness / SIZE,
         law.looseness[1] / (SIZE * SIZE),
         law.looseness[2] / SIZE,
+        SIZE * law.settling,
     ])
 }
 
@@ -72,6 +73,7 @@ pub fn law(x: &DVector<f64>) -> Law {
         shear: [positive(4, 0.0, 1e6), positive(5, 1e-9, 1e6), positive(6, 0.0, 1e6)],
         elements: [element(share, 8, x[10]), element(1.0 - share, 9, x[11])],
         dilatancy_of_looseness: SIZE * x[12],
+        settling: (x[15] / SIZE).clamp(0.0, 1.0),
     }
 }
 
@@ -88,6 +90,7 @@ pub fn beginning() -> Law {
         shear: [0.4, 0.02, 0.2],
         elements: [element(0.6, 0.05, 0.0), element(0.4, 0.2, 0.0)],
         dilatancy_of_looseness: 5.0,
+        settling: 0.05,
     }
 }
 const _: () = assert!(ELEMENTS == 2);

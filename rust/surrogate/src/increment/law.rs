@@ -1,4 +1,4 @@
-//! The law of the increments: elastic energy, sliding and dilatancy of grains, as in [`super`].
+//! The law of the increments: elastic energy, sliding, dilatancy and settling of grains, as in [`super`].
 
 use super::number::Number;
 use crate::SurrogateError;
@@ -24,6 +24,9 @@ pub struct Law {
     pub elements: [Element; ELEMENTS],
     /// Growth of all elements' dilatancy with z.
     pub dilatancy_of_looseness: f64,
+    /// Relative growth of φ_J by a unit of v by which grains that have lost contact part, up to [`SETTLED`] [0 to 1].
+    #[serde(default)]
+    pub settling: f64,
 }
 
 /// An element slides when its part of the deviator exceeds `strength` times A.
@@ -45,6 +48,8 @@ const LEAST_LOOSENESS: f64 = -0.035;
 const MOST_LOOSENESS: f64 = 0.05;
 /// Least k₀ (1 + looseness·z) over k₀.
 const LEAST_BULK: f64 = 0.1;
+/// How far grains part until they have settled [-]: v reaches this below 0.
+const SETTLED: f64 = 0.02;
 /// Largest elastic compression: that of grains which overlap by a third of their radius.
 const MOST_COMPRESSION: f64 = 0.6;
 /// Least p/A, which only packings far beyond all known ones reach. The largest deviator over A is smaller.
@@ -237,6 +242,14 @@ impl Law {
         // Sliding ends where the grains lose contact, and those that do not touch do not climb.
         let loss = loss.where_greater(tried, tried, loss);
         let loss = tried.where_greater(zero, loss, zero);
+        // Grains that part settle: they will touch again later than they came apart.
+        let gap = |v: N| {
+            let open = v.where_greater(zero, zero, v);
+            let far = N::all(-SETTLED);
+            open.where_greater(far, open, far)
+        };
+        let wider = gap(state.compression) - gap(tried);
+        let loss = loss + wider.where_greater(zero, wider, zero).times(self.settling);
         let compression = tried - loss;
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         let next = Elastic { jamming, compression, shear, strength: state.strength };
@@ -282,6 +295,7 @@ impl Law {
                 self.dilatancy_of_looseness.abs() <= 1e3,
                 "-1e3 to 1e3",
             ),
+            ("settling", self.settling, (0.0..=1.0).contains(&self.settling), "0 to 1"),
         ];
         if let Some((key, value, _, allowed)) = numbers.iter().find(|(_, _, good, _)| !good) {
             return field(&format!("law.{key}"), value, allowed);

@@ -19,6 +19,9 @@
 //! changes the elastic compression by −(b_i + b_z z) s: φ_J changes, which is dilatancy. The elements' shear strains are the
 //! memory of where the packing has been. Sliding in the direction of the stress dissipates m_i A s, which is never negative.
 //!
+//! **Settling.** While v falls below 0, down to −0.02, φ_J grows by `settling` times that: grains that have come apart touch
+//! again later.
+//!
 //! **Readouts.** Overlaps (and so the porosity), conductivity and fabric are functions of this state; the fabric has, besides,
 //! a part that stays as it was packed.
 //!
