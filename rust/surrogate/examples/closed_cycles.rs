@@ -35,13 +35,18 @@ struct Cells {
 
 impl Cells {
     fn strain(&mut self, model: &dyn Surrogate, step: &Strain, share: f64, keep: bool) {
-        let mut strain = Increment::default();
-        for lane in 0..LANES {
-            let [thermal, area, half, shear] = [0, 1, 2, 3].map(|c: usize| share * step[c][lane]);
-            let mean = (area.exp() + half * half + 0.25 * shear * shear).sqrt() - 1.0;
-            strain.thermal[lane] = thermal.exp() - 1.0;
-            (strain.xx[lane], strain.yy[lane], strain.xy[lane]) = (mean + half, mean - half, shear);
-        }
+        let lanes = |of: &dyn Fn([f64; 4]) -> f64| {
+            std::array::from_fn(|lane| of([0, 1, 2, 3].map(|c: usize| share * step[c][lane])))
+        };
+        let mean =
+            |area: f64, half: f64, shear: f64| (area.exp() + half * half + 0.25 * shear * shear).sqrt();
+        let strain = Increment {
+            thermal: lanes(&|[thermal, ..]| thermal.exp() - 1.0),
+            xx: lanes(&|[_, area, half, shear]| mean(area, half, shear) - 1.0 + half),
+            yy: lanes(&|[_, area, half, shear]| mean(area, half, shear) - 1.0 - half),
+            xy: lanes(&|[_, _, _, shear]| shear),
+            rotation: [0.0; LANES],
+        };
         model.advance(&self.state, &strain, &mut self.answer, None);
         if keep {
             self.state = self.answer.state;
