@@ -255,7 +255,8 @@ const char *msdd_spheres_state_name(const msdd_spheres *spheres, size_t column);
 /** Computes the state of packings with a solid fraction (0.3 to 0.8) and a stress [Pa, compression positive; six columns]. A
  *  pressure of 0 or less is that of spheres that just do not touch. `coordination`: contacts per sphere, all spheres counted
  *  (0 to 12); `fabric`: mean of n n over the contacts, with the normals n (six columns, -1 to 1). Either may be NULL, and then is
- *  that of usual packings. `state`: state_size writable columns. */
+ *  that of usual packings. All friction counts as mobilised (state column `mobilised` 1), as in beds that were poured.
+ *  `state`: state_size writable columns. */
 int32_t msdd_spheres_initial_state(const msdd_spheres *spheres, const msdd_sphere_material *material, size_t cells,
                                    const double *solid_fraction, const double *const *stress, const double *coordination,
                                    const double *const *fabric, double *const *state);

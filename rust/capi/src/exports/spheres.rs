@@ -185,6 +185,7 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
             let stress: Tensor = std::array::from_fn(|k| stress[k].at(cell) / material.modulus());
             let known = Known {
                 coordination: coordination.map(|column| column.at(cell)),
+                mobilised: None,
                 fabric: fabric.as_ref().map(|columns| std::array::from_fn(|k| columns[k].at(cell))),
             };
             let found = handle.model.initial_state(solid.at(cell), stress, &known);

@@ -215,7 +215,7 @@ fn contacts_and_fabric_are_those_that_were_counted() {
     let load = [1e5, 1e5, 1.3e5, 0.0, 0.0, 0.0].map(|part| part / MODULUS);
     let tensor = Some([0.32, 0.32, 0.36, 0.0, 0.0, 0.0]);
     for cell in 0..2 {
-        let known = Known { coordination: Some(contacts[cell]), fabric: tensor };
+        let known = Known { coordination: Some(contacts[cell]), fabric: tensor, mobilised: None };
         let expected = model.initial_state(0.6, load, &known);
         assert!((0..size).all(|k| state[k][cell] == expected[k]), "{expected:?}");
     }

@@ -138,7 +138,7 @@ fn print_along(found: &[PathErrors]) {
 /// Errors of the conductivities of known states, and those along paths where less is known at the start.
 fn print_of_state(found: &[PathErrors]) {
     outln!(
-        "errors of known states, %; and along the paths where solid fraction and stress alone are known at their start, %"
+        "errors of known states, %; and along the paths where solid fraction, stress and mobilised friction alone are known at their start, %"
     );
     let of_state = ["K by contacts", "direction", "K by gas"];
     let along = ["pressure", "deviator", "K by contacts", "K by gas"];

@@ -37,6 +37,11 @@ fn point(record: &SphereRecord) -> Option<Point> {
             record.fabric_xz?,
             record.fabric_yz?,
         ],
+        mobilised: match record.shaking {
+            Some(_) => 1.0,
+            None if record.friction > 0.0 => (record.packing_friction / record.friction).min(1.0),
+            None => 0.0,
+        },
     })
 }
 
@@ -74,8 +79,8 @@ pub fn tracks(records: &[SphereRecord]) -> Vec<Track> {
         let first = rows.first()?;
         let steps: Vec<Step> = rows.iter().map_while(|row| step(row)).collect();
         let recipe = format!(
-            "{:?} {} {} {}",
-            first.compression, first.packing_friction, first.packing_pressure, first.spheres
+            "{:?} {} {:?} {} {}",
+            first.compression, first.packing_friction, first.shaking, first.packing_pressure, first.spheres
         );
         let is_isotropic = first.compression == SphereCompression::Isotropic;
         let (name, spheres) = (path.as_str().to_string(), first.spheres as usize);

@@ -194,8 +194,8 @@ fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
         "K by contacts [%]",
         "K by gas [%]",
     ];
-    let meaning = "rms errors of conductivities of known states, and errors along paths where solid fraction and stress alone are known \
-                   at the start";
+    let meaning = "rms errors of conductivities of known states, and errors along paths where solid fraction, stress and mobilised \
+                   friction alone are known at the start";
     section.add_table("spheres-law-known", meaning, "msdd score", &columns, known);
     Ok(())
 }

@@ -16,16 +16,21 @@ pub const FABRIC: usize = ELEMENTS - 1;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Law {
-    /// A = b₀ e^(b₁ x + b₂ x²) v^(3/2) u^(b₃ + b₄ x).
+    /// A = b₀ e^(b₁ x + b₂ g) v^(3/2) u^(b₃ + b₄ g), with the part g of the friction that is not mobilised.
     pub bulk: [f64; 5],
-    /// Stiffnesses go with e^(`shear`₀ x) u^`shear`₁.
-    pub shear: [f64; 2],
+    /// Stiffnesses go with e^(`shear`₀ x + `shear`₂ g) u^`shear`₁.
+    pub shear: [f64; 3],
     /// Growth of the pressure by the stress ratios: p = A (1 + `lift` Σ |η_k|²/c_k).
     pub lift: f64,
     pub elements: [Element; ELEMENTS],
-    /// Loss of compression by a unit of sliding: d₀ (d₁ + d₂ x + d₃ x² − η·n), with n the direction of sliding; negative where
+    /// Loss of compression by a unit of sliding: d₀ (d₁ + d₂ x + d₃ g − η·n), with n the direction of sliding; negative where
     /// grains climb over each other.
     pub dilatancy: [f64; 4],
+    /// Loss of compression by a unit of sliding beside it, of packings whose friction is mobilised and that hardly bear load:
+    /// (1 − g) c₀ e^(−c₁ x) u^(−c₂) (1 − η·n/c₃), 0 where that is negative.
+    pub collapse: [f64; 4],
+    /// Growth of the mobilised friction by sliding: dg = −m g ds/v.
+    pub mobilising: f64,
     /// Loss of compression by a unit of opening: s₀/(1 + (v/v₀)²), v₀ = s₁ e^(−s₂ x), of packings that lose their load.
     pub settling: [f64; 3],
     /// Stress ratio of the fabric over the deviator of the fabric, and its usual part of the stress ratio, for packings whose
@@ -40,10 +45,10 @@ pub struct Law {
 pub struct Element {
     /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1.
     pub stiffness: f64,
-    /// It slides when it exceeds `strength` e^(`growth` x + `curvature` x² + `hardening` √v) times A.
+    /// It slides when it exceeds `strength` e^(`growth` x + `free` g + `hardening` √v) times A.
     pub strength: f64,
     pub growth: f64,
-    pub curvature: f64,
+    pub free: f64,
     pub hardening: f64,
     /// The stress ratio goes with this power of v where the packing is compressed without shear: 0 where new contacts have the
     /// directions of the old ones, −1 where none are made.
@@ -86,7 +91,11 @@ pub struct State<N = f64> {
     pub ratios: [Tensor<N>; ELEMENTS],
     /// Factor of the strengths but that of the fabric, which does not change: 1 but for packings that bear more.
     pub strength: f64,
-    /// z: contacts per sphere, all spheres counted. It changes the conductivity, not the stress.
+    /// Part of the friction that is mobilised, 0 to 1: as where all contacts were made under friction (1), or without any (0).
+    pub mobilised: N,
+    /// ζ = z − z̄: contacts per sphere, all spheres counted, more than those of usual packings in this state, see [`Contacts`].
+    pub surplus: N,
+    /// z, by [`Law::counted`].
     pub coordination: f64,
 }
 
@@ -97,12 +106,19 @@ pub struct Known {
     pub coordination: Option<f64>,
     /// Mean of n n over the contacts, with the normals n.
     pub fabric: Option<Tensor>,
+    /// The mobilised part of the friction: 1 is usual, for beds that were poured or shaken.
+    pub mobilised: Option<f64>,
 }
 
 impl<N: Number> State<N> {
     /// x, between those of the packings of the training.
     pub fn density(&self) -> N {
         self.jamming.plus(-USUAL_FRACTION).at_least(MOST_LOOSE).at_most(MOST_DENSE)
+    }
+
+    /// g: the part of the friction that is not mobilised.
+    fn free(&self) -> N {
+        self.mobilised.times(-1.0).plus(1.0).at_least(0.0).at_most(1.0)
     }
 
     /// φ: volume of the grains over the volume \[-\].
@@ -129,7 +145,9 @@ impl State {
             jamming: N::of(self.jamming),
             compression: N::of(self.compression),
             ratios: self.ratios.map(|ratio| ratio.map(N::of)),
+            mobilised: N::of(self.mobilised),
             strength: self.strength,
+            surplus: N::of(self.surplus),
             coordination: self.coordination,
         }
     }
@@ -141,7 +159,9 @@ impl<N: Number> State<N> {
             jamming: self.jamming.value(),
             compression: self.compression.value(),
             ratios: self.ratios.map(|ratio| ratio.map(Number::value)),
+            mobilised: self.mobilised.value(),
             strength: self.strength,
+            surplus: self.surplus.value(),
             coordination: self.coordination,
         }
     }
@@ -166,36 +186,39 @@ impl Law {
     }
 
     /// A: the pressure over E* without shear.
-    pub fn pressure<N: Number>(&self, compression: N, x: N) -> N {
+    pub fn pressure<N: Number>(&self, compression: N, x: N, free: N, surplus: N) -> N {
         let (v, u) = Self::compressions(compression);
         let [b0, b1, b2, b3, b4] = self.bulk;
-        let exponent = x * x.times(b2).plus(b1) + u.ln() * x.times(b4).plus(b3);
-        (exponent.exp() * v * v.sqrt()).times(b0)
+        let exponent = x.times(b1) + free.times(b2) + u.ln() * free.times(b4).plus(b3);
+        let stiffer = self.contacts.stiffer(surplus);
+        (exponent.exp() * v * v.sqrt() * stiffer * stiffer.sqrt()).times(b0)
     }
 
     /// The stiffnesses' dependence on the state.
-    fn shear<N: Number>(&self, compression: N, x: N) -> N {
-        let [stiffening, power] = self.shear;
-        Self::exponential(x, stiffening) * Self::compressions(compression).1.power(power)
+    fn shear<N: Number>(&self, compression: N, x: N, free: N) -> N {
+        let [stiffening, power, of_free] = self.shear;
+        let exponent =
+            (x.times(stiffening) + free.times(of_free)).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
+        exponent.exp() * Self::compressions(compression).1.power(power)
     }
 
     /// Strength of an element, by the root of v.
-    fn strength<N: Number>(&self, k: usize, x: N, root: N) -> N {
-        let Element { strength, growth, curvature, hardening, .. } = self.elements[k];
-        let exponent = x * x.times(curvature).plus(growth) + root.times(hardening);
+    fn strength<N: Number>(&self, k: usize, x: N, free: N, root: N) -> N {
+        let Element { strength, growth, free: of_free, hardening, .. } = self.elements[k];
+        let exponent = x.times(growth) + free.times(of_free) + root.times(hardening);
         exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
     }
 
     /// σ over E*, compression positive.
     pub fn stress<N: Number>(&self, state: &State<N>) -> Tensor<N> {
-        let x = state.density();
+        let (x, free) = (state.density(), state.free());
         let pressure = if state.compression.value() > LEAST_COMPRESSION {
-            self.pressure(state.compression, x)
+            self.pressure(state.compression, x, free, state.surplus)
         } else {
             return [N::of(0.0); 6];
         };
         let mut lift = N::of(1.0);
-        let over = self.shear(state.compression, x).inverse();
+        let over = self.shear(state.compression, x, free).inverse();
         for (ratio, element) in state.ratios.iter().zip(&self.elements) {
             lift = lift + contraction(ratio, ratio).times(self.lift / element.stiffness) * over;
         }
@@ -215,21 +238,43 @@ impl Law {
         let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
         let square = square(&cell);
         let count = parts(state.compression.value());
-        let mut forgotten = 0.0;
         for part in 0..count {
             // Equal parts of the whole, E/n (1 + k E/n)⁻¹, which compose to it; of the cell to the second order.
             let (part, share) = (f64::from(part), 1.0 / f64::from(count));
             let thermal = strain.thermal * strain.thermal.times(part).plus(f64::from(count)).inverse();
             let cell = std::array::from_fn(|c| cell[c].times(share) - square[c].times(part * share * share));
-            let before = next.compression.value();
+            let before = next.compression.at_least(LEAST_COMPRESSION);
             next = self.part(&next, thermal, cell);
-            let [before, after] = [before, next.compression.value()].map(|v| v.max(LEAST_COMPRESSION));
-            forgotten += self.contacts.forgotten(before, after, &cell.map(Number::value));
+            let after = next.compression.at_least(LEAST_COMPRESSION);
+            self.forget(&mut next, before, after, &cell);
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
-        let usual = |state: &State<N>| self.contacts.usual(&state.value().contact_row());
-        next.coordination = usual(&next) + (state.coordination - usual(state)) * libm::exp(-forgotten);
+        next.coordination = self.coordination(&next.value());
         next
+    }
+
+    /// Forgets of ζ what a strain between two compressions makes it forget. Where that makes the packing stiffer, it keeps its
+    /// pressure, so that no work comes of it.
+    fn forget<N: Number>(&self, state: &mut State<N>, before: N, after: N, strain: &Tensor<N>) {
+        let left = self.contacts.left(before, after, strain);
+        let surplus = state.surplus * left;
+        let [old, new] = [state.surplus, surplus].map(|surplus| self.contacts.stiffer(surplus));
+        state.surplus = surplus;
+        if new.value() > old.value() && state.compression.value() > 0.0 {
+            let solid = state.solid();
+            state.compression = state.compression * old * new.inverse();
+            state.jamming = solid * state.compression.plus(1.0).inverse();
+        }
+    }
+
+    /// z of a state.
+    pub fn coordination(&self, state: &State) -> f64 {
+        self.contacts.usual(&state.contact_row()) + state.surplus
+    }
+
+    /// The state with its z.
+    pub fn counted(&self, state: State) -> State {
+        State { coordination: self.coordination(&state), ..state }
     }
 
     /// After growth of the radii and a strain of the cell, whose shears are not doubled.
@@ -247,7 +292,7 @@ impl Law {
             let zero = [N::of(0.0); 6];
             return State { compression: tried, ratios: [zero; ELEMENTS], ..*state };
         }
-        let x = state.density();
+        let (x, free) = (state.density(), state.free());
         let before = state.compression.at_least(LEAST_COMPRESSION);
         let after = tried.at_least(LEAST_COMPRESSION);
         let over = after.inverse();
@@ -255,13 +300,16 @@ impl Law {
         let distortion = deviator(strain);
         let total = state.ratio();
         let [d0, d1, d2, d3] = self.dilatancy;
-        let usual = (x * x.times(d3).plus(d2)).plus(d1);
-        let (shear, root) = (self.shear(after, x), Self::compressions(after).0.sqrt());
+        let usual = (x.times(d2) + free.times(d3)).plus(d1);
+        let (shear, root) = (self.shear(after, x, free), Self::compressions(after).0.sqrt());
         let mut ratios = state.ratios;
-        let mut loss = N::of(0.0);
+        let [c0, c1, c2, c3] = self.collapse;
+        let collapse = (Self::exponential(x, -c1) * Self::compressions(after).1.power(-c2)).times(c0)
+            * free.times(-1.0).plus(1.0);
+        let (mut loss, mut sliding) = (N::of(0.0), N::of(0.0));
         for (k, ratio) in ratios.iter_mut().enumerate() {
             let stiffness = shear.times(self.elements[k].stiffness);
-            let most = self.strength(k, x, root).times(if k == FABRIC { 1.0 } else { state.strength });
+            let most = self.strength(k, x, free, root).times(if k == FABRIC { 1.0 } else { state.strength });
             let faded = scaled(ratio, opening.power(self.elements[k].power));
             let faded = within(&faded, most).0;
             let added = scaled(&distortion, stiffness * over);
@@ -270,8 +318,10 @@ impl Law {
             *ratio = kept;
             if let Some(excess) = excess {
                 let slid = excess * after * stiffness.inverse();
+                sliding = sliding + slid;
                 let along = contraction(&total, &elastic) * length.inverse();
-                let climbing = (usual - along).times(d0);
+                let climbing =
+                    (usual - along).times(d0) + collapse * along.times(-1.0 / c3).plus(1.0).at_least(0.0);
                 let least = most.times(-MOST_CLIMBING);
                 loss = loss + slid * (if climbing.value() > least.value() { climbing } else { least });
             }
@@ -285,22 +335,31 @@ impl Law {
         let loss = if loss.value() < tried.value() { loss } else { tried };
         let compression = tried - loss;
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
-        State { jamming, compression, ratios, ..*state }
+        let left = free * (sliding * over).times(-self.mobilising).at_least(-MOST_EXPONENT).exp();
+        let mobilised = left.times(-1.0).plus(1.0);
+        State { jamming, compression, ratios, mobilised, ..*state }
     }
 
     /// The state with a solid fraction, a stress over E*, and what else is known. The fabric bears its part; the other elements
     /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
     /// than all strengths has larger strengths, by a common factor.
     pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
-        let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator));
-        state.coordination = known.coordination.unwrap_or_else(|| self.contacts.usual(&state.contact_row()));
+        let mobilised = known.mobilised.unwrap_or(1.0).clamp(0.0, 1.0);
+        let fabric = known.fabric.map(deviator);
+        let at =
+            |surplus: f64| self.counted(self.start_of_stress(solid, stress, fabric, [mobilised, surplus]));
+        let mut state = at(0.0);
+        let Some(coordination) = known.coordination else { return state };
+        for _ in 0..COUNTS {
+            state = at(coordination - (state.coordination - state.surplus));
+        }
         state
     }
 
-    fn start_of_stress(&self, solid: f64, stress: Tensor, fabric: Option<Tensor>) -> State {
+    fn start_of_stress(&self, solid: f64, stress: Tensor, fabric: Option<Tensor>, of: [f64; 2]) -> State {
         let (pressure, load) = (super::tensor::mean(stress), deviator(stress));
         let fabric = fabric.map_or(Borne::Usual(pressure), Borne::Fabric);
-        let at = |compression: f64| self.loaded(solid, compression, &load, &fabric);
+        let at = |compression: f64| self.loaded(solid, compression, &load, &fabric, of);
         if pressure <= 0.0 {
             return State { ratios: [[0.0; 6]; ELEMENTS], strength: 1.0, ..at(0.0) };
         }
@@ -329,22 +388,32 @@ impl Law {
         at(high)
     }
 
-    fn loaded(&self, solid: f64, compression: f64, load: &Tensor, fabric: &Borne) -> State {
+    fn loaded(
+        &self,
+        solid: f64,
+        compression: f64,
+        load: &Tensor,
+        fabric: &Borne,
+        [mobilised, surplus]: [f64; 2],
+    ) -> State {
         let mut state = State {
             jamming: solid / (1.0 + compression),
             compression,
             ratios: [[0.0; 6]; ELEMENTS],
             strength: 1.0,
+            mobilised,
+            surplus,
             coordination: 0.0,
         };
-        let (x, root) = (state.density(), Self::compressions(compression).0.sqrt());
-        let over = 1.0 / self.pressure(compression, x).max(f64::MIN_POSITIVE);
+        let (x, free) = (state.density(), state.free());
+        let root = Self::compressions(compression).0.sqrt();
+        let over = 1.0 / self.pressure(compression, x, free, surplus).max(f64::MIN_POSITIVE);
         if compression <= LEAST_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
             return state;
         }
         let ratio = load.map(|part| part * over);
         let [per_anisotropy, usual] = self.fabric;
-        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, root));
+        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, free, root));
         let strongest = MOST_STRENGTH * strengths.iter().sum::<f64>();
         let of_fabric = match fabric {
             Borne::Fabric(fabric) => fabric.map(|part| per_anisotropy * part),
@@ -356,13 +425,13 @@ impl Law {
                 ratio.map(|part| share * part)
             }
         };
-        state.ratios[FABRIC] = within(&of_fabric, self.strength(FABRIC, x, root)).0;
+        state.ratios[FABRIC] = within(&of_fabric, self.strength(FABRIC, x, free, root)).0;
         let rest: Tensor = std::array::from_fn(|k| ratio[k] - state.ratios[FABRIC][k]);
         let size = contraction(&rest, &rest).sqrt();
         if size <= 0.0 {
             return state;
         }
-        let shear = self.shear(compression, x);
+        let shear = self.shear(compression, x, free);
         let stiffness: [f64; FABRIC] = std::array::from_fn(|k| shear * self.elements[k].stiffness);
         state.strength = (size / strengths.iter().sum::<f64>()).clamp(1.0, MOST_STRENGTH);
         let limits: [f64; FABRIC] = std::array::from_fn(|k| state.strength * strengths[k] / stiffness[k]);
@@ -380,21 +449,28 @@ impl Law {
     /// [`SurrogateError::Field`] with key, value and what is allowed.
     pub fn check(&self) -> Result<(), SurrogateError> {
         let [b0, b1, b2, b3, b4] = self.bulk;
-        let [stiffening, shear_power] = self.shear;
+        let [stiffening, shear_power, of_free] = self.shear;
         let [d0, ..] = self.dilatancy;
+        let [c0, c1, c2, c3] = self.collapse;
         let [s0, s1, s2] = self.settling;
         let [per_anisotropy, usual] = self.fabric;
         let mut numbers = vec![
             ("bulk[0]", b0, (1e-6..=1e6).contains(&b0), "1e-6 to 1e6"),
             ("bulk[1]", b1, b1.abs() <= LARGE, "-1e4 to 1e4"),
-            ("bulk[2]", b2, b2.abs() <= LARGE, "-1e4 to 1e4"),
-            // The pressure grows with the compression at any x.
+            ("bulk[2]", b2, b2.abs() <= 5.0, "-5 to 5"),
+            // The pressure grows with the compression at any g.
             ("bulk[3]", b3, b3.abs() <= 0.5, "-0.5 to 0.5"),
-            ("bulk[4]", b4, b4.abs() <= 20.0, "-20 to 20"),
+            ("bulk[4]", b4, b4.abs() <= 0.5, "-0.5 to 0.5"),
             ("shear[0]", stiffening, stiffening.abs() <= LARGE, "-1e4 to 1e4"),
             ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
+            ("shear[2]", of_free, of_free.abs() <= 5.0, "-5 to 5"),
+            ("mobilising", self.mobilising, (0.0..=100.0).contains(&self.mobilising), "0 to 100"),
             ("lift", self.lift, self.lift.abs() <= 10.0, "-10 to 10"),
             ("dilatancy[0]", d0, (0.0..=10.0).contains(&d0), "0 to 10"),
+            ("collapse[0]", c0, (0.0..=10.0).contains(&c0), "0 to 10"),
+            ("collapse[1]", c1, c1.abs() <= LARGE, "-1e4 to 1e4"),
+            ("collapse[2]", c2, (0.0..=3.0).contains(&c2), "0 to 3"),
+            ("collapse[3]", c3, (0.01..=10.0).contains(&c3), "0.01 to 10"),
             ("settling[0]", s0, (0.0..=10.0).contains(&s0), "0 to 10"),
             ("settling[1]", s1, (1e-9..=1.0).contains(&s1), "1e-9 to 1"),
             ("settling[2]", s2, s2.abs() <= LARGE, "-1e4 to 1e4"),
@@ -404,12 +480,12 @@ impl Law {
         numbers
             .extend(self.dilatancy[1..].iter().map(|d| ("dilatancy", *d, d.abs() <= LARGE, "-1e4 to 1e4")));
         for element in &self.elements {
-            let Element { stiffness, strength, growth, curvature, hardening, power } = *element;
+            let Element { stiffness, strength, growth, free, hardening, power } = *element;
             numbers.extend([
                 ("element.stiffness", stiffness, (1e-6..=1e6).contains(&stiffness), "1e-6 to 1e6"),
                 ("element.strength", strength, (1e-6..=2.0).contains(&strength), "1e-6 to 2"),
                 ("element.growth", growth, growth.abs() <= LARGE, "-1e4 to 1e4"),
-                ("element.curvature", curvature, curvature.abs() <= LARGE, "-1e4 to 1e4"),
+                ("element.free", free, free.abs() <= 10.0, "-10 to 10"),
                 ("element.hardening", hardening, hardening.abs() <= 100.0, "-100 to 100"),
                 ("element.power", power, (-2.0..=1.0).contains(&power), "-2 to 1"),
             ]);
@@ -435,6 +511,8 @@ const LARGE: f64 = 1e4;
 /// Halvings of an interval, after which its ends are neighbouring numbers; and the ratio of the compressions that are looked at before.
 const HALVINGS: usize = 52;
 const START_RATIO: f64 = 0.7;
+/// Rounds in which the number of contacts and what the stress says of the state are brought together.
+const COUNTS: u32 = 4;
 
 /// Number of parts of an increment: more where the packing is hardly compressed, because there its stress changes more.
 fn parts(compression: f64) -> u32 {

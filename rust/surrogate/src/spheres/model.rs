@@ -10,18 +10,19 @@ use crate::options::TrainingOptions;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
-pub const SCHEMA: &str = "msdd-spheres-model-2";
+pub const SCHEMA: &str = "msdd-spheres-model-3";
 
 /// Number of state columns of a cell, and of those before the stress ratios.
 pub const COLUMNS: usize = SCALARS + 5 * ELEMENTS;
-const SCALARS: usize = 4;
+const SCALARS: usize = 5;
 
 /// Names of the state columns. The component zz of a stress ratio is that without which its trace is not 0.
 pub const NAMES: [&str; COLUMNS] = [
     "jamming_fraction",
     "elastic_compression",
     "strength",
-    "coordination",
+    "mobilised",
+    "contact_surplus",
     "stress_ratio_1_xx",
     "stress_ratio_1_yy",
     "stress_ratio_1_xy",
@@ -117,7 +118,8 @@ pub struct Increment {
 const JAMMING: [f64; 2] = [0.3, 0.8];
 const COMPRESSION: [f64; 2] = [-0.9, 0.5];
 const STRENGTH: [f64; 2] = [0.01, super::law::MOST_STRENGTH];
-const COORDINATION: [f64; 2] = [0.0, 12.0];
+const MOBILISED: [f64; 2] = [0.0, 1.0];
+const MOST_SURPLUS: f64 = 12.0;
 const MOST_RATIO: f64 = 2.0;
 const MOST_STRAIN: f64 = 0.2;
 
@@ -134,15 +136,15 @@ fn small(value: f64, most: f64) -> f64 {
 /// The columns of a state.
 pub fn columns(state: &State) -> [f64; COLUMNS] {
     let mut columns = [0.0; COLUMNS];
-    let State { jamming, compression, strength, coordination, .. } = *state;
-    columns[..SCALARS].copy_from_slice(&[jamming, compression, strength, coordination]);
+    let State { jamming, compression, strength, mobilised, surplus, .. } = *state;
+    columns[..SCALARS].copy_from_slice(&[jamming, compression, strength, mobilised, surplus]);
     for (k, [xx, yy, _, xy, xz, yz]) in state.ratios.into_iter().enumerate() {
         columns[SCALARS + 5 * k..][..5].copy_from_slice(&[xx, yy, xy, xz, yz]);
     }
     columns
 }
 
-/// The state of columns.
+/// The state of columns, contacts not counted yet, see [`Law::counted`].
 pub fn state(columns: &[f64; COLUMNS]) -> State {
     let ratios = std::array::from_fn(|k| {
         let part = |i: usize| small(columns[SCALARS + 5 * k + i], MOST_RATIO);
@@ -153,7 +155,9 @@ pub fn state(columns: &[f64; COLUMNS]) -> State {
         jamming: limited(columns[0], JAMMING),
         compression: limited(columns[1], COMPRESSION),
         strength: limited(columns[2], STRENGTH),
-        coordination: limited(columns[3], COORDINATION),
+        mobilised: limited(columns[3], MOBILISED),
+        surplus: small(columns[4], MOST_SURPLUS),
+        coordination: 0.0,
         ratios,
     }
 }
@@ -220,7 +224,7 @@ impl SphereModel {
         tangent: bool,
     ) -> Answer {
         let law = &self.file.law;
-        let from = state(before);
+        let from = law.counted(state(before));
         let thermal = small(strain.thermal, MOST_STRAIN);
         let cell = strain.cell.map(|part| small(part, MOST_STRAIN));
         let half = super::tensor::rotation(strain.rotation.map(|angle| 0.5 * small(angle, 1.0)));
@@ -232,7 +236,7 @@ impl SphereModel {
             (next, [[0.0; 6]; 6])
         };
         // As it is read again from its columns, so that it answers the same then, to the last bit.
-        let next = if still { from } else { state(&columns(&next)) };
+        let next = if still { from } else { law.counted(state(&columns(&next))) };
         let stress = law.stress(&next);
         let ratio = next.ratio();
         let Ranges { jamming_fraction, pressure, stress_ratio } = self.file.ranges;

@@ -81,6 +81,7 @@ mod tests {
             gas: [gas; 3],
             coordination,
             fabric: [fabric, fabric, fabric, 0.0, 0.0, 0.0],
+            mobilised: 1.0,
         };
         Track {
             packing,

@@ -23,22 +23,28 @@ const STRENGTH: [f64; 2] = [1e-6, 2.0];
 const POWER: [f64; 2] = [-2.0, 1.0];
 
 /// Number of parameters.
-pub const PARAMETERS: usize = 32;
+pub const PARAMETERS: usize = 39;
 
-/// Coefficients of x are divided by 10, those of x² by 100.
+/// Coefficients of x are divided by 10.
 const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.bulk[0], Logarithm(SIZE)),
     (|law| &mut law.bulk[1], Over(10.0, FREE)),
-    (|law| &mut law.bulk[2], Over(100.0, FREE)),
+    (|law| &mut law.bulk[2], Over(1.0, [-5.0, 5.0])),
     (|law| &mut law.bulk[3], Over(1.0, [-0.5, 0.5])),
-    (|law| &mut law.bulk[4], Over(1.0, [-20.0, 20.0])),
+    (|law| &mut law.bulk[4], Over(1.0, [-0.5, 0.5])),
     (|law| &mut law.shear[0], Over(10.0, FREE)),
     (|law| &mut law.shear[1], Over(1.0, [-1.0, 1.0])),
+    (|law| &mut law.shear[2], Over(1.0, [-5.0, 5.0])),
     (|law| &mut law.lift, Over(1.0, [-10.0, 10.0])),
     (|law| &mut law.dilatancy[0], Over(1.0, [0.0, 10.0])),
     (|law| &mut law.dilatancy[1], Over(1.0, FREE)),
     (|law| &mut law.dilatancy[2], Over(10.0, FREE)),
-    (|law| &mut law.dilatancy[3], Over(100.0, FREE)),
+    (|law| &mut law.dilatancy[3], Over(1.0, FREE)),
+    (|law| &mut law.collapse[0], Over(0.1, [0.0, 10.0])),
+    (|law| &mut law.collapse[1], Over(10.0, FREE)),
+    (|law| &mut law.collapse[2], Over(1.0, [0.0, 3.0])),
+    (|law| &mut law.collapse[3], Logarithm([0.01, 10.0])),
+    (|law| &mut law.mobilising, Over(0.1, [0.0, 100.0])),
     (|law| &mut law.settling[0], Over(1.0, [0.0, 10.0])),
     (|law| &mut law.settling[1], Logarithm([1e-9, 1.0])),
     (|law| &mut law.settling[2], Over(10.0, FREE)),
@@ -46,19 +52,20 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.elements[0].stiffness, Logarithm(SIZE)),
     (|law| &mut law.elements[0].strength, Logarithm(STRENGTH)),
     (|law| &mut law.elements[0].growth, Over(10.0, FREE)),
+    (|law| &mut law.elements[0].free, Over(1.0, [-10.0, 10.0])),
     (|law| &mut law.elements[0].power, Over(1.0, POWER)),
     (|law| &mut law.elements[1].stiffness, Logarithm(SIZE)),
     (|law| &mut law.elements[1].strength, Logarithm(STRENGTH)),
     (|law| &mut law.elements[1].growth, Over(10.0, FREE)),
-    (|law| &mut law.elements[1].curvature, Over(100.0, FREE)),
-    (|law| &mut law.elements[1].hardening, Over(1.0, [-100.0, 100.0])),
+    (|law| &mut law.elements[1].free, Over(1.0, [-10.0, 10.0])),
     (|law| &mut law.elements[1].power, Over(1.0, POWER)),
     (|law| &mut law.elements[2].stiffness, Logarithm(SIZE)),
     (|law| &mut law.elements[2].strength, Logarithm(STRENGTH)),
     (|law| &mut law.elements[2].growth, Over(10.0, FREE)),
-    (|law| &mut law.elements[2].curvature, Over(100.0, FREE)),
+    (|law| &mut law.elements[2].free, Over(1.0, [-10.0, 10.0])),
     (|law| &mut law.elements[2].hardening, Over(1.0, [-100.0, 100.0])),
     (|law| &mut law.elements[2].power, Over(1.0, POWER)),
+    (|law| &mut law.contacts.stiffening, Over(1.0, [0.0, 2.0])),
 ];
 
 /// The law's numbers as parameters.
@@ -85,26 +92,28 @@ pub fn law(parameters: &DVector<f64>) -> Law {
 
 /// Where the fit begins: values of an earlier fit, to two digits.
 pub fn beginning() -> Law {
-    let element = |[stiffness, strength, growth, curvature, hardening, power]: [f64; 6]| Element {
+    let element = |[stiffness, strength, growth, free, hardening, power]: [f64; 6]| Element {
         stiffness,
         strength,
         growth,
-        curvature,
+        free,
         hardening,
         power,
     };
     Law {
-        bulk: [0.091, 11.0, -62.0, 0.11, -1.0],
-        shear: [5.9, 0.2],
-        lift: 0.32,
+        bulk: [0.076, 4.0, 0.34, 0.13, -0.07],
+        shear: [2.9, 0.4, 0.35],
+        lift: 0.1,
         elements: [
-            element([1.15, 0.24, 8.3, 0.0, 0.0, -1.1]),
-            element([0.26, 0.088, 99.0, -1900.0, 2.0, -1.2]),
-            element([0.15, 1.6, -64.0, 1400.0, 8.2, -0.43]),
+            element([0.77, 0.25, 3.2, 0.1, 0.0, -0.96]),
+            element([0.19, 0.0058, -42.0, 6.0, 0.0, -0.91]),
+            element([0.062, 2.0, -60.0, -1.0, 31.0, -0.1]),
         ],
-        dilatancy: [0.034, 1.9, -120.0, 2200.0],
-        settling: [3.2, 3.5e-6, 270.0],
-        fabric: [8.5, 0.4],
-        contacts: Contacts { usual: [0.0; COEFFICIENTS], fading: [0.0; 2] },
+        dilatancy: [0.1, 0.06, -19.0, 0.78],
+        collapse: [0.21, 6.7, 0.36, 0.65],
+        mobilising: 0.004,
+        settling: [0.4, 6.8e-6, 320.0],
+        fabric: [5.2, 0.49],
+        contacts: Contacts { usual: [0.0; COEFFICIENTS], fading: [0.1, 0.3], stiffening: 0.25 },
     }
 }

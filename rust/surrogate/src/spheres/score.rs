@@ -18,7 +18,7 @@ pub struct PathErrors {
     pub states: usize,
     /// Along the path from the packed state on, of which solid fraction, stress, number of contacts and fabric are known.
     pub along: Errors,
-    /// The same where solid fraction and stress alone are known.
+    /// The same where solid fraction, stress and the mobilised part of the friction alone are known.
     pub of_stress_alone: Errors,
     /// The deviator itself over the same as its error, for comparison.
     pub size: f64,
@@ -47,7 +47,11 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
     let (mut size, mut of_state) = (0.0, [0.0; 3]);
     for track in tracks {
         add(&mut all, model, track, &follow(law, track));
-        let packed = law.start(track.packed.solid, track.packed.stress, &Known::default());
+        let packed = law.start(
+            track.packed.solid,
+            track.packed.stress,
+            &Known { mobilised: Some(track.packed.mobilised), ..Known::default() },
+        );
         add(&mut alone, model, track, &follow_from(law, track, packed));
         for (step, scale) in track.steps.iter().zip(scales(track)) {
             let part = deviator(step.to.stress.map(|part| part / scale));

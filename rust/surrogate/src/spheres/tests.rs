@@ -27,7 +27,8 @@ fn packing(law: &Law, generator: &mut ChaCha8Rng) -> State {
     let pressure = libm::pow(10.0, -5.0 + 2.5 * random(generator));
     let mut stress = tensor(generator, 0.15 * pressure);
     stress[..3].iter_mut().for_each(|normal| *normal += pressure);
-    law.start(solid, stress, &Known::default())
+    let mobilised = Some((0.7 + 0.7 * random(generator)).min(1.0));
+    law.start(solid, stress, &Known { mobilised, ..Known::default() })
 }
 
 fn model() -> SphereModel {
@@ -229,6 +230,7 @@ fn tracks(law: &Law, packings: i64) -> Vec<Track> {
                     gas: [5.0, 8.0, 12.0].map(|k| k * state.solid()),
                     coordination: state.coordination,
                     fabric: state.ratios[FABRIC].map(|part| part / law.fabric[0]),
+                    mobilised: state.mobilised,
                 }
             };
             let packed = point(&start);
@@ -263,7 +265,7 @@ fn a_training_finds_the_law_that_made_the_data() {
     law.bulk[0] *= 1.2;
     law.elements[0].strength *= 0.8;
     law.elements[1].stiffness *= 1.3;
-    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading: [0.2, 1.0] };
+    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading: [0.2, 1.0], stiffening: 0.1 };
     law.contacts.usual[..2].copy_from_slice(&[4.5, 10.0]);
     let all = tracks(&law, 40);
     let options = TrainingOptions { max_epochs: 40, threads: 2, ..TrainingOptions::default() };
@@ -286,7 +288,7 @@ fn a_training_finds_the_law_that_made_the_data() {
 fn files_that_no_training_wrote_are_refused() {
     let text = model().to_json();
     let message = |text: &str| SphereModel::read(text).expect_err("unsound").to_string();
-    assert!(message(&text.replace("spheres-model-2", "spheres-model-1")).contains("spheres-model-1"));
+    assert!(message(&text.replace("spheres-model-3", "spheres-model-2")).contains("spheres-model-2"));
     assert!(message(&text[..text.len() / 2]).contains("damaged"));
     let mut file = model().file;
     file.law.bulk[0] = -1.0;
@@ -323,28 +325,58 @@ fn parameters_are_the_numbers_of_the_law() {
 }
 
 /// What a packing has more contacts than usual it keeps where it is hardly strained, and forgets where it is strained far; it
-/// conducts better for it, but bears no more.
+/// conducts better for it, and is a little stiffer.
 #[test]
 fn packings_with_more_contacts_keep_them_as_long_as_they_are_hardly_strained() {
     let model = model();
     let stress = [2e-8, 2e-8, 2e-8, 0.0, 0.0, 0.0];
-    let usual = model.initial_state(0.59, stress, &Known::default());
-    let counted = Known { coordination: Some(usual[3] + 0.8), ..Known::default() };
-    let more = model.initial_state(0.59, stress, &counted);
-    assert_eq!((more[3], &more[..3], &more[4..]), (usual[3] + 0.8, &usual[..3], &usual[4..]));
     let after = |start: &[f64; COLUMNS], size: f64| {
         let strain = Increment { cell: [-size, -size, -size, 0.0, 0.0, 0.0], ..Increment::default() };
         model.advance(start, &strain, 8.5, false)
     };
+    let usual = model.initial_state(0.59, stress, &Known::default());
+    let known = after(&usual, 0.0).coordination + 0.8;
+    let more = model.initial_state(0.59, stress, &Known { coordination: Some(known), ..Known::default() });
+    let start = after(&more, 0.0);
+    assert!((start.coordination - known).abs() < 1e-6, "{} {known}", start.coordination);
+    assert!(worst(&start.stress, &stress) < 1e-10 * 2e-8, "{:?}", start.stress);
     let kept = |size: f64| {
         let (a, b) = (after(&usual, size), after(&more, size));
-        assert_eq!(a.stress, b.stress);
         assert!(mean(b.contact) > mean(a.contact) && b.gas > a.gas);
         b.coordination - a.coordination
     };
-    assert!((kept(0.0) - 0.8).abs() < 1e-12);
+    assert!((kept(0.0) - 0.8).abs() < 1e-6);
     let (little, far) = (kept(1e-6), kept(3e-3));
     assert!(little > 0.75 && far < 0.6 && far > 0.0, "{little} {far}");
+    assert!(mean(after(&more, 1e-5).stress) > mean(after(&usual, 1e-5).stress));
+}
+
+/// Beds whose friction is mobilised give way where they are sheared; those that were packed without friction bear.
+#[test]
+fn packings_with_mobilised_friction_are_softer() {
+    let model = model();
+    let stress = [1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0];
+    let after = |mobilised: f64, strain: Increment| {
+        let known = Known { mobilised: Some(mobilised), ..Known::default() };
+        let start = model.initial_state(0.61, stress, &known);
+        assert_eq!(start[3], mobilised);
+        model.advance(&start, &strain, 8.5, false).stress
+    };
+    let sheared = Increment { cell: [0.0, 0.0, 0.0, 2e-4, 0.0, 0.0], ..Increment::default() };
+    let (poured, slippery) = (after(1.0, sheared), after(0.0, sheared));
+    assert!(
+        mean(poured) < 0.95 * mean(stress) && mean(slippery) > 0.98 * mean(stress),
+        "{poured:?} {slippery:?}"
+    );
+    assert!(poured[3].abs() < 0.7 * slippery[3].abs(), "{poured:?} {slippery:?}");
+    let closed = Increment { cell: [0.0, 0.0, -2e-4, 0.0, 0.0, 0.0], ..Increment::default() };
+    let (poured, slippery) = (after(1.0, closed), after(0.0, closed));
+    assert!(mean(poured) < 0.9 * mean(slippery), "{poured:?} {slippery:?}");
+    // What is not said is that the bed was poured.
+    assert_eq!(after(1.0, closed), {
+        let start = model.initial_state(0.61, stress, &Known::default());
+        model.advance(&start, &closed, 8.5, false).stress
+    });
 }
 
 /// The fabric of a packing bears a part of its deviator, which stays where isotropic compression takes the rest.
@@ -353,7 +385,7 @@ fn a_known_fabric_bears_its_part_of_the_deviator() {
     let law = model().file.law;
     let fabric = [0.30, 0.32, 0.38, 0.0, 0.0, 0.0];
     let stress = [0.9e-5, 0.95e-5, 1.15e-5, 0.0, 0.0, 0.0];
-    let known = Known { fabric: Some(fabric), coordination: None };
+    let known = Known { fabric: Some(fabric), ..Known::default() };
     let start = law.start(0.6, stress, &known);
     assert!(worst(&law.stress(&start), &stress) < 1e-10 * 1e-5, "{start:?}");
     let part = deviator(fabric).map(|part| law.fabric[0] * part);
@@ -362,7 +394,7 @@ fn a_known_fabric_bears_its_part_of_the_deviator() {
     let without = law.start(
         0.6,
         stress,
-        &Known { fabric: Some([1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0]), coordination: None },
+        &Known { fabric: Some([1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0]), ..Known::default() },
     );
     let left = |start: &State| {
         let state = advanced(&law, start, 2e-3, [0.0; 6]);

@@ -17,12 +17,18 @@ pub struct Point {
     pub coordination: f64,
     /// Mean of n n over the contacts, with the normals n.
     pub fabric: Tensor,
+    /// Mobilised part of the friction: the friction while packing over that afterwards, 1 for packings that were shaken.
+    pub mobilised: f64,
 }
 
 impl Point {
     /// What is known of the packing beside solid fraction and stress.
     pub fn known(&self) -> Known {
-        Known { coordination: Some(self.coordination), fabric: Some(self.fabric) }
+        Known {
+            coordination: Some(self.coordination),
+            fabric: Some(self.fabric),
+            mobilised: Some(self.mobilised),
+        }
     }
 
     /// The law's state of this packing.
