@@ -4,7 +4,8 @@ use msdd_rve::database::{
     DatabaseError, Grains, PathName, Plan, Run, Shard, SpherePlan, export_csv, generate, grains,
     has_checksum, merge, read, read_spheres, seal,
 };
-use msdd_rve::spheres::{Preparation, Strain, advance, averages, prepare};
+use msdd_rve::spheres::{Averages, Preparation, Strain, advance, averages, prepare};
+use msdd_spheres::Simulation;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -88,6 +89,39 @@ fn a_csv_reads_back_and_readers_of_discs_refuse_it() {
     assert!(matches!(error, DatabaseError::Format { .. }), "{error}");
 }
 
+/// Boxes that were packed without friction and shaken are dense, but every contact was made under friction: there are few, many are
+/// about to slide, and the boxes are softer than before.
+#[test]
+fn shaken_boxes_are_dense_and_soft() {
+    let preparation = |shaking: f64| Preparation {
+        spheres: 300,
+        seed: 12,
+        poisson_ratio: 0.25,
+        restitution: 0.3,
+        packing_friction: 0.0,
+        friction: 0.3,
+        rates: [1.0; 3],
+        shaking,
+        pressure: 1e-6,
+    };
+    let [plain, shaken] = [0.0, 0.005].map(|shaking| prepare(&preparation(shaking)).unwrap().simulation);
+    let pressed = |simulation: &Simulation| {
+        let before = averages(simulation).unwrap();
+        let mut simulation = simulation.clone();
+        advance(&mut simulation, Strain::single(2, -1e-4)).unwrap();
+        (before, averages(&simulation).unwrap())
+    };
+    let ((plain, stiff), (shaken, soft)) = (pressed(&plain), pressed(&shaken));
+    assert!((shaken.pressure() / 1e-6 - 1.0).abs() < 0.05, "{shaken:?}");
+    assert!(shaken.solid_fraction > 0.61 && plain.solid_fraction > 0.62, "{plain:?} {shaken:?}");
+    assert!(plain.coordination > 5.5 && shaken.coordination < 4.6, "{plain:?} {shaken:?}");
+    let grown = |before: &Averages, after: &Averages| after.pressure() - before.pressure();
+    assert!(grown(&shaken, &soft) < 0.7 * grown(&plain, &stiff), "{soft:?} {stiff:?}");
+    // The same seed packs the same box.
+    let again = prepare(&preparation(0.005)).unwrap().simulation;
+    assert_eq!(averages(&again), Some(shaken));
+}
+
 /// What 1000 spheres of friction 0.3 are like at p/E* = 1e-5 (a trial with LAMMPS: φ 0.588 ± 0.01, z 4.56, C 0.926 for E* of ν = 0.3,
 /// κ_g 14.2 at ℓ = 8.5), and that (p/E*)^(2/3) grows in proportion to ln φ: there with the slope 0.122 to 0.168 for p/E, which is 0.18 to
 /// 0.25 for p/E*. Here of 300 spheres.
@@ -101,6 +135,7 @@ fn packings_are_like_those_of_others() {
         packing_friction: 0.3,
         friction: 0.3,
         rates: [1.0; 3],
+        shaking: 0.0,
         pressure: 1e-5,
     };
     let mut simulation = prepare(&preparation).unwrap().simulation;

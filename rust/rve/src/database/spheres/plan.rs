@@ -285,6 +285,7 @@ mod tests {
     fn what_is_not_allowed_is_refused_by_file_key_value_and_range() {
         let cases = [
             ("spheres = 100", "spheres = 10", "spheres: 10, allowed: 50 to 1000000"),
+            ("repeats = ", "shaking = 0.2\nrepeats = ", "shaking: 0.2, allowed: 0, or 0.002 to 0.1"),
             ("[0.0, 0.3]", "[0.4]", "packing_frictions: 0.4, allowed: 0 to the friction of the plan, 0.3"),
             ("[1e-6, 1e-4]", "[1e-9]", "pressures: 1e-9, allowed: 1e-8 to 1e-3"),
             ("[1e-6, 1e-4]", "[]", "at least one of each is needed"),
