@@ -11,7 +11,7 @@ from_stress() { # file, components
 }
 answered() { asked | tail -n 1 | awk '{ printf "%.17g %.17g %.17g %.17g %.17g %.17g\n", -$1, -$4, -$5, -$2, -$6, -$3 }'; } # the stress after these steps, in the order of OpenFOAM
 stretched() { # strains along x, y, z: walls that move so that all cells have these strains
-    echo "residual 1e-4; walls { \".*\" { type frictionless; } \"high|right\" { type frictionless; displacement constant ($1 0 0); }
+    echo "residual 1e-6; walls { \".*\" { type frictionless; } \"high|right\" { type frictionless; displacement constant ($1 0 0); }
         back { type frictionless; displacement constant (0 $2 0); } top { type frictionless; displacement constant (0 0 $3); } }"
 }
 as_the_law() { # what, strains along x, y, z: one step, after which all cells have the stress of the law
@@ -158,7 +158,7 @@ wedge_and_sector() {
         END { most[0] = 40; for (k = 1; k <= 4; k++) { e = w[k]/most[k > 1]; if (!(e <= all)) all = e } print (NR == 16 ? all : "nan") }')
     check "a heated hollow cylinder as a wedge and as a quarter in space: T and stress differ by $e <= 3e-3 of their largest" below "$e" 3e-3
     e=$(awk 'NR == 1 { print -$3/5000 }' rows)
-    check "its hoops are pressed $e times as much as at the start, at least 1.5" below 1.5 "$e"
+    check "its hoops are pressed $e times as much as at the start, at least 1.3" below 1.3 "$e"
 }
 
 hot_column() { # folder, size of the spheres [m]: a column under its weight and a load that grows, heated from above

@@ -2,10 +2,8 @@
 //!
 //! z = z̄ + ζ: a mean z̄ of all packings in a state of the law, and what a packing has more than that. A strain makes it forget ζ,
 //! compression as well as shear: dζ = −ζ (a |dv|/v + b |de|/v), with the deviator de of the strain. So a packing whose contacts were
-//! counted at the start keeps what it has more, or less, as long as it is hardly strained. Contacts make stiff: p^(2/3) grows by
-//! 1 + k ζ.
+//! counted at the start keeps what it has more, or less, as long as it is hardly strained.
 
-use super::number::Number;
 use super::tensor::{Tensor, contraction, deviator};
 use serde::{Deserialize, Serialize};
 
@@ -19,17 +17,8 @@ pub struct Contacts {
     pub usual: [f64; COEFFICIENTS],
     /// a and b.
     pub fading: [f64; 2],
-    /// k: growth of p^(2/3) by a contact more than usual.
-    pub stiffening: f64,
 }
 
-/// Bounds of 1 + k ζ.
-const LEAST_STIFFER: f64 = 0.3;
-const MOST_STIFFER: f64 = 3.0;
-/// −ln of the least that is left.
-const MOST_FORGOTTEN: f64 = 50.0;
-/// Added to the square of a length before its root is taken, so that its derivative exists.
-const TINY: f64 = 1e-30;
 /// Compression below which packings that were opened have lost contacts.
 const OPENED: f64 = 1.5e-4;
 /// Bounds of z: none has more than equal spheres of the densest packings.
@@ -51,19 +40,12 @@ impl Contacts {
         sum.clamp(CONTACTS[0], CONTACTS[1])
     }
 
-    /// What is left of ζ after a strain between two compressions above 0.
-    pub fn left<N: Number>(&self, before: N, after: N, strain: &Tensor<N>) -> N {
+    /// −ln of what is left of ζ after a strain between two compressions above 0.
+    pub fn forgotten(&self, before: f64, after: f64, strain: &Tensor) -> f64 {
         let [of_compression, of_shear] = self.fading;
         let distortion = deviator(*strain);
-        let length = contraction(&distortion, &distortion).plus(TINY).sqrt() * after.inverse();
-        let change = (after * before.inverse()).ln();
-        let size = if change.value() < 0.0 { change.times(-1.0) } else { change };
-        (size.times(-of_compression) - length.times(of_shear)).at_least(-MOST_FORGOTTEN).exp()
-    }
-
-    /// Factor of p^(2/3): 1 + k ζ.
-    pub fn stiffer<N: Number>(&self, surplus: N) -> N {
-        surplus.times(self.stiffening).plus(1.0).at_least(LEAST_STIFFER).at_most(MOST_STIFFER)
+        let length = contraction(&distortion, &distortion).sqrt() / after;
+        of_compression * libm::log(after / before).abs() + of_shear * length
     }
 
     /// Numbers for [`super::law::Law::check`]: name, value, whether it is allowed, and what is.
@@ -71,8 +53,6 @@ impl Contacts {
         let usual =
             self.usual.into_iter().map(|value| ("contacts.usual", value, value.abs() <= 1e6, "-1e6 to 1e6"));
         let fading = |value: f64| ("contacts.fading", value, (0.0..=100.0).contains(&value), "0 to 100");
-        let stiffening =
-            ("contacts.stiffening", self.stiffening, (0.0..=2.0).contains(&self.stiffening), "0 to 2");
-        usual.chain(self.fading.into_iter().map(fading)).chain([stiffening])
+        usual.chain(self.fading.into_iter().map(fading))
     }
 }

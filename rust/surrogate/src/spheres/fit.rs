@@ -1,6 +1,5 @@
 //! Fit of the law to paths of strain: least squares of the stress along them.
 
-use super::contacts::Contacts;
 use super::law::Law;
 use super::parameters::{PARAMETERS, beginning, law, parameters};
 use super::tensor::{Tensor, contraction, deviator, mean};
@@ -46,24 +45,15 @@ pub fn scales(track: &Track) -> Vec<f64> {
 /// Residuals of the stress along tracks.
 pub struct PathFit<'a> {
     pub tracks: &'a [Track],
-    /// z̄, and how ζ fades.
-    pub contacts: Contacts,
     pub threads: usize,
     /// Parameters that keep a value, by number.
     pub fixed: &'a [(usize, f64)],
 }
 
 impl PathFit<'_> {
-    /// The law of these parameters.
-    fn law(&self, x: &DVector<f64>) -> Law {
-        let mut law = law(x);
-        law.contacts = Contacts { stiffening: law.contacts.stiffening, ..self.contacts };
-        law
-    }
-
     /// All residuals, in a fixed order.
     fn residuals(&self, x: &DVector<f64>) -> Vec<f64> {
-        let law = self.law(x);
+        let law = law(x);
         let mut residuals = Vec::new();
         for track in self.tracks {
             let weight = (track.spheres as f64 / USUAL_SPHERES).sqrt();
@@ -149,5 +139,5 @@ pub fn fit(problem: &PathFit, epochs: u32) -> (Law, Minimum) {
     problem.fixed.iter().for_each(|(number, value)| start[*number] = *value);
     let limits = Limits { max_epochs: epochs, gradient: 1e-10 };
     let minimum = minimise(problem, start, limits, |_, _, _| ControlFlow::Continue(()));
-    (problem.law(&minimum.parameters), minimum)
+    (law(&minimum.parameters), minimum)
 }

@@ -33,20 +33,19 @@ pub fn contacts(law: &Law, tracks: &[Track]) -> Contacts {
 }
 
 fn contacts_that_fade(law: &Law, tracks: &[Track], fading: [f64; 2]) -> (Contacts, f64) {
-    // Without a mean and an influence, ζ goes from 1 to what is left of z − z̄.
+    // Without a mean, the number of contacts goes from 1 to what is left of z − z̄.
     let mut law = law.clone();
-    let stiffening = law.contacts.stiffening;
-    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading, stiffening: 0.0 };
+    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading };
     let mut samples: Vec<([f64; COEFFICIENTS], f64, f64)> = Vec::new();
     for track in tracks {
-        let packed = State { surplus: 1.0, ..track.packed.state(&law) };
+        let packed = State { coordination: 1.0, ..track.packed.state(&law) };
         let first = packed.contact_row();
         let states = follow_from(&law, track, packed);
         for (step, state) in track.steps.iter().zip(&states[1..]) {
             if mean(step.to.stress) < LEAST_PRESSURE || state.compression <= 0.0 {
                 continue;
             }
-            let (left, row) = (state.surplus, state.contact_row());
+            let (left, row) = (state.coordination, state.contact_row());
             let row = std::array::from_fn(|k| row[k] - left * first[k]);
             samples.push((row, step.to.coordination - left * track.packed.coordination, 1.0));
         }
@@ -56,7 +55,7 @@ fn contacts_that_fade(law: &Law, tracks: &[Track], fading: [f64; 2]) -> (Contact
         let sum: f64 = row.iter().zip(&usual).map(|(a, b)| a * b).sum();
         (sum - z) * (sum - z)
     };
-    (Contacts { usual, fading, stiffening }, samples.iter().map(error).sum())
+    (Contacts { usual, fading }, samples.iter().map(error).sum())
 }
 
 /// Fits the conductivities to the states of the data with the hidden state that the law has there: its compression is that which

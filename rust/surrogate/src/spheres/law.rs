@@ -3,8 +3,6 @@
 use super::contacts::{COEFFICIENTS, Contacts, row};
 use super::number::Number;
 use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
-use crate::SurrogateError;
-use crate::document::field;
 use serde::{Deserialize, Serialize};
 
 /// Number of elements, each of which bears a part of the deviator. The last is that of the fabric.
@@ -65,7 +63,7 @@ const MOST_DENSE: f64 = 0.045;
 /// v below which grains count as touching by this much: its pressure is far below that of any bed.
 pub const LEAST_COMPRESSION: f64 = 1e-7;
 /// Largest v: far beyond the elasticity of real grains.
-const MOST_COMPRESSION: f64 = 0.5;
+pub(super) const MOST_COMPRESSION: f64 = 0.5;
 /// Largest work of grains that climb over that of friction.
 const MOST_CLIMBING: f64 = 0.9;
 /// Length of a stress ratio over its strength from which an element slides: so little above 1 that a state which slides
@@ -93,9 +91,7 @@ pub struct State<N = f64> {
     pub strength: f64,
     /// Part of the friction that is mobilised, 0 to 1: as where all contacts were made under friction (1), or without any (0).
     pub mobilised: N,
-    /// ζ = z − z̄: contacts per sphere, all spheres counted, more than those of usual packings in this state, see [`Contacts`].
-    pub surplus: N,
-    /// z, by [`Law::counted`].
+    /// z: contacts per sphere, all spheres counted. It changes the conductivity, not the stress.
     pub coordination: f64,
 }
 
@@ -117,7 +113,7 @@ impl<N: Number> State<N> {
     }
 
     /// g: the part of the friction that is not mobilised.
-    fn free(&self) -> N {
+    pub(super) fn free(&self) -> N {
         self.mobilised.times(-1.0).plus(1.0).at_least(0.0).at_most(1.0)
     }
 
@@ -147,7 +143,6 @@ impl State {
             ratios: self.ratios.map(|ratio| ratio.map(N::of)),
             mobilised: N::of(self.mobilised),
             strength: self.strength,
-            surplus: N::of(self.surplus),
             coordination: self.coordination,
         }
     }
@@ -161,7 +156,6 @@ impl<N: Number> State<N> {
             ratios: self.ratios.map(|ratio| ratio.map(Number::value)),
             mobilised: self.mobilised.value(),
             strength: self.strength,
-            surplus: self.surplus.value(),
             coordination: self.coordination,
         }
     }
@@ -180,22 +174,21 @@ impl Law {
     }
 
     /// v, and u, between bounds.
-    fn compressions<N: Number>(compression: N) -> (N, N) {
+    pub(super) fn compressions<N: Number>(compression: N) -> (N, N) {
         let v = compression.at_least(LEAST_COMPRESSION).at_most(MOST_COMPRESSION);
         (v, v.times(1.0 / USUAL_COMPRESSION))
     }
 
     /// A: the pressure over E* without shear.
-    pub fn pressure<N: Number>(&self, compression: N, x: N, free: N, surplus: N) -> N {
+    pub fn pressure<N: Number>(&self, compression: N, x: N, free: N) -> N {
         let (v, u) = Self::compressions(compression);
         let [b0, b1, b2, b3, b4] = self.bulk;
         let exponent = x.times(b1) + free.times(b2) + u.ln() * free.times(b4).plus(b3);
-        let stiffer = self.contacts.stiffer(surplus);
-        (exponent.exp() * v * v.sqrt() * stiffer * stiffer.sqrt()).times(b0)
+        (exponent.exp() * v * v.sqrt()).times(b0)
     }
 
     /// The stiffnesses' dependence on the state.
-    fn shear<N: Number>(&self, compression: N, x: N, free: N) -> N {
+    pub(super) fn shear<N: Number>(&self, compression: N, x: N, free: N) -> N {
         let [stiffening, power, of_free] = self.shear;
         let exponent =
             (x.times(stiffening) + free.times(of_free)).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
@@ -203,7 +196,7 @@ impl Law {
     }
 
     /// Strength of an element, by the root of v.
-    fn strength<N: Number>(&self, k: usize, x: N, free: N, root: N) -> N {
+    pub(super) fn strength<N: Number>(&self, k: usize, x: N, free: N, root: N) -> N {
         let Element { strength, growth, free: of_free, hardening, .. } = self.elements[k];
         let exponent = x.times(growth) + free.times(of_free) + root.times(hardening);
         exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
@@ -213,7 +206,7 @@ impl Law {
     pub fn stress<N: Number>(&self, state: &State<N>) -> Tensor<N> {
         let (x, free) = (state.density(), state.free());
         let pressure = if state.compression.value() > LEAST_COMPRESSION {
-            self.pressure(state.compression, x, free, state.surplus)
+            self.pressure(state.compression, x, free)
         } else {
             return [N::of(0.0); 6];
         };
@@ -238,43 +231,21 @@ impl Law {
         let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
         let square = square(&cell);
         let count = parts(state.compression.value());
+        let mut forgotten = 0.0;
         for part in 0..count {
             // Equal parts of the whole, E/n (1 + k E/n)⁻¹, which compose to it; of the cell to the second order.
             let (part, share) = (f64::from(part), 1.0 / f64::from(count));
             let thermal = strain.thermal * strain.thermal.times(part).plus(f64::from(count)).inverse();
             let cell = std::array::from_fn(|c| cell[c].times(share) - square[c].times(part * share * share));
-            let before = next.compression.at_least(LEAST_COMPRESSION);
+            let before = next.compression.value();
             next = self.part(&next, thermal, cell);
-            let after = next.compression.at_least(LEAST_COMPRESSION);
-            self.forget(&mut next, before, after, &cell);
+            let [before, after] = [before, next.compression.value()].map(|v| v.max(LEAST_COMPRESSION));
+            forgotten += self.contacts.forgotten(before, after, &cell.map(Number::value));
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
-        next.coordination = self.coordination(&next.value());
+        let usual = |state: &State<N>| self.contacts.usual(&state.value().contact_row());
+        next.coordination = usual(&next) + (state.coordination - usual(state)) * libm::exp(-forgotten);
         next
-    }
-
-    /// Forgets of ζ what a strain between two compressions makes it forget. Where that makes the packing stiffer, it keeps its
-    /// pressure, so that no work comes of it.
-    fn forget<N: Number>(&self, state: &mut State<N>, before: N, after: N, strain: &Tensor<N>) {
-        let left = self.contacts.left(before, after, strain);
-        let surplus = state.surplus * left;
-        let [old, new] = [state.surplus, surplus].map(|surplus| self.contacts.stiffer(surplus));
-        state.surplus = surplus;
-        if new.value() > old.value() && state.compression.value() > 0.0 {
-            let solid = state.solid();
-            state.compression = state.compression * old * new.inverse();
-            state.jamming = solid * state.compression.plus(1.0).inverse();
-        }
-    }
-
-    /// z of a state.
-    pub fn coordination(&self, state: &State) -> f64 {
-        self.contacts.usual(&state.contact_row()) + state.surplus
-    }
-
-    /// The state with its z.
-    pub fn counted(&self, state: State) -> State {
-        State { coordination: self.coordination(&state), ..state }
     }
 
     /// After growth of the radii and a strain of the cell, whose shears are not doubled.
@@ -339,180 +310,7 @@ impl Law {
         let mobilised = left.times(-1.0).plus(1.0);
         State { jamming, compression, ratios, mobilised, ..*state }
     }
-
-    /// The state with a solid fraction, a stress over E*, and what else is known. The fabric bears its part; the other elements
-    /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
-    /// than all strengths has larger strengths, by a common factor.
-    pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
-        let mobilised = known.mobilised.unwrap_or(1.0).clamp(0.0, 1.0);
-        let fabric = known.fabric.map(deviator);
-        let at =
-            |surplus: f64| self.counted(self.start_of_stress(solid, stress, fabric, [mobilised, surplus]));
-        let mut state = at(0.0);
-        let Some(coordination) = known.coordination else { return state };
-        for _ in 0..COUNTS {
-            state = at(coordination - (state.coordination - state.surplus));
-        }
-        state
-    }
-
-    fn start_of_stress(&self, solid: f64, stress: Tensor, fabric: Option<Tensor>, of: [f64; 2]) -> State {
-        let (pressure, load) = (super::tensor::mean(stress), deviator(stress));
-        let fabric = fabric.map_or(Borne::Usual(pressure), Borne::Fabric);
-        let at = |compression: f64| self.loaded(solid, compression, &load, &fabric, of);
-        if pressure <= 0.0 {
-            return State { ratios: [[0.0; 6]; ELEMENTS], strength: 1.0, ..at(0.0) };
-        }
-        // The pressure of a packing with this deviator falls with v, and below some v it would grow again: the larger root counts.
-        let beyond = |compression: f64| super::tensor::mean(self.stress(&at(compression))) - pressure;
-        let (mut high, mut excess) = (MOST_COMPRESSION, beyond(MOST_COMPRESSION));
-        let mut low = high;
-        while low > LEAST_COMPRESSION {
-            low = START_RATIO * high;
-            let found = beyond(low);
-            if found <= 0.0 {
-                break;
-            }
-            if found > excess {
-                return at(high);
-            }
-            (high, excess) = (low, found);
-        }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            match beyond(middle) > 0.0 {
-                true => high = middle,
-                false => low = middle,
-            }
-        }
-        at(high)
-    }
-
-    fn loaded(
-        &self,
-        solid: f64,
-        compression: f64,
-        load: &Tensor,
-        fabric: &Borne,
-        [mobilised, surplus]: [f64; 2],
-    ) -> State {
-        let mut state = State {
-            jamming: solid / (1.0 + compression),
-            compression,
-            ratios: [[0.0; 6]; ELEMENTS],
-            strength: 1.0,
-            mobilised,
-            surplus,
-            coordination: 0.0,
-        };
-        let (x, free) = (state.density(), state.free());
-        let root = Self::compressions(compression).0.sqrt();
-        let over = 1.0 / self.pressure(compression, x, free, surplus).max(f64::MIN_POSITIVE);
-        if compression <= LEAST_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
-            return state;
-        }
-        let ratio = load.map(|part| part * over);
-        let [per_anisotropy, usual] = self.fabric;
-        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, free, root));
-        let strongest = MOST_STRENGTH * strengths.iter().sum::<f64>();
-        let of_fabric = match fabric {
-            Borne::Fabric(fabric) => fabric.map(|part| per_anisotropy * part),
-            // At least what the other elements cannot bear.
-            Borne::Usual(pressure) => {
-                let least = 1.0 - strongest / contraction(&ratio, &ratio).sqrt().max(f64::MIN_POSITIVE);
-                // A share of the deviator over the pressure, which a deviator makes larger than A.
-                let share = (usual / (over * pressure)).min(usual).max(least);
-                ratio.map(|part| share * part)
-            }
-        };
-        state.ratios[FABRIC] = within(&of_fabric, self.strength(FABRIC, x, free, root)).0;
-        let rest: Tensor = std::array::from_fn(|k| ratio[k] - state.ratios[FABRIC][k]);
-        let size = contraction(&rest, &rest).sqrt();
-        if size <= 0.0 {
-            return state;
-        }
-        let shear = self.shear(compression, x, free);
-        let stiffness: [f64; FABRIC] = std::array::from_fn(|k| shear * self.elements[k].stiffness);
-        state.strength = (size / strengths.iter().sum::<f64>()).clamp(1.0, MOST_STRENGTH);
-        let limits: [f64; FABRIC] = std::array::from_fn(|k| state.strength * strengths[k] / stiffness[k]);
-        let common = shared(limits, stiffness, size);
-        for k in 0..FABRIC {
-            let bears = common.min(limits[k]) * stiffness[k] / size;
-            state.ratios[k] = rest.map(|part| part * bears);
-        }
-        state
-    }
-
-    /// Refuses numbers for which the law has no meaning.
-    ///
-    /// # Errors
-    /// [`SurrogateError::Field`] with key, value and what is allowed.
-    pub fn check(&self) -> Result<(), SurrogateError> {
-        let [b0, b1, b2, b3, b4] = self.bulk;
-        let [stiffening, shear_power, of_free] = self.shear;
-        let [d0, ..] = self.dilatancy;
-        let [c0, c1, c2, c3] = self.collapse;
-        let [s0, s1, s2] = self.settling;
-        let [per_anisotropy, usual] = self.fabric;
-        let mut numbers = vec![
-            ("bulk[0]", b0, (1e-6..=1e6).contains(&b0), "1e-6 to 1e6"),
-            ("bulk[1]", b1, b1.abs() <= LARGE, "-1e4 to 1e4"),
-            ("bulk[2]", b2, b2.abs() <= 5.0, "-5 to 5"),
-            // The pressure grows with the compression at any g.
-            ("bulk[3]", b3, b3.abs() <= 0.5, "-0.5 to 0.5"),
-            ("bulk[4]", b4, b4.abs() <= 0.5, "-0.5 to 0.5"),
-            ("shear[0]", stiffening, stiffening.abs() <= LARGE, "-1e4 to 1e4"),
-            ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
-            ("shear[2]", of_free, of_free.abs() <= 5.0, "-5 to 5"),
-            ("mobilising", self.mobilising, (0.0..=100.0).contains(&self.mobilising), "0 to 100"),
-            ("lift", self.lift, self.lift.abs() <= 10.0, "-10 to 10"),
-            ("dilatancy[0]", d0, (0.0..=10.0).contains(&d0), "0 to 10"),
-            ("collapse[0]", c0, (0.0..=10.0).contains(&c0), "0 to 10"),
-            ("collapse[1]", c1, c1.abs() <= LARGE, "-1e4 to 1e4"),
-            ("collapse[2]", c2, (0.0..=3.0).contains(&c2), "0 to 3"),
-            ("collapse[3]", c3, (0.01..=10.0).contains(&c3), "0.01 to 10"),
-            ("settling[0]", s0, (0.0..=10.0).contains(&s0), "0 to 10"),
-            ("settling[1]", s1, (1e-9..=1.0).contains(&s1), "1e-9 to 1"),
-            ("settling[2]", s2, s2.abs() <= LARGE, "-1e4 to 1e4"),
-            ("fabric[0]", per_anisotropy, (0.0..=100.0).contains(&per_anisotropy), "0 to 100"),
-            ("fabric[1]", usual, (0.0..=1.0).contains(&usual), "0 to 1"),
-        ];
-        numbers
-            .extend(self.dilatancy[1..].iter().map(|d| ("dilatancy", *d, d.abs() <= LARGE, "-1e4 to 1e4")));
-        for element in &self.elements {
-            let Element { stiffness, strength, growth, free, hardening, power } = *element;
-            numbers.extend([
-                ("element.stiffness", stiffness, (1e-6..=1e6).contains(&stiffness), "1e-6 to 1e6"),
-                ("element.strength", strength, (1e-6..=2.0).contains(&strength), "1e-6 to 2"),
-                ("element.growth", growth, growth.abs() <= LARGE, "-1e4 to 1e4"),
-                ("element.free", free, free.abs() <= 10.0, "-10 to 10"),
-                ("element.hardening", hardening, hardening.abs() <= 100.0, "-100 to 100"),
-                ("element.power", power, (-2.0..=1.0).contains(&power), "-2 to 1"),
-            ]);
-        }
-        numbers.extend(self.contacts.numbers());
-        match numbers.into_iter().find(|(_, _, good, _)| !good) {
-            Some((key, value, _, allowed)) => field(&format!("law.{key}"), value, allowed),
-            None => Ok(()),
-        }
-    }
 }
-
-/// What tells the part of the deviator that the fabric bears.
-enum Borne {
-    /// The deviator of the fabric, which is known.
-    Fabric(Tensor),
-    /// The pressure over E* of a packing whose fabric is not known: it is that of usual packings.
-    Usual(f64),
-}
-
-/// Largest coefficient of x.
-const LARGE: f64 = 1e4;
-/// Halvings of an interval, after which its ends are neighbouring numbers; and the ratio of the compressions that are looked at before.
-const HALVINGS: usize = 52;
-const START_RATIO: f64 = 0.7;
-/// Rounds in which the number of contacts and what the stress says of the state are brought together.
-const COUNTS: u32 = 4;
 
 /// Number of parts of an increment: more where the packing is hardly compressed, because there its stress changes more.
 fn parts(compression: f64) -> u32 {
@@ -525,28 +323,10 @@ fn parts(compression: f64) -> u32 {
 }
 
 /// The tensor, shortened to `most` where it is longer; then by how much it was longer, and its length.
-fn within<N: Number>(tensor: &Tensor<N>, most: N) -> (Tensor<N>, Option<N>, N) {
+pub(super) fn within<N: Number>(tensor: &Tensor<N>, most: N) -> (Tensor<N>, Option<N>, N) {
     let length = contraction(tensor, tensor).plus(TINY).sqrt();
     if length.value() <= most.value() * SLACK {
         return (*tensor, None, length);
     }
     (scaled(tensor, most * length.inverse()), Some(length - most), length)
-}
-
-/// The shear strain over v that all elements have which do not slide, when together they bear a deviator of this size.
-fn shared(limits: [f64; FABRIC], stiffness: [f64; FABRIC], size: f64) -> f64 {
-    let mut order: [usize; FABRIC] = std::array::from_fn(|k| k);
-    order.sort_by(|a, b| limits[*a].total_cmp(&limits[*b]));
-    let (mut rest, mut stiff) = (size, stiffness.iter().sum::<f64>());
-    let mut common = 0.0;
-    for k in order {
-        common = rest / stiff.max(f64::MIN_POSITIVE);
-        if common <= limits[k] {
-            break;
-        }
-        rest -= stiffness[k] * limits[k];
-        stiff -= stiffness[k];
-        common = limits[k];
-    }
-    common
 }

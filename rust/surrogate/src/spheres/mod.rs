@@ -11,8 +11,8 @@
 //! dη_k = −c_k de/v + m_k η_k dv/v,    |η_k| ≤ M_k,
 //!
 //! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths and stiffnesses
-//! depend on φ_J, since dense packings bear a larger deviator, and on v. Pressure and stress are p = A (1 + l Σ |η_k|²/c_k) and
-//! σ = p + A Σ η_k.
+//! depend on φ_J, since dense packings bear a larger deviator, on v, and on the friction that is mobilised. Pressure and stress are
+//! p = A (1 + l Σ |η_k|²/c_k) and σ = p + A Σ η_k.
 //!
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
 //! isotropic compression loads that axis more. Two elements more stand for the friction of contacts, which compression makes
@@ -20,16 +20,23 @@
 //!
 //! **Contacts.** The number of contacts per sphere is state, too, see [`contacts`]. It changes conductivities, not the stress.
 //!
-//! **Dilatancy.** Sliding by s changes v by −d₀ (d₁ + d₂ x + d₃ x² − η·n) s with x = φ_J − 0.6, the stress ratio η = Σ η_k, and
+//! **Mobilised friction.** g is the part of the friction that is not mobilised: 0 in beds that were poured, shaken, or packed with
+//! their own friction, where many contacts are about to slide; 1 − μ_p/μ in boxes that were packed with less friction μ_p. Solid
+//! fraction and number of contacts do not tell one from the other. Sliding by s mobilises: dg = −m g ds/v.
+//!
+//! **Dilatancy.** Sliding by s changes v by −d₀ (d₁ + d₂ x + d₃ g − η·n) s with x = φ_J − 0.6, the stress ratio η = Σ η_k, and
 //! n the direction of sliding: φ_J grows where a loose packing is sheared, or any is sheared back, and falls where a dense one is
-//! sheared far (Rowe, 1962, Proc. R. Soc. A 269:500). The factor l above is the dilatancy that goes back when the deviator does.
+//! sheared far (Rowe, 1962, Proc. R. Soc. A 269:500). Mobilised packings that hardly bear load give way beside it ([`law::Law::collapse`]).
+//! The factor l above is the dilatancy that goes back when the deviator does.
 //! Where a packing opens and is about to lose its load, it settles: φ_J grows, too.
 //!
 //! **Readouts.** Conductivities by contacts and by gas are functions of this state, see [`readout`].
 //!
-//! Fitted to periodic boxes of spheres with the friction 0.3 along paths of strain (`cases/database/spheres.toml`).
+//! Fitted to periodic boxes of spheres with the friction 0.3 along paths of strain (`spheres.toml`, `poured.toml` and `cycles.toml` in
+//! `cases/database`).
 
 pub mod ablation;
+mod check;
 pub mod contacts;
 pub mod errors;
 pub mod fit;
@@ -41,6 +48,7 @@ pub mod number;
 pub mod parameters;
 pub mod readout;
 pub mod score;
+mod start;
 pub mod tensor;
 #[cfg(test)]
 mod tests;

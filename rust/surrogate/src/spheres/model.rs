@@ -22,7 +22,7 @@ pub const NAMES: [&str; COLUMNS] = [
     "elastic_compression",
     "strength",
     "mobilised",
-    "contact_surplus",
+    "coordination",
     "stress_ratio_1_xx",
     "stress_ratio_1_yy",
     "stress_ratio_1_xy",
@@ -119,7 +119,7 @@ const JAMMING: [f64; 2] = [0.3, 0.8];
 const COMPRESSION: [f64; 2] = [-0.9, 0.5];
 const STRENGTH: [f64; 2] = [0.01, super::law::MOST_STRENGTH];
 const MOBILISED: [f64; 2] = [0.0, 1.0];
-const MOST_SURPLUS: f64 = 12.0;
+const COORDINATION: [f64; 2] = [0.0, 12.0];
 const MOST_RATIO: f64 = 2.0;
 const MOST_STRAIN: f64 = 0.2;
 
@@ -136,15 +136,15 @@ fn small(value: f64, most: f64) -> f64 {
 /// The columns of a state.
 pub fn columns(state: &State) -> [f64; COLUMNS] {
     let mut columns = [0.0; COLUMNS];
-    let State { jamming, compression, strength, mobilised, surplus, .. } = *state;
-    columns[..SCALARS].copy_from_slice(&[jamming, compression, strength, mobilised, surplus]);
+    let State { jamming, compression, strength, mobilised, coordination, .. } = *state;
+    columns[..SCALARS].copy_from_slice(&[jamming, compression, strength, mobilised, coordination]);
     for (k, [xx, yy, _, xy, xz, yz]) in state.ratios.into_iter().enumerate() {
         columns[SCALARS + 5 * k..][..5].copy_from_slice(&[xx, yy, xy, xz, yz]);
     }
     columns
 }
 
-/// The state of columns, contacts not counted yet, see [`Law::counted`].
+/// The state of columns.
 pub fn state(columns: &[f64; COLUMNS]) -> State {
     let ratios = std::array::from_fn(|k| {
         let part = |i: usize| small(columns[SCALARS + 5 * k + i], MOST_RATIO);
@@ -156,8 +156,7 @@ pub fn state(columns: &[f64; COLUMNS]) -> State {
         compression: limited(columns[1], COMPRESSION),
         strength: limited(columns[2], STRENGTH),
         mobilised: limited(columns[3], MOBILISED),
-        surplus: small(columns[4], MOST_SURPLUS),
-        coordination: 0.0,
+        coordination: limited(columns[4], COORDINATION),
         ratios,
     }
 }
@@ -224,7 +223,7 @@ impl SphereModel {
         tangent: bool,
     ) -> Answer {
         let law = &self.file.law;
-        let from = law.counted(state(before));
+        let from = state(before);
         let thermal = small(strain.thermal, MOST_STRAIN);
         let cell = strain.cell.map(|part| small(part, MOST_STRAIN));
         let half = super::tensor::rotation(strain.rotation.map(|angle| 0.5 * small(angle, 1.0)));
@@ -236,7 +235,7 @@ impl SphereModel {
             (next, [[0.0; 6]; 6])
         };
         // As it is read again from its columns, so that it answers the same then, to the last bit.
-        let next = if still { from } else { law.counted(state(&columns(&next))) };
+        let next = if still { from } else { state(&columns(&next)) };
         let stress = law.stress(&next);
         let ratio = next.ratio();
         let Ranges { jamming_fraction, pressure, stress_ratio } = self.file.ranges;

@@ -23,7 +23,7 @@ const STRENGTH: [f64; 2] = [1e-6, 2.0];
 const POWER: [f64; 2] = [-2.0, 1.0];
 
 /// Number of parameters.
-pub const PARAMETERS: usize = 39;
+pub const PARAMETERS: usize = 38;
 
 /// Coefficients of x are divided by 10.
 const TABLE: [(Place, Scale); PARAMETERS] = [
@@ -65,7 +65,6 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.elements[2].free, Over(1.0, [-10.0, 10.0])),
     (|law| &mut law.elements[2].hardening, Over(1.0, [-100.0, 100.0])),
     (|law| &mut law.elements[2].power, Over(1.0, POWER)),
-    (|law| &mut law.contacts.stiffening, Over(1.0, [0.0, 2.0])),
 ];
 
 /// The law's numbers as parameters.
@@ -101,19 +100,19 @@ pub fn beginning() -> Law {
         power,
     };
     Law {
-        bulk: [0.076, 4.0, 0.34, 0.13, -0.07],
-        shear: [2.9, 0.4, 0.35],
-        lift: 0.1,
+        bulk: [0.077, 4.1, 0.39, 0.13, -0.09],
+        shear: [0.05, 0.4, 0.49],
+        lift: 0.067,
         elements: [
-            element([0.77, 0.25, 3.2, 0.1, 0.0, -0.96]),
-            element([0.19, 0.0058, -42.0, 6.0, 0.0, -0.91]),
-            element([0.062, 2.0, -60.0, -1.0, 31.0, -0.1]),
+            element([0.71, 0.25, 4.4, 0.08, 0.0, -0.87]),
+            element([0.18, 0.0057, -37.0, 6.0, 0.0, -0.9]),
+            element([0.046, 2.0, -11.0, -3.2, 50.0, -0.1]),
         ],
-        dilatancy: [0.1, 0.06, -19.0, 0.78],
-        collapse: [0.21, 6.7, 0.36, 0.65],
-        mobilising: 0.004,
-        settling: [0.4, 6.8e-6, 320.0],
-        fabric: [5.2, 0.49],
-        contacts: Contacts { usual: [0.0; COEFFICIENTS], fading: [0.1, 0.3], stiffening: 0.25 },
+        dilatancy: [0.1, 0.05, -16.0, 0.75],
+        collapse: [0.23, 9.2, 0.34, 0.59],
+        mobilising: 0.005,
+        settling: [2.6, 6.8e-6, 270.0],
+        fabric: [5.0, 0.47],
+        contacts: Contacts { usual: [0.0; COEFFICIENTS], fading: [0.0; 2] },
     }
 }

@@ -265,7 +265,7 @@ fn a_training_finds_the_law_that_made_the_data() {
     law.bulk[0] *= 1.2;
     law.elements[0].strength *= 0.8;
     law.elements[1].stiffness *= 1.3;
-    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading: [0.2, 1.0], stiffening: 0.1 };
+    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading: [0.2, 1.0] };
     law.contacts.usual[..2].copy_from_slice(&[4.5, 10.0]);
     let all = tracks(&law, 40);
     let options = TrainingOptions { max_epochs: 40, threads: 2, ..TrainingOptions::default() };
@@ -325,7 +325,7 @@ fn parameters_are_the_numbers_of_the_law() {
 }
 
 /// What a packing has more contacts than usual it keeps where it is hardly strained, and forgets where it is strained far; it
-/// conducts better for it, and is a little stiffer.
+/// conducts better for it, but bears no more.
 #[test]
 fn packings_with_more_contacts_keep_them_as_long_as_they_are_hardly_strained() {
     let model = model();
@@ -338,17 +338,17 @@ fn packings_with_more_contacts_keep_them_as_long_as_they_are_hardly_strained() {
     let known = after(&usual, 0.0).coordination + 0.8;
     let more = model.initial_state(0.59, stress, &Known { coordination: Some(known), ..Known::default() });
     let start = after(&more, 0.0);
-    assert!((start.coordination - known).abs() < 1e-6, "{} {known}", start.coordination);
+    assert!((start.coordination - known).abs() < 1e-12, "{} {known}", start.coordination);
     assert!(worst(&start.stress, &stress) < 1e-10 * 2e-8, "{:?}", start.stress);
     let kept = |size: f64| {
         let (a, b) = (after(&usual, size), after(&more, size));
+        assert_eq!(a.stress, b.stress);
         assert!(mean(b.contact) > mean(a.contact) && b.gas > a.gas);
         b.coordination - a.coordination
     };
     assert!((kept(0.0) - 0.8).abs() < 1e-6);
     let (little, far) = (kept(1e-6), kept(3e-3));
     assert!(little > 0.75 && far < 0.6 && far > 0.0, "{little} {far}");
-    assert!(mean(after(&more, 1e-5).stress) > mean(after(&usual, 1e-5).stress));
 }
 
 /// Beds whose friction is mobilised give way where they are sheared; those that were packed without friction bear.

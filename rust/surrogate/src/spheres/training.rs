@@ -3,7 +3,7 @@
 use super::fit::{PathFit, fit};
 use super::fit_state::{contacts, readout, usual_fabric};
 use super::model::{File, Ranges, Report, SCHEMA, SphereModel};
-use super::parameters::{PARAMETERS, beginning};
+use super::parameters::PARAMETERS;
 use super::tensor::{Tensor, contraction, deviator, mean};
 use super::tracks::{Track, follow};
 use crate::SurrogateError;
@@ -50,8 +50,7 @@ pub fn train_without(
         let text = "fewer than 100 states on paths of strain of boxes of spheres, to which this kind of model is fitted";
         return Err(SurrogateError::Data(text.to_string()));
     }
-    let usual = contacts(&beginning(), &seen);
-    let problem = PathFit { tracks: &seen, contacts: usual, threads: options.threads_used(), fixed };
+    let problem = PathFit { tracks: &seen, threads: options.threads_used(), fixed };
     let (mut law, minimum) = fit(&problem, options.max_epochs);
     law.fabric[1] = usual_fabric(&law, &seen);
     law.contacts = contacts(&law, &seen);

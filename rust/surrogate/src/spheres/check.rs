@@ -1,0 +1,64 @@
+//! What the numbers of a law may be.
+
+use super::law::{Element, Law};
+use crate::SurrogateError;
+use crate::document::field;
+
+/// Largest coefficient of x.
+const LARGE: f64 = 1e4;
+
+impl Law {
+    /// Refuses numbers for which the law has no meaning.
+    ///
+    /// # Errors
+    /// [`SurrogateError::Field`] with key, value and what is allowed.
+    pub fn check(&self) -> Result<(), SurrogateError> {
+        let [b0, b1, b2, b3, b4] = self.bulk;
+        let [stiffening, shear_power, of_free] = self.shear;
+        let [d0, ..] = self.dilatancy;
+        let [c0, c1, c2, c3] = self.collapse;
+        let [s0, s1, s2] = self.settling;
+        let [per_anisotropy, usual] = self.fabric;
+        let mut numbers = vec![
+            ("bulk[0]", b0, (1e-6..=1e6).contains(&b0), "1e-6 to 1e6"),
+            ("bulk[1]", b1, b1.abs() <= LARGE, "-1e4 to 1e4"),
+            ("bulk[2]", b2, b2.abs() <= 5.0, "-5 to 5"),
+            // The pressure grows with the compression at any g.
+            ("bulk[3]", b3, b3.abs() <= 0.5, "-0.5 to 0.5"),
+            ("bulk[4]", b4, b4.abs() <= 0.5, "-0.5 to 0.5"),
+            ("shear[0]", stiffening, stiffening.abs() <= LARGE, "-1e4 to 1e4"),
+            ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
+            ("shear[2]", of_free, of_free.abs() <= 5.0, "-5 to 5"),
+            ("mobilising", self.mobilising, (0.0..=100.0).contains(&self.mobilising), "0 to 100"),
+            ("lift", self.lift, self.lift.abs() <= 10.0, "-10 to 10"),
+            ("dilatancy[0]", d0, (0.0..=10.0).contains(&d0), "0 to 10"),
+            ("collapse[0]", c0, (0.0..=10.0).contains(&c0), "0 to 10"),
+            ("collapse[1]", c1, c1.abs() <= LARGE, "-1e4 to 1e4"),
+            ("collapse[2]", c2, (0.0..=3.0).contains(&c2), "0 to 3"),
+            ("collapse[3]", c3, (0.01..=10.0).contains(&c3), "0.01 to 10"),
+            ("settling[0]", s0, (0.0..=10.0).contains(&s0), "0 to 10"),
+            ("settling[1]", s1, (1e-9..=1.0).contains(&s1), "1e-9 to 1"),
+            ("settling[2]", s2, s2.abs() <= LARGE, "-1e4 to 1e4"),
+            ("fabric[0]", per_anisotropy, (0.0..=100.0).contains(&per_anisotropy), "0 to 100"),
+            ("fabric[1]", usual, (0.0..=1.0).contains(&usual), "0 to 1"),
+        ];
+        numbers
+            .extend(self.dilatancy[1..].iter().map(|d| ("dilatancy", *d, d.abs() <= LARGE, "-1e4 to 1e4")));
+        for element in &self.elements {
+            let Element { stiffness, strength, growth, free, hardening, power } = *element;
+            numbers.extend([
+                ("element.stiffness", stiffness, (1e-6..=1e6).contains(&stiffness), "1e-6 to 1e6"),
+                ("element.strength", strength, (1e-6..=2.0).contains(&strength), "1e-6 to 2"),
+                ("element.growth", growth, growth.abs() <= LARGE, "-1e4 to 1e4"),
+                ("element.free", free, free.abs() <= 10.0, "-10 to 10"),
+                ("element.hardening", hardening, hardening.abs() <= 100.0, "-100 to 100"),
+                ("element.power", power, (-2.0..=1.0).contains(&power), "-2 to 1"),
+            ]);
+        }
+        numbers.extend(self.contacts.numbers());
+        match numbers.into_iter().find(|(_, _, good, _)| !good) {
+            Some((key, value, _, allowed)) => field(&format!("law.{key}"), value, allowed),
+            None => Ok(()),
+        }
+    }
+}

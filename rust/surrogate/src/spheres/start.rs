@@ -1,0 +1,127 @@
+//! The state of a packing of which solid fraction, stress, and perhaps more are known.
+
+use super::law::{
+    ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, Law, MOST_COMPRESSION, MOST_STRENGTH, State, within,
+};
+use super::tensor::{Tensor, contraction, deviator, mean};
+
+/// Halvings of an interval, after which its ends are neighbouring numbers; and the ratio of the compressions that are looked at before.
+const HALVINGS: usize = 52;
+const START_RATIO: f64 = 0.7;
+
+/// What tells the part of the deviator that the fabric bears.
+enum Borne {
+    /// The deviator of the fabric, which is known.
+    Fabric(Tensor),
+    /// The pressure over E* of a packing whose fabric is not known: it is that of usual packings.
+    Usual(f64),
+}
+
+impl Law {
+    /// The state with a solid fraction, a stress over E*, and what else is known. The fabric bears its part; the other elements
+    /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
+    /// than all strengths has larger strengths, by a common factor.
+    pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
+        let mobilised = known.mobilised.unwrap_or(1.0).clamp(0.0, 1.0);
+        let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator), mobilised);
+        state.coordination = known.coordination.unwrap_or_else(|| self.contacts.usual(&state.contact_row()));
+        state
+    }
+
+    fn start_of_stress(&self, solid: f64, stress: Tensor, fabric: Option<Tensor>, mobilised: f64) -> State {
+        let (pressure, load) = (mean(stress), deviator(stress));
+        let fabric = fabric.map_or(Borne::Usual(pressure), Borne::Fabric);
+        let at = |compression: f64| self.loaded(solid, compression, &load, &fabric, mobilised);
+        if pressure <= 0.0 {
+            return State { ratios: [[0.0; 6]; ELEMENTS], strength: 1.0, ..at(0.0) };
+        }
+        // The pressure of a packing with this deviator falls with v, and below some v it would grow again: the larger root counts.
+        let beyond = |compression: f64| mean(self.stress(&at(compression))) - pressure;
+        let (mut high, mut excess) = (MOST_COMPRESSION, beyond(MOST_COMPRESSION));
+        let mut low = high;
+        while low > LEAST_COMPRESSION {
+            low = START_RATIO * high;
+            let found = beyond(low);
+            if found <= 0.0 {
+                break;
+            }
+            if found > excess {
+                return at(high);
+            }
+            (high, excess) = (low, found);
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            match beyond(middle) > 0.0 {
+                true => high = middle,
+                false => low = middle,
+            }
+        }
+        at(high)
+    }
+
+    fn loaded(&self, solid: f64, compression: f64, load: &Tensor, fabric: &Borne, mobilised: f64) -> State {
+        let mut state = State {
+            jamming: solid / (1.0 + compression),
+            compression,
+            ratios: [[0.0; 6]; ELEMENTS],
+            strength: 1.0,
+            mobilised,
+            coordination: 0.0,
+        };
+        let (x, free) = (state.density(), state.free());
+        let root = Self::compressions(compression).0.sqrt();
+        let over = 1.0 / self.pressure(compression, x, free).max(f64::MIN_POSITIVE);
+        if compression <= LEAST_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
+            return state;
+        }
+        let ratio = load.map(|part| part * over);
+        let [per_anisotropy, usual] = self.fabric;
+        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, free, root));
+        let strongest = MOST_STRENGTH * strengths.iter().sum::<f64>();
+        let of_fabric = match fabric {
+            Borne::Fabric(fabric) => fabric.map(|part| per_anisotropy * part),
+            // At least what the other elements cannot bear.
+            Borne::Usual(pressure) => {
+                let least = 1.0 - strongest / contraction(&ratio, &ratio).sqrt().max(f64::MIN_POSITIVE);
+                // A share of the deviator over the pressure, which a deviator makes larger than A.
+                let share = (usual / (over * pressure)).min(usual).max(least);
+                ratio.map(|part| share * part)
+            }
+        };
+        state.ratios[FABRIC] = within(&of_fabric, self.strength(FABRIC, x, free, root)).0;
+        let rest: Tensor = std::array::from_fn(|k| ratio[k] - state.ratios[FABRIC][k]);
+        let size = contraction(&rest, &rest).sqrt();
+        if size <= 0.0 {
+            return state;
+        }
+        let shear = self.shear(compression, x, free);
+        let stiffness: [f64; FABRIC] = std::array::from_fn(|k| shear * self.elements[k].stiffness);
+        state.strength = (size / strengths.iter().sum::<f64>()).clamp(1.0, MOST_STRENGTH);
+        let limits: [f64; FABRIC] = std::array::from_fn(|k| state.strength * strengths[k] / stiffness[k]);
+        let common = shared(limits, stiffness, size);
+        for k in 0..FABRIC {
+            let bears = common.min(limits[k]) * stiffness[k] / size;
+            state.ratios[k] = rest.map(|part| part * bears);
+        }
+        state
+    }
+}
+
+/// The shear strain over v that all elements have which do not slide, when together they bear a deviator of this size.
+fn shared(limits: [f64; FABRIC], stiffness: [f64; FABRIC], size: f64) -> f64 {
+    let mut order: [usize; FABRIC] = std::array::from_fn(|k| k);
+    order.sort_by(|a, b| limits[*a].total_cmp(&limits[*b]));
+    let (mut rest, mut stiff) = (size, stiffness.iter().sum::<f64>());
+    let mut common = 0.0;
+    for k in order {
+        common = rest / stiff.max(f64::MIN_POSITIVE);
+        if common <= limits[k] {
+            break;
+        }
+        rest -= stiffness[k] * limits[k];
+        stiff -= stiffness[k];
+        common = limits[k];
+    }
+    common
+}
