@@ -7,8 +7,8 @@ use crate::stopwatch::{self, Stage};
 use msdd_beds::{BedError, Packing, pack_along, shake};
 use msdd_spheres::{Failure, Simulation};
 
-/// Least p/E* at which a box is packed; lower ones are reached by opening it. A packing below has to creep for hundreds of
-/// thousands of steps, and the number of contacts changes less with the pressure the lower it is.
+/// Least p/E* at which a box is packed; lower ones are reached by opening it, or by pressing it again where it is shaken. A packing
+/// below has to creep for hundreds of thousands of steps, and the number of contacts changes less with the pressure the lower it is.
 const LEAST_PACKING_PRESSURE: f64 = 1e-6;
 /// Steps after which packing is given up; at the least pressure and without friction it takes about 150 000.
 const PACKING_STEPS: u64 = 600_000;
