@@ -1,6 +1,7 @@
 //! Steps of a jammed periodic box: `speed SPHERES [STEPS [TILES [FILE]]]` prints millions of sphere-steps per second, by the
-//! best of forty parts of the run; a large box with the best instruction set only. The box is repeated TILES times in each direction. It is written to FILE as a data file
-//! of LAMMPS (atom_style sphere), for comparison.
+//! best of forty parts of the run, and the memory of the process (Linux) over the number of spheres: now, and the most so far.
+//! The box is repeated TILES times in each direction, and with 2 or more run with the best instruction set only. It is written to FILE as
+//! a data file of LAMMPS (atom_style sphere), for comparison.
 
 use msdd_beds::{Packing, pack};
 use msdd_spheres::{Boundary, Material, Simd, Simulation, Sphere, Stiffness};
@@ -45,6 +46,16 @@ fn repeated(simulation: &Simulation, tiles: usize) -> Result<Simulation, Box<dyn
     Ok(Simulation::new(simulation.material.clone(), spheres, Boundary::Periodic(cell))?)
 }
 
+/// Bytes in the main memory that the process has now, and the most that it had; none elsewhere than on Linux.
+fn memory() -> Option<[f64; 2]> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let of = |key: &str| {
+        let line = status.lines().find_map(|line| line.strip_prefix(key))?;
+        Some(1024.0 * line.split_whitespace().next()?.parse::<f64>().ok()?)
+    };
+    Some([of("VmRSS:")?, of("VmHWM:")?])
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
@@ -66,15 +77,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         steps: 30_000,
     };
     let packed = pack(&packing)?;
+    println!("settled {}, {:?}", packed.settled, packed.averages);
     let start = repeated(&packed.simulation, tiles)?;
     let spheres = start.spheres.len();
-    println!("settled {}, {:?}", packed.settled, packed.averages);
     if let Some(file) = file {
         std::fs::write(file, data_file(&start)?)?;
     }
-    for simd in Simd::ALL.into_iter().filter(|&simd| simd.available() && (tiles == 1 || simd == Simd::best()))
-    {
-        let mut simulation = start.clone();
+    let all = if tiles == 1 { Simd::ALL.to_vec() } else { vec![Simd::best()] };
+    let mut start = Some(start);
+    for (left, simd) in (0..all.len()).rev().zip(all).filter(|(_, simd)| simd.available()) {
+        let copy = if left == 0 { start.take() } else { start.clone() };
+        let Some(mut simulation) = copy else { break };
         simulation.set_simd(simd);
         simulation.take_steps(steps / 10);
         let searches = simulation.searches();
@@ -85,7 +98,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 begin.elapsed().as_secs_f64()
             })
             .fold(f64::INFINITY, f64::min);
-        println!("time step {}", simulation.time_step);
+        if let Some([now, most]) = memory().filter(|_| tiles > 1) {
+            let each = |bytes: f64| bytes / spheres as f64;
+            println!("memory: {:.0} B a sphere, at most {:.0}", each(now), each(most));
+        }
         let rate = (steps / 40) as f64 * spheres as f64 / best / 1e6;
         let (searches, candidates) = (simulation.searches() - searches, simulation.candidates());
         let search = (0..10)
@@ -95,7 +111,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 begin.elapsed().as_secs_f64()
             })
             .fold(f64::INFINITY, f64::min);
-        println!("a search takes the time of {:.1} steps", search / best * (steps / 40) as f64);
+        println!(
+            "a search takes the time of {:.1} steps of {} s",
+            search / best * (steps / 40) as f64,
+            simulation.time_step
+        );
         println!(
             "{simd:?}: {rate:.2} M sphere-steps/s, {searches} searches, {:.2} candidates per sphere, {:e}",
             candidates as f64 / spheres as f64,

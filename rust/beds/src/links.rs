@@ -58,7 +58,7 @@ pub fn near_pairs(simulation: &Simulation) -> Vec<Near> {
     let largest = spheres.iter().fold(0.0f64, |largest, sphere| largest.max(sphere.radius));
     let skin = 2.0 * (NEAR - 1.0) * largest;
     let (rows, ghosts) = match simulation.cell() {
-        Some(cell) => pairs_within_cell(spheres, skin, &cell.lattice),
+        Some(cell) => pairs_within_cell(spheres, skin, &cell.lattice, false),
         None => (pairs_within(spheres, skin), Vec::new()),
     };
     let mut pairs = Vec::new();

@@ -43,7 +43,7 @@ impl Neighbours {
     }
 
     fn rebuild_periodic(&mut self, discs: &[Disc], cell: &Lattice<2>) {
-        let (rows, ghosts) = pairs_within_cell(discs, self.skin.width, cell);
+        let (rows, ghosts) = pairs_within_cell(discs, self.skin.width, cell, false);
         let mut pairs = PairList::new(rows);
         let count = discs.len();
         let known = self.pairs.rows() == count;

@@ -108,38 +108,67 @@ pub fn pairs_within<const D: usize>(grains: &[impl Grain<D>], skin: f64) -> Rows
     })
 }
 
+/// Where a grain or an image of it is.
+#[derive(Clone, Copy)]
+struct Placed<const D: usize> {
+    centre: [f64; D],
+    radius: f64,
+}
+
+impl<const D: usize> Grain<D> for Placed<D> {
+    fn centre(&self) -> [f64; D] {
+        self.centre
+    }
+    fn radius(&self) -> f64 {
+        self.radius
+    }
+    fn at(self, centre: [f64; D]) -> Self {
+        Self { centre, ..self }
+    }
+}
+
 /// All pairs closer than `skin` [m], images across the periodic border included; and these images (ghosts), which are
-/// numbered after the grains.
+/// numbered after the grains. `apart`: see [`Rows::build_periodic`].
 pub fn pairs_within_cell<const D: usize>(
     grains: &[impl Grain<D>],
     skin: f64,
     cell: &Lattice<D>,
+    apart: bool,
 ) -> (Rows, Vec<Image<D>>) {
     let reach = 2.0 * largest_radius(grains) + skin;
     let images = cell.images(grains, reach);
-    let placed: Vec<_> =
-        images.iter().map(|image| cell.image(&grains[image.owner as usize], image.shift)).collect();
+    let placed = |image: &Image<D>| {
+        let grain = &grains[image.owner as usize];
+        cell.image(&Placed { centre: grain.centre(), radius: grain.radius() }, image.shift)
+    };
+    let placed: Vec<Placed<D>> = images.iter().map(placed).collect();
+    let between = |i: usize, m: u32| {
+        let image = &images[m as usize];
+        let shift = std::array::from_fn(|k| image.shift[k].wrapping_sub(images[i].shift[k]));
+        Image { owner: image.owner, shift }
+    };
+    // Partners of each grain, as numbers of images.
     let (mut partners, mut end) = (Vec::new(), vec![0]);
     if !grains.is_empty() {
         let grid = Grid::new(&placed, reach);
         for (i, a) in placed[..grains.len()].iter().enumerate() {
             grid.around(a.centre(), |m| {
-                let image = &images[m as usize];
-                let shift = std::array::from_fn(|k| image.shift[k].wrapping_sub(images[i].shift[k]));
-                if forward(i as u32, image.owner, shift) && near(a, &placed[m as usize], skin) {
-                    partners.push(Image { owner: image.owner, shift });
+                let partner = between(i, m);
+                if forward(i as u32, partner.owner, partner.shift) && near(a, &placed[m as usize], skin) {
+                    partners.push(m);
                 }
             });
             end.push(partners.len());
         }
     }
-    let mut ghosts: Vec<Image<D>> = partners.iter().copied().filter(|g| g.shift != [0; D]).collect();
+    drop(placed);
+    let count = grains.len();
+    let of = |i: usize| partners[end[i]..end[i + 1]].iter().map(move |&m| between(i, m));
+    let mut ghosts: Vec<Image<D>> = (0..count).flat_map(of).filter(|g| g.shift != [0; D]).collect();
     ghosts.sort_unstable();
     ghosts.dedup();
-    let count = grains.len();
-    let rows = Rows::build_over(count, count + ghosts.len(), (1, count.max(1)), |i, row| {
-        let partners = &partners[end[i]..end[i + 1]];
-        row.extend(partners.iter().map(|partner| index_of(partner, count, &ghosts).unwrap_or(u32::MAX)));
+    let rows = Rows::build_periodic([count, count + ghosts.len(), partners.len()], apart, |i, row| {
+        row.extend(of(i).map(|partner| index_of(&partner, count, &ghosts).unwrap_or(u32::MAX)));
     });
     (rows, ghosts)
 }
@@ -200,7 +229,7 @@ mod tests {
             grain.0 = cell.point(grain.0.map(|x| 3.0 * x - 1.0));
         }
         let skin = 0.05;
-        let (rows, ghosts) = pairs_within_cell(&grains, skin, &cell);
+        let (rows, ghosts) = pairs_within_cell(&grains, skin, &cell, false);
         let mut found: Vec<(u32, Image<3>)> = Vec::new();
         for (&i, &j) in rows.i().iter().zip(rows.j()) {
             let image = match (j as usize).checked_sub(grains.len()) {

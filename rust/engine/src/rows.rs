@@ -11,7 +11,7 @@ use std::ops::Range;
 pub struct Rows {
     /// Number of grains, ghosts (images across a periodic border) included.
     grains: usize,
-    /// Row i is `start[i]..start[i + 1]`.
+    /// Row i is `start[i]..start[i + 1]`; pairs across the border may stand behind the last row.
     start: Vec<u32>,
     i: Vec<u32>,
     j: Vec<u32>,
@@ -50,32 +50,55 @@ const BLOCK_ROWS: usize = 256;
 
 impl Rows {
     /// A list over `grains` grains. `partners(i, row)` puts the partners j > i of grain i into `row`, in any order.
-    pub fn build(grains: usize, partners: impl FnMut(usize, &mut Vec<u32>)) -> Self {
-        Self::build_over(grains, grains, (slab_count(grains), BLOCK_ROWS), partners)
-    }
-
-    /// As [`Rows::build`], with a row for each of the first `rows` of `grains` grains, divided into a given number of
-    /// slabs with blocks of `block_rows` rows.
     ///
     /// # Panics
     /// When a partner is not below `grains`.
-    pub fn build_over(
-        rows: usize,
-        grains: usize,
+    pub fn build(grains: usize, partners: impl FnMut(usize, &mut Vec<u32>)) -> Self {
+        let mut list = Self::collect([grains, grains, 0], (slab_count(grains), BLOCK_ROWS), false, partners);
+        list.i.shrink_to_fit();
+        list.j.shrink_to_fit();
+        list
+    }
+
+    /// As [`Rows::build`], of a periodic box: `pairs` in all, with a row for each of the first `rows` of `grains` grains, the
+    /// others being ghosts. `apart` tells whether the pairs with ghosts stand behind the rows ([`Rows::across`]), so that the rows can be
+    /// divided; else all rows are one block.
+    ///
+    /// # Panics
+    /// When a partner is not below `grains`.
+    pub fn build_periodic(
+        [rows, grains, pairs]: [usize; 3],
+        apart: bool,
+        partners: impl FnMut(usize, &mut Vec<u32>),
+    ) -> Self {
+        let division = if apart { (slab_count(rows), BLOCK_ROWS) } else { (1, rows.max(1)) };
+        Self::collect([rows, grains, pairs], division, apart, partners)
+    }
+
+    fn collect(
+        [rows, grains, pairs]: [usize; 3],
         (slabs, block_rows): (usize, usize),
+        apart: bool,
         mut partners: impl FnMut(usize, &mut Vec<u32>),
     ) -> Self {
         let mut list = Self { grains, start: vec![0], ..Self::default() };
-        let mut row = Vec::new();
+        list.start.reserve_exact(rows);
+        list.i.reserve_exact(pairs);
+        list.j.reserve_exact(pairs);
+        let (mut row, mut across) = (Vec::new(), Vec::new());
         for i in 0..rows {
             row.clear();
             partners(i, &mut row);
             row.sort_unstable();
             assert!(row.last().is_none_or(|&last| (last as usize) < grains));
-            list.i.extend(row.iter().map(|_| i as u32));
-            list.j.extend_from_slice(&row);
+            let own = if apart { row.partition_point(|&j| (j as usize) < rows) } else { row.len() };
+            list.i.extend(row[..own].iter().map(|_| i as u32));
+            list.j.extend_from_slice(&row[..own]);
             list.start.push(list.j.len() as u32);
+            across.extend(row[own..].iter().map(|&j| (i as u32, j)));
         }
+        list.i.extend(across.iter().map(|(i, _)| i));
+        list.j.extend(across.iter().map(|(_, j)| j));
         list.slabs = list.divide(slabs, block_rows);
         list
     }
@@ -138,9 +161,20 @@ impl Rows {
         self.start[rows.start] as usize..self.start[rows.end] as usize
     }
 
+    /// Candidates across the border of a periodic box that stand behind all rows, ordered by i, then j.
+    pub fn across(&self) -> Range<usize> {
+        self.start.last().map_or(0, |&end| end as usize)..self.len()
+    }
+
     /// The number of the pair (i, j), i < j; none when it is not in the list.
     pub fn find(&self, i: usize, j: u32) -> Option<usize> {
-        let row = self.of_rows(i..i + 1);
-        self.j[row.clone()].binary_search(&j).ok().map(|k| row.start + k)
+        let find_in =
+            |pairs: Range<usize>| self.j[pairs.clone()].binary_search(&j).ok().map(|k| pairs.start + k);
+        find_in(self.of_rows(i..i + 1)).or_else(|| {
+            let across = self.across();
+            let from =
+                |i: usize| across.start + self.i[across.clone()].partition_point(|&k| (k as usize) < i);
+            find_in(from(i)..from(i + 1))
+        })
     }
 }

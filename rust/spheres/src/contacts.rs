@@ -18,6 +18,9 @@ pub(crate) struct Pairs<'a> {
     /// All indices of the pairs are in `first..reach`.
     pub first: usize,
     pub reach: usize,
+    /// To which loads the forces on i and on j are added; all are in `first..loads_reach`.
+    pub loads: [&'a [u32]; 2],
+    pub loads_reach: usize,
 }
 
 /// The part of a pair list that one thread works on: a slab and the friction history of its pairs.
@@ -39,6 +42,8 @@ impl SlabPairs<'_> {
             history: self.history.each_mut().map(|column| &mut column[own.clone()]),
             first: block.rows.start,
             reach: block.reach,
+            loads: [&self.i[own.clone()], &self.j[own]],
+            loads_reach: block.reach,
         }
     }
 }
@@ -48,6 +53,20 @@ impl PairList {
     pub(crate) fn new(rows: Rows) -> Self {
         let count = rows.len();
         Self { rows, history: std::array::from_fn(|_| vec![0.0; count]) }
+    }
+
+    /// The pairs across the border that stand apart; `border` says to which loads their forces are added.
+    pub(crate) fn across<'a>(&'a mut self, border: &'a Border) -> Pairs<'a> {
+        let across = self.rows.across();
+        Pairs {
+            i: &self.rows.i()[across.clone()],
+            j: &self.rows.j()[across.clone()],
+            history: self.history.each_mut().map(|column| &mut column[across.clone()]),
+            first: 0,
+            reach: self.rows.grains(),
+            loads: border.loads.each_ref().map(Vec::as_slice),
+            loads_reach: border.owners.len(),
+        }
     }
 
     /// The list divided into its slabs, which threads may work on in parallel.
@@ -75,6 +94,30 @@ impl PairList {
         for (column, value) in self.history.iter_mut().zip(history) {
             column[k] = value;
         }
+    }
+}
+
+/// The spheres that have pairs across the border of a periodic box, where these stand apart.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Border {
+    /// Their numbers, increasing.
+    pub(crate) owners: Vec<u32>,
+    /// For i and j of each of these pairs, which of `owners` it is, or is an image of.
+    loads: [Vec<u32>; 2],
+}
+
+impl Border {
+    /// `ghosts` are the owners of the images that are numbered behind the spheres.
+    pub(crate) fn new(rows: &Rows, ghosts: impl Fn(usize) -> u32) -> Self {
+        let across = rows.across();
+        let of_j = rows.j()[across.clone()].iter().map(|&j| ghosts(j as usize - rows.rows()));
+        let pairs = [rows.i()[across].to_vec(), of_j.collect()];
+        let mut owners = pairs.concat();
+        owners.sort_unstable();
+        owners.dedup();
+        let place = |sphere: &u32| owners.binary_search(sphere).map_or(u32::MAX, |place| place as u32);
+        let loads = pairs.map(|spheres| spheres.iter().map(place).collect());
+        Self { owners, loads }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Neighbour search: which pairs of spheres may touch soon (candidates), and when that has to be found out again.
 
 use crate::boundary::Boundary;
-use crate::contacts::{PairList, WallContacts};
+use crate::contacts::{Border, PairList, WallContacts};
 use crate::sphere::Sphere;
 use msdd_engine::grid::{pairs_within, pairs_within_cell};
 use msdd_engine::lattice::{Image, index_of};
@@ -18,6 +18,10 @@ const BALANCE: f64 = 7.0;
 const STEP: f64 = 1.4;
 const TOLERANCE: f64 = 2.0;
 
+/// Number of spheres from which a periodic box is divided into slabs and blocks, so that it is swept once through the memory and
+/// on several threads. Below, its pairs across the border are a good part of all, and it fits into the caches.
+const DIVIDED_FROM: usize = 10_000;
+
 /// Rows of candidates, and a bound on how far the spheres have moved since the search.
 #[derive(Clone, Debug, Default)]
 pub struct Neighbours {
@@ -26,6 +30,8 @@ pub struct Neighbours {
     pub walls: Vec<WallContacts>,
     /// Images (owner and shift) that occur in the pairs of a periodic box; numbered after the spheres.
     pub ghosts: Vec<Image<3>>,
+    /// Of a large periodic box.
+    pub border: Border,
     pub skin: Skin<3>,
     /// Skin over the mean radius, and the step of the last search.
     width: Option<f64>,
@@ -63,8 +69,11 @@ impl Neighbours {
         self.skin.begin(width * mean_radius, spheres, lattice.as_ref());
         let (rows, ghosts) = match &lattice {
             None => (pairs_within(spheres, self.skin.width), Vec::new()),
-            Some(lattice) => pairs_within_cell(spheres, self.skin.width, lattice),
+            Some(lattice) => {
+                pairs_within_cell(spheres, self.skin.width, lattice, spheres.len() >= DIVIDED_FROM)
+            }
         };
+        self.border = Border::new(&rows, |ghost| ghosts[ghost].owner);
         let old = std::mem::replace(&mut self.pairs, PairList::new(rows));
         let old_ghosts = std::mem::replace(&mut self.ghosts, ghosts);
         self.inherit(spheres.len(), &old, &old_ghosts);

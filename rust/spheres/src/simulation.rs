@@ -112,7 +112,7 @@ impl Simulation {
     }
 
     /// Chooses the number of threads for [`Simulation::take_steps`] and [`Simulation::run`]. Results do not depend on
-    /// it. Periodic boxes and assemblies below a few thousand spheres use one thread in any case.
+    /// it. Periodic boxes below 10 000 spheres, and others below 4 000, use one thread in any case.
     ///
     /// # Errors
     /// The error of the operating system when it cannot start the threads.
@@ -208,6 +208,7 @@ impl Simulation {
     /// Runs the neighbour search now, whether necessary or not. Results do not depend on when it runs.
     pub fn rebuild_neighbours(&mut self) {
         self.neighbours.rebuild(&self.spheres, &self.boundary, self.steps);
+        self.spheres.reserve_exact(self.neighbours.ghosts.len());
     }
 
     /// How often the neighbour search has run.

@@ -2,10 +2,10 @@
 //!
 //! Row i of the pair list holds the partners j > i of sphere i only. So once the rows of a block of spheres have been
 //! summed up, the loads of these spheres are complete and no later row reads them: they can be moved while they are
-//! still in the cache. A periodic box is one block, because its ghosts stand behind all spheres.
+//! still in the cache. A small periodic box is one block, because its ghosts stand behind all spheres. In a large one the
+//! pairs across the border stand apart: their forces are found first, and are what the loads of their spheres begin with.
 //!
-//! Assemblies of thousands of spheres between walls are divided into slabs (consecutive rows), which threads sweep in
-//! parallel. The first spheres of a slab also belong to pairs of the slab before it; they are moved at the end, when
+//! Assemblies of thousands of spheres are divided into slabs (consecutive rows), which threads sweep in parallel. The first spheres of a slab also belong to pairs of the slab before it; they are moved at the end, when
 //! their loads from both slabs are known. The slabs depend on the number of spheres alone, so results do not depend on
 //! the number of threads.
 
@@ -53,13 +53,17 @@ impl Swept {
 /// Loads of the last sweep: for each slab those of its own rows, and those of the rows of later slabs that its pairs
 /// refer to.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct SlabLoads(Vec<Vec<Load>>);
+pub(crate) struct SlabLoads {
+    slabs: Vec<Vec<Load>>,
+    /// Of the pairs across the border that stand apart, for each sphere that has some.
+    border: Vec<Load>,
+}
 
 impl SlabLoads {
     /// Loads in the order of the spheres.
     pub fn iter(&self, neighbours: &Neighbours) -> impl Iterator<Item = &Load> {
         let slabs = neighbours.pairs.rows.slabs().iter();
-        slabs.zip(&self.0).flat_map(|(slab, loads)| &loads[..slab.rows.len()])
+        slabs.zip(&self.slabs).flat_map(|(slab, loads)| &loads[..slab.rows.len()])
     }
 
     /// Sweeps over all spheres, in parallel when `parallel`. In a periodic box the ghosts stand behind the spheres, in
@@ -72,18 +76,25 @@ impl SlabLoads {
         neighbours: &mut Neighbours,
     ) -> Swept {
         let slabs = neighbours.pairs.rows.slabs().to_vec();
-        self.0.resize_with(slabs.len(), Vec::new);
-        let Neighbours { pairs, walls, ghosts, .. } = neighbours;
+        self.slabs.resize_with(slabs.len(), Vec::new);
+        let Neighbours { pairs, walls, ghosts, border, .. } = neighbours;
+        self.border.clear();
+        self.border.resize(border.owners.len(), Load::default());
+        kernel::add_pairs(sweep.simd, sweep.law, spheres, pairs.across(border), &mut self.border);
+        let ghosts: &[_] = if border.owners.is_empty() { ghosts } else { &[] };
         let mut walls: Vec<_> = walls.iter_mut().map(|contacts| contacts.parts(&slabs).into_iter()).collect();
         let views = SharedGrains::divide(spheres, &slabs);
         let tasks: Vec<Task> = pairs
             .parts()
             .into_iter()
             .zip(views)
-            .zip(&mut self.0)
+            .zip(&mut self.slabs)
             .map(|((pairs, spheres), loads)| {
                 let walls = walls.iter_mut().filter_map(Iterator::next).collect();
-                Task { pairs, spheres, walls, ghosts, loads }
+                let place = |row: usize| border.owners.partition_point(|&owner| (owner as usize) < row);
+                let own = place(pairs.slab.rows.start)..place(pairs.slab.rows.end);
+                let border = (&border.owners[own.clone()], &self.border[own]);
+                Task { pairs, spheres, walls, ghosts, border, loads }
             })
             .collect();
         let swept = if parallel {
@@ -104,7 +115,7 @@ impl SlabLoads {
 
     /// The loads of `rows`, the first of a slab, with the contributions of earlier slabs added.
     fn complete(&mut self, number: usize, rows: Range<usize>, slabs: &[Slab]) -> &[Load] {
-        let (earlier, later) = self.0.split_at_mut(number);
+        let (earlier, later) = self.slabs.split_at_mut(number);
         let own = &mut later[0][..rows.len()];
         for (slab, from) in slabs.iter().zip(earlier) {
             let begin = rows.start - slab.rows.start;
@@ -122,13 +133,25 @@ struct Task<'a> {
     pairs: SlabPairs<'a>,
     spheres: SharedGrains<'a, Sphere>,
     walls: Vec<WallPart<'a>>,
-    /// Ghosts of a periodic box (which is always one block): images behind the spheres, whose loads are added to those
-    /// of their owners.
+    /// Ghosts of a periodic box that is one block: images behind the spheres, whose loads are added to those of their
+    /// owners.
     ghosts: &'a [Image<3>],
+    /// Spheres of these rows that have pairs across the border which stand apart, and the loads of these pairs.
+    border: (&'a [u32], &'a [Load]),
     loads: &'a mut Vec<Load>,
 }
 
 impl Task<'_> {
+    /// Sets the loads of the spheres below `to` that have pairs across the border.
+    fn begin_with_border(&mut self, to: usize, first: usize) {
+        let (owners, loads) = self.border;
+        let count = owners.iter().take_while(|&&owner| (owner as usize) < to).count();
+        for (&owner, load) in owners[..count].iter().zip(loads) {
+            self.loads[owner as usize - first] = *load;
+        }
+        self.border = (&owners[count..], &loads[count..]);
+    }
+
     fn run(mut self, sweep: &Sweep) -> Swept {
         let slab = self.pairs.slab;
         let first = slab.rows.start;
@@ -139,7 +162,11 @@ impl Task<'_> {
         for (number, block) in slab.blocks.iter().enumerate() {
             let to = block.reach.max(ready);
             self.loads[ready - first..to - first].fill(Load::default());
+            self.begin_with_border(to, first);
             ready = to;
+            if let Some(next) = slab.blocks.get(number + 1) {
+                self.spheres.fetch(to..next.reach);
+            }
             let begin = block.rows.start;
             let loads = &mut self.loads[begin - first..];
             let spheres = self.spheres.rows(begin..block.reach);

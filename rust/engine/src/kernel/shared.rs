@@ -5,6 +5,10 @@ use crate::rows::Slab;
 use std::marker::PhantomData;
 use std::ops::Range;
 
+/// Bytes that a processor reads at once.
+#[cfg(target_arch = "x86_64")]
+const CACHE_LINE: usize = 64;
+
 /// The grains as one slab sees them.
 ///
 /// A slab (consecutive rows, the work of one thread) writes the rows that no pair of an earlier slab refers to, and
@@ -53,6 +57,19 @@ impl<'a, G: Copy> SharedGrains<'a, G> {
         assert!(self.read.start <= rows.start && rows.start <= rows.end && rows.end <= self.read.end);
         // SAFETY: inside the array; nobody but this view writes there, and it is borrowed.
         unsafe { std::slice::from_raw_parts(self.first.add(rows.start), rows.len()) }
+    }
+
+    /// Asks for grains that will soon be read, as far as this slab may read them.
+    pub fn fetch(&self, rows: Range<usize>) {
+        #[cfg(target_arch = "x86_64")]
+        for row in rows.start.max(self.read.start)..rows.end.min(self.read.end) {
+            use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+            let begin = self.first.wrapping_add(row).cast::<i8>();
+            for line in (0..size_of::<G>()).step_by(CACHE_LINE) {
+                // SAFETY: a prefetch reads nothing that the program sees.
+                unsafe { _mm_prefetch::<_MM_HINT_T1>(begin.wrapping_add(line)) };
+            }
+        }
     }
 
     /// Grains of rows that this slab may write.

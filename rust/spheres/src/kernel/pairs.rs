@@ -9,16 +9,16 @@ use msdd_engine::Simd;
 #[cfg(target_arch = "x86_64")]
 use msdd_engine::kernel::{Avx2, Avx512};
 
-/// Adds the forces of `pairs` to `loads` and updates their friction history. The first elements of `spheres` and
-/// `loads` belong to sphere `pairs.first`.
+/// Adds the forces of `pairs` to `loads` and updates their friction history. The first element of `spheres` is sphere
+/// `pairs.first`, and the first of `loads` the one to which `pairs.loads` refers by that number.
 ///
 /// For each pair in order, the force is added to the load of j and then to that of i: the result does not depend on
 /// `simd`.
 pub(crate) fn add_pairs(simd: Simd, law: &ContactLaw, spheres: &[Sphere], pairs: Pairs, loads: &mut [Load]) {
-    let reached = pairs.reach - pairs.first;
-    assert!(reached <= spheres.len() && reached <= loads.len());
+    assert!(pairs.reach - pairs.first <= spheres.len() && pairs.loads_reach - pairs.first <= loads.len());
     let count = pairs.i.len();
     assert!(count == pairs.j.len() && pairs.history.iter().all(|column| column.len() == count));
+    assert!(pairs.loads.iter().all(|column| column.len() == count));
     assert!(simd.available());
     let all = Loop {
         law,
@@ -28,8 +28,8 @@ pub(crate) fn add_pairs(simd: Simd, law: &ContactLaw, spheres: &[Sphere], pairs:
         loads: loads.as_mut_ptr().wrapping_sub(pairs.first),
         pairs,
     };
-    // SAFETY: the machine has the instruction set; the indices are in first..reach (see [`Pairs`]), which both slices
-    // cover.
+    // SAFETY: the machine has the instruction set; the indices are in first..reach and first..loads_reach (see [`Pairs`]),
+    // which the slices cover.
     unsafe {
         match simd {
             Simd::Scalar => all.add_any::<f64>(count),
@@ -134,7 +134,7 @@ impl Loop<'_> {
     #[inline(always)]
     unsafe fn sum<V: SphereLanes>(&mut self, k: usize, block: &Block, at: usize) {
         unsafe {
-            let (i, j) = (self.pairs.i.as_ptr().add(k), self.pairs.j.as_ptr().add(k));
+            let [i, j] = self.pairs.loads.map(|column| column.as_ptr().add(k));
             V::scatter(self.loads, i, j, block.read(at));
         }
     }
