@@ -95,3 +95,62 @@ fn a_packing_that_fails_leaves_its_last_good_state() {
         &out,
     );
 }
+
+/// The state file says that it has spheres, and all that is done with states follows it.
+#[test]
+fn boxes_of_spheres_are_packed_strained_and_averaged() {
+    let folder = Folder::new("spheres");
+    let pack = "--spheres 60 --pressure 1e-4 --friction 0.3 --packing-friction 0.1";
+    let state = packed(&folder, pack);
+    let text = std::fs::read_to_string(&state).unwrap();
+    assert!(text.starts_with("{\"schema\":\"msdd-state-1\",\"dimension\":3,"), "{}", &text[..80]);
+    let strained = |name: &str, arguments: &str, from: &Path| {
+        let out = folder.file(name);
+        let output = msdd(&format!("expand {arguments}"), Some(from), &out);
+        assert!(output.status.success(), "{}", stderr(&output));
+        out
+    };
+    let whole = strained("whole.json", "--strain 5e-4 --zz=-1e-3 --simd scalar", &state);
+    assert_eq!(
+        std::fs::read(&whole).unwrap(),
+        std::fs::read(strained("again.json", "--strain 5e-4 --zz=-1e-3", &state)).unwrap()
+    );
+    let output = Command::new(env!("CARGO_BIN_EXE_msdd"))
+        .args(["rve", "homogenise", "--state"])
+        .arg(&whole)
+        .output()
+        .unwrap();
+    let averages: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let number = |pointer: &str| averages.pointer(pointer).and_then(serde_json::Value::as_f64).unwrap();
+    // It was closed along z, from a tenth of a thousandth of E*.
+    assert!(number("/stress/zz") > number("/stress/xx") && number("/pressure") > 1e-4, "{averages}");
+    assert!(number("/coordination") > 4.0 && number("/gas_conductivity/8.5") > 10.0, "{averages}");
+    for (arguments, from, reason) in [
+        ("pack --spheres 60 --pressure 1", None, "pressure = 1, allowed: 1e-8 to 0.001"),
+        (
+            "pack --spheres 60 --packing-friction 0.4",
+            None,
+            "packing_friction = 0.4, allowed: 0 to the friction, 0.3",
+        ),
+        ("pack --spheres 60 --shaking 1e-3", None, "shaking = 0.001, allowed: 0, or 0.002 to 0.1"),
+        (
+            "pack --spheres 60 --compression horizontal",
+            None,
+            "--compression: allowed: isotropic, uniaxial, sheared",
+        ),
+        ("pack --porosity 0.13 --compression uniaxial", None, "--compression: uniaxial, allowed: isotropic"),
+        ("pack --spheres 60 --porosity 0.4", None, "cannot be used with"),
+        ("expand --strain 0.01 --affine", Some(&state), "--affine: is for discs"),
+        ("expand --zz=-0.5", Some(&state), "allowed: -0.2 to 0.2"),
+        ("expand --zz=-0.1,0 --xx=0.1", Some(&state), "--xx: 1 values, expected 2, one a stop"),
+    ] {
+        let out = folder.file("refused.json");
+        let output = msdd(arguments, from.map(PathBuf::as_path), &out);
+        assert!(
+            !output.status.success() && stderr(&output).contains(reason),
+            "{arguments}: {}",
+            stderr(&output)
+        );
+        assert!(!out.exists());
+    }
+}

@@ -10,10 +10,18 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// [`LastGoodError`] when the state cannot be converted to text or the file cannot be written.
 pub fn write(out: &Path, state: &Simulation) -> Result<PathBuf, LastGoodError> {
+    write_text(out, &to_file(state)?)
+}
+
+/// As [`write`], with the text of the state.
+///
+/// # Errors
+/// [`LastGoodError::File`].
+pub fn write_text(out: &Path, text: &str) -> Result<PathBuf, LastGoodError> {
     let mut name = out.as_os_str().to_os_string();
     name.push(".last-good.json");
     let file = PathBuf::from(name);
-    msdd_files::write(&file, to_file(state)?.as_bytes())?;
+    msdd_files::write(&file, text.as_bytes())?;
     Ok(file)
 }
 

@@ -10,6 +10,8 @@
 //!
 //! Files written by this program have a checksum over their values, which does not depend on the layout of the text. A
 //! file without checksum is accepted, one with a wrong checksum is refused.
+//!
+//! `dimension` is 2, or absent, for discs; 3 for spheres, whose states are in [`crate::spheres::state`].
 
 use crate::message::{number, shortened};
 use msdd_dem::failure::LARGEST_OVERLAP;
@@ -32,8 +34,12 @@ pub enum StateError {
     Json(#[from] serde_json::Error),
     #[error("schema: '{found}', allowed: '{SCHEMA}'", found = shortened(.0))]
     Schema(String),
+    #[error("dimension = {found}, allowed: {allowed}")]
+    Dimension { found: u32, allowed: &'static str },
     #[error(transparent)]
     Material(#[from] MaterialError),
+    #[error(transparent)]
+    SphereMaterial(#[from] msdd_spheres::MaterialError),
     #[error("box: {0}")]
     Box(String),
     #[error("{column} has {found} values, x has {expected}")]
@@ -55,6 +61,9 @@ pub enum StateError {
 #[serde(deny_unknown_fields)]
 struct File {
     schema: String,
+    /// Absent where this program writes it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    dimension: Option<u32>,
     material: Material,
     #[serde(rename = "box")]
     bounds: Bounds,
@@ -69,12 +78,39 @@ struct File {
     checksum: Option<String>,
 }
 
-impl File {
-    /// SHA-256 of the values, independent of the layout of the file; hexadecimal.
-    fn digest(&self) -> Result<String, StateError> {
-        debug_assert!(self.checksum.is_none(), "the checksum is of all else");
-        let text = serde_json::to_string(self)?;
-        Ok(Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect())
+/// SHA-256 of the values of a file without its checksum, independent of the layout of the text; hexadecimal.
+pub(crate) fn digest(file: &impl Serialize) -> Result<String, StateError> {
+    let text = serde_json::to_string(file)?;
+    Ok(Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+/// Compares the checksum that a file had with that of its values.
+pub(crate) fn check_digest(file: &impl Serialize, found: Option<String>) -> Result<(), StateError> {
+    let Some(found) = found else { return Ok(()) };
+    let expected = digest(file)?;
+    if found == expected { Ok(()) } else { Err(StateError::Checksum { found, expected }) }
+}
+
+/// Whether a state is of discs (2) or of spheres (3).
+///
+/// # Errors
+/// What is no state.
+pub fn dimension(text: &str) -> Result<u32, StateError> {
+    /// What every state has.
+    #[derive(Deserialize)]
+    struct Head {
+        schema: String,
+        #[serde(default = "plane")]
+        dimension: u32,
+    }
+    fn plane() -> u32 {
+        2
+    }
+    let head: Head = serde_json::from_str(text)?;
+    match (head.schema.as_str(), head.dimension) {
+        (SCHEMA, 2 | 3) => Ok(head.dimension),
+        (SCHEMA, found) => Err(StateError::Dimension { found, allowed: "2 for discs, 3 for spheres" }),
+        _ => Err(StateError::Schema(head.schema)),
     }
 }
 
@@ -152,7 +188,7 @@ pub fn to_json(simulation: &Simulation) -> Result<String, StateError> {
 /// [`StateError::Json`].
 pub fn to_file(simulation: &Simulation) -> Result<String, StateError> {
     let mut file = file(simulation);
-    file.checksum = Some(file.digest()?);
+    file.checksum = Some(digest(&file)?);
     Ok(serde_json::to_string(&file)?)
 }
 
@@ -162,6 +198,7 @@ fn file(simulation: &Simulation) -> File {
     let run = simulation.run_state();
     File {
         schema: SCHEMA.to_string(),
+        dimension: None,
         material: simulation.material.clone(),
         bounds: Bounds {
             x_min,
@@ -220,16 +257,13 @@ fn contacts(simulation: &Simulation) -> Contacts {
 /// # Errors
 /// [`StateError`] names what is wrong, the particle or contact, and the value.
 pub fn from_json(text: &str) -> Result<Simulation, StateError> {
+    let found = dimension(text)?;
+    if found != 2 {
+        return Err(StateError::Dimension { found, allowed: "2, the state of discs" });
+    }
     let mut file: File = serde_json::from_str(text)?;
-    if file.schema != SCHEMA {
-        return Err(StateError::Schema(file.schema));
-    }
-    if let Some(found) = file.checksum.take() {
-        let expected = file.digest()?;
-        if found != expected {
-            return Err(StateError::Checksum { found, expected });
-        }
-    }
+    let checksum = file.checksum.take();
+    check_digest(&file, checksum)?;
     file.material.check()?;
     let walls = walls(file.bounds)?;
     let discs = discs(&file.particles)?;
@@ -263,11 +297,36 @@ fn walls(bounds: Bounds) -> Result<Walls, StateError> {
     Ok(Walls { position, ..Walls::around(1.0, 1.0) })
 }
 
+/// What is allowed in columns.
+pub(crate) const ANY: &str = "-1e30 to 1e30";
+pub(crate) const POSITIVE: &str = "1e-30 to 1e30";
+
+/// Whether a number is one of [`ANY`] or of [`POSITIVE`].
+pub(crate) fn is_allowed(value: f64, allowed: &str) -> bool {
+    value.abs() <= LARGEST && (allowed != POSITIVE || value >= SMALLEST)
+}
+
+/// Refuses a column that has another number of values than expected, or a value that is not allowed.
+pub(crate) fn check_column(
+    column: &'static str,
+    values: &[f64],
+    allowed: &'static str,
+    expected: usize,
+) -> Result<(), StateError> {
+    if values.len() != expected {
+        return Err(StateError::Length { column, found: values.len(), expected });
+    }
+    match values.iter().enumerate().find(|(_, value)| !is_allowed(**value, allowed)) {
+        Some((particle, &value)) => Err(StateError::Particle { particle, column, value, allowed }),
+        None => Ok(()),
+    }
+}
+
 fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {
     let expected = columns.x.len();
     let zero = vec![0.0; expected];
     let or_zero = |column: &Option<Vec<f64>>| column.clone().unwrap_or_else(|| zero.clone());
-    let (any, positive) = ("-1e30 to 1e30", "1e-30 to 1e30");
+    let (any, positive) = (ANY, POSITIVE);
     let table: [(&'static str, Vec<f64>, &'static str); 8] = [
         ("x", columns.x.clone(), any),
         ("y", columns.y.clone(), any),
@@ -279,13 +338,7 @@ fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {
         ("temperature", or_zero(&columns.temperature), any),
     ];
     for (column, values, allowed) in &table {
-        if values.len() != expected {
-            return Err(StateError::Length { column, found: values.len(), expected });
-        }
-        let good = |v: f64| v.abs() <= LARGEST && (*allowed != positive || v >= SMALLEST);
-        if let Some((particle, &value)) = values.iter().enumerate().find(|(_, v)| !good(**v)) {
-            return Err(StateError::Particle { particle, column, value, allowed });
-        }
+        check_column(column, values, allowed, expected)?;
     }
     let [x, y, radius, mass, vx, vy, angular_velocity, temperature] = table.map(|(_, values, _)| values);
     let disc = |k: usize| Disc {

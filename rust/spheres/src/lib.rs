@@ -46,7 +46,7 @@ pub mod sphere;
 pub mod state;
 pub mod time_step;
 
-pub use boundary::{Boundary, Cell, Surface, Wall};
+pub use boundary::{Boundary, Cell, SmallCell, Surface, Wall};
 pub use contact::{Contact, Partner};
 pub use failure::Failure;
 pub use forces::Load;

@@ -139,11 +139,11 @@ fn spheres() -> Vec<Set> {
     let block = with_required(fields_of(PLAN, "sphere block", RVE, "SphereBlock"), RVE, "SphereBlock")
         .with_words("compressions", "allowed", &compressions);
     let block = usual(block, SOURCE, &[("strain", "usual_strain"), ("step", "usual_step")]);
-    let ranges =
-        [("strain", "STRAINS"), ("step", "STEPS"), ("pressures", "PRESSURES"), ("spheres", "SPHERES")];
+    let block = within(block, SOURCE, &[("strain", "STRAINS"), ("step", "STEPS")]);
+    let packed = [("pressures", "PRESSURES"), ("spheres", "SPHERES")];
     vec![
         plan,
-        within(block, SOURCE, &ranges),
+        within(block, "rust/rve/src/spheres/prepare.rs", &packed),
         Set::new(PLAN, "sphere compressions", RVE, compressions),
         Set::new(PLAN, "sphere paths", RVE, variants(RVE, "PathName")),
     ]
@@ -219,8 +219,12 @@ fn provenance(text: &str) -> Vec<String> {
 fn other_files() -> Vec<Set> {
     let state = ["File", "Bounds", "Particles", "Contacts", "Run"];
     let names = state.iter().flat_map(|name| structure("rust/rve/src/state", name));
+    let of_spheres = ["File", "Box", "Particles", "Contacts", "Run"];
+    let of_spheres = of_spheres.iter().flat_map(|name| structure("rust/rve/src/spheres/state", name));
+    let of_spheres = of_spheres.chain(structure("rust/spheres/src/material", "Material"));
     vec![
         Set::new(DATABASE, "state file", "rust/rve/src/state.rs", names),
+        Set::new(DATABASE, "state file of spheres", "rust/rve/src/spheres/state.rs", of_spheres),
         fields_of(DATABASE, "increment model", "rust/surrogate/src/increment", "File"),
         fields_of(DATABASE, "paper model", "rust/surrogate/src", "ModelFile"),
         fields_of(DATABASE, "reference results", "rust/reference/src", "Results"),

@@ -6,6 +6,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`strain`] | strain of the box and of the grains |
+//! | [`state`] | state files |
 //! | [`averages`](mod@averages) | stress, fabric and reduced conductivities of a box |
 //! | [`follow`](mod@follow) | straining a box, and rest after it |
 //! | [`prepare`](mod@prepare) | a packed box at a pressure |
@@ -14,6 +15,7 @@
 pub mod averages;
 pub mod follow;
 pub mod prepare;
+pub mod state;
 pub mod strain;
 pub mod turn;
 

@@ -3,6 +3,7 @@
 use super::follow::{Rest, UNJAMMED_PRESSURE, advance, pressure, rest};
 use super::material;
 use super::strain::Strain;
+use crate::message::number;
 use crate::stopwatch::{self, Stage};
 use msdd_beds::{BedError, Packing, pack_along, shake};
 use msdd_spheres::{Failure, Simulation};
@@ -22,6 +23,13 @@ const SLOPE: f64 = 0.45;
 const OPENS_TO: f64 = 0.3;
 /// Part of an increment at which a box that loses its load at once is left with the pressure that it still bears.
 const LEAST_SCALE: f64 = 0.05;
+
+/// Spheres of a packing, pressures over E*, and openings of boxes that are shaken: with less, spheres still touch.
+pub const SPHERES: [usize; 2] = [50, 1_000_000];
+pub const PRESSURES: [f64; 2] = [1e-8, 1e-3];
+pub const SHAKING: [f64; 2] = [0.002, 0.1];
+/// Largest friction of spheres.
+pub const MOST_FRICTION: f64 = 2.0;
 
 /// What to prepare.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +60,8 @@ pub struct Prepared {
 /// Why a box was not prepared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PrepareError {
+    #[error("{key} = {value}, allowed: {allowed}", value = number(*value))]
+    Parameter { key: &'static str, value: f64, allowed: String },
     #[error(transparent)]
     Bed(#[from] BedError),
     #[error(transparent)]
@@ -60,11 +70,43 @@ pub enum PrepareError {
     Pressure { found: f64, target: f64 },
 }
 
+impl Preparation {
+    fn check(&self) -> Result<(), PrepareError> {
+        let inside = |value: f64, [least, most]: [f64; 2]| (least..=most).contains(&value);
+        let text = |[least, most]: [f64; 2]| format!("{least:?} to {most:?}");
+        let spheres = SPHERES.map(|count| count as f64);
+        let (frictions, shaking) = ([0.0, MOST_FRICTION], self.shaking);
+        let parameters = [
+            ("spheres", self.spheres as f64, inside(self.spheres as f64, spheres), text(spheres)),
+            ("friction", self.friction, inside(self.friction, frictions), text(frictions)),
+            // A packing whose friction is lowered afterwards collapses.
+            (
+                "packing_friction",
+                self.packing_friction,
+                inside(self.packing_friction, [0.0, self.friction]),
+                format!("0 to the friction, {}", self.friction),
+            ),
+            (
+                "shaking",
+                shaking,
+                shaking == 0.0 || inside(shaking, SHAKING),
+                format!("0, or {}", text(SHAKING)),
+            ),
+            ("pressure", self.pressure, inside(self.pressure, PRESSURES), text(PRESSURES)),
+        ];
+        match parameters.into_iter().find(|(_, _, good, _)| !good) {
+            Some((key, value, _, allowed)) => Err(PrepareError::Parameter { key, value, allowed }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Packs and brings to the pressure.
 ///
 /// # Errors
 /// A parameter outside its range; a run that fails; a pressure that is not reached.
 pub fn prepare(preparation: &Preparation) -> Result<Prepared, PrepareError> {
+    preparation.check()?;
     let &Preparation { spheres, seed, poisson_ratio, restitution, rates, .. } = preparation;
     let mut packing = Packing {
         spheres,

@@ -5,17 +5,12 @@ use super::paths::{Planned, Steps, planned};
 use crate::database::DatabaseError;
 use crate::database::seed::packing_seed;
 use crate::spheres::Preparation;
+use crate::spheres::prepare::{MOST_FRICTION, PRESSURES, SHAKING, SPHERES};
 use serde::{Deserialize, Serialize};
 
-/// Sizes that increments and whole paths may have \[-\], pressures over E*, and spheres of a packing.
+/// Sizes that increments and whole paths may have \[-\].
 const STEPS: [f64; 2] = [1e-5, 1e-2];
 const STRAINS: [f64; 2] = [1e-4, 5e-2];
-const PRESSURES: [f64; 2] = [1e-8, 1e-3];
-/// Opening of boxes that are shaken: with less, spheres still touch.
-const SHAKING: [f64; 2] = [0.002, 0.1];
-const SPHERES: [usize; 2] = [50, 1_000_000];
-/// Largest friction of spheres.
-const MOST_FRICTION: f64 = 2.0;
 /// A plan with more packings is taken as a typing error: it would compute for months.
 const MOST_PACKINGS: u64 = 1_000_000;
 

@@ -1,4 +1,6 @@
-//! `msdd rve`: single RVEs.
+//! `msdd rve`: single RVEs, of discs and (module [`spheres`]) of spheres. The state file says which it has.
+
+mod spheres;
 
 use crate::error::CliError;
 use crate::simd::SimdArgument;
@@ -14,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Pack random discs to a porosity, and let them come to equilibrium.
+    /// Pack random discs to a porosity, or spheres to a pressure, and let them come to equilibrium.
     Pack(PackArguments),
     /// Strain a packed state: expand or contract the grains, or deform the box.
     Expand(ExpandArguments),
@@ -28,28 +30,32 @@ pub enum Command {
 }
 
 #[derive(Args)]
-#[command(
-    after_help = "Example: msdd rve pack --discs 500 --seed 1 --porosity 0.12 --compression horizontal --out state.json"
-)]
+#[command(after_help = "Examples:
+  msdd rve pack --discs 500 --seed 1 --porosity 0.12 --compression horizontal --out state.json
+  msdd rve pack --spheres 1000 --pressure 1e-6 --friction 0.3 --shaking 0.005 --out spheres.json")]
 pub struct PackArguments {
     #[arg(long, default_value_t = 500)]
     discs: usize,
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Porosity of the whole box to pack to, overlaps counted once. The value that is printed is that of the averaging region.
-    #[arg(long)]
-    porosity: f64,
-    /// Directions in which the walls move towards each other.
+    /// Porosity of the whole box to pack discs to, overlaps counted once. The value that is printed is that of the averaging
+    /// region.
+    #[arg(long, required_unless_present = "spheres")]
+    porosity: Option<f64>,
+    /// Directions in which the box closes. Discs: isotropic, horizontal, intermediate, sheared; spheres: isotropic, uniaxial
+    /// (along z), sheared (along z, while it opens along x and y).
     #[arg(long, value_enum, default_value_t = CompressionName::Isotropic)]
     compression: CompressionName,
-    /// Rigid walls, or a periodic box.
+    /// Rigid walls, or a periodic box; spheres are always in a periodic one.
     #[arg(long, value_enum, default_value_t = BoundaryName::Walls)]
     boundary: BoundaryName,
-    /// Smallest radius [m]; radii are uniformly distributed between the smallest and the largest.
+    /// Smallest radius of discs [m]; radii are uniformly distributed between the smallest and the largest.
     #[arg(long, default_value_t = 3e-3)]
     radius_min: f64,
     #[arg(long, default_value_t = 7e-3)]
     radius_max: f64,
+    #[command(flatten)]
+    of_spheres: spheres::PackArguments,
     /// How equilibrium is found: by the damped motion of the grains, or by the minimiser FIRE, which is several times as fast.
     #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
     relaxation: RelaxationName,
@@ -68,7 +74,8 @@ pub struct PackArguments {
   msdd rve expand --state state.json --strain 0.02 --out out.json
   msdd rve expand --state state.json --stops 0.01,0.02,0.05 --out out.json   (writes the last, prints all)
   msdd rve expand --state state.json --xx=-0.01,-0.02 --out out.json            (walls close along x)
-  msdd rve expand --state periodic.json --xy 0.01,0.02 --out out.json            (shear of a periodic box)")]
+  msdd rve expand --state periodic.json --xy 0.01,0.02 --out out.json            (shear of a periodic box)
+  msdd rve expand --state spheres.json --zz=-0.001,-0.002 --out out.json         (a box of spheres closes along z)")]
 pub struct ExpandArguments {
     /// State file to start from; strains are relative to its radii and its box.
     #[arg(long, value_name = "FILE")]
@@ -85,9 +92,18 @@ pub struct ExpandArguments {
     /// Strain of the box along y at the stops.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     yy: Vec<f64>,
-    /// Shear γxy of a periodic box at the stops.
+    /// Strain of a box of spheres along z at the stops.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    zz: Vec<f64>,
+    /// Shear γxy of a periodic box at the stops: displacement along x over the distance along y.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     xy: Vec<f64>,
+    /// Shear γxz of a box of spheres at the stops.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    xz: Vec<f64>,
+    /// Shear γyz of a box of spheres at the stops.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    yz: Vec<f64>,
     /// When the walls move, displace all grains with the mean strain of the box; else only the walls push them.
     #[arg(long)]
     affine: bool,
@@ -149,6 +165,7 @@ enum CompressionName {
     Isotropic,
     Horizontal,
     Intermediate,
+    Uniaxial,
     Sheared,
 }
 
@@ -196,7 +213,24 @@ pub fn run(command: &Command) -> Result<(), CliError> {
     }
 }
 
-/// Reads a state file.
+/// What a state file has.
+enum Assembly {
+    Discs(Simulation),
+    Spheres(msdd_spheres::Simulation),
+}
+
+/// Reads a state file of discs or of spheres.
+fn read_either(path: &Path) -> Result<Assembly, CliError> {
+    let failed = |source| CliError::State { file: path.to_path_buf(), source };
+    let text = read_text(path)?;
+    match state::dimension(&text).map_err(failed)? {
+        3 => msdd_rve::spheres::state::from_json(&text).map(Assembly::Spheres),
+        _ => state::from_json(&text).map(Assembly::Discs),
+    }
+    .map_err(failed)
+}
+
+/// Reads a state file of discs.
 pub fn read_state(path: &Path) -> Result<Simulation, CliError> {
     let failed = |source| CliError::State { file: path.to_path_buf(), source };
     state::from_json(&read_text(path)?).map_err(failed)
@@ -220,15 +254,24 @@ fn failed(out: &Path, source: RveError, last_good: Option<&Simulation>) -> CliEr
 fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
     check_target(&arguments.out)?;
     arguments.simd.apply()?;
+    let porosity = match (arguments.of_spheres.count(), arguments.porosity) {
+        (Some(count), _) => return spheres::pack(arguments, count),
+        (None, Some(porosity)) => porosity,
+        (None, None) => return Err(CliError::Message("give --porosity, or --spheres".to_string())),
+    };
     let spec = PackingSpec {
         discs: arguments.discs,
         seed: arguments.seed,
-        porosity: arguments.porosity,
+        porosity,
         compression: match arguments.compression {
             CompressionName::Isotropic => Compression::Isotropic,
             CompressionName::Horizontal => Compression::Horizontal,
             CompressionName::Intermediate => Compression::Intermediate,
             CompressionName::Sheared => Compression::Sheared,
+            CompressionName::Uniaxial => {
+                let allowed = "isotropic, horizontal, intermediate, sheared; uniaxial is for spheres";
+                return Err(CliError::Message(format!("--compression: uniaxial, allowed: {allowed}")));
+            }
         },
         radius_min: arguments.radius_min,
         radius_max: arguments.radius_max,
@@ -250,7 +293,13 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
 fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
     check_target(&arguments.out)?;
     arguments.simd.apply()?;
-    let mut simulation = read_state(&arguments.state)?;
+    let mut simulation = match read_either(&arguments.state)? {
+        Assembly::Discs(simulation) => simulation,
+        Assembly::Spheres(simulation) => return spheres::expand(arguments, simulation),
+    };
+    if ![&arguments.zz, &arguments.xz, &arguments.yz].iter().all(|list| list.is_empty()) {
+        return Err(CliError::Message("--zz, --xz, --yz: are for boxes of spheres".to_string()));
+    }
     simulation.affine = arguments.affine;
     if let Some(factor) = arguments.wall_stiffness {
         simulation.material.wall_stiffness_factor = factor;
@@ -281,13 +330,15 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
     }
 }
 
-/// The strains at the stops: as many as the longest list has; lists that are not given count as zero.
-fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
+/// The strains at the stops, of the radii and xx, yy, zz, xy, xz, yz: as many as the longest list has; lists that are not
+/// given count as zero.
+fn strains(arguments: &ExpandArguments) -> Result<Vec<[f64; 7]>, CliError> {
     let thermal = arguments.strain.map_or_else(|| arguments.stops.clone(), |strain| vec![strain]);
-    let lists = [("stops", &thermal), ("xx", &arguments.xx), ("yy", &arguments.yy), ("xy", &arguments.xy)];
+    let ExpandArguments { xx, yy, zz, xy, xz, yz, .. } = arguments;
+    let lists = [("stops", &thermal), ("xx", xx), ("yy", yy), ("zz", zz), ("xy", xy), ("xz", xz), ("yz", yz)];
     let count = lists.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
     if count == 0 {
-        return Err(CliError::Message("give --strain, --stops, --xx, --yy or --xy".to_string()));
+        return Err(CliError::Message("give --strain, --stops, or a strain of the box".to_string()));
     }
     if let Some((name, list)) = lists.iter().find(|(_, list)| !list.is_empty() && list.len() != count) {
         return Err(CliError::Message(format!(
@@ -295,14 +346,14 @@ fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
             list.len()
         )));
     }
-    let at = |list: &[f64], stop: usize| list.get(stop).copied().unwrap_or(0.0);
-    let strains = |stop| Strains {
-        thermal: at(&thermal, stop),
-        xx: at(&arguments.xx, stop),
-        yy: at(&arguments.yy, stop),
-        xy: at(&arguments.xy, stop),
-    };
-    Ok((0..count).map(strains).collect())
+    let at = |stop: usize| lists.map(|(_, list)| list.get(stop).copied().unwrap_or(0.0));
+    Ok((0..count).map(at).collect())
+}
+
+/// The same for discs.
+fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
+    let of = |[thermal, xx, yy, _, xy, ..]: [f64; 7]| Strains { thermal, xx, yy, xy };
+    Ok(strains(arguments)?.into_iter().map(of).collect())
 }
 
 /// Prints one line about a state.
@@ -323,7 +374,10 @@ fn report(what: &str, settled: &Settled, averages: &Averages) {
 }
 
 fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
-    let simulation = read_state(&arguments.state)?;
+    let simulation = match read_either(&arguments.state)? {
+        Assembly::Discs(simulation) => simulation,
+        Assembly::Spheres(simulation) => return spheres::homogenise(&simulation),
+    };
     let kind = match arguments.region {
         RegionName::Hull => RegionKind::Hull,
         RegionName::Inset => RegionKind::Inset,
@@ -335,7 +389,11 @@ fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
     };
     let averages = homogenise_in(&simulation, &region::region(&simulation, kind), cut);
     let json = as_json(&averages, unbalanced_force(&simulation));
-    outln!("{}", serde_json::to_string_pretty(&json).map_err(|e| CliError::Message(e.to_string()))?);
+    print(&json)
+}
+
+fn print(json: &serde_json::Value) -> Result<(), CliError> {
+    outln!("{}", serde_json::to_string_pretty(json).map_err(|e| CliError::Message(e.to_string()))?);
     Ok(())
 }
 

@@ -1,0 +1,173 @@
+//! `msdd rve` with boxes of spheres.
+
+use super::{CompressionName, ExpandArguments, print, strains};
+use crate::error::CliError;
+use clap::Args;
+use msdd_beds::vtk;
+use msdd_files::{check_target, write};
+use msdd_rve::database::spheres::SphereCompression;
+use msdd_rve::last_good::write_text;
+use msdd_rve::spheres::{Averages, Preparation, Rest, Strain, advance, averages, prepare, state};
+use msdd_spheres::Simulation;
+use serde_json::json;
+use std::path::Path;
+
+#[derive(Args)]
+pub struct PackArguments {
+    /// Number of spheres, in place of discs: equal ones in a periodic box. Lengths are in diameters, stresses over E* = E/(2 (1 - ν²)).
+    #[arg(long, conflicts_with_all = ["discs", "porosity", "boundary", "radius_min", "radius_max", "relaxation"])]
+    spheres: Option<usize>,
+    /// Pressure over E* to pack spheres to.
+    #[arg(long, default_value = "1e-6", requires = "spheres")]
+    pressure: f64,
+    /// Friction of spheres.
+    #[arg(long, default_value_t = 0.3, requires = "spheres")]
+    friction: f64,
+    /// Friction while the box closes, from 0 to that of the spheres; default: that of the spheres. Less packs denser.
+    #[arg(long, requires = "spheres")]
+    packing_friction: Option<f64>,
+    /// How far the packed box is opened to be shaken and pressed again with the friction of the spheres; 0: it is not.
+    #[arg(long, default_value_t = 0.0, requires = "spheres")]
+    shaking: f64,
+    /// Poisson's ratio of spheres.
+    #[arg(long, default_value_t = 0.25, requires = "spheres")]
+    poisson_ratio: f64,
+    /// Restitution of spheres, which only decides how fast they come to rest.
+    #[arg(long, default_value_t = 0.3, requires = "spheres")]
+    restitution: f64,
+}
+
+impl PackArguments {
+    pub fn count(&self) -> Option<usize> {
+        self.spheres
+    }
+}
+
+pub fn pack(arguments: &super::PackArguments, count: usize) -> Result<(), CliError> {
+    let compression = match arguments.compression {
+        CompressionName::Isotropic => SphereCompression::Isotropic,
+        CompressionName::Uniaxial => SphereCompression::Uniaxial,
+        CompressionName::Sheared => SphereCompression::Sheared,
+        CompressionName::Horizontal | CompressionName::Intermediate => {
+            let allowed = "isotropic, uniaxial, sheared for spheres";
+            return Err(CliError::Message(format!("--compression: allowed: {allowed}")));
+        }
+    };
+    let of = &arguments.of_spheres;
+    let preparation = Preparation {
+        spheres: count,
+        seed: arguments.seed,
+        poisson_ratio: of.poisson_ratio,
+        restitution: of.restitution,
+        packing_friction: of.packing_friction.unwrap_or(of.friction),
+        friction: of.friction,
+        rates: compression.rates(),
+        shaking: of.shaking,
+        pressure: of.pressure,
+    };
+    let prepared = prepare(&preparation).map_err(|error| CliError::Message(error.to_string()))?;
+    write_state(&arguments.out, &prepared.simulation)?;
+    series(arguments.vtk.as_deref(), 0, &prepared.simulation)?;
+    report("packed", &prepared.rest, &averaged(&prepared.simulation)?);
+    Ok(())
+}
+
+pub fn expand(arguments: &ExpandArguments, mut simulation: Simulation) -> Result<(), CliError> {
+    check_target(&arguments.out)?;
+    let only_discs = [
+        ("affine", arguments.affine),
+        ("rate", arguments.rate.is_some()),
+        ("wall-stiffness", arguments.wall_stiffness.is_some()),
+        ("relaxation fire", matches!(arguments.relaxation, super::RelaxationName::Fire)),
+    ];
+    if let Some((name, _)) = only_discs.into_iter().find(|(_, given)| *given) {
+        return Err(CliError::Message(format!("--{name}: is for discs")));
+    }
+    averaged(&simulation)?;
+    let folder = arguments.vtk.as_deref();
+    series(folder, 0, &simulation)?;
+    let mut here = Strain::default();
+    for (number, [thermal, xx, yy, zz, xy, xz, yz]) in (1..).zip(strains(arguments)?) {
+        let target = Strain { thermal, stretch: [xx, yy, zz, xy, xz, yz] };
+        if target.largest().is_nan() || target.largest() > LARGEST_STRAIN {
+            let text = format!("stop {number}: {target:?}, allowed: -{LARGEST_STRAIN} to {LARGEST_STRAIN}");
+            return Err(CliError::Message(text));
+        }
+        let mut next = simulation.clone();
+        let rest = advance(&mut next, here.to(target)).map_err(|failure| {
+            let kept = as_text(&arguments.out, &simulation).map(|text| write_text(&arguments.out, &text));
+            CliError::Message(match kept {
+                Ok(Ok(file)) => {
+                    let file = file.display();
+                    format!("{failure}; the last good state, before stop {number}, is in {file}")
+                }
+                Ok(Err(error)) => format!("{failure}; its last good state cannot be written: {error}"),
+                Err(error) => format!("{failure}; its last good state cannot be written: {error}"),
+            })
+        })?;
+        (simulation, here) = (next, target);
+        series(folder, number, &simulation)?;
+        let what = format!("strain {thermal:+}, box {xx:+} {yy:+} {zz:+} {xy:+} {xz:+} {yz:+}");
+        report(&what, &rest, &averaged(&simulation)?);
+    }
+    write_state(&arguments.out, &simulation)
+}
+
+/// Largest strain of a stop.
+const LARGEST_STRAIN: f64 = 0.2;
+
+pub fn homogenise(simulation: &Simulation) -> Result<(), CliError> {
+    let a = averaged(simulation)?;
+    let tensor = |[xx, yy, zz, xy, xz, yz]: [f64; 6]| json!({"xx": xx, "yy": yy, "zz": zz, "xy": xy, "xz": xz, "yz": yz});
+    let [low, middle, high] = a.gas_conductivity;
+    print(&json!({
+        "solid_fraction": a.solid_fraction,
+        "coordination": a.coordination,
+        "backbone_coordination": a.backbone_coordination,
+        "rattlers": a.rattlers,
+        "neighbours": a.neighbours,
+        "fabric": tensor(a.fabric),
+        "stress": tensor(a.stress),
+        "pressure": a.pressure(),
+        "contact_conductivity": tensor(a.contact_conductivity),
+        "gas_conductivity": {"3.5": low, "6.0": middle, "8.5": high},
+        "unbalanced": msdd_rve::spheres::follow::unbalanced_force(simulation),
+    }))
+}
+
+fn averaged(simulation: &Simulation) -> Result<Averages, CliError> {
+    let none = "averages are of periodic boxes of spheres whose contacts conduct heat through all of it";
+    averages(simulation).ok_or_else(|| CliError::Message(none.to_string()))
+}
+
+fn as_text(path: &Path, simulation: &Simulation) -> Result<String, CliError> {
+    let failed = |source| CliError::State { file: path.to_path_buf(), source };
+    state::to_file(simulation).map_err(failed)
+}
+
+fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
+    Ok(write(path, as_text(path, simulation)?.as_bytes())?)
+}
+
+/// Writes the file of a stop for ParaView, which takes numbered files for a series.
+fn series(folder: Option<&Path>, number: usize, simulation: &Simulation) -> Result<(), CliError> {
+    let Some(folder) = folder else { return Ok(()) };
+    let file = folder.join(format!("spheres_{number:04}.vtp"));
+    Ok(write(&file, vtk::grains(simulation, &[]).as_bytes())?)
+}
+
+/// Prints one line about a state.
+fn report(what: &str, rest: &Rest, a: &Averages) {
+    let mean = |tensor: [f64; 6]| (tensor[0] + tensor[1] + tensor[2]) / 3.0;
+    outln!(
+        "{what}: {} after {} steps, solid fraction {:.4}, coordination {:.3}, pressure/E* {:.4e}, K by contacts/k_s {:.5}, \
+         K by gas/k_g {:.3}",
+        rest.outcome.as_str(),
+        rest.steps,
+        a.solid_fraction,
+        a.coordination,
+        a.pressure(),
+        mean(a.contact_conductivity),
+        a.gas_conductivity[2]
+    );
+}
