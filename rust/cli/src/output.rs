@@ -50,3 +50,13 @@ pub fn finish() -> Result<(), CliError> {
     keep(io::stdout().flush());
     FAILED.get().map_or(Ok(()), |error| Err(CliError::Output(error.to_string())))
 }
+
+/// Prints a value as JSON.
+///
+/// # Errors
+/// When it has no form in JSON.
+pub fn print_json(value: &impl serde::Serialize) -> Result<(), CliError> {
+    let text = serde_json::to_string_pretty(value);
+    outln!("{}", text.map_err(|error| CliError::Message(error.to_string()))?);
+    Ok(())
+}

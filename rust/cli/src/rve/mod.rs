@@ -1,10 +1,16 @@
 //! `msdd rve`: single RVEs, of discs and (module [`spheres`]) of spheres. The state file says which it has.
 
+mod arguments;
 mod spheres;
 
+use crate::output::print_json;
+use arguments::{
+    AxisName, BoundaryName, CompressionName, CutName, ExpandArguments, HeatCheckArguments,
+    HomogeniseArguments, PackArguments, RegionName, RelaxationName, strains,
+};
+
 use crate::error::CliError;
-use crate::simd::SimdArgument;
-use clap::{Args, Subcommand, ValueEnum};
+use clap::Subcommand;
 use msdd_files::{check_target, read_text, write};
 use msdd_rve::{
     Averages, Axis, Boundary, Compression, Cut, Material, PackingSpec, Preparation, Protocol, RegionKind,
@@ -12,7 +18,7 @@ use msdd_rve::{
     pack_watched, region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 #[derive(Subcommand)]
 pub enum Command {
@@ -27,171 +33,6 @@ pub enum Command {
     HeatCheck(HeatCheckArguments),
     /// Draw the grains of a state and the forces between them as SVG, alone or beside a field of the solver.
     Draw(crate::draw::Arguments),
-}
-
-#[derive(Args)]
-#[command(after_help = "Examples:
-  msdd rve pack --discs 500 --seed 1 --porosity 0.12 --compression horizontal --out state.json
-  msdd rve pack --spheres 1000 --pressure 1e-6 --friction 0.3 --shaking 0.005 --out spheres.json")]
-pub struct PackArguments {
-    #[arg(long, default_value_t = 500)]
-    discs: usize,
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Porosity of the whole box to pack discs to, overlaps counted once. The value that is printed is that of the averaging
-    /// region.
-    #[arg(long, required_unless_present = "spheres")]
-    porosity: Option<f64>,
-    /// Directions in which the box closes. Discs: isotropic, horizontal, intermediate, sheared; spheres: isotropic, uniaxial
-    /// (along z), sheared (along z, while it opens along x and y).
-    #[arg(long, value_enum, default_value_t = CompressionName::Isotropic)]
-    compression: CompressionName,
-    /// Rigid walls, or a periodic box; spheres are always in a periodic one.
-    #[arg(long, value_enum, default_value_t = BoundaryName::Walls)]
-    boundary: BoundaryName,
-    /// Smallest radius of discs [m]; radii are uniformly distributed between the smallest and the largest.
-    #[arg(long, default_value_t = 3e-3)]
-    radius_min: f64,
-    #[arg(long, default_value_t = 7e-3)]
-    radius_max: f64,
-    #[command(flatten)]
-    of_spheres: spheres::PackArguments,
-    /// How equilibrium is found: by the damped motion of the grains, or by the minimiser FIRE, which is several times as fast.
-    #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
-    relaxation: RelaxationName,
-    /// State file (JSON) to write. If the run fails, the last good state is written to FILE.last-good.json instead.
-    #[arg(long, value_name = "FILE")]
-    out: PathBuf,
-    /// Folder for ParaView files of the state.
-    #[arg(long, value_name = "DIR")]
-    vtk: Option<PathBuf>,
-    #[command(flatten)]
-    simd: SimdArgument,
-}
-
-#[derive(Args)]
-#[command(after_help = "Examples:
-  msdd rve expand --state state.json --strain 0.02 --out out.json
-  msdd rve expand --state state.json --stops 0.01,0.02,0.05 --out out.json   (writes the last, prints all)
-  msdd rve expand --state state.json --xx=-0.01,-0.02 --out out.json            (walls close along x)
-  msdd rve expand --state periodic.json --xy 0.01,0.02 --out out.json            (shear of a periodic box)
-  msdd rve expand --state spheres.json --zz=-0.001,-0.002 --out out.json         (a box of spheres closes along z)")]
-pub struct ExpandArguments {
-    /// State file to start from; strains are relative to its radii and its box.
-    #[arg(long, value_name = "FILE")]
-    state: PathBuf,
-    /// Thermal strain of the radii.
-    #[arg(long, allow_negative_numbers = true, conflicts_with = "stops")]
-    strain: Option<f64>,
-    /// Thermal strains of several stops, reached one after the other; at each, the grains come to equilibrium.
-    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
-    stops: Vec<f64>,
-    /// Strain of the box along x (extension positive) at the stops, one value for each stop; 0 when not given.
-    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
-    xx: Vec<f64>,
-    /// Strain of the box along y at the stops.
-    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
-    yy: Vec<f64>,
-    /// Strain of a box of spheres along z at the stops.
-    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
-    zz: Vec<f64>,
-    /// Shear γxy of a periodic box at the stops: displacement along x over the distance along y.
-    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
-    xy: Vec<f64>,
-    /// Shear γxz of a box of spheres at the stops.
-    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
-    xz: Vec<f64>,
-    /// Shear γyz of a box of spheres at the stops.
-    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
-    yz: Vec<f64>,
-    /// When the walls move, displace all grains with the mean strain of the box; else only the walls push them.
-    #[arg(long)]
-    affine: bool,
-    /// Rate of the strain that changes most [1/s]; default: 0.1 when contacts close, 0.02 when they open.
-    #[arg(long)]
-    rate: Option<f64>,
-    /// Contact stiffness of the walls over E r; default: that of the state.
-    #[arg(long)]
-    wall_stiffness: Option<f64>,
-    /// How equilibrium is found: by the damped motion of the grains, or by the minimiser FIRE, which is several times as fast.
-    #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
-    relaxation: RelaxationName,
-    /// State file (JSON) to write: the state at the last stop. If the run fails, the last good state is written to
-    /// FILE.last-good.json instead.
-    #[arg(long, value_name = "FILE")]
-    out: PathBuf,
-    /// Folder for a ParaView time series of the stops.
-    #[arg(long, value_name = "DIR")]
-    vtk: Option<PathBuf>,
-    #[command(flatten)]
-    simd: SimdArgument,
-}
-
-#[derive(Args)]
-pub struct HomogeniseArguments {
-    #[arg(long, value_name = "FILE")]
-    state: PathBuf,
-    /// Averaging region: hull of the inner discs, the box without a margin of 0.8 mean radii, or the whole box. A periodic box
-    /// is always averaged as a whole.
-    #[arg(long, value_enum, default_value_t = RegionName::Inset)]
-    region: RegionName,
-    /// Whether contacts that cross the border of the region count with their share inside of it, or in full.
-    #[arg(long, value_enum, default_value_t = CutName::Clip)]
-    cut: CutName,
-}
-
-#[derive(Args)]
-#[command(
-    after_help = "Two opposite walls have different temperatures, the other two are insulated. Prints three conductivities over \
-that of the grains, k: k_measured (heat flux over the temperature gradient in the inner part), and, averaged over windows of the \
-inner part, k_affine (Eq. 9 of the paper) and k_network (resistor network of the contacts solved)."
-)]
-pub struct HeatCheckArguments {
-    #[arg(long, value_name = "FILE")]
-    state: PathBuf,
-    /// Direction of the temperature difference.
-    #[arg(long, value_enum, default_value_t = AxisName::X)]
-    axis: AxisName,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum AxisName {
-    X,
-    Y,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum CompressionName {
-    Isotropic,
-    Horizontal,
-    Intermediate,
-    Uniaxial,
-    Sheared,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum BoundaryName {
-    Walls,
-    Periodic,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum RegionName {
-    Hull,
-    Inset,
-    Cell,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum CutName {
-    Clip,
-    Whole,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum RelaxationName {
-    Damped,
-    Fire,
 }
 
 impl From<RelaxationName> for Relaxation {
@@ -254,7 +95,7 @@ fn failed(out: &Path, source: RveError, last_good: Option<&Simulation>) -> CliEr
 fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
     check_target(&arguments.out)?;
     arguments.simd.apply()?;
-    let porosity = match (arguments.of_spheres.count(), arguments.porosity) {
+    let porosity = match (arguments.of_spheres.spheres, arguments.porosity) {
         (Some(count), _) => return spheres::pack(arguments, count),
         (None, Some(porosity)) => porosity,
         (None, None) => return Err(CliError::Message("give --porosity, or --spheres".to_string())),
@@ -330,27 +171,7 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
     }
 }
 
-/// The strains at the stops, of the radii and xx, yy, zz, xy, xz, yz: as many as the longest list has; lists that are not
-/// given count as zero.
-fn strains(arguments: &ExpandArguments) -> Result<Vec<[f64; 7]>, CliError> {
-    let thermal = arguments.strain.map_or_else(|| arguments.stops.clone(), |strain| vec![strain]);
-    let ExpandArguments { xx, yy, zz, xy, xz, yz, .. } = arguments;
-    let lists = [("stops", &thermal), ("xx", xx), ("yy", yy), ("zz", zz), ("xy", xy), ("xz", xz), ("yz", yz)];
-    let count = lists.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
-    if count == 0 {
-        return Err(CliError::Message("give --strain, --stops, or a strain of the box".to_string()));
-    }
-    if let Some((name, list)) = lists.iter().find(|(_, list)| !list.is_empty() && list.len() != count) {
-        return Err(CliError::Message(format!(
-            "--{name}: {} values, expected {count}, one a stop",
-            list.len()
-        )));
-    }
-    let at = |stop: usize| lists.map(|(_, list)| list.get(stop).copied().unwrap_or(0.0));
-    Ok((0..count).map(at).collect())
-}
-
-/// The same for discs.
+/// The strains of discs at the stops.
 fn path(arguments: &ExpandArguments) -> Result<Vec<Strains>, CliError> {
     let of = |[thermal, xx, yy, _, xy, ..]: [f64; 7]| Strains { thermal, xx, yy, xy };
     Ok(strains(arguments)?.into_iter().map(of).collect())
@@ -389,12 +210,7 @@ fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
     };
     let averages = homogenise_in(&simulation, &region::region(&simulation, kind), cut);
     let json = as_json(&averages, unbalanced_force(&simulation));
-    print(&json)
-}
-
-fn print(json: &serde_json::Value) -> Result<(), CliError> {
-    outln!("{}", serde_json::to_string_pretty(json).map_err(|e| CliError::Message(e.to_string()))?);
-    Ok(())
+    print_json(&json)
 }
 
 fn check_heat(arguments: &HeatCheckArguments) -> Result<(), CliError> {
@@ -403,8 +219,7 @@ fn check_heat(arguments: &HeatCheckArguments) -> Result<(), CliError> {
         AxisName::Y => Axis::Y,
     };
     let check = heat_check(&read_state(&arguments.state)?, axis);
-    outln!("{}", serde_json::to_string_pretty(&check).map_err(|e| CliError::Message(e.to_string()))?);
-    Ok(())
+    print_json(&check)
 }
 
 /// The averages as JSON: conductivities over k; stresses in Pa, compression positive.

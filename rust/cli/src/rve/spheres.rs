@@ -1,8 +1,8 @@
 //! `msdd rve` with boxes of spheres.
 
-use super::{CompressionName, ExpandArguments, print, strains};
+use super::arguments::{CompressionName, ExpandArguments, PackArguments, RelaxationName, strains};
 use crate::error::CliError;
-use clap::Args;
+use crate::output::print_json;
 use msdd_beds::vtk;
 use msdd_files::{check_target, write};
 use msdd_rve::database::spheres::SphereCompression;
@@ -12,38 +12,7 @@ use msdd_spheres::Simulation;
 use serde_json::json;
 use std::path::Path;
 
-#[derive(Args)]
-pub struct PackArguments {
-    /// Number of spheres, in place of discs: equal ones in a periodic box. Lengths are in diameters, stresses over E* = E/(2 (1 - ν²)).
-    #[arg(long, conflicts_with_all = ["discs", "porosity", "boundary", "radius_min", "radius_max", "relaxation"])]
-    spheres: Option<usize>,
-    /// Pressure over E* to pack spheres to.
-    #[arg(long, default_value = "1e-6", requires = "spheres")]
-    pressure: f64,
-    /// Friction of spheres.
-    #[arg(long, default_value_t = 0.3, requires = "spheres")]
-    friction: f64,
-    /// Friction while the box closes, from 0 to that of the spheres; default: that of the spheres. Less packs denser.
-    #[arg(long, requires = "spheres")]
-    packing_friction: Option<f64>,
-    /// How far the packed box is opened to be shaken and pressed again with the friction of the spheres; 0: it is not.
-    #[arg(long, default_value_t = 0.0, requires = "spheres")]
-    shaking: f64,
-    /// Poisson's ratio of spheres.
-    #[arg(long, default_value_t = 0.25, requires = "spheres")]
-    poisson_ratio: f64,
-    /// Restitution of spheres, which only decides how fast they come to rest.
-    #[arg(long, default_value_t = 0.3, requires = "spheres")]
-    restitution: f64,
-}
-
-impl PackArguments {
-    pub fn count(&self) -> Option<usize> {
-        self.spheres
-    }
-}
-
-pub fn pack(arguments: &super::PackArguments, count: usize) -> Result<(), CliError> {
+pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
     let compression = match arguments.compression {
         CompressionName::Isotropic => SphereCompression::Isotropic,
         CompressionName::Uniaxial => SphereCompression::Uniaxial,
@@ -78,7 +47,7 @@ pub fn expand(arguments: &ExpandArguments, mut simulation: Simulation) -> Result
         ("affine", arguments.affine),
         ("rate", arguments.rate.is_some()),
         ("wall-stiffness", arguments.wall_stiffness.is_some()),
-        ("relaxation fire", matches!(arguments.relaxation, super::RelaxationName::Fire)),
+        ("relaxation fire", matches!(arguments.relaxation, RelaxationName::Fire)),
     ];
     if let Some((name, _)) = only_discs.into_iter().find(|(_, given)| *given) {
         return Err(CliError::Message(format!("--{name}: is for discs")));
@@ -120,7 +89,7 @@ pub fn homogenise(simulation: &Simulation) -> Result<(), CliError> {
     let a = averaged(simulation)?;
     let tensor = |[xx, yy, zz, xy, xz, yz]: [f64; 6]| json!({"xx": xx, "yy": yy, "zz": zz, "xy": xy, "xz": xz, "yz": yz});
     let [low, middle, high] = a.gas_conductivity;
-    print(&json!({
+    print_json(&json!({
         "solid_fraction": a.solid_fraction,
         "coordination": a.coordination,
         "backbone_coordination": a.backbone_coordination,

@@ -1,0 +1,217 @@
+//! Arguments of `msdd rve`.
+
+use crate::error::CliError;
+use crate::simd::SimdArgument;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Args)]
+#[command(after_help = "Examples:
+  msdd rve pack --discs 500 --seed 1 --porosity 0.12 --compression horizontal --out state.json
+  msdd rve pack --spheres 1000 --pressure 1e-6 --friction 0.3 --shaking 0.005 --out spheres.json")]
+pub struct PackArguments {
+    #[arg(long, default_value_t = 500)]
+    pub discs: usize,
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Porosity of the whole box to pack discs to, overlaps counted once. The value that is printed is that of the averaging
+    /// region.
+    #[arg(long, required_unless_present = "spheres")]
+    pub porosity: Option<f64>,
+    /// Directions in which the box closes. Discs: isotropic, horizontal, intermediate, sheared; spheres: isotropic, uniaxial
+    /// (along z), sheared (along z, while it opens along x and y).
+    #[arg(long, value_enum, default_value_t = CompressionName::Isotropic)]
+    pub compression: CompressionName,
+    /// Rigid walls, or a periodic box; spheres are always in a periodic one.
+    #[arg(long, value_enum, default_value_t = BoundaryName::Walls)]
+    pub boundary: BoundaryName,
+    /// Smallest radius of discs [m]; radii are uniformly distributed between the smallest and the largest.
+    #[arg(long, default_value_t = 3e-3)]
+    pub radius_min: f64,
+    #[arg(long, default_value_t = 7e-3)]
+    pub radius_max: f64,
+    #[command(flatten)]
+    pub of_spheres: OfSpheres,
+    /// How equilibrium is found: by the damped motion of the grains, or by the minimiser FIRE, which is several times as fast.
+    #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
+    pub relaxation: RelaxationName,
+    /// State file (JSON) to write. If the run fails, the last good state is written to FILE.last-good.json instead.
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Folder for ParaView files of the state.
+    #[arg(long, value_name = "DIR")]
+    pub vtk: Option<PathBuf>,
+    #[command(flatten)]
+    pub simd: SimdArgument,
+}
+
+#[derive(Args)]
+#[command(after_help = "Examples:
+  msdd rve expand --state state.json --strain 0.02 --out out.json
+  msdd rve expand --state state.json --stops 0.01,0.02,0.05 --out out.json   (writes the last, prints all)
+  msdd rve expand --state state.json --xx=-0.01,-0.02 --out out.json            (walls close along x)
+  msdd rve expand --state periodic.json --xy 0.01,0.02 --out out.json            (shear of a periodic box)
+  msdd rve expand --state spheres.json --zz=-0.001,-0.002 --out out.json         (a box of spheres closes along z)")]
+pub struct ExpandArguments {
+    /// State file to start from; strains are relative to its radii and its box.
+    #[arg(long, value_name = "FILE")]
+    pub state: PathBuf,
+    /// Thermal strain of the radii.
+    #[arg(long, allow_negative_numbers = true, conflicts_with = "stops")]
+    pub strain: Option<f64>,
+    /// Thermal strains of several stops, reached one after the other; at each, the grains come to equilibrium.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    pub stops: Vec<f64>,
+    /// Strain of the box along x (extension positive) at the stops, one value for each stop; 0 when not given.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    pub xx: Vec<f64>,
+    /// Strain of the box along y at the stops.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    pub yy: Vec<f64>,
+    /// Strain of a box of spheres along z at the stops.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    pub zz: Vec<f64>,
+    /// Shear γxy of a periodic box at the stops: displacement along x over the distance along y.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    pub xy: Vec<f64>,
+    /// Shear γxz of a box of spheres at the stops.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    pub xz: Vec<f64>,
+    /// Shear γyz of a box of spheres at the stops.
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
+    pub yz: Vec<f64>,
+    /// When the walls move, displace all grains with the mean strain of the box; else only the walls push them.
+    #[arg(long)]
+    pub affine: bool,
+    /// Rate of the strain that changes most [1/s]; default: 0.1 when contacts close, 0.02 when they open.
+    #[arg(long)]
+    pub rate: Option<f64>,
+    /// Contact stiffness of the walls over E r; default: that of the state.
+    #[arg(long)]
+    pub wall_stiffness: Option<f64>,
+    /// How equilibrium is found: by the damped motion of the grains, or by the minimiser FIRE, which is several times as fast.
+    #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
+    pub relaxation: RelaxationName,
+    /// State file (JSON) to write: the state at the last stop. If the run fails, the last good state is written to
+    /// FILE.last-good.json instead.
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Folder for a ParaView time series of the stops.
+    #[arg(long, value_name = "DIR")]
+    pub vtk: Option<PathBuf>,
+    #[command(flatten)]
+    pub simd: SimdArgument,
+}
+
+#[derive(Args)]
+pub struct HomogeniseArguments {
+    #[arg(long, value_name = "FILE")]
+    pub state: PathBuf,
+    /// Averaging region: hull of the inner discs, the box without a margin of 0.8 mean radii, or the whole box. A periodic box
+    /// is always averaged as a whole.
+    #[arg(long, value_enum, default_value_t = RegionName::Inset)]
+    pub region: RegionName,
+    /// Whether contacts that cross the border of the region count with their share inside of it, or in full.
+    #[arg(long, value_enum, default_value_t = CutName::Clip)]
+    pub cut: CutName,
+}
+
+#[derive(Args)]
+#[command(
+    after_help = "Two opposite walls have different temperatures, the other two are insulated. Prints three conductivities over \
+that of the grains, k: k_measured (heat flux over the temperature gradient in the inner part), and, averaged over windows of the \
+inner part, k_affine (Eq. 9 of the paper) and k_network (resistor network of the contacts solved)."
+)]
+pub struct HeatCheckArguments {
+    #[arg(long, value_name = "FILE")]
+    pub state: PathBuf,
+    /// Direction of the temperature difference.
+    #[arg(long, value_enum, default_value_t = AxisName::X)]
+    pub axis: AxisName,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum AxisName {
+    X,
+    Y,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum CompressionName {
+    Isotropic,
+    Horizontal,
+    Intermediate,
+    Uniaxial,
+    Sheared,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum BoundaryName {
+    Walls,
+    Periodic,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum RegionName {
+    Hull,
+    Inset,
+    Cell,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum CutName {
+    Clip,
+    Whole,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum RelaxationName {
+    Damped,
+    Fire,
+}
+
+/// What only spheres have.
+#[derive(Args)]
+pub struct OfSpheres {
+    /// Number of spheres, in place of discs: equal ones in a periodic box. Lengths are in diameters, stresses over E* = E/(2 (1 - ν²)).
+    #[arg(long, conflicts_with_all = ["discs", "porosity", "boundary", "radius_min", "radius_max", "relaxation"])]
+    pub spheres: Option<usize>,
+    /// Pressure over E* to pack spheres to.
+    #[arg(long, default_value = "1e-6", requires = "spheres")]
+    pub pressure: f64,
+    /// Friction of spheres.
+    #[arg(long, default_value_t = 0.3, requires = "spheres")]
+    pub friction: f64,
+    /// Friction while the box closes, from 0 to that of the spheres; default: that of the spheres. Less packs denser.
+    #[arg(long, requires = "spheres")]
+    pub packing_friction: Option<f64>,
+    /// How far the packed box is opened to be shaken and pressed again with the friction of the spheres; 0: it is not.
+    #[arg(long, default_value_t = 0.0, requires = "spheres")]
+    pub shaking: f64,
+    /// Poisson's ratio of spheres.
+    #[arg(long, default_value_t = 0.25, requires = "spheres")]
+    pub poisson_ratio: f64,
+    /// Restitution of spheres, which only decides how fast they come to rest.
+    #[arg(long, default_value_t = 0.3, requires = "spheres")]
+    pub restitution: f64,
+}
+
+/// The strains at the stops, of the radii and xx, yy, zz, xy, xz, yz: as many as the longest list has; lists that are not
+/// given count as zero.
+pub fn strains(arguments: &ExpandArguments) -> Result<Vec<[f64; 7]>, CliError> {
+    let thermal = arguments.strain.map_or_else(|| arguments.stops.clone(), |strain| vec![strain]);
+    let ExpandArguments { xx, yy, zz, xy, xz, yz, .. } = arguments;
+    let lists = [("stops", &thermal), ("xx", xx), ("yy", yy), ("zz", zz), ("xy", xy), ("xz", xz), ("yz", yz)];
+    let count = lists.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
+    if count == 0 {
+        return Err(CliError::Message("give --strain, --stops, or a strain of the box".to_string()));
+    }
+    if let Some((name, list)) = lists.iter().find(|(_, list)| !list.is_empty() && list.len() != count) {
+        return Err(CliError::Message(format!(
+            "--{name}: {} values, expected {count}, one a stop",
+            list.len()
+        )));
+    }
+    let at = |stop: usize| lists.map(|(_, list)| list.get(stop).copied().unwrap_or(0.0));
+    Ok((0..count).map(at).collect())
+}
