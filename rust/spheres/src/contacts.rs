@@ -3,6 +3,9 @@
 use crate::law::History;
 use msdd_engine::rows::{Rows, Slab};
 
+/// Blocks of a slab from which it is larger than the second-level cache of common processors.
+const FAR_FROM: usize = 16;
+
 /// Candidate pairs with their histories, stored by columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairList {
@@ -21,6 +24,8 @@ pub(crate) struct Pairs<'a> {
     /// To which loads the forces on i and on j are added; all are in `first..loads_reach`.
     pub loads: [&'a [u32]; 2],
     pub loads_reach: usize,
+    /// Whether spheres and pairs are so many that they are not in the caches.
+    pub far: bool,
 }
 
 /// The part of a pair list that one thread works on: a slab and the friction history of its pairs.
@@ -44,6 +49,7 @@ impl SlabPairs<'_> {
             reach: block.reach,
             loads: [&self.i[own.clone()], &self.j[own]],
             loads_reach: block.reach,
+            far: self.slab.blocks.len() > FAR_FROM,
         }
     }
 }
@@ -66,6 +72,7 @@ impl PairList {
             reach: self.rows.grains(),
             loads: border.loads.each_ref().map(Vec::as_slice),
             loads_reach: border.owners.len(),
+            far: true,
         }
     }
 

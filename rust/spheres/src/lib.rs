@@ -25,7 +25,6 @@
 //! | [`run`] | many steps, with regular checks of the state |
 //! | [`relax`] | fast relaxation (FIRE) |
 //! | [`audit`] | energy audit |
-#![deny(unsafe_code)]
 
 pub mod audit;
 pub mod boundary;

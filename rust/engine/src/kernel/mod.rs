@@ -8,12 +8,14 @@
 #![allow(unsafe_code)]
 #![allow(clippy::undocumented_unsafe_blocks)] // the reasons are stated once, at `Lanes` and at `SharedGrains`
 
+mod fetch;
 mod lanes;
 mod shared;
 mod simd;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub use fetch::{Cache, fetch};
 pub use lanes::Lanes;
 pub use shared::SharedGrains;
 pub use simd::Simd;

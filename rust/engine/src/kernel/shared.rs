@@ -1,13 +1,10 @@
 //! One array of grains used by several threads. Each thread writes the grains of its own rows, and also reads grains of
 //! other threads' rows that no thread writes.
 
+use super::fetch::{Cache, fetch};
 use crate::rows::Slab;
 use std::marker::PhantomData;
 use std::ops::Range;
-
-/// Bytes that a processor reads at once.
-#[cfg(target_arch = "x86_64")]
-const CACHE_LINE: usize = 64;
 
 /// The grains as one slab sees them.
 ///
@@ -61,14 +58,8 @@ impl<'a, G: Copy> SharedGrains<'a, G> {
 
     /// Asks for grains that will soon be read, as far as this slab may read them.
     pub fn fetch(&self, rows: Range<usize>) {
-        #[cfg(target_arch = "x86_64")]
         for row in rows.start.max(self.read.start)..rows.end.min(self.read.end) {
-            use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
-            let begin = self.first.wrapping_add(row).cast::<i8>();
-            for line in (0..size_of::<G>()).step_by(CACHE_LINE) {
-                // SAFETY: a prefetch reads nothing that the program sees.
-                unsafe { _mm_prefetch::<_MM_HINT_T1>(begin.wrapping_add(line)) };
-            }
+            fetch(self.first.wrapping_add(row).cast_const(), Cache::Second);
         }
     }
 

@@ -8,6 +8,7 @@ use crate::sphere::{Columns, Sphere};
 use msdd_engine::Simd;
 #[cfg(target_arch = "x86_64")]
 use msdd_engine::kernel::{Avx2, Avx512};
+use msdd_engine::kernel::{Cache, fetch};
 
 /// Adds the forces of `pairs` to `loads` and updates their friction history. The first element of `spheres` is sphere
 /// `pairs.first`, and the first of `loads` the one to which `pairs.loads` refers by that number.
@@ -85,6 +86,10 @@ impl Loop<'_> {
             let groups = begin + (end - begin) / V::LANES * V::LANES;
             unsafe {
                 for k in (begin..groups).step_by(V::LANES) {
+                    if self.pairs.far {
+                        self.fetch(k + AHEAD, V::LANES);
+                        self.fetch_pairs(k + FAR_AHEAD);
+                    }
                     self.compute::<V, HERTZ, DAMPED>(k, &mut forces, k - begin);
                 }
                 for k in groups..end {
@@ -97,6 +102,28 @@ impl Loop<'_> {
                     self.sum::<f64>(k, &forces, k - begin);
                 }
             }
+        }
+    }
+
+    /// Asks for the spheres and loads j of `count` pairs from `k` on; those of i stand one after the other.
+    #[inline(always)]
+    unsafe fn fetch(&self, k: usize, count: usize) {
+        for k in k..(k + count).min(self.pairs.j.len()) {
+            let [j, load] =
+                unsafe { [self.pairs.j, self.pairs.loads[1]].map(|column| *column.get_unchecked(k)) };
+            fetch(self.spheres.wrapping_add(j as usize), Cache::First);
+            fetch(self.loads.wrapping_add(load as usize).cast_const(), Cache::First);
+        }
+    }
+
+    /// Asks for the pairs from `k` on, which may be beyond the last one.
+    #[inline(always)]
+    fn fetch_pairs(&self, k: usize) {
+        for column in [self.pairs.i, self.pairs.j] {
+            fetch(column.as_ptr().wrapping_add(k), Cache::First);
+        }
+        for column in &self.pairs.history {
+            fetch(column.as_ptr().wrapping_add(k), Cache::First);
         }
     }
 
@@ -140,6 +167,9 @@ impl Loop<'_> {
     }
 }
 
+/// Pairs ahead of which their spheres, and they themselves, are asked for.
+const AHEAD: usize = 32;
+const FAR_AHEAD: usize = 128;
 /// Pairs in a block: their forces fit into the first-level cache.
 const BLOCK: usize = 128;
 /// Force on j, torque on i, torque on j of a block of pairs, by columns.
