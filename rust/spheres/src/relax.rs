@@ -27,7 +27,9 @@ impl Simulation {
         (self.drag, self.material.restitution) = (0.0, 1.0);
         self.spheres.iter_mut().for_each(Sphere::stop);
         self.largest_speed = 0.0;
+        self.loads.keep = true;
         let result = self.descend(steps, balanced);
+        self.loads.keep = false;
         (self.time, self.step_choice) = (time, choice);
         (self.drag, self.material.restitution) = (drag, restitution);
         for (sphere, mass) in self.spheres.iter_mut().zip(masses) {

@@ -1,14 +1,14 @@
 //! The state of one assembly, and one step of it.
 
 use crate::boundary::{Boundary, SmallCell};
-use crate::contact::{Contact, Touching};
+use crate::contact::{Contact, Partner, Touching};
 use crate::forces::Load;
 use crate::kernel::Motion;
 use crate::law::ContactLaw;
 use crate::material::Material;
 use crate::neighbours::Neighbours;
 use crate::slabs::{SlabLoads, Sweep};
-use crate::space::{Matrix, dot, length, plus, scaled};
+use crate::space::{Matrix, cross, dot, length, plus, scaled};
 use crate::sphere::Sphere;
 use crate::time_step::{self, StepChoice};
 use msdd_engine::Simd;
@@ -221,9 +221,25 @@ impl Simulation {
         self.neighbours.pairs.rows.len()
     }
 
-    /// Resultants of the contact forces in the last step, one load per sphere.
+    /// Resultants of the present contact forces, without damping, one load per sphere.
     pub fn loads(&self) -> Vec<Load> {
-        self.loads.iter(&self.neighbours).copied().collect()
+        let mut loads = vec![Load::default(); self.spheres.len()];
+        self.for_each_contact(|contact| {
+            let (force, friction) = (contact.force(), contact.tangential_force());
+            // The force acts in the middle of the overlap, and at a wall on it.
+            let arm = |sphere: usize| match contact.i {
+                Partner::Sphere(_) => self.spheres[sphere].radius - 0.5 * contact.overlap,
+                Partner::Wall(_) => self.spheres[sphere].radius - contact.overlap,
+            };
+            let turning = cross(friction, contact.normal);
+            let on_j = scaled(arm(contact.j), turning);
+            loads[contact.j].add(&Load { force, torque: on_j, ..Load::default() });
+            if let Partner::Sphere(i) = contact.i {
+                let (force, torque) = (scaled(-1.0, force), scaled(arm(i), turning));
+                loads[i].add(&Load { force, torque, ..Load::default() });
+            }
+        });
+        loads
     }
 
     /// Mean radius [m].
@@ -321,7 +337,7 @@ impl Simulation {
     /// Total angular momentum about the origin [kg m²/s].
     pub fn angular_momentum(&self) -> [f64; 3] {
         self.spheres.iter().fold([0.0; 3], |sum, s| {
-            let orbit = crate::space::cross(s.position, scaled(s.mass, s.velocity));
+            let orbit = cross(s.position, scaled(s.mass, s.velocity));
             plus(plus(sum, 1.0, orbit), s.inertia(), s.angular_velocity)
         })
     }

@@ -1,4 +1,5 @@
-//! The sweep of a step: contact forces and motion of the spheres in one pass through memory.
+//! The sweep of a step: contact forces and motion of the spheres in one pass through memory. Loads are kept only as long as they are
+//! being summed up.
 //!
 //! Row i of the pair list holds the partners j > i of sphere i only. So once the rows of a block of spheres have been
 //! summed up, the loads of these spheres are complete and no later row reads them: they can be moved while they are
@@ -50,20 +51,60 @@ impl Swept {
     }
 }
 
-/// Loads of the last sweep: for each slab those of its own rows, and those of the rows of later slabs that its pairs
-/// refer to.
+/// Loads of a sweep.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SlabLoads {
-    slabs: Vec<Vec<Load>>,
+    slabs: Vec<Window>,
     /// Of the pairs across the border that stand apart, for each sphere that has some.
     border: Vec<Load>,
+    /// Whether the loads of all spheres are kept until the next sweep; else only those that are being summed up are.
+    pub keep: bool,
+}
+
+/// Loads of consecutive rows, from `base` on: those whose sum is not complete, and as many before them as there is room for.
+#[derive(Clone, Debug, Default)]
+struct Window {
+    base: usize,
+    loads: Vec<Load>,
+    /// Rows below have been set to zero, or to the loads of the border, at least.
+    ready: usize,
+    /// Those of the rows that earlier slabs refer to as well.
+    shared: Vec<Load>,
+}
+
+impl Window {
+    /// For the sweep over a slab.
+    fn begin(&mut self, slab: &Slab, keep: bool) {
+        (self.base, self.ready) = (slab.rows.start, slab.rows.start);
+        let longest = slab.blocks.iter().map(|block| block.reach - block.rows.start).max().unwrap_or(0);
+        let whole = slab.reach - slab.rows.start;
+        self.loads.resize(if keep { whole } else { whole.min(2 * longest) }, Load::default());
+        self.shared.clear();
+    }
+
+    /// Sets the rows up to `to` to zero, those that are not yet; rows below `from` are needed no more.
+    fn reach(&mut self, from: usize, to: usize) {
+        if to - self.base > self.loads.len() {
+            self.loads.copy_within(from - self.base..self.ready - self.base, 0);
+            self.base = from;
+        }
+        if to > self.ready {
+            self.loads[self.ready - self.base..to - self.base].fill(Load::default());
+            self.ready = to;
+        }
+    }
+
+    /// From row `from` on.
+    fn rows(&mut self, from: usize) -> &mut [Load] {
+        &mut self.loads[from - self.base..]
+    }
 }
 
 impl SlabLoads {
-    /// Loads in the order of the spheres.
+    /// Loads in the order of the spheres; of a sweep that kept them.
     pub fn iter(&self, neighbours: &Neighbours) -> impl Iterator<Item = &Load> {
         let slabs = neighbours.pairs.rows.slabs().iter();
-        slabs.zip(&self.slabs).flat_map(|(slab, loads)| &loads[..slab.rows.len()])
+        slabs.zip(&self.slabs).flat_map(|(slab, window)| &window.loads[..slab.rows.len()])
     }
 
     /// Sweeps over all spheres, in parallel when `parallel`. In a periodic box the ghosts stand behind the spheres, in
@@ -76,7 +117,8 @@ impl SlabLoads {
         neighbours: &mut Neighbours,
     ) -> Swept {
         let slabs = neighbours.pairs.rows.slabs().to_vec();
-        self.slabs.resize_with(slabs.len(), Vec::new);
+        self.slabs.resize_with(slabs.len(), Window::default);
+        self.slabs.iter_mut().zip(&slabs).for_each(|(window, slab)| window.begin(slab, self.keep));
         let Neighbours { pairs, walls, ghosts, border, .. } = neighbours;
         self.border.clear();
         self.border.resize(border.owners.len(), Load::default());
@@ -89,12 +131,12 @@ impl SlabLoads {
             .into_iter()
             .zip(views)
             .zip(&mut self.slabs)
-            .map(|((pairs, spheres), loads)| {
+            .map(|((pairs, spheres), window)| {
                 let walls = walls.iter_mut().filter_map(Iterator::next).collect();
                 let place = |row: usize| border.owners.partition_point(|&owner| (owner as usize) < row);
                 let own = place(pairs.slab.rows.start)..place(pairs.slab.rows.end);
                 let border = (&border.owners[own.clone()], &self.border[own]);
-                Task { pairs, spheres, walls, ghosts, border, loads }
+                Task { pairs, spheres, walls, ghosts, border, window }
             })
             .collect();
         let swept = if parallel {
@@ -106,25 +148,27 @@ impl SlabLoads {
         swept.iter().for_each(|part| result.add(part));
         for (number, slab) in slabs.iter().enumerate().skip(1) {
             let rows = slab.rows.start..slab.shared;
-            let loads = self.complete(number, rows.clone(), &slabs);
+            self.complete(number, &rows);
+            let loads = &self.slabs[number].shared;
             let fastest2 = kernel::advance(sweep.simd, sweep.motion, &mut spheres[rows], loads);
             result.fastest2 = larger(result.fastest2, fastest2);
         }
         result
     }
 
-    /// The loads of `rows`, the first of a slab, with the contributions of earlier slabs added.
-    fn complete(&mut self, number: usize, rows: Range<usize>, slabs: &[Slab]) -> &[Load] {
+    /// Adds the contributions of earlier slabs to the loads of `rows`, the first of a slab.
+    fn complete(&mut self, number: usize, rows: &Range<usize>) {
         let (earlier, later) = self.slabs.split_at_mut(number);
-        let own = &mut later[0][..rows.len()];
-        for (slab, from) in slabs.iter().zip(earlier) {
-            let begin = rows.start - slab.rows.start;
-            let reached = from.get(begin..).unwrap_or_default();
-            for (load, part) in own.iter_mut().zip(reached) {
+        let own = &mut later[0];
+        for from in earlier {
+            let reached = from.loads.get(rows.start - from.base..from.ready - from.base).unwrap_or_default();
+            for (load, part) in own.shared.iter_mut().zip(reached) {
                 load.add(part);
             }
         }
-        own
+        if self.keep {
+            own.loads[..rows.len()].copy_from_slice(&own.shared);
+        }
     }
 }
 
@@ -138,37 +182,31 @@ struct Task<'a> {
     ghosts: &'a [Image<3>],
     /// Spheres of these rows that have pairs across the border which stand apart, and the loads of these pairs.
     border: (&'a [u32], &'a [Load]),
-    loads: &'a mut Vec<Load>,
+    window: &'a mut Window,
 }
 
 impl Task<'_> {
-    /// Sets the loads of the spheres below `to` that have pairs across the border.
-    fn begin_with_border(&mut self, to: usize, first: usize) {
+    /// Begins the loads of the rows up to `to`.
+    fn reach(&mut self, from: usize, to: usize) {
+        self.window.reach(from, to);
         let (owners, loads) = self.border;
         let count = owners.iter().take_while(|&&owner| (owner as usize) < to).count();
         for (&owner, load) in owners[..count].iter().zip(loads) {
-            self.loads[owner as usize - first] = *load;
+            self.window.rows(owner as usize)[0] = *load;
         }
         self.border = (&owners[count..], &loads[count..]);
     }
 
     fn run(mut self, sweep: &Sweep) -> Swept {
         let slab = self.pairs.slab;
-        let first = slab.rows.start;
-        self.loads.resize(slab.reach - first, Load::default());
         let mut swept = Swept { fastest2: 0.0, wall_force: vec![[0.0; 3]; self.walls.len()] };
-        // Loads of spheres below `ready` were set to zero.
-        let mut ready = first;
         for (number, block) in slab.blocks.iter().enumerate() {
-            let to = block.reach.max(ready);
-            self.loads[ready - first..to - first].fill(Load::default());
-            self.begin_with_border(to, first);
-            ready = to;
-            if let Some(next) = slab.blocks.get(number + 1) {
-                self.spheres.fetch(to..next.reach);
-            }
             let begin = block.rows.start;
-            let loads = &mut self.loads[begin - first..];
+            self.reach(begin, block.reach);
+            if let Some(next) = slab.blocks.get(number + 1) {
+                self.spheres.fetch(block.reach..next.reach);
+            }
+            let loads = self.window.rows(begin);
             let spheres = self.spheres.rows(begin..block.reach);
             kernel::add_pairs(sweep.simd, sweep.law, spheres, self.pairs.block(number), loads);
             for ((wall, contacts), force) in
@@ -179,14 +217,17 @@ impl Task<'_> {
                     plus(*force, 1.0, forces::add_wall(sweep.law, wall, contacts, (begin, spheres), loads));
             }
             if !self.ghosts.is_empty() {
-                let (own, of_ghosts) = self.loads.split_at_mut(block.rows.end);
+                let (own, of_ghosts) = loads.split_at_mut(block.rows.len());
                 for (ghost, load) in self.ghosts.iter().zip(of_ghosts) {
                     own[ghost.owner as usize].add(load);
                 }
             }
-            let movable = begin.max(self.spheres.own().start)..block.rows.end;
+            let shared = slab.shared.clamp(begin, block.rows.end) - begin;
+            let loads = &self.window.loads[begin - self.window.base..];
+            self.window.shared.extend_from_slice(&loads[..shared]);
+            let movable = begin + shared..block.rows.end;
             if !movable.is_empty() {
-                let loads = &self.loads[movable.start - first..movable.end - first];
+                let loads = &loads[shared..block.rows.len()];
                 let spheres = self.spheres.rows_mut(movable);
                 let fastest2 = kernel::advance(sweep.simd, sweep.motion, spheres, loads);
                 swept.fastest2 = larger(swept.fastest2, fastest2);
