@@ -8,7 +8,7 @@
 
 use msdd_beds::effective::BedMaterial;
 use msdd_beds::named_gases::GasName;
-use msdd_beds::network::{Materials, Network, Plate, PlateLaw};
+use msdd_beds::network::{Beside, Materials, Network, Plate, PlateLaw};
 use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::press::press;
 use msdd_beds::property::Property;
@@ -81,7 +81,8 @@ fn report(bed: &Simulation, pressure: f64, seed: u64, gas: GasName, area: f64) {
         let flux = heat / area;
         let conductivity = flux / slope;
         let jump = if plate == 0 { at_zero } else { 1.0 - at_zero - slope * top };
-        let n = found.plates.iter().filter(through).count() as f64 * DIAMETER * DIAMETER / area;
+        let near = |b: &&Beside| b.plate == plate && b.facing.gap < 0.5 * b.radius;
+        let n = network.beside.iter().filter(near).count() as f64 * DIAMETER * DIAMETER / area;
         let force: f64 = bed.wall_force[wall].map(|f| f * f).iter().sum::<f64>().sqrt() / area;
         let solid = Solid { conductivity: 42.0, effective_modulus: modulus, roughness: Some(ROUGH) };
         let bed =

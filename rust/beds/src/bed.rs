@@ -12,7 +12,7 @@ use crate::solid::{PeakStress, Roughness};
 use crate::transient::Transient;
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::space::dot;
-use msdd_spheres::{Material, Partner, Simulation, Stiffness, Surface, Wall};
+use msdd_spheres::{Material, Partner, Simulation, Sphere, Stiffness, Surface, Wall};
 
 /// Time of turning \[s\], for grains of a diameter \[m\] under a gravity \[m/s²\]; it is in proportion to √(d/g).
 const TURNING: [f64; 3] = [0.2, 6.4e-3, 9.81];
@@ -227,7 +227,8 @@ impl Bed {
     ) -> Result<Heated, BedError> {
         let (network, wall, heat) = (self.network(case, kind), self.wall(), &case.heat);
         let Surface::Flat { normal } = wall.surface else { return Err(BedError::NotFlat) };
-        if network.beside.is_empty() && network.held.iter().all(Option::is_none) {
+        let touches = |sphere: &Sphere| wall.distance(sphere.position) < 2.0 * sphere.radius;
+        if !self.simulation.spheres.iter().any(touches) {
             return Err(BedError::Apart { wall: case.plate.wall.clone() });
         }
         let probe = |&distance: &f64| {

@@ -14,8 +14,9 @@
 //! Below κ of about 30 the heat spreads far from straight lines, and the law is 26 to 34 % too low at κ = 10: see
 //! [`LEAST_RATIO`]. Between which pairs gas counts is said in [`crate::links`].
 //!
-//! A plate of one temperature is the plane of symmetry between a sphere and its mirror image, whose gap is twice as wide and
-//! in which heat jumps twice as far: so G of a sphere and a plate is twice that of the pair, with h of the pair at the
+//! What passes between a plate and a bed depends on which spheres see it: see [`crate::facing`]. The closed form here is that of
+//! [`crate::wall`], for a full layer of spheres that touch a wall. The plate is the plane of symmetry between a sphere and its mirror image, whose gap is twice
+//! as wide and in which heat jumps twice as far: so G of a sphere and a plate is twice that of the pair, with h of the pair at the
 //! double gap and the double M. That counts what goes along straight lines from the facing hemisphere; 0.56 R is added to
 //! the bracket for what reaches the plate from farther up and between the spheres, by solutions of the heat equation in
 //! a slab of spheres at κ = 1500. It is divided by 1 + M/R, since all heat through a rarefied gas is limited by the jump.

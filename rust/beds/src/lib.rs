@@ -20,6 +20,7 @@
 //! | [`effective`] | from the reduced conductivities of the law of spheres to those of a bed |
 //! | [`wall`] | what a wall adds to the resistance of a bed |
 //! | [`links`] | conductances between the spheres of a simulation: contact, gas |
+//! | [`facing`](mod@facing) | which part of a plate belongs to which sphere |
 //! | [`correlation`] | published correlation for packed beds |
 //! | `solve` | conjugate gradients |
 //! | [`network`] | the network of a bed at rest with plates; conductances by temperature |
@@ -33,6 +34,7 @@
 //! | [`rows`] | its averages as a file |
 //! | [`bed`] | a measured bed from pouring to temperatures |
 //! | [`voxels`] | direct solutions of the heat equation, to hold the laws against |
+//! | [`walks`] | direct solutions of the heat equation between isothermal spheres, likewise |
 //! | [`vtk`] | grains for ParaView |
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
@@ -45,6 +47,7 @@ pub mod correlation;
 pub mod coupled;
 pub mod effective;
 pub mod experiment;
+pub mod facing;
 pub mod gas;
 pub mod give;
 pub mod harden;
@@ -67,6 +70,7 @@ mod solve;
 pub mod transient;
 pub mod voxels;
 pub mod vtk;
+pub mod walks;
 pub mod wall;
 
 pub use averages::{Averages, averages};

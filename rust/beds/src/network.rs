@@ -1,14 +1,12 @@
 //! The network of a bed at rest: what conducts between which spheres and plates, and how well at given temperatures.
 
-use crate::gas::{gas_conductance, plate_conductance};
+use crate::facing::{Facing, facing};
+use crate::gas::gas_conductance;
 use crate::links::{Near, near_pairs};
 use crate::named_gases::GasName;
 use crate::property::Property;
 use crate::solid::{Roughness, Solid};
 use msdd_spheres::{Partner, Simulation};
-
-/// A gap between sphere and plate counts up to this times the radius.
-const NEAR_PLATE: f64 = 0.5;
 
 /// What the bed is made of, as far as heat is concerned.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,17 +58,16 @@ pub struct Joint {
 }
 
 /// A sphere beside a plate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Beside {
-    pub sphere: usize,
     pub plate: usize,
     /// Conductance of the contact over the harmonic mean of both conductivities \[m\]; 0 if they do not touch.
     pub size: f64,
     /// k \[W/(m K)\] of the plate.
     pub conductivity: Option<f64>,
     pub radius: f64,
-    /// Distance of the surfaces \[m\].
-    pub gap: f64,
+    /// Which sphere, and its part of the plate.
+    pub facing: Facing,
 }
 
 /// A bed at rest.
@@ -124,28 +121,23 @@ impl Network {
             held: vec![None; count],
         };
         for (number, plate) in plates.iter().enumerate() {
-            let wall = simulation.boundary.walls()[plate.wall];
-            for (k, sphere) in simulation.spheres.iter().enumerate() {
-                let (distance, radius) = (wall.distance(sphere.position), sphere.radius);
-                match plate.law {
-                    PlateLaw::Held if distance < 2.0 * radius => network.held[k] = Some(number),
-                    PlateLaw::Resisting { conductivity, effective_modulus, roughness }
-                        if distance - radius < NEAR_PLATE * radius =>
-                    {
-                        let force = at_walls.get(&(plate.wall, k)).copied().unwrap_or_default();
-                        let pair = Solid { conductivity: 1.0, effective_modulus, roughness };
-                        let size = pair.contact_size(force, radius);
-                        let gap = (distance - radius).max(0.0);
-                        network.beside.push(Beside {
-                            sphere: k,
-                            plate: number,
-                            size,
-                            conductivity,
-                            radius,
-                            gap,
-                        });
+            match plate.law {
+                PlateLaw::Held => {
+                    let wall = simulation.boundary.walls()[plate.wall];
+                    for (held, sphere) in network.held.iter_mut().zip(&simulation.spheres) {
+                        if wall.distance(sphere.position) < 2.0 * sphere.radius {
+                            *held = Some(number);
+                        }
                     }
-                    _ => {}
+                }
+                PlateLaw::Resisting { conductivity, effective_modulus, roughness } => {
+                    let pair = Solid { conductivity: 1.0, effective_modulus, roughness };
+                    network.beside.extend(facing(simulation, plate.wall).into_iter().map(|facing| {
+                        let force = at_walls.get(&(plate.wall, facing.sphere)).copied().unwrap_or_default();
+                        let radius = simulation.spheres[facing.sphere].radius;
+                        let size = pair.contact_size(force, radius);
+                        Beside { plate: number, size, conductivity, radius, facing }
+                    }));
                 }
             }
         }
@@ -173,14 +165,14 @@ impl Network {
             }
         }
         let beside = |b: &Beside| {
-            let between = 0.5 * (temperatures[b.sphere] + plates[b.plate]);
+            let sphere = b.facing.sphere;
+            let between = 0.5 * (temperatures[sphere] + plates[b.plate]);
             let solid = m.conductivity.at(between);
             let harmonic = b.conductivity.map_or(2.0 * solid, |plate| 2.0 * solid * plate / (solid + plate));
             let by_gas = gas(between).map_or(0.0, |gas| {
-                let distance = gas.plate_distance(b.gap, b.radius, solid);
-                plate_conductance(gas.conductivity, b.radius, distance, gas.jump_length())
+                gas.conductivity * b.facing.size(gas.plate_distance(0.0, b.radius, solid))
             });
-            (b.sphere, b.plate, harmonic * b.size + by_gas)
+            (sphere, b.plate, harmonic * b.size + by_gas)
         };
         Conductances { links, plates: self.beside.iter().map(beside).collect() }
     }

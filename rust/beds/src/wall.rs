@@ -5,6 +5,9 @@
 //! the force p d²/n, that is the conductance per area h = n (G_contact + G_gas)/d² between the wall and the centres of these
 //! spheres, which lie R away from it. The body has conducted over this distance, too: so what the wall adds is R_w = 1/h − R/K, or
 //! nothing if that is negative.
+//!
+//! Beside a floor along which spheres were poured, with n = 0.87 (counted are gaps up to half a radius), this h is 2 to 11 % above that of the
+//! network, whose plate is shared by all spheres that see it ([`crate::facing`]): not all n spheres bear (`examples/walls.rs`).
 
 use crate::effective::BedMaterial;
 use crate::gas::plate_conductance;

@@ -1,5 +1,6 @@
 //! Heat in time against closed forms: a chain of spheres, and balances of random beds.
 
+use msdd_beds::facing::Facing;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::network::{Beside, Joint, Materials, Network, Plate, PlateLaw};
 use msdd_beds::property::Property;
@@ -23,13 +24,12 @@ fn materials(gas: GasName) -> Materials {
 fn chain(count: usize) -> Network {
     let size = 1e-4;
     let beside = |sphere, plate| Beside {
-        sphere,
         plate,
         // As to the middle of a neighbour: with k of the plate without bound, G = 2 k_s size.
         size: 0.5 * size,
         conductivity: None,
         radius: 1e-3,
-        gap: 0.0,
+        facing: Facing { sphere, gap: 0.0, rings: Vec::new() },
     };
     Network {
         materials: materials(GasName::Vacuum),
