@@ -136,6 +136,7 @@ fn slab(name: &str, places: &[[f64; 3]], shrunk: f64, walks: usize) -> Any<()> {
         // So that no temperature jumps.
         gas_pressure: 1e12,
         accommodation: 1.0,
+        solid_fraction: None,
     };
     let law = PlateLaw::Resisting { conductivity: None, effective_modulus: 1e30, roughness: None };
     let mut network =

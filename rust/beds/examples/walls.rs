@@ -58,6 +58,7 @@ fn report(bed: &Simulation, pressure: f64, seed: u64, gas: GasName, area: f64) {
         gas,
         gas_pressure: 1.013e5,
         accommodation: 0.9,
+        solid_fraction: None,
     };
     let law =
         PlateLaw::Resisting { conductivity: None, effective_modulus: 2.0 * modulus, roughness: Some(ROUGH) };

@@ -6,7 +6,7 @@ use crate::experiment::Record;
 use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::{Container, Pouring, pour};
 use crate::press::press;
-use crate::profile::{Probe, Slab, slab};
+use crate::profile::{Probe, Slab, slab, solid_fraction};
 use crate::settle::{Rest, longest, progress, settle, turn};
 use crate::solid::{PeakStress, Roughness};
 use crate::transient::Transient;
@@ -177,6 +177,14 @@ impl Bed {
         case.grains.yield_stress.map(|limit| PeakStress::new(contacts.into_iter(), modulus, limit))
     }
 
+    /// φ \[-\] of the middle half of the bed.
+    fn solid_fraction(&self, case: &BedCase) -> f64 {
+        let wall = self.wall();
+        let depth = self.simulation.spheres.iter().map(|s| wall.distance(s.position) + s.radius);
+        let depth = depth.fold(0.0, f64::max);
+        solid_fraction(&self.simulation, &wall, [0.25, 0.75].map(|part| part * depth), self.area(case))
+    }
+
     /// The network of the bed with a plate of a kind.
     pub fn network(&self, case: &BedCase, kind: PlateKind) -> Network {
         let (grains, keys) = (&case.grains, &case.plate);
@@ -192,6 +200,7 @@ impl Bed {
             gas: case.gas.name,
             gas_pressure: case.gas.pressure,
             accommodation: case.gas.accommodation,
+            solid_fraction: Some(self.solid_fraction(case)),
         };
         // 1/E* is the sum of (1 − ν²)/E of both.
         let compliance = |young: f64, poisson: f64| (1.0 - poisson * poisson) / young;

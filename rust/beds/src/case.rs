@@ -1,5 +1,6 @@
 //! The description of a bed that was measured: a TOML file that says what is poured, how it is handled, what heats it.
 
+use crate::effective::{GOOD, closure_error};
 use crate::named_gases::GasName;
 use crate::pour::WIDEST;
 use crate::property::Property;
@@ -256,6 +257,18 @@ impl BedCase {
         [a.min(b), a.max(b)]
     }
 
+    /// What the run says of grains so poor that a closure takes the place of the law of pairs.
+    pub fn closure(&self) -> Option<String> {
+        let [least, most] = self.grains.ratios(self.temperatures(), &self.gas);
+        (least < GOOD).then(|| {
+            format!(
+                "the grains conduct {least:.1} to {most:.1} times as well as the gas: heat does not go from grain to grain alone, so the conductances \
+                 follow a closure for poor conductors, which is within {:.0} % of direct solutions of the heat equation (not compared beside a plate)",
+                100.0 * closure_error(most.min(GOOD)).max(closure_error(least))
+            )
+        })
+    }
+
     /// Key, value, what is allowed of the first value outside its range.
     fn check(&self) -> Result<(), (String, String, String)> {
         let range = self.temperatures();
@@ -270,7 +283,7 @@ impl BedCase {
             let allowed = "only in elements.toml, where grains expand".to_string();
             return Err((key.into(), "given".into(), allowed));
         }
-        self.grains.check(range, &self.gas)?;
+        self.grains.check(range, &self.gas, crate::effective::LEAST_RATIO)?;
         self.container.check()?;
         let names = self.wall_names();
         let turned = self.turn.iter().map(|turn| ("turn.down", &turn.down));
@@ -409,7 +422,8 @@ impl Grains {
     }
 
     /// Checks what depends on the temperatures of a run \[K\] and on the gas.
-    pub(crate) fn check(&self, range: [f64; 2], keys: &GasKeys) -> Result<(), Wrong> {
+    /// They conduct `allowed` times as well as the gas, at least.
+    pub(crate) fn check(&self, range: [f64; 2], keys: &GasKeys, allowed: f64) -> Result<(), Wrong> {
         hardness("grains.hardness", self.roughness, self.hardness)?;
         for (key, property) in
             [("grains.conductivity", &self.conductivity), ("grains.heat_capacity", &self.heat_capacity)]
@@ -429,6 +443,23 @@ impl Grains {
                 allowed,
             ));
         }
+        let [least, _] = self.ratios(range, keys);
+        if least < allowed {
+            let text = format!(
+                "grains that conduct {allowed} times as well as the gas, at least{}",
+                if allowed > crate::effective::LEAST_RATIO {
+                    ": heat does not go from grain to grain between poorer ones (bed.toml and msddFoam have a law for them)"
+                } else {
+                    ""
+                }
+            );
+            return Err(("grains.conductivity".into(), format!("{least:.2} times that of the gas"), text));
+        }
+        Ok(())
+    }
+
+    /// The least and the largest conductivity over that of the gas, between two temperatures \[K\].
+    pub(crate) fn ratios(&self, range: [f64; 2], keys: &GasKeys) -> [f64; 2] {
         let ratio = |t: f64| {
             let gas = keys.name.at(t, keys.pressure, keys.accommodation);
             gas.map_or(f64::INFINITY, |gas| self.conductivity.at(t) / gas.conductivity)
@@ -436,16 +467,8 @@ impl Grains {
         // A table may dip at a row, and the gas is no straight line between two.
         let between = (0..=LOOKS).map(|k| range[0] + (range[1] - range[0]) * f64::from(k) / f64::from(LOOKS));
         let rows = self.conductivity.rows().into_iter().filter(|t| (range[0]..=range[1]).contains(t));
-        let least = between.chain(rows).map(ratio).fold(f64::INFINITY, f64::min);
-        if least < crate::gas::LEAST_RATIO {
-            let allowed = format!(
-                "grains that conduct {} times as well as the gas, at least: heat does not go from grain to grain between poorer \
-                 ones (msddFoam has a law for such beds)",
-                crate::gas::LEAST_RATIO
-            );
-            return Err(("grains.conductivity".into(), format!("{least:.1} times that of the gas"), allowed));
-        }
-        Ok(())
+        let all: Vec<f64> = between.chain(rows).map(ratio).collect();
+        [all.iter().copied().fold(f64::INFINITY, f64::min), all.iter().copied().fold(0.0, f64::max)]
     }
 }
 

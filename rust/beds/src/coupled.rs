@@ -356,6 +356,8 @@ fn network(scene: &Scene, simulation: &Simulation) -> Network {
         gas: scene.gas.name,
         gas_pressure: scene.gas.pressure,
         accommodation: scene.gas.accommodation,
+        // Such spheres are refused here.
+        solid_fraction: None,
     };
     let plates: Vec<Plate> = (scene.heated.iter())
         .map(|heated| Plate { wall: scene.wall(&heated.wall).unwrap_or_default(), law: PlateLaw::Held })

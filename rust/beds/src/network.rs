@@ -1,7 +1,8 @@
 //! The network of a bed at rest: what conducts between which spheres and plates, and how well at given temperatures.
 
+use crate::effective::{contact_factor, pair_factor};
 use crate::facing::{Facing, facing};
-use crate::gas::gas_conductance;
+use crate::gas::{Gas, gas_conductance};
 use crate::links::{Near, near_pairs};
 use crate::named_gases::GasName;
 use crate::property::Property;
@@ -23,6 +24,8 @@ pub struct Materials {
     pub gas_pressure: f64,
     /// α \[-\] of the gas at all surfaces.
     pub accommodation: f64,
+    /// φ \[-\] with which spheres that conduct poorly follow the closure of [`crate::effective`]; none: pairs alone.
+    pub solid_fraction: Option<f64>,
 }
 
 /// A flat wall of given temperature.
@@ -55,6 +58,8 @@ pub struct Joint {
     pub j: usize,
     /// Conductance over k_s \[m\].
     pub size: f64,
+    /// 2 R* \[m\], as of [`Near`].
+    pub radius: f64,
 }
 
 /// A sphere beside a plate.
@@ -105,7 +110,7 @@ impl Network {
         simulation.for_each_contact(|contact| match contact.i {
             Partner::Sphere(i) => {
                 let size = solid.contact_size(contact.normal_force, contact.effective_radius);
-                contacts.push(Joint { i, j: contact.j, size });
+                contacts.push(Joint { i, j: contact.j, size, radius: 2.0 * contact.effective_radius });
             }
             Partner::Wall(wall) => {
                 at_walls.insert((wall, contact.j), contact.normal_force);
@@ -149,18 +154,33 @@ impl Network {
     pub fn conductances(&self, temperatures: &[f64], plates: &[f64]) -> Conductances {
         let m = &self.materials;
         let mean = |i: usize, j: usize| 0.5 * (temperatures[i] + temperatures[j]);
-        let mut links: Vec<(usize, usize, f64)> =
-            (self.contacts.iter()).map(|c| (c.i, c.j, m.conductivity.at(mean(c.i, c.j)) * c.size)).collect();
         // Properties of the gas by sphere: there are several times fewer spheres than pairs.
         let gas = |t: f64| m.gas.at(t, m.gas_pressure, m.accommodation);
         let gases: Option<Vec<_>> = temperatures.iter().map(|&t| gas(t)).collect();
-        if let Some(gases) = gases {
+        let adds = |c: &Joint, solid: f64| match (&gases, m.solid_fraction) {
+            (Some(gases), Some(_)) => {
+                let gas = 0.5 * (gases[c.i].conductivity + gases[c.j].conductivity);
+                contact_factor(solid / gas, 0.5 * c.size / c.radius)
+            }
+            _ => 1.0,
+        };
+        let mut links: Vec<(usize, usize, f64)> = (self.contacts.iter())
+            .map(|c| {
+                let solid = m.conductivity.at(mean(c.i, c.j));
+                (c.i, c.j, solid * c.size * adds(c, solid))
+            })
+            .collect();
+        let poor = |gas: &Gas, solid: f64, radius: f64| {
+            m.solid_fraction.map_or(1.0, |phi| pair_factor(gas, solid, radius, phi))
+        };
+        if let Some(gases) = &gases {
             for near in &self.gaps {
                 let (a, b) = (&gases[near.i], &gases[near.j]);
                 let solid = m.conductivity.at(mean(near.i, near.j));
                 let least =
                     0.5 * (a.least_distance(near.radius, solid) + b.least_distance(near.radius, solid));
-                let conductivity = 0.5 * (a.conductivity + b.conductivity);
+                let factor = 0.5 * (poor(a, solid, near.radius) + poor(b, solid, near.radius));
+                let conductivity = 0.5 * factor * (a.conductivity + b.conductivity);
                 links.push((near.i, near.j, gas_conductance(conductivity, near.radius, near.gap + least)));
             }
         }
@@ -170,9 +190,13 @@ impl Network {
             let solid = m.conductivity.at(between);
             let harmonic = b.conductivity.map_or(2.0 * solid, |plate| 2.0 * solid * plate / (solid + plate));
             let by_gas = gas(between).map_or(0.0, |gas| {
-                gas.conductivity * b.facing.size(gas.plate_distance(0.0, b.radius, solid))
+                let distance = gas.plate_distance(0.0, b.radius, solid);
+                poor(&gas, solid, b.radius) * gas.conductivity * b.facing.size(distance)
             });
-            (sphere, b.plate, harmonic * b.size + by_gas)
+            let adds = gas(between)
+                .filter(|_| m.solid_fraction.is_some())
+                .map_or(1.0, |gas| contact_factor(solid / gas.conductivity, 0.5 * b.size / b.radius));
+            (sphere, b.plate, harmonic * b.size * adds + by_gas)
         };
         Conductances { links, plates: self.beside.iter().map(beside).collect() }
     }

@@ -32,9 +32,6 @@ pub fn slab(
     let distances: Vec<f64> = simulation.spheres.iter().map(|s| wall.distance(s.position)).collect();
     let inside = |distance: f64| (from..to).contains(&distance);
     let volume = area * (to - from);
-    let solid: f64 = (simulation.spheres.iter().zip(&distances))
-        .map(|(s, d)| below(s.radius, to - d) - below(s.radius, from - d))
-        .sum();
     let (mut ends, mut work) = (0, 0.0);
     simulation.for_each_contact(|contact| {
         ends += contact.spheres().filter(|&k| inside(distances[k])).count();
@@ -50,12 +47,21 @@ pub fn slab(
     let (contacts, gas) = conductances(network, temperature);
     let across = |links: &[(usize, usize, f64)]| conductivity(links, &distances, [from, to], area);
     Some(Slab {
-        solid_fraction: solid / volume,
+        solid_fraction: solid_fraction(simulation, wall, [from, to], area),
         coordination: ends as f64 / count.max(1) as f64,
         pressure: work / volume / 3.0,
         contact_conductivity: across(&contacts)?,
         gas_conductivity: across(&gas)?,
     })
+}
+
+/// φ \[-\] between two distances from a wall \[m\]; `area` \[m²\] is that of the bed parallel to the wall.
+pub fn solid_fraction(simulation: &Simulation, wall: &Wall, [from, to]: [f64; 2], area: f64) -> f64 {
+    let solid = simulation.spheres.iter().map(|s| {
+        let distance = wall.distance(s.position);
+        below(s.radius, to - distance) - below(s.radius, from - distance)
+    });
+    solid.sum::<f64>() / (area * (to - from))
 }
 
 /// Volume of a sphere below a plane at `height` above its centre \[m³\].

@@ -145,7 +145,7 @@ impl Scene {
             let told = |(value, allowed)| ("heated.temperature".to_string(), value, allowed);
             heated.temperature.check([1.0, 5000.0]).map_err(told)?;
         }
-        self.grains.check(self.temperatures(), &self.gas)?;
+        self.grains.check(self.temperatures(), &self.gas, crate::gas::LEAST_RATIO)?;
         for name in self.heated.iter().map(|heated| &heated.wall).chain([&self.record.wall]) {
             if self.wall(name).is_none() {
                 let names: Vec<&str> = self.vessel().walls(0.0).into_iter().map(|(name, _)| name).collect();

@@ -1,6 +1,7 @@
 //! Conductivity of crystals against closed forms, and of a packing against what must hold for any network.
 
 use msdd_beds::conductivity::{Conductivity, conductivity, mean};
+use msdd_beds::effective::{closure_error, pair_factor, poor_spheres};
 use msdd_beds::gas::{Gas, gas_conductance};
 use msdd_beds::links::{Link, contact_links, gas_links};
 use msdd_beds::solid::Solid;
@@ -129,4 +130,29 @@ fn nothing_conducts_nothing() {
     assert_eq!(none.network, [[0.0; 3]; 3]);
     let bad = Link { i: 0, j: 1, branch: [1.0, 0.0, 0.0], conductance: f64::NAN };
     assert_eq!(conductivity(&[bad], 5, 1.0), None);
+}
+
+/// Spheres that conduct poorly: the pairs of a packing with the factor of the closure conduct what the closed form for its solid fraction
+/// says, within the error of the closure.
+#[test]
+fn pairs_of_poor_spheres_conduct_as_the_closure_says() {
+    for (friction, seed) in [(0.0, 3), (0.5, 4)] {
+        let material = Material { density: 1.0, friction, ..material(1.0) };
+        let packing = Packing { spheres: 500, seed, diameter: 1.0, material, pressure: 1e-6, steps: 400_000 };
+        let packed = pack(&packing).unwrap();
+        let phi = packed.averages.solid_fraction;
+        for ratio in [2.0, 5.0, 10.0, 20.0] {
+            let gas = Gas { conductivity: 1.0, mean_free_path: 0.0, ..AIR };
+            let factor = pair_factor(&gas, ratio, 0.5, phi);
+            let links = gas_links(&packed.simulation, factor, |radius| gas.least_distance(radius, ratio));
+            let found = mean(&solve(&packed.simulation, &links).network);
+            let expected = poor_spheres(phi, ratio);
+            let error = closure_error(ratio).max(0.02);
+            assert!((found / expected - 1.0).abs() < error, "{friction} {ratio}: {found} {expected}");
+        }
+        // No closure for good conductors, and no step between both.
+        assert_eq!(pair_factor(&AIR, 60.0 * AIR.conductivity, 0.5, phi), 1.0);
+        let near = pair_factor(&AIR, 59.9 * AIR.conductivity, 0.5, phi);
+        assert!((near - 1.0).abs() < 1e-2, "{near}");
+    }
 }

@@ -42,6 +42,7 @@ fn a_slab_of_a_crystal_is_as_dense_stressed_and_conducting_as_the_crystal() {
         gas: GasName::Vacuum,
         gas_pressure: 1e5,
         accommodation: 0.9,
+        solid_fraction: None,
     };
     let network = Network::new(&simulation, materials, &[]);
     let floor = Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]);

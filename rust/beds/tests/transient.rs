@@ -17,6 +17,7 @@ fn materials(gas: GasName) -> Materials {
         gas,
         gas_pressure: 101_325.0,
         accommodation: 0.9,
+        solid_fraction: None,
     }
 }
 
@@ -34,7 +35,7 @@ fn chain(count: usize) -> Network {
     Network {
         materials: materials(GasName::Vacuum),
         mass: vec![1e-3; count],
-        contacts: (1..count).map(|j| Joint { i: j - 1, j, size }).collect(),
+        contacts: (1..count).map(|j| Joint { i: j - 1, j, size, radius: 1e-3 }).collect(),
         gaps: Vec::new(),
         beside: vec![beside(0, 0), beside(count - 1, 1)],
         held: vec![None; count],
