@@ -8,7 +8,8 @@
 //! line through all runs would be too high at Pe = 0. The errors against that one are printed, too.
 
 use msdd_beds::conductivity::{conductivity, mean};
-use msdd_beds::correlation::{radiation, zehner_bauer_schluender};
+use msdd_beds::correlation::{pore_width, radiation, zehner_bauer_schluender};
+use msdd_beds::effective::{contact_factor, poor_spheres, share_of_pairs};
 use msdd_beds::links::{contact_links, gas_links};
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;
@@ -157,9 +158,20 @@ struct Inputs {
     roughness: Option<f64>,
     pressure: f64,
     accommodation: f64,
+    radiation: Radiation,
 }
 
-/// Gas, contacts and radiation, over the conductivity of the gas.
+/// How radiation counts where the spheres conduct poorly.
+#[derive(Clone, Copy)]
+enum Radiation {
+    /// 4 σ T³ d/(2/ε − 1) is added, as for good conductors.
+    Added,
+    /// Beside the gas in pores of this width over d: k_g + 4 σ T³ w/(2/ε − 1) is the conductivity in the pores.
+    InPores(fn(f64) -> f64),
+}
+
+/// Gas, contacts and radiation, over the conductivity of the gas: the law of pairs and radiation that is added, where the spheres conduct 60 times
+/// as well as what fills the pores; the closure for poor conductors below 20 times, and a mixture between ([`msdd_beds::effective`]).
 fn prediction(series: &Series, packings: &Packings, inputs: Inputs) -> Any<[f64; 3]> {
     let phi = 1.0 - series.porosity;
     let gas = GasName::Nitrogen.at(series.temperature, 1e5, inputs.accommodation).ok_or("nitrogen")?;
@@ -176,11 +188,28 @@ fn prediction(series: &Series, packings: &Packings, inputs: Inputs) -> Any<[f64;
         solid.contact_size(force, 0.5 * radius)
     };
     let factor = size(inputs.roughness) / size(None);
-    Ok([
+    let ratio = series.conductivity / gas.conductivity;
+    let [gap, smooth, radiating] = [
         packings.gas(log, phi),
-        contact * factor * series.conductivity / gas.conductivity,
+        contact * factor * ratio,
         radiation(series.temperature, series.diameter, series.emissivity) / gas.conductivity,
-    ])
+    ];
+    let touch = 0.5 * size(inputs.roughness) / radius;
+    // With the conductivity of the pores over that of the gas: all conduction, and what contacts have of it.
+    let conduction = |pores: f64| {
+        let (share, ratio) = (share_of_pairs(ratio / pores), ratio / pores);
+        let contacts = smooth * contact_factor(ratio, touch);
+        (share * gap + (1.0 - share) * pores * poor_spheres(phi, ratio) + contacts, contacts, share)
+    };
+    let (dark, contacts, _) = conduction(1.0);
+    let total = match inputs.radiation {
+        Radiation::Added => dark + radiating,
+        Radiation::InPores(width) => {
+            let (bright, _, share) = conduction(1.0 + radiating * width(phi));
+            bright + share * radiating
+        }
+    };
+    Ok([dark - contacts, contacts, total - dark])
 }
 
 /// Rows of a CSV file without comments and header.
@@ -286,9 +315,14 @@ fn main() -> Any<()> {
     println!("(contacts; gas at ln(R/h) = 3.5, 6, 8.5; contacts per sphere)\n");
     let all = read(folder)?;
     // The roughness of the steel spheres of cases/beaulieu: Zehner gives none.
-    let one = Inputs { roughness: Some(3.4e-7), pressure: 1.0, accommodation: 0.9 };
+    let one = Inputs {
+        roughness: Some(3.4e-7),
+        pressure: 1.0,
+        accommodation: 0.9,
+        radiation: Radiation::InPores(pore_width),
+    };
     let smooth = Inputs { roughness: None, ..one };
-    let kinds: [(&str, Inputs); 10] = [
+    let kinds: [(&str, Inputs); 13] = [
         ("smooth", smooth),
         ("σ/m 0.34 µm", one),
         ("σ/m 0.34 µm, pressure × 2", Inputs { pressure: 2.0, ..one }),
@@ -299,6 +333,15 @@ fn main() -> Any<()> {
         ("σ/m 2 µm", Inputs { roughness: Some(2e-6), ..one }),
         ("σ/m 5 µm", Inputs { roughness: Some(5e-6), ..one }),
         ("σ/m 20 µm", Inputs { roughness: Some(20e-6), ..one }),
+        ("σ/m 0.34 µm, radiation added", Inputs { radiation: Radiation::Added, ..one }),
+        (
+            "σ/m 0.34 µm, radiation in pores of the width 4V/S",
+            Inputs { radiation: Radiation::InPores(|phi| 2.0 * pore_width(phi)), ..one },
+        ),
+        (
+            "σ/m 0.34 µm, radiation in pores of the width d",
+            Inputs { radiation: Radiation::InPores(|_| 1.0), ..one },
+        ),
     ];
     let shown: Vec<&Series> =
         all.iter().filter(|s| !APART.iter().any(|name| s.name.starts_with(name))).collect();

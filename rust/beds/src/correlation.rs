@@ -8,6 +8,12 @@ pub fn radiation(temperature: f64, diameter: f64, emissivity: f64) -> f64 {
     4.0 * STEFAN_BOLTZMANN * temperature.powi(3) * diameter / (2.0 / emissivity - 1.0)
 }
 
+/// The width of the pores of a packing of spheres over their diameter, as that of a slit between two walls with their volume and surface: 2 V/S =
+/// d (1 − φ)/(3 φ). Half of the mean chord.
+pub fn pore_width(solid_fraction: f64) -> f64 {
+    (1.0 - solid_fraction) / (3.0 * solid_fraction)
+}
+
 /// Conductivity of a bed of spheres over that of the gas by Zehner, Bauer and Schlünder (VDI Heat Atlas, 2nd ed., 2010, section D6.3),
 /// without contacts. `ratio` is k_s/k_g, `radiation` is k_r/k_g, and `gaps` is k_G/k_g = 1/(1 + M/d) of the gas in the gaps,
 /// with the jump length M ([`crate::gas::Gas::jump_length`]); 1: no jump.
@@ -69,6 +75,14 @@ mod tests {
         let expected = (1.0 - root) * (1.0 + 0.4 * 5.0) + root * 14.448_684;
         let found = zehner_bauer_schluender(0.4, 50.0, 5.0, 1.0);
         assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+    }
+
+    /// Simple cubic spheres: twice the pore volume of a cell of edge d over the surface of its sphere.
+    #[test]
+    fn pores_are_as_wide_as_a_slit() {
+        let ball = std::f64::consts::PI / 6.0;
+        let expected = 2.0 * (1.0 - ball) / std::f64::consts::PI;
+        assert!((pore_width(ball) - expected).abs() < 1e-15);
     }
 
     #[test]
