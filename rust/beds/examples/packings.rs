@@ -1,16 +1,23 @@
 //! Packs periodic boxes with several frictions and prints a table: `packings SPHERES SEEDS`. C is the conductivity of the
 //! contacts over k_s (p/E*)^(1/3); the last three columns are that of the gas over k_g where ln(R/h) of touching spheres is
-//! 8.5, 6 and 3.5.
+//! 8.5, 6 and 3.5. A second table has boxes that were shaken after that ([`shake`]), and beds that were poured, three diameters away from
+//! floor and surface.
 
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::links::{Link, contact_links, gas_links};
+use msdd_beds::pour::{Container, Pouring, pour};
+use msdd_beds::profile::solid_fraction;
 use msdd_beds::solid::Solid;
-use msdd_beds::{Packing, pack};
+use msdd_beds::{Packing, averages, pack, shake};
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::{Material, Stiffness};
+use std::error::Error;
 use std::time::Instant;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// Pressure over E of the shaken boxes: 10 kPa on glass of 70 GPa.
+const SHAKEN: f64 = 1.4e-7;
+
+fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
     let (spheres, seeds) = (number(1000)? as usize, number(1)?);
@@ -23,13 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 spheres,
                 seed,
                 diameter: 1.0,
-                material: Material {
-                    density: 1.0,
-                    stiffness: Stiffness::HertzMindlin { young_modulus: 1.0, poisson_ratio: 0.25 },
-                    friction,
-                    wall_friction: 0.0,
-                    restitution: 0.3,
-                },
+                material: material(friction),
                 pressure: 1e-5,
                 steps: 400_000,
             };
@@ -63,5 +64,58 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             );
         }
     }
+    println!("\nkind friction-while-packing friction seed phi z z* rattlers");
+    for seed in 1..=seeds {
+        [0.0, 0.1, 0.3].into_iter().try_for_each(|friction| shaken(spheres, seed, friction))?;
+        poured(spheres, seed)?;
+    }
+    Ok(())
+}
+
+fn material(friction: f64) -> Material {
+    let stiffness = Stiffness::HertzMindlin { young_modulus: 1.0, poisson_ratio: 0.25 };
+    Material { density: 1.0, stiffness, friction, wall_friction: 0.0, restitution: 0.3 }
+}
+
+/// Packed with a friction, opened by 0.5 %, mixed, and pressed again with a friction of 0.3.
+fn shaken(spheres: usize, seed: u64, friction: f64) -> Result<(), Box<dyn Error>> {
+    let material = material(friction);
+    let mut packing = Packing { spheres, seed, diameter: 1.0, material, pressure: 1e-6, steps: 400_000 };
+    let mut simulation = pack(&packing)?.simulation;
+    (packing.material, packing.pressure) = (self::material(0.3), SHAKEN);
+    shake(&mut simulation, &packing, [1.0; 3], 0.005)?;
+    let a = averages(&simulation);
+    println!(
+        "shaken {friction} 0.3 {seed} {:.4} {:.3} {:.3} {:.3}",
+        a.solid_fraction, a.coordination, a.backbone_coordination, a.rattlers
+    );
+    Ok(())
+}
+
+/// Steel spheres of 2 mm that rain on a floor without sides.
+fn poured(spheres: usize, seed: u64) -> Result<(), Box<dyn Error>> {
+    let (diameter, side) = (2e-3, 12.0);
+    let stiffness = Stiffness::HertzMindlin { young_modulus: 5e9, poisson_ratio: 0.29 };
+    let material =
+        Material { density: 7750.0, stiffness, friction: 0.3, wall_friction: 0.3, restitution: 0.8 };
+    let container = Container::Endless { base: [side * diameter; 2] };
+    let (gravity, longest, threads) = (9.81, 10.0, 1);
+    let pouring = Pouring { spheres, seed, diameter, material, container, gravity, longest, threads };
+    let (bed, _) = pour(&pouring, |_| ())?;
+    let floor = bed.boundary.walls()[0];
+    let mut heights: Vec<f64> = bed.spheres.iter().map(|s| floor.distance(s.position)).collect();
+    let counted = heights.clone();
+    heights.sort_by(f64::total_cmp);
+    // The highest hundredth of the spheres is the surface.
+    let between = [3.0 * diameter, heights[heights.len() * 99 / 100] - 3.0 * diameter];
+    let inside = |k: usize| (between[0]..between[1]).contains(&counted[k]);
+    let mut ends = 0;
+    bed.for_each_contact(|contact| ends += contact.spheres().filter(|&k| inside(k)).count());
+    let count = (0..counted.len()).filter(|&k| inside(k)).count();
+    println!(
+        "poured - 0.3 {seed} {:.4} {:.3} - -",
+        solid_fraction(&bed, &floor, between, container.area()),
+        ends as f64 / count as f64
+    );
     Ok(())
 }
