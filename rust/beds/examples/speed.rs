@@ -1,4 +1,4 @@
-//! Steps of a jammed periodic box: `speed SPHERES [STEPS [TILES [FILE]]]` prints millions of sphere-steps per second, by the
+//! Steps of a jammed periodic box: `speed SPHERES [STEPS [TILES [THREADS [FILE]]]]` prints millions of sphere-steps per second, by the
 //! best of forty parts of the run, and the memory of the process (Linux) over the number of spheres: now, and the most so far.
 //! The box is repeated TILES times in each direction, and with 2 or more run with the best instruction set only. It is written to FILE as
 //! a data file of LAMMPS (atom_style sphere), for comparison.
@@ -61,7 +61,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
     let (spheres, steps) = (number(1000)? as usize, number(10_000)?);
     let tiles = number(1)? as usize;
-    let file = std::env::args().nth(4);
+    let threads = number(1)? as usize;
+    let file = std::env::args().nth(5);
     let packing = Packing {
         spheres,
         seed: 1,
@@ -89,6 +90,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let copy = if left == 0 { start.take() } else { start.clone() };
         let Some(mut simulation) = copy else { break };
         simulation.set_simd(simd);
+        simulation.set_threads(threads)?;
         simulation.take_steps(steps / 10);
         let searches = simulation.searches();
         let best = (0..40)
