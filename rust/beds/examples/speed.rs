@@ -36,13 +36,15 @@ fn repeated(simulation: &Simulation, tiles: usize) -> Result<Simulation, Box<dyn
         spheres.extend(simulation.spheres.iter().map(|sphere| cell.lattice.image(sphere, shift)));
     }
     cell.lattice.edges = cell.lattice.edges.map(|edge| edge.map(|x| tiles as f64 * x));
-    // In the order of their places, as a box of this size is packed.
+    // In the box, and in the order of their places, as in a box of this size that is packed.
     let edge = cell.lattice.edges[0][0];
-    let place = |sphere: &Sphere| {
-        let [x, y, z] = sphere.position.map(|x| x.rem_euclid(edge) as u32);
+    for sphere in &mut spheres {
+        sphere.position = sphere.position.map(|x| x.rem_euclid(edge));
+    }
+    spheres.sort_by_key(|sphere: &Sphere| {
+        let [x, y, z] = sphere.position.map(|x| x as u32);
         [z, y, x]
-    };
-    spheres.sort_by_key(place);
+    });
     Ok(Simulation::new(simulation.material.clone(), spheres, Boundary::Periodic(cell))?)
 }
 
