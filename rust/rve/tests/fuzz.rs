@@ -69,6 +69,37 @@ fn states() {
     assert!(accepted > 4);
 }
 
+/// The same for states of spheres, between walls and in a periodic box.
+#[test]
+fn states_of_spheres() {
+    use msdd_rve::spheres::{material, state};
+    use msdd_spheres::{Boundary, Cell, Simulation, Sphere, Wall};
+    let edge = 2.1;
+    let places = (0..8).map(|k| [k % 2, k / 2 % 2, k / 4].map(|n| f64::from(n) * 0.98 + 0.5));
+    let spheres: Vec<Sphere> = places.map(|place| Sphere::at_rest(place, 0.5, 1.0)).collect();
+    let boundaries = [Boundary::Walls(Wall::block([edge; 3])), Boundary::Periodic(Cell::block([edge; 3]))];
+    let corpus = boundaries.map(|boundary| {
+        let mut simulation = Simulation::new(material(0.25, 0.3, 0.3), spheres.clone(), boundary).unwrap();
+        simulation.spheres[0].velocity = [1e-3, 2e-3, -1e-3];
+        simulation.run(100).unwrap();
+        let whole = state::to_file(&simulation).unwrap();
+        let mut open: serde_json::Value = serde_json::from_str(&whole).unwrap();
+        open.as_object_mut().unwrap().remove("checksum");
+        [whole, open.to_string()].map(String::into_bytes)
+    });
+    let accepted = mutations::fuzz(("sphere states", folder()), corpus.as_flattened(), 2000, |input| {
+        let Some(Ok(found)) = text(input).map(state::from_json) else { return Ok(false) };
+        let own = state::to_file(&found).map_err(|error| error.to_string())?;
+        let again = state::from_json(&own).map_err(|error| format!("its own text is refused: {error}"))?;
+        if state::to_file(&again).is_ok_and(|text| text == own) {
+            Ok(true)
+        } else {
+            Err("its text changes".to_string())
+        }
+    });
+    assert!(accepted > 4);
+}
+
 #[test]
 fn plans() {
     let accepted = mutations::fuzz(("plans", folder()), &[PLAN.as_bytes().to_vec()], 2000, |input| {
