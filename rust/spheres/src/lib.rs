@@ -25,6 +25,7 @@
 //! | [`run`] | many steps, with regular checks of the state |
 //! | [`relax`] | fast relaxation (FIRE) |
 //! | [`audit`] | energy audit |
+#![deny(unsafe_code)]
 
 pub mod audit;
 pub mod boundary;

@@ -1,14 +1,14 @@
-//! The sweep of a step: contact forces and motion of the spheres in one pass through memory. Loads are kept only as long as they are
-//! being summed up.
+//! The sweep of a step: contact forces and motion of the spheres in one pass through memory. Loads are kept only as long
+//! as they are being summed up.
 //!
 //! Row i of the pair list holds the partners j > i of sphere i only. So once the rows of a block of spheres have been
 //! summed up, the loads of these spheres are complete and no later row reads them: they can be moved while they are
 //! still in the cache. A small periodic box is one block, because its ghosts stand behind all spheres. In a large one the
 //! pairs across the border stand apart: their forces are found first, and are what the loads of their spheres begin with.
 //!
-//! Assemblies of thousands of spheres are divided into slabs (consecutive rows), which threads sweep in parallel. The first spheres of a slab also belong to pairs of the slab before it; they are moved at the end, when
-//! their loads from both slabs are known. The slabs depend on the number of spheres alone, so results do not depend on
-//! the number of threads.
+//! Assemblies of thousands of spheres are divided into slabs (consecutive rows), which threads sweep in parallel. The first
+//! spheres of a slab also belong to pairs of the slab before it; they are moved at the end, when their loads from both slabs
+//! are known. The slabs depend on the number of spheres alone, so results do not depend on the number of threads.
 
 use crate::boundary::Wall;
 use crate::contacts::{SlabPairs, WallPart};
@@ -234,5 +234,66 @@ impl Task<'_> {
             }
         }
         swept
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::space::{length, minus};
+    use crate::{Boundary, Cell, Material, Simulation, Sphere, Stiffness, Wall};
+
+    /// More spheres than a periodic box has that is one block, on a jittered lattice; they overlap and turn.
+    fn many(boundary: Boundary) -> Simulation {
+        let stiffness = Stiffness::HertzMindlin { young_modulus: 1e7, poisson_ratio: 0.3 };
+        let material =
+            Material { density: 2500.0, stiffness, friction: 0.3, wall_friction: 0.3, restitution: 1.0 };
+        let spheres = (0..SIDE * SIDE * SIDE).map(|k| {
+            let u = |a: f64| (a * (k + 1) as f64).fract() - 0.5;
+            let place = [k % SIDE, k / SIDE % SIDE, k / SIDE / SIDE];
+            let shift = [u(0.618_034), u(0.414_214), u(0.732_051)];
+            let position = std::array::from_fn(|m| SPACING * (place[m] as f64 + 0.5 + 0.1 * shift[m]));
+            let mut sphere = Sphere::at_rest(position, 1e-3, 2500.0);
+            sphere.velocity = [0.01 * u(0.193_7), 0.01 * u(0.287_9), 0.01 * u(0.324_718)];
+            sphere.angular_velocity = [u(0.154_3), 0.0, 1.0];
+            sphere
+        });
+        Simulation::new(material, spheres.collect(), boundary).unwrap()
+    }
+
+    const SIDE: usize = 22;
+    const SPACING: f64 = 1.94e-3;
+
+    /// A sweep that keeps all loads moves the spheres as one that does not, to the last bit, and what it keeps are the contact
+    /// forces and their torques.
+    #[test]
+    fn loads_that_are_kept_are_those_of_the_contacts() {
+        let edge = SIDE as f64 * SPACING;
+        let floor = vec![Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0])];
+        let boundaries = [
+            Boundary::Walls(Wall::block([edge; 3])),
+            Boundary::Periodic(Cell::block([edge; 3])),
+            Boundary::Between(Cell::block([edge, edge, 2.0 * edge]), floor),
+        ];
+        for boundary in boundaries {
+            let mut simulation = many(boundary);
+            simulation.take_steps(20);
+            // The forces are of the places before the motion: a short step hardly moves.
+            simulation.time_step *= 1e-6;
+            let mut keeping = simulation.clone();
+            keeping.loads.keep = true;
+            simulation.step();
+            keeping.step();
+            assert!(simulation.spheres == keeping.spheres);
+            let loads = keeping.loads();
+            let largest = loads.iter().map(|load| length(load.force)).fold(0.0, f64::max);
+            let twist = loads.iter().map(|load| length(load.torque)).fold(0.0, f64::max);
+            assert!(largest > 0.0 && twist > 0.0);
+            let kept: Vec<_> = keeping.loads.iter(&keeping.neighbours).collect();
+            assert_eq!(kept.len(), loads.len());
+            for (kept, load) in kept.into_iter().zip(&loads) {
+                assert!(length(minus(kept.force, load.force)) < 1e-4 * largest);
+                assert!(length(minus(kept.torque, load.torque)) < 1e-4 * twist);
+            }
+        }
     }
 }

@@ -6,11 +6,11 @@ use crate::output::print_json;
 use msdd_beds::vtk;
 use msdd_files::{check_target, write};
 use msdd_rve::database::spheres::SphereCompression;
-use msdd_rve::last_good::write_text;
+use msdd_rve::last_good::{self, LastGoodError};
 use msdd_rve::spheres::{Averages, Preparation, Rest, Strain, advance, averages, prepare, state};
 use msdd_spheres::Simulation;
 use serde_json::json;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
     let compression = match arguments.compression {
@@ -64,15 +64,11 @@ pub fn expand(arguments: &ExpandArguments, mut simulation: Simulation) -> Result
         }
         let mut next = simulation.clone();
         let rest = advance(&mut next, here.to(target)).map_err(|failure| {
-            let kept = as_text(&arguments.out, &simulation).map(|text| write_text(&arguments.out, &text));
-            CliError::Message(match kept {
-                Ok(Ok(file)) => {
-                    let file = file.display();
-                    format!("{failure}; the last good state, before stop {number}, is in {file}")
-                }
-                Ok(Err(error)) => format!("{failure}; its last good state cannot be written: {error}"),
-                Err(error) => format!("{failure}; its last good state cannot be written: {error}"),
-            })
+            let text = match keep(&arguments.out, &simulation) {
+                Ok(file) => format!("the last good state, before stop {number}, is in {}", file.display()),
+                Err(error) => format!("its last good state cannot be written: {error}"),
+            };
+            CliError::Message(format!("{failure}; {text}"))
         })?;
         (simulation, here) = (next, target);
         series(folder, number, &simulation)?;
@@ -80,6 +76,11 @@ pub fn expand(arguments: &ExpandArguments, mut simulation: Simulation) -> Result
         report(&what, &rest, &averaged(&simulation)?);
     }
     write_state(&arguments.out, &simulation)
+}
+
+/// Writes the last good state of a failed run beside `out`.
+fn keep(out: &Path, simulation: &Simulation) -> Result<PathBuf, LastGoodError> {
+    last_good::write_text(out, &state::to_file(simulation)?)
 }
 
 /// Largest strain of a stop.
@@ -109,13 +110,9 @@ fn averaged(simulation: &Simulation) -> Result<Averages, CliError> {
     averages(simulation).ok_or_else(|| CliError::Message(none.to_string()))
 }
 
-fn as_text(path: &Path, simulation: &Simulation) -> Result<String, CliError> {
-    let failed = |source| CliError::State { file: path.to_path_buf(), source };
-    state::to_file(simulation).map_err(failed)
-}
-
 fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError> {
-    Ok(write(path, as_text(path, simulation)?.as_bytes())?)
+    let failed = |source| CliError::State { file: path.to_path_buf(), source };
+    Ok(write(path, state::to_file(simulation).map_err(failed)?.as_bytes())?)
 }
 
 /// Writes the file of a stop for ParaView, which takes numbered files for a series.
