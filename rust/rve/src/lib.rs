@@ -39,6 +39,7 @@ pub mod settle;
 pub mod slide;
 pub mod spheres;
 pub mod state;
+mod state_file;
 pub mod stopwatch;
 pub mod vtk;
 pub mod window;

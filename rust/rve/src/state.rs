@@ -13,49 +13,14 @@
 //!
 //! `dimension` is 2, or absent, for discs; 3 for spheres, whose states are in [`crate::spheres::state`].
 
-use crate::message::{number, shortened};
+use crate::state_file::{ANY, LARGEST, POSITIVE, check_column, check_digest, digest};
+pub use crate::state_file::{SCHEMA, StateError, dimension};
 use msdd_dem::failure::LARGEST_OVERLAP;
-use msdd_dem::{Disc, Material, MaterialError, Periodic, RunState, Side, Simulation, Walls};
+use msdd_dem::{Disc, Material, Periodic, RunState, Side, Simulation, Walls};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 /// Largest distance of a disc from its periodic box, in box lengths: farther away, its position would have lost digits.
 const FARTHEST_CELL: f64 = 1000.0;
-/// Largest magnitude of a state's numbers, and its inverse the smallest: products of several stay finite.
-const LARGEST: f64 = 1e30;
-const SMALLEST: f64 = 1e-30;
-/// Name of the schema.
-pub const SCHEMA: &str = "msdd-state-1";
-
-/// What is wrong with a state.
-#[derive(Debug, thiserror::Error)]
-pub enum StateError {
-    #[error("not a state: {text}", text = shortened(&.0.to_string()))]
-    Json(#[from] serde_json::Error),
-    #[error("schema: '{found}', allowed: '{SCHEMA}'", found = shortened(.0))]
-    Schema(String),
-    #[error("dimension = {found}, allowed: {allowed}")]
-    Dimension { found: u32, allowed: &'static str },
-    #[error(transparent)]
-    Material(#[from] MaterialError),
-    #[error(transparent)]
-    SphereMaterial(#[from] msdd_spheres::MaterialError),
-    #[error("box: {0}")]
-    Box(String),
-    #[error("{column} has {found} values, x has {expected}")]
-    Length { column: &'static str, found: usize, expected: usize },
-    #[error("particle {particle}: {column} = {value}, allowed: {allowed}", value = number(*value))]
-    Particle { particle: usize, column: &'static str, value: f64, allowed: &'static str },
-    #[error("contact {contact}: {problem}")]
-    Contact { contact: usize, problem: String },
-    #[error("run: {0}")]
-    Run(String),
-    #[error(
-        "checksum = '{found}', but the values have '{expected}': the file is damaged, or was edited; in the latter case take \
-         its entry checksum out", found = shortened(found)
-    )]
-    Checksum { found: String, expected: String },
-}
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -76,42 +41,6 @@ struct File {
     /// Absent in states from other and from older programs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
-}
-
-/// SHA-256 of the values of a file without its checksum, independent of the layout of the text; hexadecimal.
-pub(crate) fn digest(file: &impl Serialize) -> Result<String, StateError> {
-    let text = serde_json::to_string(file)?;
-    Ok(Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
-/// Compares the checksum that a file had with that of its values.
-pub(crate) fn check_digest(file: &impl Serialize, found: Option<String>) -> Result<(), StateError> {
-    let Some(found) = found else { return Ok(()) };
-    let expected = digest(file)?;
-    if found == expected { Ok(()) } else { Err(StateError::Checksum { found, expected }) }
-}
-
-/// Whether a state is of discs (2) or of spheres (3).
-///
-/// # Errors
-/// What is no state.
-pub fn dimension(text: &str) -> Result<u32, StateError> {
-    /// What every state has.
-    #[derive(Deserialize)]
-    struct Head {
-        schema: String,
-        #[serde(default = "plane")]
-        dimension: u32,
-    }
-    fn plane() -> u32 {
-        2
-    }
-    let head: Head = serde_json::from_str(text)?;
-    match (head.schema.as_str(), head.dimension) {
-        (SCHEMA, 2 | 3) => Ok(head.dimension),
-        (SCHEMA, found) => Err(StateError::Dimension { found, allowed: "2 for discs, 3 for spheres" }),
-        _ => Err(StateError::Schema(head.schema)),
-    }
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -295,31 +224,6 @@ fn walls(bounds: Bounds) -> Result<Walls, StateError> {
         return Err(StateError::Box(format!("{position:?}, allowed: {allowed}")));
     }
     Ok(Walls { position, ..Walls::around(1.0, 1.0) })
-}
-
-/// What is allowed in columns.
-pub(crate) const ANY: &str = "-1e30 to 1e30";
-pub(crate) const POSITIVE: &str = "1e-30 to 1e30";
-
-/// Whether a number is one of [`ANY`] or of [`POSITIVE`].
-pub(crate) fn is_allowed(value: f64, allowed: &str) -> bool {
-    value.abs() <= LARGEST && (allowed != POSITIVE || value >= SMALLEST)
-}
-
-/// Refuses a column that has another number of values than expected, or a value that is not allowed.
-pub(crate) fn check_column(
-    column: &'static str,
-    values: &[f64],
-    allowed: &'static str,
-    expected: usize,
-) -> Result<(), StateError> {
-    if values.len() != expected {
-        return Err(StateError::Length { column, found: values.len(), expected });
-    }
-    match values.iter().enumerate().find(|(_, value)| !is_allowed(**value, allowed)) {
-        Some((particle, &value)) => Err(StateError::Particle { particle, column, value, allowed }),
-        None => Ok(()),
-    }
 }
 
 fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {

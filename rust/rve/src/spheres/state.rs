@@ -5,7 +5,7 @@
 //! its corner and edges, and the velocity gradient; `walls` has the walls, if there are any. As i of a contact, wall k of the list is −1 − k.
 //! The columns of the contacts are the friction history: tangential force on j and radius of the contact when it was stored.
 
-use crate::state::{
+use crate::state_file::{
     ANY, POSITIVE, SCHEMA, StateError, check_column, check_digest, digest, dimension, is_allowed,
 };
 use msdd_spheres::state::{Friction, State};
