@@ -1,7 +1,8 @@
 //! Packs periodic boxes with several frictions and prints a table: `packings SPHERES SEEDS`. C is the conductivity of the
 //! contacts over k_s (p/E*)^(1/3); the last three columns are that of the gas over k_g where ln(R/h) of touching spheres is
 //! 8.5, 6 and 3.5. A second table has boxes that were shaken after that ([`shake`]), and beds that were poured, three diameters away from
-//! floor and surface.
+//! floor and surface; it is left out by `packings --pressed SPHERES SEEDS`. `packings --dump FILE FRICTION SEED` prints the row of a box
+//! that LAMMPS has packed (scripts/compare-packings).
 
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::links::{Link, contact_links, gas_links};
@@ -10,7 +11,7 @@ use msdd_beds::profile::solid_fraction;
 use msdd_beds::solid::Solid;
 use msdd_beds::{Packing, averages, pack, shake};
 use msdd_spheres::law::effective_modulus;
-use msdd_spheres::{Material, Stiffness};
+use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Stiffness};
 use std::error::Error;
 use std::time::Instant;
 
@@ -18,12 +19,19 @@ use std::time::Instant;
 const SHAKEN: f64 = 1.4e-7;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let mut number = |default: u64| arguments.next().map_or(Ok(default), |text| text.parse());
-    let (spheres, seeds) = (number(1000)? as usize, number(1)?);
-    println!(
-        "friction seed phi z z* rattlers p overlap settled steps searches candidates/contact seconds Msteps/s"
-    );
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [flag, file, friction, seed] = arguments.as_slice()
+        && flag == "--dump"
+    {
+        println!("{COLUMNS}");
+        println!("{friction} {seed} {}", row(&dumped(file, friction.parse()?)?));
+        return Ok(());
+    }
+    let pressed_only = arguments.first().is_some_and(|flag| flag == "--pressed");
+    let numbers = &arguments[usize::from(pressed_only)..];
+    let number = |k: usize, default: u64| numbers.get(k).map_or(Ok(default), |text| text.parse());
+    let (spheres, seeds) = (number(0, 1000)? as usize, number(1, 1)?);
+    println!("{COLUMNS} settled steps searches candidates/contact seconds Msteps/s");
     for friction in [0.0, 0.1, 0.3, 0.5] {
         for seed in 1..=seeds {
             let packing = Packing {
@@ -38,24 +46,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             let packed = pack(&packing)?;
             let seconds = begin.elapsed().as_secs_f64();
             let (a, s) = (&packed.averages, &packed.simulation);
-            let volume = s.cell().map_or(0.0, |cell| cell.volume());
-            let solve = |links: &[Link]| {
-                let found = conductivity(links, spheres, volume);
-                found.map_or(f64::NAN, |found| mean(&found.network))
-            };
-            let solid =
-                Solid { conductivity: 1.0, effective_modulus: effective_modulus(1.0, 0.25), roughness: None };
-            let contacts = solve(&contact_links(s, &solid));
-            let contacts = contacts / (a.pressure() / solid.effective_modulus).cbrt();
-            let gas = [8.5f64, 6.0, 3.5].map(|log| solve(&gas_links(s, 1.0, |radius| radius * (-log).exp())));
             println!(
-                "{friction} {seed} {:.4} {:.3} {:.3} {:.3} {:.4e} {:.2e} {} {} {} {:.2} {seconds:.2} {:.1} {contacts:.4} {gas:.3?}",
-                a.solid_fraction,
-                a.coordination,
-                a.backbone_coordination,
-                a.rattlers,
-                a.pressure(),
-                a.overlap,
+                "{friction} {seed} {} {} {} {} {:.2} {seconds:.2} {:.1}",
+                row(s),
                 packed.settled,
                 s.steps,
                 s.searches(),
@@ -64,12 +57,66 @@ fn main() -> Result<(), Box<dyn Error>> {
             );
         }
     }
+    if pressed_only {
+        return Ok(());
+    }
     println!("\nkind friction-while-packing friction seed phi z z* rattlers");
     for seed in 1..=seeds {
         [0.0, 0.1, 0.3].into_iter().try_for_each(|friction| shaken(spheres, seed, friction))?;
         poured(spheres, seed)?;
     }
     Ok(())
+}
+
+const COLUMNS: &str = "friction seed phi z z* rattlers p overlap C kappa_g(8.5) kappa_g(6) kappa_g(3.5)";
+
+/// Averages and conductivities of a periodic box.
+fn row(simulation: &Simulation) -> String {
+    let a = averages(simulation);
+    let volume = simulation.cell().map_or(0.0, |cell| cell.volume());
+    let solve = |links: &[Link]| {
+        let found = conductivity(links, simulation.spheres.len(), volume);
+        found.map_or(f64::NAN, |found| mean(&found.network))
+    };
+    let effective_modulus = effective_modulus(1.0, 0.25);
+    let solid = Solid { conductivity: 1.0, effective_modulus, roughness: None };
+    let contacts = solve(&contact_links(simulation, &solid)) / (a.pressure() / effective_modulus).cbrt();
+    let gas =
+        [8.5f64, 6.0, 3.5].map(|log| solve(&gas_links(simulation, 1.0, |radius| radius * (-log).exp())));
+    format!(
+        "{:.4} {:.3} {:.3} {:.3} {:.4e} {:.2e} {contacts:.4} {:.3} {:.3} {:.3}",
+        a.solid_fraction,
+        a.coordination,
+        a.backbone_coordination,
+        a.rattlers,
+        a.pressure(),
+        a.overlap,
+        gas[0],
+        gas[1],
+        gas[2],
+    )
+}
+
+/// A cubic periodic box of spheres of the diameter 1 that LAMMPS has written: number and centre of each in a line.
+fn dumped(file: &str, friction: f64) -> Result<Simulation, Box<dyn Error>> {
+    let text = std::fs::read_to_string(file)?;
+    let numbers = |line: &str| -> Result<Vec<f64>, std::num::ParseFloatError> {
+        line.split_whitespace().map(str::parse).collect()
+    };
+    let lines: Vec<&str> = text.lines().collect();
+    let [bounds, atoms] = lines.get(5..8).zip(lines.get(9..)).map(|(a, b)| [a, b]).ok_or("a short file")?;
+    let mut edges = [[0.0; 2]; 3];
+    for (edge, line) in edges.iter_mut().zip(bounds) {
+        *edge = numbers(line)?.try_into().map_err(|_| "two bounds of each axis")?;
+    }
+    let mut spheres = Vec::new();
+    for line in atoms {
+        let row: [f64; 4] = numbers(line)?.try_into().map_err(|_| "number and centre of each sphere")?;
+        let centre = std::array::from_fn(|k| row[k + 1] - edges[k][0]);
+        spheres.push(Sphere::at_rest(centre, 0.5, 1.0));
+    }
+    let cell = Cell::block(edges.map(|[low, high]| high - low));
+    Ok(Simulation::new(material(friction), spheres, Boundary::Periodic(cell))?)
 }
 
 fn material(friction: f64) -> Material {
