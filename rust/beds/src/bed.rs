@@ -5,7 +5,7 @@ use crate::case::BedCase;
 use crate::experiment::Record;
 use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::{Container, Pouring, pour};
-use crate::press::press;
+use crate::press::{close, press};
 use crate::profile::{Probe, Slab, slab, solid_fraction};
 use crate::settle::{Rest, longest, progress, settle, turn};
 use crate::solid::{PeakStress, Roughness};
@@ -101,8 +101,15 @@ pub fn prepare(
     let (mut simulation, rest) = pour(&pouring, |agitation| watch("pour", progress(agitation)))?;
     let mut stages = vec![("pour", rested("pour", rest)?)];
     if let Some(lid) = &case.lid {
-        let load = (lid.pressure, pouring.container.area());
-        let rest = press(&mut simulation, number("lid"), load, allowed, |a| watch("lid", progress(a)))?;
+        let (wall, area) = (number("lid"), pouring.container.area());
+        let watch = |agitation| watch("lid", progress(agitation));
+        let solid = grains.number as f64 * std::f64::consts::PI / 6.0 * d.powi(3);
+        let rest = match (lid.depth(solid, area), lid.pressure) {
+            (Some(depth), _) => close(&mut simulation, wall, depth, allowed, watch)?,
+            (None, pressure) => {
+                press(&mut simulation, wall, (pressure.unwrap_or_default(), area), allowed, watch)?
+            }
+        };
         stages.push(("lid", rested("lid", rest)?));
     }
     if let Some(turned) = &case.turn {

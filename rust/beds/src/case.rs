@@ -1,6 +1,6 @@
 //! The description of a bed that was measured: a TOML file that says what is poured, how it is handled, what heats it.
 
-use crate::effective::{GOOD, closure_error};
+use crate::effective::{GOOD, LEAST_RATIO, closure_error};
 use crate::named_gases::GasName;
 use crate::pour::WIDEST;
 use crate::property::Property;
@@ -70,7 +70,17 @@ pub struct Vessel {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lid {
-    pub pressure: f64,
+    /// It is pressed on until the bed bears this \[Pa\],
+    pub pressure: Option<f64>,
+    /// or until the pores have this share of the volume below it.
+    pub porosity: Option<f64>,
+}
+
+impl Lid {
+    /// Its height above the floor \[m\], if a porosity is given, for a volume of grains \[m³\] on an area \[m²\].
+    pub fn depth(&self, solid: f64, area: f64) -> Option<f64> {
+        self.porosity.map(|porosity| solid / (area * (1.0 - porosity)))
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -247,6 +257,9 @@ impl BedCase {
         let text = toml::to_string(&table).map_err(|error| read(error.to_string()))?;
         Self::parse(&file, &text).map_err(|error| match error {
             CaseError::Read { problem, .. } => read(format!("vary {} = {}: {problem}", vary.key, vary.value)),
+            CaseError::Value { file, key, value, allowed } if key != vary.key => {
+                CaseError::Value { file, key: format!("vary {}: {key}", vary.key), value, allowed }
+            }
             other => other,
         })
     }
@@ -259,14 +272,8 @@ impl BedCase {
 
     /// What the run says of grains so poor that a closure takes the place of the law of pairs.
     pub fn closure(&self) -> Option<String> {
-        let [least, most] = self.grains.ratios(self.temperatures(), &self.gas);
-        (least < GOOD).then(|| {
-            format!(
-                "the grains conduct {least:.1} to {most:.1} times as well as the gas: heat does not go from grain to grain alone, so the conductances \
-                 follow a closure for poor conductors, which is within {:.0} % of direct solutions of the heat equation (not compared beside a plate)",
-                100.0 * closure_error(most.min(GOOD)).max(closure_error(least))
-            )
-        })
+        let text = self.grains.closure(self.temperatures(), &self.gas);
+        text.map(|text| text + " (not compared beside a plate)")
     }
 
     /// Key, value, what is allowed of the first value outside its range.
@@ -283,8 +290,18 @@ impl BedCase {
             let allowed = "only in elements.toml, where grains expand".to_string();
             return Err((key.into(), "given".into(), allowed));
         }
-        self.grains.check(range, &self.gas, crate::effective::LEAST_RATIO)?;
+        self.grains.check(range, &self.gas)?;
         self.container.check()?;
+        if let Some(lid) = &self.lid
+            && lid.pressure.is_some() == lid.porosity.is_some()
+        {
+            let given = if lid.pressure.is_some() {
+                "pressure and porosity"
+            } else {
+                "neither pressure nor porosity"
+            };
+            return Err(("lid".into(), given.into(), "one of pressure and porosity".into()));
+        }
         let names = self.wall_names();
         let turned = self.turn.iter().map(|turn| ("turn.down", &turn.down));
         for (key, name) in turned.chain([("plate.wall", &self.plate.wall)]) {
@@ -331,7 +348,7 @@ impl BedCase {
             ("plate.hardness", p.hardness.unwrap_or(1.0)),
             ("plate.conductivity", p.conductivity.unwrap_or(1.0)),
             ("plate.pressure", p.pressure.unwrap_or(1.0)),
-            ("lid.pressure", self.lid.as_ref().map_or(1.0, |lid| lid.pressure)),
+            ("lid.pressure", self.lid.as_ref().and_then(|lid| lid.pressure).unwrap_or(1.0)),
         ] {
             all.push((key, value, POSITIVE, positive(value)));
         }
@@ -346,6 +363,9 @@ impl BedCase {
             ),
             rough("plate.roughness", p.roughness),
         ]);
+        if let Some(porosity) = self.lid.as_ref().and_then(|lid| lid.porosity) {
+            all.push(("lid.porosity", porosity, "0.35 to 0.7", (0.35..=0.7).contains(&porosity)));
+        }
         for (key, value) in
             [("plate.temperature", p.temperature), ("heat.initial_temperature", h.initial_temperature)]
         {
@@ -422,8 +442,7 @@ impl Grains {
     }
 
     /// Checks what depends on the temperatures of a run \[K\] and on the gas.
-    /// They conduct `allowed` times as well as the gas, at least.
-    pub(crate) fn check(&self, range: [f64; 2], keys: &GasKeys, allowed: f64) -> Result<(), Wrong> {
+    pub(crate) fn check(&self, range: [f64; 2], keys: &GasKeys) -> Result<(), Wrong> {
         hardness("grains.hardness", self.roughness, self.hardness)?;
         for (key, property) in
             [("grains.conductivity", &self.conductivity), ("grains.heat_capacity", &self.heat_capacity)]
@@ -444,22 +463,27 @@ impl Grains {
             ));
         }
         let [least, _] = self.ratios(range, keys);
-        if least < allowed {
-            let text = format!(
-                "grains that conduct {allowed} times as well as the gas, at least{}",
-                if allowed > crate::effective::LEAST_RATIO {
-                    ": heat does not go from grain to grain between poorer ones (bed.toml and msddFoam have a law for them)"
-                } else {
-                    ""
-                }
-            );
+        if least < LEAST_RATIO {
+            let text = format!("grains that conduct {LEAST_RATIO} times as well as the gas, at least");
             return Err(("grains.conductivity".into(), format!("{least:.2} times that of the gas"), text));
         }
         Ok(())
     }
 
+    /// What a run between two temperatures \[K\] says of grains so poor that a closure takes the place of the law of pairs.
+    pub(crate) fn closure(&self, range: [f64; 2], keys: &GasKeys) -> Option<String> {
+        let [least, most] = self.ratios(range, keys);
+        (least < GOOD).then(|| {
+            format!(
+                "the grains conduct {least:.1} to {most:.1} times as well as the gas: heat does not go from grain to grain alone, so the conductances \
+                 follow a closure for poor conductors, which is within {:.0} % of direct solutions of the heat equation",
+                100.0 * closure_error(most.min(GOOD)).max(closure_error(least))
+            )
+        })
+    }
+
     /// The least and the largest conductivity over that of the gas, between two temperatures \[K\].
-    pub(crate) fn ratios(&self, range: [f64; 2], keys: &GasKeys) -> [f64; 2] {
+    fn ratios(&self, range: [f64; 2], keys: &GasKeys) -> [f64; 2] {
         let ratio = |t: f64| {
             let gas = keys.name.at(t, keys.pressure, keys.accommodation);
             gas.map_or(f64::INFINITY, |gas| self.conductivity.at(t) / gas.conductivity)

@@ -11,7 +11,7 @@ use crate::harden::harden;
 use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::{Pouring, pour};
 use crate::press::press;
-use crate::profile::{Probe, slab};
+use crate::profile::{Probe, slab, solid_fraction};
 use crate::region::Region;
 use crate::scene::Scene;
 use crate::settle::{Rest, longest, progress};
@@ -163,16 +163,17 @@ pub fn run(scene: &Scene, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Re
 
 impl<'a> Coupled<'a> {
     fn new(scene: &'a Scene, simulation: Simulation) -> Self {
-        let network = network(scene, &simulation);
-        let start = scene.time.initial_temperature;
         let number = |name: &str| scene.wall(name).unwrap_or_default();
+        let lid = number("lid");
+        let network = network(scene, &simulation, depth(&simulation, lid));
+        let start = scene.time.initial_temperature;
         let mut bed = Self {
             scene,
             held: network.held.clone(),
             network,
             temperatures: vec![start; simulation.spheres.len()],
             radii: simulation.spheres.iter().map(|sphere| sphere.radius).collect(),
-            lid: Moving::new(number("lid"), Hold::Place { moved: 0.0 }),
+            lid: Moving::new(lid, Hold::Place { moved: 0.0 }),
             shell: scene.shell.as_ref().map(|_| Moving::new(number("side"), Hold::Place { moved: 0.0 })),
             depth_at_start: 0.0,
             run: Run { rows: Vec::new(), stored: 0.0, residual: 0.0, heat_steps: 0, steps: simulation.steps },
@@ -191,8 +192,7 @@ impl<'a> Coupled<'a> {
 
     /// Of the bed, from the floor to the lid \[m\].
     fn depth(&self) -> f64 {
-        let walls = self.simulation.boundary.walls();
-        walls[self.lid.wall].point[2] - walls[0].point[2]
+        depth(&self.simulation, self.lid.wall)
     }
 
     /// Of the grains on a wall \[Pa\].
@@ -253,7 +253,7 @@ impl<'a> Coupled<'a> {
         if let Some(shell) = &mut self.shell {
             shell.stop(&mut self.simulation);
         }
-        self.network = network(self.scene, &self.simulation);
+        self.network = network(self.scene, &self.simulation, self.depth());
         self.network.held.clone_from(&self.held);
         Ok(())
     }
@@ -344,9 +344,16 @@ impl<'a> Coupled<'a> {
     }
 }
 
+fn depth(simulation: &Simulation, lid: usize) -> f64 {
+    let walls = simulation.boundary.walls();
+    walls[lid].point[2] - walls[0].point[2]
+}
+
 /// The network of a bed whose heated walls hold the first layer of grains.
-fn network(scene: &Scene, simulation: &Simulation) -> Network {
+fn network(scene: &Scene, simulation: &Simulation, depth: f64) -> Network {
     let grains = &scene.grains;
+    let middle = [0.25, 0.75].map(|part| part * depth);
+    let floor = simulation.boundary.walls()[0];
     let roughness = grains.roughness.zip(grains.hardness);
     let materials = Materials {
         conductivity: grains.conductivity.clone(),
@@ -356,8 +363,7 @@ fn network(scene: &Scene, simulation: &Simulation) -> Network {
         gas: scene.gas.name,
         gas_pressure: scene.gas.pressure,
         accommodation: scene.gas.accommodation,
-        // Such spheres are refused here.
-        solid_fraction: None,
+        solid_fraction: Some(solid_fraction(simulation, &floor, middle, scene.vessel().area())),
     };
     let plates: Vec<Plate> = (scene.heated.iter())
         .map(|heated| Plate { wall: scene.wall(&heated.wall).unwrap_or_default(), law: PlateLaw::Held })

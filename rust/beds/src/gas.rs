@@ -11,8 +11,8 @@
 //!   result of Batchelor & O'Brien (Proc. R. Soc. A 355, 313, 1977: π k_g R (2 ln κ − 3.9), and ln 50 = 3.9); the mixed
 //!   term was fitted to numerical solutions of their integral equation with the gap M + r²/R.
 //!
-//! Below κ of about 30 the heat spreads far from straight lines, and the law is 26 to 34 % too low at κ = 10: see
-//! [`LEAST_RATIO`]. Between which pairs gas counts is said in [`crate::links`].
+//! Below κ of about 30 the heat spreads far from straight lines, and the law is 26 to 34 % too low at κ = 10: from 60 down
+//! [`crate::effective`] takes its place. Between which pairs gas counts is said in [`crate::links`].
 //!
 //! What passes between a plate and a bed depends on which spheres see it: see [`crate::facing`]. The closed form here is that of
 //! [`crate::wall`], for a full layer of spheres that touch a wall. The plate is the plane of symmetry between a sphere and its mirror image, whose gap is twice
@@ -23,8 +23,6 @@
 
 use std::f64::consts::PI;
 
-/// k_s/k_g below which the law for gas does not hold; beds as a whole then follow [`crate::effective`].
-pub const LEAST_RATIO: f64 = 30.0;
 /// What a plate gains on the integral over straight lines, over R.
 const AROUND: f64 = 0.56;
 

@@ -94,6 +94,11 @@ pub enum BedError {
         "plate.wall = {wall}, with no grain beside it, allowed: a wall that the bed touches, or plate.pressure"
     )]
     Apart { wall: String },
+    #[error(
+        "stage 'lid': {depth:.4e} m above the floor, where lid.porosity has it, the lid does not touch the grains: the highest is at \
+         {highest:.4e} m, allowed: a smaller lid.porosity"
+    )]
+    Untouched { depth: f64, highest: f64 },
     #[error("heat.probes = {distance}, allowed: distances from the plate at which there are grains")]
     NoGrains { distance: f64 },
     #[error(transparent)]

@@ -3,7 +3,7 @@
 //! Gas counts between all pairs whose centres are nearer than [`NEAR`] times the sum of their radii. The farther ones would be
 //! counted twice, since heat does not go straight between them. The number is calibrated on solutions of the heat
 //! equation in packings of 100 spheres at κ = 1500, where the sum is within 4 %. Below κ of about 30 the heat spreads far
-//! from straight lines, and the law is 26 to 34 % too low at κ = 10: see [`crate::gas::LEAST_RATIO`].
+//! from straight lines, and the law is 26 to 34 % too low at κ = 10: see [`crate::effective`].
 
 use crate::gas::gas_conductance;
 use crate::solid::Solid;

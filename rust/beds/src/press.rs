@@ -1,7 +1,8 @@
-//! A flat wall that is pressed onto a bed: it moves as a body of its own mass, until it is at rest under the pressure.
+//! A flat wall that is pressed onto a bed: it moves as a body of its own mass, until it is at rest under the pressure. Or one that
+//! closes a bed: it moves to a place.
 
 use crate::BedError;
-use crate::settle::{Rest, agitation, descent};
+use crate::settle::{Rest, agitation, descent, settle};
 use msdd_spheres::space::{dot, length};
 use msdd_spheres::{Simulation, Surface};
 
@@ -15,6 +16,8 @@ const LAYERS: f64 = 2.0;
 const DRAG: f64 = 3.0;
 /// Relative error of the pressure, and kinetic energy over Σ m g r, at which wall and bed count as at rest.
 const BALANCED: [f64; 2] = [2e-3, 1e-8];
+/// A wall that closes a bed compresses it at this rate times √(g/d), under its own weight in the middle an inertial number of 0.002 or less.
+const CLOSING: f64 = 3e-3;
 
 /// Presses wall number `wall` with `pressure` \[Pa\] on `area` \[m²\], for at most `longest` \[s\], and leaves it at rest where it is
 /// then. First it is moved to where it just touches the nearest grain, if that is in front of it. `watch` is told the
@@ -60,6 +63,43 @@ pub fn press(
             return Ok(Rest { at_rest, kinetic, time, steps: simulation.steps - first });
         }
     }
+}
+
+/// Moves wall number `lid`, which faces down, to `depth` \[m\] above z = 0, and lets the bed come to rest for at most `longest` \[s\].
+/// `watch` is told the agitation of the bed.
+///
+/// # Errors
+/// A wall that is not flat; a bed that the lid does not touch there; those of [`Simulation::run`].
+pub fn close(
+    simulation: &mut Simulation,
+    lid: usize,
+    depth: f64,
+    longest: f64,
+    mut watch: impl FnMut(f64),
+) -> Result<Rest, BedError> {
+    let (start, first) = (simulation.time, simulation.steps);
+    let (gravity, diameter) = (length(simulation.gravity), 2.0 * simulation.mean_radius());
+    let normal = approach(simulation, lid)?;
+    let highest = simulation.boundary.walls()[lid].point[2];
+    if highest <= depth {
+        return Err(BedError::Untouched { depth, highest });
+    }
+    simulation.drag = descent(diameter, gravity).1;
+    let speed = CLOSING * (gravity / diameter).sqrt() * depth;
+    let steps = STEPS * LOOK_EVERY;
+    loop {
+        let left = simulation.boundary.walls()[lid].point[2] - depth;
+        if left <= 1e-9 * depth {
+            break;
+        }
+        let time = steps as f64 * simulation.time_step;
+        set_speed(simulation, lid, normal.map(|n| speed.min(left / time) * n));
+        simulation.run(steps)?;
+        watch(agitation(simulation, gravity));
+    }
+    set_speed(simulation, lid, [0.0; 3]);
+    let rest = settle(simulation, longest, watch)?;
+    Ok(Rest { time: simulation.time - start, steps: simulation.steps - first, ..rest })
 }
 
 pub(crate) fn set_speed(simulation: &mut Simulation, wall: usize, velocity: [f64; 3]) {

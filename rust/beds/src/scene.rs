@@ -130,6 +130,11 @@ impl Scene {
         })
     }
 
+    /// What the run says of grains so poor that a closure takes the place of the law of pairs.
+    pub fn closure(&self) -> Option<String> {
+        self.grains.closure(self.temperatures(), &self.gas)
+    }
+
     fn check(&self) -> Result<(), Wrong> {
         let wrong =
             |key: &str, value: String, allowed: &str| Err((key.to_string(), value, allowed.to_string()));
@@ -145,7 +150,7 @@ impl Scene {
             let told = |(value, allowed)| ("heated.temperature".to_string(), value, allowed);
             heated.temperature.check([1.0, 5000.0]).map_err(told)?;
         }
-        self.grains.check(self.temperatures(), &self.gas, crate::gas::LEAST_RATIO)?;
+        self.grains.check(self.temperatures(), &self.gas)?;
         for name in self.heated.iter().map(|heated| &heated.wall).chain([&self.record.wall]) {
             if self.wall(name).is_none() {
                 let names: Vec<&str> = self.vessel().walls(0.0).into_iter().map(|(name, _)| name).collect();

@@ -109,6 +109,41 @@ fn from_pouring_to_temperatures() {
     assert!(stored[0] > 1.2 * stored[1], "{stored:?}");
 }
 
+/// A lid that stops at a porosity stands where that says, and the bed bears what it presses with; one that would not touch the bed is refused,
+/// as are both keys together and neither.
+#[test]
+fn a_lid_closes_to_a_porosity() {
+    let with = |keys: &str| {
+        let text = TEXT.replace("[lid]\npressure = 1000", &format!("[lid]\n{keys}"));
+        read("closed", &text.replace("326.15\npressure = 1000", "326.15"))
+    };
+    let case = with("porosity = 0.45").unwrap();
+    let bed = prepare(&case, 1, |_, _| ()).unwrap();
+    assert!(bed.stages.iter().all(|(_, rest)| rest.at_rest), "{:?}", bed.stages);
+    let lid = bed.simulation.boundary.walls().len() - 1;
+    let solid = 300.0 * std::f64::consts::PI / 6.0 * 6.4e-3f64.powi(3);
+    let depth = solid / (0.032 * 0.06 * (1.0 - 0.45));
+    assert!((bed.simulation.boundary.walls()[lid].point[2] / depth - 1.0).abs() < 1e-6, "{depth}");
+    let pressure = bed.simulation.wall_load(lid) / (0.032 * 0.06);
+    assert!(pressure > 1e3, "{pressure}");
+    let text = prepare(&with("porosity = 0.65").unwrap(), 1, |_, _| ()).unwrap_err().to_string();
+    assert!(
+        text.contains("lid does not touch the grains") && text.contains("a smaller lid.porosity"),
+        "{text}"
+    );
+    for (keys, told) in [
+        ("porosity = 0.45\npressure = 1000", "lid = pressure and porosity, allowed: one of"),
+        ("", "lid = neither pressure nor porosity, allowed: one of"),
+        ("porosity = 0.9", "lid.porosity = 0.9, allowed: 0.35 to 0.7"),
+    ] {
+        let text = with(keys).unwrap_err();
+        assert!(text.contains(told), "{text}");
+    }
+    let both = format!("{TEXT}\n[[vary]]\nkey = \"lid.porosity\"\nvalue = 0.45\n");
+    let text = read("closed-vary", &both).unwrap_err();
+    assert!(text.contains("vary lid.porosity: lid = pressure and porosity"), "{text}");
+}
+
 /// Grains that conduct 6 times as well as the gas: the run says that a closure is used, the bed conducts what that says, and the balance of heat
 /// closes.
 #[test]
@@ -292,13 +327,15 @@ fn bad_measurements_are_refused_with_their_line() {
     assert!(text.contains("distance_m = 0.02 is none of heat.probes = [0.01, 0.03]"), "{text}");
 }
 
-/// The description and the measurements that are shipped.
+/// The descriptions and the measurements that are shipped.
 #[test]
-fn the_shipped_case_is_whole() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/beaulieu");
-    let case = BedCase::read(&folder).unwrap();
-    let file = folder.join(&case.experiment.as_ref().unwrap().file);
-    let measured = experiment::read(&file).unwrap();
-    experiment::check(&file, &measured, &case.heat.probes).unwrap();
-    assert_eq!(measured.len(), 216);
+fn the_shipped_cases_are_whole() {
+    for name in ["beaulieu", "beaulieu/closed"] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(name);
+        let case = BedCase::read(&folder).unwrap();
+        let file = folder.join(&case.experiment.as_ref().unwrap().file);
+        let measured = experiment::read(&file).unwrap();
+        experiment::check(&file, &measured, &case.heat.probes).unwrap();
+        assert_eq!(measured.len(), 216);
+    }
 }

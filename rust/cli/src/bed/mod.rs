@@ -67,8 +67,7 @@ fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
         case.seed = seed;
     }
     let measured = measurements(folder, &case)?;
-    let name = folder.file_name().map_or_else(|| "bed".into(), |name| name.to_owned());
-    let out = arguments.out.clone().unwrap_or_else(|| Path::new("results/beds").join(name));
+    let out = results_folder(arguments);
     for file in files::NAMES {
         check_target(&out.join(file))?;
     }
@@ -94,12 +93,19 @@ fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     Ok(())
 }
 
+/// That of `--out`, or one with the name of the case, also if it is given as `.`.
+fn results_folder(arguments: &RunArguments) -> PathBuf {
+    arguments.out.clone().unwrap_or_else(|| {
+        let whole = arguments.case.canonicalize().unwrap_or_else(|_| arguments.case.clone());
+        Path::new("results/beds").join(whole.file_name().unwrap_or("bed".as_ref()))
+    })
+}
+
 fn run_moving(arguments: &RunArguments) -> Result<(), CliError> {
     if arguments.vary {
         return Err(CliError::Message("--vary, allowed: with a bed.toml".to_string()));
     }
-    let name = arguments.case.file_name().map_or_else(|| "bed".into(), |name| name.to_owned());
-    let out = arguments.out.clone().unwrap_or_else(|| Path::new("results/beds").join(name));
+    let out = results_folder(arguments);
     moving::compute(&arguments.case, arguments.seed, arguments.threads as usize, &out)
 }
 
@@ -110,4 +116,24 @@ fn measurements(folder: &Path, case: &BedCase) -> Result<Vec<Measured>, CliError
     let measured = experiment::read(&file)?;
     experiment::check(&file, &measured, &case.heat.probes)?;
     Ok(measured)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_have_the_name_of_the_case_however_it_is_given() {
+        let folder = |case: &str, out: Option<&str>| {
+            let (case, out) = (case.into(), out.map(PathBuf::from));
+            results_folder(&RunArguments { case, out, seed: None, vary: false, threads: 1 })
+        };
+        let here = std::env::current_dir().unwrap();
+        let expected = Path::new("results/beds").join(here.file_name().unwrap());
+        for case in [".", "src/..", here.to_str().unwrap()] {
+            assert_eq!(folder(case, None), expected, "{case}");
+        }
+        assert_eq!(folder("no/such/case", None), Path::new("results/beds/case"));
+        assert_eq!(folder(".", Some("there")), Path::new("there"));
+    }
 }

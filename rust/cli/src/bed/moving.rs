@@ -82,5 +82,8 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     } else if peak.is_finite() {
         let _ = writeln!(text, "Hertz's peak stress is at most {peak:.2} of that at which yielding begins");
     }
+    if let Some(said) = scene.closure() {
+        let _ = writeln!(text, "Note: {said}");
+    }
     text
 }
