@@ -39,7 +39,7 @@ fn beds() -> Vec<Set> {
         fields_of(BEDS, "bed", CASE, "BedCase"),
         fields_of(BEDS, "grains of beds", CASE, "Grains"),
         fields_of(BEDS, "container", CASE, "Vessel"),
-        section("lid", "Lid"),
+        fields_of(BEDS, "lid", CASE, "Lid"),
         section("turn", "Turn"),
         section("gas", "GasKeys").with_words(
             "name",
