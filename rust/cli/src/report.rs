@@ -40,7 +40,7 @@ pub struct Arguments {
     /// temperature, and without sources of heat.
     #[arg(long, requires = "case")]
     discs: bool,
-    /// Folder for the page, index.html. Default: report, or report/NAME for a case of that name.
+    /// Folder for the page, index.html; beside it stands spheres.html, on beds of spheres, unless a case is given. Default: report, or report/NAME for a case of that name.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// JSON file to write; of a case, a table of the same name that ends in .csv is written beside it. Default:
@@ -114,10 +114,15 @@ impl Targets {
         let json = json
             .unwrap_or_else(|| usual("results/report.json", &|name| format!("results/report_{name}.json")));
         let targets = Self { page: out.join("index.html"), json };
-        for file in [&targets.page, &targets.json, &targets.csv()] {
+        for file in [&targets.page, &targets.json, &targets.csv(), &targets.spheres()] {
             msdd_files::check_target(file)?;
         }
         Ok(targets)
+    }
+
+    /// The page on beds of spheres, which belongs to the report on the paper's cases.
+    fn spheres(&self) -> PathBuf {
+        self.page.with_file_name("spheres.html")
     }
 
     fn csv(&self) -> PathBuf {
@@ -133,6 +138,7 @@ impl Targets {
     fn write_paper(&self, made: &Made) -> Result<String, CliError> {
         let report = &made.report;
         self.write(report, &page::text(made)?)?;
+        msdd_report::write_text(&self.spheres(), &page::spheres::text(made)?)?;
         Ok(format!("{} jobs, {} from the cache\n{}", report.jobs, report.cached_jobs, judged(report)))
     }
 

@@ -15,6 +15,7 @@ use crate::studies::known::{self, KnownStates};
 use crate::studies::other_cases::{self, OtherCase, OtherCases, Scaling};
 use crate::studies::requests::Judged;
 use crate::studies::sensitivity::{self, Sensitivity};
+use crate::studies::spheres::{self, Spheres};
 use crate::studies::targets::{Target, targets};
 use crate::studies::validation::{Validated, scatter, validation};
 use msdd_reference::packings::{CASES, Reference};
@@ -42,6 +43,7 @@ pub struct Report {
     pub sensitivity: Vec<Sensitivity>,
     pub other_cases: Vec<OtherCase>,
     pub scalings: Vec<Scaling>,
+    pub spheres: Spheres,
     pub failures: Failures,
     /// What the report does not contain, and why.
     pub left_out: Vec<String>,
@@ -103,6 +105,7 @@ pub fn make(
         sensitivity: sensitivity::read(settings, &records, &references),
         other_cases: other_cases.rows.clone(),
         scalings: other_cases.scalings.clone(),
+        spheres: spheres::read(settings, &records)?,
         economy: economy::savings(settings, &records, &references),
         failures: failures::read(settings, &records),
         left_out: left_out(settings.quick),
@@ -149,6 +152,7 @@ fn run_all(
     if !settings.quick {
         CHARTED.iter().for_each(|case| costs.extend(elements(case)));
     }
+    costs.extend(spheres::jobs(settings.quick));
     rest.extend(detail::jobs(settings));
     rest.extend(convergence::jobs(settings));
     rest.extend(sensitivity::jobs(settings));

@@ -51,6 +51,17 @@ impl Cache {
                 }
                 self.add_programs(&mut parts)?;
             }
+            Job::Spheres(spheres) => {
+                let case = format!("cases/{}", spheres.case);
+                for folder in ["0", "constant", "system"] {
+                    parts.push(self.hash(&format!("{case}/{folder}"))?);
+                }
+                if !spheres.compare.is_empty() {
+                    parts.push(self.hash(&format!("{case}/elements.csv"))?);
+                }
+                parts.push(self.hash("cases/common")?);
+                self.add_programs(&mut parts)?;
+            }
             Job::Tool(tool) => {
                 for input in &tool.inputs {
                     parts.push(self.hash(input)?);

@@ -1,7 +1,7 @@
 //! Runs one job. Every job ends within its time limit, and with one of the outcomes.
 
-use super::{setup, user_case};
-use crate::jobs::job::{CaseJob, CaseProgram, Job, SolverJob, ToolJob};
+use super::{setup, spheres, user_case};
+use crate::jobs::job::{CaseJob, CaseProgram, Job, SolverJob, SpheresJob, ToolJob};
 use crate::{ReportError, read_text, write_text};
 use msdd_choice::ChoiceError;
 use msdd_files::Lock;
@@ -68,7 +68,7 @@ pub struct Record {
     pub wall_seconds: f64,
     pub run: Option<Run>,
     /// The output of a tool, and the text of the output file that the job names; of a run on a case of the user's, what it has
-    /// given ([`user_case::result`]).
+    /// given ([`user_case::result`]); of a run with spheres its comparison with discrete elements, and T at its probes.
     pub printed: String,
     pub file: Option<String>,
     pub stamp: Stamp,
@@ -104,6 +104,7 @@ pub fn execute(place: &Place, job: &Job, name: &str) -> Result<Record, ReportErr
     let _ = std::fs::remove_dir_all(&folder);
     let record = match job {
         Job::Solver(solver) => run_solver(place, job, solver, &folder),
+        Job::Spheres(asked) => run_spheres(place, job, asked, &folder),
         Job::Tool(tool) => run_tool(place, job, tool, &folder),
         Job::Case(case) => return run_case(place, job, case),
     };
@@ -211,6 +212,28 @@ fn run_solver(place: &Place, job: &Job, asked: &SolverJob, folder: &Path) -> Res
             let text = error.to_string().replace(&folder.display().to_string(), "");
             Ok(record(place, job, &ended, Outcome::Failed, text))
         }
+    }
+}
+
+fn run_spheres(place: &Place, job: &Job, asked: &SpheresJob, folder: &Path) -> Result<Record, ReportError> {
+    spheres::write_case(&place.checkout, asked, folder)?;
+    let ended = timed(place, folder, "blockMesh > log.blockMesh 2>&1", "msddFoam", asked.limit)?;
+    let log = read_text(&folder.join("log")).unwrap_or_default();
+    if ended.code == 97 {
+        let log = read_text(&folder.join("log.blockMesh")).unwrap_or_default();
+        return Ok(record(place, job, &ended, Outcome::Refused, format!("blockMesh: {}", fatal(&log))));
+    }
+    if let Some((outcome, message)) = ill(&ended, asked.limit, &log) {
+        return Ok(record(place, job, &ended, outcome, message));
+    }
+    match spheres::compared(&place.checkout, asked, folder) {
+        Ok(text) => {
+            let mut record = record(place, job, &ended, Outcome::Done, warning(&log));
+            record.printed = text;
+            record.file = Some(read_text(&folder.join(spheres::PROBES))?);
+            Ok(record)
+        }
+        Err(problem) => Ok(record(place, job, &ended, Outcome::Failed, short(&problem))),
     }
 }
 

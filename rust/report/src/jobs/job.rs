@@ -118,6 +118,21 @@ impl SolverJob {
     }
 }
 
+/// A run of `msddFoam` in one of the cases of spheres, whose results are compared with what stands beside it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpheresJob {
+    /// Folder in `cases`.
+    pub case: String,
+    /// Pairs of text in `system/blockMeshDict` and what stands there instead.
+    pub mesh: Vec<(String, String)>,
+    /// Text that is added at the end of files of the case.
+    pub append: BTreeMap<String, String>,
+    /// Arguments of `cases/common/compare-elements`; none: the case has no discrete elements.
+    pub compare: Vec<String>,
+    /// Processor time after which the run is stopped [s].
+    pub limit: u64,
+}
+
 /// A run of `msdd`, whose result is its output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ToolJob {
@@ -177,6 +192,7 @@ pub struct CaseDiscs {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Job {
     Solver(SolverJob),
+    Spheres(SpheresJob),
     Tool(ToolJob),
     Case(CaseJob),
 }
@@ -186,6 +202,7 @@ impl Job {
     pub fn name(&self) -> String {
         match self {
             Self::Solver(job) => format!("{} seed {} on {}x{}", job.case, job.seed, job.mesh[0], job.mesh[1]),
+            Self::Spheres(job) => job.case.clone(),
             Self::Tool(job) => {
                 format!("msdd {}", job.arguments.iter().take(2).cloned().collect::<Vec<_>>().join(" "))
             }
@@ -203,6 +220,7 @@ impl Job {
     pub fn limit(&self) -> u64 {
         match self {
             Self::Solver(job) => job.limit,
+            Self::Spheres(job) => job.limit,
             Self::Tool(job) => job.limit,
             Self::Case(job) => job.limit,
         }

@@ -127,7 +127,7 @@ fn figure(report: &CaseReport, which: usize) -> Result<String, ReportError> {
 }
 
 /// A logarithmic axis that ends at powers of ten, so that both ends have a number.
-fn decades(label: &str, values: impl Iterator<Item = f64>) -> Axis<'_> {
+pub(super) fn decades(label: &str, values: impl Iterator<Item = f64>) -> Axis<'_> {
     let usable = values.filter(|value| value.is_finite() && *value > 0.0).map(f64::log10);
     let (low, high) = usable.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
     let range = (low <= high).then(|| (10f64.powf(low.floor()), 10f64.powf(high.floor() + 1.0)));

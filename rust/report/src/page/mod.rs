@@ -8,6 +8,7 @@ mod edge;
 mod fields;
 mod html;
 mod requests;
+pub mod spheres;
 mod states;
 mod validation;
 
@@ -43,7 +44,7 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
              <code>cases/reference/make</code>, commit as above. <b>measured</b>: by this run of the report. <b>cached</b>: measured by an earlier one \
              with the same programs, parameters and processor. <b>extrapolated</b>: from a shorter run. <b>quoted</b>: from the paper. \
              Nothing is fitted to these runs: conductivity, stress, mechanical tangent and wall friction come from the database of \
-             small boxes. Cost is processor time of one process, start and output included.</p>\n";
+             small boxes. Cost is processor time of one process, start and output included. Beds of spheres have a page of their own, spheres.html beside this one.</p>\n";
     page += &chart::section(made)?;
     page += &requests::section(made)?;
     page += &validation::section(made)?;

@@ -10,6 +10,7 @@
 //! | [`sensitivity`] | influence of the parameters of the mechanics |
 //! | [`other_cases`] | another geometry, another material |
 //! | [`requests`] | what became of requests for an accuracy in the reference scenes |
+//! | [`spheres`] | beds of spheres against discrete elements and measurements |
 //! | [`known`] | states of the database |
 //! | [`detail`] | runs that write additional data for figures |
 
@@ -22,5 +23,6 @@ pub mod known;
 pub mod other_cases;
 pub mod requests;
 pub mod sensitivity;
+pub mod spheres;
 pub mod targets;
 pub mod validation;
