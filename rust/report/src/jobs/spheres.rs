@@ -24,11 +24,9 @@ pub fn write_case(checkout: &Path, job: &SpheresJob, folder: &Path) -> Result<()
             }
             let mut text = read_text(&file)?.replace("\"../../", &format!("\"{}/cases/", checkout.display()));
             let name = format!("{part}/{}", file.file_name().unwrap_or_default().to_string_lossy());
-            for (from, to) in job.mesh.iter().filter(|_| name == MESH) {
-                if !text.contains(from) {
-                    return Err(ReportError::Read { file, problem: format!("no '{from}' in it") });
-                }
-                text = text.replace(from, to);
+            if name == MESH {
+                text = changed(&text, &job.mesh)
+                    .map_err(|from| ReportError::Read { file, problem: format!("no '{from}' in it") })?;
             }
             let keys = job.append.get(&name).map_or("", String::as_str);
             write_text(&folder.join(&name), &format!("{text}\n{keys}"))?;
@@ -38,6 +36,22 @@ pub fn write_case(checkout: &Path, job: &SpheresJob, folder: &Path) -> Result<()
         write_text(&folder.join(ELEMENTS), &read_text(&case.join(ELEMENTS))?)?;
     }
     Ok(())
+}
+
+/// All changes at once: what one has put there is not changed by another.
+///
+/// # Errors
+/// What is to be changed and is not there.
+fn changed(text: &str, changes: &[(String, String)]) -> Result<String, String> {
+    let mark = |k: usize| format!("\u{0}{k}\u{0}");
+    let mut text = text.to_string();
+    for (k, (from, _)) in changes.iter().enumerate() {
+        if !text.contains(from) {
+            return Err(from.clone());
+        }
+        text = text.replace(from, &mark(k));
+    }
+    Ok(changes.iter().enumerate().fold(text, |text, (k, (_, to))| text.replace(&mark(k), to)))
 }
 
 /// The table of differences from the discrete elements; empty without these.
