@@ -25,7 +25,7 @@ const LIMITS: [&str; 8] = [
     "Where spheres conduct less than 60 times as well as the gas, a closure takes the place of the law of pairs, with an error of 1 to 10 %.",
     "Radiation is left out by the solver and by msdd bed run; only the prediction for Zehner's beds has it. In steel of 6 mm it is 4 % at 300 K.",
     "How rough surfaces are, what presses on a plate and how much spheres conduct is seldom reported, and moves what was measured by more than the laws err.",
-    "A model's states are told to be outside of what it knows by clamping or an error (policy), without bands of error as discs have them.",
+    "Spheres have no bands of error, as discs have them: a state outside of what the law was fitted to is clamped or refused (policy).",
 ];
 
 /// The page's text.
