@@ -172,6 +172,13 @@ impl Bed {
         }
     }
 
+    /// What a lid that stopped at a porosity presses with \[Pa\], without friction.
+    pub fn lid_pressure(&self, case: &BedCase) -> Option<f64> {
+        case.lid.as_ref()?.porosity?;
+        let lid = case.wall_names().iter().position(|name| *name == "lid")?;
+        Some(self.simulation.wall_load(lid) / case.vessel().area())
+    }
+
     /// The stress in its contacts against the yield stress, if that is given.
     pub fn peak_stress(&self, case: &BedCase) -> Option<PeakStress> {
         let mut contacts = Vec::new();

@@ -126,6 +126,8 @@ fn a_lid_closes_to_a_porosity() {
     assert!((bed.simulation.boundary.walls()[lid].point[2] / depth - 1.0).abs() < 1e-6, "{depth}");
     let pressure = bed.simulation.wall_load(lid) / (0.032 * 0.06);
     assert!(pressure > 1e3, "{pressure}");
+    assert!((bed.lid_pressure(&case).unwrap() / pressure - 1.0).abs() < 1e-12);
+    assert_eq!(bed.lid_pressure(&read("pressed", TEXT).unwrap()), None);
     let text = prepare(&with("porosity = 0.65").unwrap(), 1, |_, _| ()).unwrap_err().to_string();
     assert!(
         text.contains("lid does not touch the grains") && text.contains("a smaller lid.porosity"),

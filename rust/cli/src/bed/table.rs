@@ -68,7 +68,7 @@ fn numbers(misfit: &Misfit) -> String {
     format!("{:>6}  {rms:>6}  {worst:>6}  {bias:>6}", misfit.points)
 }
 
-/// Measurements that are not compared, contacts that yield, a closure in place of the law of pairs.
+/// Measurements that are not compared, contacts that yield, what a lid that stopped presses with, a closure in place of the law of pairs.
 pub fn warnings(results: &Results) -> Vec<String> {
     let missing = results.compared.first().map(|run| left_out(&results.measured, &run.heated.records));
     let missing = missing.filter(|count| *count > 0).map(|count| {
@@ -76,5 +76,10 @@ pub fn warnings(results: &Results) -> Vec<String> {
         format!("{count} of {all} measurements lie outside the time of the run and are left out")
     });
     let stress = results.bed.peak_stress(&results.case).and_then(|stress| stress.warning());
-    missing.into_iter().chain(stress).chain(results.case.closure()).collect()
+    let lid = results.bed.lid_pressure(&results.case).map(|pressure| {
+        format!(
+            "the lid, which stopped at a porosity, presses with {pressure:.3e} Pa; that is in proportion to grains.simulated_young_modulus"
+        )
+    });
+    missing.into_iter().chain(stress).chain(lid).chain(results.case.closure()).collect()
 }
