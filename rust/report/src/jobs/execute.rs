@@ -195,11 +195,7 @@ fn run_solver(place: &Place, job: &Job, asked: &SolverJob, folder: &Path) -> Res
     let preparation = setup::preparation(&place.checkout, asked);
     let ended = timed(place, folder, &preparation, "msddFoam", asked.limit)?;
     let log = read_text(&folder.join("log")).unwrap_or_default();
-    if ended.code == 97 {
-        let log = read_text(&folder.join("log.blockMesh")).unwrap_or_default();
-        return Ok(record(place, job, &ended, Outcome::Refused, format!("blockMesh: {}", fatal(&log))));
-    }
-    if let Some((outcome, message)) = ill(&ended, asked.limit, &log) {
+    if let Some((outcome, message)) = unmeshed(&ended, folder).or_else(|| ill(&ended, asked.limit, &log)) {
         return Ok(record(place, job, &ended, outcome, message));
     }
     match solver::read(folder, asked.mesh, asked.end) {
@@ -219,11 +215,7 @@ fn run_spheres(place: &Place, job: &Job, asked: &SpheresJob, folder: &Path) -> R
     spheres::write_case(&place.checkout, asked, folder)?;
     let ended = timed(place, folder, "blockMesh > log.blockMesh 2>&1", "msddFoam", asked.limit)?;
     let log = read_text(&folder.join("log")).unwrap_or_default();
-    if ended.code == 97 {
-        let log = read_text(&folder.join("log.blockMesh")).unwrap_or_default();
-        return Ok(record(place, job, &ended, Outcome::Refused, format!("blockMesh: {}", fatal(&log))));
-    }
-    if let Some((outcome, message)) = ill(&ended, asked.limit, &log) {
+    if let Some((outcome, message)) = unmeshed(&ended, folder).or_else(|| ill(&ended, asked.limit, &log)) {
         return Ok(record(place, job, &ended, outcome, message));
     }
     match spheres::compared(&place.checkout, asked, folder) {
@@ -235,6 +227,12 @@ fn run_spheres(place: &Place, job: &Job, asked: &SpheresJob, folder: &Path) -> R
         }
         Err(problem) => Ok(record(place, job, &ended, Outcome::Failed, short(&problem))),
     }
+}
+
+/// Why there was no mesh to run on, if there was none.
+fn unmeshed(ended: &Ended, folder: &Path) -> Option<(Outcome, String)> {
+    let log = || read_text(&folder.join("log.blockMesh")).unwrap_or_default();
+    (ended.code == 97).then(|| (Outcome::Refused, format!("blockMesh: {}", fatal(&log()))))
 }
 
 /// How and why a run of the solver with this log was not done, if it was not.

@@ -197,8 +197,8 @@ fn zehner(made: &Made) -> Result<String, ReportError> {
     }
     let axis = |label| Axis { label, log: true, range: Some((4.0, 100.0)) };
     let panel = plot("Zehner's beds", &axis("k/k_gas measured"), &axis("predicted"), &lines)?;
-    let caption = "Fig. #. Conductivity of beds with nitrogen at 317 to 1000 K (P. Zehner, 1972) over that of the gas, predicted from boxes of spheres without anything \
-                   fitted (roughness 0.34 µm). What rules copper is its surface, of which nothing is known."
+    let caption = "Fig. #. Conductivity of beds with nitrogen at 317 to 1000 K (P. Zehner, 1972) over that of the gas, predicted from boxes of spheres with a \
+                   roughness of 0.34 µm; no number is fitted to them, but the width of the pores for radiation was chosen from three after they were compared. What rules copper is its surface, of which nothing is known."
         .to_string();
     let figure = Figure {
         id: "spheres-zehner",
