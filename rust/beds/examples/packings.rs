@@ -7,7 +7,7 @@
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::links::{Link, contact_links, gas_links};
 use msdd_beds::pour::{Container, Pouring, pour};
-use msdd_beds::profile::solid_fraction;
+use msdd_beds::profile::{Width, solid_fraction};
 use msdd_beds::solid::Solid;
 use msdd_beds::{Packing, averages, pack, shake};
 use msdd_spheres::law::effective_modulus;
@@ -161,7 +161,7 @@ fn poured(spheres: usize, seed: u64) -> Result<(), Box<dyn Error>> {
     let count = (0..counted.len()).filter(|&k| inside(k)).count();
     println!(
         "poured - 0.3 {seed} {:.4} {:.3} - -",
-        solid_fraction(&bed, &floor, between, container.area()),
+        solid_fraction(&bed, &floor, between, Width::Whole(container.area())),
         ends as f64 / count as f64
     );
     Ok(())

@@ -6,7 +6,7 @@ use crate::experiment::Record;
 use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::{Container, Pouring, pour};
 use crate::press::{close, press};
-use crate::profile::{Probe, Slab, slab, solid_fraction};
+use crate::profile::{Probe, Slab, Width, slab, solid_fraction};
 use crate::settle::{Rest, longest, progress, settle, turn};
 use crate::solid::{PeakStress, Roughness};
 use crate::transient::Transient;
@@ -196,7 +196,8 @@ impl Bed {
         let wall = self.wall();
         let depth = self.simulation.spheres.iter().map(|s| wall.distance(s.position) + s.radius);
         let depth = depth.fold(0.0, f64::max);
-        solid_fraction(&self.simulation, &wall, [0.25, 0.75].map(|part| part * depth), self.area(case))
+        let middle = [0.25, 0.75].map(|part| part * depth);
+        solid_fraction(&self.simulation, &wall, middle, Width::Whole(self.area(case)))
     }
 
     /// The network of the bed with a plate of a kind.
@@ -234,8 +235,8 @@ impl Bed {
     /// Averages between two distances from the plate \[m\], at the initial temperature.
     pub fn slab(&self, case: &BedCase, between: [f64; 2]) -> Option<Slab> {
         let network = self.network(case, PlateKind::Held);
-        let (wall, area) = (self.wall(), self.area(case));
-        slab(&self.simulation, &network, &wall, between, area, case.heat.initial_temperature)
+        let (wall, width) = (self.wall(), Width::Whole(self.area(case)));
+        slab(&self.simulation, &network, &wall, between, width, case.heat.initial_temperature)
     }
 
     /// Heats. `watch` is told how far it has come, from 0 to 1.

@@ -11,7 +11,7 @@ use crate::harden::harden;
 use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::{Pouring, pour};
 use crate::press::press;
-use crate::profile::{Probe, slab, solid_fraction};
+use crate::profile::{Probe, Width, slab, solid_fraction};
 use crate::region::Region;
 use crate::scene::Scene;
 use crate::settle::{Rest, longest, progress};
@@ -44,10 +44,12 @@ pub struct Row {
     pub walls: Vec<f64>,
     /// Mean stresses \[Pa\] in the region, see [`Region::stress`].
     pub stress: [f64; 3],
-    /// Between the heights of the region, over the whole width.
+    /// In the region.
     pub porosity: f64,
+    /// Between its heights, from its radius to where the centres of the first layer beside the side are; NaN in a box.
+    pub porosity_outside: f64,
     pub coordination: f64,
-    /// K \[W/(m K)\] along z there, by contacts and by gas.
+    /// K \[W/(m K)\] along z in the region, by contacts and by gas.
     pub contact_conductivity: f64,
     pub gas_conductivity: f64,
     /// Of the bed \[m\], and the radius of the cylinder \[m\], NaN in a box.
@@ -302,8 +304,15 @@ impl<'a> Coupled<'a> {
             return Err(BedError::NoGrains { distance: keys.heights[0] });
         }
         let floor = simulation.boundary.walls()[0];
-        let averages = slab(simulation, &self.network, &floor, keys.heights, region.area, mean_temperature)
+        let width = keys.radius.map_or(Width::Whole(region.area), |radius| Width::Ring([0.0, radius]));
+        let averages = slab(simulation, &self.network, &floor, keys.heights, width, mean_temperature)
             .ok_or(BedError::NoGrains { distance: keys.heights[0] })?;
+        let radius = (scene.container.radius)
+            .map(|radius| radius - self.shell.as_ref().map_or(0.0, |shell| shell.moved));
+        let outside = keys.radius.zip(radius).map(|(inner, radius)| {
+            let ring = Width::Ring([inner, radius - 0.5 * scene.grains.diameter]);
+            1.0 - solid_fraction(simulation, &floor, keys.heights, ring)
+        });
         let weight: f64 = simulation.spheres.iter().map(|s| s.mass).sum::<f64>() * length(simulation.gravity);
         let along: f64 = simulation.wall_force.iter().map(|force| force[2]).sum();
         let lid = simulation.wall_load(self.lid.wall);
@@ -316,14 +325,12 @@ impl<'a> Coupled<'a> {
             walls: (0..simulation.wall_force.len()).map(|wall| self.pressure(wall)).collect(),
             stress: region.stress(simulation),
             porosity: 1.0 - averages.solid_fraction,
+            porosity_outside: outside.unwrap_or(f64::NAN),
             coordination: averages.coordination,
             contact_conductivity: averages.contact_conductivity,
             gas_conductivity: averages.gas_conductivity,
             depth: self.depth(),
-            radius: scene
-                .container
-                .radius
-                .map_or(f64::NAN, |radius| radius - self.shell.as_ref().map_or(0.0, |shell| shell.moved)),
+            radius: radius.unwrap_or(f64::NAN),
             unbalanced: (along + weight).abs() / lid.max(weight),
             yielding: peak.map_or(f64::NAN, |peak| peak.beyond as f64 / peak.contacts.max(1) as f64),
             peak: peak.map_or(f64::NAN, |peak| peak.largest / (crate::solid::YIELD_AT * peak.yield_stress)),
@@ -363,7 +370,7 @@ fn network(scene: &Scene, simulation: &Simulation, depth: f64) -> Network {
         gas: scene.gas.name,
         gas_pressure: scene.gas.pressure,
         accommodation: scene.gas.accommodation,
-        solid_fraction: Some(solid_fraction(simulation, &floor, middle, scene.vessel().area())),
+        solid_fraction: Some(solid_fraction(simulation, &floor, middle, Width::Whole(scene.vessel().area()))),
     };
     let plates: Vec<Plate> = (scene.heated.iter())
         .map(|heated| Plate { wall: scene.wall(&heated.wall).unwrap_or_default(), law: PlateLaw::Held })

@@ -2,7 +2,7 @@
 
 use crate::network::Network;
 use crate::solve::{conjugate_gradients, inner};
-use msdd_spheres::space::{dot, minus};
+use msdd_spheres::space::{dot, minus, plus, scaled};
 use msdd_spheres::{Partner, Simulation, Sphere, Wall};
 use std::f64::consts::PI;
 
@@ -20,34 +20,72 @@ pub struct Slab {
     pub gas_conductivity: f64,
 }
 
-/// The slab from `from` to `to` \[m\] from a wall; `area` \[m²\] is that of the bed parallel to the wall.
+/// How wide a slab is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Width {
+    /// The whole bed, which has this area parallel to the wall \[m²\].
+    Whole(f64),
+    /// Between two distances from the z axis \[m\].
+    Ring([f64; 2]),
+}
+
+impl Width {
+    /// \[m²\]
+    pub fn area(&self) -> f64 {
+        match *self {
+            Self::Whole(area) => area,
+            Self::Ring([inner, outer]) => PI * (outer * outer - inner * inner),
+        }
+    }
+
+    fn holds(&self, [x, y, _]: [f64; 3]) -> bool {
+        match *self {
+            Self::Whole(_) => true,
+            Self::Ring([inner, outer]) => (inner..outer).contains(&libm::hypot(x, y)),
+        }
+    }
+
+    /// Share of a sphere that lies in it; the cylinders around the axis count as flat where they cut the sphere.
+    fn share(&self, sphere: &Sphere) -> f64 {
+        let Self::Ring([inner, outer]) = *self else { return 1.0 };
+        let ([x, y, _], r) = (sphere.position, sphere.radius);
+        let off = libm::hypot(x, y);
+        (below(r, outer - off) - below(r, inner - off)) / below(r, r)
+    }
+}
+
+/// The slab from `from` to `to` \[m\] from a wall, which is across the z axis if the slab is a ring. Heat flows through the whole bed, and
+/// its flux through the middle of the slab is counted.
 pub fn slab(
     simulation: &Simulation,
     network: &Network,
     wall: &Wall,
     [from, to]: [f64; 2],
-    area: f64,
+    width: Width,
     temperature: f64,
 ) -> Option<Slab> {
     let distances: Vec<f64> = simulation.spheres.iter().map(|s| wall.distance(s.position)).collect();
-    let inside = |distance: f64| (from..to).contains(&distance);
-    let volume = area * (to - from);
+    let inside = |place: [f64; 3]| (from..to).contains(&wall.distance(place)) && width.holds(place);
+    let place = |k: usize| simulation.spheres[k].position;
+    let volume = width.area() * (to - from);
     let (mut ends, mut work) = (0, 0.0);
     simulation.for_each_contact(|contact| {
-        ends += contact.spheres().filter(|&k| inside(distances[k])).count();
-        let middle = match contact.i {
-            Partner::Sphere(i) => 0.5 * (distances[i] + distances[contact.j]),
-            Partner::Wall(_) => return,
-        };
-        if inside(middle) {
+        ends += contact.spheres().filter(|&k| inside(place(k))).count();
+        let Partner::Sphere(i) = contact.i else { return };
+        if inside(plus(place(i), 0.5, contact.branch)) {
             work += dot(contact.force(), contact.branch);
         }
     });
-    let count = distances.iter().filter(|&&d| inside(d)).count();
+    let count = simulation.spheres.iter().filter(|s| inside(s.position)).count();
     let (contacts, gas) = conductances(network, temperature);
-    let across = |links: &[(usize, usize, f64)]| conductivity(links, &distances, [from, to], area);
+    let counts = |i: usize, j: usize| match width {
+        Width::Whole(_) => true,
+        Width::Ring(_) => width.holds(scaled(0.5, plus(place(i), 1.0, place(j)))),
+    };
+    let across =
+        |links: &[(usize, usize, f64)]| Some(flux(links, &distances, [from, to], counts)? / width.area());
     Some(Slab {
-        solid_fraction: solid_fraction(simulation, wall, [from, to], area),
+        solid_fraction: solid_fraction(simulation, wall, [from, to], width),
         coordination: ends as f64 / count.max(1) as f64,
         pressure: work / volume / 3.0,
         contact_conductivity: across(&contacts)?,
@@ -55,13 +93,13 @@ pub fn slab(
     })
 }
 
-/// φ \[-\] between two distances from a wall \[m\]; `area` \[m²\] is that of the bed parallel to the wall.
-pub fn solid_fraction(simulation: &Simulation, wall: &Wall, [from, to]: [f64; 2], area: f64) -> f64 {
+/// φ \[-\] between two distances from a wall \[m\].
+pub fn solid_fraction(simulation: &Simulation, wall: &Wall, [from, to]: [f64; 2], width: Width) -> f64 {
     let solid = simulation.spheres.iter().map(|s| {
         let distance = wall.distance(s.position);
-        below(s.radius, to - distance) - below(s.radius, from - distance)
+        (below(s.radius, to - distance) - below(s.radius, from - distance)) * width.share(s)
     });
-    solid.sum::<f64>() / (area * (to - from))
+    solid.sum::<f64>() / (width.area() * (to - from))
 }
 
 /// Volume of a sphere below a plane at `height` above its centre \[m³\].
@@ -81,13 +119,13 @@ fn conductances(network: &Network, temperature: f64) -> (Links, Links) {
     (contacts, gas)
 }
 
-/// K \[W/(m K)\] across a slab: all spheres outside have the temperature of an even gradient, those inside find theirs. None when
-/// the solution fails.
-pub fn conductivity(
+/// Heat through the middle of a slab over the mean gradient \[W m/K\], by the links that count: all spheres outside have the temperature of an
+/// even gradient, those inside find theirs. None when the solution fails.
+pub fn flux(
     links: &[(usize, usize, f64)],
     distances: &[f64],
     [from, to]: [f64; 2],
-    area: f64,
+    counts: impl Fn(usize, usize) -> bool,
 ) -> Option<f64> {
     let free: Vec<bool> = distances.iter().map(|&d| d > from && d < to).collect();
     let mut diagonal = vec![0.0; distances.len()];
@@ -116,11 +154,11 @@ pub fn conductivity(
     let change = conjugate_gradients(apply, &diagonal, &mut residual, |r| inner(r, r) <= 1e-20 * scale)?;
     let middle = 0.5 * (from + to);
     let flux: f64 = (links.iter())
-        .filter(|&&(i, j, _)| (distances[i] < middle) != (distances[j] < middle))
+        .filter(|&&(i, j, _)| (distances[i] < middle) != (distances[j] < middle) && counts(i, j))
         .map(|&(i, j, g)| g * (distances[j] + change[j] - distances[i] - change[i]).abs())
         .sum();
     // The sum of nothing is −0.
-    Some(flux / area + 0.0)
+    Some(flux + 0.0)
 }
 
 /// The line through the temperatures of the spheres within 1.5 d of a distance from a wall, and two d of the middle of the bed along
@@ -190,14 +228,15 @@ mod tests {
         // Ten nodes 1 apart, each link 2 W/K: K/area = 2 W/K over 1 m per area.
         let links: Links = (1..10).map(|j| (j - 1, j, 2.0)).collect();
         let distances: Vec<f64> = (0..10).map(f64::from).collect();
-        let found = conductivity(&links, &distances, [2.4, 6.6], 0.5).unwrap();
-        assert!((found - 4.0).abs() < 1e-12, "{found}");
+        let found = flux(&links, &distances, [2.4, 6.6], |_, _| true).unwrap();
+        assert!((found - 2.0).abs() < 1e-12, "{found}");
         // One weak link in a slab of four: the series of all.
         let mut weak = links;
         weak[4].2 = 0.5;
-        let found = conductivity(&weak, &distances, [2.4, 6.6], 0.5).unwrap();
+        let found = flux(&weak, &distances, [2.4, 6.6], |_, _| true).unwrap();
         // Nodes 2 and 7 are held, 5 apart: 1/G = 4/2 + 1/0.5.
-        assert!((found - 5.0 / (4.0 / 2.0 + 1.0 / 0.5) / 0.5).abs() < 1e-9, "{found}");
+        assert!((found - 5.0 / (4.0 / 2.0 + 1.0 / 0.5)).abs() < 1e-9, "{found}");
+        assert_eq!(flux(&weak, &distances, [2.4, 6.6], |_, _| false).unwrap(), 0.0);
     }
 
     #[test]

@@ -5,13 +5,14 @@ use crate::scene::Scene;
 use std::fmt::Write;
 
 /// Columns between those of the temperatures and of the walls.
-const MOVING: [&str; 15] = [
+const MOVING: [&str; 16] = [
     "T_mean",
     "stress_1",
     "stress_2",
     "stress_3",
     "p",
     "porosity",
+    "porosity_outside",
     "coordination",
     "K_contacts",
     "K_gas",
@@ -49,7 +50,7 @@ pub fn elements(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
         let mut cells = vec![row.time.to_string()];
         cells.extend(row.temperatures.iter().chain([&row.mean_temperature]).map(|t| format!("{t:.4}")));
         cells.extend([a, b, c, (a + b + c) / 3.0].map(|stress| format!("{stress:.1}")));
-        cells.push(format!("{:.5}", row.porosity));
+        cells.extend([row.porosity, row.porosity_outside].map(finite(5)));
         cells.push(format!("{:.4}", row.coordination));
         let conductivities = [row.contact_conductivity, row.gas_conductivity, conductivity];
         cells.extend(conductivities.map(|k| format!("{k:.5}")));

@@ -2,7 +2,7 @@
 
 use msdd_beds::named_gases::GasName;
 use msdd_beds::network::{Materials, Network};
-use msdd_beds::profile::{Probe, slab};
+use msdd_beds::profile::{Probe, Width, slab};
 use msdd_beds::property::Property;
 use msdd_beds::solid::Solid;
 use msdd_spheres::law::effective_modulus;
@@ -48,7 +48,7 @@ fn a_slab_of_a_crystal_is_as_dense_stressed_and_conducting_as_the_crystal() {
     let floor = Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]);
     let between = [2.0 * spacing, 9.0 * spacing];
     let area = (SIDE as f64 * spacing).powi(2);
-    let found = slab(&simulation, &network, &floor, between, area, 300.0).unwrap();
+    let found = slab(&simulation, &network, &floor, between, Width::Whole(area), 300.0).unwrap();
     assert!((found.coordination - 6.0).abs() < 1e-12, "{found:?}");
     let expected = PI / 6.0 / (1.0 - OVERLAP).powi(3);
     // The plane in the middle of a contact cuts off two thin caps.
@@ -64,6 +64,39 @@ fn a_slab_of_a_crystal_is_as_dense_stressed_and_conducting_as_the_crystal() {
     let conductivity = 42.0 * solid.contact_size(force, 0.5 * RADIUS) / spacing;
     assert!((found.contact_conductivity / conductivity - 1.0).abs() < 1e-9, "{found:?} {conductivity}");
     assert_eq!(found.gas_conductivity, 0.0);
+}
+
+/// Rings share the solid, the heat and the spheres of the whole.
+#[test]
+fn rings_add_up_to_the_whole() {
+    let (simulation, spacing) = crystal();
+    let materials = Materials {
+        conductivity: Property::Constant(42.0),
+        heat_capacity: Property::Constant(464.0),
+        effective_modulus: effective_modulus(2e11, 0.29),
+        roughness: None,
+        gas: GasName::Air,
+        gas_pressure: 1e5,
+        accommodation: 0.9,
+        solid_fraction: None,
+    };
+    let network = Network::new(&simulation, materials, &[]);
+    let floor = Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]);
+    let between = [2.0 * spacing, 9.0 * spacing];
+    let of = |width: Width| {
+        let found = slab(&simulation, &network, &floor, between, width, 300.0).unwrap();
+        let heat = found.contact_conductivity + found.gas_conductivity;
+        [found.solid_fraction, heat, found.pressure].map(|mean| mean * width.area())
+    };
+    let whole = of(Width::Whole((SIDE as f64 * spacing).powi(2)));
+    // The axis is an edge of the crystal, so rings beyond its other edge hold all of it.
+    let far = 2.0 * SIDE as f64 * spacing;
+    let rings = [[0.0, 2.2 * spacing], [2.2 * spacing, far], [0.0, far]].map(|ring| of(Width::Ring(ring)));
+    for k in 0..3 {
+        assert!((rings[0][k] + rings[1][k] - rings[2][k]).abs() < 1e-12 * whole[k], "{rings:?}");
+        assert!((rings[2][k] - whole[k]).abs() < 1e-12 * whole[k], "{rings:?} {whole:?}");
+        assert!(rings[0][k] > 0.05 * whole[k] && rings[0][k] < 0.3 * whole[k], "{rings:?} {whole:?}");
+    }
 }
 
 /// A probe finds the temperature of a straight profile at any distance.
