@@ -28,20 +28,46 @@ type LeftOut = (Option<&'static str>, &'static [(usize, f64)]);
 /// ln of the least strength that a file may have.
 const NONE: f64 = -13.8;
 
-const LINES: [LeftOut; 7] = [
+const LINES: [LeftOut; 8] = [
     (None, &[]),
     (
         Some("mobilised friction"),
-        &[(2, 0.0), (4, 0.0), (7, 0.0), (12, 0.0), (13, 0.0), (17, 0.0), (25, 0.0), (30, 0.0), (35, 0.0)],
+        &[
+            (2, 0.0),
+            (4, 0.0),
+            (8, 0.0),
+            (13, 0.0),
+            (14, 0.0),
+            (18, 0.0),
+            (26, 0.0),
+            (31, 0.0),
+            (36, 0.0),
+            (41, 0.0),
+        ],
     ),
-    (Some("collapse"), &[(13, 0.0), (14, 0.0), (15, 0.0), (16, 0.0)]),
+    (Some("collapse"), &[(14, 0.0), (15, 0.0), (16, 0.0), (17, 0.0)]),
     (
-        Some("fabric (third element)"),
-        &[(21, 0.0), (32, 0.0), (33, NONE), (34, 0.0), (35, 0.0), (36, 0.0), (37, 0.0)],
+        Some("fabric (fourth element)"),
+        &[(22, 0.0), (38, 0.0), (39, NONE), (40, 0.0), (41, 0.0), (42, 0.0), (43, 0.0)],
     ),
-    (Some("second element"), &[(27, 0.0), (28, NONE), (29, 0.0), (30, 0.0), (31, 0.0)]),
-    (Some("powers of the pressure other than Hertz's"), &[(3, 0.0), (4, 0.0)]),
-    (Some("dilatancy"), &[(8, 0.0), (9, 0.0), (10, 0.0), (11, 0.0), (12, 0.0)]),
+    (Some("third element"), &[(33, 0.0), (34, NONE), (35, 0.0), (36, 0.0), (37, 0.0)]),
+    (
+        Some("second and third element"),
+        &[
+            (28, 0.0),
+            (29, NONE),
+            (30, 0.0),
+            (31, 0.0),
+            (32, 0.0),
+            (33, 0.0),
+            (34, NONE),
+            (35, 0.0),
+            (36, 0.0),
+            (37, 0.0),
+        ],
+    ),
+    (Some("powers of the pressure other than Hertz's"), &[(3, 0.0), (4, 0.0), (5, 0.0)]),
+    (Some("dilatancy"), &[(9, 0.0), (10, 0.0), (11, 0.0), (12, 0.0), (13, 0.0)]),
 ];
 
 /// One packing in so many is used, of those that a training sees.

@@ -13,7 +13,7 @@ impl Law {
     /// # Errors
     /// [`SurrogateError::Field`] with key, value and what is allowed.
     pub fn check(&self) -> Result<(), SurrogateError> {
-        let [b0, b1, b2, b3, b4] = self.bulk;
+        let [b0, b1, b2, b3, b4, b5] = self.bulk;
         let [stiffening, shear_power, of_free] = self.shear;
         let [d0, ..] = self.dilatancy;
         let [c0, c1, c2, c3] = self.collapse;
@@ -23,9 +23,10 @@ impl Law {
             ("bulk[0]", b0, (1e-6..=1e6).contains(&b0), "1e-6 to 1e6"),
             ("bulk[1]", b1, b1.abs() <= LARGE, "-1e4 to 1e4"),
             ("bulk[2]", b2, b2.abs() <= 5.0, "-5 to 5"),
-            // The pressure grows with the compression at any g.
-            ("bulk[3]", b3, b3.abs() <= 0.5, "-0.5 to 0.5"),
-            ("bulk[4]", b4, b4.abs() <= 0.5, "-0.5 to 0.5"),
+            // The pressure grows with the compression at any g and x.
+            ("bulk[3]", b3, (-1.0..=2.0).contains(&b3), "-1 to 2"),
+            ("bulk[4]", b4, (-1.0..=2.0).contains(&b4), "-1 to 2"),
+            ("bulk[5]", b5, b5.abs() <= 10.0, "-10 to 10"),
             ("shear[0]", stiffening, stiffening.abs() <= LARGE, "-1e4 to 1e4"),
             ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
             ("shear[2]", of_free, of_free.abs() <= 5.0, "-5 to 5"),

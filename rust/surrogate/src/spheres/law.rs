@@ -6,7 +6,7 @@ use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum
 use serde::{Deserialize, Serialize};
 
 /// Number of elements, each of which bears a part of the deviator. The last is that of the fabric.
-pub const ELEMENTS: usize = 3;
+pub const ELEMENTS: usize = 4;
 /// The element whose stress ratio is that of the directions of the contacts.
 pub const FABRIC: usize = ELEMENTS - 1;
 
@@ -14,8 +14,8 @@ pub const FABRIC: usize = ELEMENTS - 1;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Law {
-    /// A = b₀ e^(b₁ x + b₂ g) v^(3/2) u^(b₃ + b₄ g), with the part g of the friction that is not mobilised.
-    pub bulk: [f64; 5],
+    /// A = b₀ e^(b₁ x + b₂ g) v^(3/2) (1 + √u)^(b₃ + b₄ g + b₅ x), with the part g of the friction that is not mobilised.
+    pub bulk: [f64; 6],
     /// Stiffnesses go with e^(`shear`₀ x + `shear`₂ g) u^`shear`₁.
     pub shear: [f64; 3],
     /// Growth of the pressure by the stress ratios: p = A (1 + `lift` Σ |η_k|²/c_k).
@@ -124,8 +124,8 @@ impl<N: Number> State<N> {
 
     /// Deviator of the stress over A.
     pub fn ratio(&self) -> Tensor<N> {
-        let [first, second, fabric] = &self.ratios;
-        sum(&sum(first, second), fabric)
+        let [first, second, third, fabric] = &self.ratios;
+        sum(&sum(first, second), &sum(third, fabric))
     }
 }
 
@@ -182,8 +182,9 @@ impl Law {
     /// A: the pressure over E* without shear.
     pub fn pressure<N: Number>(&self, compression: N, x: N, free: N) -> N {
         let (v, u) = Self::compressions(compression);
-        let [b0, b1, b2, b3, b4] = self.bulk;
-        let exponent = x.times(b1) + free.times(b2) + u.ln() * free.times(b4).plus(b3);
+        let [b0, b1, b2, b3, b4, b5] = self.bulk;
+        let contacts = u.sqrt().plus(1.0).ln();
+        let exponent = x.times(b1) + free.times(b2) + contacts * (free.times(b4) + x.times(b5)).plus(b3);
         (exponent.exp() * v * v.sqrt()).times(b0)
     }
 
@@ -237,10 +238,10 @@ impl Law {
             let (part, share) = (f64::from(part), 1.0 / f64::from(count));
             let thermal = strain.thermal * strain.thermal.times(part).plus(f64::from(count)).inverse();
             let cell = std::array::from_fn(|c| cell[c].times(share) - square[c].times(part * share * share));
-            let before = next.compression.value();
+            let (before, free) = (next.compression.value(), next.free().value());
             next = self.part(&next, thermal, cell);
             let [before, after] = [before, next.compression.value()].map(|v| v.max(LEAST_COMPRESSION));
-            forgotten += self.contacts.forgotten(before, after, &cell.map(Number::value));
+            forgotten += free * self.contacts.forgotten(before, after, &cell.map(Number::value));
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
         let usual = |state: &State<N>| self.contacts.usual(&state.value().contact_row());

@@ -5,7 +5,7 @@
 //!
 //! **State.** A packing with the solid fraction φ bears no load at the fraction φ_J; its elastic compression is v = φ/φ_J − 1.
 //! The contacts of Hertz give the pressure A, about ∝ v^(3/2). The deviator of the stress over A is the sum of the stress ratios η_k of
-//! three elements, tensors that turn with the cell. In an increment with the deviator de of the cell's strain (extension
+//! four elements, tensors that turn with the cell. In an increment with the deviator de of the cell's strain (extension
 //! positive),
 //!
 //! dη_k = −c_k de/v + m_k η_k dv/v,    |η_k| ≤ M_k,
@@ -15,8 +15,9 @@
 //! p = A (1 + l Σ |η_k|²/c_k) and σ = p + A Σ η_k.
 //!
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
-//! isotropic compression loads that axis more. Two elements more stand for the friction of contacts, which compression makes
-//! forget.
+//! isotropic compression loads that axis more. The other elements stand for the friction of contacts, which compression makes
+//! forget: three of unequal strength, so that a packing that is strained the other way is stiff at first and then gives way little
+//! by little.
 //!
 //! **Contacts.** The number of contacts per sphere is state, too, see [`contacts`]. It changes conductivities, not the stress.
 //!

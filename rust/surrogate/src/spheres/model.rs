@@ -10,7 +10,7 @@ use crate::options::TrainingOptions;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
-pub const SCHEMA: &str = "msdd-spheres-model-3";
+pub const SCHEMA: &str = "msdd-spheres-model-4";
 
 /// Number of state columns of a cell, and of those before the stress ratios.
 pub const COLUMNS: usize = SCALARS + 5 * ELEMENTS;
@@ -38,6 +38,11 @@ pub const NAMES: [&str; COLUMNS] = [
     "stress_ratio_3_xy",
     "stress_ratio_3_xz",
     "stress_ratio_3_yz",
+    "stress_ratio_4_xx",
+    "stress_ratio_4_yy",
+    "stress_ratio_4_xy",
+    "stress_ratio_4_xz",
+    "stress_ratio_4_yz",
 ];
 
 /// Ranges of the states of the training.

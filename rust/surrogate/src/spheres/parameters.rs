@@ -23,15 +23,16 @@ const STRENGTH: [f64; 2] = [1e-6, 2.0];
 const POWER: [f64; 2] = [-2.0, 1.0];
 
 /// Number of parameters.
-pub const PARAMETERS: usize = 38;
+pub const PARAMETERS: usize = 44;
 
 /// Coefficients of x are divided by 10.
 const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.bulk[0], Logarithm(SIZE)),
     (|law| &mut law.bulk[1], Over(10.0, FREE)),
     (|law| &mut law.bulk[2], Over(1.0, [-5.0, 5.0])),
-    (|law| &mut law.bulk[3], Over(1.0, [-0.5, 0.5])),
-    (|law| &mut law.bulk[4], Over(1.0, [-0.5, 0.5])),
+    (|law| &mut law.bulk[3], Over(1.0, [-1.0, 2.0])),
+    (|law| &mut law.bulk[4], Over(1.0, [-1.0, 2.0])),
+    (|law| &mut law.bulk[5], Over(1.0, [-10.0, 10.0])),
     (|law| &mut law.shear[0], Over(10.0, FREE)),
     (|law| &mut law.shear[1], Over(1.0, [-1.0, 1.0])),
     (|law| &mut law.shear[2], Over(1.0, [-5.0, 5.0])),
@@ -63,8 +64,13 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.elements[2].strength, Logarithm(STRENGTH)),
     (|law| &mut law.elements[2].growth, Over(10.0, FREE)),
     (|law| &mut law.elements[2].free, Over(1.0, [-10.0, 10.0])),
-    (|law| &mut law.elements[2].hardening, Over(1.0, [-100.0, 100.0])),
     (|law| &mut law.elements[2].power, Over(1.0, POWER)),
+    (|law| &mut law.elements[3].stiffness, Logarithm(SIZE)),
+    (|law| &mut law.elements[3].strength, Logarithm(STRENGTH)),
+    (|law| &mut law.elements[3].growth, Over(10.0, FREE)),
+    (|law| &mut law.elements[3].free, Over(1.0, [-10.0, 10.0])),
+    (|law| &mut law.elements[3].hardening, Over(1.0, [-100.0, 100.0])),
+    (|law| &mut law.elements[3].power, Over(1.0, POWER)),
 ];
 
 /// The law's numbers as parameters.
@@ -100,19 +106,20 @@ pub fn beginning() -> Law {
         power,
     };
     Law {
-        bulk: [0.077, 4.1, 0.39, 0.13, -0.09],
-        shear: [0.05, 0.4, 0.49],
-        lift: 0.067,
+        bulk: [0.056, 0.32, 0.65, 0.44, -0.31, 2.6],
+        shear: [7.5, 0.33, -0.21],
+        lift: 0.09,
         elements: [
-            element([0.71, 0.25, 4.4, 0.08, 0.0, -0.87]),
-            element([0.18, 0.0057, -37.0, 6.0, 0.0, -0.9]),
-            element([0.046, 2.0, -11.0, -3.2, 50.0, -0.1]),
+            element([0.21, 0.13, 15.0, 0.96, 0.0, -0.68]),
+            element([0.99, 0.0047, -52.0, 4.8, 0.0, -0.49]),
+            element([0.82, 0.154, -0.7, 0.82, 0.0, -1.01]),
+            element([0.047, 0.39, -15.0, -1.4, 45.0, -0.08]),
         ],
-        dilatancy: [0.1, 0.05, -16.0, 0.75],
-        collapse: [0.23, 9.2, 0.34, 0.59],
-        mobilising: 0.005,
-        settling: [2.6, 6.8e-6, 270.0],
-        fabric: [5.0, 0.47],
+        dilatancy: [0.125, 0.1, -3.8, 0.38],
+        collapse: [0.15, 13.0, 0.31, 0.79],
+        mobilising: 0.012,
+        settling: [2.9, 1.43e-6, 357.0],
+        fabric: [5.0, 0.5],
         contacts: Contacts { usual: [0.0; COEFFICIENTS], fading: [0.0; 2] },
     }
 }
