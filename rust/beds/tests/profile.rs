@@ -30,21 +30,30 @@ fn crystal() -> (Simulation, f64) {
     (Simulation::new(material, spheres, Boundary::Walls(Wall::block(size))).unwrap(), spacing)
 }
 
-#[test]
-fn a_slab_of_a_crystal_is_as_dense_stressed_and_conducting_as_the_crystal() {
-    let (simulation, spacing) = crystal();
-    let real = effective_modulus(2e11, 0.29);
+/// E* of the material \[Pa\], of which the simulated one is a softer picture.
+fn real_modulus() -> f64 {
+    effective_modulus(2e11, 0.29)
+}
+
+/// Of steel in a gas.
+fn network(simulation: &Simulation, gas: GasName) -> Network {
     let materials = Materials {
         conductivity: Property::Constant(42.0),
         heat_capacity: Property::Constant(464.0),
-        effective_modulus: real,
+        effective_modulus: real_modulus(),
         roughness: None,
-        gas: GasName::Vacuum,
+        gas,
         gas_pressure: 1e5,
         accommodation: 0.9,
         solid_fraction: None,
     };
-    let network = Network::new(&simulation, materials, &[]);
+    Network::new(simulation, materials, &[])
+}
+
+#[test]
+fn a_slab_of_a_crystal_is_as_dense_stressed_and_conducting_as_the_crystal() {
+    let (simulation, spacing) = crystal();
+    let network = network(&simulation, GasName::Vacuum);
     let floor = Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]);
     let between = [2.0 * spacing, 9.0 * spacing];
     let area = (SIDE as f64 * spacing).powi(2);
@@ -60,7 +69,7 @@ fn a_slab_of_a_crystal_is_as_dense_stressed_and_conducting_as_the_crystal() {
     let across = (SIDE - 1) as f64 / SIDE as f64;
     let pressure = force / (spacing * spacing) * (1.0 + 2.0 * across) / 3.0;
     assert!((found.pressure / pressure - 1.0).abs() < 1e-9, "{found:?} {pressure}");
-    let solid = Solid { conductivity: 42.0, effective_modulus: real, roughness: None };
+    let solid = Solid { conductivity: 42.0, effective_modulus: real_modulus(), roughness: None };
     let conductivity = 42.0 * solid.contact_size(force, 0.5 * RADIUS) / spacing;
     assert!((found.contact_conductivity / conductivity - 1.0).abs() < 1e-9, "{found:?} {conductivity}");
     assert_eq!(found.gas_conductivity, 0.0);
@@ -70,17 +79,7 @@ fn a_slab_of_a_crystal_is_as_dense_stressed_and_conducting_as_the_crystal() {
 #[test]
 fn rings_add_up_to_the_whole() {
     let (simulation, spacing) = crystal();
-    let materials = Materials {
-        conductivity: Property::Constant(42.0),
-        heat_capacity: Property::Constant(464.0),
-        effective_modulus: effective_modulus(2e11, 0.29),
-        roughness: None,
-        gas: GasName::Air,
-        gas_pressure: 1e5,
-        accommodation: 0.9,
-        solid_fraction: None,
-    };
-    let network = Network::new(&simulation, materials, &[]);
+    let network = network(&simulation, GasName::Air);
     let floor = Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]);
     let between = [2.0 * spacing, 9.0 * spacing];
     let of = |width: Width| {
