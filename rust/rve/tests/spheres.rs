@@ -1,8 +1,8 @@
 //! Generation, continuation, shards and export of small databases of spheres; packings against what is known of them.
 
 use msdd_rve::database::{
-    DatabaseError, Grains, PathName, Plan, Run, Shard, SpherePlan, export_csv, generate, grains,
-    has_checksum, merge, read, read_spheres, seal,
+    DatabaseError, Grains, PathName, Plan, Run, Shard, SpherePlan, SphereRecord, export_csv, generate,
+    grains, has_checksum, merge, read, read_spheres, seal,
 };
 use msdd_rve::spheres::{Averages, Preparation, Strain, advance, averages, prepare};
 use msdd_spheres::Simulation;
@@ -177,4 +177,29 @@ fn a_path_ends_where_the_box_bears_no_load() {
         assert_eq!(record.failure.as_deref(), Some(expected.as_str()));
         assert!(record.outcome == "failed" && record.pressure.is_none());
     }
+}
+
+/// A box that is closed along two axes and opened again keeps its stress along the third, and gives way for that; the rows say by how
+/// much, and their strains add up.
+#[test]
+fn a_pressed_box_keeps_its_stress_along_one_axis() {
+    let plan = "seed = 3\n[[spheres]]\nspheres = 400\nshaking = 0.005\ncompressions = [\"isotropic\"]\npressures = [1e-4]\n\
+        repeats = 1\npaths = [\"pressed\"]\nstrain = 4e-3\nstep = 5e-4\ncycles = 2\n";
+    let path = folder("spheres-pressed").join("a.msdd");
+    let plan = SpherePlan::parse(plan, "plan").unwrap();
+    generate(&plan, &path, &Run::default(), |_| ControlFlow::Continue(())).unwrap();
+    let records = read_spheres(&path).unwrap().records;
+    let (packed, rows) = records.split_first().unwrap();
+    let stress = |r: &SphereRecord| [r.stress_xx, r.stress_yy, r.stress_zz].map(|part| part.unwrap());
+    let strain = |r: &SphereRecord| [r.strain_xx, r.strain_yy, r.strain_zz];
+    let end = strain(&rows[rows.len() - 1]);
+    let gives_way = (0..3).find(|axis| (end[*axis] + 2.4e-3).abs() > 1e-12).unwrap();
+    let held = rows.iter().map(|row| stress(row)[gives_way] / stress(packed)[gives_way]);
+    let off = (held.map(|ratio| (ratio - 1.0).powi(2)).sum::<f64>() / rows.len() as f64).sqrt();
+    assert!(off < 0.1, "{off}");
+    let largest =
+        |of: fn(f64, f64) -> f64, part: &dyn Fn(&SphereRecord) -> f64| rows.iter().map(part).fold(0.0, of);
+    let across = |r: &SphereRecord| stress(r)[(gives_way + 1) % 3] / stress(packed)[(gives_way + 1) % 3];
+    assert!(largest(f64::max, &across) > 1.3, "{}", largest(f64::max, &across));
+    assert!(largest(f64::max, &|r| strain(r)[gives_way]) > 2e-3);
 }

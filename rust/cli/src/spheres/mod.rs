@@ -74,7 +74,7 @@ pub fn train_and_write(training: &Training) -> Result<(), CliError> {
         report.mean_square,
         report.epochs
     );
-    print_scores(&model, &tracks)?;
+    print_scores(&model, &tracks, true)?;
     outln!("model {} in {}, trained in {seconds:.1} s", model.hash(), training.out.display());
     Ok(())
 }
@@ -85,12 +85,13 @@ pub fn is_model(file: &Path) -> Result<bool, CliError> {
 }
 
 pub fn score_models(models: &[PathBuf], database: &[PathBuf], json: Option<&Path>) -> Result<(), CliError> {
-    let (tracks, _) = read(database)?;
+    let (tracks, provenance) = read(database)?;
     let mut all = Vec::new();
     for file in models {
         let failed = |source| CliError::Model { file: file.clone(), source };
         let model = SphereModel::read(&read_text(file)?).map_err(failed)?;
-        all.push(print_scores(&model, &tracks)?);
+        let is_trained_on_it = model.file.training.database.plan_hash == provenance.plan_hash;
+        all.push(print_scores(&model, &tracks, is_trained_on_it)?);
     }
     if let Some(path) = json {
         let text = serde_json::to_string_pretty(&all)
@@ -100,26 +101,29 @@ pub fn score_models(models: &[PathBuf], database: &[PathBuf], json: Option<&Path
     Ok(())
 }
 
-/// Scores over the packings that were held out of the model's training, and scatter over all packings.
-fn print_scores(model: &SphereModel, tracks: &[Track]) -> Result<Vec<PathErrors>, CliError> {
+/// Scores over the packings that were held out of the model's training, or over all if it was not trained on them; and scatter over all.
+fn print_scores(
+    model: &SphereModel,
+    tracks: &[Track],
+    is_trained_on_it: bool,
+) -> Result<Vec<PathErrors>, CliError> {
     let seed = model.file.training.seed;
-    let unseen: Vec<Track> =
-        tracks.iter().filter(|track| is_held_out(track.packing, seed)).cloned().collect();
+    let is_unseen = |track: &&Track| !is_trained_on_it || is_held_out(track.packing, seed);
+    let unseen: Vec<Track> = tracks.iter().filter(is_unseen).cloned().collect();
     let noise = score(model, tracks);
     let mut found = score(model, &unseen);
     for errors in &mut found {
         errors.noise = noise.iter().find(|all| all.name == errors.name).and_then(|all| all.noise);
     }
-    print_along(&found);
+    print_along(&found, is_trained_on_it);
     print_of_state(&found);
     Ok(found)
 }
 
 /// Errors along paths, beside the scatter.
-fn print_along(found: &[PathErrors]) {
-    outln!(
-        "errors along the paths of packings that were held out, % (scatter between packings that were made and strained alike)"
-    );
+fn print_along(found: &[PathErrors], is_trained_on_it: bool) {
+    let of = if is_trained_on_it { "packings that were held out" } else { "all packings" };
+    outln!("errors along the paths of {of}, % (scatter between packings that were made and strained alike)");
     let columns = ["pressure", "deviator", "K by contacts", "K by gas"];
     out!("{:<11} {:>5} {:>6}", "path", "paths", "states");
     columns.iter().for_each(|column| out!(" {column:>13}"));

@@ -46,19 +46,16 @@ fn point(record: &SphereRecord) -> Option<Point> {
 }
 
 fn step(record: &SphereRecord) -> Option<Step> {
-    Some(Step {
-        from: usize::try_from(record.from_stop?).ok()?,
-        thermal: record.step_thermal?,
-        stretch: [
-            record.step_xx?,
-            record.step_yy?,
-            record.step_zz?,
-            record.step_xy?,
-            record.step_xz?,
-            record.step_yz?,
-        ],
-        to: point(record)?,
-    })
+    let increment = record.increment()?;
+    let stretch = increment.step.stretch;
+    // The box closes or opens alike along the two other axes.
+    let [x, y, z, ..] = stretch;
+    let gives_way = match record.path {
+        PathName::Pressed => [(y, z), (x, z), (x, y)].iter().position(|(a, b)| a == b),
+        _ => None,
+    };
+    let from = usize::try_from(increment.from_stop).ok()?;
+    Some(Step { from, thermal: increment.step.thermal, stretch, gives_way, to: point(record)? })
 }
 
 /// All paths, each as far as the box bears load. Those of `equivalence`, whose strains all start from the packed state, are left out.

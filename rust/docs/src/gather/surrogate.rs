@@ -36,6 +36,10 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
     }
     forms(&mut section, &Json::read(root, &format!("{INPUTS}/score_forms.json"))?)?;
     spheres(&mut section, &Json::read(root, &format!("{INPUTS}/score_spheres.json"))?)?;
+    let cycling = along_paths(&Json::read(root, &format!("{INPUTS}/score_cycling.json"))?)?;
+    let meaning = "rms errors of the law of spheres along paths of ten cycles of packings that its training never saw; no two of them \
+                   are alike";
+    section.add_table("spheres-law-cycling", meaning, "msdd score", &ALONG_COLUMNS, cycling);
     spheres_parts(&mut section, &Json::read(root, &format!("{INPUTS}/ablation_spheres.json"))?)?;
     let columns = ["model", "porosity increment", "fabric increment", "conductivity", "stress"];
     let meaning = "coefficient of determination of one step on packings that training never saw";
@@ -157,20 +161,32 @@ fn paths(section: &mut Section, score: &Json) -> Result<(), DocsError> {
 /// Errors of the law of spheres along paths, as they are called in files.
 const ALONG: [&str; 4] = ["pressure", "deviator", "contact", "gas"];
 
-/// The law of spheres along paths, beside the scatter between packings that were made and strained alike; and of known states.
-fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
-    let (mut along, mut known) = (Vec::new(), Vec::new());
+const ALONG_COLUMNS: [&str; 7] =
+    ["path", "paths", "states", "pressure [%]", "deviator [%]", "K by contacts [%]", "K by gas [%]"];
+
+/// Rows of a table of errors along paths; scatter, where there is one, in brackets.
+fn along_paths(scores: &Json) -> Result<Vec<Vec<String>>, DocsError> {
+    let mut rows = Vec::new();
     for kind in scores.list("/0")? {
-        let percent = |name: &str| kind.number(name).map(|value| decimals(100.0 * value, 1));
         let name = format!("`{}`", kind.text("/name")?);
-        let mut row = vec![name.clone(), grouped(kind.number("/paths")?), grouped(kind.number("/states")?)];
+        let mut row = vec![name, grouped(kind.number("/paths")?), grouped(kind.number("/states")?)];
         for error in ALONG {
             let scatter = kind.maybe(&format!("/noise/{error}"));
             let scatter = or_none(scatter, |value| decimals(100.0 * value, 1));
-            row.push(format!("{} ({scatter})", percent(&format!("/along/{error}"))?));
+            let along = decimals(100.0 * kind.number(&format!("/along/{error}"))?, 1);
+            row.push(format!("{along} ({scatter})"));
         }
-        along.push(row);
-        let mut row = vec![name];
+        rows.push(row);
+    }
+    Ok(rows)
+}
+
+/// The law of spheres along paths, beside the scatter between packings that were made and strained alike; and of known states.
+fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
+    let mut known = Vec::new();
+    for kind in scores.list("/0")? {
+        let percent = |name: &str| kind.number(name).map(|value| decimals(100.0 * value, 1));
+        let mut row = vec![format!("`{}`", kind.text("/name")?)];
         for error in ["/contact_of_state", "/direction", "/gas_of_state"] {
             row.push(percent(error)?);
         }
@@ -179,11 +195,9 @@ fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
         }
         known.push(row);
     }
-    let columns =
-        ["path", "paths", "states", "pressure [%]", "deviator [%]", "K by contacts [%]", "K by gas [%]"];
     let meaning = "rms errors of the law of spheres along paths of strain of packings that its training never saw; in brackets the \
                    scatter between packings that were made and strained alike";
-    section.add_table("spheres-law", meaning, "msdd score", &columns, along);
+    section.add_table("spheres-law", meaning, "msdd score", &ALONG_COLUMNS, along_paths(scores)?);
     let columns = [
         "path",
         "K by contacts of the state [%]",

@@ -33,7 +33,11 @@ pub fn scales(track: &Track) -> Vec<f64> {
         let [xx, yy, zz, xy, xz, yz] = step.stretch;
         let strain = [xx, yy, zz, 0.5 * xy, 0.5 * xz, 0.5 * yz];
         let distortion = deviator(strain);
-        length += contraction(&distortion, &distortion).sqrt() + 3.0 * (mean(strain) - step.thermal).abs();
+        // A packing whose load is held along an axis does not lose it.
+        if step.gives_way.is_none() {
+            length +=
+                contraction(&distortion, &distortion).sqrt() + 3.0 * (mean(strain) - step.thermal).abs();
+        }
         let pressure = mean(step.to.stress);
         largest = largest.max(pressure);
         let built_up = USUAL_BULK * libm::pow(SHARE_OF_LENGTH * length, 1.5);

@@ -90,7 +90,7 @@ mod tests {
             is_isotropic: true,
             spheres: 1000,
             packed: point,
-            steps: vec![Step { from: 0, thermal: 0.0, stretch, to: point }],
+            steps: vec![Step { from: 0, thermal: 0.0, stretch, gives_way: None, to: point }],
         }
     }
 

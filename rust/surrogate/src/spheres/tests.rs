@@ -248,7 +248,7 @@ fn tracks(law: &Law, packings: i64) -> Vec<Track> {
                 stretch[..3].iter_mut().for_each(|normal| *normal -= 2e-4);
                 for _ in 0..6 {
                     let from = track.steps.len();
-                    track.steps.push(Step { from, thermal: 1e-4, stretch, to: packed });
+                    track.steps.push(Step { from, thermal: 1e-4, stretch, gives_way: None, to: packed });
                 }
             }
             for (step, state) in follow(law, &track.clone()).iter().skip(1).enumerate() {

@@ -46,6 +46,9 @@ pub struct Step {
     pub thermal: f64,
     /// F − 1 of the box, which is 0 below the diagonal: xx, yy, zz, then xy, xz, yz as displacement over distance; extension positive.
     pub stretch: Tensor,
+    /// Of a box that gives way along an axis so that its stress stays: that axis. The law is followed with the stress of the data there,
+    /// not with the strain.
+    pub gives_way: Option<usize>,
     pub to: Point,
 }
 
@@ -83,10 +86,53 @@ pub fn follow(law: &Law, track: &Track) -> Vec<State> {
 pub fn follow_from(law: &Law, track: &Track, packed: State) -> Vec<State> {
     let mut states = vec![packed];
     for step in &track.steps {
-        let next = advanced(law, &states[step.from], step.thermal, step.stretch);
+        let from = &states[step.from];
+        let next = match step.gives_way {
+            Some(axis) => given_way(law, from, step, axis),
+            None => advanced(law, from, step.thermal, step.stretch),
+        };
         states.push(next);
     }
     states
+}
+
+/// Secants, and the relative error of the stress from which no more are needed.
+const SECANTS: u32 = 12;
+const NEAR: f64 = 1e-6;
+
+/// The state after a step in which the cell gives way along an axis until it has the stress of the data there, or the nearest that was
+/// found.
+fn given_way(law: &Law, from: &State, step: &Step, axis: usize) -> State {
+    let target = step.to.stress[axis];
+    let at = |extension: f64| {
+        let mut stretch = step.stretch;
+        stretch[axis] = extension;
+        let state = advanced(law, from, step.thermal, stretch);
+        (law.stress(&state)[axis] - target, state)
+    };
+    let longest = step.stretch.iter().fold(step.thermal.abs(), |a, b| a.max(b.abs()));
+    let mut before = step.stretch[axis];
+    let (mut missed, mut best) = at(before);
+    let mut here = before + 0.1 * f64::signum(missed) * longest;
+    let mut least = missed.abs();
+    for _ in 0..SECANTS {
+        if least <= NEAR * target.abs() {
+            break;
+        }
+        let (now, state) = at(here);
+        if now.abs() < least {
+            (least, best) = (now.abs(), state);
+        }
+        let slope = (now - missed) / (here - before);
+        // The stress falls as the cell gives way; where it does not, the cell bears no load.
+        let next = if slope < 0.0 { -now / slope } else { f64::signum(now) * longest };
+        (before, missed) = (here, now);
+        here += next.clamp(-longest, longest);
+        if here == before {
+            break;
+        }
+    }
+    best
 }
 
 /// In how many parts a strain is applied.

@@ -42,6 +42,8 @@ pub enum PathName {
     /// It closes along one axis and opens along another by half of the strain, and back and there again; or the other way
     /// round.
     Biaxial,
+    /// It closes along two axes, or opens, and gives way along the third so that the stress there stays, and back and there again.
+    Pressed,
     /// It is sheared, there, beyond the start, and there again.
     Shear,
     /// Straight pieces in random directions of all strains.
@@ -53,11 +55,12 @@ pub enum PathName {
 
 impl PathName {
     /// The paths that a plan may name.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Isotropic,
         Self::Thermal,
         Self::Uniaxial,
         Self::Biaxial,
+        Self::Pressed,
         Self::Shear,
         Self::Mixed,
         Self::Equivalence,
@@ -71,6 +74,7 @@ impl PathName {
             Self::Thermal => "thermal",
             Self::Uniaxial => "uniaxial",
             Self::Biaxial => "biaxial",
+            Self::Pressed => "pressed",
             Self::Shear => "shear",
             Self::Mixed => "mixed",
             Self::Equivalence => "equivalence",

@@ -44,6 +44,8 @@ pub struct Steps {
     pub strain: f64,
     /// Size of an increment \[-\].
     pub size: f64,
+    /// How often a path goes there and back, before it goes there once more.
+    pub cycles: u32,
 }
 
 /// A change of the strains that leads from one row to another.
@@ -65,6 +67,8 @@ pub struct Planned {
     pub increment: Increment,
     /// Strain relative to the packed state after the increment.
     pub strain: Strain,
+    /// The axis along which the box gives way so that its stress stays: that component of the strain is not planned, and 0 here.
+    pub gives_way: Option<usize>,
 }
 
 /// The rows of a path, in the order in which they are made. They depend on the seed of the packing, the name of the path and
@@ -74,15 +78,24 @@ pub fn planned(path: PathName, steps: &Steps) -> Vec<Planned> {
         return equivalence(steps);
     }
     let mut random = Random::new(path_seed(steps.seed, path));
-    let targets = match path {
-        PathName::Mixed => mixed(&mut random, steps),
-        path => there_and_back(path, &mut random, steps),
+    let (targets, gives_way) = match path {
+        PathName::Mixed => (mixed(&mut random, steps), None),
+        path => {
+            let along = direction(path, &mut random);
+            let gives_way = (0..3).find(|axis| path == PathName::Pressed && along.stretch[*axis] == 0.0);
+            (there_and_back(path, along, &mut random, steps), gives_way)
+        }
     };
     let mut here = Strain::default();
     let row = |(stop, target): (i64, Strain)| {
         let step = here.to(target);
         here = here.then(step);
-        Planned { stop, increment: Increment { from_stop: stop - 1, step, turned: false }, strain: here }
+        Planned {
+            stop,
+            increment: Increment { from_stop: stop - 1, step, turned: false },
+            strain: here,
+            gives_way,
+        }
     };
     (1..).zip(targets).map(row).collect()
 }
@@ -118,12 +131,12 @@ fn stops(first: f64, length: f64, steps: &Steps) -> Vec<f64> {
 }
 
 /// Strains, relative to the packed state, of a path that goes along one line.
-fn there_and_back(path: PathName, random: &mut Random, steps: &Steps) -> Vec<Strain> {
-    let along = direction(path, random);
+fn there_and_back(path: PathName, along: Strain, random: &mut Random, steps: &Steps) -> Vec<Strain> {
     let opens = steps.pressure >= OPENING_FROM && random.uniform(0.0, 1.0) < OPENING_SHARE;
-    let turns = match path {
+    let [there, back, end] = match path {
         // To shear it one way or the other is the same on average.
         PathName::Shear => [1.0, -0.6, 0.8],
+        PathName::Pressed => [1.0, 0.0, 0.6],
         _ if opens => {
             let open = OPENING * libm::pow(steps.pressure, 2.0 / 3.0) / steps.strain;
             [-open.min(1.0), 0.6, 0.0]
@@ -132,7 +145,8 @@ fn there_and_back(path: PathName, random: &mut Random, steps: &Steps) -> Vec<Str
         _ => [1.0, 0.2, 0.7],
     };
     let (mut from, mut targets) = (0.0, Vec::new());
-    for (k, turn) in turns.into_iter().enumerate() {
+    let turns = (0..steps.cycles).flat_map(|_| [there, back]).chain([end]);
+    for (k, turn) in turns.enumerate() {
         let to = turn * steps.strain;
         let begin = if k == 0 { first(steps) } else { TURN * steps.size };
         let sense = f64::signum(to - from);
@@ -153,6 +167,11 @@ fn direction(path: PathName, random: &mut Random) -> Strain {
             let opens = (closes + 1 + choice(random, 2)) % 3;
             let mut strain = Strain::single(closes, -1.0);
             strain.stretch[opens] = BIAXIAL_OPENS;
+            strain
+        }
+        PathName::Pressed => {
+            let mut strain = Strain::isotropic(-1.0);
+            strain.stretch[choice(random, 3)] = 0.0;
             strain
         }
         PathName::Shear => Strain::single(3 + choice(random, 3), 2.0),
@@ -201,7 +220,8 @@ fn equivalence(steps: &Steps) -> Vec<Planned> {
         let along = Strain::single(0, -size);
         for (step, turned) in [(grown, false), (shrunk, false), (along, false), (along, true)] {
             let stop = rows.len() as i64 + 1;
-            rows.push(Planned { stop, increment: Increment { from_stop: 0, step, turned }, strain: step });
+            let increment = Increment { from_stop: 0, step, turned };
+            rows.push(Planned { stop, increment, strain: step, gives_way: None });
         }
     }
     rows
@@ -211,7 +231,7 @@ fn equivalence(steps: &Steps) -> Vec<Planned> {
 mod tests {
     use super::*;
 
-    const STEPS: Steps = Steps { seed: 7, pressure: 1e-6, strain: 0.01, size: 5e-4 };
+    const STEPS: Steps = Steps { seed: 7, pressure: 1e-6, strain: 0.01, size: 5e-4, cycles: 1 };
 
     #[test]
     fn paths_turn_where_they_should_and_strains_add_up() {
@@ -239,6 +259,18 @@ mod tests {
             (largest - 0.01).abs() < 1e-15 && (thermal.last().unwrap().strain.thermal - 0.006).abs() < 1e-15
         );
         assert!(thermal.iter().any(|row| row.strain.thermal.abs() < 1e-15));
+        let turns = |cycles: u32| {
+            let rows = planned(PathName::Uniaxial, &Steps { cycles, ..STEPS });
+            let closes: Vec<bool> = rows.iter().map(|row| row.increment.step.compression() > 0.0).collect();
+            closes.windows(2).filter(|two| two[0] != two[1]).count()
+        };
+        assert_eq!((turns(1), turns(10)), (2, 20));
+        for path in PathName::ALL {
+            let axes = planned(path, &STEPS)
+                .into_iter()
+                .map(|row| row.gives_way.map(|axis| row.strain.stretch[axis]));
+            assert!(axes.into_iter().all(|planned| planned == (path == PathName::Pressed).then_some(0.0)));
+        }
     }
 
     /// Random ways end nearer than they began.

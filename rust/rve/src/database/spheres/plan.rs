@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 /// Sizes that increments and whole paths may have \[-\].
 const STEPS: [f64; 2] = [1e-5, 1e-2];
 const STRAINS: [f64; 2] = [1e-4, 5e-2];
+/// Times that a path may go there and back.
+const CYCLES: [u32; 2] = [1, 1000];
 /// A plan with more packings is taken as a typing error: it would compute for months.
 const MOST_PACKINGS: u64 = 1_000_000;
 
@@ -62,6 +64,9 @@ pub struct SphereBlock {
     /// Size of an increment \[-\].
     #[serde(default = "usual_step")]
     pub step: f64,
+    /// How often a path that goes there and back does so, before it goes there once more.
+    #[serde(default = "usual_cycles")]
+    pub cycles: u32,
 }
 
 fn usual_friction() -> f64 {
@@ -82,6 +87,10 @@ fn usual_strain() -> f64 {
 
 fn usual_step() -> f64 {
     5e-4
+}
+
+fn usual_cycles() -> u32 {
+    1
 }
 
 /// One packing of a plan.
@@ -194,7 +203,7 @@ impl SpherePlan {
                 pressure,
             },
             paths: block.paths.clone(),
-            steps: Steps { seed, pressure, strain: block.strain, size: block.step },
+            steps: Steps { seed, pressure, strain: block.strain, size: block.step, cycles: block.cycles },
         }
     }
 
@@ -240,6 +249,10 @@ impl SphereBlock {
             if !(least..=most).contains(&value) {
                 return Err(format!("{key}: {value:e}, allowed: {least:e} to {most:e}"));
             }
+        }
+        let [least, most] = CYCLES;
+        if !(least..=most).contains(&self.cycles) {
+            return Err(format!("cycles: {}, allowed: {least} to {most}", self.cycles));
         }
         if self.paths.is_empty() {
             return Err("paths: at least one is needed".into());
@@ -288,6 +301,7 @@ mod tests {
             ("[\"thermal\"]", "[\"thermal\", \"thermal\"]", "paths: thermal: is named twice"),
             ("[\"thermal\"]", "[\"thermal\"]\nstep = 0.1", "step: 1e-1, allowed: 1e-5 to 1e-2"),
             ("[\"thermal\"]", "[\"thermal\"]\nstrain = 1.0", "strain: 1e0, allowed: 1e-4 to 5e-2"),
+            ("[\"thermal\"]", "[\"thermal\"]\ncycles = 0", "cycles: 0, allowed: 1 to 1000"),
             ("[\"thermal\"]", "[\"circle\"]", "unknown variant `circle`"),
             ("seed = 5", "seed = 5\nfriction = 3.0", "friction: 3, allowed: 0 to 2"),
             ("seed = 5", "seed = 5\npoisson_ratio = 0.6", "poisson_ratio: 0.6, allowed: 0 to 0.5"),

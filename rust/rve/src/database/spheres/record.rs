@@ -157,7 +157,7 @@ impl SphereRecord {
         planned: &Planned,
         state: Result<&(Rest, Averages), &str>,
     ) -> Self {
-        let Planned { stop, increment: Increment { from_stop, step, turned }, strain } = *planned;
+        let Planned { stop, increment: Increment { from_stop, step, turned }, strain, .. } = *planned;
         let mut record = Self { path, stop, strain: strain.thermal, ..Self::of(job) };
         set!(record, strain.stretch, strain_xx strain_yy strain_zz strain_xy strain_xz strain_yz);
         record.from_stop = Some(from_stop);

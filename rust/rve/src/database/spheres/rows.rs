@@ -1,5 +1,6 @@
 //! The rows of one packing of spheres: its packed state and every stop of its paths.
 
+use super::giving_way::GivingWay;
 use super::kind::PathName;
 use super::paths::Planned;
 use super::plan::SphereJob;
@@ -26,8 +27,8 @@ pub(super) fn rows(job: &SphereJob) -> Vec<SphereRecord> {
     };
     let mut records = vec![SphereRecord::packed(job, Ok(&state))];
     for &path in &job.paths {
-        let planned = job.path(path);
-        let results = follow(&prepared.simulation, prepared.rest, path, &planned);
+        let mut planned = job.path(path);
+        let results = follow(&prepared.simulation, prepared.rest, path, &mut planned);
         let row = |(planned, result): (&Planned, Result<State, String>)| {
             SphereRecord::on_path(job, path, planned, result.as_ref().map_err(String::as_str))
         };
@@ -51,17 +52,26 @@ fn averaged(simulation: &Simulation) -> Result<Averages, String> {
 }
 
 /// The states of one path, or why they were not reached. A path ends where a failure happens or where the box bears no load
-/// any more.
+/// any more. Where the box gives way along an axis, that part of the plan is filled in.
 fn follow(
     packed: &Simulation,
     rest: Rest,
     path: PathName,
-    planned: &[Planned],
+    planned: &mut [Planned],
 ) -> Vec<Result<State, String>> {
     let start = goes_on(packed.clone(), rest, 0);
     let mut here = start.clone();
     let mut results = Vec::new();
+    let mut giving_way = GivingWay::of(packed);
+    let mut strain = Strain::default();
     for row in planned {
+        if let Some(axis) = row.gives_way {
+            if let Ok(simulation) = &here {
+                row.increment.step.stretch[axis] = giving_way.next(simulation, axis, &row.increment.step);
+            }
+            strain = strain.then(row.increment.step);
+            row.strain = strain;
+        }
         let from = if path == PathName::Equivalence { &start } else { &here };
         let increment = row.increment;
         let reached = from.clone().and_then(|simulation| match increment.turned {

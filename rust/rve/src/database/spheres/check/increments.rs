@@ -2,7 +2,7 @@
 
 use crate::database::check::planned::{jobs, within};
 use crate::database::spheres::kind::PathName;
-use crate::database::spheres::paths::Increment;
+use crate::database::spheres::paths::{Increment, Planned};
 use crate::database::spheres::plan::{SphereJob, SpherePlan};
 use crate::database::spheres::record::SphereRecord;
 use crate::database::table::Row;
@@ -31,12 +31,12 @@ pub(super) fn violations(dataset: &Dataset<SphereRecord>, tolerance: f64) -> Vec
     violations
 }
 
-fn planned(jobs: &[SphereJob]) -> BTreeMap<Key, Increment> {
+fn planned(jobs: &[SphereJob]) -> BTreeMap<Key, Planned> {
     let mut plans = BTreeMap::new();
     for job in jobs {
         for &path in &job.paths {
             let rows = job.path(path).into_iter();
-            plans.extend(rows.map(|row| ((job.packing, path, row.stop), row.increment)));
+            plans.extend(rows.map(|row| ((job.packing, path, row.stop), row)));
         }
     }
     plans
@@ -59,7 +59,7 @@ fn agree(a: Strain, b: Strain, tolerance: f64) -> bool {
 fn row_laws(
     record: &SphereRecord,
     rows: &BTreeMap<Key, &SphereRecord>,
-    plans: &BTreeMap<Key, Increment>,
+    plans: &BTreeMap<Key, Planned>,
     tolerance: f64,
 ) -> Found {
     let Some(increment) = record.increment() else {
@@ -67,9 +67,11 @@ fn row_laws(
     };
     let mut found = Vec::new();
     let plan = plans.get(&(record.packing, record.path, record.stop));
-    let same = |plan: &Increment| {
-        (plan.from_stop, plan.turned) == (increment.from_stop, increment.turned)
-            && agree(increment.step, plan.step, 4.0 * tolerance)
+    let same = |plan: &Planned| {
+        let Increment { from_stop, turned, step } = plan.increment;
+        let mut made = increment.step;
+        plan.gives_way.into_iter().for_each(|axis| made.stretch[axis] = step.stretch[axis]);
+        (from_stop, turned) == (increment.from_stop, increment.turned) && agree(made, step, 4.0 * tolerance)
     };
     if plan.is_some_and(|plan| !same(plan)) {
         found.push(("the increment is the plan's", format!("{increment:?}, plan {plan:?}")));

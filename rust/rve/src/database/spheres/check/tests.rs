@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 const PLAN: &str = "seed = 3\n[[spheres]]\nspheres = 60\npacking_frictions = [0.3, 0.0]\ncompressions = [\"isotropic\"]\n\
-    pressures = [1e-5, 1e-4]\nrepeats = 1\npaths = [\"equivalence\", \"uniaxial\"]\nstep = 2e-3\n";
+    pressures = [1e-5, 1e-4]\nrepeats = 1\npaths = [\"equivalence\", \"uniaxial\", \"pressed\"]\nstep = 2e-3\n";
 
 fn dataset() -> Dataset<SphereRecord> {
     static MADE: OnceLock<Dataset<SphereRecord>> = OnceLock::new();
@@ -41,7 +41,8 @@ fn of_path(dataset: &mut Dataset<SphereRecord>, path: PathName, stop: i64) -> &m
 fn every_broken_law_is_found_and_its_row_named() {
     type Damage = fn(&mut SphereRecord);
     let (uniaxial, twins, packed) = (PathName::Uniaxial, PathName::Equivalence, PathName::Packed);
-    let cases: [(&str, PathName, i64, Damage); 16] = [
+    let pressed = PathName::Pressed;
+    let cases: [(&str, PathName, i64, Damage); 18] = [
         ("p = (sigma_xx + sigma_yy + sigma_zz)/3", uniaxial, 1, |r| scale(&mut r.pressure, 1.0 + 1e-7)),
         ("trace of F is 1", uniaxial, 1, |r| scale(&mut r.fabric_xx, 1.0 + 1e-7)),
         ("the solid fraction follows", uniaxial, 2, |r| scale(&mut r.solid_fraction, 1.0 + 1e-7)),
@@ -56,6 +57,9 @@ fn every_broken_law_is_found_and_its_row_named() {
         ("a row of a path has its increment", uniaxial, 1, |r| r.step_yz = None),
         ("the increment is the plan's", uniaxial, 1, |r| r.step_thermal = Some(1e-4)),
         ("strains add up", uniaxial, 2, |r| r.strain_zz += 1e-6),
+        ("the increment is the plan's", pressed, 2, |r| r.step_thermal = Some(1e-4)),
+        // Along any axis, also that along which the box gives way.
+        ("strains add up", pressed, 2, |r| [r.step_xx, r.step_yy, r.step_zz] = [Some(-1e-4); 3]),
         ("radii that grow are a box that shrinks", twins, 1, |r| scale(&mut r.contact_conductivity_xx, 1.2)),
         ("no law knows a direction", twins, 3, |r| r.stress_xy = Some(1e-5)),
     ];
