@@ -55,6 +55,7 @@ pub mod links;
 pub mod named_gases;
 pub mod network;
 pub mod pack;
+pub mod packings;
 pub mod pour;
 pub mod press;
 pub mod profile;

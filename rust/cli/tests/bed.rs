@@ -130,3 +130,85 @@ fn what_is_wrong_is_named_before_anything_is_computed() {
     let text = refused(&out, &|text| text);
     assert!(text.contains("bed.json: is a folder"), "{text}");
 }
+
+/// The shipped case `column`, with few grains and for a short time.
+fn moving(folder: &Path) -> PathBuf {
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/column/elements.toml");
+    let small = [
+        ("number = 20000", "number = 120"),
+        ("base = [0.16, 0.16]", "base = [0.0256, 0.0256]"),
+        ("distances = [0.03, 0.06, 0.09, 0.12, 0.15]", "distances = [0.01, 0.02]"),
+        ("heights = [0.03, 0.15]", "heights = [0.008, 0.03]"),
+        ("end = 24000", "end = 1200"),
+        ("steps = 4000", "steps = 500"),
+        ("output_every = 1200", "output_every = 600"),
+    ];
+    let text = small.into_iter().fold(std::fs::read_to_string(shipped).unwrap(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    });
+    let case = folder.join("moving");
+    std::fs::create_dir_all(&case).unwrap();
+    std::fs::write(case.join("elements.toml"), text).unwrap();
+    case
+}
+
+/// Several packings: each has the bytes it has alone, the mean is theirs, and what was computed is not computed again unless the
+/// case is another.
+#[test]
+fn packings_are_joined_and_a_run_goes_on_where_it_was_killed() {
+    let folder = Folder::new("packings");
+    let case = moving(&folder.0);
+    let outs = ["alone", "all"].map(|name| folder.0.join(name));
+    let text = |out: &Path, name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let output = run(&case, &outs[0], &["--seed", "2"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(run(&case, &outs[1], &["--packings", "2"]).status.success());
+    let one = text(&outs[1], "elements-2.csv");
+    assert_eq!(one.split_once('\n').unwrap().1, text(&outs[0], "elements.csv"));
+    let cells = |text: &str, column: &str| -> Vec<f64> {
+        let mut rows = text.lines().filter(|line| !line.starts_with('#'));
+        let place = rows.next().unwrap().split(',').position(|name| name == column).unwrap();
+        rows.map(|row| row.split(',').nth(place).unwrap().parse().unwrap()).collect()
+    };
+    let files = ["elements-1.csv", "elements-2.csv", "elements.csv", "elements-scatter.csv"];
+    for column in ["T_0.01", "p", "K", "coordination"] {
+        let [a, b, mean, scatter] = files.map(|name| cells(&text(&outs[1], name), column));
+        assert_eq!(mean.len(), 3);
+        for k in 0..3 {
+            let near = |found: f64, wanted: f64| (found - wanted).abs() <= 1e-6 * a[k].abs();
+            assert!(near(mean[k], 0.5 * (a[k] + b[k])), "{column}");
+            assert!(near(scatter[k], (a[k] - b[k]).abs() / 2f64.sqrt()), "{column}");
+        }
+    }
+    // As after a kill: one packing is there, the other and the mean are not.
+    let whole = text(&outs[1], "elements.csv");
+    std::fs::remove_file(outs[1].join("elements-1.csv")).unwrap();
+    std::fs::remove_file(outs[1].join("elements.csv")).unwrap();
+    let told = String::from_utf8(run(&case, &outs[1], &["--packings", "2"]).stdout).unwrap();
+    assert!(told.contains("packing 2 of 2, seed 2: known from") && !told.contains("seed 1: known"), "{told}");
+    assert_eq!(text(&outs[1], "elements.csv"), whole);
+    // Another case in the same folder of results is computed afresh.
+    let changed = text(&case, "elements.toml").replace("pressure = 20000", "pressure = 30000");
+    std::fs::write(case.join("elements.toml"), changed).unwrap();
+    let told = String::from_utf8(run(&case, &outs[1], &["--packings", "2"]).stdout).unwrap();
+    assert!(!told.contains("known from"), "{told}");
+    assert_ne!(text(&outs[1], "elements.csv"), whole);
+}
+
+#[test]
+fn packings_are_for_moving_beds_and_more_than_one() {
+    let folder = Folder::new("packings-wrong");
+    let out = folder.0.join("out");
+    let refused = run(&case(&folder.0, |text| text), &out, &["--packings", "2"]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(
+        String::from_utf8(refused.stderr).unwrap().contains("--packings, allowed: with an elements.toml")
+    );
+    let case = moving(&folder.0);
+    assert_eq!(run(&case, &out, &["--packings", "1"]).status.code(), Some(2));
+    let refused = run(&case, &out, &["--seed", "9223372036854775807", "--packings", "2"]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(String::from_utf8(refused.stderr).unwrap().contains("would be too large"));
+    assert!(!out.exists());
+}

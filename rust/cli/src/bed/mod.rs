@@ -23,9 +23,12 @@ pub enum Command {
 #[command(after_help = "Examples:
   msdd bed run cases/beaulieu
   msdd bed run cases/beaulieu --vary     what the uncertain inputs change, one at a time
+  msdd bed run cases/store --packings 3  the mean of three packings, and how much they differ
 
 The folder holds bed.toml (every key is explained in the book, Reference, Measured beds) and, if there is an experiment, its
-measurements. If it holds elements.toml instead, a bed whose walls move while heat flows, the only result is elements.csv. Into the folder of results go
+measurements. If it holds elements.toml instead, a bed whose walls move while heat flows, the only result is elements.csv; with
+--packings it is the mean, elements-scatter.csv is the standard deviation of one packing, and elements-<seed>.csv are the single
+ones: what is there already, from the same elements.toml, is not computed again. Into the folder of results of a bed.toml go
   temperature.csv   T over time at the probes, for both ways to take the plate
   comparison.csv    differences from the measurements
   bed.json          the packing, heat and its balance, and how each stage came to rest
@@ -43,6 +46,9 @@ pub struct RunArguments {
     /// Seed of the packing, instead of that of the case.
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: Option<u64>,
+    /// Packings with this many seeds, from that of the case on; with an elements.toml.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1000))]
+    packings: Option<u32>,
     /// Compute it again with each value of the blocks [[vary]] of the case, one changed at a time.
     #[arg(long)]
     vary: bool,
@@ -61,6 +67,9 @@ fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     let folder = &arguments.case;
     if folder.join(msdd_beds::scene::FILE).exists() {
         return run_moving(arguments);
+    }
+    if arguments.packings.is_some() {
+        return Err(CliError::Message("--packings, allowed: with an elements.toml".to_string()));
     }
     let mut case = BedCase::read(folder)?;
     if let Some(seed) = arguments.seed {
@@ -106,7 +115,11 @@ fn run_moving(arguments: &RunArguments) -> Result<(), CliError> {
         return Err(CliError::Message("--vary, allowed: with a bed.toml".to_string()));
     }
     let out = results_folder(arguments);
-    moving::compute(&arguments.case, arguments.seed, arguments.threads as usize, &out)
+    let (case, threads) = (&arguments.case, arguments.threads as usize);
+    match arguments.packings {
+        Some(count) => moving::compute_packings(case, arguments.seed, count, threads, &out),
+        None => moving::compute(case, arguments.seed, threads, &out),
+    }
 }
 
 /// The measurements of a case; none without an experiment.
@@ -126,7 +139,7 @@ mod tests {
     fn results_have_the_name_of_the_case_however_it_is_given() {
         let folder = |case: &str, out: Option<&str>| {
             let (case, out) = (case.into(), out.map(PathBuf::from));
-            results_folder(&RunArguments { case, out, seed: None, vary: false, threads: 1 })
+            results_folder(&RunArguments { case, out, seed: None, packings: None, vary: false, threads: 1 })
         };
         let here = std::env::current_dir().unwrap();
         let expected = Path::new("results/beds").join(here.file_name().unwrap());

@@ -3,46 +3,104 @@
 use crate::error::CliError;
 use crate::progress::Progress;
 use msdd_beds::coupled::{Prepared, Row, Run, prepare, run};
+use msdd_beds::packings::join;
 use msdd_beds::rows::elements;
 use msdd_beds::scene::{FILE, Scene};
-use msdd_files::{check_target, write};
+use msdd_files::{check_target, read_text, write};
+use msdd_surrogate::document::hash;
 use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 
-/// Name of the file of results.
-pub const RESULTS: &str = "elements.csv";
+/// Names of the files of results: of one packing or the mean of several, and the scatter of several.
+const RESULTS: &str = "elements.csv";
+const SCATTER: &str = "elements-scatter.csv";
 /// Shares of the stages and of the run in the progress, in hundredths.
 const STAGES: [(&str, u64, u64); 3] = [("pour", 0, 20), ("lid", 20, 5), ("harden", 25, 15)];
 const RUN: u64 = 40;
 
 /// Computes a bed, writes [`RESULTS`] into `out`, and prints a summary.
 pub fn compute(folder: &Path, seed: Option<u64>, threads: usize, out: &Path) -> Result<(), CliError> {
-    let mut scene = Scene::read(folder)?;
-    if let Some(seed) = seed {
-        scene.seed = seed;
-    }
+    let scene = scene(folder, seed)?;
     let target = out.join(RESULTS);
     check_target(&target)?;
+    let text = simulate(folder, &scene, threads)?;
+    write(&target, text.as_bytes())?;
+    outln!("results: {}", target.display());
+    Ok(())
+}
+
+/// The same for packings with this number of seeds, from that of the case on: writes the mean and the standard deviation, and keeps
+/// each packing's results, which are not computed again if they are of the same case and program.
+pub fn compute_packings(
+    folder: &Path,
+    seed: Option<u64>,
+    count: u32,
+    threads: usize,
+    out: &Path,
+) -> Result<(), CliError> {
+    let first = scene(folder, seed)?;
+    let last = first.seed.checked_add(u64::from(count) - 1).filter(|&last| i64::try_from(last).is_ok());
+    let last = last.ok_or_else(|| {
+        CliError::Message(format!("--packings {count}: seeds from {} on would be too large", first.seed))
+    })?;
+    let seeds: Vec<u64> = (first.seed..=last).collect();
+    let file = |seed: u64| out.join(format!("elements-{seed}.csv"));
+    let targets = [out.join(RESULTS), out.join(SCATTER)];
+    for target in targets.iter().cloned().chain(seeds.iter().map(|&seed| file(seed))) {
+        check_target(&target)?;
+    }
+    let input = read_text(&folder.join(FILE))?;
+    let mut tables = Vec::new();
+    for (number, &seed) in seeds.iter().enumerate() {
+        let (begin, target) = (origin(&input, seed), file(seed));
+        if let Some(known) = read_text(&target).ok().filter(|text| text.starts_with(&begin)) {
+            outln!("packing {} of {count}, seed {seed}: known from {}", number + 1, target.display());
+            tables.push(known);
+            continue;
+        }
+        outln!("packing {} of {count}, seed {seed}", number + 1);
+        let text = begin + &simulate(folder, &Scene { seed, ..first.clone() }, threads)?;
+        write(&target, text.as_bytes())?;
+        tables.push(text);
+    }
+    let joined = join(&seeds, &tables)
+        .ok_or_else(|| CliError::Message(format!("{}: packings with other rows", out.display())))?;
+    write(&targets[0], joined.mean.as_bytes())?;
+    write(&targets[1], joined.scatter.as_bytes())?;
+    outln!("results: {}, {}", targets[0].display(), targets[1].display());
+    Ok(())
+}
+
+/// The first line of the results of a packing that is one of several: what they were computed from.
+fn origin(input: &str, seed: u64) -> String {
+    format!("# of {}, seed {seed}, msdd {}\n", hash(input), env!("CARGO_PKG_VERSION"))
+}
+
+fn scene(folder: &Path, seed: Option<u64>) -> Result<Scene, CliError> {
+    let scene = Scene::read(folder)?;
+    Ok(Scene { seed: seed.unwrap_or(scene.seed), ..scene })
+}
+
+/// The table of a packing; prints a summary.
+fn simulate(folder: &Path, scene: &Scene, threads: usize) -> Result<String, CliError> {
     let failed = |source| CliError::Bed { file: folder.join(FILE), source };
     let mut progress = Progress::new("bed", 1000);
     let mut show = |percent: f64, note: &str| progress.set((10.0 * percent) as u64, 1000, note);
     let begin = Instant::now();
-    let prepared = prepare(&scene, threads, |stage, share| {
+    let prepared = prepare(scene, threads, |stage, share| {
         let (_, from, width) = STAGES.into_iter().find(|known| known.0 == stage).unwrap_or(STAGES[0]);
         show(from as f64 + width as f64 * share.min(0.999), stage);
     });
     let prepared = prepared.map_err(failed)?;
     let ready = begin.elapsed().as_secs_f64();
     let found =
-        run(&scene, &prepared, |share| show(RUN as f64 + (100 - RUN) as f64 * share.min(0.999), "heat"));
+        run(scene, &prepared, |share| show(RUN as f64 + (100 - RUN) as f64 * share.min(0.999), "heat"));
     let found = found.map_err(failed)?;
     progress.finish();
-    write(&target, elements(&scene, &prepared, &found).as_bytes())?;
-    out!("{}", summary(&scene, &prepared, &found));
+    out!("{}", summary(scene, &prepared, &found));
     outln!("{ready:.0} s to prepare the bed, {:.0} s to heat it", begin.elapsed().as_secs_f64() - ready);
-    outln!("results: {}", target.display());
-    Ok(())
+    Ok(elements(scene, &prepared, &found))
 }
 
 fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {

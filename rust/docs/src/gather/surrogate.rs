@@ -37,8 +37,8 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
     forms(&mut section, &Json::read(root, &format!("{INPUTS}/score_forms.json"))?)?;
     spheres(&mut section, &Json::read(root, &format!("{INPUTS}/score_spheres.json"))?)?;
     let cycling = along_paths(&Json::read(root, &format!("{INPUTS}/score_cycling.json"))?)?;
-    let meaning = "rms errors of the law of spheres along paths of ten cycles of packings that its training never saw; no two of them \
-                   are alike";
+    let meaning = "rms errors of the law of spheres along paths of ten cycles, of all packings, one fifth of which its training never \
+                   saw; no two of them are alike";
     section.add_table("spheres-law-cycling", meaning, "msdd score", &ALONG_COLUMNS, cycling);
     spheres_parts(&mut section, &Json::read(root, &format!("{INPUTS}/ablation_spheres.json"))?)?;
     let columns = ["model", "porosity increment", "fabric increment", "conductivity", "stress"];

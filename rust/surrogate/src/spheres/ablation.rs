@@ -28,7 +28,7 @@ type LeftOut = (Option<&'static str>, &'static [(usize, f64)]);
 /// ln of the least strength that a file may have.
 const NONE: f64 = -13.8;
 
-const LINES: [LeftOut; 8] = [
+const LINES: [LeftOut; 11] = [
     (None, &[]),
     (
         Some("mobilised friction"),
@@ -43,14 +43,16 @@ const LINES: [LeftOut; 8] = [
             (31, 0.0),
             (36, 0.0),
             (41, 0.0),
+            (48, 0.0),
         ],
     ),
+    (Some("friction that is mobilised less by sliding against the stress"), &[(48, 0.0)]),
     (Some("collapse"), &[(14, 0.0), (15, 0.0), (16, 0.0), (17, 0.0)]),
     (
         Some("fabric (fourth element)"),
         &[(22, 0.0), (38, 0.0), (39, NONE), (40, 0.0), (41, 0.0), (42, 0.0), (43, 0.0)],
     ),
-    (Some("third element"), &[(33, 0.0), (34, NONE), (35, 0.0), (36, 0.0), (37, 0.0)]),
+    (Some("third element"), &[(33, 0.0), (34, NONE), (35, 0.0), (36, 0.0), (37, 0.0), (46, 0.0)]),
     (
         Some("second and third element"),
         &[
@@ -64,9 +66,13 @@ const LINES: [LeftOut; 8] = [
             (35, 0.0),
             (36, 0.0),
             (37, 0.0),
+            (45, 0.0),
+            (46, 0.0),
         ],
     ),
     (Some("powers of the pressure other than Hertz's"), &[(3, 0.0), (4, 0.0), (5, 0.0)]),
+    (Some("strengths that depend on the load"), &[(44, 0.0), (45, 0.0), (46, 0.0)]),
+    (Some("another power while it opens"), &[(47, 0.0)]),
     (Some("dilatancy"), &[(9, 0.0), (10, 0.0), (11, 0.0), (12, 0.0), (13, 0.0)]),
 ];
 

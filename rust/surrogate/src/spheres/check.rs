@@ -31,6 +31,8 @@ impl Law {
             ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
             ("shear[2]", of_free, of_free.abs() <= 5.0, "-5 to 5"),
             ("mobilising", self.mobilising, (0.0..=100.0).contains(&self.mobilising), "0 to 100"),
+            ("healing", self.healing, (0.0..=1.0).contains(&self.healing), "0 to 1"),
+            ("reopening", self.reopening, (0.0..=2.0).contains(&self.reopening), "0 to 2"),
             ("lift", self.lift, self.lift.abs() <= 10.0, "-10 to 10"),
             ("dilatancy[0]", d0, (0.0..=10.0).contains(&d0), "0 to 10"),
             ("collapse[0]", c0, (0.0..=10.0).contains(&c0), "0 to 10"),

@@ -2,7 +2,7 @@
 
 use super::law::Law;
 use super::parameters::{PARAMETERS, beginning, law, parameters};
-use super::tensor::{Tensor, contraction, deviator, mean};
+use super::tensor::{Tensor, contraction, deviator, mean, sum};
 use super::tracks::{Track, follow};
 use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};
 use nalgebra::{DMatrix, DVector};
@@ -17,8 +17,13 @@ const STEP: f64 = 1e-4;
 /// Number of spheres of a packing whose errors have the weight 1; that of others goes with the root of their number.
 const USUAL_SPHERES: f64 = 1000.0;
 
+/// Residuals of paths that turn more often than this count by this factor: there are few of them, and a law that is a little off in
+/// each cycle is far off after ten.
+const TURNS: usize = 7;
+const OF_CYCLES: f64 = 1.7;
+
 /// A stress counts over the largest of these: the pressure, that of the packing, a share of the largest on the path so far, and
-/// the pressure that a share of the path's length would build up. So an error of strain that is small beside the strain counts
+/// the pressure that a share of the largest strain so far would build up. So an error of strain that is small beside the strain counts
 /// little where a packing is about to lose its load and a small strain changes its pressure by decades.
 const SHARE_OF_LARGEST: f64 = 0.1;
 const SHARE_OF_LENGTH: f64 = 0.2;
@@ -28,15 +33,16 @@ const USUAL_BULK: f64 = 0.075;
 /// Over what the stress of each state after a step counts.
 pub fn scales(track: &Track) -> Vec<f64> {
     let packed = mean(track.packed.stress);
-    let (mut largest, mut length) = (packed, 0.0);
+    let (mut largest, mut length, mut strained) = (packed, 0.0f64, [0.0; 6]);
     let each = track.steps.iter().map(|step| {
         let [xx, yy, zz, xy, xz, yz] = step.stretch;
-        let strain = [xx, yy, zz, 0.5 * xy, 0.5 * xz, 0.5 * yz];
-        let distortion = deviator(strain);
         // A packing whose load is held along an axis does not lose it.
         if step.gives_way.is_none() {
-            length +=
-                contraction(&distortion, &distortion).sqrt() + 3.0 * (mean(strain) - step.thermal).abs();
+            let t = step.thermal;
+            strained = sum(&strained, &[xx - t, yy - t, zz - t, 0.5 * xy, 0.5 * xz, 0.5 * yz]);
+            let distortion = deviator(strained);
+            let size = contraction(&distortion, &distortion).sqrt() + 3.0 * mean(strained).abs();
+            length = length.max(size);
         }
         let pressure = mean(step.to.stress);
         largest = largest.max(pressure);
@@ -60,7 +66,8 @@ impl PathFit<'_> {
         let law = law(x);
         let mut residuals = Vec::new();
         for track in self.tracks {
-            let weight = (track.spheres as f64 / USUAL_SPHERES).sqrt();
+            let of_cycles = if track.turns() > TURNS { OF_CYCLES } else { 1.0 };
+            let weight = of_cycles * (track.spheres as f64 / USUAL_SPHERES).sqrt();
             let states = follow(&law, track);
             for ((step, state), scale) in track.steps.iter().zip(&states[1..]).zip(scales(track)) {
                 let (found, data) = (law.stress(state), step.to.stress);

@@ -29,6 +29,11 @@ pub struct Law {
     pub collapse: [f64; 4],
     /// Growth of the mobilised friction by sliding: dg = −m g ds/v.
     pub mobilising: f64,
+    /// Loss of mobilised friction by sliding against the stress: d(1 − g) = −h (1 − g) ds/v. Contacts that were about to slide are
+    /// so no more.
+    pub healing: f64,
+    /// Added to the [`Element::power`] of the elements of friction while the packing opens.
+    pub reopening: f64,
     /// Loss of compression by a unit of opening: s₀/(1 + (v/v₀)²), v₀ = s₁ e^(−s₂ x), of packings that lose their load.
     pub settling: [f64; 3],
     /// Stress ratio of the fabric over the deviator of the fabric, and its usual part of the stress ratio, for packings whose
@@ -43,7 +48,8 @@ pub struct Law {
 pub struct Element {
     /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1.
     pub stiffness: f64,
-    /// It slides when it exceeds `strength` e^(`growth` x + `free` g + `hardening` √v) times A.
+    /// It slides when it exceeds `strength` e^(`growth` x + `free` g) times A, and times e^(`hardening` √v) for the fabric, or
+    /// √u^`hardening`, at most that at u = 1, for friction.
     pub strength: f64,
     pub growth: f64,
     pub free: f64,
@@ -199,7 +205,11 @@ impl Law {
     /// Strength of an element, by the root of v.
     pub(super) fn strength<N: Number>(&self, k: usize, x: N, free: N, root: N) -> N {
         let Element { strength, growth, free: of_free, hardening, .. } = self.elements[k];
-        let exponent = x.times(growth) + free.times(of_free) + root.times(hardening);
+        let loaded = match k {
+            FABRIC => root,
+            _ => root.times(1.0 / libm::sqrt(USUAL_COMPRESSION)).at_most(1.0).ln(),
+        };
+        let exponent = x.times(growth) + free.times(of_free) + loaded.times(hardening);
         exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
     }
 
@@ -241,7 +251,7 @@ impl Law {
             let (before, free) = (next.compression.value(), next.free().value());
             next = self.part(&next, thermal, cell);
             let [before, after] = [before, next.compression.value()].map(|v| v.max(LEAST_COMPRESSION));
-            forgotten += free * self.contacts.forgotten(before, after, &cell.map(Number::value));
+            forgotten += free * free * self.contacts.forgotten(before, after, &cell.map(Number::value));
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
         let usual = |state: &State<N>| self.contacts.usual(&state.value().contact_row());
@@ -269,6 +279,7 @@ impl Law {
         let after = tried.at_least(LEAST_COMPRESSION);
         let over = after.inverse();
         let opening = after * before.inverse();
+        let opens = tried.value() < before.value();
         let distortion = deviator(strain);
         let total = state.ratio();
         let [d0, d1, d2, d3] = self.dilatancy;
@@ -278,11 +289,13 @@ impl Law {
         let [c0, c1, c2, c3] = self.collapse;
         let collapse = (Self::exponential(x, -c1) * Self::compressions(after).1.power(-c2)).times(c0)
             * free.times(-1.0).plus(1.0);
-        let (mut loss, mut sliding) = (N::of(0.0), N::of(0.0));
+        let (mut loss, mut sliding, mut back) = (N::of(0.0), N::of(0.0), N::of(0.0));
         for (k, ratio) in ratios.iter_mut().enumerate() {
             let stiffness = shear.times(self.elements[k].stiffness);
             let most = self.strength(k, x, free, root).times(if k == FABRIC { 1.0 } else { state.strength });
-            let faded = scaled(ratio, opening.power(self.elements[k].power));
+            let power = self.elements[k].power;
+            let reopened = if k != FABRIC && opens { self.reopening } else { 0.0 };
+            let faded = scaled(ratio, opening.power(power + reopened));
             let faded = within(&faded, most).0;
             let added = scaled(&distortion, stiffness * over);
             let elastic: Tensor<N> = std::array::from_fn(|c| faded[c] - added[c]);
@@ -292,6 +305,9 @@ impl Law {
                 let slid = excess * after * stiffness.inverse();
                 sliding = sliding + slid;
                 let along = contraction(&total, &elastic) * length.inverse();
+                if along.value() < 0.0 {
+                    back = back + slid;
+                }
                 let climbing =
                     (usual - along).times(d0) + collapse * along.times(-1.0 / c3).plus(1.0).at_least(0.0);
                 let least = most.times(-MOST_CLIMBING);
@@ -299,7 +315,7 @@ impl Law {
             }
         }
         let [s0, s1, s2] = self.settling;
-        if tried.value() < before.value() {
+        if opens {
             let usual = Self::exponential(x, -s2).times(s1);
             let level = after * usual.inverse();
             loss = loss + (before - tried) * (level * level).plus(1.0).inverse().times(s0);
@@ -308,7 +324,8 @@ impl Law {
         let compression = tried - loss;
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         let left = free * (sliding * over).times(-self.mobilising).at_least(-MOST_EXPONENT).exp();
-        let mobilised = left.times(-1.0).plus(1.0);
+        let kept = (back * over).times(-self.healing).at_least(-MOST_EXPONENT).exp();
+        let mobilised = left.times(-1.0).plus(1.0) * kept;
         State { jamming, compression, ratios, mobilised, ..*state }
     }
 }

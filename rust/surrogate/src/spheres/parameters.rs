@@ -23,7 +23,7 @@ const STRENGTH: [f64; 2] = [1e-6, 2.0];
 const POWER: [f64; 2] = [-2.0, 1.0];
 
 /// Number of parameters.
-pub const PARAMETERS: usize = 44;
+pub const PARAMETERS: usize = 49;
 
 /// Coefficients of x are divided by 10.
 const TABLE: [(Place, Scale); PARAMETERS] = [
@@ -71,6 +71,11 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.elements[3].free, Over(1.0, [-10.0, 10.0])),
     (|law| &mut law.elements[3].hardening, Over(1.0, [-100.0, 100.0])),
     (|law| &mut law.elements[3].power, Over(1.0, POWER)),
+    (|law| &mut law.elements[0].hardening, Over(1.0, [-3.0, 3.0])),
+    (|law| &mut law.elements[1].hardening, Over(1.0, [-3.0, 3.0])),
+    (|law| &mut law.elements[2].hardening, Over(1.0, [-3.0, 3.0])),
+    (|law| &mut law.reopening, Over(1.0, [0.0, 2.0])),
+    (|law| &mut law.healing, Over(0.1, [0.0, 1.0])),
 ];
 
 /// The law's numbers as parameters.
@@ -106,20 +111,22 @@ pub fn beginning() -> Law {
         power,
     };
     Law {
-        bulk: [0.056, 0.32, 0.65, 0.44, -0.31, 2.6],
-        shear: [7.5, 0.33, -0.21],
-        lift: 0.09,
+        bulk: [0.054, -2.6, 0.85, 0.47, -0.46, 5.0],
+        shear: [7.9, 0.29, -0.62],
+        lift: 0.033,
         elements: [
-            element([0.21, 0.13, 15.0, 0.96, 0.0, -0.68]),
-            element([0.99, 0.0047, -52.0, 4.8, 0.0, -0.49]),
-            element([0.82, 0.154, -0.7, 0.82, 0.0, -1.01]),
-            element([0.047, 0.39, -15.0, -1.4, 45.0, -0.08]),
+            element([0.26, 0.145, 6.8, 1.35, 0.38, -0.83]),
+            element([1.29, 0.045, -13.0, 2.1, -0.6, -1.07]),
+            element([0.59, 0.153, 11.6, 0.33, 1.6, -0.87]),
+            element([0.021, 0.52, -27.0, -1.4, 17.0, -0.036]),
         ],
-        dilatancy: [0.125, 0.1, -3.8, 0.38],
-        collapse: [0.15, 13.0, 0.31, 0.79],
-        mobilising: 0.012,
-        settling: [2.9, 1.43e-6, 357.0],
-        fabric: [5.0, 0.5],
+        dilatancy: [0.2, 0.47, -0.74, 0.1],
+        collapse: [0.073, 37.0, 0.36, 0.66],
+        mobilising: 0.004,
+        healing: 0.071,
+        reopening: 0.15,
+        settling: [2.05, 2.1e-6, 346.0],
+        fabric: [4.7, 0.5],
         contacts: Contacts { usual: [0.0; COEFFICIENTS], fading: [0.0; 2] },
     }
 }

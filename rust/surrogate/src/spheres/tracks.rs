@@ -1,7 +1,7 @@
 //! Paths of strain of boxes of spheres, and the law along them.
 
 use super::law::{Known, Law, State, Strain};
-use super::tensor::{Tensor, rotation};
+use super::tensor::{Tensor, contraction, rotation};
 
 /// A state of a box. Stresses over E*, compression positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,6 +70,18 @@ impl Track {
     /// The state number `k`, see [`Step::from`].
     pub fn point(&self, k: usize) -> &Point {
         if k == 0 { &self.packed } else { &self.steps[k - 1].to }
+    }
+
+    /// How often the path turns back.
+    pub fn turns(&self) -> usize {
+        let strain = |step: &Step| {
+            let [xx, yy, zz, xy, xz, yz] = step.stretch;
+            [xx - step.thermal, yy - step.thermal, zz - step.thermal, 0.5 * xy, 0.5 * xz, 0.5 * yz]
+        };
+        let back = |(k, pair): &(usize, &[Step])| {
+            pair[1].from == k + 1 && contraction(&strain(&pair[0]), &strain(&pair[1])) < 0.0
+        };
+        self.steps.windows(2).enumerate().filter(back).count()
     }
 }
 
