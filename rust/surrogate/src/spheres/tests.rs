@@ -369,7 +369,7 @@ fn packings_with_mobilised_friction_are_softer() {
     let sheared = Increment { cell: [0.0, 0.0, 0.0, 4e-4, 0.0, 0.0], ..Increment::default() };
     let (poured, slippery) = (after(1.0, sheared), after(0.0, sheared));
     assert!(
-        mean(poured) < 0.95 * mean(stress) && mean(slippery) > 0.98 * mean(stress),
+        mean(poured) < 0.9 * mean(stress) && mean(slippery) > 0.95 * mean(stress),
         "{poured:?} {slippery:?}"
     );
     assert!(poured[3].abs() < 0.7 * slippery[3].abs(), "{poured:?} {slippery:?}");
