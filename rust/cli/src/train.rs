@@ -6,7 +6,7 @@ use crate::rows::training_data;
 use crate::score;
 use crate::spheres;
 use clap::Args;
-use msdd_files::{check_target, write};
+use msdd_files::{check_target, check_writable, write};
 use msdd_rve::database::{Dataset, read_all};
 use msdd_surrogate::document::hash;
 use msdd_surrogate::{DatabaseProvenance, TrainingOptions, models};
@@ -59,6 +59,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
     let kind = models::kind(&arguments.model).map_err(failed)?;
     let options = options(arguments, kind, &dataset)?;
+    check_writable(&arguments.out)?;
     let begin = Instant::now();
     let model = (kind.train)(&data, &options).map_err(failed)?;
     let seconds = begin.elapsed().as_secs_f64();

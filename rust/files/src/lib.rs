@@ -16,7 +16,7 @@ pub mod part;
 pub use folder::list;
 pub use limit::{MOST_BYTES, read, read_text};
 pub use lock::Lock;
-pub use part::{Part, check_target, write};
+pub use part::{Part, check_target, check_writable, write};
 
 use std::io;
 use std::path::PathBuf;

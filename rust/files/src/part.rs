@@ -69,6 +69,14 @@ pub fn write(file: &Path, bytes: &[u8]) -> Result<(), FileError> {
     part.put()
 }
 
+/// Checks that a file can be written, and makes its folder when it is missing: before work that takes long.
+///
+/// # Errors
+/// Those of [`check_target`]; [`FileError::Write`].
+pub fn check_writable(file: &Path) -> Result<(), FileError> {
+    Part::beside(file).map(drop)
+}
+
 /// Checks that a file of this name may be written: there is none yet, or a regular file.
 ///
 /// # Errors

@@ -10,7 +10,7 @@ use crate::error::CliError;
 use clap::{Args, Subcommand};
 use msdd_beds::case::{BedCase, CaseError, Vary};
 use msdd_beds::experiment::{self, Measured};
-use msdd_files::{check_target, write};
+use msdd_files::{check_writable, write};
 use std::path::{Path, PathBuf};
 
 #[derive(Subcommand)]
@@ -77,12 +77,12 @@ fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     }
     let measured = measurements(folder, &case)?;
     let out = results_folder(arguments);
-    for file in files::NAMES {
-        check_target(&out.join(file))?;
-    }
     let vary: &[Vary] = if arguments.vary { &case.vary } else { &[] };
     let vary = vary.iter().map(|vary| Ok((vary.clone(), case.varied(folder, vary)?)));
     let vary = vary.collect::<Result<_, CaseError>>()?;
+    for file in files::NAMES {
+        check_writable(&out.join(file))?;
+    }
     let failed = |source| CliError::Bed { file: folder.join(msdd_beds::case::FILE), source };
     let threads = arguments.threads as usize;
     let results = results::compute(case, vary, measured, threads, failed, |results| {

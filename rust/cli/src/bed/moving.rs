@@ -6,7 +6,7 @@ use msdd_beds::coupled::{Prepared, Row, Run, prepare, run};
 use msdd_beds::packings::join;
 use msdd_beds::rows::elements;
 use msdd_beds::scene::{FILE, Scene};
-use msdd_files::{check_target, read_text, write};
+use msdd_files::{check_writable, read_text, write};
 use msdd_surrogate::document::hash;
 use std::fmt::Write;
 use std::path::Path;
@@ -23,7 +23,7 @@ const RUN: u64 = 40;
 pub fn compute(folder: &Path, seed: Option<u64>, threads: usize, out: &Path) -> Result<(), CliError> {
     let scene = scene(folder, seed)?;
     let target = out.join(RESULTS);
-    check_target(&target)?;
+    check_writable(&target)?;
     let text = simulate(folder, &scene, threads)?;
     write(&target, text.as_bytes())?;
     outln!("results: {}", target.display());
@@ -48,7 +48,7 @@ pub fn compute_packings(
     let file = |seed: u64| out.join(format!("elements-{seed}.csv"));
     let targets = [out.join(RESULTS), out.join(SCATTER)];
     for target in targets.iter().cloned().chain(seeds.iter().map(|&seed| file(seed))) {
-        check_target(&target)?;
+        check_writable(&target)?;
     }
     let input = read_text(&folder.join(FILE))?;
     let mut tables = Vec::new();

@@ -3,7 +3,7 @@
 mod tracks;
 
 use crate::error::CliError;
-use msdd_files::{read_text, write};
+use msdd_files::{check_writable, read_text, write};
 use msdd_rve::database::read_spheres;
 use msdd_surrogate::document::hash;
 use msdd_surrogate::spheres::ablation::{ablation, nanoseconds};
@@ -59,6 +59,7 @@ pub fn train_and_write(training: &Training) -> Result<(), CliError> {
         database,
         ..TrainingOptions::default()
     };
+    check_writable(training.out)?;
     let begin = Instant::now();
     let failed = |source| CliError::Training { file: training.database[0].clone(), source };
     let model = train(&tracks, &options).map_err(failed)?;
