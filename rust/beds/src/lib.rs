@@ -32,6 +32,7 @@
 //! | [`scene`] | the description of a bed whose walls move while heat flows |
 //! | [`coupled`] | such a bed: heat, growth of the grains, walls, averages over time |
 //! | [`rows`] | its averages as a file |
+//! | [`packings`] | mean and scatter of several packings of such a bed, from their files |
 //! | [`bed`] | a measured bed from pouring to temperatures |
 //! | [`voxels`] | direct solutions of the heat equation, to hold the laws against |
 //! | [`walks`] | direct solutions of the heat equation between isothermal spheres, likewise |

@@ -26,27 +26,28 @@ const OF_CYCLES: f64 = 1.7;
 /// the pressure that a share of the largest strain so far would build up. So an error of strain that is small beside the strain counts
 /// little where a packing is about to lose its load and a small strain changes its pressure by decades.
 const SHARE_OF_LARGEST: f64 = 0.1;
-const SHARE_OF_LENGTH: f64 = 0.2;
+const SHARE_OF_STRAIN: f64 = 0.2;
 /// p/E* over v^(3/2) of usual packings.
 const USUAL_BULK: f64 = 0.075;
 
 /// Over what the stress of each state after a step counts.
 pub fn scales(track: &Track) -> Vec<f64> {
     let packed = mean(track.packed.stress);
-    let (mut largest, mut length, mut strained) = (packed, 0.0f64, [0.0; 6]);
+    let (mut largest, mut farthest) = (packed, 0.0f64);
+    // Of each state, since the packing.
+    let mut strains = vec![[0.0; 6]];
     let each = track.steps.iter().map(|step| {
-        let [xx, yy, zz, xy, xz, yz] = step.stretch;
         // A packing whose load is held along an axis does not lose it.
-        if step.gives_way.is_none() {
-            let t = step.thermal;
-            strained = sum(&strained, &[xx - t, yy - t, zz - t, 0.5 * xy, 0.5 * xz, 0.5 * yz]);
-            let distortion = deviator(strained);
-            let size = contraction(&distortion, &distortion).sqrt() + 3.0 * mean(strained).abs();
-            length = length.max(size);
-        }
+        let strain = match step.gives_way {
+            None => sum(&strains[step.from], &step.strain()),
+            Some(_) => strains[step.from],
+        };
+        strains.push(strain);
+        let distortion = deviator(strain);
+        farthest = farthest.max(contraction(&distortion, &distortion).sqrt() + 3.0 * mean(strain).abs());
         let pressure = mean(step.to.stress);
         largest = largest.max(pressure);
-        let built_up = USUAL_BULK * libm::pow(SHARE_OF_LENGTH * length, 1.5);
+        let built_up = USUAL_BULK * libm::pow(SHARE_OF_STRAIN * farthest, 1.5);
         pressure.max(packed).max(SHARE_OF_LARGEST * largest).max(built_up)
     });
     each.collect()

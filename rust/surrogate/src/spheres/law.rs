@@ -49,7 +49,7 @@ pub struct Element {
     /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1.
     pub stiffness: f64,
     /// It slides when it exceeds `strength` e^(`growth` x + `free` g) times A, and times e^(`hardening` √v) for the fabric, or
-    /// √u^`hardening`, at most that at u = 1, for friction.
+    /// min(√u, 1)^`hardening` for friction.
     pub strength: f64,
     pub growth: f64,
     pub free: f64,

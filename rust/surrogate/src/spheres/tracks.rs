@@ -52,6 +52,14 @@ pub struct Step {
     pub to: Point,
 }
 
+impl Step {
+    /// Strain of the cell less the growth of the radii, its shears not doubled.
+    pub fn strain(&self) -> Tensor {
+        let [xx, yy, zz, xy, xz, yz] = self.stretch;
+        [xx - self.thermal, yy - self.thermal, zz - self.thermal, 0.5 * xy, 0.5 * xz, 0.5 * yz]
+    }
+}
+
 /// A packing and what was done with it, as far as it bears load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
@@ -74,12 +82,8 @@ impl Track {
 
     /// How often the path turns back.
     pub fn turns(&self) -> usize {
-        let strain = |step: &Step| {
-            let [xx, yy, zz, xy, xz, yz] = step.stretch;
-            [xx - step.thermal, yy - step.thermal, zz - step.thermal, 0.5 * xy, 0.5 * xz, 0.5 * yz]
-        };
         let back = |(k, pair): &(usize, &[Step])| {
-            pair[1].from == k + 1 && contraction(&strain(&pair[0]), &strain(&pair[1])) < 0.0
+            pair[1].from == k + 1 && contraction(&pair[0].strain(), &pair[1].strain()) < 0.0
         };
         self.steps.windows(2).enumerate().filter(back).count()
     }
