@@ -271,7 +271,7 @@ public:
     }
 
     /** Fills the state columns of packings with these solid fractions and stresses (six columns [Pa], compression positive), and
-     *  contacts per sphere and fabric (six columns) or null. Throws Error. */
+     *  contacts per sphere, mobilised part of the friction, and fabric (six columns) or null. Throws Error. */
     void initialState
     (
         const msdd_sphere_material& material,
@@ -279,6 +279,7 @@ public:
         const double* solidFraction,
         const double* const* stress,
         const double* coordination,
+        const double* mobilised,
         const double* const* fabric,
         double* const* state
     ) const
@@ -288,7 +289,8 @@ public:
         (
             msdd_spheres_initial_state
             (
-                handle_.get(), &material, cells, solidFraction, stress, coordination, fabric, state
+                handle_.get(), &material, cells, solidFraction, stress, coordination, mobilised,
+                fabric, state
             )
         );
     }

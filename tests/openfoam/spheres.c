@@ -85,7 +85,7 @@ int main(int argc, char **argv)
     for (k = 0; k < most; k++) {
         state[k] = columns + k;
     }
-    if (msdd_spheres_initial_state(law, &material, 1, &fraction, stress, NULL, NULL, state) != MSDD_OK) {
+    if (msdd_spheres_initial_state(law, &material, 1, &fraction, stress, NULL, NULL, NULL, state) != MSDD_OK) {
         fprintf(stderr, "spheres: %s\n", msdd_last_error());
         return 1;
     }

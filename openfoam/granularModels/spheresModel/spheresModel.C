@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "spheresModel.H"
+#include "volFields.H"
 #include "addToRunTimeSelectionTable.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -32,6 +33,9 @@ static const scalar notable = 1e-3;
 
 //- Spheres at a wall along which they were poured, on the square of a diameter
 static const scalar usualSpheres = 0.87;
+
+//- Mobilised part of the friction
+static const scalar usualFriction = 1;
 
 //- End the run: the library failed
 static void failed(const char* what, const std::exception& error)
@@ -72,7 +76,8 @@ Foam::granularModels::spheres::spheres
         coeffs_,
         {
             "model", "hash", "poissonRatio", "roughness", "hardness", "gas",
-            "gasPressure", "accommodation", "coordination", "wall"
+            "gasPressure", "accommodation", "coordination", "mobilised",
+            "wall"
         }
     );
     checkHash(source_, law_.hash());
@@ -228,12 +233,33 @@ void Foam::granularModels::spheres::initialState
             granularProperties::ranged(coeffs_, "coordination", Zero, 0, 12)
         );
     }
+    // The stress of a packing depends on it, so a field cannot just replace the
+    // column afterwards
+    scalarField mobilised
+    (
+        cells.size,
+        granularProperties::ranged(coeffs_, "mobilised", usualFriction, 0, 1)
+    );
+    const IOobject io
+    (
+        "mobilised",
+        mesh_.time().timeName(),
+        mesh_,
+        IOobject::MUST_READ,
+        IOobject::NO_WRITE,
+        false
+    );
+    if (IOobject(io).typeHeaderOk<volScalarField>(true))
+    {
+        mobilised = volScalarField(io, mesh_).primitiveField();
+    }
     try
     {
         law_.initialState
         (
             material_, cells.size, solid.cdata(), stress.data(),
-            contacts.empty() ? nullptr : contacts.cdata(), nullptr, state + 2
+            contacts.empty() ? nullptr : contacts.cdata(), mobilised.cdata(),
+            nullptr, state + 2
         );
     }
     catch (const std::exception& error)

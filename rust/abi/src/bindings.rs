@@ -1,6 +1,6 @@
 //! What bindgen makes of `msdd.h`; `cargo test -p msdd-abi --test header` holds it against the header.
 
-pub const MSDD_ABI_VERSION: u32 = 3;
+pub const MSDD_ABI_VERSION: u32 = 4;
 pub const MSDD_PLUGIN_VERSION: u32 = 2;
 pub const MSDD_OK: msdd_status = 0;
 pub const MSDD_INVALID_ARGUMENT: msdd_status = 1;
@@ -763,6 +763,7 @@ unsafe extern "C" {
         solid_fraction: *const f64,
         stress: *const *const f64,
         coordination: *const f64,
+        mobilised: *const f64,
         fabric: *const *const f64,
         state: *const *mut f64,
     ) -> i32;

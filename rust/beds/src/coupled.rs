@@ -66,6 +66,8 @@ pub struct Row {
 #[derive(Clone, Debug)]
 pub struct Run {
     pub rows: Vec<Row>,
+    /// How much of the friction is mobilised at the start in the region of averages, see [`crate::mobilised`] \[-\].
+    pub mobilisation: f64,
     /// Heat that the grains stored which no wall holds, and the residual of its balance \[J\].
     pub stored: f64,
     pub residual: f64,
@@ -178,7 +180,14 @@ impl<'a> Coupled<'a> {
             lid: Moving::new(lid, Hold::Place { moved: 0.0 }),
             shell: scene.shell.as_ref().map(|_| Moving::new(number("side"), Hold::Place { moved: 0.0 })),
             depth_at_start: 0.0,
-            run: Run { rows: Vec::new(), stored: 0.0, residual: 0.0, heat_steps: 0, steps: simulation.steps },
+            run: Run {
+                rows: Vec::new(),
+                mobilisation: region(scene).mobilisation(&simulation),
+                stored: 0.0,
+                residual: 0.0,
+                heat_steps: 0,
+                steps: simulation.steps,
+            },
             simulation,
         };
         bed.depth_at_start = bed.depth();
@@ -286,7 +295,7 @@ impl<'a> Coupled<'a> {
     fn record(&mut self, time: f64) -> Result<(), BedError> {
         let (scene, simulation) = (self.scene, &self.simulation);
         let keys = &scene.record;
-        let region = Region { heights: keys.heights, radius: keys.radius, area: scene.vessel().area() };
+        let region = region(scene);
         let wall = simulation.boundary.walls()[scene.wall(&keys.wall).unwrap_or_default()];
         let round = scene.wall("side") == scene.wall(&keys.wall);
         let temperature = |&distance: &f64| {
@@ -354,6 +363,12 @@ impl<'a> Coupled<'a> {
 fn depth(simulation: &Simulation, lid: usize) -> f64 {
     let walls = simulation.boundary.walls();
     walls[lid].point[2] - walls[0].point[2]
+}
+
+/// Where the averages are taken.
+fn region(scene: &Scene) -> Region {
+    let keys = &scene.record;
+    Region { heights: keys.heights, radius: keys.radius, area: scene.vessel().area() }
 }
 
 /// The network of a bed whose heated walls hold the first layer of grains.

@@ -28,6 +28,7 @@
 //! | [`case`](mod@case) | the description of a bed that was measured |
 //! | [`experiment`] | measured temperatures, and how far a simulation is from them |
 //! | [`profile`] | a bed between two distances from a plate; probes |
+//! | [`mobilised`] | how much of the friction of its contacts a packing has mobilised |
 //! | [`region`] | stresses in the inner part of a bed |
 //! | [`scene`] | the description of a bed whose walls move while heat flows |
 //! | [`coupled`] | such a bed: heat, growth of the grains, walls, averages over time |
@@ -53,6 +54,7 @@ pub mod gas;
 pub mod give;
 pub mod harden;
 pub mod links;
+pub mod mobilised;
 pub mod named_gases;
 pub mod network;
 pub mod pack;

@@ -1,5 +1,6 @@
 //! Averages over the inner part of a bed between two heights.
 
+use crate::mobilised::mobilisation;
 use msdd_spheres::space::{dot, plus};
 use msdd_spheres::{Partner, Simulation};
 use std::f64::consts::PI;
@@ -23,6 +24,11 @@ impl Region {
     pub fn holds(&self, [x, y, z]: [f64; 3]) -> bool {
         (self.heights[0]..self.heights[1]).contains(&z)
             && self.radius.is_none_or(|radius| x * x + y * y < radius * radius)
+    }
+
+    /// How much of the friction is mobilised there, see [`mobilisation`] \[-\].
+    pub fn mobilisation(&self, simulation: &Simulation) -> f64 {
+        mobilisation(simulation, |middle| self.holds(middle))
     }
 
     /// Mean normal stresses \[Pa\], compression positive: along x, y, z, in a cylinder along the radius, around the axis, along z. Love's

@@ -27,7 +27,7 @@ extern "C" {
 #endif
 
 /** Version of this interface. Compare with msdd_abi_version() before anything else is called. */
-#define MSDD_ABI_VERSION 3u
+#define MSDD_ABI_VERSION 4u
 
 enum msdd_status {
     MSDD_OK = 0,
@@ -254,12 +254,12 @@ const char *msdd_spheres_state_name(const msdd_spheres *spheres, size_t column);
 
 /** Computes the state of packings with a solid fraction (0.3 to 0.8) and a stress [Pa, compression positive; six columns]. A
  *  pressure of 0 or less is that of spheres that just do not touch. `coordination`: contacts per sphere, all spheres counted
- *  (0 to 12); `fabric`: mean of n n over the contacts, with the normals n (six columns, -1 to 1). Either may be NULL, and then is
- *  that of usual packings. All friction counts as mobilised (state column `mobilised` 1), as in beds that were poured.
- *  `state`: state_size writable columns. */
+ *  (0 to 12); `mobilised`: the mobilised part of the friction (0 to 1); `fabric`: mean of n n over the contacts, with the normals n
+ *  (six columns, -1 to 1). Each may be NULL, and then is that of usual packings; of the friction, that of boxes that were closed
+ *  against their own friction, 1. `state`: state_size writable columns. */
 int32_t msdd_spheres_initial_state(const msdd_spheres *spheres, const msdd_sphere_material *material, size_t cells,
                                    const double *solid_fraction, const double *const *stress, const double *coordination,
-                                   const double *const *fabric, double *const *state);
+                                   const double *mobilised, const double *const *fabric, double *const *state);
 
 /** Takes every cell of the batch through one step. Cells are independent. Zero strain leaves the state as it is, bit for bit.
  *  Spheres that conduct less than 20 times as well as the gas conduct by another law than better ones, those up to 60 times by a

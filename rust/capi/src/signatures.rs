@@ -41,7 +41,7 @@ same! {
     msdd_spheres_describe(*const msdd_spheres) -> *const c_char;
     msdd_spheres_state_size(*const msdd_spheres) -> usize;
     msdd_spheres_state_name(*const msdd_spheres, usize) -> *const c_char;
-    msdd_spheres_initial_state(*const msdd_spheres, *const msdd_sphere_material, usize, *const f64, *const *const f64, *const f64, *const *const f64, *const *mut f64) -> i32;
+    msdd_spheres_initial_state(*const msdd_spheres, *const msdd_sphere_material, usize, *const f64, *const *const f64, *const f64, *const f64, *const *const f64, *const *mut f64) -> i32;
     msdd_spheres_advance(*const msdd_spheres, *const msdd_sphere_material, *mut msdd_sphere_batch) -> i32;
     msdd_spheres_free(*mut msdd_spheres);
     msdd_spheres_wall_resistance(*const msdd_sphere_material, *const msdd_sphere_wall, usize, *const f64, *const f64, *const f64, *mut f64) -> i32;

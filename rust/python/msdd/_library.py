@@ -12,7 +12,7 @@ from typing import Optional, Union
 
 from ._errors import raise_for
 
-ABI_VERSION = 3
+ABI_VERSION = 4
 """Version of the C interface that this package was written for."""
 
 Doubles = c.c_void_p
@@ -99,7 +99,7 @@ SIGNATURES: dict[str, tuple[Optional[type], list[type]]] = {
     "msdd_spheres_describe": (_TEXT, [_HANDLE]),
     "msdd_spheres_state_size": (c.c_size_t, [_HANDLE]),
     "msdd_spheres_state_name": (_TEXT, [_HANDLE, c.c_size_t]),
-    "msdd_spheres_initial_state": (_STATUS, [_HANDLE, _SPHERES, c.c_size_t, Doubles, _OUT, Doubles, _OUT, _OUT]),
+    "msdd_spheres_initial_state": (_STATUS, [_HANDLE, _SPHERES, c.c_size_t, Doubles, _OUT, Doubles, Doubles, _OUT, _OUT]),
     "msdd_spheres_advance": (_STATUS, [_HANDLE, _SPHERES, c.POINTER(SphereBatchStruct)]),
     "msdd_spheres_free": (None, [_HANDLE]),
     "msdd_spheres_wall_resistance": (

@@ -145,6 +145,7 @@ class Spheres:
         stress: ArrayLike,
         *,
         coordination: Optional[ArrayLike] = None,
+        mobilised: Optional[ArrayLike] = None,
         fabric: Optional[ArrayLike] = None,
     ) -> State:
         """State of packings at the start.
@@ -153,6 +154,7 @@ class Spheres:
         stress: [Pa], compression positive: either one number or array, the pressure, or six of them in the order of `COMPONENTS`
             in a list or along the first axis. Spheres under no pressure just do not touch.
         coordination: contacts per sphere, all spheres counted, 0 to 12. None: that of usual packings.
+        mobilised: mobilised part of the friction, 0 to 1. None: all of it, as in boxes that were closed against their own friction.
         fabric: mean of n n over the contacts, with the normals n, six components as of the stress, -1 to 1. None: that of usual
             packings.
         Arrays of any shapes that broadcast to one; the state has that shape.
@@ -160,15 +162,19 @@ class Spheres:
         """
         load = _components("stress", stress, COMPONENTS, isotropic=True)
         directions = {} if fabric is None else _components("fabric", fabric, COMPONENTS)
-        shape, columns = aligned({"solid_fraction": solid_fraction, **load}, {"coordination": coordination, **directions})
+        shape, columns = aligned(
+            {"solid_fraction": solid_fraction, **load},
+            {"coordination": coordination, "mobilised": mobilised, **directions},
+        )
         state = {name: np.empty(shape) for name in self._state_names}
         count, solid, given = _count(shape), address(columns["solid_fraction"]), table(columns[name] for name in load)
         contacts = None if coordination is None else address(columns["coordination"])
+        friction = None if mobilised is None else address(columns["mobilised"])
         normals = table(columns[name] for name in directions) if directions else None
         answer = table(state.values())
         check(
             library.msdd_spheres_initial_state(
-                self._handle, _scales(material), count, solid, given, contacts, normals, answer
+                self._handle, _scales(material), count, solid, given, contacts, friction, normals, answer
             )
         )
         return state

@@ -61,6 +61,17 @@ class Answers(WithLaw):
         np.testing.assert_allclose(grown.stress, pressed.stress, rtol=1e-6)
         self.assertGreater(grown.stress[0], 1e4)
 
+    def test_less_mobilised_friction_is_stiffer(self) -> None:
+        def pressed(**known: float) -> float:
+            state = self.law.initial_state(STEEL, 0.6, 2e4, **known)
+            return float(self.law.advance(STEEL, state, strain=[0, 0, -1e-4, 0, 0, 0]).stress[2])
+
+        self.assertEqual(pressed(mobilised=1), pressed())
+        self.assertGreater(pressed(mobilised=0.5), 1.05 * pressed())
+        self.assertEqual(float(self.law.initial_state(STEEL, 0.6, 2e4, mobilised=0.5)["mobilised"]), 0.5)
+        with self.assertRaisesRegex(msdd.InvalidArgument, "mobilised"):
+            pressed(mobilised=1.5)
+
     def test_the_tangent_is_the_derivative(self) -> None:
         state, strain, step = self.state(), np.array([-1e-4, 0, 0, 5e-5, 0, 0]), 1e-8
         tangent = self.law.advance(STEEL, state, strain=strain, tangent=True).tangent

@@ -111,6 +111,31 @@ contacts() {
     coefficient coordination 13
     check "refused: more contacts than spheres have" refused "Entry 'coordination' is 13"
 }
+# A packing that has mobilised less friction is stiffer: the radii grow in cells that keep their shape.
+friction() {
+    local all half
+    grown() { # folder, entry of spheresCoeffs
+        steel "$1"
+        sed -i 's/^thermalExpansion .*/thermalExpansion 1.2e-5;/' constant/granularProperties
+        sed -i 's/^internalField .*/internalField uniform 293.15;/' 0/T
+        coefficient coordination "5; $2"
+    }
+    grown friction-all 'mobilised 1'
+    logged msddFoam
+    all=$(component 100/stress 1)
+    grown friction-half 'mobilised 0.5'
+    logged msddFoam
+    half=$(component 100/stress 1)
+    check "with half of its friction mobilised a heated bed presses by $half Pa, with all of it by $all" \
+        is_within "$(awk "BEGIN { print $half/$all }")" 1.02 3
+    check "the state says so" is_within "$(field 50/mobilised | tail -n 1)" 0.4 0.5001
+    grown friction-field ''
+    sed 's/object *porosity;/object mobilised;/; s/^internalField .*/internalField uniform 0.5;/' 0/porosity > 0/mobilised
+    logged msddFoam
+    check "a field of mobilised friction comes before the key" [ "$(component 100/stress 1)" = "$half" ]
+    grown friction-wrong 'mobilised 1.5'
+    check "refused: more friction than there is" refused "Entry 'mobilised' is 1.5"
+}
 growth() {
     local p strain
     steel spheres-growing
@@ -174,6 +199,7 @@ measured_bed
 pressed_bed
 what_changes_it
 contacts
+friction
 growth
 again_and_in_parts
 refusals

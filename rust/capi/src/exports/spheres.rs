@@ -123,6 +123,22 @@ unsafe fn inputs<'a>(
     names.map(|(k, name)| unsafe { Input::new(name, columns.add(k).read(), cells) }).collect()
 }
 
+/// A column that may be null.
+///
+/// # Safety
+/// `column` is null or points to `cells` values.
+unsafe fn optional<'a>(
+    name: &'a str,
+    column: *const f64,
+    cells: usize,
+) -> Result<Option<Input<'a>>, Failure> {
+    match column.is_null() {
+        true => Ok(None),
+        // SAFETY: `cells` values by this function's contract.
+        false => unsafe { Input::new(name, column, cells) }.map(Some),
+    }
+}
+
 /// `msdd_spheres_initial_state`
 ///
 /// # Safety
@@ -137,6 +153,7 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
     solid_fraction: *const f64,
     stress: *const *const f64,
     coordination: *const f64,
+    mobilised: *const f64,
     fabric: *const *const f64,
     state: *const *mut f64,
 ) -> i32 {
@@ -152,14 +169,12 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
         let names = COMPONENTS.map(|component| format!("stress[{component}]"));
         let fabric_names = COMPONENTS.map(|component| format!("fabric[{component}]"));
         // SAFETY: `cells` values, six columns, and writable columns by this function's contract.
-        let (solid, stress, coordination, fabric, state) = unsafe {
+        let (solid, stress, coordination, mobilised, fabric, state) = unsafe {
             (
                 Input::new("solid_fraction", solid_fraction, cells)?,
                 inputs(names.iter().map(String::as_str), stress, cells)?,
-                match coordination.is_null() {
-                    true => None,
-                    false => Some(Input::new("coordination", coordination, cells)?),
-                },
+                optional("coordination", coordination, cells)?,
+                optional("mobilised", mobilised, cells)?,
                 match fabric.is_null() {
                     true => None,
                     false => Some(inputs(fabric_names.iter().map(String::as_str), fabric, cells)?),
@@ -177,6 +192,10 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
             column.check_finite()?;
             column.check_range(0.0, 12.0, "0 to 12")?;
         }
+        if let Some(column) = &mobilised {
+            column.check_finite()?;
+            column.check_range(0.0, 1.0, "0 to 1")?;
+        }
         for column in fabric.iter().flatten() {
             column.check_finite()?;
             column.check_range(-1.0, 1.0, "-1 to 1")?;
@@ -185,7 +204,7 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
             let stress: Tensor = std::array::from_fn(|k| stress[k].at(cell) / material.modulus());
             let known = Known {
                 coordination: coordination.map(|column| column.at(cell)),
-                mobilised: None,
+                mobilised: mobilised.map(|column| column.at(cell)),
                 fabric: fabric.as_ref().map(|columns| std::array::from_fn(|k| columns[k].at(cell))),
             };
             let found = handle.model.initial_state(solid.at(cell), stress, &known);

@@ -68,6 +68,7 @@ fn start(law: &Law, cells: usize) -> Vec<Vec<f64>> {
             stress.as_ptr(),
             null(),
             null(),
+            null(),
             columns.as_ptr(),
         )
     };
@@ -183,15 +184,15 @@ fn answers_are_those_of_the_model_in_si_units() {
 }
 
 #[test]
-fn contacts_and_fabric_are_those_that_were_counted() {
+fn contacts_friction_and_fabric_are_those_that_are_known() {
     let law = Law::builtin();
-    let (solid, contacts) = ([0.6, 0.6], [4.0, 5.5]);
+    let (solid, contacts, friction) = ([0.6, 0.6], [4.0, 5.5], [0.7, 0.2]);
     let stress = [1e5, 1e5, 1.3e5, 0.0, 0.0, 0.0].map(|part| vec![part; 2]);
     let fabric = [0.32, 0.32, 0.36, 0.0, 0.0, 0.0].map(|part| vec![part; 2]);
     // SAFETY: live.
     let size = unsafe { msdd_spheres_state_size(law.0) };
     let (stress, normals) = (pointers(&stress), pointers(&fabric));
-    let found = |contacts: *const f64, fabric: *const *const f64| {
+    let found = |contacts: *const f64, friction: *const f64, fabric: *const *const f64| {
         let mut state = vec![vec![-7.0; 2]; size];
         let columns = writable(&mut state);
         // SAFETY: live, columns of two values.
@@ -203,24 +204,26 @@ fn contacts_and_fabric_are_those_that_were_counted() {
                 solid.as_ptr(),
                 stress.as_ptr(),
                 contacts,
+                friction,
                 fabric,
                 columns.as_ptr(),
             )
         };
         (status, state)
     };
-    let (status, state) = found(contacts.as_ptr(), normals.as_ptr());
+    let (status, state) = found(contacts.as_ptr(), friction.as_ptr(), normals.as_ptr());
     assert_eq!(status, MSDD_OK, "{}", last_error());
     let model = SphereModel::builtin().expect("a good file");
     let load = [1e5, 1e5, 1.3e5, 0.0, 0.0, 0.0].map(|part| part / MODULUS);
     let tensor = Some([0.32, 0.32, 0.36, 0.0, 0.0, 0.0]);
     for cell in 0..2 {
-        let known = Known { coordination: Some(contacts[cell]), fabric: tensor, mobilised: None };
+        let [coordination, mobilised] = [contacts[cell], friction[cell]].map(Some);
+        let known = Known { coordination, fabric: tensor, mobilised };
         let expected = model.initial_state(0.6, load, &known);
         assert!((0..size).all(|k| state[k][cell] == expected[k]), "{expected:?}");
     }
     let (many, wrong) = ([5.0, 13.0], [[f64::NAN; 2]; 6].map(|column| column.to_vec()));
-    let (status, untouched) = found(many.as_ptr(), null());
+    let (status, untouched) = found(many.as_ptr(), null(), null());
     assert!(
         status == MSDD_INVALID_ARGUMENT && last_error().contains("coordination[1] = 13"),
         "{}",
@@ -228,8 +231,14 @@ fn contacts_and_fabric_are_those_that_were_counted() {
     );
     assert_eq!(untouched, vec![vec![-7.0; 2]; size]);
     let wrong = pointers(&wrong);
-    let (status, _) = found(null(), wrong.as_ptr());
+    let (status, _) = found(null(), null(), wrong.as_ptr());
     assert!(status == MSDD_NON_FINITE && last_error().contains("fabric[xx]"), "{}", last_error());
+    let (status, _) = found(null(), [1.0, 1.5].as_ptr(), null());
+    assert!(
+        status == MSDD_INVALID_ARGUMENT && last_error().contains("mobilised[1] = 1.5"),
+        "{}",
+        last_error()
+    );
 }
 
 #[test]

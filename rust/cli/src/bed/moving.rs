@@ -3,6 +3,7 @@
 use crate::error::CliError;
 use crate::progress::Progress;
 use msdd_beds::coupled::{Prepared, Row, Run, prepare, run};
+use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::join;
 use msdd_beds::rows::elements;
 use msdd_beds::scene::{FILE, Scene};
@@ -129,6 +130,12 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     found.rows.iter().step_by(shown).for_each(|row| line(&mut text, row));
     let worst = found.rows.iter().map(|row| row.unbalanced).fold(0.0, f64::max);
     let _ = writeln!(text, "largest force out of balance: {:.2} % of that on the lid", 100.0 * worst);
+    let _ = writeln!(
+        text,
+        "friction at the start: {:.3} of what the contacts bear before they slide, for the law of spheres 'mobilised {:.2};'",
+        found.mobilisation,
+        mobilised(found.mobilisation)
+    );
     let peak = found.rows.iter().map(|row| row.peak).fold(f64::NAN, f64::max);
     let yielding = found.rows.iter().map(|row| row.yielding).fold(0.0, f64::max);
     if peak > 1.0 {
