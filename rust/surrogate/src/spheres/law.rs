@@ -108,7 +108,8 @@ pub struct Known {
     pub coordination: Option<f64>,
     /// Mean of n n over the contacts, with the normals n.
     pub fabric: Option<Tensor>,
-    /// The mobilised part of the friction: 1 is usual, for beds that were poured or shaken.
+    /// The mobilised part of the friction: 1 unless it is known, as in boxes that were shaken or closed against their own friction;
+    /// beds that were poured have 0.8 to 0.9.
     pub mobilised: Option<f64>,
 }
 

@@ -21,7 +21,7 @@
 //!
 //! **Contacts.** The number of contacts per sphere is state, too, see [`contacts`]. It changes conductivities, not the stress.
 //!
-//! **Mobilised friction.** g is the part of the friction that is not mobilised: 0 in beds that were poured, shaken, or packed with
+//! **Mobilised friction.** g is the part of the friction that is not mobilised: 0 in boxes that were shaken or packed with
 //! their own friction, where many contacts are about to slide; 1 − μ_p/μ in boxes that were packed with less friction μ_p. Solid
 //! fraction and number of contacts do not tell one from the other. Sliding by s mobilises: dg = −m g ds/v.
 //!
