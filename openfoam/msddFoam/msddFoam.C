@@ -56,6 +56,7 @@ Usage
 #include "restartTime.H"
 #include "stepWatch.H"
 #include "caseChecks.H"
+#include "equilibriumSolver.H"
 
 #include "runSummary.H"
 #include "version.H"
@@ -125,6 +126,23 @@ static void chooseSettings(const Time& runTime)
 }
 
 
+//- Ends PETSc before OpenFOAM ends MPI, which PETSc has started where a process
+//- runs by itself
+class petscSession
+{
+public:
+
+    petscSession() = default;
+    petscSession(const petscSession&) = delete;
+    void operator=(const petscSession&) = delete;
+
+    ~petscSession()
+    {
+        equilibriumSolver::endPetsc();
+    }
+};
+
+
 int main(int argc, char *argv[])
 {
     argList::addNote
@@ -167,6 +185,8 @@ int main(int argc, char *argv[])
     #include "setRootCaseLists.H"
 
     runRecord::accepted = wordHashSet(args.getList<word>("accept", false));
+    // Before all that uses PETSc, so that it ends after it
+    const petscSession petsc;
     const restartTime restart(args);
 
     Info<< "msddFoam " << msddVersion << nl << endl;

@@ -64,6 +64,12 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         pointMesh::New(mesh_),
         dimensionedVector(dimLength, Zero)
     ),
+    nodeVelocity_
+    (
+        io("nodeVelocity", IOobject::READ_IF_PRESENT),
+        pointMesh::New(mesh_),
+        dimensionedVector(dimVelocity, Zero)
+    ),
     wallTraction_
     (
         io("wallTraction", IOobject::READ_IF_PRESENT),
@@ -90,6 +96,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         extrapolatedCalculatedFvPatchScalarField::typeName
     ),
     u_(nodes_.dim()*nodes_.size(), Zero),
+    velocity_(u_),
     traction_(u_),
     gravity_(properties.gravity()),
     weight_(u_),
@@ -128,6 +135,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         grains_.letDeform(walls_.strength());
     }
     readNodes(nodeDisplacement_, u_);
+    readNodes(nodeVelocity_, velocity_);
     readNodes(wallTraction_, traction_);
     broken_ = nodes_.findShapes(nodes_.points(), reference_);
     if (returnReduce(broken_ >= 0, orOp<bool>()))

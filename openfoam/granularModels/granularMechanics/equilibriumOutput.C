@@ -87,6 +87,7 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
     law_->output();
 
     writeNodes(u_, nodeDisplacement_);
+    writeNodes(velocity_, nodeVelocity_);
     writeNodes(traction_, wallTraction_);
 }
 

@@ -346,6 +346,19 @@ Foam::equilibriumSolver::objects& Foam::equilibriumSolver::withSolver
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+void Foam::equilibriumSolver::endPetsc()
+{
+    PetscBool started = PETSC_FALSE, ended = PETSC_FALSE;
+    check(PetscInitialized(&started));
+    check(PetscFinalized(&ended));
+    if (started && !ended)
+    {
+        const quietArithmetic quiet;
+        check(PetscFinalize());
+    }
+}
+
+
 void Foam::equilibriumSolver::toVector
 (
     const scalarField& from,

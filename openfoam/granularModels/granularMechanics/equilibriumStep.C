@@ -32,6 +32,9 @@ static const label mostCuts = 6;
 //- enough: along a way that lowers the energy this work falls to zero
 static const scalar enoughWork = 0.8;
 
+//- Share of the norm of the imbalance that the first guess may leave
+static const scalar enoughGuess = 0.5;
+
 //- Imbalance over the residual up to which a node does not count when steps are
 //- judged while at most this share of the nodes is out of balance: on a million
 //- nodes, those that are in balance would else decide whether a step may mend
@@ -292,6 +295,25 @@ void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
 }
 
 
+bool Foam::granularMechanicsModels::equilibrium::guess(nodeField& du)
+{
+    if (guess_.empty())
+    {
+        return false;
+    }
+    const scalar still = norm_;
+    const scalar now = imbalance(guess_, true);
+    if (norm_ < enoughGuess*still)
+    {
+        du = guess_;
+        left_ = now;
+        return true;
+    }
+    left_ = imbalance(du, false);
+    return false;
+}
+
+
 bool Foam::granularMechanicsModels::equilibrium::fewOutOfBalance
 (
     const scalar share
@@ -323,13 +345,14 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     bool& moved
 )
 {
-    moved = nodes_.dot(du, du) > 0;
+    const bool pushed = nodes_.dot(du, du) > 0;
     before_ = left_ = imbalance(nodeField(du.size(), Zero), false);
-    if (moved || left_ > tolerance_)
+    moved = pushed || (left_ > tolerance_ && guess(du));
+    if (pushed || left_ > tolerance_)
     {
         law_->findTangent();
     }
-    if (moved)
+    if (pushed)
     {
         findStiffness(stiffnessChoice::firstCaution, stiffnessChoice::firstShare);
         follow(du);
@@ -376,7 +399,13 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     granularState::memory before;
     slide_ = walls_.slide(lastTime_, time);
     share_ = 1;
+    guess_.clear();
 
+    if (parts == 1 && nodes_.dot(velocity_, velocity_) > 0)
+    {
+        guess_ = (time - lastTime_)*velocity_;
+        walls_.release(guess_);
+    }
     if (parts > 1)
     {
         before = grains_.remember();
@@ -405,6 +434,10 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
             return false;
         }
         keep(du, moved);
+    }
+    if (time > lastTime_)
+    {
+        velocity_ = (u_ - u)/(time - lastTime_);
     }
     lastTime_ = time;
     return true;

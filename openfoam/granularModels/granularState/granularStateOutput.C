@@ -30,8 +30,8 @@ void Foam::granularState::findReaders()
     const wordHashSet following
     ({
         "conductivity", "stress", "pressure", "particleDensity", "inRegion",
-        "spread", "thermalStrain", "D", "nodeDisplacement", "wallTraction",
-        "areaRatio"
+        "spread", "thermalStrain", "D", "nodeDisplacement", "nodeVelocity",
+        "wallTraction", "areaRatio"
     });
     const dictionary functions =
         mesh_.time().controlDict().subOrEmptyDict("functions");

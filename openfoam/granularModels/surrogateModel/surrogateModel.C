@@ -30,8 +30,8 @@ static const wordList& ownNames()
     ({
         "areaRatio", "bulkDensity", "conductivity", "D", "granularProperties",
         "initialStress", "initialTemperature", "inRegion", "Kxx", "Kyy",
-        "msddFoam", "nodeDisplacement", "onlineRve", "particleDensity",
-        "polyMesh", "pressure", "spread", "stress", "T",
+        "msddFoam", "nodeDisplacement", "nodeVelocity", "onlineRve",
+        "particleDensity", "polyMesh", "pressure", "spread", "stress", "T",
         "thermalStrain", "thermalStrainIncrement", "uniform", "wallTraction"
     });
     return names;

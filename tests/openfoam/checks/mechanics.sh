@@ -141,6 +141,7 @@ same_mechanics() {
         cmp -s <(field "$1/$name") <(field "$2/$name") || { echo "        $name differs" >&2; return 1; }
     done
 }
+newton_iterations() { sed -n 's/^Equilibrium: .* solved, \([0-9]*\) iterations.*/\1/p' log | tail -n 1; }
 restart_and_processes() { # shape
     both_ways "moved-$1"
     box "$1" '12 6'
@@ -152,12 +153,21 @@ restart_and_processes() { # shape
     rm -rf 1 0.[6-9]* 0.5[1-9]*
     logged msddFoam
     check "$1, equilibrium: restart bit for bit" same_mechanics "$work/moved-$1/1" 1
+    local going e
+    going=$(newton_iterations)
+    cp 1/nodeDisplacement going
+    rm -rf 1 0.[6-9]* 0.5[1-9]* 0.5/nodeVelocity
+    logged msddFoam -accept '(files)'
+    check "$1, equilibrium: where a step does not begin as the last one ended, $(newton_iterations) iterations > $going" \
+        [ "$(newton_iterations)" -gt "$going" ]
+    e=$(paste -d ' ' <(field going) <(field 1/nodeDisplacement) | awk '
+        { for (k = 1; k <= 3; k++) { d = $k - $(k + 3); d *= d; if (!(d <= w)) w = d; if (!($k*$k <= s)) s = $k*$k } } END { print (NR > 50 ? sqrt(w/s) : "nan") }')
+    check "$1, equilibrium: and ends within its residual, $e <= 1e-6 of the largest displacement" below "$e" 1e-6
     both_ways "moved-$1-parallel"
     box "$1" '12 6'
     logged decomposePar
     logged mpirun --oversubscribe -np 2 msddFoam -parallel
     logged reconstructPar -latestTime
-    local e
     e=$(difference "$work/moved-$1/1" 1)
     check "$1, equilibrium: two processes: difference $e <= 1e-7" below "$e" 1e-7
 }

@@ -50,6 +50,7 @@ pressed_bed() { # the case column beside 20 000 spheres; what is missing to the 
     logged blockMesh
     logged msddFoam
     "$checkout/cases/common/compare-elements" lid zz xx yy zz > differences
+    check "no warning, not of MPI either" [ "$(grep -c 'FOAM Warning' log)" = 0 ]
     t=$(apart_by 'T at the probes') k=$(apart_by K) p=$(apart_by 'p ')
     check "a column that is pressed and heated: T differs from the elements by $t <= 1.4 % of its range (rms)" below "$t" 1.4
     check "its conductivity by $k <= 3 %" below "$k" 3

@@ -329,9 +329,6 @@ fn fatal(log: &str) -> String {
     short(&body.join(" "))
 }
 
-/// What OpenFOAM always warns of when PETSc has been used; it says nothing about the run.
-const USUAL_WARNING: &str = "Finalizing MPI, but was initialized elsewhere";
-
 /// The first warning of a run, without the lines around it.
 fn warning(log: &str) -> String {
     let frame = |line: &&str| ["From ", "in file"].iter().any(|begin| line.trim_start().starts_with(begin));
@@ -341,8 +338,7 @@ fn warning(log: &str) -> String {
         let lines = rest.lines().enumerate().take_while(|(k, line)| *k < 1 || !over(line));
         short(&lines.map(|(_, line)| line).filter(|line| !frame(line)).collect::<Vec<_>>().join(" "))
     };
-    let mut warnings = log.split("FOAM Warning :").skip(1).map(text);
-    warnings.find(|warning| !warning.starts_with(USUAL_WARNING)).unwrap_or_default()
+    log.split("FOAM Warning :").nth(1).map(text).unwrap_or_default()
 }
 
 fn last_time(log: &str) -> &str {
@@ -393,7 +389,6 @@ mod tests {
             "x\n--> FOAM Warning : \n    From void f()\n    in file f.C at line 3\n    too hot\n\nTime = 4\n";
         assert_eq!(warning(warned), "too hot");
         assert_eq!(warning("--> FOAM Warning : too cold\n\nTime = 4\n"), "too cold");
-        assert_eq!(warning(&format!("--> FOAM Warning : \n    {USUAL_WARNING}\n\n")), "");
         assert_eq!(fatal("a\nb\n\nc\nd\n"), "b c d");
         assert_eq!(last_time("\nTime = 0.1\n\nTime = 0.2\nx"), "0.2");
         assert_eq!(last_time("nothing"), "0");
