@@ -34,8 +34,8 @@ static const scalar notable = 1e-3;
 //- Spheres at a wall along which they were poured, on the square of a diameter
 static const scalar usualSpheres = 0.87;
 
-//- Mobilised part of the friction
-static const scalar usualFriction = 1;
+//- Mobilised part of the friction of beds that were poured
+static const scalar usualFriction = 0.85;
 
 //- End the run: the library failed
 static void failed(const char* what, const std::exception& error)

@@ -68,20 +68,28 @@ impl Moving {
         Self { wall, hold, moved: 0.0, speed: 0.0 }
     }
 
+    /// What holds it from outside \[Pa\]; `None` at a given place.
+    fn outside(&self) -> Option<f64> {
+        match self.hold {
+            Hold::Place { .. } => None,
+            Hold::Pressure { pressure } => Some(pressure),
+            Hold::Shell { stiffness, at_start, grown } => Some(at_start - stiffness * (self.moved + grown)),
+        }
+    }
+
+    /// How far the pressure of the grains is from what holds it \[Pa\]; 0 at a given place.
+    pub fn lag(&self, pressure: f64) -> f64 {
+        self.outside().map_or(0.0, |outside| (pressure - outside).abs())
+    }
+
     /// Chooses its velocity for the next steps, which take `dt` \[s\]; `pressure` is that of the grains \[Pa\]. It comes to its
     /// place after `left` \[s\].
     pub fn steer(&mut self, simulation: &mut Simulation, pressure: f64, dt: f64, left: f64) {
-        let (outside, stiffness) = match self.hold {
-            Hold::Place { moved } => {
-                self.speed = (moved - self.moved) / left;
-                (f64::NAN, 0.0)
-            }
-            Hold::Pressure { pressure } => (pressure, 0.0),
-            Hold::Shell { stiffness, at_start, grown } => {
-                (at_start - stiffness * (self.moved + grown), stiffness)
-            }
-        };
-        if outside.is_finite() {
+        if let Hold::Place { moved } = self.hold {
+            self.speed = (moved - self.moved) / left;
+        }
+        if let Some(outside) = self.outside() {
+            let stiffness = if let Hold::Shell { stiffness, .. } = self.hold { stiffness } else { 0.0 };
             let sphere = &simulation.spheres[0];
             let mass = LAYERS * sphere.mass / (4.0 * sphere.radius * sphere.radius);
             // The spring of a shell is taken implicitly.

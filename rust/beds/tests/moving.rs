@@ -90,7 +90,7 @@ fn a_column_is_pressed_and_heated() {
     let depth = found.rows[0].depth;
     for (row, strain) in found.rows.iter().zip([0.0, 1e-3, 7.5e-4, 5e-4]) {
         assert!((row.depth / depth - 1.0 + strain).abs() < 1e-9, "{} {depth} {strain}", row.depth);
-        assert!(row.unbalanced < 1e-2, "{row:?}");
+        assert!(row.unbalanced < 1.5e-3, "{row:?}");
         let [floor, lid] = [row.walls[0], row.walls[1]];
         // The weight lies between: half of the bed is above the middle.
         let middle = 0.5 * (floor + lid);
@@ -134,6 +134,27 @@ fn a_shell_gives_way() {
         assert!((row.walls[2] / 20000.0 - 1.0).abs() < 0.02, "{row:?}");
     }
     assert!(found.rows[3].walls[1] > 1.05 * start, "{:?}", found.rows[3]);
+}
+
+/// With few steps in an interval the bed lags while it swells and shrinks, and waits: it does not press the lid away.
+#[test]
+fn a_bed_waits_where_it_lags() {
+    let heated = ["floor", "lid"].map(|wall| {
+        format!("[[heated]]\nwall = \"{wall}\"\ntemperature = [[0, 293.15], [400, 323.15], [800, 293.15]]")
+    });
+    let text = text([ENDLESS, "pressing = 20000", &heated.join("\n"), COLUMN]);
+    let scene =
+        text.replace("steps = 3000", "steps = 200").replace("heat_capacity = 475", "heat_capacity = 1");
+    let scene = read(&scene).unwrap();
+    let prepared = prepare(&scene, 1, |_, _| ()).unwrap();
+    let found = run(&scene, &prepared, |_| ()).unwrap();
+    let few = 6 * 200;
+    assert!(found.steps - prepared.simulation.steps > 2 * few, "{}", found.steps);
+    for row in &found.rows {
+        assert!((row.walls[1] / 20000.0 - 1.0).abs() < 2.5e-3 && row.unbalanced < 1.5e-3, "{row:?}");
+    }
+    let [warm, cold] = [1, 2].map(|k| found.rows[k].stress[0]);
+    assert!(warm > 1.2 * cold, "{warm} {cold}");
 }
 
 /// The bed without sides rests on its floor alone, and its spheres touch beyond the sides.

@@ -21,7 +21,7 @@
 //!
 //! **Contacts.** The number of contacts per sphere is state, too, see [`contacts`]. It changes conductivities, not the stress.
 //!
-//! **Mobilised friction.** g is the part of the friction that is not mobilised: 0 in boxes that were shaken or packed with
+//! **Mobilised friction.** g is the part of the friction that is not mobilised: 0 in boxes that were packed with
 //! their own friction, where many contacts are about to slide; 1 − μ_p/μ in boxes that were packed with less friction μ_p. Solid
 //! fraction and number of contacts do not tell one from the other. Sliding by s mobilises: dg = −m g ds/v.
 //!
@@ -33,7 +33,7 @@
 //!
 //! **Readouts.** Conductivities by contacts and by gas are functions of this state, see [`readout`].
 //!
-//! Fitted to periodic boxes of spheres with the friction 0.3 along paths of strain (`spheres.toml`, `poured.toml` and `cycles.toml` in
+//! Fitted to periodic boxes of spheres with the friction 0.3 along paths of strain (`spheres.toml`, `cycles.toml` and `cycling.toml` in
 //! `cases/database`).
 
 pub mod ablation;

@@ -1,7 +1,7 @@
 //! The state of a packing of which solid fraction, stress, and perhaps more are known.
 
 use super::law::{
-    ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, Law, MOST_COMPRESSION, MOST_STRENGTH, State, within,
+    ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, Law, MOST_COMPRESSION, MOST_STRENGTH, POURED, State, within,
 };
 use super::tensor::{Tensor, contraction, deviator, mean};
 
@@ -22,7 +22,7 @@ impl Law {
     /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
     /// than all strengths has larger strengths, by a common factor.
     pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
-        let mobilised = known.mobilised.unwrap_or(1.0).clamp(0.0, 1.0);
+        let mobilised = known.mobilised.unwrap_or(POURED).clamp(0.0, 1.0);
         let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator), mobilised);
         state.coordination = known.coordination.unwrap_or_else(|| self.contacts.usual(&state.contact_row()));
         state

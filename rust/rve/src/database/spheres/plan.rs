@@ -48,7 +48,7 @@ pub struct SphereBlock {
     #[serde(default)]
     pub packing_frictions: Vec<f64>,
     /// How far a packed box is opened along all axes to be shaken and pressed again with the friction of the plan \[-\]; 0: it
-    /// is not. So boxes are dense though every contact was made under friction, as in beds that were poured.
+    /// is not. So boxes are dense though every contact was made under friction.
     #[serde(default)]
     pub shaking: f64,
     pub compressions: Vec<SphereCompression>,
