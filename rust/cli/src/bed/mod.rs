@@ -23,7 +23,7 @@ pub enum Command {
 #[command(after_help = "Examples:
   msdd bed run cases/beaulieu
   msdd bed run cases/beaulieu --vary     what the uncertain inputs change, one at a time
-  msdd bed run cases/store --packings 3  the mean of three packings, and how much they differ
+  msdd bed run cases/store --packings 2  the mean of two packings, and how much they differ
 
 The folder holds bed.toml (every key is explained in the book, Reference, Measured beds) and, if there is an experiment, its
 measurements. If it holds elements.toml instead, a bed whose walls move while heat flows, the only result is elements.csv; with
