@@ -34,9 +34,6 @@ static const scalar notable = 1e-3;
 //- Spheres at a wall along which they were poured, on the square of a diameter
 static const scalar usualSpheres = 0.87;
 
-//- Mobilised part of the friction of beds that were poured
-static const scalar usualFriction = 0.85;
-
 //- End the run: the library failed
 static void failed(const char* what, const std::exception& error)
 {
@@ -224,22 +221,24 @@ void Foam::granularModels::spheres::initialState
     {
         solid[celli] = 1 - cells.porosity[celli];
     }
-    scalarField contacts;
-    if (coeffs_.found("coordination"))
+    // What is not given is left to the law
+    const auto given = [&](const char* key, const scalar most)
     {
-        contacts.resize
-        (
-            cells.size,
-            granularProperties::ranged(coeffs_, "coordination", Zero, 0, 12)
-        );
-    }
+        scalarField result;
+        if (coeffs_.found(key))
+        {
+            result.resize
+            (
+                cells.size,
+                granularProperties::ranged(coeffs_, key, Zero, 0, most)
+            );
+        }
+        return result;
+    };
+    const scalarField contacts(given("coordination", 12));
     // The stress of a packing depends on it, so a field cannot just replace the
     // column afterwards
-    scalarField mobilised
-    (
-        cells.size,
-        granularProperties::ranged(coeffs_, "mobilised", usualFriction, 0, 1)
-    );
+    scalarField mobilised(given("mobilised", 1));
     const IOobject io
     (
         "mobilised",
@@ -258,7 +257,8 @@ void Foam::granularModels::spheres::initialState
         law_.initialState
         (
             material_, cells.size, solid.cdata(), stress.data(),
-            contacts.empty() ? nullptr : contacts.cdata(), mobilised.cdata(),
+            contacts.empty() ? nullptr : contacts.cdata(),
+            mobilised.empty() ? nullptr : mobilised.cdata(),
             nullptr, state + 2
         );
     }

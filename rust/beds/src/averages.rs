@@ -1,6 +1,5 @@
-//! Averages of a periodic box, and how far spheres are from rest.
+//! Averages of a periodic box.
 
-use msdd_spheres::space::{length, plus};
 use msdd_spheres::{Partner, Simulation};
 
 /// Averages of a periodic box. Compression is positive.
@@ -80,26 +79,4 @@ pub fn averages(simulation: &Simulation) -> Averages {
         stress: stress(simulation),
         overlap: overlap / pairs.len().max(1) as f64 / simulation.mean_radius(),
     }
-}
-
-/// Added to the mean contact force, over d² E* (d² Pa where it is 1 in the units of a box).
-const FORCE_FLOOR: f64 = 1e-12;
-
-/// Mean |resultant of the contact forces and the weight| over the spheres / (mean normal contact force + floor) \[-\].
-pub fn unbalanced_force(simulation: &Simulation) -> f64 {
-    let weight = |mass: f64| simulation.gravity.map(|g| mass * g);
-    let mut resultant: Vec<[f64; 3]> = simulation.spheres.iter().map(|sphere| weight(sphere.mass)).collect();
-    let (mut sum, mut count) = (0.0, 0.0f64);
-    simulation.for_each_contact(|contact| {
-        let force = contact.force();
-        resultant[contact.j] = plus(resultant[contact.j], 1.0, force);
-        if let Partner::Sphere(i) = contact.i {
-            resultant[i] = plus(resultant[i], -1.0, force);
-        }
-        sum += contact.normal_force;
-        count += 1.0;
-    });
-    let mean = resultant.iter().map(|force| length(*force)).sum::<f64>() / resultant.len() as f64;
-    let diameter = 2.0 * simulation.mean_radius();
-    mean / (sum / count.max(1.0) + FORCE_FLOOR * diameter * diameter)
 }

@@ -24,11 +24,13 @@ use msdd_spheres::{Material, Partner, Simulation, Stiffness};
 
 /// First time step of heat \[s\].
 const FIRST_STEP: f64 = 0.1;
-/// Largest share of the loads that may be out of balance: while radii and walls change, above which they wait and then change by half
-/// as much at a time, by twice as much where it is little; and at the end of an interval, above which it is prolonged. Drag stops a bed that lags, and inertia: a lid that lags by a tenth of its pressure lets
-/// contacts slide that would not slide in a bed at rest, whose pressures then differ by 3 to 5 %.
+/// Share of the load that is out of balance \[-\] above which radii and walls wait, and then change by half as much at a time. A bed
+/// that moves lags by its drag and inertia: where a lid was off by a tenth of its pressure, contacts slid that would not slide in a
+/// bed at rest, and the pressure was 3 to 5 % off.
 const MOST_LAG: f64 = 0.02;
+/// The same below which they change by twice as much at a time, at most by an even part of the interval.
 const LITTLE_LAG: f64 = 0.005;
+/// The same below which a bed is at rest, which ends an interval.
 const AT_REST: f64 = 1e-3;
 /// Times the steps of an interval after which it goes on although the bed lags.
 const LONGEST: u64 = 20;

@@ -101,7 +101,7 @@ pub fn homogenise(simulation: &Simulation) -> Result<(), CliError> {
         "pressure": a.pressure(),
         "contact_conductivity": tensor(a.contact_conductivity),
         "gas_conductivity": {"3.5": low, "6.0": middle, "8.5": high},
-        "unbalanced": msdd_beds::averages::unbalanced_force(simulation),
+        "unbalanced": msdd_rve::spheres::follow::unbalanced_force(simulation),
     }))
 }
 

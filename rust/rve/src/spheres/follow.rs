@@ -3,10 +3,10 @@
 use super::strain::{Strain, over};
 use crate::Outcome;
 use crate::stopwatch::{self, Stage};
-use msdd_beds::averages::{stress, unbalanced_force};
-use msdd_spheres::space::Matrix;
+use msdd_beds::averages::stress;
+use msdd_spheres::space::{Matrix, length, plus};
 use msdd_spheres::time_step::SAFETY;
-use msdd_spheres::{Failure, Simulation, StepChoice};
+use msdd_spheres::{Failure, Partner, Simulation, StepChoice};
 
 /// Strain rate over √(p/ρ)/d, the inertial number of straining. Not settled by any reference; chosen because three
 /// times as much lowers the shear stress of a box that is sheared by 1 % by 3 % (ten times: 9 %), and the pressure of one that is
@@ -19,6 +19,8 @@ const BUILDS_UP: f64 = 0.1;
 const DRAG: f64 = 3.0;
 /// Mean resultant over mean contact force at which a box counts as at rest.
 const BALANCED: f64 = 1e-4;
+/// Added to the mean contact force, over E* d².
+const FORCE_FLOOR: f64 = 1e-12;
 /// p/E* below which the grains count as bearing no load.
 pub const UNJAMMED_PRESSURE: f64 = 1e-10;
 /// Steps after which a box that is not at rest is given up, and steps without load after which it counts as unjammed.
@@ -116,4 +118,22 @@ fn per_time(simulation: &Simulation, least: f64) -> f64 {
 pub(super) fn pressure(simulation: &Simulation) -> f64 {
     let stress = stress(simulation);
     (stress[0][0] + stress[1][1] + stress[2][2]) / 3.0
+}
+
+/// Mean |resultant of the contact forces| over the spheres / (mean normal contact force + floor) \[-\].
+pub fn unbalanced_force(simulation: &Simulation) -> f64 {
+    let mut resultant = vec![[0.0f64; 3]; simulation.spheres.len()];
+    let (mut sum, mut count) = (0.0, 0.0f64);
+    simulation.for_each_contact(|contact| {
+        let force = contact.force();
+        resultant[contact.j] = plus(resultant[contact.j], 1.0, force);
+        if let Partner::Sphere(i) = contact.i {
+            resultant[i] = plus(resultant[i], -1.0, force);
+        }
+        sum += contact.normal_force;
+        count += 1.0;
+    });
+    let mean = resultant.iter().map(|force| length(*force)).sum::<f64>() / resultant.len() as f64;
+    let diameter = 2.0 * simulation.mean_radius();
+    mean / (sum / count.max(1.0) + FORCE_FLOOR * diameter * diameter)
 }
