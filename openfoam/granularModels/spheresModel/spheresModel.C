@@ -31,6 +31,9 @@ namespace granularModels
 //- Change of the stress at the start, over the pressure, that is told
 static const scalar notable = 1e-3;
 
+//- By how much the trace of a fabric may differ from 1: it is given rounded
+static const scalar unitTrace = 0.01;
+
 //- Spheres at a wall along which they were poured, on the square of a diameter
 static const scalar usualSpheres = 0.87;
 
@@ -74,7 +77,7 @@ Foam::granularModels::spheres::spheres
         {
             "model", "hash", "poissonRatio", "roughness", "hardness", "gas",
             "gasPressure", "accommodation", "coordination", "mobilised",
-            "wall"
+            "fabric", "wall"
         }
     );
     checkHash(source_, law_.hash());
@@ -252,6 +255,12 @@ void Foam::granularModels::spheres::initialState
     {
         mobilised = volScalarField(io, mesh_).primitiveField();
     }
+    const List<scalarField> fabric(fabricAtStart(cells.size));
+    std::vector<const scalar*> directions;
+    for (const scalarField& component : fabric)
+    {
+        directions.push_back(component.cdata());
+    }
     try
     {
         law_.initialState
@@ -259,7 +268,7 @@ void Foam::granularModels::spheres::initialState
             material_, cells.size, solid.cdata(), stress.data(),
             contacts.empty() ? nullptr : contacts.cdata(),
             mobilised.empty() ? nullptr : mobilised.cdata(),
-            nullptr, state + 2
+            directions.empty() ? nullptr : directions.data(), state + 2
         );
     }
     catch (const std::exception& error)
@@ -267,6 +276,60 @@ void Foam::granularModels::spheres::initialState
         failed("the initial state (solid_fraction is 1 - porosity)", error);
     }
     reportStart(cells.size, stress, state);
+}
+
+
+Foam::List<Foam::scalarField>
+Foam::granularModels::spheres::fabricAtStart(const label size) const
+{
+    symmTensorField given;
+    symmTensor everywhere;
+    if (coeffs_.readIfPresent("fabric", everywhere))
+    {
+        given.resize(size, everywhere);
+    }
+    const IOobject io
+    (
+        "fabric",
+        mesh_.time().timeName(),
+        mesh_,
+        IOobject::MUST_READ,
+        IOobject::NO_WRITE,
+        false
+    );
+    if (IOobject(io).typeHeaderOk<volSymmTensorField>(true))
+    {
+        given = volSymmTensorField(io, mesh_).primitiveField();
+    }
+    for (const symmTensor& F : given)
+    {
+        const scalar least = min(F.xx(), min(F.yy(), F.zz()));
+        if (!(least >= 0 && mag(tr(F) - 1) <= unitTrace))
+        {
+            OStringStream value;
+            value << F;
+            refuse
+            (
+                "fabric",
+                value.str(),
+                "the mean of n n over the contacts, with the normals n:"
+                " (xx xy xz yy yz zz) with xx, yy, zz >= 0 and the sum 1"
+            );
+        }
+    }
+    if (given.empty())
+    {
+        return List<scalarField>();
+    }
+    const auto part = [&](const direction d)
+    {
+        return scalarField(given.component(d));
+    };
+    return List<scalarField>
+    ({
+        part(symmTensor::XX), part(symmTensor::YY), part(symmTensor::ZZ),
+        part(symmTensor::XY), part(symmTensor::XZ), part(symmTensor::YZ)
+    });
 }
 
 

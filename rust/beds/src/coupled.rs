@@ -79,6 +79,8 @@ pub struct Run {
     pub rows: Vec<Row>,
     /// How much of the friction is mobilised at the start in the region of averages, see [`crate::mobilised`] \[-\].
     pub mobilisation: f64,
+    /// The fabric there at the start, see [`Region::fabric`] \[-\].
+    pub fabric: [f64; 3],
     /// Heat that the grains stored which no wall holds, and the residual of its balance \[J\].
     pub stored: f64,
     pub residual: f64,
@@ -197,6 +199,7 @@ impl<'a> Coupled<'a> {
             run: Run {
                 rows: Vec::new(),
                 mobilisation: region(scene).mobilisation(&simulation),
+                fabric: region(scene).fabric(&simulation),
                 stored: 0.0,
                 residual: 0.0,
                 heat_steps: 0,

@@ -130,6 +130,7 @@ pub const SPHERES: &[Key] = &[
     may("accommodation", Kind::Range(0.01, 1.0, "")),
     may("coordination", Kind::Range(0.0, 12.0, "")),
     may("mobilised", Kind::Range(0.0, 1.0, "")),
+    may("fabric", Kind::Any),
     may("wall", Kind::Dictionary),
 ];
 

@@ -136,6 +136,12 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
         found.mobilisation,
         mobilised(found.mobilisation)
     );
+    let [first, second, third] = found.fabric;
+    let axes = if scene.record.radius.is_some() { "radius, around the axis, axis" } else { "x, y, z" };
+    let _ = writeln!(
+        text,
+        "fabric at the start (key 'fabric'): {first:.4}, {second:.4}, {third:.4} along {axes}"
+    );
     let peak = found.rows.iter().map(|row| row.peak).fold(f64::NAN, f64::max);
     let yielding = found.rows.iter().map(|row| row.yielding).fold(0.0, f64::max);
     if peak > 1.0 {
