@@ -278,9 +278,18 @@ fn worked(
     (after, stress, work)
 }
 
-/// Energy that is lost on a triangle of strains of 1 %, there and on and back, over the largest pressure, from a random state.
-fn lost_on_triangle(core: &Core, random: &mut ChaCha8Rng) -> f64 {
-    const PARTS: i32 = 500;
+/// Energy that is lost on a triangle of strains of 1 %, there and on and back, over the largest pressure, from a random state. Where
+/// it is not as it should be, with sixteen times finer parts: errors of the integration fall then, created energy does not.
+fn lost_on_triangle(core: &Core, random: &mut ChaCha8Rng, good: impl Fn(f64) -> bool) -> f64 {
+    let start = random.clone();
+    let lost = lost_in_parts(core, random, 500);
+    if good(lost) { lost } else { lost_in_parts(core, &mut start.clone(), 8000) }
+}
+
+/// What the integration errs by at most where contacts are lost and found again.
+const BOUND: f64 = 1e-6;
+
+fn lost_in_parts(core: &Core, random: &mut ChaCha8Rng, parts: i32) -> f64 {
     let mut state = wandered(random);
     let mut corner = || std::array::from_fn(|_| 0.01 * signed(random));
     let corners = [[0.0; 3], corner(), corner(), [0.0; 3]];
@@ -288,8 +297,8 @@ fn lost_on_triangle(core: &Core, random: &mut ChaCha8Rng) -> f64 {
     let mut before = advanced_by(core, &state, [0.0; 5]).1;
     let mut most = before[0] + before[1];
     for (from, to) in corners.iter().zip(&corners[1..]) {
-        let strain = std::array::from_fn(|k| (to[k] - from[k]) / f64::from(PARTS));
-        for _ in 0..PARTS {
+        let strain = std::array::from_fn(|k| (to[k] - from[k]) / f64::from(parts));
+        for _ in 0..parts {
             let work;
             (state, before, work) = worked(core, &state, before, strain);
             lost += work;
@@ -299,7 +308,6 @@ fn lost_on_triangle(core: &Core, random: &mut ChaCha8Rng) -> f64 {
     (lost - energy(&state)) / (0.5 * most).max(f64::MIN_POSITIVE)
 }
 
-/// The bound is what the integration errs by where contacts are lost and found again.
 #[test]
 fn closed_paths_create_no_energy() {
     let mut random = ChaCha8Rng::seed_from_u64(7);
@@ -308,10 +316,10 @@ fn closed_paths_create_no_energy() {
     stuck.law.elements.iter_mut().for_each(|element| element.strength = 1e3);
     let rounds = std::env::var("MSDD_FUZZ").map_or(200, |rounds| rounds.parse().expect("a number"));
     for _ in 0..rounds {
-        let lost = lost_on_triangle(&stuck, &mut random);
-        assert!(lost.abs() < 2e-6, "nothing slides, and yet {lost}");
-        let lost = lost_on_triangle(&usual, &mut random);
-        assert!(lost > -2e-6, "{lost}");
+        let lost = lost_on_triangle(&stuck, &mut random, |lost| lost.abs() < BOUND);
+        assert!(lost.abs() < BOUND, "nothing slides, and yet {lost}");
+        let lost = lost_on_triangle(&usual, &mut random, |lost| lost > -BOUND);
+        assert!(lost > -BOUND, "{lost}");
     }
 }
 
