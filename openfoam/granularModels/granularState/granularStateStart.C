@@ -16,6 +16,7 @@ License
 
 #include "granularState.H"
 #include "caseChecks.H"
+#include "givenField.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 
 #include <cmath>
@@ -204,34 +205,6 @@ Foam::IOobject Foam::granularState::io
 }
 
 
-template<class Type>
-Foam::autoPtr<Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>>
-Foam::granularState::given(const word& name, const dimensionSet& dims) const
-{
-    typedef GeometricField<Type, fvPatchField, volMesh> fieldType;
-
-    IOobject header
-    (
-        name, mesh_.time().timeName(), mesh_,
-        IOobject::MUST_READ, IOobject::NO_WRITE, false
-    );
-    autoPtr<fieldType> field;
-
-    if (header.typeHeaderOk<fieldType>(true))
-    {
-        field.reset(new fieldType(header, mesh_));
-        if (field().dimensions() != dims)
-        {
-            FatalErrorInFunction
-                << "Field " << name << " in " << field().objectPath()
-                << " has dimensions " << field().dimensions() << ", allowed: "
-                << dims << exit(FatalError);
-        }
-    }
-    return field;
-}
-
-
 void Foam::granularState::readState()
 {
     const wordList& names = model_->stateNames();
@@ -251,7 +224,10 @@ void Foam::granularState::readState()
             );
             continue;
         }
-        autoPtr<volScalarField> field(given<scalar>(names[i], dimless));
+        autoPtr<volScalarField> field
+        (
+            givenField<scalar>(mesh_, names[i], dimless)
+        );
         missing += !field.valid();
         state_.set
         (
@@ -277,7 +253,10 @@ void Foam::granularState::readState()
     // only porosity and fabric index, no other field is needed
     if (missing || names.size() == 2)
     {
-        const auto givenStress(given<symmTensor>("stress", dimPressure));
+        const auto givenStress
+        (
+            givenField<symmTensor>(mesh_, "stress", dimPressure)
+        );
         tmp<symmTensorField> stress;
         if (properties_.found("restStress") && mesh_.time().timeIndex() == 0)
         {
@@ -296,7 +275,10 @@ void Foam::granularState::readState()
         }
         const auto conductivity
         (
-            given<symmTensor>("conductivity", conductivity_.dimensions())
+            givenField<symmTensor>
+            (
+                mesh_, "conductivity", conductivity_.dimensions()
+            )
         );
         scalarField xx, yy, xy, zz, xz, yz, Kxx, Kyy, Kxy;
         granularModel::known known;

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "spheresModel.H"
+#include "givenField.H"
 #include "volFields.H"
 #include "addToRunTimeSelectionTable.H"
 
@@ -242,18 +243,10 @@ void Foam::granularModels::spheres::initialState
     // The stress of a packing depends on it, so a field cannot just replace the
     // column afterwards
     scalarField mobilised(given("mobilised", 1));
-    const IOobject io
-    (
-        "mobilised",
-        mesh_.time().timeName(),
-        mesh_,
-        IOobject::MUST_READ,
-        IOobject::NO_WRITE,
-        false
-    );
-    if (IOobject(io).typeHeaderOk<volScalarField>(true))
+    const auto ofCells(givenField<scalar>(mesh_, "mobilised", dimless));
+    if (ofCells.valid())
     {
-        mobilised = volScalarField(io, mesh_).primitiveField();
+        mobilised = ofCells().primitiveField();
     }
     const List<scalarField> fabric(fabricAtStart(cells.size));
     std::vector<const scalar*> directions;
@@ -288,18 +281,10 @@ Foam::granularModels::spheres::fabricAtStart(const label size) const
     {
         given.resize(size, everywhere);
     }
-    const IOobject io
-    (
-        "fabric",
-        mesh_.time().timeName(),
-        mesh_,
-        IOobject::MUST_READ,
-        IOobject::NO_WRITE,
-        false
-    );
-    if (IOobject(io).typeHeaderOk<volSymmTensorField>(true))
+    const auto ofCells(givenField<symmTensor>(mesh_, "fabric", dimless));
+    if (ofCells.valid())
     {
-        given = volSymmTensorField(io, mesh_).primitiveField();
+        given = ofCells().primitiveField();
     }
     for (const symmTensor& F : given)
     {

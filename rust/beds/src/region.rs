@@ -31,7 +31,7 @@ impl Region {
         mobilisation(simulation, |middle| self.holds(middle))
     }
 
-    /// Mean normal stresses \[Pa\], compression positive, along [`Region::axes`]. Love's stress of the contacts between spheres whose
+    /// Mean normal stresses \[Pa\], compression positive: along x, y, z, in a cylinder along the radius, around the axis, along z. Love's stress of the contacts between spheres whose
     /// middle lies in the region.
     pub fn stress(&self, simulation: &Simulation) -> [f64; 3] {
         let sum = self.over_contacts(simulation, |contact, axis| {

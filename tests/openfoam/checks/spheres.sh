@@ -128,15 +128,15 @@ contacts() {
     coefficient coordination 13
     check "refused: more contacts than spheres have" refused "Entry 'coordination' is 13"
 }
-# A packing that has mobilised less friction is stiffer: the radii grow in cells that keep their shape.
+grown() { # folder, entry of spheresCoeffs: the radii grow in cells that keep their shape
+    steel "$1"
+    sed -i 's/^thermalExpansion .*/thermalExpansion 1.2e-5;/' constant/granularProperties
+    sed -i 's/^internalField .*/internalField uniform 293.15;/' 0/T
+    coefficient coordination "5; $2"
+}
+# A packing that has mobilised less friction is stiffer.
 friction() {
     local all half
-    grown() { # folder, entry of spheresCoeffs
-        steel "$1"
-        sed -i 's/^thermalExpansion .*/thermalExpansion 1.2e-5;/' constant/granularProperties
-        sed -i 's/^internalField .*/internalField uniform 293.15;/' 0/T
-        coefficient coordination "5; $2"
-    }
     grown friction-all 'mobilised 1'
     logged msddFoam
     all=$(component 100/stress 1)
@@ -156,12 +156,6 @@ friction() {
 # A bed that was poured: more contacts along gravity, z, than the stress tells. Grains that grow press more along z then.
 directions() {
     local usual poured
-    grown() { # folder, entry of spheresCoeffs
-        steel "$1"
-        sed -i 's/^thermalExpansion .*/thermalExpansion 1.2e-5;/' constant/granularProperties
-        sed -i 's/^internalField .*/internalField uniform 293.15;/' 0/T
-        coefficient coordination "5; $2"
-    }
     grown fabric-usual ''
     logged msddFoam
     usual=$(awk "BEGIN { print $(component 100/stress 6)/$(component 100/stress 1) }")
@@ -176,6 +170,9 @@ directions() {
         0/stress > 0/fabric
     logged msddFoam
     check "a field of fabric does the same" [ "$(component 100/stress 1) $(component 100/stress 6)" = "$poured" ]
+    sed -i 's/^dimensions .*/dimensions [0 1 0 0 0 0 0];/' 0/fabric
+    rm -rf 50 100
+    check "refused: a fabric with a unit" refused 'Field fabric in'
     grown fabric-wrong 'fabric (1 0 0 1 0 1)'
     check "refused: a fabric whose trace is not 1" refused "Entry 'fabric' is (1 0 0 1 0 1)"
 }

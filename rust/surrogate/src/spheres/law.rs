@@ -79,7 +79,7 @@ const SLACK: f64 = 1.0 + 1e-9;
 const TINY: f64 = 1e-30;
 /// Least p/A; only states far beyond all known ones reach it.
 const LEAST_SHARE: f64 = 0.5;
-/// The mobilised part of the friction of beds that were poured, as `msdd bed run` counts it there: 0.84 between plates, 0.93 in a
+/// The mobilised part of the friction of beds that were poured, as `msdd bed run` counts it there: 0.84 between plates, 0.91 in a
 /// cylinder.
 pub const POURED: f64 = 0.85;
 /// Largest factor of the strengths.
