@@ -49,6 +49,10 @@ static void startPetsc()
         setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
         setenv("OMPI_MCA_pml", "ob1", 0);
         setenv("OMPI_MCA_btl", "self", 0);
+        // Nor a folder for temporary files, which has the same name for all
+        // such processes: one that ends would remove it under another that
+        // starts, which then fails
+        setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
     }
     // The blocks of linear algebra here are too small for threads, which would
     // only wait for each other

@@ -172,6 +172,13 @@ restart_and_processes() { # shape
     check "$1, equilibrium: two processes: difference $e <= 1e-7" below "$e" 1e-7
 }
 
+no_temporary_files() { # a serial run makes no folder for them, which another one that ends at that moment would remove
+    both_ways temporary
+    logged foamDictionary -entry endTime -set 0.05 system/controlDict
+    : > file
+    check "equilibrium: a serial run needs no folder for temporary files" env TMPDIR="$PWD/file" msddFoam
+}
+
 turned() { # the case rotated by 90 degrees, x' = H - y, y' = x, must give the rotated result
     both_ways moved-turned
     sed -i 's/left/A/; s/right/B/; s/bottom/C/; s/top/D/' 0/T
@@ -201,6 +208,7 @@ friction_column quadrilaterals 100
 friction_column triangles 100
 friction_column triangles 200
 for shape in $shapes; do restart_and_processes "$shape"; done
+no_temporary_files
 turned
 . "$here/checks/mechanics/walls.sh"
 . "$here/checks/mechanics/failure.sh"
