@@ -378,7 +378,9 @@ void Foam::timeSchemes::secondOrder::step()
         neighbours_.restore();
         const scalar factor =
             cut ? 0.5 : max(largestCut, safety/std::sqrt(error));
-        deltaT = max(minDeltaT_, deltaT*factor);
+        // Evenly to the next write time: OpenFOAM takes a step that ends
+        // within half of its size before one for that which ends there
+        deltaT = landing(max(minDeltaT_, deltaT*factor));
     }
     forced_ += adaptive_ && error > 1;
     see(T_.primitiveField());

@@ -35,6 +35,19 @@ adaptive_restart() {
     check "adaptive: two processes: difference $e <= 1e-9" below "$e" 1e-9
 }
 
+write_times() { # steps that are repeated, because a wall jumps, must not make the run write before a write time, and miss that
+    local tolerance late
+    for tolerance in 0.3 0.1 0.03 0.01; do
+        adaptive "jumps-$tolerance" $tolerance
+        controls 'writeInterval 0.05;'
+        sed -i '0,/fixedValue;/s//uniformFixedValue; uniformValue table ((0 50) (0.12 50) (0.1201 90) (0.37 90) (0.3701 50) (0.62 50) (0.6201 90) (0.87 90) (0.8701 50));/' 0/T
+        logged msddFoam
+        late+=" $(ls -d [01]* | awk '{ d = 20*$1 - int(20*$1 + 0.5); if (d*d > 1e-12) print }' | tr '\n' ' ')"
+        [ "$(ls -d [01]* | wc -l)" = 21 ] || late+=" $(ls -d [01]* | wc -l) of 21 times"
+    done
+    check "adaptive: all write times are met, none but these:$late" test -z "${late// /}"
+}
+
 last_step() { # the sum of these steps is below the end by a rounding error, which must not become a step of its own
     adaptive rounded 0.1
     controls 'endTime 0.11; writeInterval 0.0055;'
@@ -99,6 +112,7 @@ check "adaptive: a step too large is repeated" \
 
 rm -rf "$work"/{halves,two,second-half}
 adaptive_restart
+write_times
 last_step
 tolerance_counts
 fixed_restart
