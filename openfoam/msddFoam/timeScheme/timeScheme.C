@@ -93,7 +93,7 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
         (
             dict,
             {
-                "accuracy", "pressureAccuracy", "timeScheme",
+                "accuracy", "pressureAccuracy", "grains", "timeScheme",
                 "nNonOrthogonalCorrectors",
                 "temperatureTolerance", "stateTolerance", "logInterval",
                 "waitLimit"

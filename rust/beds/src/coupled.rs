@@ -60,6 +60,9 @@ pub struct Row {
     /// Between its heights, from its radius to where the centres of the first layer beside the side are; NaN in a box.
     pub porosity_outside: f64,
     pub coordination: f64,
+    /// The fabric in the region, see [`Region::fabric`], and how much of the friction is mobilised there, see [`crate::mobilised`] \[-\].
+    pub fabric: [f64; 3],
+    pub mobilisation: f64,
     /// K \[W/(m K)\] along z in the region, by contacts and by gas.
     pub contact_conductivity: f64,
     pub gas_conductivity: f64,
@@ -77,10 +80,6 @@ pub struct Row {
 #[derive(Clone, Debug)]
 pub struct Run {
     pub rows: Vec<Row>,
-    /// How much of the friction is mobilised at the start in the region of averages, see [`crate::mobilised`] \[-\].
-    pub mobilisation: f64,
-    /// The fabric there at the start, see [`Region::fabric`] \[-\].
-    pub fabric: [f64; 3],
     /// Heat that the grains stored which no wall holds, and the residual of its balance \[J\].
     pub stored: f64,
     pub residual: f64,
@@ -196,15 +195,7 @@ impl<'a> Coupled<'a> {
             shell: scene.shell.as_ref().map(|_| Moving::new(number("side"), Hold::Place { moved: 0.0 })),
             depth_at_start: 0.0,
             part: 0.0,
-            run: Run {
-                rows: Vec::new(),
-                mobilisation: region(scene).mobilisation(&simulation),
-                fabric: region(scene).fabric(&simulation),
-                stored: 0.0,
-                residual: 0.0,
-                heat_steps: 0,
-                steps: simulation.steps,
-            },
+            run: Run { rows: Vec::new(), stored: 0.0, residual: 0.0, heat_steps: 0, steps: simulation.steps },
             simulation,
         };
         bed.depth_at_start = bed.depth();
@@ -397,6 +388,8 @@ impl<'a> Coupled<'a> {
             porosity: 1.0 - averages.solid_fraction,
             porosity_outside: outside.unwrap_or(f64::NAN),
             coordination: averages.coordination,
+            fabric: region.fabric(simulation),
+            mobilisation: region.mobilisation(simulation),
             contact_conductivity: averages.contact_conductivity,
             gas_conductivity: averages.gas_conductivity,
             depth: self.depth(),

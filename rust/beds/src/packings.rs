@@ -20,6 +20,12 @@ struct Table<'a> {
     rows: Vec<Vec<Option<f64>>>,
 }
 
+impl Table<'_> {
+    fn place(&self, column: &str) -> Option<usize> {
+        self.header.split(',').position(|name| name == column)
+    }
+}
+
 fn table(text: &str) -> Option<Table<'_>> {
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let header = lines.next()?;
@@ -27,6 +33,20 @@ fn table(text: &str) -> Option<Table<'_>> {
     let rows = lines.map(|line| line.split(',').map(|cell| cell.parse().ok()).collect::<Vec<_>>());
     let rows: Vec<_> = rows.collect();
     rows.iter().all(|row| row.len() == columns).then_some(Table { header, rows })
+}
+
+/// The value in a column at the first time, if there is one.
+pub fn at_start(text: &str, column: &str) -> Option<f64> {
+    let table = table(text)?;
+    let place = table.place(column)?;
+    *table.rows.first()?.get(place)?
+}
+
+/// All values in a column; `None` if there is no such column, or a value is missing.
+pub fn column(text: &str, column: &str) -> Option<Vec<f64>> {
+    let table = table(text)?;
+    let place = table.place(column)?;
+    table.rows.iter().map(|row| row[place]).collect()
 }
 
 /// Joins tables of packings with these seeds, which must have the same columns and times; `None` if they have not, or if there is none.
@@ -89,6 +109,8 @@ mod tests {
         assert_eq!(rows(&joined.mean), ["time,T_0.01,radius", "0,300,", "60,311.5,"]);
         assert_eq!(rows(&joined.scatter), ["time,T_0.01,radius", "0,0,", "60,1.414214,"]);
         assert!(joined.mean.starts_with("# Discrete elements: mean of 2 packings, seeds 3 4;"));
+        assert_eq!(at_start(&joined.mean, "T_0.01"), Some(300.0));
+        assert_eq!((at_start(A, "radius"), at_start(A, "fabric_1")), (None, None));
         // One packing is its own mean, and tells nothing of the scatter.
         let alone = join(&[3], &[A.to_string()]).unwrap();
         assert_eq!(rows(&alone.mean), ["time,T_0.01,radius", "0,300,", "60,310.5,"]);

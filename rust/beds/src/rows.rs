@@ -5,7 +5,7 @@ use crate::scene::Scene;
 use std::fmt::Write;
 
 /// Columns between those of the temperatures and of the walls.
-const MOVING: [&str; 16] = [
+const MOVING: [&str; 20] = [
     "T_mean",
     "stress_1",
     "stress_2",
@@ -14,6 +14,10 @@ const MOVING: [&str; 16] = [
     "porosity",
     "porosity_outside",
     "coordination",
+    "fabric_1",
+    "fabric_2",
+    "fabric_3",
+    "mobilisation",
     "K_contacts",
     "K_gas",
     "K",
@@ -52,6 +56,7 @@ pub fn elements(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
         cells.extend([a, b, c, (a + b + c) / 3.0].map(|stress| format!("{stress:.1}")));
         cells.extend([row.porosity, row.porosity_outside].map(finite(5)));
         cells.push(format!("{:.4}", row.coordination));
+        cells.extend(row.fabric.iter().chain([&row.mobilisation]).map(|share| finite(5)(*share)));
         let conductivities = [row.contact_conductivity, row.gas_conductivity, conductivity];
         cells.extend(conductivities.map(|k| format!("{k:.5}")));
         cells.extend([row.depth, row.radius].map(finite(7)));

@@ -2,7 +2,7 @@
 
 use crate::CaseError;
 use crate::fields::{FieldKind, head, uniform};
-use crate::numbers::rounded;
+use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, Spread};
 use crate::path;
 use crate::scene::Scene;
@@ -81,6 +81,27 @@ pub fn files(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> R
     }
     files.extend(initial_fields(packing));
     Ok(files)
+}
+
+/// The files that hardly depend on the bed: what runs and removes, and numerical schemes. `tolerance`: error of T that a step may
+/// make [K]; `grains`: number of grains of the bed, of which the mesh may be a part.
+pub fn programs(name: &str, checkout: &Path, tolerance: f64, grains: usize) -> Vec<File> {
+    let keys = format!(
+        "temperatureTolerance    {};\n\n    // Number of grains of the whole bed, for 'msdd case solve'\n    grains                  {grains};",
+        plain(rounded(tolerance, 2))
+    );
+    let values =
+        vec![("checkout", checkout.display().to_string()), ("name", name.to_string()), ("tolerance", keys)];
+    let foam = |path: &'static str, template: &str| {
+        let object = path.rsplit('/').next().unwrap_or(path);
+        File { path, text: head("dictionary", object) + &fill(template, &values), program: false }
+    };
+    vec![
+        File { path: "Allrun", text: fill(template!("Allrun"), &values), program: true },
+        File { path: "Allclean", text: fill(template!("Allclean"), &values), program: true },
+        foam("system/fvSchemes", template!("fvSchemes")),
+        foam("system/fvSolution", template!("fvSolution")),
+    ]
 }
 
 /// Writes the files, each whole or not at all.

@@ -61,11 +61,14 @@ pub struct MeanBand {
     pub parts: Parts,
 }
 
-/// The bands of a run. `space`: error of its cells at points and times.
+/// The bands of a run, of the quantities that the law knows and the mesh has. `space`: error of its cells at points and times.
 pub fn bands(scene: &Scene, run: &Outcome, seen: &Differences, space: &Values, law: &Law) -> Vec<Band> {
     let lengths = Lengths::new(&scene.bed, run, &seen.sensitivity);
     let mut bands = Vec::new();
     for (&quantity, series) in &run.values {
+        let Some(numbers) = law.of(quantity).filter(|_| scene.in_space || !quantity.leaves_plane()) else {
+            continue;
+        };
         for (index, (&time, row)) in series.times.iter().zip(&series.values).enumerate() {
             let part = |of: &Values, point: usize| {
                 let value = of.get(&quantity).and_then(|series| series.at(time)?.get(point).copied());
@@ -73,7 +76,7 @@ pub fn bands(scene: &Scene, run: &Outcome, seen: &Differences, space: &Values, l
             };
             for (point, &value) in row.iter().enumerate().filter(|(_, value)| value.is_finite()) {
                 let units = lengths.units(quantity, index, point).unwrap_or_default();
-                let [model, packing] = law.of(quantity).halves(&units);
+                let [model, packing] = numbers.halves(&units);
                 let [time_error, space, motion, constant] =
                     [&seen.time, space, &seen.motion, &seen.constant].map(|of| part(of, point));
                 let parts = Parts { time: time_error, space, motion, constant, model, packing };

@@ -10,12 +10,25 @@ pub enum Quantity {
     Pressure,
     ConductivityXx,
     ConductivityYy,
+    ConductivityZz,
     DisplacementX,
     DisplacementY,
+    DisplacementZ,
 }
 
 impl Quantity {
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
+        Self::Temperature,
+        Self::Pressure,
+        Self::ConductivityXx,
+        Self::ConductivityYy,
+        Self::ConductivityZz,
+        Self::DisplacementX,
+        Self::DisplacementY,
+        Self::DisplacementZ,
+    ];
+    /// Those of discs in the plane.
+    pub const PLANE: [Self; 6] = [
         Self::Temperature,
         Self::Pressure,
         Self::ConductivityXx,
@@ -31,8 +44,10 @@ impl Quantity {
             Self::Pressure => ("pressure", 0),
             Self::ConductivityXx => ("conductivity", 0),
             Self::ConductivityYy => ("conductivity", 3),
+            Self::ConductivityZz => ("conductivity", 5),
             Self::DisplacementX => ("D", 0),
             Self::DisplacementY => ("D", 1),
+            Self::DisplacementZ => ("D", 2),
         }
     }
 
@@ -43,8 +58,10 @@ impl Quantity {
             Self::Pressure => "pressure",
             Self::ConductivityXx => "conductivity_xx",
             Self::ConductivityYy => "conductivity_yy",
+            Self::ConductivityZz => "conductivity_zz",
             Self::DisplacementX => "displacement_x",
             Self::DisplacementY => "displacement_y",
+            Self::DisplacementZ => "displacement_z",
         }
     }
 
@@ -52,13 +69,19 @@ impl Quantity {
         match self {
             Self::Temperature => "K",
             Self::Pressure => "Pa",
-            Self::ConductivityXx | Self::ConductivityYy => "W/(m K)",
-            Self::DisplacementX | Self::DisplacementY => "m",
+            Self::ConductivityXx | Self::ConductivityYy | Self::ConductivityZz => "W/(m K)",
+            Self::DisplacementX | Self::DisplacementY | Self::DisplacementZ => "m",
         }
     }
 
     /// Whether it is zero everywhere if the grains stay.
     pub fn needs_motion(self) -> bool {
-        matches!(self, Self::DisplacementX | Self::DisplacementY)
+        matches!(self, Self::DisplacementX | Self::DisplacementY | Self::DisplacementZ)
+    }
+
+    /// Whether it points out of the plane. In a mesh that does not extend along z it is not compared: it is zero, or, in a wedge,
+    /// OpenFOAM's interpolation to points does not have it.
+    pub fn leaves_plane(self) -> bool {
+        matches!(self, Self::ConductivityZz | Self::DisplacementZ)
     }
 }

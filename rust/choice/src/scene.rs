@@ -1,7 +1,7 @@
 //! What of the user's case can be chosen.
 
 use crate::ChoiceError;
-use crate::bed::Bed;
+use crate::bed::{Bed, Grains};
 use crate::mirror::{Files, Mirror};
 use crate::settings::{Level, Settings};
 use msdd_case::CaseError;
@@ -13,8 +13,6 @@ use std::process::Command;
 
 /// Points along each direction at which runs are compared.
 const POINTS: [usize; 3] = [7, 5, 3];
-/// Area of the plane for each grain over the square of the mean radius: radii from 0.6 to 1.4 times it, porosity 0.1 to 0.13.
-const GRAIN: f64 = 3.7;
 /// Grains of the window over which a value with a band is a mean.
 const WINDOW: f64 = 100.0;
 /// Times at which runs are compared, at least.
@@ -123,6 +121,8 @@ pub struct Scene {
     pub mirror: Option<Mirror>,
     /// Lowest and highest coordinates of the mesh [m].
     pub bounds: [[f64; 3]; 2],
+    /// Whether the mesh extends along z.
+    pub in_space: bool,
 }
 
 /// Settings are looked for on other meshes of the bed, which solids beside it would have to follow.
@@ -171,8 +171,18 @@ impl Scene {
             _ => Ok(None),
         };
         let (accuracy, pressure_accuracy) = (wanted("accuracy")?, wanted("pressureAccuracy")?);
+        let grains_given = match solution.get("msddFoam") {
+            Some(Entry::Dictionary(own)) if own.get("grains").is_some() => {
+                Some(own.number("grains", |value| (1.0..=1e15).contains(&value), "1 to 1e15")?)
+            }
+            _ => None,
+        };
         let moves = grains.text("mechanics").ok().map(|text| text == "equilibrium");
         let mesh = mesh(&folder)?;
+        let spheres = grains
+            .dictionary_at("surrogate")
+            .is_ok_and(|own| own.text("type").is_ok_and(|text| text == "spheres"));
+        let bed = mesh.bed(if spheres { Grains::Spheres } else { Grains::Discs }, mean_radius);
         let block_mesh = expanded("system/blockMeshDict").ok();
         let blocks = block_mesh
             .as_ref()
@@ -206,11 +216,12 @@ impl Scene {
             blocks,
             cells: mesh.cells,
             points: mesh.points(),
-            bed: mesh.bed(mean_radius),
+            bed: Bed { grains: grains_given.unwrap_or(bed.grains), ..bed },
             conductivity_factor,
             model,
             mirror,
             bounds: mesh.bounds,
+            in_space: mesh.directions[2],
             folder,
         })
     }
@@ -319,6 +330,8 @@ struct Mesh {
     volume: f64,
     bounds: [[f64; 3]; 2],
     directions: [bool; 3],
+    /// Whether it is a wedge of a round bed.
+    wedge: bool,
 }
 
 /// The mesh, as it is described by OpenFOAM's program checkMesh.
@@ -344,7 +357,10 @@ fn mesh(folder: &Path) -> Result<Mesh, ChoiceError> {
     });
     match (cells, volume, bounds, directions) {
         (Some(cells), Some(volume), Some([a, b, c, d, e, f]), Some(directions)) => {
-            Ok(Mesh { cells, volume, bounds: [[a, b, c], [d, e, f]], directions })
+            let boundary = msdd_files::read_text(&folder.join("constant/polyMesh/boundary"));
+            let wedge = boundary
+                .is_ok_and(|text| text.lines().any(|line| line.split_whitespace().eq(["type", "wedge;"])));
+            Ok(Mesh { cells, volume, bounds: [[a, b, c], [d, e, f]], directions, wedge })
         }
         _ => Err(wrong(
             "it did not print the number of cells, the volume, the bounding box and the directions",
@@ -357,8 +373,8 @@ impl Mesh {
         if self.directions[k] { POINTS[k] } else { 1 }
     }
 
-    /// The bed of discs of this mean radius [m]. The discs fill the plane; in space as many as in a cut through its middle.
-    fn bed(&self, mean_radius: f64) -> Bed {
+    /// The bed of grains of this mean radius [m]. Discs fill the plane; in space there are as many as in a cut through its middle.
+    fn bed(&self, kind: Grains, mean_radius: f64) -> Bed {
         let size: Vec<f64> = (0..3).map(|k| self.bounds[1][k] - self.bounds[0][k]).collect();
         let area = (self.volume / size[2]).min(size[0] * size[1]);
         let mut neighbours = Vec::new();
@@ -372,7 +388,26 @@ impl Mesh {
             }
             stride *= count;
         }
-        Bed { grains: area / (GRAIN * mean_radius * mean_radius), mean_radius, window: WINDOW, neighbours }
+        let grains = kind.number(mean_radius, self.volume * self.turns(), area);
+        Bed { kind, grains, mean_radius, window: WINDOW, neighbours }
+    }
+
+    /// How many such meshes make the bed: those of a full turn, if this is a wedge about x or y, else 1.
+    fn turns(&self) -> f64 {
+        let half_width = self.bounds[1][2];
+        // The radius is the direction across the axis in which the box of this wedge has the mesh's volume.
+        let radius = [0, 1].into_iter().min_by(|&a, &b| {
+            let off = |k: usize| {
+                let ([low, high], length) =
+                    ([self.bounds[0][k], self.bounds[1][k]], self.bounds[1][1 - k] - self.bounds[0][1 - k]);
+                (length * half_width * (high * high - low * low) / high - self.volume).abs()
+            };
+            off(a).total_cmp(&off(b))
+        });
+        match radius {
+            Some(k) if self.wedge => std::f64::consts::PI / (half_width / self.bounds[1][k]).atan(),
+            _ => 1.0,
+        }
     }
 
     /// Points at which runs are compared [m].
@@ -419,8 +454,8 @@ mod tests {
     #[test]
     fn a_bed_has_as_many_grains_as_its_area_holds_and_neighbours_along_each_direction() {
         let (bounds, directions) = ([[0.0; 3], [0.7, 0.5, 0.01]], [true, true, false]);
-        let mesh = Mesh { cells: 1, volume: 0.0035, bounds, directions };
-        let bed = mesh.bed(0.01);
+        let mesh = Mesh { cells: 1, volume: 0.0035, bounds, directions, wedge: false };
+        let bed = mesh.bed(Grains::Discs, 0.01);
         assert!((bed.grains - 0.35 / 3.7e-4).abs() < 1e-6, "{}", bed.grains);
         assert_eq!(bed.neighbours.len(), 6 * 5 + 7 * 4);
         let points = mesh.points();
@@ -428,6 +463,26 @@ mod tests {
             assert!((points[b][direction] - points[a][direction] - distance).abs() < 1e-12);
             assert_eq!(points[b][1 - direction], points[a][1 - direction]);
         }
+    }
+
+    #[test]
+    fn a_bed_of_spheres_has_as_many_grains_as_its_volume_holds_and_a_wedge_those_of_the_round_bed() {
+        let (radius, length) = (0.1, 0.3);
+        let round =
+            std::f64::consts::PI * radius * radius * length / (4.0 / 3.0 * std::f64::consts::PI * 1e-6 / 0.6);
+        let half = 2.5f64.to_radians();
+        let (y, z) = (radius * half.cos(), radius * half.sin());
+        let volume = y * z * length;
+        let wedge = |bounds| Mesh { cells: 1, volume, bounds, directions: [true, true, false], wedge: true };
+        for bounds in [[[0.0, 0.0, -z], [length, y, z]], [[0.0, -length, -z], [y, 0.0, z]]] {
+            let found = wedge(bounds).bed(Grains::Spheres, 0.01).grains;
+            assert!((found / round - 1.0).abs() < 3e-3, "{found} {round}");
+        }
+        let bounds = [[0.0; 3], [0.2, 0.2, 0.3]];
+        let space = Mesh { cells: 1, volume: 0.012, bounds, directions: [true; 3], wedge: false };
+        let found = space.bed(Grains::Spheres, 0.01);
+        assert!((found.grains - 0.012 * 0.6 / (4.0 / 3.0 * std::f64::consts::PI * 1e-6)).abs() < 1e-6);
+        assert_eq!(found.neighbours.len(), (6 * 5 * 3) + (7 * 4 * 3) + (7 * 5 * 2));
     }
 
     #[test]

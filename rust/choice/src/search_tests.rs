@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::bands::Law;
-use crate::bed::Bed;
+use crate::bed::{Bed, Grains};
 use crate::found::Values;
 use crate::quantity::Quantity;
 use crate::series::Series;
@@ -34,8 +34,9 @@ impl Scene {
     }
 
     fn find(&self, accuracy: f64, moves: Option<bool>) -> Result<Found, ChoiceError> {
-        let bed = Bed { grains: 1000.0, mean_radius: 1.0, window: 100.0, neighbours: Vec::new() };
-        let (cells, law) = (self.cells.clone(), Law::shipped());
+        let (kind, neighbours) = (Grains::Discs, Vec::new());
+        let bed = Bed { kind, grains: 1000.0, mean_radius: 1.0, window: 100.0, neighbours };
+        let (cells, law) = (self.cells.clone(), Law::shipped(kind));
         let wishes = Wishes {
             accuracy,
             pressure: None,

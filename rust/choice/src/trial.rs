@@ -107,7 +107,7 @@ pub fn plain(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
 /// Copies the user's case without its mesh; `keys` are added at the end of the file of a name.
 fn copy(scene: &Scene, folder: &Path, keys: &dyn Fn(&str) -> String) -> Result<(), ChoiceError> {
     clear(folder)?;
-    write(&folder.join(OURS), b"Made by msdd, which may replace this folder.\n")?;
+    mark(folder)?;
     for part in [scene.start.as_str(), "constant", "system"] {
         for file in list(&scene.folder.join(part))?.into_iter().filter(|file| file.is_file()) {
             let name = format!("{part}/{}", file.file_name().unwrap_or_default().to_string_lossy());
@@ -129,22 +129,33 @@ fn copy(scene: &Scene, folder: &Path, keys: &dyn Fn(&str) -> String) -> Result<(
     Ok(())
 }
 
+/// Makes a folder with the file that shows that it was made here. At no moment does it hold anything else, so that what a killed
+/// program leaves is known.
+fn mark(folder: &Path) -> Result<(), ChoiceError> {
+    std::fs::create_dir(folder)
+        .and_then(|()| std::fs::write(folder.join(OURS), "Made by msdd, which may replace this folder.\n"))
+        .map_err(|error| unreadable(folder, &error))
+}
+
 fn link_mesh(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
     link(&scene.folder.join("constant/polyMesh"), &folder.join("constant/polyMesh"))
 }
 
-/// Refuses a folder that [`make`] has not made.
+/// Refuses a folder that [`make`] has not made. An empty folder may be replaced: a kill between making it and marking it leaves one.
 ///
 /// # Errors
 /// [`ChoiceError::Foreign`].
 pub fn check_ours(folder: &Path) -> Result<(), ChoiceError> {
-    match folder.symlink_metadata().is_ok() && !folder.join(OURS).is_file() {
+    let there = folder.symlink_metadata().is_ok();
+    let empty = || std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
+    match there && !folder.join(OURS).is_file() && !empty() {
         true => Err(ChoiceError::Foreign { folder: folder.to_path_buf() }),
         false => Ok(()),
     }
 }
 
-/// Removes a folder that [`make`] has made, if it is there.
+/// Removes a folder that [`make`] has made, if it is there; the file that shows who made it comes last, so that a kill leaves a
+/// folder that the next call removes.
 ///
 /// # Errors
 /// [`ChoiceError::Foreign`] if it was made by somebody else, [`ChoiceError::Read`] if it cannot be removed.
@@ -153,8 +164,12 @@ pub fn clear(folder: &Path) -> Result<(), ChoiceError> {
     if folder.symlink_metadata().is_err() {
         return Ok(());
     }
-    std::fs::remove_dir_all(folder)
-        .map_err(|error| ChoiceError::Read { file: folder.to_path_buf(), problem: error.to_string() })
+    for entry in list(folder)?.into_iter().filter(|entry| !entry.ends_with(OURS)) {
+        let directory = entry.symlink_metadata().is_ok_and(|of| of.is_dir());
+        let removed = if directory { std::fs::remove_dir_all(&entry) } else { std::fs::remove_file(&entry) };
+        removed.map_err(|error| unreadable(&entry, &error))?;
+    }
+    std::fs::remove_dir_all(folder).map_err(|error| unreadable(folder, &error))
 }
 
 /// Runs the solver in the folder that [`make`] has made for a combination, or goes on with a run that was killed. The solver holds the lock, too: if this
@@ -318,17 +333,45 @@ fn holds(bytes: &[u8], word: &[u8]) -> bool {
     bytes.windows(word.len()).any(|window| window == word)
 }
 
+fn unreadable(file: &Path, error: &std::io::Error) -> ChoiceError {
+    ChoiceError::Read { file: file.to_path_buf(), problem: error.to_string() }
+}
+
 fn read(file: &Path) -> Result<Vec<u8>, ChoiceError> {
-    std::fs::read(file)
-        .map_err(|error| ChoiceError::Read { file: file.to_path_buf(), problem: error.to_string() })
+    std::fs::read(file).map_err(|error| unreadable(file, &error))
 }
 
 fn remove(file: &Path) -> Result<(), ChoiceError> {
-    std::fs::remove_file(file)
-        .map_err(|error| ChoiceError::Read { file: file.to_path_buf(), problem: error.to_string() })
+    std::fs::remove_file(file).map_err(|error| unreadable(file, &error))
 }
 
 fn link(from: &Path, to: &Path) -> Result<(), ChoiceError> {
-    std::os::unix::fs::symlink(from, to)
-        .map_err(|error| ChoiceError::Read { file: to.to_path_buf(), problem: error.to_string() })
+    std::os::unix::fs::symlink(from, to).map_err(|error| unreadable(to, &error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_kill_leaves_is_replaced_and_what_is_the_users_is_kept() {
+        let root = std::env::temp_dir().join(format!("msdd-choice-trial-{}", std::process::id()));
+        let (folder, mesh) = (root.join("bed.trial"), root.join("polyMesh"));
+        let there = || folder.symlink_metadata().is_ok();
+        std::fs::create_dir_all(&mesh).unwrap();
+        // Between making and marking, or between taking the mark away and the folder
+        std::fs::create_dir(&folder).unwrap();
+        check_ours(&folder).unwrap();
+        clear(&folder).unwrap();
+        assert!(!there());
+        mark(&folder).unwrap();
+        std::fs::create_dir(folder.join("system")).unwrap();
+        link(&mesh, &folder.join("polyMesh")).unwrap();
+        clear(&folder).unwrap();
+        assert!(!there() && mesh.is_dir());
+        std::fs::create_dir_all(folder.join("results")).unwrap();
+        assert!(matches!(clear(&folder), Err(ChoiceError::Foreign { .. })));
+        assert!(folder.join("results").is_dir());
+        std::fs::remove_dir_all(&root).unwrap();
+    }
 }

@@ -208,6 +208,7 @@ pub const WALL: &[Key] = &[
 pub const SOLVER: &[Key] = &[
     may("accuracy", Kind::Range(0.0, 100.0, "%")),
     may("pressureAccuracy", Kind::Range(0.0, 100.0, "%")),
+    may("grains", Kind::Range(1.0, 1e15, "")),
     may("timeScheme", Kind::Word(&["paper", "secondOrder"])),
     may("nNonOrthogonalCorrectors", Kind::Range(0.0, 100.0, "")),
     may("temperatureTolerance", Kind::Range(1e-12, 1e6, "K")),

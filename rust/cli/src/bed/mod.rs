@@ -1,9 +1,11 @@
 //! `msdd bed`: beds of spheres that were measured.
 
 mod files;
+pub(crate) mod foam;
 mod moving;
 mod plot;
 mod results;
+pub(crate) mod start;
 mod table;
 
 use crate::error::CliError;
@@ -17,6 +19,8 @@ use std::path::{Path, PathBuf};
 pub enum Command {
     /// Pour a bed of spheres, press and turn it, heat it, and compare its temperatures with measured ones.
     Run(RunArguments),
+    /// Write a case folder of the solver for the bed of an elements.toml.
+    Case(foam::Arguments),
 }
 
 #[derive(Args)]
@@ -60,6 +64,7 @@ pub struct RunArguments {
 pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Run(arguments) => run_case(arguments),
+        Command::Case(arguments) => foam::run(arguments),
     }
 }
 

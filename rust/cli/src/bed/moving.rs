@@ -4,7 +4,7 @@ use crate::error::CliError;
 use crate::progress::Progress;
 use msdd_beds::coupled::{Prepared, Row, Run, prepare, run};
 use msdd_beds::mobilised::mobilised;
-use msdd_beds::packings::join;
+use msdd_beds::packings::{at_start, join};
 use msdd_beds::rows::elements;
 use msdd_beds::scene::{FILE, Scene};
 use msdd_files::{check_writable, read_text, write};
@@ -69,6 +69,8 @@ pub fn compute_packings(
         .ok_or_else(|| CliError::Message(format!("{}: packings with other rows", out.display())))?;
     write(&targets[0], joined.mean.as_bytes())?;
     write(&targets[1], joined.scatter.as_bytes())?;
+    let known = |name: &str| at_start(&joined.mean, name).unwrap_or(f64::NAN);
+    out!("{}", start(&first, known("mobilisation"), ["fabric_1", "fabric_2", "fabric_3"].map(known)));
     outln!("results: {}, {}", targets[0].display(), targets[1].display());
     Ok(())
 }
@@ -104,6 +106,16 @@ fn simulate(folder: &Path, scene: &Scene, threads: usize) -> Result<String, CliE
     Ok(elements(scene, &prepared, &found))
 }
 
+/// What the law of spheres needs to know of the start, in words.
+fn start(scene: &Scene, mobilisation: f64, [first, second, third]: [f64; 3]) -> String {
+    let axes = if scene.record.radius.is_some() { "radius, around the axis, axis" } else { "x, y, z" };
+    format!(
+        "friction at the start: {mobilisation:.3} of what the contacts bear before they slide, for the law of spheres 'mobilised {:.2};'\n\
+         fabric at the start (key 'fabric'): {first:.4}, {second:.4}, {third:.4} along {axes}\n",
+        mobilised(mobilisation)
+    )
+}
+
 fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     let mut text = format!("{} grains, seed {}\n", prepared.simulation.spheres.len(), scene.seed);
     for (stage, rest) in &prepared.stages {
@@ -130,18 +142,9 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     found.rows.iter().step_by(shown).for_each(|row| line(&mut text, row));
     let worst = found.rows.iter().map(|row| row.unbalanced).fold(0.0, f64::max);
     let _ = writeln!(text, "largest force out of balance: {:.2} % of that on the lid", 100.0 * worst);
-    let _ = writeln!(
-        text,
-        "friction at the start: {:.3} of what the contacts bear before they slide, for the law of spheres 'mobilised {:.2};'",
-        found.mobilisation,
-        mobilised(found.mobilisation)
-    );
-    let [first, second, third] = found.fabric;
-    let axes = if scene.record.radius.is_some() { "radius, around the axis, axis" } else { "x, y, z" };
-    let _ = writeln!(
-        text,
-        "fabric at the start (key 'fabric'): {first:.4}, {second:.4}, {third:.4} along {axes}"
-    );
+    if let Some(row) = found.rows.first() {
+        text += &start(scene, row.mobilisation, row.fabric);
+    }
     let peak = found.rows.iter().map(|row| row.peak).fold(f64::NAN, f64::max);
     let yielding = found.rows.iter().map(|row| row.yielding).fold(0.0, f64::max);
     if peak > 1.0 {

@@ -135,7 +135,7 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
         let how = "the chosen run and one with half the cells along each direction".to_string();
         record.checked = Some(Share { source: "cells, checked".to_string(), percent, how });
     }
-    let bands = interval::bands(scene, &outcome, &seen, &space, &Law::shipped());
+    let bands = interval::bands(scene, &outcome, &seen, &space, &Law::shipped(scene.bed.kind));
     interval::write_table(scene, &bands, &chosen)?;
     record.bands = interval::means(&bands);
     record.run_seconds = Some(outcome.seconds);
@@ -161,7 +161,7 @@ fn search(
 ) -> Result<(Record, Differences), ChoiceError> {
     let Wanted { accuracy, pressure } = wanted;
     let began = Instant::now();
-    let (bed, law) = (scene.bed.clone(), Law::shipped());
+    let (bed, law) = (scene.bed.clone(), Law::shipped(scene.bed.kind));
     let wishes = Wishes {
         accuracy,
         pressure,

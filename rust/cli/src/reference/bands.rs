@@ -22,8 +22,11 @@ const POINTS: usize = 4;
 /// Tolerance in time of the solver's runs, share of the range of T.
 const TOLERANCE: f64 = 1e-3;
 const COLUMNS: [&str; 6] = ["quantity", "use", "values", "inside", "inside_worst_scene", "width"];
-/// Quantities that have the same numbers.
-const GROUPS: [(&str, &[Quantity]); 4] = [
+/// Quantities that have the same numbers, and their name.
+pub type Group = (&'static str, &'static [Quantity]);
+/// Rows by what their scene is for, and by quantity.
+pub type Found = BTreeMap<(&'static str, Quantity), Vec<Row>>;
+const GROUPS: [Group; 4] = [
     ("T", &[Quantity::Temperature]),
     ("pressure", &[Quantity::Pressure]),
     ("conductivity", &[Quantity::ConductivityXx, Quantity::ConductivityYy]),
@@ -78,7 +81,7 @@ impl Windows {
 }
 
 /// One run of the solver in a case folder, on the mesh of the case.
-fn run(scene: &Scene, range: f64, conductivity: f64) -> Result<Outcome, ChoiceError> {
+pub(super) fn run(scene: &Scene, range: f64, conductivity: f64) -> Result<Outcome, ChoiceError> {
     let levels = vec![Level::Halved(0); scene.directions().len()];
     let settings = Settings { conductivity, ..Settings::new(levels, TOLERANCE, true) };
     let folder = beside(scene, "trial");
@@ -108,7 +111,7 @@ fn rows(
     let lengths = Lengths::new(&scene.bed, &base, &sensitivity);
 
     let mut all = BTreeMap::new();
-    for quantity in Quantity::ALL {
+    for quantity in Quantity::PLANE {
         let parts = base.strain.values.iter().flatten().any(|&strain| strain != 0.0);
         if quantity.needs_motion() && !parts {
             continue;
@@ -136,7 +139,7 @@ fn rows(
                 rows.push(Row {
                     scene: number,
                     packing: results.seed,
-                    key: (first + window) * Quantity::ALL.len() + quantity as usize,
+                    key: (first + window) * Quantity::PLANE.len() + quantity as usize,
                     error: discs - values[window],
                     discs,
                     units: Units {
@@ -151,10 +154,10 @@ fn rows(
     Ok(all)
 }
 
-/// Fits the bands to the scenes for calibration and writes their numbers; prints how they do, and writes that into `table`.
+/// Fits the bands to the scenes for calibration and writes their numbers; prints how they do, and writes that into the folder `table`.
 pub fn calibrate(all: &[Done], numbers: &Path, table: Option<&Path>) -> Result<(), CliError> {
     outln!("error bands: the solver in {} scenes, with two conductivities", all.len());
-    let mut found: BTreeMap<(&str, Quantity), Vec<Row>> = BTreeMap::new();
+    let mut found = Found::new();
     for (number, (scene, packings)) in all.iter().enumerate() {
         let range = scene.case()?.temperature_range();
         for (results, folder) in packings {
@@ -163,34 +166,64 @@ pub fn calibrate(all: &[Done], numbers: &Path, table: Option<&Path>) -> Result<(
             }
         }
     }
-    let of = |purpose: &str, quantities: &[Quantity]| -> Vec<Row> {
-        let rows = quantities.iter().filter_map(|&quantity| {
-            found.iter().find(|((p, q), _)| *p == purpose && *q == quantity).map(|(_, rows)| rows.clone())
-        });
-        rows.flatten().collect()
-    };
-    let fitted: Vec<Numbers> =
-        GROUPS.iter().map(|(_, quantities)| fit(&of("calibrate", quantities))).collect();
-    let [temperature, pressure, conductivity, displacement] =
-        <[Numbers; 4]>::try_from(fitted).map_err(|_| CliError::Message("four groups".to_string()))?;
-    let request = [
-        request(&of("calibrate", &[Quantity::Temperature]), &temperature),
-        request(&of("calibrate", &[Quantity::Pressure]), &pressure),
-    ];
-    let law = Law { temperature, pressure, conductivity, displacement, request }.rounded();
-    let text = serde_json::to_string_pretty(&law)
-        .map_err(|error| CliError::Message(format!("numbers of the bands: {error}")))?;
-    write(numbers, format!("{text}\n").as_bytes())?;
+    let law = fit_law(&found, &GROUPS)?;
+    write_law(&law, numbers)?;
+    print_coverage(&found, &law, &GROUPS, table)
+}
 
+/// Rows of the scenes with a purpose, of these quantities.
+fn of(found: &Found, purpose: &str, quantities: &[Quantity]) -> Vec<Row> {
+    let own = found.iter().filter(|((p, quantity), _)| *p == purpose && quantities.contains(quantity));
+    own.flat_map(|(_, rows)| rows.clone()).collect()
+}
+
+/// The numbers that fit the scenes for calibration best: of T, p, K and, if it is among the groups, u.
+///
+/// # Errors
+/// Fewer than three groups.
+pub fn fit_law(found: &Found, groups: &[Group]) -> Result<Law, CliError> {
+    let mut fitted = groups.iter().map(|(_, quantities)| fit(&of(found, "calibrate", quantities)));
+    let mut next =
+        || fitted.next().ok_or_else(|| CliError::Message("bands of T, p and K are needed".to_string()));
+    let [temperature, pressure, conductivity] = [next()?, next()?, next()?];
+    let displacement = next().ok();
+    let request = [
+        request(&of(found, "calibrate", &[Quantity::Temperature]), &temperature),
+        request(&of(found, "calibrate", &[Quantity::Pressure]), &pressure),
+    ];
+    Ok(Law { temperature, pressure, conductivity, displacement, request }.rounded())
+}
+
+/// Writes the numbers.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write_law(law: &Law, file: &Path) -> Result<(), CliError> {
+    let text = serde_json::to_string_pretty(law)
+        .map_err(|error| CliError::Message(format!("numbers of the bands: {error}")))?;
+    Ok(write(file, format!("{text}\n").as_bytes())?)
+}
+
+/// Prints how the bands do, and writes that into `bands.csv` of a folder.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn print_coverage(
+    found: &Found,
+    law: &Law,
+    groups: &[Group],
+    folder: Option<&Path>,
+) -> Result<(), CliError> {
     let mut csv = COLUMNS.join(",") + "\n";
     outln!(
-        "\n90 % bands: share of the discs' values inside, of all scenes and of the worst; width over twice the scatter"
+        "\n90 % bands: share of the values inside, of all scenes and of the worst; width over twice the scatter"
     );
-    for (name, quantities) in GROUPS {
+    for (name, quantities) in groups {
+        let Some(numbers) = law.of(quantities[0]) else { continue };
         let mut line = format!("{name:13}");
         for purpose in ["calibrate", "judge", "outside"] {
-            let rows = of(purpose, quantities);
-            let Coverage { inside, worst, width } = coverage(&rows, law.of(quantities[0]));
+            let rows = of(found, purpose, quantities);
+            let Coverage { inside, worst, width } = coverage(&rows, numbers);
             let _ =
                 write!(line, "  {purpose} {:5.1} % ({:3.0} %) {width:5.2}", 100.0 * inside, 100.0 * worst);
             let values: Vec<String> = [inside, worst, width].into_iter().map(plain).collect();
@@ -198,7 +231,7 @@ pub fn calibrate(all: &[Done], numbers: &Path, table: Option<&Path>) -> Result<(
         }
         outln!("{line}");
     }
-    if let Some(folder) = table {
+    if let Some(folder) = folder {
         write(&folder.join("bands.csv"), csv.as_bytes())?;
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! `msdd reference`: simulates the whole box of a case by discrete elements.
 
 mod bands;
+mod beds;
 mod compare;
 mod requests;
 mod scenes;
@@ -37,6 +38,8 @@ pub enum Command {
     Compare(compare::Arguments),
     /// Make the reference scenes of a plan, and set the solver beside them.
     Scenes(scenes::Arguments),
+    /// Set the solver beside beds of spheres of a plan.
+    Beds(beds::Arguments),
 }
 
 /// How a box is closed.
@@ -135,6 +138,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Summary(arguments) => summary::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Scenes(arguments) => scenes::run(arguments),
+        Command::Beds(arguments) => beds::run(arguments),
     }
 }
 

@@ -139,7 +139,7 @@ pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
                 moves: None,
                 constant: scene.model.is_some(),
                 bed: scene.bed.clone(),
-                law: Law::shipped(),
+                law: Law::shipped(scene.bed.kind),
             };
             let mut search_seconds = 0.0;
             let found = find(&wishes, &mut |settings: &Settings, _| {

@@ -179,7 +179,7 @@ fn write_case(
 }
 
 /// Runs the solver in a case folder, always anew, since the solver may have changed; the message if it fails.
-fn solve(folder: &Path, checkout: &Path) -> Result<(), String> {
+pub(super) fn solve(folder: &Path, checkout: &Path) -> Result<(), String> {
     let mut program = Command::new("bash");
     program.arg("Allrun").current_dir(folder).env("MSDD", checkout).stdin(Stdio::null());
     let output = program.output().map_err(|error| format!("cannot start bash: {error}"))?;

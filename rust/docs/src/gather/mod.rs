@@ -1,6 +1,7 @@
 //! Makes sections of the results from what our programs wrote. `scripts/results` runs the programs; their files lie in
 //! `results/numbers` under fixed names. Nothing is measured here: numbers are chosen, converted and rounded for print.
 
+pub mod beds;
 pub mod cases;
 pub mod database;
 pub mod json;
@@ -18,7 +19,8 @@ use std::path::Path;
 type Make = fn(&Path) -> Result<Section, DocsError>;
 
 /// Sections by name.
-pub const SECTIONS: [(&str, Make); 7] = [
+pub const SECTIONS: [(&str, Make); 8] = [
+    ("beds", beds::section),
     ("cases", cases::section),
     ("database", database::section),
     ("report", report::section),

@@ -86,8 +86,35 @@ fn a_section_renewed_leaves_the_others_and_missing_entries_are_named() {
     let error = renew(&root, "witness", origin()).unwrap_err().to_string();
     assert!(error.contains("witness.txt"), "{error}");
     let error = renew(&root, "none", origin()).unwrap_err().to_string();
-    assert!(error.contains("allowed: cases, database"), "{error}");
+    assert!(error.contains("allowed: beds, cases, database"), "{error}");
     assert_eq!(fs::read_to_string(root.join("docs/results.json")).unwrap(), before);
+}
+
+#[test]
+fn beds_of_spheres_are_two_tables() {
+    let errors = "scene,use,packings,T_error,T_scatter,pressure_error,pressure_scatter,conductivity_error,conductivity_scatter\n\
+                  a-bed,judge,3,0.371,0.16,4.9,4.12,1.831,1.37\n";
+    let bands: String = ["T", "pressure", "conductivity"]
+        .iter()
+        .flat_map(|name| {
+            ["calibrate", "judge", "outside"].map(|of| format!("{name},{of},60,0.912,0.85,1.449\n"))
+        })
+        .collect();
+    let bands = format!("quantity,use,values,inside,inside_worst_scene,width\n{bands}");
+    let root =
+        checkout("gather-beds", &[("cases/beds/errors.csv", errors), ("cases/beds/bands.csv", &bands)]);
+    renew(&root, "beds", origin()).unwrap();
+    let results = Results::read(&root).unwrap();
+    assert_eq!(
+        results.table("beds-errors").unwrap().rows[0][..5],
+        ["`a-bed`", "judge", "3", "0.37", "0.16"].map(str::to_string)
+    );
+    let table = results.table("beds-bands").unwrap();
+    assert_eq!((table.rows.len(), table.columns.len()), (3, 10));
+    assert_eq!(table.rows[1][..4], ["p", "91", "85", "1.4"].map(str::to_string));
+    fs::write(root.join("cases/beds/bands.csv"), bands.replace("inside_worst_scene", "worst")).unwrap();
+    let error = renew(&root, "beds", origin()).unwrap_err().to_string();
+    assert!(error.contains("bands.csv") && error.contains("inside_worst_scene"), "{error}");
 }
 
 #[test]

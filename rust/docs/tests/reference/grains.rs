@@ -73,6 +73,9 @@ fn scenes() -> Vec<Set> {
         columns("windows of scenes", discs, "WINDOW_COLUMNS"),
         columns("bands of scenes", "rust/cli/src/reference/bands.rs", "COLUMNS"),
         columns("requests of scenes", "rust/cli/src/reference/requests.rs", "COLUMNS"),
+        with_required(fields_of(SCENE, "plan of beds", SCENES, "PlannedBed"), SCENES, "PlannedBed")
+            .with_words("use", "allowed", &variants(SCENES, "Use")),
+        columns("errors of beds", "rust/cli/src/reference/beds.rs", "COLUMNS"),
     ]
 }
 

@@ -4,14 +4,17 @@
 //! | module | what |
 //! |---|---|
 //! | [`plan`] | the plan: a TOML file |
+//! | [`beds`] | the plan of beds of spheres |
 //! | [`discs`] | one packing by discrete elements |
 //! | [`data`] | the tables of all packings |
 //! | [`table`] | errors of the solver beside the scatter of the packings |
 
+pub mod beds;
 pub mod data;
 pub mod discs;
 pub mod plan;
 pub mod table;
 
+pub use beds::{BedPlan, PlannedBed};
 pub use discs::SceneResults;
 pub use plan::{Plan, PlannedScene, Use};

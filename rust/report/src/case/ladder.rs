@@ -161,7 +161,7 @@ fn as_it_is(scene: &Scene) -> Result<Option<Rung>, ReportError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use msdd_choice::bed::Bed;
+    use msdd_choice::bed::{Bed, Grains};
 
     fn scene() -> Scene {
         let folder = std::env::temp_dir().join(format!("msdd-report-ladder-{}", std::process::id()));
@@ -182,7 +182,14 @@ mod tests {
             model: None,
             mirror: None,
             bounds: [[0.0; 3], [1.0; 3]],
-            bed: Bed { grains: 1000.0, mean_radius: 0.005, window: 100.0, neighbours: Vec::new() },
+            in_space: false,
+            bed: Bed {
+                kind: Grains::Discs,
+                grains: 1000.0,
+                mean_radius: 0.005,
+                window: 100.0,
+                neighbours: Vec::new(),
+            },
         }
     }
 

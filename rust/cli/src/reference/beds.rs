@@ -1,0 +1,312 @@
+//! `msdd reference beds`: sets the solver beside beds of spheres that were computed by discrete elements, and fits its error bands.
+
+use super::bands::{Found, Group, fit_law, print_coverage, run as attempt_run, write_law};
+use super::scenes::solve;
+use crate::bed::foam::{self, Geometry, probes};
+use crate::bed::start::Start;
+use crate::case::checkout;
+use crate::error::CliError;
+use clap::Args;
+use msdd_beds::packings::column;
+use msdd_beds::scene::{FILE, Scene as Bed};
+use msdd_case::folder;
+use msdd_case::numbers::plain;
+use msdd_choice::ChoiceError;
+use msdd_choice::bands::{CONDUCTIVITY, Lengths, Units, sensitivity};
+use msdd_choice::calibrate::Row;
+use msdd_choice::quantity::Quantity;
+use msdd_choice::scene::Scene;
+use msdd_choice::series::Series;
+use msdd_files::{list, read_text, write};
+use msdd_reference::scenes::{BedPlan, PlannedBed};
+use std::fmt::Write as _;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Quantities that are compared, with the columns of `errors.csv`.
+const GROUPS: [Group; 3] = [
+    ("T", &[Quantity::Temperature]),
+    ("pressure", &[Quantity::Pressure]),
+    ("conductivity", &[Quantity::ConductivityXx, Quantity::ConductivityZz]),
+];
+const COLUMNS: [&str; 9] = [
+    "scene",
+    "use",
+    "packings",
+    "T_error",
+    "T_scatter",
+    "pressure_error",
+    "pressure_scatter",
+    "conductivity_error",
+    "conductivity_scatter",
+];
+/// Points along the axis, and along the radius of a cylinder, over which the solver's fields are averaged.
+const ALONG: usize = 8;
+const ACROSS: usize = 4;
+/// Share of the volume of a bed that spheres fill.
+const FILLED: f64 = 0.6;
+
+#[derive(Args)]
+#[command(
+    after_help = "Example: msdd reference beds --plan cases/beds/plan.toml --out results/beds-by-solver
+The discrete elements are results of 'msdd bed run'; cases/beds/make computes those that are not there."
+)]
+pub struct Arguments {
+    /// The plan: a TOML file with blocks [[scenes]] of a name and a use. Beside it stands a folder of each name with elements.toml and
+    /// the files elements-<seed>.csv of its packings.
+    #[arg(long, value_name = "FILE")]
+    plan: PathBuf,
+    /// Folder for the solver's cases.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Only the scene of this name; may be given several times.
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Fit the error bands to the scenes for calibration, and write their numbers into this file.
+    #[arg(long, value_name = "FILE", conflicts_with = "only")]
+    bands: Option<PathBuf>,
+    /// Folder for the tables errors.csv and, with --bands, bands.csv; not with --only.
+    #[arg(long, value_name = "DIR", conflicts_with = "only")]
+    tables: Option<PathBuf>,
+    /// MSDD's checkout, whose solver the cases run. Default: the one that this program was built in.
+    #[arg(long, value_name = "DIR")]
+    checkout: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+    let plan = BedPlan::read(&arguments.plan)?;
+    let names: Vec<&str> = plan.scenes.iter().map(|scene| scene.name.as_str()).collect();
+    if let Some(name) = arguments.only.iter().find(|name| !names.contains(&name.as_str())) {
+        return Err(CliError::Message(format!("--only = {name}, allowed: {}", names.join(", "))));
+    }
+    let checkout = checkout(arguments.checkout.as_deref())?;
+    let root = arguments.plan.parent().unwrap_or(Path::new("."));
+    let mut found = Found::new();
+    let mut csv = COLUMNS.join(",") + "\n";
+    outln!(
+        "solver less discrete elements, and standard deviation of one packing, rms over the run: T in % of the range of T, others in %"
+    );
+    outln!("{:15} {:9} {:>8} {:>13} {:>13} {:>13}", "scene", "use", "packings", "T", "p", "K");
+    let wanted = |scene: &&PlannedBed| arguments.only.is_empty() || arguments.only.contains(&scene.name);
+    for (number, planned) in plan.scenes.iter().filter(wanted).enumerate() {
+        let folder = root.join(&planned.name);
+        let bed = Bed::read(&folder)?;
+        let mut all: Vec<(Quantity, Vec<Row>)> = Vec::new();
+        let packings = packings(&folder)?;
+        for (seed, file) in &packings {
+            let place = arguments.out.join(&planned.name).join(format!("seed{seed}"));
+            let packing = Packing { scene: number, seed: *seed, bed: &bed, folder: &folder, file };
+            all.extend(packing.rows(&place, &checkout)?);
+        }
+        let [low, high] = bed.temperatures();
+        let mut cells = Vec::new();
+        for (_, quantities) in GROUPS {
+            let own: Vec<&Row> = all
+                .iter()
+                .filter(|(quantity, _)| quantities.contains(quantity))
+                .flat_map(|(_, rows)| rows)
+                .collect();
+            let range = (quantities == [Quantity::Temperature]).then_some(high - low);
+            cells.push([error(&own, range), scatter(&own, range)]);
+        }
+        let text: Vec<String> = cells.iter().map(|[e, s]| format!("{e:6.2} {s:6.2}")).collect();
+        outln!("{:15} {:9} {:>8} {}", planned.name, planned.purpose.as_str(), packings.len(), text.join(" "));
+        let numbers: Vec<String> =
+            cells.iter().flatten().map(|value| plain((value * 1e3).round() / 1e3)).collect();
+        let _ = writeln!(
+            csv,
+            "{},{},{},{}",
+            planned.name,
+            planned.purpose.as_str(),
+            packings.len(),
+            numbers.join(",")
+        );
+        for (quantity, rows) in all {
+            found.entry((planned.purpose.as_str(), quantity)).or_default().extend(rows);
+        }
+    }
+    if let Some(folder) = &arguments.tables {
+        write(&folder.join("errors.csv"), csv.as_bytes())?;
+    }
+    let Some(file) = &arguments.bands else { return Ok(()) };
+    let law = fit_law(&found, &GROUPS)?;
+    write_law(&law, file)?;
+    print_coverage(&found, &law, &GROUPS, arguments.tables.as_deref())
+}
+
+/// Seeds and files of the packings of a scene.
+fn packings(folder: &Path) -> Result<Vec<(u64, PathBuf)>, CliError> {
+    let seed = |file: &PathBuf| {
+        file.file_name()?.to_str()?.strip_prefix("elements-")?.strip_suffix(".csv")?.parse::<u64>().ok()
+    };
+    let mut all: Vec<(u64, PathBuf)> =
+        list(folder)?.into_iter().filter_map(|file| Some((seed(&file)?, file))).collect();
+    all.sort();
+    match all.is_empty() {
+        true => Err(CliError::Message(format!(
+            "{}: no file elements-<seed>.csv, allowed: results of 'msdd bed run --packings'",
+            folder.display()
+        ))),
+        false => Ok(all),
+    }
+}
+
+/// Points of the region of the averages: means over them stand for means over it.
+fn region(bed: &Bed, geometry: &Geometry) -> Vec<[f64; 3]> {
+    let [_, low, high, _] = geometry.levels;
+    let height = |k: usize| low + (high - low) * (k as f64 + 0.5) / ALONG as f64;
+    let Some(radius) = bed.record.radius else {
+        return (0..ALONG).map(|k| geometry.point(height(k), 0.0)).collect();
+    };
+    // Rings of equal area.
+    let ring = |k: usize| radius * ((k as f64 + 0.5) / ACROSS as f64).sqrt();
+    (0..ALONG)
+        .flat_map(|k| (0..ACROSS).map(move |j| (k, j)))
+        .map(|(k, j)| geometry.point(height(k), ring(j)))
+        .collect()
+}
+
+/// A packing of a bed.
+struct Packing<'a> {
+    /// Number of the scene, and the seed.
+    scene: usize,
+    seed: u64,
+    bed: &'a Bed,
+    /// Folder of its `elements.toml`, and the results of its discrete elements.
+    folder: &'a Path,
+    file: &'a Path,
+}
+
+/// What is compared: a column of the elements with the mean of the solver's values at some of the scene's points.
+struct Compared {
+    quantity: Quantity,
+    column: String,
+    points: Range<usize>,
+}
+
+impl Packing<'_> {
+    /// Rows for the fit, by quantity. Makes and runs the solver's case in the folder `place`.
+    fn rows(&self, place: &Path, checkout: &Path) -> Result<Vec<(Quantity, Vec<Row>)>, CliError> {
+        let failed = |error: ChoiceError| CliError::Message(error.to_string());
+        let start = Start::read(self.file)?;
+        let geometry = Geometry::new(&self.folder.join(FILE), self.bed, start.depth)?;
+        folder::write(place, &foam::files(self.folder, self.bed, &start, "bed", checkout)?)?;
+        solve(place, checkout).map_err(CliError::Message)?;
+        let mut scene = Scene::read(place).map_err(failed)?;
+        let all = self.compared(&geometry, &mut scene);
+        scene.bed.grains = self.bed.grains.number as f64;
+        scene.bed.window = in_region(self.bed, &geometry);
+        let [low, high] = self.bed.temperatures();
+        let base = attempt_run(&scene, high - low, 1.0).map_err(failed)?;
+        let more = attempt_run(&scene, high - low, CONDUCTIVITY).map_err(failed)?;
+        let sensitivity = sensitivity(&base, &more);
+        let lengths = Lengths::new(&scene.bed, &base, &sensitivity);
+        let text = read_text(self.file)?;
+        let elements = |name: &str| {
+            column(&text, name).ok_or_else(|| {
+                CliError::Message(format!("{}: no column {name} of numbers", self.file.display()))
+            })
+        };
+        let times = elements("time")?;
+        let mut rows = Vec::new();
+        for (number, of) in all.iter().enumerate() {
+            let series = Solver::new(&lengths, base.series(of.quantity), of);
+            let mut own = Vec::new();
+            for (index, (&time, &discs)) in times.iter().zip(&elements(&of.column)?).enumerate() {
+                if time == 0.0 {
+                    continue;
+                }
+                let (value, units) = series.at(time).ok_or_else(|| {
+                    CliError::Message(format!("{}: the solver has not written t = {time} s", place.display()))
+                })?;
+                let key = index * all.len() + number;
+                own.push(Row {
+                    scene: self.scene,
+                    packing: self.seed,
+                    key,
+                    error: discs - value,
+                    discs,
+                    units,
+                });
+            }
+            rows.push((of.quantity, own));
+        }
+        Ok(rows)
+    }
+
+    /// What is compared; its points are added to those of the scene.
+    fn compared(&self, geometry: &Geometry, scene: &mut Scene) -> Vec<Compared> {
+        let (places, inside) = (probes(self.bed, geometry), region(self.bed, geometry));
+        let first = scene.points.len();
+        scene.points.extend(places.iter().chain(&inside));
+        let probes = self.bed.record.distances.iter().zip(first..);
+        let mut all: Vec<Compared> = probes
+            .map(|(distance, point)| Compared {
+                quantity: Quantity::Temperature,
+                column: format!("T_{distance}"),
+                points: point..point + 1,
+            })
+            .collect();
+        let along =
+            if geometry.radii.is_some() { Quantity::ConductivityXx } else { Quantity::ConductivityZz };
+        let begin = first + places.len();
+        for (quantity, column) in [(Quantity::Pressure, "p"), (along, "K")] {
+            all.push(Compared { quantity, column: column.to_string(), points: begin..begin + inside.len() });
+        }
+        all
+    }
+}
+
+/// What the solver gives of one quantity, with the lengths of its band.
+struct Solver<'a> {
+    value: &'a Series,
+    model: Series,
+    packing: Vec<Series>,
+    points: Range<usize>,
+}
+
+impl<'a> Solver<'a> {
+    fn new(lengths: &Lengths, value: &'a Series, of: &Compared) -> Self {
+        let parts = lengths.units(of.quantity, 0, of.points.start).map_or(0, |units| units.packing.len());
+        let model = lengths.map(of.quantity, |units| units.model);
+        let packing = (0..parts).map(|k| lengths.map(of.quantity, |units| units.packing[k])).collect();
+        Self { value, model, packing, points: of.points.clone() }
+    }
+
+    /// Means over the points at a time [s].
+    fn at(&self, time: f64) -> Option<(f64, Units)> {
+        let mean = |series: &Series| {
+            let own = series.at(time)?.get(self.points.clone())?;
+            Some(own.iter().sum::<f64>() / own.len() as f64)
+        };
+        let packing: Option<Vec<f64>> = self.packing.iter().map(mean).collect();
+        Some((mean(self.value)?, Units { model: mean(&self.model)?, packing: packing? }))
+    }
+}
+
+/// Number of spheres in the region of the averages.
+fn in_region(bed: &Bed, geometry: &Geometry) -> f64 {
+    let [_, low, high, _] = geometry.levels;
+    let area = bed.record.radius.map_or(bed.vessel().area(), |radius| std::f64::consts::PI * radius * radius);
+    FILLED * area * (high - low) / (std::f64::consts::PI / 6.0 * bed.grains.diameter.powi(3))
+}
+
+/// Root of the mean square of the errors of one packing [% of `range`, or of the values].
+fn error(rows: &[&Row], range: Option<f64>) -> f64 {
+    let squares: f64 = rows.iter().map(|row| (row.error / range.unwrap_or(row.discs)).powi(2)).sum();
+    100.0 * (squares / rows.len() as f64).sqrt()
+}
+
+/// Standard deviation of the discrete elements between packings, likewise.
+fn scatter(rows: &[&Row], range: Option<f64>) -> f64 {
+    let mut sums = (0.0, 0.0);
+    let keys: std::collections::BTreeSet<usize> = rows.iter().map(|row| row.key).collect();
+    for key in keys {
+        let own: Vec<f64> = rows.iter().filter(|row| row.key == key).map(|row| row.discs).collect();
+        let mean = own.iter().sum::<f64>() / own.len() as f64;
+        let scale = range.unwrap_or(mean);
+        sums.0 += own.iter().map(|value| ((value - mean) / scale).powi(2)).sum::<f64>();
+        sums.1 += own.len() as f64 - 1.0;
+    }
+    100.0 * (sums.0 / sums.1).sqrt()
+}

@@ -1,0 +1,105 @@
+//! The solver beside the beds of spheres: the tables that `cases/beds/make` wrote.
+
+use crate::error::DocsError;
+use crate::gather::print::decimals;
+use crate::results::Section;
+use std::path::Path;
+
+const FOLDER: &str = "cases/beds";
+/// Quantities in `bands.csv`, and as the book names them.
+const QUANTITIES: [(&str, &str); 3] = [("T", "T"), ("pressure", "p"), ("conductivity", "K")];
+/// What scenes are for, in `plan.toml`, and as the book says it.
+const USES: [(&str, &str); 3] =
+    [("calibrate", "fitted to"), ("judge", "judged by"), ("outside", "of another friction")];
+
+/// # Errors
+/// Files that are missing or lack a column.
+pub fn section(root: &Path) -> Result<Section, DocsError> {
+    let mut section = Section::default();
+    let errors = Table::read(root, "errors.csv")?;
+    let mut rows = Vec::new();
+    for line in 0..errors.rows.len() {
+        let [scene, purpose, packings] =
+            ["scene", "use", "packings"].map(|name| errors.text(line, name).map(str::to_string));
+        let mut row = vec![format!("`{}`", scene?), purpose?, packings?];
+        for quantity in ["T", "pressure", "conductivity"] {
+            row.push(decimals(errors.number(line, &format!("{quantity}_error"))?, 2));
+            row.push(decimals(errors.number(line, &format!("{quantity}_scatter"))?, 2));
+        }
+        rows.push(row);
+    }
+    let columns = [
+        "bed",
+        "use",
+        "packings",
+        "T [% of the range]",
+        "one packing",
+        "p [%]",
+        "one packing",
+        "K [%]",
+        "one packing",
+    ];
+    let origin = "msdd reference beds";
+    section.add_table("beds-errors", "the solver beside beds of spheres, rms", origin, &columns, rows);
+
+    let bands = Table::read(root, "bands.csv")?;
+    let mut rows = Vec::new();
+    for (name, words) in QUANTITIES {
+        let mut row = vec![words.to_string()];
+        for (purpose, _) in USES {
+            let line = bands.find(&[("quantity", name), ("use", purpose)])?;
+            row.push(decimals(100.0 * bands.number(line, "inside")?, 0));
+            row.push(decimals(100.0 * bands.number(line, "inside_worst_scene")?, 0));
+            row.push(decimals(bands.number(line, "width")?, 1));
+        }
+        rows.push(row);
+    }
+    let columns: Vec<String> = USES
+        .iter()
+        .flat_map(|(_, words)| {
+            [format!("inside, beds {words} [%]"), "worst bed [%]".to_string(), "width".to_string()]
+        })
+        .collect();
+    let columns: Vec<&str> = std::iter::once("").chain(columns.iter().map(String::as_str)).collect();
+    section.add_table("beds-bands", "error bands of beds of spheres", origin, &columns, rows);
+    Ok(section)
+}
+
+/// A file of comma-separated values.
+struct Table {
+    file: String,
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn read(root: &Path, name: &str) -> Result<Self, DocsError> {
+        let file = format!("{FOLDER}/{name}");
+        let text = msdd_files::read_text(&root.join(&file))?;
+        let mut lines = text.lines().map(|line| line.split(',').map(str::to_string).collect::<Vec<_>>());
+        let columns = lines.next().unwrap_or_default();
+        Ok(Self { file, columns, rows: lines.collect() })
+    }
+
+    fn missing(&self, what: &str) -> DocsError {
+        DocsError::Json { file: self.file.clone().into(), text: format!("'{what}' is missing") }
+    }
+
+    fn text(&self, row: usize, column: &str) -> Result<&str, DocsError> {
+        let place = self.columns.iter().position(|name| name == column);
+        let cell = place.and_then(|place| self.rows.get(row)?.get(place));
+        cell.map(String::as_str).ok_or_else(|| self.missing(column))
+    }
+
+    fn number(&self, row: usize, column: &str) -> Result<f64, DocsError> {
+        self.text(row, column)?.parse().map_err(|_| self.missing(column))
+    }
+
+    /// The first row with these values.
+    fn find(&self, wanted: &[(&str, &str)]) -> Result<usize, DocsError> {
+        let fits = |row: &usize| {
+            wanted.iter().all(|(column, value)| self.text(*row, column).is_ok_and(|text| text == *value))
+        };
+        (0..self.rows.len()).find(fits).ok_or_else(|| self.missing(wanted[0].1))
+    }
+}
