@@ -161,6 +161,17 @@ impl Geometry {
         format!("({} 0 0 {} 0 {})", plain(x), plain(y), plain(z))
     }
 
+    /// Of the whole mesh: in a cylinder by the areas.
+    fn porosity(&self, start: &Start) -> f64 {
+        match (self.radii, start.porosity_outside) {
+            (Some([_, inner, radius]), Some(outside)) => {
+                let share = (inner / radius).powi(2);
+                share * start.porosity + (1.0 - share) * outside
+            }
+            _ => start.porosity,
+        }
+    }
+
     /// A vector along the axis.
     fn along(&self, value: f64) -> String {
         let value = plain(value);
@@ -289,7 +300,7 @@ pub fn files(
     checkout: &Path,
 ) -> Result<Vec<File>, CliError> {
     let geometry = Geometry::new(&folder.join(FILE), scene, start.depth)?;
-    let porosity = start.porosity(scene, &geometry);
+    let porosity = geometry.porosity(start);
     let origin = format!(
         "That of the discrete elements at the start, from {}: written by 'msdd bed case'",
         start.file.display()
@@ -309,7 +320,7 @@ pub fn files(
     let mut files = folder::programs(name, checkout, tolerance, scene.grains.number);
     files.extend([
         text("README.md", readme(scene, start, name)),
-        text("0/T", temperature(scene, &geometry)),
+        text("0/T", temperature(scene)),
         text(
             "0/porosity",
             uniform(
@@ -349,7 +360,7 @@ fn table(schedule: &Schedule, value: impl Fn(f64) -> String) -> String {
     }
 }
 
-fn temperature(scene: &Scene, geometry: &Geometry) -> String {
+fn temperature(scene: &Scene) -> String {
     let start = plain(scene.time.initial_temperature);
     let mut walls = "    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\"\n    {\n        type            zeroGradient;\n    }\n".to_string();
     for heated in &scene.heated {
@@ -360,7 +371,6 @@ fn temperature(scene: &Scene, geometry: &Geometry) -> String {
             table(&heated.temperature, plain)
         );
     }
-    debug_assert!(geometry.levels[0] < geometry.levels[3]);
     format!(
         "{}dimensions      [0 0 0 1 0 0 0];\ninternalField   uniform {start};\nboundaryField\n{{\n{walls}}}\n",
         head("volScalarField", "T")

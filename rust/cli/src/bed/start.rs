@@ -1,10 +1,8 @@
 //! What a bed of discrete elements is like at the start, as the law of spheres needs it.
 
-use super::foam::Geometry;
 use crate::error::CliError;
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::at_start;
-use msdd_beds::scene::Scene;
 use msdd_files::read_text;
 use std::path::{Path, PathBuf};
 
@@ -18,9 +16,10 @@ pub struct Start {
     /// In the law's measure.
     pub mobilised: f64,
     pub fabric: [f64; 3],
-    inside: f64,
+    /// Where the averages are taken.
+    pub porosity: f64,
     /// Between the radius of the averages and the centres of the first layer beside the side.
-    outside: Option<f64>,
+    pub porosity_outside: Option<f64>,
 }
 
 impl Start {
@@ -48,19 +47,8 @@ impl Start {
             coordination: number("coordination")?,
             mobilised: mobilised(number("mobilisation")?),
             fabric: three("fabric")?,
-            inside: number("porosity")?,
-            outside: at_start(&text, "porosity_outside"),
+            porosity: number("porosity")?,
+            porosity_outside: at_start(&text, "porosity_outside"),
         })
-    }
-
-    /// Of the whole mesh: by the areas in a cylinder.
-    pub fn porosity(&self, scene: &Scene, geometry: &Geometry) -> f64 {
-        match (self.outside, scene.record.radius, geometry.radii) {
-            (Some(outside), Some(inner), Some([_, _, radius])) => {
-                let share = (inner / radius).powi(2);
-                share * self.inside + (1.0 - share) * outside
-            }
-            _ => self.inside,
-        }
     }
 }
