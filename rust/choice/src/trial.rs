@@ -129,38 +129,53 @@ fn copy(scene: &Scene, folder: &Path, keys: &dyn Fn(&str) -> String) -> Result<(
     Ok(())
 }
 
-/// Makes a folder with the file that shows that it was made here. At no moment does it hold anything else, so that what a killed
+/// Makes a folder with the file that shows that it was made here. It gets its name when it has that file, so that what a killed
 /// program leaves is known.
 fn mark(folder: &Path) -> Result<(), ChoiceError> {
-    std::fs::create_dir(folder)
-        .and_then(|()| std::fs::write(folder.join(OURS), "Made by msdd, which may replace this folder.\n"))
+    let spare = sweep(folder)?;
+    std::fs::create_dir(&spare)
+        .and_then(|()| std::fs::write(spare.join(OURS), "Made by msdd, which may replace this folder.\n"))
+        .and_then(|()| std::fs::rename(&spare, folder))
         .map_err(|error| unreadable(folder, &error))
+}
+
+/// The name that a folder has before it is marked and when it is all but removed. What a kill has left there, at most the mark, is
+/// removed.
+fn sweep(folder: &Path) -> Result<PathBuf, ChoiceError> {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    let spare = folder.with_file_name(format!("{name}.making"));
+    let _ = std::fs::remove_file(spare.join(OURS));
+    match std::fs::remove_dir(&spare) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(ChoiceError::Foreign { folder: spare })
+        }
+        _ => Ok(spare),
+    }
 }
 
 fn link_mesh(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
     link(&scene.folder.join("constant/polyMesh"), &folder.join("constant/polyMesh"))
 }
 
-/// Refuses a folder that [`make`] has not made. An empty folder may be replaced: a kill between making it and marking it leaves one.
+/// Refuses a folder that [`make`] has not made.
 ///
 /// # Errors
 /// [`ChoiceError::Foreign`].
 pub fn check_ours(folder: &Path) -> Result<(), ChoiceError> {
-    let there = folder.symlink_metadata().is_ok();
-    let empty = || std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
-    match there && !folder.join(OURS).is_file() && !empty() {
+    match folder.symlink_metadata().is_ok() && !folder.join(OURS).is_file() {
         true => Err(ChoiceError::Foreign { folder: folder.to_path_buf() }),
         false => Ok(()),
     }
 }
 
-/// Removes a folder that [`make`] has made, if it is there; the file that shows who made it comes last, so that a kill leaves a
-/// folder that the next call removes.
+/// Removes a folder that [`make`] has made, if it is there. The file that shows who made it goes last, under another name, so that
+/// a kill leaves nothing that would be taken for somebody else's.
 ///
 /// # Errors
 /// [`ChoiceError::Foreign`] if it was made by somebody else, [`ChoiceError::Read`] if it cannot be removed.
 pub fn clear(folder: &Path) -> Result<(), ChoiceError> {
     check_ours(folder)?;
+    let spare = sweep(folder)?;
     if folder.symlink_metadata().is_err() {
         return Ok(());
     }
@@ -169,7 +184,8 @@ pub fn clear(folder: &Path) -> Result<(), ChoiceError> {
         let removed = if directory { std::fs::remove_dir_all(&entry) } else { std::fs::remove_file(&entry) };
         removed.map_err(|error| unreadable(&entry, &error))?;
     }
-    std::fs::remove_dir_all(folder).map_err(|error| unreadable(folder, &error))
+    std::fs::rename(folder, &spare).map_err(|error| unreadable(folder, &error))?;
+    sweep(folder).map(drop)
 }
 
 /// Runs the solver in the folder that [`make`] has made for a combination, or goes on with a run that was killed. The solver holds the lock, too: if this
@@ -359,16 +375,24 @@ mod tests {
         let (folder, mesh) = (root.join("bed.trial"), root.join("polyMesh"));
         let there = || folder.symlink_metadata().is_ok();
         std::fs::create_dir_all(&mesh).unwrap();
-        // Between making and marking, or between taking the mark away and the folder
-        std::fs::create_dir(&folder).unwrap();
-        check_ours(&folder).unwrap();
-        clear(&folder).unwrap();
-        assert!(!there());
+        // As kills leave it: before the name is given, and after it is taken away
+        let spare = root.join("bed.trial.making");
+        for marked in [false, true] {
+            std::fs::create_dir(&spare).unwrap();
+            if marked {
+                std::fs::write(spare.join(OURS), "").unwrap();
+            }
+            clear(&folder).unwrap();
+            assert!(spare.symlink_metadata().is_err());
+        }
         mark(&folder).unwrap();
         std::fs::create_dir(folder.join("system")).unwrap();
         link(&mesh, &folder.join("polyMesh")).unwrap();
         clear(&folder).unwrap();
-        assert!(!there() && mesh.is_dir());
+        assert!(!there() && mesh.is_dir() && spare.symlink_metadata().is_err());
+        // The user's, even if it is empty
+        std::fs::create_dir(&folder).unwrap();
+        assert!(matches!(clear(&folder), Err(ChoiceError::Foreign { .. })));
         std::fs::create_dir_all(folder.join("results")).unwrap();
         assert!(matches!(clear(&folder), Err(ChoiceError::Foreign { .. })));
         assert!(folder.join("results").is_dir());
