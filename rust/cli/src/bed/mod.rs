@@ -2,6 +2,7 @@
 
 mod files;
 pub(crate) mod foam;
+pub(crate) mod geometry;
 mod moving;
 mod plot;
 mod results;

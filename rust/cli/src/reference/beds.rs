@@ -2,7 +2,8 @@
 
 use super::bands::{Found, Group, fit_law, print_coverage, run as attempt_run, write_law};
 use super::scenes::solve;
-use crate::bed::foam::{self, Geometry, probes};
+use crate::bed::foam::{self, probes};
+use crate::bed::geometry::Geometry;
 use crate::bed::start::Start;
 use crate::case::checkout;
 use crate::error::CliError;
@@ -111,8 +112,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         }
         let text: Vec<String> = cells.iter().map(|[e, s]| format!("{e:6.2} {s:6.2}")).collect();
         outln!("{:15} {:9} {:>8} {}", planned.name, planned.purpose.as_str(), packings.len(), text.join(" "));
-        let numbers: Vec<String> =
-            cells.iter().flatten().map(|value| plain((value * 1e3).round() / 1e3)).collect();
+        let numbers: Vec<String> = cells.iter().flatten().map(|value| decimals(*value)).collect();
         let _ = writeln!(
             csv,
             "{},{},{},{}",
@@ -289,6 +289,11 @@ fn in_region(bed: &Bed, geometry: &Geometry) -> f64 {
     let [_, low, high, _] = geometry.levels;
     let area = bed.record.radius.map_or(bed.vessel().area(), |radius| std::f64::consts::PI * radius * radius);
     FILLED * area * (high - low) / (std::f64::consts::PI / 6.0 * bed.grains.diameter.powi(3))
+}
+
+/// With three decimals; nothing for the scatter of a single packing, which is not known.
+fn decimals(value: f64) -> String {
+    if value.is_finite() { plain((value * 1e3).round() / 1e3) } else { String::new() }
 }
 
 /// Root of the mean square of the errors of one packing [% of `range`, or of the values].
