@@ -55,6 +55,9 @@ pub struct Row {
     pub walls: Vec<f64>,
     /// Mean stresses \[Pa\] in the region, see [`Region::stress`].
     pub stress: [f64; 3],
+    /// Mean growth of the radii of the grains in the region, and the strain of the bed there since the start, see [`Region::strain`] \[-\].
+    pub thermal_strain: f64,
+    pub strain: [f64; 3],
     /// In the region.
     pub porosity: f64,
     /// Between its heights, from its radius to where the centres of the first layer beside the side are; NaN in a box.
@@ -143,8 +146,9 @@ struct Coupled<'a> {
     /// Which spheres have the temperature of which heated wall, from the start on.
     held: Vec<Option<usize>>,
     temperatures: Vec<f64>,
-    /// Radii at the initial temperature.
+    /// Radii at the initial temperature, and where the spheres were then.
     radii: Vec<f64>,
+    places: Vec<[f64; 3]>,
     lid: Moving,
     shell: Option<Moving>,
     depth_at_start: f64,
@@ -191,6 +195,7 @@ impl<'a> Coupled<'a> {
             network,
             temperatures: vec![start; simulation.spheres.len()],
             radii: simulation.spheres.iter().map(|sphere| sphere.radius).collect(),
+            places: simulation.spheres.iter().map(|sphere| sphere.position).collect(),
             lid: Moving::new(lid, Hold::Place { moved: 0.0 }),
             shell: scene.shell.as_ref().map(|_| Moving::new(number("side"), Hold::Place { moved: 0.0 })),
             depth_at_start: 0.0,
@@ -385,6 +390,9 @@ impl<'a> Coupled<'a> {
             mean_temperature,
             walls: (0..simulation.wall_force.len()).map(|wall| self.pressure(wall)).collect(),
             stress: region.stress(simulation),
+            thermal_strain: scene.grains.thermal_expansion.unwrap_or(0.0)
+                * (mean_temperature - scene.time.initial_temperature),
+            strain: region.strain(simulation, &self.places, scene.container.endless),
             porosity: 1.0 - averages.solid_fraction,
             porosity_outside: outside.unwrap_or(f64::NAN),
             coordination: averages.coordination,

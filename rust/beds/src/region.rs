@@ -2,7 +2,7 @@
 
 use crate::mobilised::mobilisation;
 use msdd_spheres::space::{dot, plus};
-use msdd_spheres::{Contact, Partner, Simulation};
+use msdd_spheres::{Contact, Partner, Simulation, Sphere};
 use std::f64::consts::PI;
 
 /// The part of a bed between two heights \[m\]; in a cylinder, whose axis is the z axis, within a radius \[m\] of the axis.
@@ -47,6 +47,32 @@ impl Region {
         sum.map(|part| part / sum.iter().sum::<f64>())
     }
 
+    /// Strain of the bed since its spheres were at `before` \[-\], extension positive: along x, y, z; in a cylinder the mean across its axis,
+    /// twice, and along it. Along each axis it is the slope of a straight line through the displacements of the spheres that began
+    /// in the region, over where they began. A bed without sides has none across z.
+    pub fn strain(&self, simulation: &Simulation, before: &[[f64; 3]], is_endless: bool) -> [f64; 3] {
+        let inside = || simulation.spheres.iter().zip(before).filter(|(_, begin)| self.holds(**begin));
+        let count = inside().count() as f64;
+        let along = |axis: usize| {
+            let moved = |(sphere, begin): (&Sphere, &[f64; 3])| sphere.position[axis] - begin[axis];
+            let middle = inside().map(|(_, begin)| begin[axis]).sum::<f64>() / count;
+            let mean = inside().map(moved).sum::<f64>() / count;
+            let (both, square) = inside().fold((0.0, 0.0), |(both, square), one| {
+                let from = one.1[axis] - middle;
+                (both + from * (moved(one) - mean), square + from * from)
+            });
+            both / square
+        };
+        let across = |axis: usize| if is_endless { 0.0 } else { along(axis) };
+        match self.radius {
+            None => [across(0), across(1), along(2)],
+            Some(_) => {
+                let mean = 0.5 * (across(0) + across(1));
+                [mean, mean, along(2)]
+            }
+        }
+    }
+
     /// Sums over the contacts between spheres whose middle lies in the region, for each of the axes.
     fn over_contacts(&self, simulation: &Simulation, along: impl Fn(&Contact, [f64; 3]) -> f64) -> [f64; 3] {
         let mut sum = [0.0; 3];
@@ -81,8 +107,7 @@ mod tests {
     use crate::{Packing, pack};
     use msdd_spheres::{Material, Stiffness};
 
-    #[test]
-    fn the_fabric_of_a_box_that_was_closed_alike_has_no_direction() {
+    fn packed() -> Simulation {
         let material = Material {
             density: 1.0,
             stiffness: Stiffness::HertzMindlin { young_modulus: 2.0, poisson_ratio: 0.25 },
@@ -92,7 +117,29 @@ mod tests {
         };
         let packing =
             Packing { spheres: 100, seed: 5, diameter: 1.0, material, pressure: 1e-4, steps: 200_000 };
-        let simulation = pack(&packing).unwrap().simulation;
+        pack(&packing).unwrap().simulation
+    }
+
+    #[test]
+    fn the_strain_is_that_of_spheres_that_move_alike() {
+        let mut simulation = packed();
+        let before: Vec<[f64; 3]> = simulation.spheres.iter().map(|sphere| sphere.position).collect();
+        let strain = [2e-4, -3e-4, 5e-4];
+        for sphere in &mut simulation.spheres {
+            sphere.position = std::array::from_fn(|k| 0.1 + (1.0 + strain[k]) * sphere.position[k]);
+        }
+        let region = |radius| Region { heights: [-1e3, 1e3], radius, area: 1.0 };
+        let near = |found: [f64; 3], wanted: [f64; 3]| {
+            assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}, {wanted:?}");
+        };
+        near(region(None).strain(&simulation, &before, false), strain);
+        near(region(None).strain(&simulation, &before, true), [0.0, 0.0, 5e-4]);
+        near(region(Some(1e3)).strain(&simulation, &before, false), [-5e-5, -5e-5, 5e-4]);
+    }
+
+    #[test]
+    fn the_fabric_of_a_box_that_was_closed_alike_has_no_direction() {
+        let simulation = packed();
         for radius in [None, Some(10.0)] {
             let all = Region { heights: [-1e3, 1e3], radius, area: 1.0 };
             let fabric = all.fabric(&simulation);

@@ -5,12 +5,16 @@ use crate::scene::Scene;
 use std::fmt::Write;
 
 /// Columns between those of the temperatures and of the walls.
-const MOVING: [&str; 20] = [
+const MOVING: [&str; 24] = [
     "T_mean",
     "stress_1",
     "stress_2",
     "stress_3",
     "p",
+    "thermal_strain",
+    "strain_1",
+    "strain_2",
+    "strain_3",
     "porosity",
     "porosity_outside",
     "coordination",
@@ -54,6 +58,9 @@ pub fn elements(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
         let mut cells = vec![row.time.to_string()];
         cells.extend(row.temperatures.iter().chain([&row.mean_temperature]).map(|t| format!("{t:.4}")));
         cells.extend([a, b, c, (a + b + c) / 3.0].map(|stress| format!("{stress:.1}")));
+        cells.extend(
+            [&row.thermal_strain].into_iter().chain(&row.strain).map(|strain| format!("{strain:.4e}")),
+        );
         cells.extend([row.porosity, row.porosity_outside].map(finite(5)));
         cells.push(format!("{:.4}", row.coordination));
         cells.extend(row.fabric.iter().chain([&row.mobilisation]).map(|share| finite(5)(*share)));

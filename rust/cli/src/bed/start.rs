@@ -3,7 +3,7 @@
 use crate::error::CliError;
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::at_start;
-use msdd_files::read_text;
+use msdd_files::{list, read_text};
 use std::path::{Path, PathBuf};
 
 /// The first row of an `elements.csv`. SI units, compression positive; vectors along x, y, z, in a cylinder along the radius,
@@ -50,5 +50,25 @@ impl Start {
             porosity: number("porosity")?,
             porosity_outside: at_start(&text, "porosity_outside"),
         })
+    }
+}
+
+/// Seeds and files of the packings of a bed in its folder.
+///
+/// # Errors
+/// A folder that cannot be read, or has no such file.
+pub fn packings(folder: &Path) -> Result<Vec<(u64, PathBuf)>, CliError> {
+    let seed = |file: &PathBuf| {
+        file.file_name()?.to_str()?.strip_prefix("elements-")?.strip_suffix(".csv")?.parse::<u64>().ok()
+    };
+    let mut all: Vec<(u64, PathBuf)> =
+        list(folder)?.into_iter().filter_map(|file| Some((seed(&file)?, file))).collect();
+    all.sort();
+    match all.is_empty() {
+        true => Err(CliError::Message(format!(
+            "{}: no file elements-<seed>.csv, allowed: results of 'msdd bed run --packings'",
+            folder.display()
+        ))),
+        false => Ok(all),
     }
 }

@@ -4,7 +4,7 @@ use super::bands::{Found, Group, fit_law, print_coverage, run as attempt_run, wr
 use super::scenes::solve;
 use crate::bed::foam::{self, probes};
 use crate::bed::geometry::Geometry;
-use crate::bed::start::Start;
+use crate::bed::start::{Start, packings};
 use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
@@ -18,7 +18,7 @@ use msdd_choice::calibrate::Row;
 use msdd_choice::quantity::Quantity;
 use msdd_choice::scene::Scene;
 use msdd_choice::series::Series;
-use msdd_files::{list, read_text, write};
+use msdd_files::{read_text, write};
 use msdd_reference::scenes::{BedPlan, PlannedBed};
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -132,23 +132,6 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let law = fit_law(&found, &GROUPS)?;
     write_law(&law, file)?;
     print_coverage(&found, &law, &GROUPS, arguments.tables.as_deref())
-}
-
-/// Seeds and files of the packings of a scene.
-fn packings(folder: &Path) -> Result<Vec<(u64, PathBuf)>, CliError> {
-    let seed = |file: &PathBuf| {
-        file.file_name()?.to_str()?.strip_prefix("elements-")?.strip_suffix(".csv")?.parse::<u64>().ok()
-    };
-    let mut all: Vec<(u64, PathBuf)> =
-        list(folder)?.into_iter().filter_map(|file| Some((seed(&file)?, file))).collect();
-    all.sort();
-    match all.is_empty() {
-        true => Err(CliError::Message(format!(
-            "{}: no file elements-<seed>.csv, allowed: results of 'msdd bed run --packings'",
-            folder.display()
-        ))),
-        false => Ok(all),
-    }
 }
 
 /// Points of the region of the averages: means over them stand for means over it.

@@ -1,5 +1,6 @@
 //! `msdd train` and `msdd score` for the law of spheres.
 
+mod beds;
 mod tracks;
 
 use crate::error::CliError;
@@ -19,12 +20,20 @@ use std::time::Instant;
 /// Name of the kind of model.
 pub const KIND: &str = "spheres";
 
-/// The paths of all files, packings numbered on, and where they come from.
+/// The paths of all files and folders of beds, packings numbered on, and where they come from.
 fn read(files: &[PathBuf]) -> Result<(Vec<Track>, DatabaseProvenance), CliError> {
     let (mut all, mut next) = (Vec::new(), 0);
     let (mut plans, mut rows) = (String::new(), String::new());
     let mut provenance = DatabaseProvenance::default();
     for file in files {
+        if file.is_dir() {
+            let (tracks, text) = beds::tracks(file, next)?;
+            next = tracks.iter().map(|track| track.packing + 1).max().unwrap_or(next);
+            plans += &hash(&text);
+            rows += &text;
+            all.extend(tracks);
+            continue;
+        }
         let mut dataset = read_spheres(file)?;
         dataset.records.iter_mut().for_each(|record| record.packing += next);
         next = dataset.records.iter().map(|record| record.packing + 1).max().unwrap_or(next);
@@ -133,8 +142,8 @@ fn print_along(found: &[PathErrors], is_trained_on_it: bool) {
         out!("{:<11} {:>5} {:>6}", errors.name, errors.paths, errors.states);
         let scatter = errors.noise.as_ref().map(numbers);
         for (k, error) in numbers(&errors.along).into_iter().enumerate() {
-            let scatter = scatter.map_or("–".to_string(), |scatter| format!("{:.1}", 100.0 * scatter[k]));
-            out!(" {:>13}", format!("{:.1} ({scatter})", 100.0 * error));
+            let scatter = percent(scatter.map_or(f64::NAN, |scatter| scatter[k]));
+            out!(" {:>13}", format!("{} ({scatter})", percent(error)));
         }
         outln!();
     }
@@ -154,9 +163,14 @@ fn print_of_state(found: &[PathErrors]) {
         let of_state = [errors.contact_of_state, errors.direction, errors.gas_of_state];
         out!("{:<11}", errors.name);
         let all = of_state.into_iter().chain(numbers(&errors.of_stress_alone));
-        all.for_each(|error| out!(" {:>13.1}", 100.0 * error));
+        all.for_each(|error| out!(" {:>13}", percent(error)));
         outln!();
     }
+}
+
+/// With a decimal; a dash for what is not known.
+fn percent(value: f64) -> String {
+    if value.is_finite() { format!("{:.1}", 100.0 * value) } else { "–".to_string() }
 }
 
 fn numbers(errors: &Errors) -> [f64; 4] {

@@ -82,7 +82,17 @@ pub fn tracks(records: &[SphereRecord]) -> Vec<Track> {
         let is_isotropic = first.compression == SphereCompression::Isotropic;
         let (name, spheres) = (path.as_str().to_string(), first.spheres as usize);
         let packed = *packed.get(&packing)?;
-        (!steps.is_empty()).then_some(Track { packing, name, recipe, is_isotropic, spheres, packed, steps })
+        let weight = 1.0;
+        (!steps.is_empty()).then_some(Track {
+            packing,
+            name,
+            recipe,
+            is_isotropic,
+            spheres,
+            weight,
+            packed,
+            steps,
+        })
     });
     tracks.collect()
 }

@@ -68,7 +68,7 @@ impl PathFit<'_> {
         let mut residuals = Vec::new();
         for track in self.tracks {
             let of_cycles = if track.turns() > TURNS { OF_CYCLES } else { 1.0 };
-            let weight = of_cycles * (track.spheres as f64 / USUAL_SPHERES).sqrt();
+            let weight = of_cycles * track.weight * (track.spheres as f64 / USUAL_SPHERES).sqrt();
             let states = follow(&law, track);
             for ((step, state), scale) in track.steps.iter().zip(&states[1..]).zip(scales(track)) {
                 let (found, data) = (law.stress(state), step.to.stress);

@@ -2,7 +2,7 @@
 
 use super::contacts::{COEFFICIENTS, Contacts};
 use super::law::{FABRIC, Law, State};
-use super::readout::{Readout, contact_row, directions, gas_row};
+use super::readout::{Readout, contact_row, directions, gas_row, relative};
 use super::tensor::{contraction, deviator, mean};
 use super::tracks::{Point, Track, follow_from};
 use crate::least_squares;
@@ -47,13 +47,13 @@ fn contacts_that_fade(law: &Law, tracks: &[Track], fading: [f64; 2]) -> (Contact
             }
             let (left, row) = (state.coordination, state.contact_row());
             let row = std::array::from_fn(|k| row[k] - left * first[k]);
-            samples.push((row, step.to.coordination - left * track.packed.coordination, 1.0));
+            samples.push((row, step.to.coordination - left * track.packed.coordination, track.weight));
         }
     }
     let usual = least_squares::fit(samples.iter().copied());
-    let error = |(row, z, _): &([f64; COEFFICIENTS], f64, f64)| {
+    let error = |(row, z, weight): &([f64; COEFFICIENTS], f64, f64)| {
         let sum: f64 = row.iter().zip(&usual).map(|(a, b)| a * b).sum();
-        (sum - z) * (sum - z)
+        weight * (sum - z) * (sum - z)
     };
     (Contacts { usual, fading }, samples.iter().map(error).sum())
 }
@@ -61,33 +61,34 @@ fn contacts_that_fade(law: &Law, tracks: &[Track], fading: [f64; 2]) -> (Contact
 /// Fits the conductivities to the states of the data with the hidden state that the law has there: its compression is that which
 /// bears the pressure of the data.
 pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
-    let mut all: Vec<(State, &Point)> = Vec::new();
+    let mut all: Vec<(State, &Point, f64)> = Vec::new();
     for track in tracks {
         for k in 0..=track.steps.len() {
             let point = track.point(k);
             if mean(point.stress) >= LEAST_PRESSURE {
-                all.push((point.state(law), point));
+                all.push((point.state(law), point, track.weight));
             }
         }
     }
-    let contact = all.iter().filter_map(|(state, point)| {
-        let size = mean(point.contact) / libm::cbrt(mean(point.stress));
-        (size > 0.0).then(|| (contact_row(state).map(|x| x / size), 1.0, 1.0))
+    let direction =
+        all.iter().filter(|(_, point, _)| mean(point.contact) > 0.0).flat_map(|(state, point, _)| {
+            let (part, size) = (deviator(point.contact), mean(point.contact));
+            let [elastic, fabric] = directions(state);
+            (0..6).map(move |k| ([elastic[k], fabric[k]], part[k] / size, if k < 3 { 1.0 } else { 2.0 }))
+        });
+    let direction = least_squares::fit(direction);
+    let contact = all.iter().filter_map(|(state, point, weight)| {
+        // What is known of the conductivity, over the same of its mean.
+        let known = point.compared(&point.contact) / point.compared(&relative(&direction, state));
+        let size = known / libm::cbrt(mean(point.stress));
+        (size > 0.0).then(|| (contact_row(state).map(|x| x / size), 1.0, *weight))
     });
-    let direction = all.iter().filter(|(_, point)| mean(point.contact) > 0.0).flat_map(|(state, point)| {
-        let (part, size) = (deviator(point.contact), mean(point.contact));
-        let [elastic, fabric] = directions(state);
-        (0..6).map(move |k| ([elastic[k], fabric[k]], part[k] / size, if k < 3 { 1.0 } else { 2.0 }))
-    });
+    let contact = least_squares::fit(contact);
     let gas = |number: usize| {
-        let known = all.iter().filter(move |(_, point)| point.gas[number] > 0.0);
+        let known = all.iter().filter(move |(_, point, _)| point.gas[number] > 0.0);
         least_squares::fit(
-            known.map(move |(state, point)| (gas_row(state).map(|x| x / point.gas[number]), 1.0, 1.0)),
+            known.map(move |(state, point, _)| (gas_row(state).map(|x| x / point.gas[number]), 1.0, 1.0)),
         )
     };
-    Readout {
-        contact: least_squares::fit(contact),
-        direction: least_squares::fit(direction),
-        gas: [gas(0), gas(1), gas(2)],
-    }
+    Readout { contact, direction, gas: [gas(0), gas(1), gas(2)] }
 }

@@ -89,6 +89,7 @@ mod tests {
             recipe: String::new(),
             is_isotropic: true,
             spheres: 1000,
+            weight: 1.0,
             packed: point,
             steps: vec![Step { from: 0, thermal: 0.0, stretch, gives_way: None, to: point }],
         }

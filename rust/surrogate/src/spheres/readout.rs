@@ -52,6 +52,15 @@ pub fn directions(state: &State) -> [Tensor; 2] {
     [std::array::from_fn(|k| all[k] - fabric[k]), fabric]
 }
 
+/// κ_c over its mean, with the coefficients of [`Readout::direction`].
+pub fn relative([of_elastic, of_fabric]: &[f64; 2], state: &State) -> Tensor {
+    let [elastic, fabric] = directions(state);
+    let ratio: Tensor = std::array::from_fn(|k| of_elastic * elastic[k] + of_fabric * fabric[k]);
+    let length = contraction(&ratio, &ratio).sqrt();
+    let limit = if length > MOST_DEVIATOR { MOST_DEVIATOR / length } else { 1.0 };
+    std::array::from_fn(|k| f64::from(u8::from(k < 3)) + limit * ratio[k])
+}
+
 pub fn gas_row(state: &State) -> [f64; 8] {
     let [s, v, n] = common(state);
     let y = (state.solid() - 0.6).clamp(SOLID[0], SOLID[1]);
@@ -73,12 +82,7 @@ impl Readout {
             return [0.0; 6];
         }
         let size = product(&contact_row(state), &self.contact).max(LEAST_CONTACT) * libm::cbrt(pressure);
-        let [elastic, fabric] = directions(state);
-        let [of_elastic, of_fabric] = self.direction;
-        let ratio: Tensor = std::array::from_fn(|k| of_elastic * elastic[k] + of_fabric * fabric[k]);
-        let length = contraction(&ratio, &ratio).sqrt();
-        let limit = if length > MOST_DEVIATOR { MOST_DEVIATOR / length } else { 1.0 };
-        std::array::from_fn(|k| size * (f64::from(u8::from(k < 3)) + limit * ratio[k]))
+        relative(&self.direction, state).map(|part| size * part)
     }
 
     /// κ_g at each of [`GAS_NUMBERS`].

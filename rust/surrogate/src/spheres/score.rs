@@ -24,9 +24,9 @@ pub struct PathErrors {
     pub size: f64,
     /// Relative, of the mean conductivity by contacts where solid fraction, stress, number of contacts and fabric are those of the box.
     pub contact_of_state: f64,
-    /// The same of the deviator of the conductivity by contacts over its mean.
+    /// The same of the deviator of the conductivity by contacts over its mean; NaN where this is not known.
     pub direction: f64,
-    /// The same of the conductivity by gas at ln(R/h) = 8.5, relative.
+    /// The same of the conductivity by gas at ln(R/h) = 8.5, relative; NaN where this is not known.
     pub gas_of_state: f64,
     /// Scatter between packings that were made and strained alike; absent when there are none.
     pub noise: Option<Errors>,
@@ -56,16 +56,17 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
         for (step, scale) in track.steps.iter().zip(scales(track)) {
             let part = deviator(step.to.stress.map(|part| part / scale));
             size += contraction(&part, &part);
-            if mean(step.to.stress) < LEAST_PRESSURE || mean(step.to.contact) <= 0.0 {
+            let (to, contact) = (&step.to, step.to.compared(&step.to.contact));
+            if mean(to.stress) < LEAST_PRESSURE || contact <= 0.0 {
                 continue;
             }
-            let known = step.to.state(law);
-            let (found, contact) = (readout.contact(&known, &step.to.stress), mean(step.to.contact));
-            let wrong =
-                deviator(std::array::from_fn(|k| found[k] / mean(found) - step.to.contact[k] / contact));
-            of_state[0] += (mean(found) / contact - 1.0).powi(2);
+            let known = to.state(law);
+            let found = readout.contact(&known, &to.stress);
+            let wrong = deviator(std::array::from_fn(|k| found[k] / mean(found) - to.contact[k] / contact));
+            let gas = readout.gases(&known)[2] / to.gas[2] - 1.0;
+            of_state[0] += (to.compared(&found) / contact - 1.0).powi(2);
             of_state[1] += contraction(&wrong, &wrong);
-            of_state[2] += (readout.gases(&known)[2] / step.to.gas[2] - 1.0).powi(2);
+            of_state[2] += gas * gas;
         }
     }
     let [contact_of_state, direction, gas_of_state] =
@@ -92,8 +93,9 @@ fn add(sums: &mut Sums, model: &SphereModel, track: &Track, states: &[State]) {
         let wrong = deviator(std::array::from_fn(|k| (stress[k] - data[k]) / scale));
         let pressure = (mean(stress) - mean(data)) / scale;
         sums.add_stress([pressure * pressure, contraction(&wrong, &wrong)]);
-        if mean(data) >= LEAST_PRESSURE && mean(step.to.contact) > 0.0 {
-            let contact = mean(readout.contact(state, &stress)) / mean(step.to.contact) - 1.0;
+        let known = step.to.compared(&step.to.contact);
+        if mean(data) >= LEAST_PRESSURE && known > 0.0 {
+            let contact = step.to.compared(&readout.contact(state, &stress)) / known - 1.0;
             let gas = readout.gases(state)[2] / step.to.gas[2] - 1.0;
             sums.add_conductivity([contact * contact, gas * gas]);
         }

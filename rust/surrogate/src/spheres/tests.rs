@@ -240,6 +240,7 @@ fn tracks(law: &Law, packings: i64) -> Vec<Track> {
                 recipe: String::new(),
                 is_isotropic: false,
                 spheres: 1000,
+                weight: 1.0,
                 packed,
                 steps: Vec::new(),
             };

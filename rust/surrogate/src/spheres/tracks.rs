@@ -1,7 +1,7 @@
 //! Paths of strain of boxes of spheres, and the law along them.
 
 use super::law::{Known, Law, State, Strain};
-use super::tensor::{Tensor, contraction, rotation};
+use super::tensor::{Tensor, contraction, mean, rotation};
 
 /// A state of a box. Stresses over E*, compression positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,15 +9,16 @@ pub struct Point {
     /// φ, overlaps counted twice \[-\].
     pub solid: f64,
     pub stress: Tensor,
-    /// Conductivity by contacts over that of the solid.
+    /// Conductivity by contacts over that of the solid; NaN across z where it is known along z alone.
     pub contact: Tensor,
-    /// Conductivity by gas over that of the gas, at [`super::readout::GAS_NUMBERS`].
+    /// Conductivity by gas over that of the gas, at [`super::readout::GAS_NUMBERS`]; NaN where it is not known.
     pub gas: [f64; 3],
     /// Contacts per sphere, all spheres counted.
     pub coordination: f64,
     /// Mean of n n over the contacts, with the normals n.
     pub fabric: Tensor,
-    /// Mobilised part of the friction: the friction while packing over that afterwards, 1 for packings that were shaken.
+    /// Mobilised part of the friction: the friction while packing over that afterwards, 1 for packings that were shaken; of beds that
+    /// were poured that of boxes whose contacts bear as large a share of it.
     pub mobilised: f64,
 }
 
@@ -29,6 +30,11 @@ impl Point {
             fabric: Some(self.fabric),
             mobilised: Some(self.mobilised),
         }
+    }
+
+    /// What of a conductivity by contacts is compared with this state's: its mean, or the part along z where no other is known.
+    pub fn compared(&self, contact: &Tensor) -> f64 {
+        if self.contact[0].is_finite() { mean(*contact) } else { contact[2] }
     }
 
     /// The law's state of this packing.
@@ -70,6 +76,8 @@ pub struct Track {
     pub is_isotropic: bool,
     /// Number of spheres.
     pub spheres: usize,
+    /// How often its errors count in the training.
+    pub weight: f64,
     pub packed: Point,
     pub steps: Vec<Step>,
 }

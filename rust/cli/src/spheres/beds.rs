@@ -1,0 +1,120 @@
+//! Converts results of `msdd bed run` to paths of strain, on which the law of spheres is fitted: beds that were poured, and whose strain is
+//! known inside.
+
+use crate::bed::start::{Start, packings};
+use crate::error::CliError;
+use msdd_beds::packings::column;
+use msdd_beds::scene::{FILE, Scene};
+use msdd_files::{list, read_text};
+use msdd_spheres::law::effective_modulus;
+use msdd_surrogate::spheres::tensor::Tensor;
+use msdd_surrogate::spheres::tracks::{Point, Step, Track};
+use std::f64::consts::PI;
+use std::path::Path;
+
+/// Kind of path of a bed.
+const NAME: &str = "poured";
+/// How often their errors count: there are twenty beds beside some three hundred and sixty boxes, and beds are what the law is for.
+const WEIGHT: f64 = 7.0;
+/// Columns of the strains, and of the state.
+const STRAIN: [&str; 4] = ["thermal_strain", "strain_1", "strain_2", "strain_3"];
+const STATE: [&str; 9] = [
+    "porosity",
+    "stress_1",
+    "stress_2",
+    "stress_3",
+    "coordination",
+    "fabric_1",
+    "fabric_2",
+    "fabric_3",
+    "K_contacts",
+];
+
+/// The paths of all packings of the beds below a folder, and the text of their files. Packings are numbered on from `first`, by their
+/// seeds: beds of one seed have the spheres at the same places before they are pressed.
+///
+/// # Errors
+/// A folder without beds or results; results without strains; a bed whose conductivity by contacts is not that of the law.
+pub fn tracks(root: &Path, first: i64) -> Result<(Vec<Track>, String), CliError> {
+    let folders = list(root)?.into_iter().filter(|folder| folder.join(FILE).is_file());
+    let (mut all, mut texts) = (Vec::new(), String::new());
+    let mut seeds: Vec<u64> = Vec::new();
+    for folder in folders {
+        let scene = Scene::read(&folder)?;
+        for (seed, file) in packings(&folder)? {
+            let known = seeds.iter().position(|known| *known == seed).unwrap_or_else(|| {
+                seeds.push(seed);
+                seeds.len() - 1
+            });
+            let text = read_text(&file)?;
+            all.push(track(&folder, &scene, &file, &text, first + known as i64)?);
+            texts += &text;
+        }
+    }
+    match all.is_empty() {
+        true => Err(CliError::Message(format!(
+            "{}: no folder with {FILE}, allowed: a folder of beds, each with results of 'msdd bed run --packings'",
+            root.display()
+        ))),
+        false => Ok((all, texts)),
+    }
+}
+
+fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) -> Result<Track, CliError> {
+    let grains = &scene.grains;
+    if grains.roughness.is_some() || scene.container.radius.is_some() {
+        return Err(CliError::Message(format!(
+            "{}: a cylinder, or spheres that are rough, allowed for a training: a base, and no roughness",
+            folder.join(FILE).display()
+        )));
+    }
+    let values = |name: &&str| {
+        column(text, name).ok_or_else(|| {
+            let allowed = "elements.csv of this version's 'msdd bed run'";
+            CliError::Message(format!("{}: no column {name} of numbers, allowed: {allowed}", file.display()))
+        })
+    };
+    let strains: Vec<Vec<f64>> = STRAIN.iter().map(values).collect::<Result<_, _>>()?;
+    let states: Vec<Vec<f64>> = STATE.iter().map(values).collect::<Result<_, _>>()?;
+    let temperatures = values(&"T_mean")?;
+    let modulus = effective_modulus(grains.young_modulus, grains.poisson_ratio);
+    let mobilised = Start::read(file)?.mobilised;
+    let point = |k: usize| {
+        let [porosity, a, b, c, coordination, x, y, z, conductivity] =
+            std::array::from_fn(|column| states[column][k]);
+        let along = conductivity / grains.conductivity.at(temperatures[k]);
+        Point {
+            solid: 1.0 - porosity,
+            stress: diagonal([a, b, c].map(|stress| stress / modulus)),
+            contact: diagonal([f64::NAN, f64::NAN, along]),
+            gas: [f64::NAN; 3],
+            coordination,
+            fabric: diagonal([x, y, z]),
+            mobilised,
+        }
+    };
+    // Where the lid keeps its pressure.
+    let gives_way = scene.lid.pressing.is_some().then_some(2);
+    let steps = (1..temperatures.len()).map(|k| {
+        let [thermal, x, y, z] =
+            std::array::from_fn(|column| (1.0 + strains[column][k]) / (1.0 + strains[column][k - 1]) - 1.0);
+        Step { from: k - 1, thermal, stretch: diagonal([x, y, z]), gives_way, to: point(k) }
+    });
+    // Spheres in the region of the averages.
+    let [low, high] = scene.record.heights;
+    let volume = scene.vessel().area() * (high - low) * point(0).solid;
+    Ok(Track {
+        packing,
+        name: NAME.to_string(),
+        recipe: folder.file_name().unwrap_or_default().display().to_string(),
+        is_isotropic: false,
+        spheres: (volume / (PI / 6.0 * grains.diameter.powi(3))) as usize,
+        weight: WEIGHT,
+        packed: point(0),
+        steps: steps.collect(),
+    })
+}
+
+fn diagonal([x, y, z]: [f64; 3]) -> Tensor {
+    [x, y, z, 0.0, 0.0, 0.0]
+}
