@@ -285,6 +285,33 @@ fn a_training_finds_the_law_that_made_the_data() {
     assert!(gas.iter().all(|coefficient| coefficient.is_finite()));
 }
 
+/// Of beds the conductivity by contacts is known along z alone, and that by gas not at all.
+#[test]
+fn conductivities_that_are_known_along_z_alone_teach_the_same() {
+    let law = model().file.law;
+    let all = tracks(&law, 20);
+    let whole = readout(&law, &all);
+    let mut some = all.clone();
+    for track in some.iter_mut().step_by(2) {
+        for point in std::iter::once(&mut track.packed).chain(track.steps.iter_mut().map(|step| &mut step.to))
+        {
+            point.contact = std::array::from_fn(|k| if k == 2 { point.contact[2] } else { f64::NAN });
+            point.gas = [f64::NAN; 3];
+        }
+    }
+    let part = readout(&law, &some);
+    for track in &all {
+        let (state, stress) = (track.packed.state(&law), track.packed.stress);
+        let [a, b] = [&whole, &part].map(|readout| readout.contact(&state, &stress));
+        assert!(
+            a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.02 * mean(track.packed.contact)),
+            "{a:?} {b:?}"
+        );
+        let [a, b] = [&whole, &part].map(|readout| readout.gases(&state)[2]);
+        assert!((a / b - 1.0).abs() < 0.01, "{a} {b}");
+    }
+}
+
 #[test]
 fn files_that_no_training_wrote_are_refused() {
     let text = model().to_json();

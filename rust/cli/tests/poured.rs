@@ -1,0 +1,88 @@
+//! Beds that were poured as data for the law of spheres: `msdd score --database FOLDER`.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder for one test, removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("msdd-cli-poured-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    /// Copies a shipped bed.
+    fn with(&self, bed: &str) -> PathBuf {
+        let (from, to) = (root().join("cases/database/poured").join(bed), self.0.join(bed));
+        std::fs::create_dir_all(&to).unwrap();
+        for file in std::fs::read_dir(from).unwrap().map(|file| file.unwrap().path()) {
+            std::fs::copy(&file, to.join(file.file_name().unwrap())).unwrap();
+        }
+        to
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn score(database: &Path) -> Output {
+    let model = root().join("rust/surrogate/models/spheres.json");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_msdd"));
+    command.args(["score", "--model"]).arg(model).arg("--database").arg(database).output().unwrap()
+}
+
+fn refused(database: &Path) -> String {
+    let output = score(database);
+    assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stdout));
+    String::from_utf8(output.stderr).unwrap()
+}
+
+/// A lid that is moved, and one that keeps its pressure: two packings each, with 35 and 30 states after the first.
+#[test]
+fn the_law_is_followed_along_the_strain_inside() {
+    let folder = Folder::new("score");
+    folder.with("path20");
+    folder.with("kept40");
+    let output = score(&folder.0);
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let row = told.lines().find(|line| line.starts_with("poured")).expect("a row of beds");
+    let cells: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!(&cells[1..3], ["4", "130"], "{row}");
+    // Errors of pressure, deviator and conductivity by contacts in per cent, each before its scatter, which is not known; that by
+    // gas is not recorded.
+    for error in [cells[3], cells[5], cells[7]] {
+        let error: f64 = error.parse().unwrap();
+        assert!(error > 0.5 && error < 40.0, "{row}");
+    }
+    assert_eq!(cells[9], "–", "{row}");
+    assert!(!told.contains("NaN"), "{told}");
+}
+
+#[test]
+fn what_is_no_bed_with_strains_is_refused() {
+    let folder = Folder::new("refused");
+    assert!(refused(&folder.0).contains("no folder with elements.toml, allowed: a folder of beds"));
+    let bed = folder.with("path20");
+    let change = |file: &str, from: &str, to: &str| {
+        let text = std::fs::read_to_string(bed.join(file)).unwrap();
+        assert!(text.contains(from), "{from}");
+        std::fs::write(bed.join(file), text.replacen(from, to, 1)).unwrap();
+    };
+    change("elements-18.csv", "strain_3", "other");
+    assert!(refused(&folder.0).contains("elements-18.csv: no column strain_3 of numbers"));
+    std::fs::remove_file(bed.join("elements-18.csv")).unwrap();
+    change("elements.toml", "friction = 0.3", "roughness = 3e-7\nhardness = 7e9\nfriction = 0.3");
+    assert!(refused(&folder.0).contains("elements.toml: a cylinder, or spheres that are rough"));
+    std::fs::remove_file(bed.join("elements-17.csv")).unwrap();
+    assert!(refused(&folder.0).contains("path20: no file elements-<seed>.csv"));
+}
