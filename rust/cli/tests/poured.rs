@@ -68,6 +68,21 @@ fn the_law_is_followed_along_the_strain_inside() {
     assert!(!told.contains("NaN"), "{told}");
 }
 
+/// Beds tell nothing of the gas, so that a law of them alone would be wrong beside it.
+#[test]
+fn a_law_of_beds_alone_is_refused() {
+    let folder = Folder::new("alone");
+    ["path20", "kept40", "load20", "closed40"].map(|bed| folder.with(bed));
+    let out = folder.0.join("law.json");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_msdd"));
+    command.args(["train", "--model", "spheres", "--database"]).arg(&folder.0).arg("--out").arg(&out);
+    let output = command.output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        String::from_utf8(output.stderr).unwrap().contains("allowed: them beside boxes") && !out.exists()
+    );
+}
+
 #[test]
 fn what_is_no_bed_with_strains_is_refused() {
     let folder = Folder::new("refused");

@@ -24,7 +24,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", required = true)]
     model: Vec<PathBuf>,
     /// Database, or the CSV that was exported from one; given several times, all of them together. If the model was trained
-    /// on it, the packings that were held out of the training are used, else all.
+    /// on it, the packings that were held out of the training are used, else all. For spheres also a folder of beds.
     #[arg(long, value_name = "FILE", required = true)]
     database: Vec<PathBuf>,
     /// JSON file to write: a list with one entry for each model.

@@ -41,8 +41,7 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
                    saw; no two of them are alike";
     section.add_table("spheres-law-cycling", meaning, "msdd score", &ALONG_COLUMNS, cycling);
     let poured = along_paths(&Json::read(root, &format!("{INPUTS}/score_poured.json"))?)?;
-    let meaning = "rms errors of the law of spheres along the paths of beds that were poured, of all packings, one fifth of which its \
-                   training never saw";
+    let meaning = "rms errors of the law of spheres along the paths of beds that were poured, of all packings; its training saw none";
     section.add_table("spheres-law-poured", meaning, "msdd score", &ALONG_COLUMNS, poured);
     spheres_parts(&mut section, &Json::read(root, &format!("{INPUTS}/ablation_spheres.json"))?)?;
     let columns = ["model", "porosity increment", "fabric increment", "conductivity", "stress"];
@@ -177,7 +176,8 @@ fn along_paths(scores: &Json) -> Result<Vec<Vec<String>>, DocsError> {
         for error in ALONG {
             let scatter = kind.maybe(&format!("/noise/{error}"));
             let scatter = or_none(scatter, |value| decimals(100.0 * value, 1));
-            let along = or_none(kind.maybe(&format!("/along/{error}")), |value| decimals(100.0 * value, 1));
+            let along =
+                or_none(kind.at(&format!("/along/{error}"))?.maybe(""), |value| decimals(100.0 * value, 1));
             row.push(format!("{along} ({scatter})"));
         }
         rows.push(row);
@@ -189,13 +189,15 @@ fn along_paths(scores: &Json) -> Result<Vec<Vec<String>>, DocsError> {
 fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
     let mut known = Vec::new();
     for kind in scores.list("/0")? {
-        let percent = |name: &str| or_none(kind.maybe(name), |value| decimals(100.0 * value, 1));
+        let percent = |name: &str| -> Result<String, DocsError> {
+            Ok(or_none(kind.at(name)?.maybe(""), |value| decimals(100.0 * value, 1)))
+        };
         let mut row = vec![format!("`{}`", kind.text("/name")?)];
         for error in ["/contact_of_state", "/direction", "/gas_of_state"] {
-            row.push(percent(error));
+            row.push(percent(error)?);
         }
         for error in ALONG {
-            row.push(percent(&format!("/of_stress_alone/{error}")));
+            row.push(percent(&format!("/of_stress_alone/{error}"))?);
         }
         known.push(row);
     }

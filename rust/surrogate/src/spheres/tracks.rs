@@ -76,7 +76,7 @@ pub struct Track {
     pub is_isotropic: bool,
     /// Number of spheres.
     pub spheres: usize,
-    /// How often its errors count in the training.
+    /// Factor of its errors of stress in the training, and weight of the squares of those of contacts and conductivity by contacts.
     pub weight: f64,
     pub packed: Point,
     pub steps: Vec<Step>,

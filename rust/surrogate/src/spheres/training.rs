@@ -50,6 +50,10 @@ pub fn train_without(
         let text = "fewer than 100 states on paths of strain of boxes of spheres, to which this kind of model is fitted";
         return Err(SurrogateError::Data(text.to_string()));
     }
+    if !seen.iter().any(|track| track.packed.gas.iter().all(|gas| gas.is_finite())) {
+        let text = "beds that were poured alone, which tell nothing of the gas, allowed: them beside boxes";
+        return Err(SurrogateError::Data(text.to_string()));
+    }
     let problem = PathFit { tracks: &seen, threads: options.threads_used(), fixed };
     let (mut law, minimum) = fit(&problem, options.max_epochs);
     law.fabric[1] = usual_fabric(&law, &seen);
