@@ -72,7 +72,9 @@ fn the_law_is_followed_along_the_strain_inside() {
 #[test]
 fn a_law_of_beds_alone_is_refused() {
     let folder = Folder::new("alone");
-    ["path20", "kept40", "load20", "closed40"].map(|bed| folder.with(bed));
+    for bed in ["path20", "kept40", "load20", "closed40"] {
+        folder.with(bed);
+    }
     let out = folder.0.join("law.json");
     let mut command = Command::new(env!("CARGO_BIN_EXE_msdd"));
     command.args(["train", "--model", "spheres", "--database"]).arg(&folder.0).arg("--out").arg(&out);
