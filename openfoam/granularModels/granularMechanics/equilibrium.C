@@ -76,6 +76,17 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         pointMesh::New(mesh_),
         dimensionedVector(dimPressure, Zero)
     ),
+    wallGive_
+    (
+        IOobject
+        (
+            "wallGive", mesh_.time().timeName(), mesh_,
+            IOobject::READ_IF_PRESENT,
+            walls_.give() ? IOobject::AUTO_WRITE : IOobject::NO_WRITE
+        ),
+        pointMesh::New(mesh_),
+        dimensionedVector(dimLength, Zero)
+    ),
     initialStress_
     (
         io("initialStress", IOobject::READ_IF_PRESENT),
@@ -98,6 +109,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     u_(nodes_.dim()*nodes_.size(), Zero),
     velocity_(u_),
     traction_(u_),
+    give_(u_),
     gravity_(properties.gravity()),
     weight_(u_),
     start_(u_),
@@ -128,6 +140,12 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         }
     );
 
+    if (law_->elastic() && walls_.give())
+    {
+        FatalIOErrorInFunction(dict_)
+            << "A wall has entry 'give', allowed: 0 with law elastic, which has"
+            << " no grains that give way" << exit(FatalIOError);
+    }
     law_->begin(initialStress_);
     setResidual();
     if (!law_->elastic())
@@ -137,6 +155,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     readNodes(nodeDisplacement_, u_);
     readNodes(nodeVelocity_, velocity_);
     readNodes(wallTraction_, traction_);
+    readNodes(wallGive_, give_);
     broken_ = nodes_.findShapes(nodes_.points(), reference_);
     if (returnReduce(broken_ >= 0, orOp<bool>()))
     {

@@ -89,6 +89,7 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
     writeNodes(u_, nodeDisplacement_);
     writeNodes(velocity_, nodeVelocity_);
     writeNodes(traction_, wallTraction_);
+    writeNodes(give_, wallGive_);
 }
 
 

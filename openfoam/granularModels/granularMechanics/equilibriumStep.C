@@ -50,6 +50,14 @@ static const scalar nearly = 2;
 static const scalar slow = 0.15;
 static const scalar few = 1e-4;
 
+//- Motions of walls at which grains give way: at most so many, until they miss
+//- the way that the grains give by this share of it, or by this share of the
+//- mean radius; and the least share of a motion that is tried at once
+static const label mostGiving = 20;
+static const scalar enoughGiving = 1e-3;
+static const scalar leastGiving = 1e-8;
+static const scalar leastShare = 0.05;
+
 //- Both for meshes with more nodes than this
 static const label large = 10000;
 
@@ -273,10 +281,15 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::search
 }
 
 
-void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
+void Foam::granularMechanicsModels::equilibrium::follow
+(
+    nodeField& du,
+    const nodeField& motion
+)
 {
     nodeField d, resisted(du.size());
-    multiply(du, resisted);
+    findStiffness(stiffnessChoice::firstCaution, stiffnessChoice::firstShare);
+    multiply(motion, resisted);
     r_ -= resisted;
     findDiagonal();
 
@@ -290,7 +303,7 @@ void Foam::granularMechanicsModels::equilibrium::follow(nodeField& du)
     }
     const scalar mostLeft = tolerance_/returnReduce(most, maxOp<scalar>());
     counters_.linear += solver_->solve(true, diagonal_, r_, d, mostLeft);
-    du += d;
+    du += motion + d;
     left_ = imbalance(du, true);
 }
 
@@ -354,10 +367,20 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     }
     if (pushed)
     {
-        findStiffness(stiffnessChoice::firstCaution, stiffnessChoice::firstShare);
-        follow(du);
+        const nodeField motion(du);
+        du = 0;
+        follow(du, motion);
     }
+    return iterate(du, moved);
+}
 
+
+bool Foam::granularMechanicsModels::equilibrium::iterate
+(
+    nodeField& du,
+    bool& moved
+)
+{
     nodeField d;
     stiffnessChoice choice;
     const scalar enough = min(nearly*tolerance_, maxResidual_);
@@ -391,11 +414,61 @@ bool Foam::granularMechanicsModels::equilibrium::balance
 }
 
 
+bool Foam::granularMechanicsModels::equilibrium::giveWay
+(
+    const nodeField& target,
+    nodeField& du,
+    bool& moved,
+    nodeField& give
+)
+{
+    // The motion of a wall changes the strain beside it, and that the motion:
+    // a fixed point, approached with the relaxation of Aitken (Irons and Tuck,
+    // 1969, Int. J. Numer. Methods Eng. 1:275)
+    scalar share = 1;
+    nodeField left, last;
+    for (label round = 0; round < mostGiving; ++round)
+    {
+        give = walls_.give(reference_, du, grains_.stepStrain());
+        left = target + give - du;
+        walls_.restrict(left);
+        if
+        (
+            gMax(mag(left))
+         <= max(enoughGiving*gMax(mag(give)), leastGiving*walls_.radius())
+        )
+        {
+            return true;
+        }
+        if (round > 0)
+        {
+            const nodeField change(left - last);
+            share *=
+               -nodes_.dot(last, change)
+               /max(nodes_.dot(change, change), VSMALL);
+            share = max(leastShare, min(share, scalar(1)));
+        }
+        last = left;
+        if (!moved)
+        {
+            law_->findTangent();
+        }
+        follow(du, nodeField(share*left));
+        moved = true;
+        if (!iterate(du, moved))
+        {
+            return false;
+        }
+    }
+    return false;
+}
+
+
 bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
 {
     const scalar time = mesh_.time().value();
-    const nodeField u(u_), traction(traction_);
-    const nodeField way(walls_.way(time, u_));
+    const nodeField u(u_), traction(traction_), given(give_);
+    const nodeField way(walls_.way(time, nodeField(u_ - give_)));
     granularState::memory before;
     slide_ = walls_.slide(lastTime_, time);
     share_ = 1;
@@ -420,9 +493,14 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
         share_ = scalar(part)/parts;
         nodeField done(u_ - u);
         walls_.restrict(done);
-        nodeField du(share_*way - done);
+        const nodeField target(share_*way - done + give_ - given);
+        nodeField du(target), give(du.size(), Zero);
         bool moved;
-        if (!balance(du, moved))
+        if
+        (
+            !balance(du, moved)
+         || (walls_.give() && !giveWay(target, du, moved, give))
+        )
         {
             placed_ = false;
             if (parts > 1)
@@ -430,9 +508,11 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
                 grains_.restore(before);
                 u_ = u;
                 traction_ = traction;
+                give_ = given;
             }
             return false;
         }
+        give_ += give;
         keep(du, moved);
     }
     if (time > lastTime_)

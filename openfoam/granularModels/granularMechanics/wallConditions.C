@@ -186,8 +186,8 @@ void Foam::wallConditions::read
         {
             "type", "friction", "slip", "layer", "layerStrength",
             "displacement", "pressure", "displacementCoeffs", "pressureCoeffs",
-            "youngModulus", "thickness", "radius", "thermalExpansion",
-            "temperature"
+            "give", "giveBack", "youngModulus", "thickness", "radius",
+            "thermalExpansion", "temperature"
         }
     );
     w.type = kindNames.getOrDefault("type", dict, kind::rigid);
@@ -242,6 +242,7 @@ void Foam::wallConditions::read
     {
         w.displacement = Function1<vector>::New("displacement", dict);
     }
+    readGive(dict, patch.name(), w);
 }
 
 

@@ -23,7 +23,7 @@ License
 Foam::scalarField Foam::wallConditions::positions(const scalar time) const
 {
     const label dim = mesh_.dim();
-    scalarField sum(dim*mesh_.size(), Zero), result(sum);
+    scalarField sum(dim*mesh_.size(), Zero);
 
     bool moving = false;
     forAll(walls_, patchi)
@@ -53,10 +53,14 @@ Foam::scalarField Foam::wallConditions::positions(const scalar time) const
             }
         }
     }
-    if (!moving)
-    {
-        return result;
-    }
+    return moving ? mean(sum) : sum;
+}
+
+
+Foam::scalarField Foam::wallConditions::mean(scalarField& sum) const
+{
+    const label dim = mesh_.dim();
+    scalarField result(sum.size(), Zero);
     mesh_.sum(sum);
     forAll(held_, i)
     {

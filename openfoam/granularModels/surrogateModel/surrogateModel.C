@@ -32,7 +32,8 @@ static const wordList& ownNames()
         "initialStress", "initialTemperature", "inRegion", "Kxx", "Kyy",
         "msddFoam", "nodeDisplacement", "nodeVelocity", "onlineRve",
         "particleDensity", "polyMesh", "pressure", "spread", "stress", "T",
-        "thermalStrain", "thermalStrainIncrement", "uniform", "wallTraction"
+        "thermalStrain", "thermalStrainIncrement", "uniform", "wallGive",
+        "wallTraction"
     });
     return names;
 }

@@ -59,6 +59,7 @@ pub mod named_gases;
 pub mod network;
 pub mod pack;
 pub mod packings;
+pub mod plates;
 pub mod pour;
 pub mod press;
 pub mod profile;

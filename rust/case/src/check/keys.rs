@@ -197,6 +197,8 @@ pub const WALL: &[Key] = &[
     may("pressure", Kind::Any),
     may("displacementCoeffs", Kind::Dictionary),
     may("pressureCoeffs", Kind::Dictionary),
+    may("give", Kind::Range(0.0, 1000.0, "mean diameters")),
+    may("giveBack", Kind::Range(0.0, 1.0, "")),
     may("youngModulus", Kind::Positive("Pa", "")),
     may("thickness", Kind::Positive("m", "")),
     may("radius", Kind::Positive("m", "")),

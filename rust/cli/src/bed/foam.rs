@@ -224,7 +224,8 @@ fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
             format!(
                 "type shell; youngModulus {}; thickness {}; radius {};{expansion}",
                 plain(shell.young_modulus),
-                plain(shell.thickness / geometry.widening),
+                // Force and displacement of the shell on the mesh's side, which is shorter and narrower.
+                plain(shell.thickness * geometry.lengthening / geometry.widening),
                 plain(radius)
             )
         }

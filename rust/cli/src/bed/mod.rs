@@ -3,6 +3,7 @@
 mod files;
 pub(crate) mod foam;
 pub(crate) mod geometry;
+mod give;
 mod moving;
 mod plot;
 mod results;
@@ -22,6 +23,8 @@ pub enum Command {
     Run(RunArguments),
     /// Write a case folder of the solver for the bed of an elements.toml.
     Case(foam::Arguments),
+    /// Find by how much the spheres beside plates give way, from results of 'msdd bed run'.
+    Give(give::Arguments),
 }
 
 #[derive(Args)]
@@ -66,6 +69,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Run(arguments) => run_case(arguments),
         Command::Case(arguments) => foam::run(arguments),
+        Command::Give(arguments) => give::run(arguments),
     }
 }
 

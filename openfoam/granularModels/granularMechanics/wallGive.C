@@ -1,0 +1,124 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "wallConditions.H"
+#include "granularProperties.H"
+
+// * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Share of the way that grains have given at a wall which goes back when the bed
+//- lengthens again: measured beside plates in beds of spheres
+static const scalar usualGiveBack = 0.4;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::wallConditions::readGive
+(
+    const dictionary& dict,
+    const word& name,
+    wall& w
+) const
+{
+    const bool can = w.type == kind::rigid || w.type == kind::frictionless;
+    for (const word key : {"give", "giveBack"})
+    {
+        if (dict.found(key) && !can)
+        {
+            FatalIOErrorInFunction(dict)
+                << "Patch " << name << " has entry '" << key << "', allowed:"
+                << " in walls of type rigid or frictionless"
+                << exit(FatalIOError);
+        }
+    }
+    w.give = 2*radius_*granularProperties::ranged(dict, "give", 0, 0, 1000);
+    w.giveBack =
+        granularProperties::ranged(dict, "giveBack", usualGiveBack, 0, 1);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::wallConditions::give() const
+{
+    for (const wall& w : walls_)
+    {
+        if (w.give > 0)
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+
+Foam::scalarField Foam::wallConditions::give
+(
+    const elementMesh::shapes& shapes,
+    const scalarField& du,
+    const scalarField& growth
+) const
+{
+    const label dim = mesh_.dim();
+    scalarField sum(du.size(), Zero);
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        for (label i = 0; w.give > 0 && i < faces.size(); ++i)
+        {
+            const label celli = faces.cells[i];
+            const scalar* n = normals_[patchi].cdata() + dim*i;
+            scalar strain = -growth[celli];
+            for
+            (
+                label a = mesh_.cellStarts()[celli];
+                a < mesh_.cellStarts()[celli + 1];
+                ++a
+            )
+            {
+                const scalar* v = du.cdata() + dim*mesh_.cellNodes()[a];
+                const scalar* B = shapes.gradient.cdata() + dim*a;
+                scalar moved = 0, slope = 0;
+                for (label k = 0; k < dim; ++k)
+                {
+                    moved += n[k]*v[k];
+                    slope += n[k]*B[k];
+                }
+                strain += moved*slope;
+            }
+
+            // Grains that are pressed let the bed end farther out
+            const scalar way = -strain*w.give*(strain < 0 ? 1 : w.giveBack);
+            for (label j = faces.start[i]; j < faces.start[i + 1]; ++j)
+            {
+                for (label k = 0; k < dim; ++k)
+                {
+                    sum[dim*faces.nodes[j] + k] += way*n[k];
+                }
+            }
+        }
+    }
+    return mean(sum);
+}
+
+
+// ************************************************************************* //
