@@ -41,7 +41,8 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
                    saw; no two of them are alike";
     section.add_table("spheres-law-cycling", meaning, "msdd score", &ALONG_COLUMNS, cycling);
     let poured = along_paths(&Json::read(root, &format!("{INPUTS}/score_poured.json"))?)?;
-    let meaning = "rms errors of the law of spheres along the paths of beds that were poured, of all packings; its training saw none";
+    let meaning = "rms errors of the law of spheres along the paths of beds that were poured, of all packings, \
+                   most of which its training saw";
     section.add_table("spheres-law-poured", meaning, "msdd score", &ALONG_COLUMNS, poured);
     spheres_parts(&mut section, &Json::read(root, &format!("{INPUTS}/ablation_spheres.json"))?)?;
     let columns = ["model", "porosity increment", "fabric increment", "conductivity", "stress"];

@@ -15,9 +15,9 @@ impl Law {
     pub fn check(&self) -> Result<(), SurrogateError> {
         let [b0, b1, b2, b3, b4, b5] = self.bulk;
         let [stiffening, shear_power, of_free] = self.shear;
-        let [d0, ..] = self.dilatancy;
+        let [d0, _, _, _, d4, _] = self.dilatancy;
         let [c0, c1, c2, c3] = self.collapse;
-        let [s0, s1, s2] = self.settling;
+        let [s0, s1, s2, s3] = self.settling;
         let [per_anisotropy, usual] = self.fabric;
         let mut numbers = vec![
             ("bulk[0]", b0, (1e-6..=1e6).contains(&b0), "1e-6 to 1e6"),
@@ -35,26 +35,29 @@ impl Law {
             ("reopening", self.reopening, (0.0..=2.0).contains(&self.reopening), "0 to 2"),
             ("lift", self.lift, self.lift.abs() <= 10.0, "-10 to 10"),
             ("dilatancy[0]", d0, (0.0..=10.0).contains(&d0), "0 to 10"),
+            ("dilatancy[4]", d4, (0.0..=20.0).contains(&d4), "0 to 20"),
             ("collapse[0]", c0, (0.0..=10.0).contains(&c0), "0 to 10"),
             ("collapse[1]", c1, c1.abs() <= LARGE, "-1e4 to 1e4"),
             ("collapse[2]", c2, (0.0..=3.0).contains(&c2), "0 to 3"),
-            ("collapse[3]", c3, (0.01..=10.0).contains(&c3), "0.01 to 10"),
+            ("collapse[3]", c3, (0.05..=20.0).contains(&c3), "0.05 to 20"),
             ("settling[0]", s0, (0.0..=10.0).contains(&s0), "0 to 10"),
             ("settling[1]", s1, (1e-9..=1.0).contains(&s1), "1e-9 to 1"),
             ("settling[2]", s2, s2.abs() <= LARGE, "-1e4 to 1e4"),
+            ("settling[3]", s3, (0.0..=0.5).contains(&s3), "0 to 0.5"),
             ("fabric[0]", per_anisotropy, (0.0..=100.0).contains(&per_anisotropy), "0 to 100"),
             ("fabric[1]", usual, (0.0..=1.0).contains(&usual), "0 to 1"),
         ];
         numbers
             .extend(self.dilatancy[1..].iter().map(|d| ("dilatancy", *d, d.abs() <= LARGE, "-1e4 to 1e4")));
         for element in &self.elements {
-            let Element { stiffness, strength, growth, free, hardening, power } = *element;
+            let Element { stiffness, strength, growth, free, hardening, dilatancy, power } = *element;
             numbers.extend([
                 ("element.stiffness", stiffness, (1e-6..=1e6).contains(&stiffness), "1e-6 to 1e6"),
                 ("element.strength", strength, (1e-6..=2.0).contains(&strength), "1e-6 to 2"),
                 ("element.growth", growth, growth.abs() <= LARGE, "-1e4 to 1e4"),
                 ("element.free", free, free.abs() <= 10.0, "-10 to 10"),
                 ("element.hardening", hardening, hardening.abs() <= 100.0, "-100 to 100"),
+                ("element.dilatancy", dilatancy, dilatancy.abs() <= LARGE, "-1e4 to 1e4"),
                 ("element.power", power, (-2.0..=1.0).contains(&power), "-2 to 1"),
             ]);
         }

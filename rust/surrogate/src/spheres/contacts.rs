@@ -1,7 +1,7 @@
 //! The number of contacts per sphere along a path of strain.
 //!
 //! z = z̄ + ζ: a mean z̄ of all packings in a state of the law, and what a packing has more than that. A strain makes it forget ζ,
-//! compression as well as shear: dζ = −ζ g² (a |dv|/v + b |de|/v), with the deviator de of the strain and the part g of the friction
+//! compression as well as shear: dζ = −ζ g⁴ (a |dv|/v + b |de|/v), with the deviator de of the strain and the part g of the friction
 //! that is not mobilised. So boxes that were made with less friction, whose contacts are many for that reason, lose them when they are
 //! strained; a bed whose friction is mobilised has more contacts than a box because grains without load rest on others, and keeps them.
 

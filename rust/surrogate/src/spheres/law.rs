@@ -18,14 +18,15 @@ pub struct Law {
     pub bulk: [f64; 6],
     /// Stiffnesses go with e^(`shear`₀ x + `shear`₂ g) u^`shear`₁.
     pub shear: [f64; 3],
-    /// Growth of the pressure by the stress ratios: p = A (1 + `lift` Σ |η_k|²/c_k).
+    /// Growth of the pressure by the stress ratios: p = A (1 + `lift` Σ |η_k|²/c_k), summed over all elements but that of the fabric.
     pub lift: f64,
     pub elements: [Element; ELEMENTS],
-    /// Loss of compression by a unit of sliding: d₀ (d₁ + d₂ x + d₃ g − η·n), with n the direction of sliding; negative where
-    /// grains climb over each other.
-    pub dilatancy: [f64; 4],
+    /// Loss of compression by a unit of sliding: d₁ + d₂ x + d₃ g + `dilatancy` of the element − w, w = d₀ η·n + d₅ η_f·n, with the
+    /// stress ratio η, its part η_f that is the fabric's, and the direction n of sliding; negative where grains climb over each other.
+    /// Where w < 0, as after strain has turned back, (1 + d₄) w counts in its place.
+    pub dilatancy: [f64; 6],
     /// Loss of compression by a unit of sliding beside it, of packings whose friction is mobilised and that hardly bear load:
-    /// (1 − g) c₀ e^(−c₁ x) u^(−c₂) (1 − η·n/c₃), 0 where that is negative.
+    /// (1 − g)^c₃ c₀ e^(−c₁ x) u^(−c₂).
     pub collapse: [f64; 4],
     /// Growth of the mobilised friction by sliding: dg = −m g ds/v.
     pub mobilising: f64,
@@ -34,8 +35,9 @@ pub struct Law {
     pub healing: f64,
     /// Added to the [`Element::power`] of the elements of friction while the packing opens.
     pub reopening: f64,
-    /// Loss of compression by a unit of opening: s₀/(1 + (v/v₀)²), v₀ = s₁ e^(−s₂ x), of packings that lose their load.
-    pub settling: [f64; 3],
+    /// Loss of compression by a unit of opening: s₀/(1 + (v/v₀)²) + s₃ (1 − g), v₀ = s₁ e^(−s₂ x). The first is that of packings
+    /// that are about to lose their load, the second that of all whose friction is mobilised.
+    pub settling: [f64; 4],
     /// Stress ratio of the fabric over the deviator of the fabric, and its usual part of the stress ratio, for packings whose
     /// fabric is not known.
     pub fabric: [f64; 2],
@@ -54,6 +56,8 @@ pub struct Element {
     pub growth: f64,
     pub free: f64,
     pub hardening: f64,
+    /// Loss of compression by a unit of sliding of this element, see [`Law::dilatancy`].
+    pub dilatancy: f64,
     /// The stress ratio goes with this power of v where the packing is compressed without shear: 0 where new contacts have the
     /// directions of the old ones, −1 where none are made.
     pub power: f64,
@@ -84,6 +88,8 @@ const LEAST_SHARE: f64 = 0.5;
 pub const POURED: f64 = 0.85;
 /// Largest factor of the strengths.
 pub const MOST_STRENGTH: f64 = 2.0;
+/// Least part of mobilised friction of which a power is taken.
+const LEAST_MOBILISED: f64 = 1e-6;
 /// Largest exponent of the exponential functions of x.
 const MOST_EXPONENT: f64 = 8.0;
 
@@ -226,7 +232,7 @@ impl Law {
         };
         let mut lift = N::of(1.0);
         let over = self.shear(state.compression, x, free).inverse();
-        for (ratio, element) in state.ratios.iter().zip(&self.elements) {
+        for (ratio, element) in state.ratios.iter().zip(&self.elements).take(FABRIC) {
             lift = lift + contraction(ratio, ratio).times(self.lift / element.stiffness) * over;
         }
         let mean = pressure * lift.at_least(LEAST_SHARE);
@@ -254,7 +260,7 @@ impl Law {
             let (before, free) = (next.compression.value(), next.free().value());
             next = self.part(&next, thermal, cell);
             let [before, after] = [before, next.compression.value()].map(|v| v.max(LEAST_COMPRESSION));
-            forgotten += free * free * self.contacts.forgotten(before, after, &cell.map(Number::value));
+            forgotten += free.powi(4) * self.contacts.forgotten(before, after, &cell.map(Number::value));
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
         let usual = |state: &State<N>| self.contacts.usual(&state.value().contact_row());
@@ -284,14 +290,16 @@ impl Law {
         let opening = after * before.inverse();
         let opens = tried.value() < before.value();
         let distortion = deviator(strain);
+        let [d0, d1, d2, d3, d4, d5] = self.dilatancy;
         let total = state.ratio();
-        let [d0, d1, d2, d3] = self.dilatancy;
+        let climbs = sum(&scaled(&total, N::of(d0)), &scaled(&state.ratios[FABRIC], N::of(d5)));
+        let (compressed, u) = Self::compressions(after);
         let usual = (x.times(d2) + free.times(d3)).plus(d1);
-        let (shear, root) = (self.shear(after, x, free), Self::compressions(after).0.sqrt());
+        let (shear, root) = (self.shear(after, x, free), compressed.sqrt());
         let mut ratios = state.ratios;
         let [c0, c1, c2, c3] = self.collapse;
-        let collapse = (Self::exponential(x, -c1) * Self::compressions(after).1.power(-c2)).times(c0)
-            * free.times(-1.0).plus(1.0);
+        let bound = free.times(-1.0).plus(1.0).at_least(LEAST_MOBILISED);
+        let collapse = (Self::exponential(x, -c1) * u.power(-c2)).times(c0) * bound.power(c3);
         let (mut loss, mut sliding, mut back) = (N::of(0.0), N::of(0.0), N::of(0.0));
         for (k, ratio) in ratios.iter_mut().enumerate() {
             let stiffness = shear.times(self.elements[k].stiffness);
@@ -311,17 +319,19 @@ impl Law {
                 if along.value() < 0.0 {
                     back = back + slid;
                 }
-                let climbing =
-                    (usual - along).times(d0) + collapse * along.times(-1.0 / c3).plus(1.0).at_least(0.0);
+                let climb = contraction(&climbs, &elastic) * length.inverse();
+                let against = climb.times(d4).at_most(0.0);
+                let climbing = usual.plus(self.elements[k].dilatancy) - climb - against + collapse;
                 let least = most.times(-MOST_CLIMBING);
                 loss = loss + slid * (if climbing.value() > least.value() { climbing } else { least });
             }
         }
-        let [s0, s1, s2] = self.settling;
+        let [s0, s1, s2, s3] = self.settling;
         if opens {
             let usual = Self::exponential(x, -s2).times(s1);
             let level = after * usual.inverse();
-            loss = loss + (before - tried) * (level * level).plus(1.0).inverse().times(s0);
+            let always = free.times(-s3).plus(s3);
+            loss = loss + (before - tried) * ((level * level).plus(1.0).inverse().times(s0) + always);
         }
         let loss = if loss.value() < tried.value() { loss } else { tried };
         let compression = tried - loss;

@@ -23,7 +23,7 @@ const STRENGTH: [f64; 2] = [1e-6, 2.0];
 const POWER: [f64; 2] = [-2.0, 1.0];
 
 /// Number of parameters.
-pub const PARAMETERS: usize = 49;
+pub const PARAMETERS: usize = 54;
 
 /// Coefficients of x are divided by 10.
 const TABLE: [(Place, Scale); PARAMETERS] = [
@@ -38,13 +38,13 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.shear[2], Over(1.0, [-5.0, 5.0])),
     (|law| &mut law.lift, Over(1.0, [-10.0, 10.0])),
     (|law| &mut law.dilatancy[0], Over(1.0, [0.0, 10.0])),
-    (|law| &mut law.dilatancy[1], Over(1.0, FREE)),
-    (|law| &mut law.dilatancy[2], Over(10.0, FREE)),
-    (|law| &mut law.dilatancy[3], Over(1.0, FREE)),
+    (|law| &mut law.dilatancy[1], Over(0.1, FREE)),
+    (|law| &mut law.dilatancy[2], Over(1.0, FREE)),
+    (|law| &mut law.dilatancy[3], Over(0.1, FREE)),
     (|law| &mut law.collapse[0], Over(0.1, [0.0, 10.0])),
     (|law| &mut law.collapse[1], Over(10.0, FREE)),
     (|law| &mut law.collapse[2], Over(1.0, [0.0, 3.0])),
-    (|law| &mut law.collapse[3], Logarithm([0.01, 10.0])),
+    (|law| &mut law.collapse[3], Over(1.0, [0.05, 20.0])),
     (|law| &mut law.mobilising, Over(0.1, [0.0, 100.0])),
     (|law| &mut law.settling[0], Over(1.0, [0.0, 10.0])),
     (|law| &mut law.settling[1], Logarithm([1e-9, 1.0])),
@@ -76,6 +76,11 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.elements[2].hardening, Over(1.0, [-3.0, 3.0])),
     (|law| &mut law.reopening, Over(1.0, [0.0, 2.0])),
     (|law| &mut law.healing, Over(0.1, [0.0, 1.0])),
+    (|law| &mut law.dilatancy[4], Over(1.0, [0.0, 20.0])),
+    (|law| &mut law.dilatancy[5], Over(1.0, FREE)),
+    (|law| &mut law.elements[1].dilatancy, Over(0.1, FREE)),
+    (|law| &mut law.elements[3].dilatancy, Over(0.1, FREE)),
+    (|law| &mut law.settling[3], Over(0.1, [0.0, 0.5])),
 ];
 
 /// The law's numbers as parameters.
@@ -100,33 +105,34 @@ pub fn law(parameters: &DVector<f64>) -> Law {
     law
 }
 
-/// Where the fit begins: values of an earlier fit, to two digits.
+/// Where the fit begins: values of an earlier fit, to three digits.
 pub fn beginning() -> Law {
-    let element = |[stiffness, strength, growth, free, hardening, power]: [f64; 6]| Element {
+    let element = |[stiffness, strength, growth, free, hardening, power, dilatancy]: [f64; 7]| Element {
         stiffness,
         strength,
         growth,
         free,
         hardening,
         power,
+        dilatancy,
     };
     Law {
-        bulk: [0.054, -2.6, 0.85, 0.47, -0.46, 5.0],
-        shear: [7.9, 0.29, -0.62],
-        lift: 0.033,
+        bulk: [0.0756, 9.18, 0.069, 0.243, 0.0786, -3.67],
+        shear: [6.24, 0.234, -0.34],
+        lift: 0.332,
         elements: [
-            element([0.26, 0.145, 6.8, 1.35, 0.38, -0.83]),
-            element([1.29, 0.045, -13.0, 2.1, -0.6, -1.07]),
-            element([0.59, 0.153, 11.6, 0.33, 1.6, -0.87]),
-            element([0.021, 0.52, -27.0, -1.4, 17.0, -0.036]),
+            element([0.269, 0.326, 46.7, -0.392, 0.701, -0.947, 0.0]),
+            element([1.33, 0.0458, -12.4, 2.13, 0.153, -1.02, 0.0891]),
+            element([0.502, 0.104, 9.22, 0.819, 0.273, -0.823, 0.0]),
+            element([0.0263, 0.212, -14.3, -0.935, 17.3, -0.0796, -0.0954]),
         ],
-        dilatancy: [0.2, 0.47, -0.74, 0.1],
-        collapse: [0.073, 37.0, 0.36, 0.66],
-        mobilising: 0.004,
-        healing: 0.071,
-        reopening: 0.15,
-        settling: [2.05, 2.1e-6, 346.0],
-        fabric: [4.7, 0.5],
+        dilatancy: [0.0, 0.0245, 0.0543, -0.0946, 0.758, 0.329],
+        collapse: [0.0157, 85.1, 0.384, 2.03],
+        mobilising: 0.00979,
+        healing: 0.0797,
+        reopening: 0.144,
+        settling: [0.0686, 0.000339, 143.0, 0.0128],
+        fabric: [4.99, 0.468],
         contacts: Contacts { usual: [0.0; COEFFICIENTS], fading: [0.0; 2] },
     }
 }
