@@ -24,7 +24,7 @@ namespace Foam
 
 //- Share of the way that grains have given at a wall which goes back when the bed
 //- lengthens again: measured beside plates in beds of spheres
-static const scalar usualGiveBack = 0.4;
+static const scalar usualGiveBack = 0.1;
 
 } // End namespace Foam
 

@@ -1,7 +1,8 @@
-//! The solver beside the beds of spheres: the tables that `cases/beds/make` wrote.
+//! The solver beside the beds of spheres: the tables that `cases/beds/make` wrote; and what plates give, as `msdd bed give` found.
 
 use crate::error::DocsError;
-use crate::gather::print::decimals;
+use crate::gather::json::{INPUTS, Json};
+use crate::gather::print::{decimals, or_none, with_scatter};
 use crate::results::Section;
 use std::path::Path;
 
@@ -62,7 +63,33 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
         .collect();
     let columns: Vec<&str> = std::iter::once("").chain(columns.iter().map(String::as_str)).collect();
     section.add_table("beds-bands", "error bands of beds of spheres", origin, &columns, rows);
+    plates(&mut section, &Json::read(root, &format!("{INPUTS}/give.json"))?)?;
     Ok(section)
+}
+
+/// By how much spheres give way at plates: beds whose load changes, and the mean of all.
+fn plates(section: &mut Section, beds: &Json) -> Result<(), DocsError> {
+    let (mut rows, mut sums, mut count) = (Vec::new(), [0.0; 2], 0.0);
+    for bed in beds.list("")? {
+        if bed.maybe("/give/0").is_none() {
+            continue;
+        }
+        count += 1.0;
+        let mut row = vec![format!("`{}`", bed.text("/name")?), decimals(bed.number("/packings")?, 0)];
+        for (sum, name) in sums.iter_mut().zip(["give", "back"]) {
+            let [mean, scatter] = [0, 1].map(|k| bed.maybe(&format!("/{name}/{k}")));
+            *sum += mean.unwrap_or(f64::NAN);
+            row.push(or_none(mean, |mean| with_scatter(mean, scatter.unwrap_or(f64::NAN), 2)));
+        }
+        rows.push(row);
+    }
+    let mut row = vec!["mean".to_string(), String::new()];
+    row.extend(sums.map(|sum| decimals(sum / count, 2)));
+    rows.push(row);
+    let columns = ["bed", "packings", "given where pressed [d]", "given back where let up [d]"];
+    let meaning = "thickness of bed, in diameters, by which spheres give way at each of two smooth plates, and how much one packing differs";
+    section.add_table("plates-give", meaning, "msdd bed give", &columns, rows);
+    Ok(())
 }
 
 /// A file of comma-separated values.
