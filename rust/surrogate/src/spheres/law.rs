@@ -86,8 +86,10 @@ const LEAST_SHARE: f64 = 0.5;
 /// The mobilised part of the friction of beds that were poured, as `msdd bed run` counts it there: 0.84 between plates, 0.91 in a
 /// cylinder.
 pub const POURED: f64 = 0.85;
+/// Largest factor of the strengths of friction.
+pub(super) const MOST_OF_FRICTION: f64 = 2.0;
 /// Largest factor of the strengths.
-pub const MOST_STRENGTH: f64 = 2.0;
+pub const MOST_STRENGTH: f64 = 4.0;
 /// Least part of mobilised friction of which a power is taken.
 const LEAST_MOBILISED: f64 = 1e-6;
 /// Largest exponent of the exponential functions of x.
@@ -102,7 +104,7 @@ pub struct State<N = f64> {
     pub compression: N,
     /// η_k: parts of the deviator of the stress over A.
     pub ratios: [Tensor<N>; ELEMENTS],
-    /// Factor of the strengths but that of the fabric, which does not change: 1 but for packings that bear more.
+    /// Factor of the strengths, see [`Law::factor`], which does not change: 1 but for packings that bear more.
     pub strength: f64,
     /// Part of the friction that is mobilised, 0 to 1: as where all contacts were made under friction (1), or without any (0).
     pub mobilised: N,
@@ -222,6 +224,12 @@ impl Law {
         exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
     }
 
+    /// The factor of an element's strength in a packing with this [`State::strength`]: friction is as strong as that, up to twice as
+    /// strong as it usually is, and beyond that the fabric is stronger.
+    pub(super) fn factor(k: usize, strength: f64) -> f64 {
+        if k == FABRIC { (strength / MOST_OF_FRICTION).max(1.0) } else { strength.min(MOST_OF_FRICTION) }
+    }
+
     /// σ over E*, compression positive.
     pub fn stress<N: Number>(&self, state: &State<N>) -> Tensor<N> {
         let (x, free) = (state.density(), state.free());
@@ -303,7 +311,7 @@ impl Law {
         let (mut loss, mut sliding, mut back) = (N::of(0.0), N::of(0.0), N::of(0.0));
         for (k, ratio) in ratios.iter_mut().enumerate() {
             let stiffness = shear.times(self.elements[k].stiffness);
-            let most = self.strength(k, x, free, root).times(if k == FABRIC { 1.0 } else { state.strength });
+            let most = self.strength(k, x, free, root).times(Self::factor(k, state.strength));
             let power = self.elements[k].power;
             let reopened = if k != FABRIC && opens { self.reopening } else { 0.0 };
             let faded = scaled(ratio, opening.power(power + reopened));

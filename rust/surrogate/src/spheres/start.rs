@@ -1,7 +1,8 @@
 //! The state of a packing of which solid fraction, stress, and perhaps more are known.
 
 use super::law::{
-    ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, Law, MOST_COMPRESSION, MOST_STRENGTH, POURED, State, within,
+    ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, Law, MOST_COMPRESSION, MOST_OF_FRICTION, MOST_STRENGTH,
+    POURED, State, within,
 };
 use super::tensor::{Tensor, contraction, deviator, mean};
 
@@ -20,7 +21,7 @@ enum Borne {
 impl Law {
     /// The state with a solid fraction, a stress over E*, and what else is known. The fabric bears its part; the other elements
     /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
-    /// than all strengths has larger strengths, by a common factor.
+    /// than these strengths has larger ones, by a common factor; what they cannot bear at their largest, the fabric bears, too.
     pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
         let mobilised = known.mobilised.unwrap_or(POURED).clamp(0.0, 1.0);
         let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator), mobilised);
@@ -78,27 +79,31 @@ impl Law {
         let ratio = load.map(|part| part * over);
         let [per_anisotropy, usual] = self.fabric;
         let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, free, root));
-        let strongest = MOST_STRENGTH * strengths.iter().sum::<f64>();
+        let strength = strengths.iter().sum::<f64>();
         let of_fabric = match fabric {
             Borne::Fabric(fabric) => fabric.map(|part| per_anisotropy * part),
-            // At least what the other elements cannot bear.
-            Borne::Usual(pressure) => {
-                let least = 1.0 - strongest / contraction(&ratio, &ratio).sqrt().max(f64::MIN_POSITIVE);
-                // A share of the deviator over the pressure, which a deviator makes larger than A.
-                let share = (usual / (over * pressure)).min(usual).max(least);
-                ratio.map(|part| share * part)
-            }
+            // A share of the deviator over the pressure, which a deviator makes larger than A.
+            Borne::Usual(pressure) => ratio.map(|part| (usual / (over * pressure)).min(usual) * part),
         };
-        state.ratios[FABRIC] = within(&of_fabric, self.strength(FABRIC, x, free, root)).0;
+        let most = self.strength(FABRIC, x, free, root);
+        state.ratios[FABRIC] = within(&of_fabric, most).0;
         let rest: Tensor = std::array::from_fn(|k| ratio[k] - state.ratios[FABRIC][k]);
         let size = contraction(&rest, &rest).sqrt();
         if size <= 0.0 {
             return state;
         }
+        state.strength = (size / strength).clamp(1.0, MOST_OF_FRICTION);
+        let more = 1.0 - MOST_OF_FRICTION * strength / size;
+        if more > 0.0 {
+            let both: Tensor = std::array::from_fn(|k| state.ratios[FABRIC][k] + more * rest[k]);
+            let needed = MOST_OF_FRICTION * contraction(&both, &both).sqrt() / most;
+            state.strength = needed.clamp(MOST_OF_FRICTION, MOST_STRENGTH);
+            state.ratios[FABRIC] = within(&both, most * Self::factor(FABRIC, state.strength)).0;
+        }
         let shear = self.shear(compression, x, free);
         let stiffness: [f64; FABRIC] = std::array::from_fn(|k| shear * self.elements[k].stiffness);
-        state.strength = (size / strengths.iter().sum::<f64>()).clamp(1.0, MOST_STRENGTH);
-        let limits: [f64; FABRIC] = std::array::from_fn(|k| state.strength * strengths[k] / stiffness[k]);
+        let limits: [f64; FABRIC] =
+            std::array::from_fn(|k| Self::factor(k, state.strength) * strengths[k] / stiffness[k]);
         let common = shared(limits, stiffness, size);
         for k in 0..FABRIC {
             let bears = common.min(limits[k]) * stiffness[k] / size;
