@@ -228,8 +228,7 @@ fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
             format!(
                 "type shell; youngModulus {}; thickness {}; radius {};{expansion}",
                 plain(shell.young_modulus),
-                // Force and displacement of the shell on the mesh's side, which is shorter and narrower.
-                plain(shell.thickness * geometry.lengthening / geometry.widening),
+                plain(shell.thickness / geometry.widening),
                 plain(radius)
             )
         }

@@ -19,9 +19,8 @@ pub struct Geometry {
     pub levels: [f64; 4],
     /// In a cylinder: where the mesh begins, the radius of the averages, where it ends.
     pub radii: Option<[f64; 3]>,
-    /// Radius of the cylinder over that of the mesh, and depth of the bed over that of the mesh.
+    /// Of the cylinder over that of the mesh.
     pub widening: f64,
-    pub lengthening: f64,
     /// Cells between the levels, and between the radii.
     cells: ([usize; 3], [usize; 2]),
     diameter: f64,
@@ -74,9 +73,8 @@ impl Geometry {
         let radial = radii
             .map_or(vec![1; 2], |[a, b, c]| share(&[b - a, c - b], if heated("side") { 20.0 } else { 4.0 }));
         let widening = scene.container.radius.map_or(1.0, |radius| radius / (radius - half));
-        let lengthening = depth / (levels[3] - levels[0]);
         let cells = ([axial[0], axial[1], axial[2]], [radial[0], radial[1]]);
-        Ok(Self { levels, radii, widening, lengthening, cells, diameter: scene.grains.diameter })
+        Ok(Self { levels, radii, widening, cells, diameter: scene.grains.diameter })
     }
 
     /// Of the mesh along the axis [m].

@@ -19,7 +19,7 @@ Spheres at a plate find no hold, and a bed between plates is shortened by more t
 up: the keys of a wall in the solver's granularProperties are give, and giveBack = back/give. The second number is how much one packing
 differs from the mean. A lid that keeps its pressure tells nothing.")]
 pub struct Arguments {
-    /// Folders with elements.toml and elements-<seed>.csv, or folders of such folders.
+    /// Folders with elements.toml and elements-<seed>.csv, or elements.csv alone; or folders of such folders.
     #[arg(required = true)]
     folders: Vec<PathBuf>,
     /// Write the numbers to this file, too.
@@ -74,7 +74,13 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 fn bed(folder: &Path) -> Result<Bed, CliError> {
     let scene = Scene::read(folder)?;
     let mut gives: Vec<Give> = Vec::new();
-    for (_, file) in packings(folder)? {
+    let mean = folder.join("elements.csv");
+    let files = match packings(folder) {
+        Ok(all) => all.into_iter().map(|(_, file)| file).collect(),
+        Err(_) if mean.is_file() => vec![mean],
+        Err(error) => return Err(error),
+    };
+    for file in files {
         let give = plates::give(&read_text(&file)?, scene.grains.diameter);
         gives.push(give.ok_or_else(|| {
             CliError::Message(format!(

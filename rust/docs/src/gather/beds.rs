@@ -1,6 +1,7 @@
 //! The solver beside the beds of spheres: the tables that `cases/beds/make` wrote; and what plates give, as `msdd bed give` found.
 
 use crate::error::DocsError;
+use crate::gather::beside;
 use crate::gather::json::{INPUTS, Json};
 use crate::gather::print::{decimals, or_none, with_scatter};
 use crate::results::Section;
@@ -63,6 +64,7 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
         .collect();
     let columns: Vec<&str> = std::iter::once("").chain(columns.iter().map(String::as_str)).collect();
     section.add_table("beds-bands", "error bands of beds of spheres", origin, &columns, rows);
+    beside::tables(root, &mut section)?;
     plates(&mut section, &Json::read(root, &format!("{INPUTS}/give.json"))?)?;
     Ok(section)
 }

@@ -2,6 +2,7 @@
 //! `results/numbers` under fixed names. Nothing is measured here: numbers are chosen, converted and rounded for print.
 
 pub mod beds;
+pub mod beside;
 pub mod cases;
 pub mod database;
 pub mod json;

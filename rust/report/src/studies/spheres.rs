@@ -100,7 +100,7 @@ const SCENES: [Scene; 3] = [
     },
     Scene {
         case: "store",
-        compare: &["side", "yy", "yy", "zz", "xx", "0.9071"],
+        compare: &["side", "yy", "yy", "zz", "xx", "0.975"],
         blocks: &[[1, 12, 1], [1, 3, 1]],
         changed: [false, true, false],
         steps: ADAPTIVE,
