@@ -91,7 +91,7 @@ fn a_section_renewed_leaves_the_others_and_missing_entries_are_named() {
 }
 
 #[test]
-fn beds_of_spheres_are_two_tables() {
+fn beds_of_spheres_are_five_tables() {
     let errors = "scene,use,packings,T_error,T_scatter,pressure_error,pressure_scatter,conductivity_error,conductivity_scatter\n\
                   a-bed,judge,3,0.371,0.16,4.9,4.12,1.831,1.37\n";
     let bands: String = ["T", "pressure", "conductivity"]
@@ -101,8 +101,22 @@ fn beds_of_spheres_are_two_tables() {
         })
         .collect();
     let bands = format!("quantity,use,values,inside,inside_worst_scene,width\n{bands}");
-    let root =
-        checkout("gather-beds", &[("cases/beds/errors.csv", errors), ("cases/beds/bands.csv", &bands)]);
+    let names = ["T at the probes", "stress 1", "stress 2", "stress 3", "p", "K", "stress on the wall"];
+    let line = |name: &&str| format!("{name:<22}       20     0.85    -1.36      0.21 %\n");
+    let beside = "solver less elements     points      rms    worst  packings\n".to_string()
+        + &names.iter().map(line).collect::<String>();
+    let give = r#"[{"name": "kept", "packings": 2, "give": [null, null], "back": [null, null]},
+        {"name": "path", "packings": 2, "give": [1.5, 0.25], "back": [0.1, 0.02]}]"#;
+    let root = checkout(
+        "gather-beds",
+        &[
+            ("cases/beds/errors.csv", errors),
+            ("cases/beds/bands.csv", &bands),
+            ("results/numbers/column.txt", &beside),
+            ("results/numbers/store.txt", &beside),
+            ("results/numbers/give.json", give),
+        ],
+    );
     renew(&root, "beds", origin()).unwrap();
     let results = Results::read(&root).unwrap();
     assert_eq!(
@@ -112,6 +126,14 @@ fn beds_of_spheres_are_two_tables() {
     let table = results.table("beds-bands").unwrap();
     assert_eq!((table.rows.len(), table.columns.len()), (3, 10));
     assert_eq!(table.rows[1][..4], ["p", "91", "85", "1.4"].map(str::to_string));
+    let row = &results.table("beside-store").unwrap().rows[6];
+    assert_eq!(row[..], ["stress on the side [%]", "0.8", "-1.4", "0.2", "5"].map(str::to_string));
+    let table = results.table("plates-give").unwrap();
+    assert_eq!(table.rows[0][..], ["`path`", "2", "1.50 ± 0.25", "0.10 ± 0.02"].map(str::to_string));
+    assert_eq!(table.rows[1][..], ["mean", "", "1.50", "0.10"].map(str::to_string));
+    fs::write(root.join("results/numbers/store.txt"), beside.replace("stress on the wall", "wall")).unwrap();
+    let error = renew(&root, "beds", origin()).unwrap_err().to_string();
+    assert!(error.contains("store.txt") && error.contains("'stress on the wall' is missing"), "{error}");
     fs::write(root.join("cases/beds/bands.csv"), bands.replace("inside_worst_scene", "worst")).unwrap();
     let error = renew(&root, "beds", origin()).unwrap_err().to_string();
     assert!(error.contains("bands.csv") && error.contains("inside_worst_scene"), "{error}");
