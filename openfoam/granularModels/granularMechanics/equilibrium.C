@@ -82,7 +82,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         (
             "wallGive", mesh_.time().timeName(), mesh_,
             IOobject::READ_IF_PRESENT,
-            walls_.give() ? IOobject::AUTO_WRITE : IOobject::NO_WRITE
+            walls_.gives() ? IOobject::AUTO_WRITE : IOobject::NO_WRITE
         ),
         pointMesh::New(mesh_),
         dimensionedVector(dimLength, Zero)
@@ -140,7 +140,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         }
     );
 
-    if (law_->elastic() && walls_.give())
+    if (law_->elastic() && walls_.gives())
     {
         FatalIOErrorInFunction(dict_)
             << "A wall has entry 'give', allowed: 0 with law elastic, which has"

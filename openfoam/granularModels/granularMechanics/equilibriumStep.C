@@ -499,7 +499,7 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
         if
         (
             !balance(du, moved)
-         || (walls_.give() && !giveWay(target, du, moved, give))
+         || (walls_.gives() && !giveWay(target, du, moved, give))
         )
         {
             placed_ = false;

@@ -57,7 +57,7 @@ void Foam::wallConditions::readGive
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::wallConditions::give() const
+bool Foam::wallConditions::gives() const
 {
     for (const wall& w : walls_)
     {
