@@ -95,6 +95,12 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
 
 Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
 {
+    if (notGiven_)
+    {
+        return "the way by which grains give at the walls is not found; shorter"
+            " steps or a smaller 'give' may help";
+    }
+
     // The invalid cell if there is one, else a cell at the node with the
     // largest imbalance
     label celli = broken_, worst = 0;

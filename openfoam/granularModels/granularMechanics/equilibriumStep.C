@@ -427,7 +427,7 @@ bool Foam::granularMechanicsModels::equilibrium::giveWay
     // 1969, Int. J. Numer. Methods Eng. 1:275)
     scalar share = 1;
     nodeField left, last;
-    for (label round = 0; round < mostGiving; ++round)
+    for (label round = 0; round <= mostGiving; ++round)
     {
         give = walls_.give(reference_, du, grains_.stepStrain());
         left = target + give - du;
@@ -439,6 +439,10 @@ bool Foam::granularMechanicsModels::equilibrium::giveWay
         )
         {
             return true;
+        }
+        if (round == mostGiving)
+        {
+            break;
         }
         if (round > 0)
         {
@@ -460,6 +464,7 @@ bool Foam::granularMechanicsModels::equilibrium::giveWay
             return false;
         }
     }
+    notGiven_ = true;
     return false;
 }
 
@@ -472,6 +477,7 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     granularState::memory before;
     slide_ = walls_.slide(lastTime_, time);
     share_ = 1;
+    notGiven_ = false;
     guess_.clear();
 
     if (parts == 1 && nodes_.dot(velocity_, velocity_) > 0)

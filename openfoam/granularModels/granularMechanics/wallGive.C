@@ -22,8 +22,8 @@ License
 namespace Foam
 {
 
-//- Share of the way that grains have given at a wall which goes back when the bed
-//- lengthens again: measured beside plates in beds of spheres
+//- Share of what grains give at a wall that goes back where the bed lengthens:
+//- the mean of beds of spheres between plates, which differ much
 static const scalar usualGiveBack = 0.1;
 
 } // End namespace Foam

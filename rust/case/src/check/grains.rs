@@ -256,6 +256,22 @@ fn check_mechanics(
             keys::check(wall, FILE, keys::WALL, &[], found);
             let radius = value("meanRadius");
             between(wall, "slip", [2e-7 * radius, 2000.0 * radius], "m", found);
+            give(wall, elastic, found);
+        }
+    }
+}
+
+/// Grains give way at walls that hold them along the normal alone.
+fn give(wall: &Dictionary, elastic: bool, found: &mut Findings) {
+    let holds = wall.text("type").map_or(true, |kind| kind == "rigid" || kind == "frictionless");
+    for key in ["give", "giveBack"] {
+        let Some(value) = keys::number(wall, key, "") else { continue };
+        let place = wall.path_of(key);
+        let shown = number_text(value);
+        if !holds {
+            found.error([FILE, &place], &shown, "in walls of type rigid or frictionless", "");
+        } else if elastic && key == "give" && value > 0.0 {
+            found.error([FILE, &place], &shown, "0 with law elastic, which has no grains that give way", "");
         }
     }
 }

@@ -57,12 +57,13 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     }
     outln!("bed                   packings  wall friction   give [d]  packings   back [d]  packings");
     for bed in &beds {
-        let [give, back] = [bed.give, bed.back].map(|[mean, scatter]| format!("{mean:>10.2}{scatter:>10.2}"));
+        let [give, back] =
+            [bed.give, bed.back].map(|[mean, scatter]| format!("{:>10}{:>10}", told(mean), told(scatter)));
         outln!("{:<20}{:>10}{:>15} {give} {back}", bed.name, bed.packings, bed.wall_friction);
     }
     let all = |of: fn(&Bed) -> [f64; 2]| join(beds.iter().map(|bed| of(bed)[0]));
     let [[give, _], [back, _]] = [all(|bed| bed.give), all(|bed| bed.back)];
-    outln!("{:<45} {give:>10.2}{:10} {back:>10.2}", "mean of the beds", "");
+    outln!("{:<45} {:>10}{:10} {:>10}", "mean of the beds", told(give), "", told(back));
     if let Some(path) = &arguments.json {
         let text =
             serde_json::to_string_pretty(&beds).map_err(|error| CliError::Message(error.to_string()))?;
@@ -98,11 +99,15 @@ fn bed(folder: &Path) -> Result<Bed, CliError> {
     })
 }
 
+fn told(value: f64) -> String {
+    if value.is_finite() { format!("{value:.2}") } else { "–".to_string() }
+}
+
 /// Mean and standard deviation of those that are known.
 fn join(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let known: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     let count = known.len() as f64;
     let mean = known.iter().sum::<f64>() / count;
     let squares: f64 = known.iter().map(|value| (value - mean).powi(2)).sum();
-    [mean, (squares / (count - 1.0)).sqrt()]
+    [mean, if known.len() > 1 { (squares / (count - 1.0)).sqrt() } else { f64::NAN }]
 }

@@ -71,22 +71,24 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
 
 /// By how much spheres give way at plates: beds whose load changes, and the mean of all.
 fn plates(section: &mut Section, beds: &Json) -> Result<(), DocsError> {
-    let (mut rows, mut sums, mut count) = (Vec::new(), [0.0; 2], 0.0);
+    let (mut rows, mut sums) = (Vec::new(), [[0.0; 2]; 2]);
     for bed in beds.list("")? {
         if bed.maybe("/give/0").is_none() {
             continue;
         }
-        count += 1.0;
         let mut row = vec![format!("`{}`", bed.text("/name")?), decimals(bed.number("/packings")?, 0)];
         for (sum, name) in sums.iter_mut().zip(["give", "back"]) {
             let [mean, scatter] = [0, 1].map(|k| bed.maybe(&format!("/{name}/{k}")));
-            *sum += mean.unwrap_or(f64::NAN);
-            row.push(or_none(mean, |mean| with_scatter(mean, scatter.unwrap_or(f64::NAN), 2)));
+            let known = [mean.unwrap_or(0.0), f64::from(u8::from(mean.is_some()))];
+            *sum = [sum[0] + known[0], sum[1] + known[1]];
+            row.push(or_none(mean, |mean| {
+                scatter.map_or_else(|| decimals(mean, 2), |scatter| with_scatter(mean, scatter, 2))
+            }));
         }
         rows.push(row);
     }
     let mut row = vec!["mean".to_string(), String::new()];
-    row.extend(sums.map(|sum| decimals(sum / count, 2)));
+    row.extend(sums.map(|[sum, count]| decimals(sum / count, 2)));
     rows.push(row);
     let columns = ["bed", "packings", "given where pressed [d]", "given back where let up [d]"];
     let meaning = "thickness of bed, in diameters, by which spheres give way at each of two smooth plates, and how much one packing differs";

@@ -106,7 +106,8 @@ fn beds_of_spheres_are_five_tables() {
     let beside = "solver less elements     points      rms    worst  packings\n".to_string()
         + &names.iter().map(line).collect::<String>();
     let give = r#"[{"name": "kept", "packings": 2, "give": [null, null], "back": [null, null]},
-        {"name": "path", "packings": 2, "give": [1.5, 0.25], "back": [0.1, 0.02]}]"#;
+        {"name": "path", "packings": 2, "give": [1.5, 0.25], "back": [0.1, 0.02]},
+        {"name": "press", "packings": 1, "give": [1.0, null], "back": [null, null]}]"#;
     let root = checkout(
         "gather-beds",
         &[
@@ -130,7 +131,8 @@ fn beds_of_spheres_are_five_tables() {
     assert_eq!(row[..], ["stress on the side [%]", "0.8", "-1.4", "0.2", "5"].map(str::to_string));
     let table = results.table("plates-give").unwrap();
     assert_eq!(table.rows[0][..], ["`path`", "2", "1.50 ± 0.25", "0.10 ± 0.02"].map(str::to_string));
-    assert_eq!(table.rows[1][..], ["mean", "", "1.50", "0.10"].map(str::to_string));
+    assert_eq!(table.rows[1][..], ["`press`", "1", "1.00", "–"].map(str::to_string));
+    assert_eq!(table.rows[2][..], ["mean", "", "1.25", "0.10"].map(str::to_string));
     fs::write(root.join("results/numbers/store.txt"), beside.replace("stress on the wall", "wall")).unwrap();
     let error = renew(&root, "beds", origin()).unwrap_err().to_string();
     assert!(error.contains("store.txt") && error.contains("'stress on the wall' is missing"), "{error}");

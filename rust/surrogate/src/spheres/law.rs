@@ -88,7 +88,7 @@ const LEAST_SHARE: f64 = 0.5;
 pub const POURED: f64 = 0.85;
 /// Largest factor of the strengths of friction.
 pub(super) const MOST_OF_FRICTION: f64 = 2.0;
-/// Largest factor of the strengths.
+/// Largest [`State::strength`]: there friction and fabric are both twice as strong as they usually are.
 pub const MOST_STRENGTH: f64 = 4.0;
 /// Least part of mobilised friction of which a power is taken.
 const LEAST_MOBILISED: f64 = 1e-6;

@@ -13,6 +13,8 @@
 //! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths and stiffnesses
 //! depend on φ_J, since dense packings bear a larger deviator, on v, and on the friction that is mobilised. Pressure and stress are
 //! p = A (1 + l Σ |η_k|²/c_k), summed over the elements of friction without the last, that of the fabric, and σ = p + A Σ η_k.
+//! While a packing opens, the powers of the elements of friction are larger by [`law::Law::reopening`]; one that starts with more than all
+//! strengths has larger ones for good ([`law::State::strength`]).
 //!
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
 //! isotropic compression loads that axis more. The other elements stand for the friction of contacts, which compression makes
@@ -23,15 +25,16 @@
 //!
 //! **Mobilised friction.** g is the part of the friction that is not mobilised: 0 in boxes that were packed with
 //! their own friction, where many contacts are about to slide; 1 − μ_p/μ in boxes that were packed with less friction μ_p. Solid
-//! fraction and number of contacts do not tell one from the other. Sliding by s mobilises: dg = −m g ds/v.
+//! fraction and number of contacts do not tell one from the other. Sliding by s mobilises: dg = −m g ds/v;
+//! sliding against the stress does the contrary: d(1 − g) = −h (1 − g) ds/v.
 //!
 //! **Dilatancy.** Sliding of an element by s changes v by −(d₁ + d₂ x + d₃ g + δ_k − w) s with x = φ_J − 0.6, the dilatancy δ_k of that
 //! element (0 for the first and the third), and w = d₀ η·n + d₅ η_f·n, with the stress ratio η = Σ η_k, its part η_f that is the
-//! fabric's, and the direction n of sliding. Where w is negative, as after strain has turned back, (1 + d₄) w counts in its place. So φ_J
+//! fabric's, and the direction n of sliding. Where w is negative, as after strain has turned back, (1 + d₄) w counts in its place. In the shipped law d₀ = 0. So φ_J
 //! grows where a loose packing is sheared, or any is sheared back, and falls where a dense one is sheared far (Rowe, 1962,
 //! Proc. R. Soc. A 269:500). Mobilised packings that hardly bear load give way beside it ([`law::Law::collapse`]). Where grains climb,
 //! they take at most nine tenths of the work of friction.
-//! The factor l above is the dilatancy that goes back when the deviator does.
+//! The number l above is the dilatancy that goes back when the deviator does.
 //! Where a packing opens, it settles ([`law::Law::settling`]), most where it is about to lose its load: φ_J grows, too.
 //!
 //! **Readouts.** Conductivities by contacts and by gas are functions of this state, see [`readout`].
