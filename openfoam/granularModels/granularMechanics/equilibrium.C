@@ -78,11 +78,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     ),
     wallGive_
     (
-        IOobject
-        (
-            "wallGive", mesh_.time().timeName(), mesh_,
-            IOobject::READ_IF_PRESENT
-        ),
+        io("wallGive", IOobject::READ_IF_PRESENT),
         pointMesh::New(mesh_),
         dimensionedVector(dimLength, Zero)
     ),
@@ -155,10 +151,10 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     readNodes(nodeVelocity_, velocity_);
     readNodes(wallTraction_, traction_);
     readNodes(wallGive_, give_);
-    // Also where 'give' was taken out at a restart: what was given stays
-    if (walls_.gives() || gMax(mag(wallGive_.primitiveField())()) > 0)
+    // Where 'give' was taken out at a restart, what was given stays
+    if (!walls_.gives() && !(gMax(mag(wallGive_.primitiveField())()) > 0))
     {
-        wallGive_.writeOpt() = IOobject::AUTO_WRITE;
+        wallGive_.writeOpt() = IOobject::NO_WRITE;
     }
     broken_ = nodes_.findShapes(nodes_.points(), reference_);
     if (returnReduce(broken_ >= 0, orOp<bool>()))
