@@ -35,7 +35,7 @@ pub struct Arguments {
     /// model increment has one start.
     #[arg(long)]
     restarts: Option<u32>,
-    /// Largest number of epochs, that is of Levenberg–Marquardt steps. Default: 60 for increment, 20 for spheres, 200 for paper.
+    /// Largest number of epochs, that is of Levenberg–Marquardt steps. Default: 60 for increment, 12 for spheres, 200 for paper.
     #[arg(long)]
     epochs: Option<u32>,
     /// Number of epochs without a smaller validation error after which a training ends.

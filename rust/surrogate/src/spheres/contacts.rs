@@ -1,7 +1,7 @@
 //! The number of contacts per sphere along a path of strain.
 //!
 //! z = z̄ + ζ: a mean z̄ of all packings in a state of the law, and what a packing has more than that. A strain makes it forget ζ,
-//! compression as well as shear: dζ = −ζ g⁴ (a |dv|/v + b |de|/v), with the deviator de of the strain and the part g of the friction
+//! compression as well as shear: dζ = −ζ g⁸ (a |dv|/v + b |de|/v), with the deviator de of the strain and the part g of the friction
 //! that is not mobilised. So boxes that were made with less friction, whose contacts are many for that reason, lose them when they are
 //! strained; a bed whose friction is mobilised has more contacts than a box because grains without load rest on others, and keeps them.
 
@@ -9,7 +9,7 @@ use super::tensor::{Tensor, contraction, deviator};
 use serde::{Deserialize, Serialize};
 
 /// Number of coefficients of z̄.
-pub const COEFFICIENTS: usize = 11;
+pub const COEFFICIENTS: usize = 8;
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,13 +25,12 @@ const OPENED: f64 = 1.5e-4;
 /// Bounds of z: none has more than equal spheres of the densest packings.
 const CONTACTS: [f64; 2] = [0.0, 12.0];
 
-/// 1, s, v, x, x², x s, r², r² x, r² s, o, o x, with s = √v, x = φ_J − 0.6, r² = |η|² and o = 1/(1 + v/1.5e-4), of the elastic
-/// compression v, x, and the stress ratio η.
-pub fn row(compression: f64, x: f64, ratio: &Tensor) -> [f64; COEFFICIENTS] {
+/// 1, s, v, x, x², x s, o, o x, with s = √v, x = φ_J − 0.6 and o = 1/(1 + v/1.5e-4), of the elastic compression v and x.
+pub fn row(compression: f64, x: f64) -> [f64; COEFFICIENTS] {
     let v = compression.max(0.0);
     let s = v.sqrt();
-    let (r2, opened) = (contraction(ratio, ratio), 1.0 / (1.0 + v / OPENED));
-    [1.0, s, v, x, x * x, x * s, r2, r2 * x, r2 * s, opened, opened * x]
+    let opened = 1.0 / (1.0 + v / OPENED);
+    [1.0, s, v, x, x * x, x * s, opened, opened * x]
 }
 
 impl Contacts {

@@ -1,6 +1,6 @@
-//! Fit of the law to paths of strain: least squares of the stress along them.
+//! Fit of the law to paths of strain: least squares of the stress along them, and of the fabric.
 
-use super::law::Law;
+use super::law::{FABRIC, Law};
 use super::parameters::{PARAMETERS, beginning, law, parameters};
 use super::tensor::{Tensor, contraction, deviator, mean, sum};
 use super::tracks::{Track, follow};
@@ -53,7 +53,16 @@ pub fn scales(track: &Track) -> Vec<f64> {
     each.collect()
 }
 
-/// Residuals of the stress along tracks.
+/// Weight of the fabric's residuals: it is known whatever it bears, so that it is what counts the contacts and not only what fits the
+/// stress. And its usual stress ratio over its deviator.
+const OF_FABRIC: f64 = 0.3;
+const USUAL_RATIO: f64 = 5.0;
+/// Least such number by which is divided.
+const LEAST_RATIO: f64 = 0.1;
+/// Least p/E* of states whose fabric counts.
+const LEAST_PRESSURE: f64 = 3e-9;
+
+/// Residuals of the stress and the fabric along tracks.
 pub struct PathFit<'a> {
     pub tracks: &'a [Track],
     pub threads: usize,
@@ -65,6 +74,7 @@ impl PathFit<'_> {
     /// All residuals, in a fixed order.
     fn residuals(&self, x: &DVector<f64>) -> Vec<f64> {
         let law = law(x);
+        let both = |k: usize| if k < 3 { 1.0 } else { std::f64::consts::SQRT_2 };
         let mut residuals = Vec::new();
         for track in self.tracks {
             let of_cycles = if track.turns() > TURNS { OF_CYCLES } else { 1.0 };
@@ -78,10 +88,19 @@ impl PathFit<'_> {
                 let error = 1.5 * weight * (power(found) - power(data));
                 residuals.push(error.clamp(-MOST[0], MOST[0]));
                 let (found, data) = (deviator(found), deviator(data));
-                residuals.extend((0..6).map(|k| {
-                    let both = if k < 3 { 1.0 } else { std::f64::consts::SQRT_2 };
-                    (both * weight * (found[k] - data[k]) / scale).clamp(-MOST[1], MOST[1])
-                }));
+                residuals.extend(
+                    (0..6)
+                        .map(|k| (both(k) * weight * (found[k] - data[k]) / scale).clamp(-MOST[1], MOST[1])),
+                );
+                let bears = mean(step.to.stress) > LEAST_PRESSURE;
+                let weight = if bears { OF_FABRIC * USUAL_RATIO * weight } else { 0.0 };
+                let (fabric, known) = (state.ratios[FABRIC], deviator(step.to.fabric));
+                let least = law.fabric[0].max(LEAST_RATIO);
+                residuals.extend(
+                    (0..6).map(|k| {
+                        (both(k) * weight * (fabric[k] / least - known[k])).clamp(-MOST[1], MOST[1])
+                    }),
+                );
             }
         }
         residuals

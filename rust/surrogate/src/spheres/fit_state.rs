@@ -66,7 +66,7 @@ pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
         for k in 0..=track.steps.len() {
             let point = track.point(k);
             if mean(point.stress) >= LEAST_PRESSURE {
-                all.push((point.state(law), point, track.weight));
+                all.push((point.state(law), point, track.weight.sqrt()));
             }
         }
     }

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 pub const ELEMENTS: usize = 4;
 /// The element whose stress ratio is that of the directions of the contacts.
 pub const FABRIC: usize = ELEMENTS - 1;
+/// The element of friction that slides first, whose sliding is nearly the whole shear strain: with it goes the dilatancy.
+const FIRST: usize = 1;
 
 /// Numbers of the law. Stresses are over E*, compression positive; x is the solid fraction at jamming less 0.6, u = v/0.005.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,13 +20,11 @@ pub struct Law {
     pub bulk: [f64; 6],
     /// Stiffnesses go with e^(`shear`₀ x + `shear`₂ g) u^`shear`₁.
     pub shear: [f64; 3],
-    /// Growth of the pressure by the stress ratios: p = A (1 + `lift` Σ |η_k|²/c_k), summed over all elements but that of the fabric.
-    pub lift: f64,
     pub elements: [Element; ELEMENTS],
-    /// Loss of compression by a unit of sliding: d₁ + d₂ x + d₃ g + `dilatancy` of the element − w, w = d₀ η·n + d₅ η_f·n, with the
-    /// stress ratio η, its part η_f that is the fabric's, and the direction n of sliding; negative where grains climb over each other.
-    /// Where w < 0, as after strain has turned back, (1 + d₄) w counts in its place.
-    pub dilatancy: [f64; 6],
+    /// Loss of compression by a unit of sliding: d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n, with the stress ratio of the fabric η_f and the
+    /// direction n of sliding; negative where grains climb over each other. Beside it the fabric changes the compression without
+    /// sliding, see [`super`].
+    pub dilatancy: [f64; 5],
     /// Loss of compression by a unit of sliding beside it, of packings whose friction is mobilised and that hardly bear load:
     /// (1 − g)^c₃ c₀ e^(−c₁ x) u^(−c₂).
     pub collapse: [f64; 4],
@@ -50,14 +50,13 @@ pub struct Law {
 pub struct Element {
     /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1.
     pub stiffness: f64,
-    /// It slides when it exceeds `strength` e^(`growth` x + `free` g) times A, and times e^(`hardening` √v) for the fabric, or
-    /// min(√u, 1)^`hardening` for friction.
+    /// Power of u in it, beside that of [`Law::shear`].
+    pub stiffening: f64,
+    /// The stress ratio is at most `strength` e^(`growth` x + `free` g) min(√u, 1)^`hardening`.
     pub strength: f64,
     pub growth: f64,
     pub free: f64,
     pub hardening: f64,
-    /// Loss of compression by a unit of sliding of this element, see [`Law::dilatancy`].
-    pub dilatancy: f64,
     /// The stress ratio goes with this power of v where the packing is compressed without shear: 0 where new contacts have the
     /// directions of the old ones, −1 where none are made.
     pub power: f64,
@@ -81,8 +80,6 @@ const MOST_CLIMBING: f64 = 0.9;
 const SLACK: f64 = 1.0 + 1e-9;
 /// Added to squares of lengths before their root is taken, so that its derivative exists.
 const TINY: f64 = 1e-30;
-/// Least p/A; only states far beyond all known ones reach it.
-const LEAST_SHARE: f64 = 0.5;
 /// The mobilised part of the friction of beds that were poured, as `msdd bed run` counts it there: 0.84 between plates, 0.91 in a
 /// cylinder.
 pub const POURED: f64 = 0.85;
@@ -149,7 +146,7 @@ impl<N: Number> State<N> {
 impl State {
     /// What the usual number of contacts depends on.
     pub fn contact_row(&self) -> [f64; COEFFICIENTS] {
-        row(self.compression, self.density(), &self.ratio())
+        row(self.compression, self.density())
     }
 
     /// The same state, as numbers that do not depend on the strain.
@@ -205,21 +202,19 @@ impl Law {
         (exponent.exp() * v * v.sqrt()).times(b0)
     }
 
-    /// The stiffnesses' dependence on the state.
-    pub(super) fn shear<N: Number>(&self, compression: N, x: N, free: N) -> N {
-        let [stiffening, power, of_free] = self.shear;
+    /// The stiffness of an element.
+    pub(super) fn stiffness<N: Number>(&self, k: usize, compression: N, x: N, free: N) -> N {
+        let [of_density, power, of_free] = self.shear;
         let exponent =
-            (x.times(stiffening) + free.times(of_free)).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
-        exponent.exp() * Self::compressions(compression).1.power(power)
+            (x.times(of_density) + free.times(of_free)).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
+        let Element { stiffness, stiffening, .. } = self.elements[k];
+        exponent.exp() * Self::compressions(compression).1.power(power + stiffening).times(stiffness)
     }
 
     /// Strength of an element, by the root of v.
     pub(super) fn strength<N: Number>(&self, k: usize, x: N, free: N, root: N) -> N {
         let Element { strength, growth, free: of_free, hardening, .. } = self.elements[k];
-        let loaded = match k {
-            FABRIC => root,
-            _ => root.times(1.0 / libm::sqrt(USUAL_COMPRESSION)).at_most(1.0).ln(),
-        };
+        let loaded = root.times(1.0 / libm::sqrt(USUAL_COMPRESSION)).at_most(1.0).ln();
         let exponent = x.times(growth) + free.times(of_free) + loaded.times(hardening);
         exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
     }
@@ -238,15 +233,9 @@ impl Law {
         } else {
             return [N::of(0.0); 6];
         };
-        let mut lift = N::of(1.0);
-        let over = self.shear(state.compression, x, free).inverse();
-        for (ratio, element) in state.ratios.iter().zip(&self.elements).take(FABRIC) {
-            lift = lift + contraction(ratio, ratio).times(self.lift / element.stiffness) * over;
-        }
-        let mean = pressure * lift.at_least(LEAST_SHARE);
         let mut stress = scaled(&state.ratio(), pressure);
         for normal in &mut stress[..3] {
-            *normal = *normal + mean;
+            *normal = *normal + pressure;
         }
         stress
     }
@@ -268,7 +257,7 @@ impl Law {
             let (before, free) = (next.compression.value(), next.free().value());
             next = self.part(&next, thermal, cell);
             let [before, after] = [before, next.compression.value()].map(|v| v.max(LEAST_COMPRESSION));
-            forgotten += free.powi(4) * self.contacts.forgotten(before, after, &cell.map(Number::value));
+            forgotten += free.powi(8) * self.contacts.forgotten(before, after, &cell.map(Number::value));
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
         let usual = |state: &State<N>| self.contacts.usual(&state.value().contact_row());
@@ -298,23 +287,26 @@ impl Law {
         let opening = after * before.inverse();
         let opens = tried.value() < before.value();
         let distortion = deviator(strain);
-        let [d0, d1, d2, d3, d4, d5] = self.dilatancy;
-        let total = state.ratio();
-        let climbs = sum(&scaled(&total, N::of(d0)), &scaled(&state.ratios[FABRIC], N::of(d5)));
         let (compressed, u) = Self::compressions(after);
-        let usual = (x.times(d2) + free.times(d3)).plus(d1);
-        let (shear, root) = (self.shear(after, x, free), compressed.sqrt());
+        let root = compressed.sqrt();
         let mut ratios = state.ratios;
         let [c0, c1, c2, c3] = self.collapse;
         let bound = free.times(-1.0).plus(1.0).at_least(LEAST_MOBILISED);
         let collapse = (Self::exponential(x, -c1) * u.power(-c2)).times(c0) * bound.power(c3);
-        let (mut loss, mut sliding, mut back) = (N::of(0.0), N::of(0.0), N::of(0.0));
+        let [d0, d1, d2, d3, d4] = self.dilatancy;
+        let usual = (x.times(d1) + free.times(d2)).plus(d0) + collapse;
+        let climbs = scaled(&state.ratios[FABRIC], x.times(d4).plus(d3));
+        let total = state.ratio();
+        let [mut loss, mut sliding, mut back, mut work] = [N::of(0.0); 4];
         for (k, ratio) in ratios.iter_mut().enumerate() {
-            let stiffness = shear.times(self.elements[k].stiffness);
+            let stiffness = self.stiffness(k, after, x, free);
             let most = self.strength(k, x, free, root).times(Self::factor(k, state.strength));
-            let power = self.elements[k].power;
-            let reopened = if k != FABRIC && opens { self.reopening } else { 0.0 };
-            let faded = scaled(ratio, opening.power(power + reopened));
+            if k == FABRIC {
+                *ratio = reoriented(ratio, &distortion, stiffness * over, most);
+                continue;
+            }
+            let reopened = if opens { self.reopening } else { 0.0 };
+            let faded = scaled(ratio, opening.power(self.elements[k].power + reopened));
             let faded = within(&faded, most).0;
             let added = scaled(&distortion, stiffness * over);
             let elastic: Tensor<N> = std::array::from_fn(|c| faded[c] - added[c]);
@@ -323,17 +315,23 @@ impl Law {
             if let Some(excess) = excess {
                 let slid = excess * after * stiffness.inverse();
                 sliding = sliding + slid;
+                work = work + slid * most;
                 let along = contraction(&total, &elastic) * length.inverse();
                 if along.value() < 0.0 {
                     back = back + slid;
                 }
-                let climb = contraction(&climbs, &elastic) * length.inverse();
-                let against = climb.times(d4).at_most(0.0);
-                let climbing = usual.plus(self.elements[k].dilatancy) - climb - against + collapse;
-                let least = most.times(-MOST_CLIMBING);
-                loss = loss + slid * (if climbing.value() > least.value() { climbing } else { least });
+                if k == FIRST {
+                    loss = slid * (usual - contraction(&climbs, &elastic) * length.inverse());
+                }
             }
         }
+        let least = work.times(-MOST_CLIMBING);
+        if loss.value() < least.value() {
+            loss = least;
+        }
+        // What the stress of the fabric does is stored in the compression.
+        let middle = sum(&state.ratios[FABRIC], &ratios[FABRIC]);
+        loss = loss + contraction(&middle, &distortion).times(0.5);
         let [s0, s1, s2, s3] = self.settling;
         if opens {
             let usual = Self::exponential(x, -s2).times(s1);
@@ -343,6 +341,9 @@ impl Law {
         }
         let loss = if loss.value() < tried.value() { loss } else { tried };
         let compression = tried - loss;
+        // Contacts keep their directions where grains give way.
+        let kept = compression.at_least(LEAST_COMPRESSION) * before.inverse();
+        ratios[FABRIC] = scaled(&ratios[FABRIC], kept.power(self.elements[FABRIC].power));
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         let left = free * (sliding * over).times(-self.mobilising).at_least(-MOST_EXPONENT).exp();
         let kept = (back * over).times(-self.healing).at_least(-MOST_EXPONENT).exp();
@@ -350,6 +351,31 @@ impl Law {
         State { jamming, compression, ratios, mobilised, ..*state }
     }
 }
+
+/// The stress ratio of the fabric after a shear strain: dη = −c de/v − (c/M) f³ η |de|/v with f = (η·t)₊/M and the direction t of −de,
+/// so that it goes to its strength M along t, and hardly forgets in cycles that are small beside that; `stiffness` is c/v.
+fn reoriented<N: Number>(ratio: &Tensor<N>, distortion: &Tensor<N>, stiffness: N, most: N) -> Tensor<N> {
+    let ratio = within(ratio, most).0;
+    let over = most.inverse();
+    let size = contraction(distortion, distortion).plus(TINY).sqrt();
+    let near = (contraction(&ratio, distortion) * (size * most).inverse()).times(-1.0).at_least(0.0);
+    let rate = (stiffness * size * near * near * near * over).at_most(MOST_RATE);
+    let left = libm::exp(-rate.value());
+    let kept = rate.chain(left, -left);
+    // (1 − e^(−rate))/rate.
+    let share = if rate.value() > LEAST_RATE {
+        rate.chain(-libm::expm1(-rate.value()), left) * rate.inverse()
+    } else {
+        rate.times(-0.5).plus(1.0)
+    };
+    let added = share * stiffness;
+    let reached: Tensor<N> = std::array::from_fn(|c| ratio[c] * kept - distortion[c] * added);
+    within(&reached, most).0
+}
+
+/// The exponent with which the fabric forgets in one part: below the first it counts to the first order; and the largest.
+const LEAST_RATE: f64 = 1e-6;
+const MOST_RATE: f64 = 30.0;
 
 /// Number of parts of an increment: more where the packing is hardly compressed, because there its stress changes more.
 fn parts(compression: f64) -> u32 {

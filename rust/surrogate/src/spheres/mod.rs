@@ -11,15 +11,16 @@
 //! dη_k = −c_k de/v + m_k η_k dv/v,    |η_k| ≤ M_k,
 //!
 //! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths and stiffnesses
-//! depend on φ_J, since dense packings bear a larger deviator, on v, and on the friction that is mobilised. Pressure and stress are
-//! p = A (1 + l Σ |η_k|²/c_k), summed over the elements of friction without the last, that of the fabric, and σ = p + A Σ η_k.
-//! While a packing opens, the powers of the elements of friction are larger by [`law::Law::reopening`]; one that starts with more than all
-//! strengths has larger ones for good ([`law::State::strength`]).
+//! depend on φ_J, since dense packings bear a larger deviator, on v, and on the friction that is mobilised. The stress is
+//! σ = A (1 + Σ η_k). While a packing opens, the powers of the elements of friction are larger by [`law::Law::reopening`]; one that
+//! starts with more than all strengths has larger ones for good ([`law::State::strength`]).
 //!
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
-//! isotropic compression loads that axis more. The other elements stand for the friction of contacts, which compression makes
-//! forget: three of unequal strength, so that a packing that is strained the other way is stiff at first and then gives way little
-//! by little.
+//! isotropic compression loads that axis more. It does not slide but turns with the strain, dη_f = c_f |de|/v (t − f³ η_f/M_f) +
+//! m_f η_f dv/v with t = −de/|de| and f = (η_f·t)₊/M_f, the slower the nearer it is to its strength (with 1 in place of f³: Armstrong
+//! and Frederick, 1966, CEGB report RD/B/N731). The fit holds it to a fitted number times the deviator of the fabric. The other elements
+//! stand for the friction of contacts: three of unequal strength, so that a packing that is strained the other way is stiff at first
+//! and then gives way little by little.
 //!
 //! **Contacts.** The number of contacts per sphere is state, too, see [`contacts`]. It changes conductivities, not the stress.
 //!
@@ -28,13 +29,13 @@
 //! fraction and number of contacts do not tell one from the other. Sliding by s mobilises: dg = −m g ds/v;
 //! sliding against the stress does the contrary: d(1 − g) = −h (1 − g) ds/v.
 //!
-//! **Dilatancy.** Sliding of an element by s changes v by −(d₁ + d₂ x + d₃ g + δ_k − w) s with x = φ_J − 0.6, the dilatancy δ_k of that
-//! element (0 for the first and the third), and w = d₀ η·n + d₅ η_f·n, with the stress ratio η = Σ η_k, its part η_f that is the
-//! fabric's, and the direction n of sliding. Where w is negative, as after strain has turned back, (1 + d₄) w counts in its place. In the shipped law d₀ = 0. So φ_J
-//! grows where a loose packing is sheared, or any is sheared back, and falls where a dense one is sheared far (Rowe, 1962,
-//! Proc. R. Soc. A 269:500). Mobilised packings that hardly bear load give way beside it ([`law::Law::collapse`]). Where grains climb,
+//! **Dilatancy.** What the stress of the fabric does by a shear strain is stored in the compression: dv = −η_f:de, without a fitted
+//! number. So a packing whose contacts point along the axis that is compressed is loaded by shear, and one that is sheared back loses
+//! its load until its contacts have turned. Beside it, sliding of the element that slides first, by s, changes v by
+//! −(d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n) s with x = φ_J − 0.6 and the direction n of sliding. So φ_J grows where a loose packing is
+//! sheared, and falls in dense ones that are sheared far (Rowe, 1962, Proc. R. Soc. A 269:500; with the fabric, Li and Dafalias, 2012,
+//! J. Eng. Mech. 138:263). Mobilised packings that hardly bear load give way beside it ([`law::Law::collapse`]). Where grains climb,
 //! they take at most nine tenths of the work of friction.
-//! The number l above is the dilatancy that goes back when the deviator does.
 //! Where a packing opens, it settles ([`law::Law::settling`]), most where it is about to lose its load: φ_J grows, too.
 //!
 //! **Readouts.** Conductivities by contacts and by gas are functions of this state, see [`readout`].

@@ -1,7 +1,7 @@
 //! The numbers of the law that are fitted to stresses, as parameters without bounds and of about equal size.
 
 use super::contacts::{COEFFICIENTS, Contacts};
-use super::law::{Element, Law};
+use super::law::{Element, FABRIC, Law};
 use nalgebra::DVector;
 
 /// How a number becomes a parameter, and its bounds.
@@ -20,10 +20,11 @@ type Place = fn(&mut Law) -> &mut f64;
 const FREE: [f64; 2] = [-1e4, 1e4];
 const SIZE: [f64; 2] = [1e-6, 1e6];
 const STRENGTH: [f64; 2] = [1e-6, 2.0];
+const OF_FABRIC: [f64; 2] = [1e-6, 20.0];
 const POWER: [f64; 2] = [-2.0, 1.0];
 
 /// Number of parameters.
-pub const PARAMETERS: usize = 54;
+pub const PARAMETERS: usize = 51;
 
 /// Coefficients of x are divided by 10.
 const TABLE: [(Place, Scale); PARAMETERS] = [
@@ -32,55 +33,52 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.bulk[2], Over(1.0, [-5.0, 5.0])),
     (|law| &mut law.bulk[3], Over(1.0, [-1.0, 2.0])),
     (|law| &mut law.bulk[4], Over(1.0, [-1.0, 2.0])),
-    (|law| &mut law.bulk[5], Over(1.0, [-10.0, 10.0])),
+    (|law| &mut law.bulk[5], Over(1.0, [-20.0, 20.0])),
     (|law| &mut law.shear[0], Over(10.0, FREE)),
     (|law| &mut law.shear[1], Over(1.0, [-1.0, 1.0])),
     (|law| &mut law.shear[2], Over(1.0, [-5.0, 5.0])),
-    (|law| &mut law.lift, Over(1.0, [-10.0, 10.0])),
-    (|law| &mut law.dilatancy[0], Over(1.0, [0.0, 10.0])),
-    (|law| &mut law.dilatancy[1], Over(0.1, FREE)),
-    (|law| &mut law.dilatancy[2], Over(1.0, FREE)),
-    (|law| &mut law.dilatancy[3], Over(0.1, FREE)),
+    (|law| &mut law.dilatancy[0], Over(0.1, FREE)),
+    (|law| &mut law.dilatancy[1], Over(1.0, FREE)),
+    (|law| &mut law.dilatancy[2], Over(0.1, FREE)),
+    (|law| &mut law.dilatancy[3], Over(1.0, FREE)),
+    (|law| &mut law.dilatancy[4], Over(10.0, FREE)),
     (|law| &mut law.collapse[0], Over(0.1, [0.0, 10.0])),
     (|law| &mut law.collapse[1], Over(10.0, FREE)),
     (|law| &mut law.collapse[2], Over(1.0, [0.0, 3.0])),
     (|law| &mut law.collapse[3], Over(1.0, [0.05, 20.0])),
     (|law| &mut law.mobilising, Over(0.1, [0.0, 100.0])),
+    (|law| &mut law.healing, Over(0.1, [0.0, 1.0])),
+    (|law| &mut law.reopening, Over(1.0, [0.0, 2.0])),
     (|law| &mut law.settling[0], Over(1.0, [0.0, 10.0])),
     (|law| &mut law.settling[1], Logarithm([1e-9, 1.0])),
     (|law| &mut law.settling[2], Over(10.0, FREE)),
+    (|law| &mut law.settling[3], Over(0.1, [0.0, 0.5])),
     (|law| &mut law.fabric[0], Over(1.0, [0.0, 100.0])),
     (|law| &mut law.elements[0].stiffness, Logarithm(SIZE)),
     (|law| &mut law.elements[0].strength, Logarithm(STRENGTH)),
     (|law| &mut law.elements[0].growth, Over(10.0, FREE)),
     (|law| &mut law.elements[0].free, Over(1.0, [-10.0, 10.0])),
+    (|law| &mut law.elements[0].hardening, Over(1.0, [-3.0, 3.0])),
     (|law| &mut law.elements[0].power, Over(1.0, POWER)),
     (|law| &mut law.elements[1].stiffness, Logarithm(SIZE)),
     (|law| &mut law.elements[1].strength, Logarithm(STRENGTH)),
     (|law| &mut law.elements[1].growth, Over(10.0, FREE)),
     (|law| &mut law.elements[1].free, Over(1.0, [-10.0, 10.0])),
+    (|law| &mut law.elements[1].hardening, Over(1.0, [-3.0, 3.0])),
     (|law| &mut law.elements[1].power, Over(1.0, POWER)),
     (|law| &mut law.elements[2].stiffness, Logarithm(SIZE)),
     (|law| &mut law.elements[2].strength, Logarithm(STRENGTH)),
     (|law| &mut law.elements[2].growth, Over(10.0, FREE)),
     (|law| &mut law.elements[2].free, Over(1.0, [-10.0, 10.0])),
-    (|law| &mut law.elements[2].power, Over(1.0, POWER)),
-    (|law| &mut law.elements[3].stiffness, Logarithm(SIZE)),
-    (|law| &mut law.elements[3].strength, Logarithm(STRENGTH)),
-    (|law| &mut law.elements[3].growth, Over(10.0, FREE)),
-    (|law| &mut law.elements[3].free, Over(1.0, [-10.0, 10.0])),
-    (|law| &mut law.elements[3].hardening, Over(1.0, [-100.0, 100.0])),
-    (|law| &mut law.elements[3].power, Over(1.0, POWER)),
-    (|law| &mut law.elements[0].hardening, Over(1.0, [-3.0, 3.0])),
-    (|law| &mut law.elements[1].hardening, Over(1.0, [-3.0, 3.0])),
     (|law| &mut law.elements[2].hardening, Over(1.0, [-3.0, 3.0])),
-    (|law| &mut law.reopening, Over(1.0, [0.0, 2.0])),
-    (|law| &mut law.healing, Over(0.1, [0.0, 1.0])),
-    (|law| &mut law.dilatancy[4], Over(1.0, [0.0, 20.0])),
-    (|law| &mut law.dilatancy[5], Over(1.0, FREE)),
-    (|law| &mut law.elements[1].dilatancy, Over(0.1, FREE)),
-    (|law| &mut law.elements[3].dilatancy, Over(0.1, FREE)),
-    (|law| &mut law.settling[3], Over(0.1, [0.0, 0.5])),
+    (|law| &mut law.elements[2].power, Over(1.0, POWER)),
+    (|law| &mut law.elements[FABRIC].stiffness, Logarithm(SIZE)),
+    (|law| &mut law.elements[FABRIC].strength, Logarithm(OF_FABRIC)),
+    (|law| &mut law.elements[FABRIC].growth, Over(10.0, FREE)),
+    (|law| &mut law.elements[FABRIC].free, Over(1.0, [-10.0, 10.0])),
+    (|law| &mut law.elements[FABRIC].hardening, Over(1.0, [-3.0, 3.0])),
+    (|law| &mut law.elements[FABRIC].power, Over(1.0, POWER)),
+    (|law| &mut law.elements[FABRIC].stiffening, Over(1.0, [-1.0, 1.0])),
 ];
 
 /// The law's numbers as parameters.
@@ -107,32 +105,31 @@ pub fn law(parameters: &DVector<f64>) -> Law {
 
 /// Where the fit begins: values of an earlier fit, to three digits.
 pub fn beginning() -> Law {
-    let element = |[stiffness, strength, growth, free, hardening, power, dilatancy]: [f64; 7]| Element {
+    let element = |[stiffness, stiffening, strength, growth, free, hardening, power]: [f64; 7]| Element {
         stiffness,
+        stiffening,
         strength,
         growth,
         free,
         hardening,
         power,
-        dilatancy,
     };
     Law {
-        bulk: [0.0756, 9.18, 0.069, 0.243, 0.0786, -3.67],
-        shear: [6.24, 0.234, -0.34],
-        lift: 0.332,
+        bulk: [0.0831, 12.6, -0.183, 0.162, 0.301, -6.97],
+        shear: [9.5, 0.157, 0.175],
         elements: [
-            element([0.269, 0.326, 46.7, -0.392, 0.701, -0.947, 0.0]),
-            element([1.33, 0.0458, -12.4, 2.13, 0.153, -1.02, 0.0891]),
-            element([0.502, 0.104, 9.22, 0.819, 0.273, -0.823, 0.0]),
-            element([0.0263, 0.212, -14.3, -0.935, 17.3, -0.0796, -0.0954]),
+            element([0.185, 0.0, 0.135, 19.0, 0.42, 0.293, -1.12]),
+            element([0.863, 0.0, 0.0423, -25.3, 2.11, 0.291, -1.15]),
+            element([0.446, 0.0, 0.101, 4.06, 0.821, 0.205, -0.953]),
+            element([0.0546, 0.247, 0.445, 2.34, -0.738, 0.285, -0.157]),
         ],
-        dilatancy: [0.0, 0.0245, 0.0543, -0.0946, 0.758, 0.329],
-        collapse: [0.0157, 85.1, 0.384, 2.03],
-        mobilising: 0.00979,
-        healing: 0.0797,
-        reopening: 0.144,
-        settling: [0.0686, 0.000339, 143.0, 0.0128],
-        fabric: [4.99, 0.468],
+        dilatancy: [0.0252, -0.0331, -0.0352, -0.0749, 7.54],
+        collapse: [0.0992, 64.2, 0.222, 2.06],
+        mobilising: 0.0249,
+        healing: 0.172,
+        reopening: 0.175,
+        settling: [0.0421, 0.000312, 184.0, 0.0265],
+        fabric: [5.05, 0.529],
         contacts: Contacts { usual: [0.0; COEFFICIENTS], fading: [0.0; 2] },
     }
 }

@@ -13,12 +13,13 @@ pub const GAS_NUMBERS: [f64; 3] = [3.5, 6.0, 8.5];
 /// Numbers of gas for which κ_g may be asked: parabolas through the three known ones.
 pub const GAS_RANGE: [f64; 2] = [2.5, 9.5];
 
-/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r² = |η|², and n = z − 5.5 with the contacts per sphere z.
+/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r = |η|, n = z − 5.5 with the contacts per sphere z, and the part g of the
+/// friction that is not mobilised.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
-    /// C: coefficients of 1, n, n², s, v, n s, x, r².
-    pub contact: [f64; 8],
+    /// C: coefficients of 1, n, n², s, v, n s, x, r, g, g n.
+    pub contact: [f64; 10],
     /// Deviator of κ_c over its mean: coefficients of η without the fabric's part, and of that.
     pub direction: [f64; 2],
     /// κ_g at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s.
@@ -41,9 +42,9 @@ fn common(state: &State) -> [f64; 3] {
     [v.sqrt(), v, state.coordination.clamp(CONTACTS[0], CONTACTS[1]) - USUAL_CONTACTS]
 }
 
-pub fn contact_row(state: &State) -> [f64; 8] {
-    let ([s, v, n], ratio) = (common(state), state.ratio());
-    [1.0, n, n * n, s, v, n * s, state.density(), contraction(&ratio, &ratio)]
+pub fn contact_row(state: &State) -> [f64; 10] {
+    let ([s, v, n], ratio, free) = (common(state), state.ratio(), state.free());
+    [1.0, n, n * n, s, v, n * s, state.density(), contraction(&ratio, &ratio).sqrt(), free, free * n]
 }
 
 /// η without the fabric's part, and that.

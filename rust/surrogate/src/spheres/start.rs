@@ -101,8 +101,7 @@ impl Law {
             state.strength = needed.clamp(MOST_OF_FRICTION, MOST_STRENGTH);
             state.ratios[FABRIC] = within(&both, most * Self::factor(FABRIC, state.strength)).0;
         }
-        let shear = self.shear(compression, x, free);
-        let stiffness: [f64; FABRIC] = std::array::from_fn(|k| shear * self.elements[k].stiffness);
+        let stiffness: [f64; FABRIC] = std::array::from_fn(|k| self.stiffness(k, compression, x, free));
         let limits: [f64; FABRIC] =
             std::array::from_fn(|k| Self::factor(k, state.strength) * strengths[k] / stiffness[k]);
         let common = shared(limits, stiffness, size);

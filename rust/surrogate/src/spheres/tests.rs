@@ -316,7 +316,7 @@ fn conductivities_that_are_known_along_z_alone_teach_the_same() {
 fn files_that_no_training_wrote_are_refused() {
     let text = model().to_json();
     let message = |text: &str| SphereModel::read(text).expect_err("unsound").to_string();
-    assert!(message(&text.replace("spheres-model-6", "spheres-model-5")).contains("spheres-model-5"));
+    assert!(message(&text.replace("spheres-model-7", "spheres-model-6")).contains("spheres-model-6"));
     assert!(message(&text[..text.len() / 2]).contains("damaged"));
     let mut file = model().file;
     file.law.bulk[0] = -1.0;

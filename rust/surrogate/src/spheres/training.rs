@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 
 /// Usual number of epochs: the fit begins near its minimum, and after these it is there for all practical purposes.
-pub const USUAL_EPOCHS: u32 = 20;
+pub const USUAL_EPOCHS: u32 = 12;
 /// One packing in so many is held out of the training.
 const HELD_OUT: u64 = 5;
 /// Least number of states to which the law is fitted.
