@@ -85,8 +85,8 @@ const TINY: f64 = 1e-30;
 pub const POURED: f64 = 0.85;
 /// Largest factor of the strengths of friction.
 pub(super) const MOST_OF_FRICTION: f64 = 2.0;
-/// Largest [`State::strength`]: there friction and fabric are both twice as strong as they usually are.
-pub const MOST_STRENGTH: f64 = 4.0;
+/// Largest [`State::strength`]: there friction is twice as strong as it usually is, and the fabric four times.
+pub const MOST_STRENGTH: f64 = 8.0;
 /// Least part of mobilised friction of which a power is taken.
 const LEAST_MOBILISED: f64 = 1e-6;
 /// Largest exponent of the exponential functions of x.

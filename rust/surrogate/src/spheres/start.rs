@@ -22,7 +22,7 @@ impl Law {
     /// The state with a solid fraction, a stress over E*, and what else is known. The fabric bears its part; the other elements
     /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
     /// than the strengths of friction has larger ones, by a common factor of at most 2; what friction cannot bear then, the fabric
-    /// bears, whose strength grows by at most 2 for it. What is beyond that is lost.
+    /// bears, whose strength grows by at most 4 for it. What is beyond that is lost.
     pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
         let mobilised = known.mobilised.unwrap_or(POURED).clamp(0.0, 1.0);
         let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator), mobilised);
