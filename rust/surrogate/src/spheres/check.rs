@@ -14,7 +14,7 @@ impl Law {
     /// [`SurrogateError::Field`] with key, value and what is allowed.
     pub fn check(&self) -> Result<(), SurrogateError> {
         let [b0, b1, b2, b3, b4, b5] = self.bulk;
-        let [stiffening, shear_power, of_free] = self.shear;
+        let [of_density, shear_power, of_free] = self.shear;
         let [c0, c1, c2, c3] = self.collapse;
         let [s0, s1, s2, s3] = self.settling;
         let [per_anisotropy, usual] = self.fabric;
@@ -26,7 +26,7 @@ impl Law {
             ("bulk[3]", b3, (-1.0..=2.0).contains(&b3), "-1 to 2"),
             ("bulk[4]", b4, (-1.0..=2.0).contains(&b4), "-1 to 2"),
             ("bulk[5]", b5, b5.abs() <= 20.0, "-20 to 20"),
-            ("shear[0]", stiffening, stiffening.abs() <= LARGE, "-1e4 to 1e4"),
+            ("shear[0]", of_density, of_density.abs() <= LARGE, "-1e4 to 1e4"),
             ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
             ("shear[2]", of_free, of_free.abs() <= 5.0, "-5 to 5"),
             ("mobilising", self.mobilising, (0.0..=100.0).contains(&self.mobilising), "0 to 100"),

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 /// Error above which a residual counts less than by its square, since some packings rearrange suddenly.
 const ROBUST: f64 = 0.05;
-/// Largest residuals of pressure and deviator.
+/// Largest residuals of pressure, and of deviator and fabric.
 const MOST: [f64; 2] = [5.0, 3.0];
 /// Relative step of the numerical derivatives.
 const STEP: f64 = 1e-4;
@@ -53,9 +53,10 @@ pub fn scales(track: &Track) -> Vec<f64> {
     each.collect()
 }
 
-/// Weight of the fabric's residuals: it is known whatever it bears, so that it is what counts the contacts and not only what fits the
-/// stress. And its usual stress ratio over its deviator.
+/// Weight of the errors of the fabric beside those of the stress. They hold the fourth element to the fabric that was counted; else it
+/// would take any value that fits the stress.
 const OF_FABRIC: f64 = 0.3;
+/// Usual stress ratio over the deviator of the fabric: it turns errors of the fabric into errors of a stress ratio.
 const USUAL_RATIO: f64 = 5.0;
 /// Least such number by which is divided.
 const LEAST_RATIO: f64 = 0.1;
@@ -95,12 +96,10 @@ impl PathFit<'_> {
                 let bears = mean(step.to.stress) > LEAST_PRESSURE;
                 let weight = if bears { OF_FABRIC * USUAL_RATIO * weight } else { 0.0 };
                 let (fabric, known) = (state.ratios[FABRIC], deviator(step.to.fabric));
-                let least = law.fabric[0].max(LEAST_RATIO);
-                residuals.extend(
-                    (0..6).map(|k| {
-                        (both(k) * weight * (fabric[k] / least - known[k])).clamp(-MOST[1], MOST[1])
-                    }),
-                );
+                let per_anisotropy = law.fabric[0].max(LEAST_RATIO);
+                residuals.extend((0..6).map(|k| {
+                    (both(k) * weight * (fabric[k] / per_anisotropy - known[k])).clamp(-MOST[1], MOST[1])
+                }));
             }
         }
         residuals

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 pub const ELEMENTS: usize = 4;
 /// The element whose stress ratio is that of the directions of the contacts.
 pub const FABRIC: usize = ELEMENTS - 1;
-/// The element of friction that slides first, whose sliding is nearly the whole shear strain: with it goes the dilatancy.
+/// The element with whose sliding goes the dilatancy. In all but the loosest packings it slides first, and its sliding is nearly the
+/// whole shear strain.
 const FIRST: usize = 1;
 
 /// Numbers of the law. Stresses are over E*, compression positive; x is the solid fraction at jamming less 0.6, u = v/0.005.
@@ -21,11 +22,11 @@ pub struct Law {
     /// Stiffnesses go with e^(`shear`₀ x + `shear`₂ g) u^`shear`₁.
     pub shear: [f64; 3],
     pub elements: [Element; ELEMENTS],
-    /// Loss of compression by a unit of sliding: d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n, with the stress ratio of the fabric η_f and the
+    /// Loss of compression by a unit of sliding of the second element: d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n, with the stress ratio of the fabric η_f and the
     /// direction n of sliding; negative where grains climb over each other. Beside it the fabric changes the compression without
     /// sliding, see [`super`].
     pub dilatancy: [f64; 5],
-    /// Loss of compression by a unit of sliding beside it, of packings whose friction is mobilised and that hardly bear load:
+    /// Loss of compression by a unit of that sliding beside it, of packings whose friction is mobilised and that hardly bear load:
     /// (1 − g)^c₃ c₀ e^(−c₁ x) u^(−c₂).
     pub collapse: [f64; 4],
     /// Growth of the mobilised friction by sliding: dg = −m g ds/v.
@@ -373,8 +374,9 @@ fn reoriented<N: Number>(ratio: &Tensor<N>, distortion: &Tensor<N>, stiffness: N
     within(&reached, most).0
 }
 
-/// The exponent with which the fabric forgets in one part: below the first it counts to the first order; and the largest.
+/// The exponent with which the fabric forgets in one part counts to the first order below this.
 const LEAST_RATE: f64 = 1e-6;
+/// The largest such exponent: it forgets all.
 const MOST_RATE: f64 = 30.0;
 
 /// Number of parts of an increment: more where the packing is hardly compressed, because there its stress changes more.

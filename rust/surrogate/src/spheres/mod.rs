@@ -31,11 +31,11 @@
 //!
 //! **Dilatancy.** What the stress of the fabric does by a shear strain is stored in the compression: dv = −η_f:de, without a fitted
 //! number. So a packing whose contacts point along the axis that is compressed is loaded by shear, and one that is sheared back loses
-//! its load until its contacts have turned. Beside it, sliding of the element that slides first, by s, changes v by
-//! −(d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n) s with x = φ_J − 0.6 and the direction n of sliding. So φ_J grows where a loose packing is
-//! sheared, and falls in dense ones that are sheared far (Rowe, 1962, Proc. R. Soc. A 269:500; with the fabric, Li and Dafalias, 2012,
-//! J. Eng. Mech. 138:263). Mobilised packings that hardly bear load give way beside it ([`law::Law::collapse`]). Where grains climb,
-//! they take at most nine tenths of the work of friction.
+//! its load until its contacts have turned. Beside it, sliding of the second element, by s, changes v by
+//! −(d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n) s with x = φ_J − 0.6 and the direction n of sliding (Rowe, 1962, Proc. R. Soc. A 269:500; with the fabric, Li and Dafalias, 2012, J. Eng.
+//! Mech. 138:263), and mobilised packings that hardly bear load give way beside it ([`law::Law::collapse`]). Together these make φ_J grow
+//! where a loose packing is sheared, and fall in dense ones that are sheared far. Where grains climb, they take at most nine tenths
+//! of the work of friction.
 //! Where a packing opens, it settles ([`law::Law::settling`]), most where it is about to lose its load: φ_J grows, too.
 //!
 //! **Readouts.** Conductivities by contacts and by gas are functions of this state, see [`readout`].

@@ -14,15 +14,15 @@ const START_RATIO: f64 = 0.7;
 enum Borne {
     /// The deviator of the fabric, which is known.
     Fabric(Tensor),
-    /// The pressure over E* of a packing whose fabric is not known: it is that of usual packings.
-    Usual(f64),
+    /// It is not known: the fabric bears its usual part.
+    Usual,
 }
 
 impl Law {
     /// The state with a solid fraction, a stress over E*, and what else is known. The fabric bears its part; the other elements
     /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
     /// than the strengths of friction has larger ones, by a common factor of at most 2; what friction cannot bear then, the fabric
-    /// bears, whose strength grows by at most 4 for it. What is beyond that is lost.
+    /// bears, whose strength is then at most four times as large. What is beyond that is lost.
     pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
         let mobilised = known.mobilised.unwrap_or(POURED).clamp(0.0, 1.0);
         let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator), mobilised);
@@ -32,12 +32,12 @@ impl Law {
 
     fn start_of_stress(&self, solid: f64, stress: Tensor, fabric: Option<Tensor>, mobilised: f64) -> State {
         let (pressure, load) = (mean(stress), deviator(stress));
-        let fabric = fabric.map_or(Borne::Usual(pressure), Borne::Fabric);
+        let fabric = fabric.map_or(Borne::Usual, Borne::Fabric);
         let at = |compression: f64| self.loaded(solid, compression, &load, &fabric, mobilised);
         if pressure <= 0.0 {
             return State { ratios: [[0.0; 6]; ELEMENTS], strength: 1.0, ..at(0.0) };
         }
-        // The pressure of a packing with this deviator falls with v, and below some v it would grow again: the larger root counts.
+        // The pressure grows with v, but where a law has much of it depend on φ_J, which falls as v grows: the largest root counts.
         let beyond = |compression: f64| mean(self.stress(&at(compression))) - pressure;
         let (mut high, mut excess) = (MOST_COMPRESSION, beyond(MOST_COMPRESSION));
         let mut low = high;
@@ -83,8 +83,7 @@ impl Law {
         let strength = strengths.iter().sum::<f64>();
         let of_fabric = match fabric {
             Borne::Fabric(fabric) => fabric.map(|part| per_anisotropy * part),
-            // A share of the deviator over the pressure, which a deviator makes larger than A.
-            Borne::Usual(pressure) => ratio.map(|part| (usual / (over * pressure)).min(usual) * part),
+            Borne::Usual => ratio.map(|part| usual * part),
         };
         let most = self.strength(FABRIC, x, free, root);
         state.ratios[FABRIC] = within(&of_fabric, most).0;
