@@ -17,6 +17,7 @@ impl Law {
         let [of_density, shear_power, of_free] = self.shear;
         let [c0, c1, c2, c3] = self.collapse;
         let [s0, s1, s2, s3] = self.settling;
+        let z0 = self.least_contacts;
         let [per_anisotropy, usual] = self.fabric;
         let mut numbers = vec![
             ("bulk[0]", b0, (1e-6..=1e6).contains(&b0), "1e-6 to 1e6"),
@@ -29,9 +30,11 @@ impl Law {
             ("shear[0]", of_density, of_density.abs() <= LARGE, "-1e4 to 1e4"),
             ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
             ("shear[2]", of_free, of_free.abs() <= 5.0, "-5 to 5"),
+            ("least_contacts", z0, (0.0..=6.0).contains(&z0), "0 to 6"),
+            ("forgetting", self.forgetting, (0.0..=1.0).contains(&self.forgetting), "0 to 1"),
             ("mobilising", self.mobilising, (0.0..=100.0).contains(&self.mobilising), "0 to 100"),
-            ("healing", self.healing, (0.0..=1.0).contains(&self.healing), "0 to 1"),
             ("reopening", self.reopening, (0.0..=2.0).contains(&self.reopening), "0 to 2"),
+            ("climbing", self.climbing, (0.0..=5.0).contains(&self.climbing), "0 to 5"),
             ("collapse[0]", c0, (0.0..=10.0).contains(&c0), "0 to 10"),
             ("collapse[1]", c1, c1.abs() <= LARGE, "-1e4 to 1e4"),
             ("collapse[2]", c2, (0.0..=3.0).contains(&c2), "0 to 3"),
@@ -45,10 +48,9 @@ impl Law {
         ];
         numbers.extend(self.dilatancy.iter().map(|d| ("dilatancy", *d, d.abs() <= LARGE, "-1e4 to 1e4")));
         for element in &self.elements {
-            let Element { stiffness, stiffening, strength, growth, free, hardening, power } = *element;
+            let Element { stiffness, strength, growth, free, hardening, power } = *element;
             numbers.extend([
                 ("element.stiffness", stiffness, (1e-6..=1e6).contains(&stiffness), "1e-6 to 1e6"),
-                ("element.stiffening", stiffening, stiffening.abs() <= 1.0, "-1 to 1"),
                 ("element.strength", strength, (1e-6..=20.0).contains(&strength), "1e-6 to 20"),
                 ("element.growth", growth, growth.abs() <= LARGE, "-1e4 to 1e4"),
                 ("element.free", free, free.abs() <= 10.0, "-10 to 10"),

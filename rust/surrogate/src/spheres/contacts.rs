@@ -1,58 +1,110 @@
 //! The number of contacts per sphere along a path of strain.
 //!
-//! z = z̄ + ζ: a mean z̄ of all packings in a state of the law, and what a packing has more than that. A strain makes it forget ζ,
-//! compression as well as shear: dζ = −ζ g⁸ (a |dv|/v + b |de|/v), with the deviator de of the strain and the part g of the friction
-//! that is not mobilised. So boxes that were made with less friction, whose contacts are many for that reason, lose them when they are
-//! strained; a bed whose friction is mobilised has more contacts than a box because grains without load rest on others, and keeps them.
+//! z = z̄ + ζ: the number z̄ of packings that were sheared, or whose friction is mobilised, which is a function of compression and
+//! density; and what a packing has more than that, ζ. Packings that were made with less friction than they have afterwards have more
+//! contacts where they are neither hardly nor much compressed, in proportion to the part g of their friction that is not mobilised and to
+//! h = 4 w/(1 + w)², w = v/0.005. Compression adds S g dh where h grows, and ζ goes with h where it falls: contacts that are lost when a
+//! packing opens come back when it closes. Shear makes it forget them, dζ = −b ζ |de|/v with the deviator de of the strain, and
+//! compression some, dζ = −a ζ |dv|/v. Where nearly all friction is mobilised, as in beds that were poured, nothing of ζ is lost: such
+//! beds have more contacts than boxes because grains without load rest on others.
 
+use super::law::{LEAST_COMPRESSION, State};
+use super::number::Number;
 use super::tensor::{Tensor, contraction, deviator};
 use serde::{Deserialize, Serialize};
 
 /// Number of coefficients of z̄.
-pub const COEFFICIENTS: usize = 8;
+pub const COEFFICIENTS: usize = 6;
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contacts {
     /// z̄: coefficients of [`row`].
-    pub usual: [f64; COEFFICIENTS],
+    pub sheared: [f64; COEFFICIENTS],
+    /// S.
+    pub surplus: f64,
     /// a and b.
     pub fading: [f64; 2],
 }
 
-/// Compression below which packings that were opened have lost contacts.
-const OPENED: f64 = 1.5e-4;
+/// The elastic compression at which packings have the most contacts beyond z̄.
+const LEVEL: f64 = 5e-3;
+/// Added to h before a ratio of two is taken.
+const LEAST_SHARE: f64 = 1e-3;
+/// The part of the friction that is not mobilised below which a packing keeps ζ, how sharply, and the least of which a power is taken.
+const KEEPING: f64 = 0.25;
+const SHARPLY: f64 = 8.0;
+const LEAST_FREE: f64 = 1e-3;
+/// Largest exponent with which shear makes ζ forgotten in one part of a strain.
+const MOST_EXPONENT: f64 = 8.0;
+/// Compression below which packings have fewer contacts the less they are compressed.
+const HARDLY: f64 = 1.5e-4;
 /// Bounds of z: none has more than equal spheres of the densest packings.
 const CONTACTS: [f64; 2] = [0.0, 12.0];
+/// Added to squares of lengths before their root is taken, so that its derivative exists.
+const TINY: f64 = 1e-30;
 
-/// 1, s, v, x, x², x s, o, o x, with s = √v, x = φ_J − 0.6 and o = 1/(1 + v/1.5e-4), of the elastic compression v and x.
-pub fn row(compression: f64, x: f64) -> [f64; COEFFICIENTS] {
-    let v = compression.max(0.0);
+/// 1, s, v, x, x s, o, with s = √v and o = 1/(1 + v/1.5e-4), of the elastic compression v and x = φ_J − 0.6.
+pub fn row<N: Number>(compression: N, x: N) -> [N; COEFFICIENTS] {
+    let v = compression.at_least(LEAST_COMPRESSION);
     let s = v.sqrt();
-    let opened = 1.0 / (1.0 + v / OPENED);
-    [1.0, s, v, x, x * x, x * s, opened, opened * x]
+    [N::of(1.0), s, v, x, x * s, v.times(1.0 / HARDLY).plus(1.0).inverse()]
+}
+
+/// h.
+fn share<N: Number>(compression: N) -> N {
+    let w = compression.times(1.0 / LEVEL);
+    let over = w.plus(1.0).inverse();
+    (w * over * over).times(4.0)
 }
 
 impl Contacts {
-    /// z̄ of a state with this [`row`].
-    pub fn usual(&self, row: &[f64; COEFFICIENTS]) -> f64 {
-        let sum: f64 = row.iter().zip(&self.usual).map(|(a, b)| a * b).sum();
-        sum.clamp(CONTACTS[0], CONTACTS[1])
+    /// z̄ of a state.
+    pub fn sheared<N: Number>(&self, state: &State<N>) -> N {
+        let row = state.contact_row();
+        let sum = row.into_iter().zip(self.sheared).fold(N::of(0.0), |sum, (part, c)| sum + part.times(c));
+        sum.at_least(CONTACTS[0]).at_most(CONTACTS[1])
     }
 
-    /// −ln of what is left of ζ after a strain between two compressions above 0.
-    pub fn forgotten(&self, before: f64, after: f64, strain: &Tensor) -> f64 {
+    /// z of a packing that was not strained since it was made.
+    pub fn packed(&self, state: &State) -> f64 {
+        self.sheared(state) + self.surplus * state.free() * share(state.compression.max(0.0))
+    }
+
+    /// z after a strain, which takes the packing from one state to the other.
+    pub fn after<N: Number>(&self, from: &State<N>, to: &State<N>, strain: &Tensor<N>) -> N {
+        let [left, more] = self.shares(from, to, strain);
+        self.sheared(to) + left * (from.coordination - self.sheared(from)) + more.times(self.surplus)
+    }
+
+    /// What a strain leaves of ζ, and what it adds to it, over S.
+    pub fn shares<N: Number>(&self, from: &State<N>, to: &State<N>, strain: &Tensor<N>) -> [N; 2] {
         let [of_compression, of_shear] = self.fading;
+        let [before, after] = [from, to].map(|state| state.compression.at_least(LEAST_COMPRESSION));
+        let free = from.free();
+        let mobilised = free.at_least(LEAST_FREE).inverse().times(KEEPING).power(SHARPLY);
+        let forgets = mobilised.plus(1.0).inverse();
         let distortion = deviator(*strain);
-        let length = contraction(&distortion, &distortion).sqrt() / after;
-        of_compression * libm::log(after / before).abs() + of_shear * length
+        let length = contraction(&distortion, &distortion).plus(TINY).sqrt() * after.inverse();
+        let sheared = length.times(-of_shear).at_least(-MOST_EXPONENT);
+        let [had, has] = [before, after].map(share);
+        if has.value() <= had.value() {
+            let opened = (has.plus(LEAST_SHARE) * had.plus(LEAST_SHARE).inverse()).ln();
+            return [(forgets * (sheared + opened)).exp(), N::of(0.0)];
+        }
+        let closed = (after * before.inverse()).ln();
+        let sense = if closed.value() > 0.0 { -1.0 } else { 1.0 };
+        let left = (forgets * (sheared + closed.times(sense * of_compression))).exp();
+        // Half of what is new has seen the shear.
+        [left, (has - had) * free * (forgets * sheared).times(0.5).exp()]
     }
 
     /// Numbers for [`super::law::Law::check`]: name, value, whether it is allowed, and what is.
-    pub fn numbers(&self) -> impl Iterator<Item = (&'static str, f64, bool, &'static str)> {
-        let usual =
-            self.usual.into_iter().map(|value| ("contacts.usual", value, value.abs() <= 1e6, "-1e6 to 1e6"));
+    pub(super) fn numbers(&self) -> impl Iterator<Item = (&'static str, f64, bool, &'static str)> {
+        let large = |value: f64| ("contacts.sheared", value, value.abs() <= 1e6, "-1e6 to 1e6");
+        let sheared = self.sheared.into_iter().map(large);
+        let surplus = ("contacts.surplus", self.surplus, (0.0..=10.0).contains(&self.surplus), "0 to 10");
         let fading = |value: f64| ("contacts.fading", value, (0.0..=100.0).contains(&value), "0 to 100");
-        usual.chain(self.fading.into_iter().map(fading))
+        sheared.chain([surplus]).chain(self.fading.into_iter().map(fading))
     }
 }

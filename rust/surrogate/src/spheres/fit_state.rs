@@ -4,14 +4,14 @@ use super::contacts::{COEFFICIENTS, Contacts};
 use super::law::{FABRIC, Law, State};
 use super::readout::{Readout, contact_row, directions, gas_row, relative};
 use super::tensor::{contraction, deviator, mean};
-use super::tracks::{Point, Track, follow_from};
+use super::tracks::{Point, Track};
 use crate::least_squares;
 
 /// Least p/E* of states to which is fitted, less than that of a bed under its own weight.
 const LEAST_PRESSURE: f64 = 3e-9;
 /// Numbers of [`Contacts::fading`] that are tried.
-const OF_COMPRESSION: [f64; 5] = [0.0, 0.1, 0.2, 0.4, 0.8];
-const OF_SHEAR: [f64; 5] = [0.1, 0.3, 1.0, 3.0, 10.0];
+const OF_COMPRESSION: [f64; 6] = [0.0, 0.2, 0.3, 0.4, 0.5, 0.7];
+const OF_SHEAR: [f64; 7] = [0.2, 0.4, 0.5, 0.6, 0.8, 1.2, 2.0];
 
 /// The fabric's usual part of the stress ratio: that of the packings before any strain, by least squares.
 pub fn usual_fabric(law: &Law, tracks: &[Track]) -> f64 {
@@ -24,38 +24,51 @@ pub fn usual_fabric(law: &Law, tracks: &[Track]) -> f64 {
     if square > 0.0 { (both / square).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// The number of contacts along tracks: z − z̄ at their start is known there.
+/// The number of contacts along tracks, with the hidden state that the law has for stress and solid fraction of the data: what is
+/// z − z̄ at their start is known there.
 pub fn contacts(law: &Law, tracks: &[Track]) -> Contacts {
+    let states_of = |track: &Track| (0..=track.steps.len()).map(|k| track.point(k).state(law)).collect();
+    let tracks: Vec<(&Track, Vec<State>)> = tracks.iter().map(|track| (track, states_of(track))).collect();
     let all = OF_COMPRESSION.into_iter().flat_map(|a| OF_SHEAR.map(|b| [a, b]));
-    let found = all.map(|fading| contacts_that_fade(law, tracks, fading));
+    let found = all.map(|fading| contacts_that_fade(&tracks, fading));
     let best = found.reduce(|best, other| if other.1 < best.1 { other } else { best });
     best.map_or(law.contacts, |(contacts, _)| contacts)
 }
 
-fn contacts_that_fade(law: &Law, tracks: &[Track], fading: [f64; 2]) -> (Contacts, f64) {
-    // Without a mean, the number of contacts goes from 1 to what is left of z − z̄.
-    let mut law = law.clone();
-    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading };
-    let mut samples: Vec<([f64; COEFFICIENTS], f64, f64)> = Vec::new();
-    for track in tracks {
-        let packed = State { coordination: 1.0, ..track.packed.state(&law) };
-        let first = packed.contact_row();
-        let states = follow_from(&law, track, packed);
-        for (step, state) in track.steps.iter().zip(&states[1..]) {
-            if mean(step.to.stress) < LEAST_PRESSURE || state.compression <= 0.0 {
+fn contacts_that_fade(tracks: &[(&Track, Vec<State>)], fading: [f64; 2]) -> (Contacts, f64) {
+    const NUMBERS: usize = COEFFICIENTS + 1;
+    let mut contacts = Contacts { sheared: [0.0; COEFFICIENTS], surplus: 0.0, fading };
+    let mut samples: Vec<([f64; NUMBERS], f64, f64)> = Vec::new();
+    for (track, states) in tracks {
+        let first = states[0].contact_row();
+        // Of each state: what is left of z − z̄ of the packing, and what has come since, over S.
+        let mut all = vec![[1.0, 0.0]];
+        for (step, to) in track.steps.iter().zip(&states[1..]) {
+            let [xx, yy, zz, xy, xz, yz] = step.stretch;
+            let strain = [xx, yy, zz, 0.5 * xy, 0.5 * xz, 0.5 * yz];
+            let [left, more] = contacts.shares(&states[step.from], to, &strain);
+            let [of_packing, since] = all[step.from];
+            let [left, more] = [left * of_packing, left * since + more];
+            all.push([left, more]);
+            if mean(step.to.stress) < LEAST_PRESSURE || to.compression <= 0.0 {
                 continue;
             }
-            let (left, row) = (state.coordination, state.contact_row());
-            let row = std::array::from_fn(|k| row[k] - left * first[k]);
-            samples.push((row, step.to.coordination - left * track.packed.coordination, track.weight));
+            let row = to.contact_row();
+            let numbers = std::array::from_fn(|k| match k {
+                COEFFICIENTS => more,
+                _ => row[k] - left * first[k],
+            });
+            samples.push((numbers, step.to.coordination - left * track.packed.coordination, track.weight));
         }
     }
-    let usual = least_squares::fit(samples.iter().copied());
-    let error = |(row, z, weight): &([f64; COEFFICIENTS], f64, f64)| {
-        let sum: f64 = row.iter().zip(&usual).map(|(a, b)| a * b).sum();
+    let found = least_squares::fit(samples.iter().copied());
+    let error = |(numbers, z, weight): &([f64; NUMBERS], f64, f64)| {
+        let sum: f64 = numbers.iter().zip(&found).map(|(a, b)| a * b).sum();
         weight * (sum - z) * (sum - z)
     };
-    (Contacts { usual, fading }, samples.iter().map(error).sum())
+    contacts.sheared = std::array::from_fn(|k| found[k]);
+    contacts.surplus = found[COEFFICIENTS];
+    (contacts, samples.iter().map(error).sum())
 }
 
 /// Fits the conductivities to the states of the data with the hidden state that the law has there: its compression is that which

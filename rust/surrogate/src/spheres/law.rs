@@ -21,19 +21,22 @@ pub struct Law {
     pub bulk: [f64; 6],
     /// Stiffnesses go with e^(`shear`₀ x + `shear`₂ g) u^`shear`₁.
     pub shear: [f64; 3],
+    /// z₀: contacts per sphere of a packing whose fabric does not turn.
+    pub least_contacts: f64,
+    /// α: the part of the fabric's forgetting that does not wait until the fabric is near its strength, see [`reoriented`].
+    pub forgetting: f64,
     pub elements: [Element; ELEMENTS],
     /// Loss of compression by a unit of sliding of the second element: d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n, with the stress ratio of the fabric η_f and the
     /// direction n of sliding; negative where grains climb over each other. Beside it the fabric changes the compression without
     /// sliding, see [`super`].
     pub dilatancy: [f64; 5],
+    /// What each contact per sphere beyond z̄ takes from that loss, times g: packings that were made with little friction climb at first.
+    pub climbing: f64,
     /// Loss of compression by a unit of that sliding beside it, of packings whose friction is mobilised and that hardly bear load:
     /// (1 − g)^c₃ c₀ e^(−c₁ x) u^(−c₂).
     pub collapse: [f64; 4],
     /// Growth of the mobilised friction by sliding: dg = −m g ds/v.
     pub mobilising: f64,
-    /// Loss of mobilised friction by sliding against the stress: d(1 − g) = −h (1 − g) ds/v. Contacts that were about to slide are
-    /// so no more.
-    pub healing: f64,
     /// Added to the [`Element::power`] of the elements of friction while the packing opens.
     pub reopening: f64,
     /// Loss of compression by a unit of opening: s₀/(1 + (v/v₀)²) + s₃ (1 − g), v₀ = s₁ e^(−s₂ x). The first is that of packings
@@ -49,10 +52,9 @@ pub struct Law {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Element {
-    /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1.
+    /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1. Of the fabric, its growth by the contacts per
+    /// sphere beyond [`Law::least_contacts`], whatever x and u are.
     pub stiffness: f64,
-    /// Power of u in it, beside that of [`Law::shear`].
-    pub stiffening: f64,
     /// The stress ratio is at most `strength` e^(`growth` x + `free` g) min(√u, 1)^`hardening`.
     pub strength: f64,
     pub growth: f64,
@@ -90,6 +92,10 @@ pub(super) const MOST_OF_FRICTION: f64 = 2.0;
 pub const MOST_STRENGTH: f64 = 8.0;
 /// Least part of mobilised friction of which a power is taken.
 const LEAST_MOBILISED: f64 = 1e-6;
+/// Added to v where sliding is counted over it.
+const SOFT: f64 = 5e-5;
+/// Contacts per sphere over which the fabric's stiffness goes from none to its slope.
+const ROUNDING: f64 = 0.2;
 /// Largest exponent of the exponential functions of x.
 const MOST_EXPONENT: f64 = 8.0;
 
@@ -106,8 +112,8 @@ pub struct State<N = f64> {
     pub strength: f64,
     /// Part of the friction that is mobilised, 0 to 1: as where all contacts were made under friction (1), or without any (0).
     pub mobilised: N,
-    /// z: contacts per sphere, all spheres counted. It changes the conductivity, not the stress.
-    pub coordination: f64,
+    /// z: contacts per sphere, all spheres counted. By it the fabric turns.
+    pub coordination: N,
 }
 
 /// What may be known of a packing beside its solid fraction and stress. What is not known is as it usually is.
@@ -145,11 +151,6 @@ impl<N: Number> State<N> {
 }
 
 impl State {
-    /// What the usual number of contacts depends on.
-    pub fn contact_row(&self) -> [f64; COEFFICIENTS] {
-        row(self.compression, self.density())
-    }
-
     /// The same state, as numbers that do not depend on the strain.
     pub fn fixed<N: Number>(&self) -> State<N> {
         State {
@@ -158,12 +159,17 @@ impl State {
             ratios: self.ratios.map(|ratio| ratio.map(N::of)),
             mobilised: N::of(self.mobilised),
             strength: self.strength,
-            coordination: self.coordination,
+            coordination: N::of(self.coordination),
         }
     }
 }
 
 impl<N: Number> State<N> {
+    /// What the number of contacts depends on.
+    pub fn contact_row(&self) -> [N; COEFFICIENTS] {
+        row(self.compression, self.density())
+    }
+
     pub fn value(&self) -> State {
         State {
             jamming: self.jamming.value(),
@@ -171,7 +177,7 @@ impl<N: Number> State<N> {
             ratios: self.ratios.map(|ratio| ratio.map(Number::value)),
             mobilised: self.mobilised.value(),
             strength: self.strength,
-            coordination: self.coordination,
+            coordination: self.coordination.value(),
         }
     }
 }
@@ -203,13 +209,21 @@ impl Law {
         (exponent.exp() * v * v.sqrt()).times(b0)
     }
 
-    /// The stiffness of an element.
+    /// The stiffness of an element of friction.
     pub(super) fn stiffness<N: Number>(&self, k: usize, compression: N, x: N, free: N) -> N {
         let [of_density, power, of_free] = self.shear;
         let exponent =
             (x.times(of_density) + free.times(of_free)).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
-        let Element { stiffness, stiffening, .. } = self.elements[k];
-        exponent.exp() * Self::compressions(compression).1.power(power + stiffening).times(stiffness)
+        let u = Self::compressions(compression).1;
+        exponent.exp() * u.power(power).times(self.elements[k].stiffness)
+    }
+
+    /// c: the stiffness of the fabric's element, [`Element::stiffness`] (z − z₀) where there are contacts enough, and smoothly none
+    /// below.
+    fn turning<N: Number>(&self, state: &State<N>) -> N {
+        let more = state.coordination.plus(-self.least_contacts);
+        let length = (more * more).plus(ROUNDING * ROUNDING).sqrt();
+        (more + length).times(0.5 * self.elements[FABRIC].stiffness)
     }
 
     /// Strength of an element, by the root of v.
@@ -249,20 +263,16 @@ impl Law {
         let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
         let square = square(&cell);
         let count = parts(state.compression.value());
-        let mut forgotten = 0.0;
         for part in 0..count {
             // Equal parts of the whole, E/n (1 + k E/n)⁻¹, which compose to it; of the cell to the second order.
             let (part, share) = (f64::from(part), 1.0 / f64::from(count));
             let thermal = strain.thermal * strain.thermal.times(part).plus(f64::from(count)).inverse();
             let cell = std::array::from_fn(|c| cell[c].times(share) - square[c].times(part * share * share));
-            let (before, free) = (next.compression.value(), next.free().value());
-            next = self.part(&next, thermal, cell);
-            let [before, after] = [before, next.compression.value()].map(|v| v.max(LEAST_COMPRESSION));
-            forgotten += free.powi(8) * self.contacts.forgotten(before, after, &cell.map(Number::value));
+            let before = next;
+            next = self.part(&before, thermal, cell);
+            next.coordination = self.contacts.after(&before, &next, &cell);
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
-        let usual = |state: &State<N>| self.contacts.usual(&state.value().contact_row());
-        next.coordination = usual(&next) + (state.coordination - usual(state)) * libm::exp(-forgotten);
         next
     }
 
@@ -295,17 +305,17 @@ impl Law {
         let bound = free.times(-1.0).plus(1.0).at_least(LEAST_MOBILISED);
         let collapse = (Self::exponential(x, -c1) * u.power(-c2)).times(c0) * bound.power(c3);
         let [d0, d1, d2, d3, d4] = self.dilatancy;
-        let usual = (x.times(d1) + free.times(d2)).plus(d0) + collapse;
+        let surplus = (state.coordination - self.contacts.sheared(state)) * free;
+        let usual = (x.times(d1) + free.times(d2) - surplus.times(self.climbing)).plus(d0) + collapse;
         let climbs = scaled(&state.ratios[FABRIC], x.times(d4).plus(d3));
-        let total = state.ratio();
-        let [mut loss, mut sliding, mut back, mut work] = [N::of(0.0); 4];
+        let [mut loss, mut sliding, mut work] = [N::of(0.0); 3];
         for (k, ratio) in ratios.iter_mut().enumerate() {
-            let stiffness = self.stiffness(k, after, x, free);
             let most = self.strength(k, x, free, root).times(Self::factor(k, state.strength));
             if k == FABRIC {
-                *ratio = reoriented(ratio, &distortion, stiffness * over, most);
+                *ratio = reoriented(ratio, &distortion, self.turning(state) * over, most, self.forgetting);
                 continue;
             }
+            let stiffness = self.stiffness(k, after, x, free);
             let reopened = if opens { self.reopening } else { 0.0 };
             let faded = scaled(ratio, opening.power(self.elements[k].power + reopened));
             let faded = within(&faded, most).0;
@@ -317,10 +327,6 @@ impl Law {
                 let slid = excess * after * stiffness.inverse();
                 sliding = sliding + slid;
                 work = work + slid * most;
-                let along = contraction(&total, &elastic) * length.inverse();
-                if along.value() < 0.0 {
-                    back = back + slid;
-                }
                 if k == FIRST {
                     loss = slid * (usual - contraction(&climbs, &elastic) * length.inverse());
                 }
@@ -346,21 +352,30 @@ impl Law {
         let kept = compression.at_least(LEAST_COMPRESSION) * before.inverse();
         ratios[FABRIC] = scaled(&ratios[FABRIC], kept.power(self.elements[FABRIC].power));
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
-        let left = free * (sliding * over).times(-self.mobilising).at_least(-MOST_EXPONENT).exp();
-        let kept = (back * over).times(-self.healing).at_least(-MOST_EXPONENT).exp();
-        let mobilised = left.times(-1.0).plus(1.0) * kept;
+        // Where packings are about to lose their load, v is small beside any sliding.
+        let soft = after.plus(SOFT).inverse();
+        let left = free * (sliding * soft).times(-self.mobilising).at_least(-MOST_EXPONENT).exp();
+        let mobilised = left.times(-1.0).plus(1.0);
         State { jamming, compression, ratios, mobilised, ..*state }
     }
 }
 
-/// The stress ratio of the fabric after a shear strain: dη = −c de/v − (c/M) f³ η |de|/v with f = (η·t)₊/M and the direction t of −de,
-/// so that it goes to its strength M along t, and hardly forgets in cycles that are small beside that; `stiffness` is c/v.
-fn reoriented<N: Number>(ratio: &Tensor<N>, distortion: &Tensor<N>, stiffness: N, most: N) -> Tensor<N> {
+/// The stress ratio of the fabric after a shear strain: dη = −c de/v − (c/M) (α + (1 − α) f²) η |de|/v with f = (η·t)₊/M and the
+/// direction t of −de, so that it goes to its strength M along t; `stiffness` is c/v, `always` is α: with 1 it would be the rule of
+/// Armstrong and Frederick, with 0 small cycles would hardly change the fabric.
+fn reoriented<N: Number>(
+    ratio: &Tensor<N>,
+    distortion: &Tensor<N>,
+    stiffness: N,
+    most: N,
+    always: f64,
+) -> Tensor<N> {
     let ratio = within(ratio, most).0;
     let over = most.inverse();
     let size = contraction(distortion, distortion).plus(TINY).sqrt();
     let near = (contraction(&ratio, distortion) * (size * most).inverse()).times(-1.0).at_least(0.0);
-    let rate = (stiffness * size * near * near * near * over).at_most(MOST_RATE);
+    let forgets = (near * near).times(1.0 - always).plus(always);
+    let rate = (stiffness * size * forgets * over).at_most(MOST_RATE);
     let left = libm::exp(-rate.value());
     let kept = rate.chain(left, -left);
     // (1 − e^(−rate))/rate.

@@ -16,18 +16,20 @@
 //! starts with more than all strengths has larger ones for good ([`law::State::strength`]).
 //!
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
-//! isotropic compression loads that axis more. It does not slide but turns with the strain, dη_f = c_f |de|/v (t − f³ η_f/M_f) +
-//! m_f η_f dv/v with t = −de/|de| and f = (η_f·t)₊/M_f, the slower the nearer it is to its strength (with 1 in place of f³: Armstrong
-//! and Frederick, 1966, CEGB report RD/B/N731). The fit holds it to a fitted number times the deviator of the fabric. The other elements
+//! isotropic compression loads that axis more. It does not slide but turns with the strain, dη_f = c_f |de|/v (t − (α + (1 − α) f²)
+//! η_f/M_f) + m_f η_f dv/v with t = −de/|de| and f = (η_f·t)₊/M_f, the slower the nearer it is to its strength (with α = 1: Armstrong
+//! and Frederick, 1966, CEGB report RD/B/N731). Its stiffness c_f is proportional to the contacts per sphere beyond some, z − z₀. The
+//! fit holds it to a fitted number times the deviator of the fabric. The other elements
 //! stand for the friction of contacts: three of unequal strength, so that a packing that is strained the other way is stiff at first
 //! and then gives way little by little.
 //!
-//! **Contacts.** The number of contacts per sphere is state, too, see [`contacts`]. It changes conductivities, not the stress.
+//! **Contacts.** The number of contacts per sphere z is state, too, see [`contacts`]: the fabric turns by it, and conductivities
+//! depend on it.
 //!
 //! **Mobilised friction.** g is the part of the friction that is not mobilised: 0 in boxes that were packed with
 //! their own friction, where many contacts are about to slide; 1 − μ_p/μ in boxes that were packed with less friction μ_p. Solid
-//! fraction and number of contacts do not tell one from the other. Sliding by s mobilises: dg = −m g ds/v;
-//! sliding against the stress does the contrary: d(1 − g) = −h (1 − g) ds/v.
+//! fraction and number of contacts do not tell one from the other. Sliding by s mobilises:
+//! dg = −m g ds/(v + v_s), with a small v_s.
 //!
 //! **Dilatancy.** What the stress of the fabric does by a shear strain is stored in the compression: dv = −η_f:de, without a fitted
 //! number. So a packing whose contacts point along the axis that is compressed is loaded by shear, and one that is sheared back loses

@@ -26,7 +26,7 @@ impl Law {
     pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
         let mobilised = known.mobilised.unwrap_or(POURED).clamp(0.0, 1.0);
         let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator), mobilised);
-        state.coordination = known.coordination.unwrap_or_else(|| self.contacts.usual(&state.contact_row()));
+        state.coordination = known.coordination.unwrap_or_else(|| self.contacts.packed(&state));
         state
     }
 

@@ -1,6 +1,6 @@
 //! What holds for the law whatever its numbers are, and that a training finds them.
 
-use super::contacts::{COEFFICIENTS, Contacts};
+use super::contacts::Contacts;
 use super::fit_state::readout;
 use super::law::{FABRIC, Known, Law, POURED, State};
 use super::model::{COLUMNS, Increment, SphereModel, columns, state};
@@ -266,8 +266,7 @@ fn a_training_finds_the_law_that_made_the_data() {
     law.bulk[0] *= 1.2;
     law.elements[0].strength *= 0.8;
     law.elements[1].stiffness *= 1.3;
-    law.contacts = Contacts { usual: [0.0; COEFFICIENTS], fading: [0.2, 1.0] };
-    law.contacts.usual[..2].copy_from_slice(&[4.5, 10.0]);
+    law.contacts = Contacts { sheared: [4.5, 10.0, 0.0, 0.0, 0.0, 0.0], surplus: 1.5, fading: [0.2, 0.4] };
     let all = tracks(&law, 40);
     let options = TrainingOptions { max_epochs: 40, threads: 2, ..TrainingOptions::default() };
     let model = train(&all, &options).expect("good data");
@@ -316,7 +315,7 @@ fn conductivities_that_are_known_along_z_alone_teach_the_same() {
 fn files_that_no_training_wrote_are_refused() {
     let text = model().to_json();
     let message = |text: &str| SphereModel::read(text).expect_err("unsound").to_string();
-    assert!(message(&text.replace("spheres-model-7", "spheres-model-6")).contains("spheres-model-6"));
+    assert!(message(&text.replace("spheres-model-8", "spheres-model-7")).contains("spheres-model-7"));
     assert!(message(&text[..text.len() / 2]).contains("damaged"));
     let mut file = model().file;
     file.law.bulk[0] = -1.0;
@@ -381,6 +380,46 @@ fn packings_keep_the_contacts_they_have_more_unless_they_were_made_without_frict
     assert!((kept(0.0, 0.0) - 0.8).abs() < 1e-6);
     let (little, far) = (kept(0.0, 1e-6), kept(0.0, 3e-3));
     assert!(little > 0.75 && far < 0.6 && far > 0.0, "{little} {far}");
+}
+
+/// Compression brings contacts where friction is free, opening takes them, closing brings them back, and shear makes a packing forget
+/// them.
+#[test]
+fn contacts_of_packings_of_little_friction_come_with_compression_and_go_with_shear() {
+    let law = model().file.law;
+    let stress = [1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0];
+    let more = |state: &State| state.coordination - law.contacts.sheared(state);
+    let start =
+        |mobilised: f64| law.start(0.635, stress, &Known { mobilised: Some(mobilised), ..Known::default() });
+    let opened = |state: &State| advanced(&law, state, -1e-4, [0.0; 6]);
+    let closed = |state: &State| advanced(&law, state, 1e-4, [0.0; 6]);
+    let packed = start(0.0);
+    assert!(more(&packed) > 0.3, "{}", more(&packed));
+    assert!(more(&start(1.0)).abs() < 1e-12);
+    let [up, down, back] =
+        [closed(&packed), opened(&packed), closed(&opened(&packed))].map(|state| more(&state));
+    assert!(up > 1.2 * more(&packed) && down < 0.7 * more(&packed), "{up} {down} {}", more(&packed));
+    assert!((back / more(&packed) - 1.0).abs() < 0.3, "{back} {}", more(&packed));
+    let sheared = advanced(&law, &packed, 0.0, [3e-3, -3e-3, 0.0, 0.0, 0.0, 0.0]);
+    assert!(more(&sheared) < 0.5 * more(&packed), "{} {}", more(&sheared), more(&packed));
+}
+
+/// The fabric turns towards the axis that is compressed, in proportion to the contacts beyond some.
+#[test]
+fn the_fabric_turns_by_the_number_of_contacts() {
+    let law = model().file.law;
+    let stress = [1e-5, 1e-5, 1e-5, 0.0, 0.0, 0.0];
+    let turned = |contacts: f64| {
+        let known = Known { coordination: Some(contacts), mobilised: Some(0.0), ..Known::default() };
+        let start = law.start(0.635, stress, &known);
+        let after = advanced(&law, &start, 0.0, [1e-5, -1e-5, 0.0, 0.0, 0.0, 0.0]);
+        assert!(after.ratios[FABRIC][0] < 0.0 && after.ratios[FABRIC][1] > 0.0);
+        after.ratios[FABRIC][1]
+    };
+    let [few, some, many] = [law.least_contacts - 1.0, 5.0, 6.0].map(turned);
+    let ratio = (6.0 - law.least_contacts) / (5.0 - law.least_contacts);
+    assert!((many / some / ratio - 1.0).abs() < 0.05, "{many} {some} {ratio}");
+    assert!(few < 0.1 * some, "{few} {some}");
 }
 
 /// Beds whose friction is mobilised give way where they are sheared; those that were packed without friction bear. Each has a solid

@@ -3,7 +3,7 @@
 use super::fit::{PathFit, fit};
 use super::fit_state::{contacts, readout, usual_fabric};
 use super::model::{File, Ranges, Report, SCHEMA, SphereModel};
-use super::parameters::PARAMETERS;
+use super::parameters::{PARAMETERS, beginning};
 use super::tensor::{Tensor, contraction, deviator, mean};
 use super::tracks::{Track, follow};
 use crate::SurrogateError;
@@ -54,10 +54,10 @@ pub fn train_without(
         let text = "beds that were poured alone, which tell nothing of the gas, allowed: them beside boxes";
         return Err(SurrogateError::Data(text.to_string()));
     }
-    let problem = PathFit { tracks: &seen, threads: options.threads_used(), fixed };
+    let contacts = contacts(&beginning(), &seen);
+    let problem = PathFit { tracks: &seen, threads: options.threads_used(), contacts, fixed };
     let (mut law, minimum) = fit(&problem, options.max_epochs);
     law.fabric[1] = usual_fabric(&law, &seen);
-    law.contacts = contacts(&law, &seen);
     let readout = readout(&law, &seen);
     let ranges = ranges(&law, &seen);
     let packings = |tracks: &[Track]| tracks.iter().map(|track| track.packing).collect::<BTreeSet<_>>().len();
