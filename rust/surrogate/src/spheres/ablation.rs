@@ -28,7 +28,7 @@ type LeftOut = (Option<&'static str>, &'static [(usize, f64)]);
 /// ln of the least strength that a file may have.
 const NONE: f64 = -13.8;
 
-const LINES: [LeftOut; 14] = [
+const LINES: [LeftOut; 15] = [
     (None, &[]),
     (
         Some("mobilised friction"),
@@ -47,6 +47,7 @@ const LINES: [LeftOut; 14] = [
             (34, 0.0),
             (40, 0.0),
             (46, 0.0),
+            (51, 0.0),
         ],
     ),
     (Some("collapse"), &[(14, 0.0), (15, 0.0), (16, 0.0), (17, 1.0)]),
@@ -90,7 +91,8 @@ const LINES: [LeftOut; 14] = [
     (Some("powers of the pressure other than Hertz's"), &[(3, 0.0), (4, 0.0), (5, 0.0)]),
     (Some("strengths that depend on the load"), &[(29, 0.0), (35, 0.0), (41, 0.0), (47, 0.0)]),
     (Some("another power while it opens"), &[(19, 0.0)]),
-    (Some("dilatancy by sliding"), &[(9, 0.0), (10, 0.0), (11, 0.0), (12, 0.0), (13, 0.0)]),
+    (Some("dilatancy by sliding"), &[(9, 0.0), (10, 0.0), (11, 0.0), (12, 0.0), (13, 0.0), (51, 0.0)]),
+    (Some("climbing by the contacts that a packing has more"), &[(51, 0.0)]),
     (Some("the fabric in the dilatancy by sliding"), &[(12, 0.0), (13, 0.0)]),
 ];
 

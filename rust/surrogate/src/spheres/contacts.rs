@@ -1,12 +1,15 @@
 //! The number of contacts per sphere along a path of strain.
 //!
-//! z = z̄ + ζ: the number z̄ of packings that were sheared, or whose friction is mobilised, which is a function of compression and
+//! z = z̄ + ζ: the number z̄ of boxes that were sheared, or whose friction is mobilised, which is a function of compression and
 //! density; and what a packing has more than that, ζ. Packings that were made with less friction than they have afterwards have more
 //! contacts where they are neither hardly nor much compressed, in proportion to the part g of their friction that is not mobilised and to
-//! h = 4 w/(1 + w)², w = v/0.005. Compression adds S g dh where h grows, and ζ goes with h where it falls: contacts that are lost when a
-//! packing opens come back when it closes. Shear makes it forget them, dζ = −b ζ |de|/v with the deviator de of the strain, and
-//! compression some, dζ = −a ζ |dv|/v. Where nearly all friction is mobilised, as in beds that were poured, nothing of ζ is lost: such
-//! beds have more contacts than boxes because grains without load rest on others.
+//! h = 4 w/(1 + w)², w = v/0.005. Where h grows with the compression v,
+//!
+//! dζ = S g dh − F a ζ |dv|/v,
+//!
+//! and where it falls, dζ = (F ζ/h + (1 − F) S g) dh: contacts that are lost when a packing opens come back when it closes. Shear makes it
+//! forget them, dζ = −F b ζ |de|/v with the deviator de of the strain. F = 1/(1 + (0.25/g)⁸) is 0 where nearly all friction is mobilised,
+//! as in beds that were poured: these have more contacts than boxes because grains without load rest on others, and keep them.
 
 use super::law::{LEAST_COMPRESSION, State};
 use super::number::Number;
@@ -31,14 +34,18 @@ pub struct Contacts {
 const LEVEL: f64 = 5e-3;
 /// Added to h before a ratio of two is taken.
 const LEAST_SHARE: f64 = 1e-3;
-/// The part of the friction that is not mobilised below which a packing keeps ζ, how sharply, and the least of which a power is taken.
+/// The part of the friction that is not mobilised below which a packing keeps ζ.
 const KEEPING: f64 = 0.25;
+/// How sharply.
 const SHARPLY: f64 = 8.0;
+/// Least part of which that power is taken.
 const LEAST_FREE: f64 = 1e-3;
 /// Largest exponent with which shear makes ζ forgotten in one part of a strain.
 const MOST_EXPONENT: f64 = 8.0;
 /// Compression below which packings have fewer contacts the less they are compressed.
 const HARDLY: f64 = 1.5e-4;
+/// Largest S.
+pub(super) const MOST_SURPLUS: f64 = 10.0;
 /// Bounds of z: none has more than equal spheres of the densest packings.
 const CONTACTS: [f64; 2] = [0.0, 12.0];
 /// Added to squares of lengths before their root is taken, so that its derivative exists.
@@ -68,13 +75,15 @@ impl Contacts {
 
     /// z of a packing that was not strained since it was made.
     pub fn packed(&self, state: &State) -> f64 {
-        self.sheared(state) + self.surplus * state.free() * share(state.compression.max(0.0))
+        let more = self.surplus * state.free() * share(state.compression.max(0.0));
+        (self.sheared(state) + more).clamp(CONTACTS[0], CONTACTS[1])
     }
 
     /// z after a strain, which takes the packing from one state to the other.
     pub fn after<N: Number>(&self, from: &State<N>, to: &State<N>, strain: &Tensor<N>) -> N {
         let [left, more] = self.shares(from, to, strain);
-        self.sheared(to) + left * (from.coordination - self.sheared(from)) + more.times(self.surplus)
+        let kept = left * (from.coordination - self.sheared(from));
+        (self.sheared(to) + kept + more.times(self.surplus)).at_least(CONTACTS[0]).at_most(CONTACTS[1])
     }
 
     /// What a strain leaves of ζ, and what it adds to it, over S.
@@ -90,7 +99,8 @@ impl Contacts {
         let [had, has] = [before, after].map(share);
         if has.value() <= had.value() {
             let opened = (has.plus(LEAST_SHARE) * had.plus(LEAST_SHARE).inverse()).ln();
-            return [(forgets * (sheared + opened)).exp(), N::of(0.0)];
+            let keeps = forgets.times(-1.0).plus(1.0);
+            return [(forgets * (sheared + opened)).exp(), (has - had) * free * keeps];
         }
         let closed = (after * before.inverse()).ln();
         let sense = if closed.value() > 0.0 { -1.0 } else { 1.0 };
@@ -103,7 +113,8 @@ impl Contacts {
     pub(super) fn numbers(&self) -> impl Iterator<Item = (&'static str, f64, bool, &'static str)> {
         let large = |value: f64| ("contacts.sheared", value, value.abs() <= 1e6, "-1e6 to 1e6");
         let sheared = self.sheared.into_iter().map(large);
-        let surplus = ("contacts.surplus", self.surplus, (0.0..=10.0).contains(&self.surplus), "0 to 10");
+        let surplus =
+            ("contacts.surplus", self.surplus, (0.0..=MOST_SURPLUS).contains(&self.surplus), "0 to 10");
         let fading = |value: f64| ("contacts.fading", value, (0.0..=100.0).contains(&value), "0 to 100");
         sheared.chain([surplus]).chain(self.fading.into_iter().map(fading))
     }

@@ -1,6 +1,6 @@
 //! Fit of what depends on the state of the law: usual fabric, number of contacts, conductivities.
 
-use super::contacts::{COEFFICIENTS, Contacts};
+use super::contacts::{COEFFICIENTS, Contacts, MOST_SURPLUS};
 use super::law::{FABRIC, Law, State};
 use super::readout::{Readout, contact_row, directions, gas_row, relative};
 use super::tensor::{contraction, deviator, mean};
@@ -24,8 +24,8 @@ pub fn usual_fabric(law: &Law, tracks: &[Track]) -> f64 {
     if square > 0.0 { (both / square).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// The number of contacts along tracks, with the hidden state that the law has for stress and solid fraction of the data: what is
-/// z − z̄ at their start is known there.
+/// The number of contacts along tracks whose packings have a known number, with the hidden state that the law has for stress and solid
+/// fraction of the data.
 pub fn contacts(law: &Law, tracks: &[Track]) -> Contacts {
     let states_of = |track: &Track| (0..=track.steps.len()).map(|k| track.point(k).state(law)).collect();
     let tracks: Vec<(&Track, Vec<State>)> = tracks.iter().map(|track| (track, states_of(track))).collect();
@@ -67,7 +67,7 @@ fn contacts_that_fade(tracks: &[(&Track, Vec<State>)], fading: [f64; 2]) -> (Con
         weight * (sum - z) * (sum - z)
     };
     contacts.sheared = std::array::from_fn(|k| found[k]);
-    contacts.surplus = found[COEFFICIENTS];
+    contacts.surplus = found[COEFFICIENTS].clamp(0.0, MOST_SURPLUS);
     (contacts, samples.iter().map(error).sum())
 }
 

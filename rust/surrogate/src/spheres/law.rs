@@ -19,7 +19,7 @@ const FIRST: usize = 1;
 pub struct Law {
     /// A = b₀ e^(b₁ x + b₂ g) v^(3/2) (1 + √u)^(b₃ + b₄ g + b₅ x), with the part g of the friction that is not mobilised.
     pub bulk: [f64; 6],
-    /// Stiffnesses go with e^(`shear`₀ x + `shear`₂ g) u^`shear`₁.
+    /// Stiffnesses of the elements of friction go with e^(`shear`₀ x + `shear`₂ g) u^`shear`₁.
     pub shear: [f64; 3],
     /// z₀: contacts per sphere of a packing whose fabric does not turn.
     pub least_contacts: f64,
@@ -35,7 +35,7 @@ pub struct Law {
     /// Loss of compression by a unit of that sliding beside it, of packings whose friction is mobilised and that hardly bear load:
     /// (1 − g)^c₃ c₀ e^(−c₁ x) u^(−c₂).
     pub collapse: [f64; 4],
-    /// Growth of the mobilised friction by sliding: dg = −m g ds/v.
+    /// Growth of the mobilised friction by sliding: dg = −m g ds/(v + 5e-5).
     pub mobilising: f64,
     /// Added to the [`Element::power`] of the elements of friction while the packing opens.
     pub reopening: f64,
@@ -52,8 +52,8 @@ pub struct Law {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Element {
-    /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1. Of the fabric, its growth by the contacts per
-    /// sphere beyond [`Law::least_contacts`], whatever x and u are.
+    /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1. Of the fabric: for each
+    /// contact per sphere beyond [`Law::least_contacts`], at any x, u and g.
     pub stiffness: f64,
     /// The stress ratio is at most `strength` e^(`growth` x + `free` g) min(√u, 1)^`hardening`.
     pub strength: f64,

@@ -10,7 +10,7 @@
 //!
 //! dη_k = −c_k de/v + m_k η_k dv/v,    |η_k| ≤ M_k,
 //!
-//! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths and stiffnesses
+//! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths, and stiffnesses of friction,
 //! depend on φ_J, since dense packings bear a larger deviator, on v, and on the friction that is mobilised. The stress is
 //! σ = A (1 + Σ η_k). While a packing opens, the powers of the elements of friction are larger by [`law::Law::reopening`]; one that
 //! starts with more than all strengths has larger ones for good ([`law::State::strength`]).
@@ -18,8 +18,9 @@
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
 //! isotropic compression loads that axis more. It does not slide but turns with the strain, dη_f = c_f |de|/v (t − (α + (1 − α) f²)
 //! η_f/M_f) + m_f η_f dv/v with t = −de/|de| and f = (η_f·t)₊/M_f, the slower the nearer it is to its strength (with α = 1: Armstrong
-//! and Frederick, 1966, CEGB report RD/B/N731). Its stiffness c_f is proportional to the contacts per sphere beyond some, z − z₀. The
-//! fit holds it to a fitted number times the deviator of the fabric. The other elements
+//! and Frederick, 1966, CEGB report RD/B/N731). The
+//! fit holds η_f to a fitted number times the deviator of the fabric. Its stiffness c_f is proportional to the contacts per sphere
+//! beyond some, z − z₀, and depends on nothing else. The other elements
 //! stand for the friction of contacts: three of unequal strength, so that a packing that is strained the other way is stiff at first
 //! and then gives way little by little.
 //!
@@ -34,7 +35,7 @@
 //! **Dilatancy.** What the stress of the fabric does by a shear strain is stored in the compression: dv = −η_f:de, without a fitted
 //! number. So a packing whose contacts point along the axis that is compressed is loaded by shear, and one that is sheared back loses
 //! its load until its contacts have turned. Beside it, sliding of the second element, by s, changes v by
-//! −(d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n) s with x = φ_J − 0.6 and the direction n of sliding (Rowe, 1962, Proc. R. Soc. A 269:500; with the fabric, Li and Dafalias, 2012, J. Eng.
+//! −(d₀ + d₁ x + d₂ g − d₅ g ζ − (d₃ + d₄ x) η_f·n) s with x = φ_J − 0.6 and the direction n of sliding (Rowe, 1962, Proc. R. Soc. A 269:500; with the fabric, Li and Dafalias, 2012, J. Eng.
 //! Mech. 138:263), and mobilised packings that hardly bear load give way beside it ([`law::Law::collapse`]). Together these make φ_J grow
 //! where a loose packing is sheared, and fall in dense ones that are sheared far. Where grains climb, they take at most nine tenths
 //! of the work of friction.

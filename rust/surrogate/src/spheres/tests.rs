@@ -404,6 +404,25 @@ fn contacts_of_packings_of_little_friction_come_with_compression_and_go_with_she
     assert!(more(&sheared) < 0.5 * more(&packed), "{} {}", more(&sheared), more(&packed));
 }
 
+/// Whatever part of the friction is mobilised, a packing that is heated and cooled a hundred times does not gather contacts.
+#[test]
+fn contacts_do_not_grow_with_cycles() {
+    let law = model().file.law;
+    let stress = [1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0];
+    for mobilised in [0.0, 0.5, 0.75, POURED, 1.0] {
+        let known = Known { mobilised: Some(mobilised), coordination: Some(5.0), ..Known::default() };
+        let start = law.start(0.6, stress, &known);
+        let mut state = start;
+        for _ in 0..100 {
+            state = advanced(&law, &state, 2e-4, [0.0; 6]);
+            state = advanced(&law, &state, -2e-4, [0.0; 6]);
+        }
+        let grown = state.coordination - start.coordination;
+        assert!(grown < 0.15, "{mobilised} {grown}");
+        assert!(mobilised < POURED || grown > -0.15, "{mobilised} {grown}");
+    }
+}
+
 /// The fabric turns towards the axis that is compressed, in proportion to the contacts beyond some.
 #[test]
 fn the_fabric_turns_by_the_number_of_contacts() {

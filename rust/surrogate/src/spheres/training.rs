@@ -1,4 +1,4 @@
-//! Training: the law is fitted to the stress along paths, then the readouts to the states on them.
+//! Training: the number of contacts is fitted first, then the law to the stress along paths, then the readouts to the states on them.
 
 use super::fit::{PathFit, fit};
 use super::fit_state::{contacts, readout, usual_fabric};
