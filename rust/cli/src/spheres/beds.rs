@@ -15,7 +15,7 @@ use std::path::Path;
 /// Kind of path of a bed.
 const NAME: &str = "poured";
 /// [`Track::weight`]: there are twenty beds beside some three hundred and sixty boxes, and beds are what the law is for.
-const WEIGHT: f64 = 7.0;
+const WEIGHT: f64 = 5.0;
 /// Columns of the strains, and of the state.
 const STRAIN: [&str; 4] = ["thermal_strain", "strain_1", "strain_2", "strain_3"];
 const STATE: [&str; 9] = [
