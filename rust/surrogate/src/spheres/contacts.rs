@@ -8,7 +8,7 @@
 //! dζ = S g dh − F a ζ |dv|/v,
 //!
 //! and where it falls, dζ = (F ζ/h + (1 − F) S g) dh: contacts that are lost when a packing opens come back when it closes. Shear makes it
-//! forget them, dζ = −F b ζ |de|/v with the deviator de of the strain. F = 1/(1 + (0.25/g)⁸) is 0 where nearly all friction is mobilised,
+//! forget them, dζ = −F b ζ |de|/v with the deviator de of the strain. F = 1/(1 + (0.25/g)¹⁶) is 0 where nearly all friction is mobilised,
 //! as in beds that were poured: these have more contacts than boxes because grains without load rest on others, and keep them.
 
 use super::law::{LEAST_COMPRESSION, State};
@@ -37,7 +37,7 @@ const LEAST_SHARE: f64 = 1e-3;
 /// The part of the friction that is not mobilised below which a packing keeps ζ.
 const KEEPING: f64 = 0.25;
 /// How sharply.
-const SHARPLY: f64 = 8.0;
+const SHARPLY: f64 = 16.0;
 /// Least part of which that power is taken.
 const LEAST_FREE: f64 = 1e-3;
 /// Largest exponent with which shear makes ζ forgotten in one part of a strain.
