@@ -417,7 +417,9 @@ fn contacts_do_not_grow_with_cycles() {
             state = advanced(&law, &state, 2e-4, [0.0; 6]);
             state = advanced(&law, &state, -2e-4, [0.0; 6]);
         }
-        let grown = state.coordination - start.coordination;
+        // A box whose friction is mobilised loses load in cycles, and has fewer contacts for that.
+        let beyond = |state: &State| state.coordination - law.contacts.packed(state);
+        let grown = beyond(&state) - beyond(&start);
         assert!(grown < 0.15, "{mobilised} {grown}");
         assert!(mobilised < POURED || grown > -0.15, "{mobilised} {grown}");
     }
