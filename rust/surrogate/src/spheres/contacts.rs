@@ -65,12 +65,24 @@ fn share<N: Number>(compression: N) -> N {
     (w * over * over).times(4.0)
 }
 
+/// F, with the part of the friction that is not mobilised.
+fn forgets<N: Number>(free: N) -> N {
+    free.at_least(LEAST_FREE).inverse().times(KEEPING).power(SHARPLY).plus(1.0).inverse()
+}
+
 impl Contacts {
     /// z̄ of a state.
     pub fn sheared<N: Number>(&self, state: &State<N>) -> N {
         let row = state.contact_row();
         let sum = row.into_iter().zip(self.sheared).fold(N::of(0.0), |sum, (part, c)| sum + part.times(c));
         sum.at_least(CONTACTS[0]).at_most(CONTACTS[1])
+    }
+
+    /// Those of the contacts by which the fabric turns: z̄ + F ζ. Where nearly all friction is mobilised, what a bed has more are grains
+    /// that rest on others and bear no load.
+    pub fn bearing<N: Number>(&self, state: &State<N>) -> N {
+        let sheared = self.sheared(state);
+        sheared + forgets(state.free()) * (state.coordination - sheared)
     }
 
     /// z of a packing that was not strained since it was made.
@@ -91,8 +103,7 @@ impl Contacts {
         let [of_compression, of_shear] = self.fading;
         let [before, after] = [from, to].map(|state| state.compression.at_least(LEAST_COMPRESSION));
         let free = from.free();
-        let mobilised = free.at_least(LEAST_FREE).inverse().times(KEEPING).power(SHARPLY);
-        let forgets = mobilised.plus(1.0).inverse();
+        let forgets = forgets(free);
         let distortion = deviator(*strain);
         let length = contraction(&distortion, &distortion).plus(TINY).sqrt() * after.inverse();
         let sheared = length.times(-of_shear).at_least(-MOST_EXPONENT);

@@ -112,7 +112,7 @@ pub struct State<N = f64> {
     pub strength: f64,
     /// Part of the friction that is mobilised, 0 to 1: as where all contacts were made under friction (1), or without any (0).
     pub mobilised: N,
-    /// z: contacts per sphere, all spheres counted. By it the fabric turns.
+    /// z: contacts per sphere, all spheres counted. By those that bear load the fabric turns.
     pub coordination: N,
 }
 
@@ -218,10 +218,10 @@ impl Law {
         exponent.exp() * u.power(power).times(self.elements[k].stiffness)
     }
 
-    /// c: the stiffness of the fabric's element, [`Element::stiffness`] (z − z₀) where there are contacts enough, and smoothly none
-    /// below.
+    /// c: the stiffness of the fabric's element, [`Element::stiffness`] (z_b − z₀) where there are contacts enough, and smoothly none
+    /// below, with the contacts z_b of [`Contacts::bearing`].
     fn turning<N: Number>(&self, state: &State<N>) -> N {
-        let more = state.coordination.plus(-self.least_contacts);
+        let more = self.contacts.bearing(state).plus(-self.least_contacts);
         let length = (more * more).plus(ROUNDING * ROUNDING).sqrt();
         (more + length).times(0.5 * self.elements[FABRIC].stiffness)
     }

@@ -20,12 +20,12 @@
 //! η_f/M_f) + m_f η_f dv/v with t = −de/|de| and f = (η_f·t)₊/M_f, the slower the nearer it is to its strength (with α = 1: Armstrong
 //! and Frederick, 1966, CEGB report RD/B/N731). The
 //! fit holds η_f to a fitted number times the deviator of the fabric. Its stiffness c_f is proportional to the contacts per sphere
-//! beyond some, z − z₀, and depends on nothing else. The other elements
+//! that bear load beyond some, z_b − z₀, and depends on nothing else. The other elements
 //! stand for the friction of contacts: three of unequal strength, so that a packing that is strained the other way is stiff at first
 //! and then gives way little by little.
 //!
-//! **Contacts.** The number of contacts per sphere z is state, too, see [`contacts`]: the fabric turns by it, and conductivities
-//! depend on it.
+//! **Contacts.** The number of contacts per sphere z is state, too, see [`contacts`]: the fabric turns by those that bear load, and
+//! conductivities depend on all.
 //!
 //! **Mobilised friction.** g is the part of the friction that is not mobilised: 0 in boxes that were packed with
 //! their own friction, where many contacts are about to slide; 1 − μ_p/μ in boxes that were packed with less friction μ_p. Solid

@@ -425,22 +425,25 @@ fn contacts_do_not_grow_with_cycles() {
     }
 }
 
-/// The fabric turns towards the axis that is compressed, in proportion to the contacts beyond some.
+/// The fabric turns towards the axis that is compressed, in proportion to the contacts beyond some; those of grains that rest on
+/// others in a bed do not count.
 #[test]
-fn the_fabric_turns_by_the_number_of_contacts() {
+fn the_fabric_turns_by_the_number_of_contacts_that_bear_load() {
     let law = model().file.law;
     let stress = [1e-5, 1e-5, 1e-5, 0.0, 0.0, 0.0];
-    let turned = |contacts: f64| {
-        let known = Known { coordination: Some(contacts), mobilised: Some(0.0), ..Known::default() };
+    let turned = |contacts: f64, mobilised: f64| {
+        let known = Known { coordination: Some(contacts), mobilised: Some(mobilised), ..Known::default() };
         let start = law.start(0.635, stress, &known);
         let after = advanced(&law, &start, 0.0, [1e-5, -1e-5, 0.0, 0.0, 0.0, 0.0]);
         assert!(after.ratios[FABRIC][0] < 0.0 && after.ratios[FABRIC][1] > 0.0);
         after.ratios[FABRIC][1]
     };
-    let [few, some, many] = [law.least_contacts - 1.0, 5.0, 6.0].map(turned);
+    let [few, some, many] = [law.least_contacts - 1.0, 5.0, 6.0].map(|contacts| turned(contacts, 0.0));
     let ratio = (6.0 - law.least_contacts) / (5.0 - law.least_contacts);
     assert!((many / some / ratio - 1.0).abs() < 0.05, "{many} {some} {ratio}");
     assert!(few < 0.1 * some, "{few} {some}");
+    let [box_like, bed] = [4.5, 5.0].map(|contacts| turned(contacts, 0.9));
+    assert!((bed / box_like - 1.0).abs() < 0.01, "{bed} {box_like}");
 }
 
 /// Beds whose friction is mobilised give way where they are sheared; those that were packed without friction bear. Each has a solid
