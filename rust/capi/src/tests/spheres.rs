@@ -3,8 +3,8 @@
 use super::*;
 use crate::abi::{msdd_sphere_batch, msdd_sphere_material, msdd_sphere_wall, msdd_spheres};
 use crate::sphere_material::Material;
-use ::msdd_surrogate::spheres::law::Known;
 use ::msdd_surrogate::spheres::model::{Increment, SphereModel};
+use ::msdd_surrogate::spheres::state::Known;
 
 struct Law(*mut msdd_spheres);
 

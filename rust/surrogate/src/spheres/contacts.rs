@@ -11,8 +11,8 @@
 //! forget them, dζ = −F b ζ |de|/v with the deviator de of the strain. F = 1/(1 + (0.25/g)¹⁶) is 0 where nearly all friction is mobilised,
 //! as in beds that were poured: these have more contacts than boxes because grains without load rest on others, and keep them.
 
-use super::law::{LEAST_COMPRESSION, State};
 use super::number::Number;
+use super::state::{LEAST_COMPRESSION, State};
 use super::tensor::{Tensor, contraction, deviator};
 use serde::{Deserialize, Serialize};
 
@@ -52,8 +52,8 @@ const CONTACTS: [f64; 2] = [0.0, 12.0];
 const TINY: f64 = 1e-30;
 
 /// 1, s, v, x, x s, o, with s = √v and o = 1/(1 + v/1.5e-4), of the elastic compression v and x = φ_J − 0.6.
-pub fn row<N: Number>(compression: N, x: N) -> [N; COEFFICIENTS] {
-    let v = compression.at_least(LEAST_COMPRESSION);
+pub fn row<N: Number>(state: &State<N>) -> [N; COEFFICIENTS] {
+    let (v, x) = (state.compression.at_least(LEAST_COMPRESSION), state.density());
     let s = v.sqrt();
     [N::of(1.0), s, v, x, x * s, v.times(1.0 / HARDLY).plus(1.0).inverse()]
 }
@@ -73,8 +73,8 @@ fn forgets<N: Number>(free: N) -> N {
 impl Contacts {
     /// z̄ of a state.
     pub fn sheared<N: Number>(&self, state: &State<N>) -> N {
-        let row = state.contact_row();
-        let sum = row.into_iter().zip(self.sheared).fold(N::of(0.0), |sum, (part, c)| sum + part.times(c));
+        let sum =
+            row(state).into_iter().zip(self.sheared).fold(N::of(0.0), |sum, (part, c)| sum + part.times(c));
         sum.at_least(CONTACTS[0]).at_most(CONTACTS[1])
     }
 

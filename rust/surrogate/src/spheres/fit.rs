@@ -1,8 +1,9 @@
 //! Fit of the law to paths of strain: least squares of the stress along them, and of the fabric.
 
 use super::contacts::Contacts;
-use super::law::{FABRIC, Law};
+use super::law::Law;
 use super::parameters::{PARAMETERS, beginning, law, parameters};
+use super::state::FABRIC;
 use super::tensor::{Tensor, contraction, deviator, mean, sum};
 use super::tracks::{Track, follow};
 use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};

@@ -1,8 +1,9 @@
 //! Fit of what depends on the state of the law: usual fabric, number of contacts, conductivities.
 
-use super::contacts::{COEFFICIENTS, Contacts, MOST_SURPLUS};
-use super::law::{FABRIC, Law, State};
+use super::contacts::{COEFFICIENTS, Contacts, MOST_SURPLUS, row};
+use super::law::Law;
 use super::readout::{Readout, contact_row, directions, gas_row, relative};
+use super::state::{FABRIC, State};
 use super::tensor::{contraction, deviator, mean};
 use super::tracks::{Point, Track};
 use crate::least_squares;
@@ -40,7 +41,7 @@ fn contacts_that_fade(tracks: &[(&Track, Vec<State>)], fading: [f64; 2]) -> (Con
     let mut contacts = Contacts { sheared: [0.0; COEFFICIENTS], surplus: 0.0, fading };
     let mut samples: Vec<([f64; NUMBERS], f64, f64)> = Vec::new();
     for (track, states) in tracks {
-        let first = states[0].contact_row();
+        let first = row(&states[0]);
         // Of each state: what is left of z − z̄ of the packing, and what has come since, over S.
         let mut all = vec![[1.0, 0.0]];
         for (step, to) in track.steps.iter().zip(&states[1..]) {
@@ -53,7 +54,7 @@ fn contacts_that_fade(tracks: &[(&Track, Vec<State>)], fading: [f64; 2]) -> (Con
             if mean(step.to.stress) < LEAST_PRESSURE || to.compression <= 0.0 {
                 continue;
             }
-            let row = to.contact_row();
+            let row = row(to);
             let numbers = std::array::from_fn(|k| match k {
                 COEFFICIENTS => more,
                 _ => row[k] - left * first[k],

@@ -1,14 +1,11 @@
 //! The law of a packing of spheres, as in [`super`].
 
-use super::contacts::{COEFFICIENTS, Contacts, row};
+use super::contacts::Contacts;
 use super::number::Number;
+use super::state::{ELEMENTS, FABRIC, LEAST_COMPRESSION, State};
 use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
 use serde::{Deserialize, Serialize};
 
-/// Number of elements, each of which bears a part of the deviator. The last is that of the fabric.
-pub const ELEMENTS: usize = 4;
-/// The element whose stress ratio is that of the directions of the contacts.
-pub const FABRIC: usize = ELEMENTS - 1;
 /// The element with whose sliding goes the dilatancy. In all but the loosest packings it slides first, and its sliding is nearly the
 /// whole shear strain.
 const FIRST: usize = 1;
@@ -65,15 +62,8 @@ pub struct Element {
     pub power: f64,
 }
 
-/// Solid fraction from which x is measured.
-const USUAL_FRACTION: f64 = 0.6;
 /// A usual elastic compression, over which u is counted.
 const USUAL_COMPRESSION: f64 = 0.005;
-/// x of all packings of the training lies between these; others have the numbers of these.
-const MOST_LOOSE: f64 = -0.045;
-const MOST_DENSE: f64 = 0.045;
-/// v below which grains count as touching by this much: its pressure is far below that of any bed.
-pub const LEAST_COMPRESSION: f64 = 1e-7;
 /// Largest v: far beyond the elasticity of real grains.
 pub(super) const MOST_COMPRESSION: f64 = 0.5;
 /// Largest work of grains that climb over that of friction.
@@ -83,9 +73,6 @@ const MOST_CLIMBING: f64 = 0.9;
 const SLACK: f64 = 1.0 + 1e-9;
 /// Added to squares of lengths before their root is taken, so that its derivative exists.
 const TINY: f64 = 1e-30;
-/// The mobilised part of the friction of beds that were poured, as `msdd bed run` counts it there: 0.84 between plates, 0.91 in a
-/// cylinder.
-pub const POURED: f64 = 0.85;
 /// Largest factor of the strengths of friction.
 pub(super) const MOST_OF_FRICTION: f64 = 2.0;
 /// Largest [`State::strength`]: there friction is twice as strong as it usually is, and the fabric four times.
@@ -98,89 +85,6 @@ const SOFT: f64 = 5e-5;
 const ROUNDING: f64 = 0.2;
 /// Largest exponent of the exponential functions of x.
 const MOST_EXPONENT: f64 = 8.0;
-
-/// What determines the stress of a cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<N = f64> {
-    /// φ_J: the solid fraction at which the packing would bear no load \[-\].
-    pub jamming: N,
-    /// v = φ/φ_J − 1; negative where the grains do not touch.
-    pub compression: N,
-    /// η_k: parts of the deviator of the stress over A.
-    pub ratios: [Tensor<N>; ELEMENTS],
-    /// Factor of the strengths, see [`Law::factor`], which does not change: 1 but for packings that bear more.
-    pub strength: f64,
-    /// Part of the friction that is mobilised, 0 to 1: as where all contacts were made under friction (1), or without any (0).
-    pub mobilised: N,
-    /// z: contacts per sphere, all spheres counted. By those that bear load the fabric turns.
-    pub coordination: N,
-}
-
-/// What may be known of a packing beside its solid fraction and stress. What is not known is as it usually is.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Known {
-    /// Contacts per sphere, all spheres counted.
-    pub coordination: Option<f64>,
-    /// Mean of n n over the contacts, with the normals n.
-    pub fabric: Option<Tensor>,
-    /// The mobilised part of the friction: [`POURED`] unless it is known.
-    pub mobilised: Option<f64>,
-}
-
-impl<N: Number> State<N> {
-    /// x, between those of the packings of the training.
-    pub fn density(&self) -> N {
-        self.jamming.plus(-USUAL_FRACTION).at_least(MOST_LOOSE).at_most(MOST_DENSE)
-    }
-
-    /// g: the part of the friction that is not mobilised.
-    pub(super) fn free(&self) -> N {
-        self.mobilised.times(-1.0).plus(1.0).at_least(0.0).at_most(1.0)
-    }
-
-    /// φ: volume of the grains over the volume \[-\].
-    pub fn solid(&self) -> N {
-        self.jamming + self.jamming * self.compression
-    }
-
-    /// Deviator of the stress over A.
-    pub fn ratio(&self) -> Tensor<N> {
-        let [first, second, third, fabric] = &self.ratios;
-        sum(&sum(first, second), &sum(third, fabric))
-    }
-}
-
-impl State {
-    /// The same state, as numbers that do not depend on the strain.
-    pub fn fixed<N: Number>(&self) -> State<N> {
-        State {
-            jamming: N::of(self.jamming),
-            compression: N::of(self.compression),
-            ratios: self.ratios.map(|ratio| ratio.map(N::of)),
-            mobilised: N::of(self.mobilised),
-            strength: self.strength,
-            coordination: N::of(self.coordination),
-        }
-    }
-}
-
-impl<N: Number> State<N> {
-    /// What the number of contacts depends on.
-    pub fn contact_row(&self) -> [N; COEFFICIENTS] {
-        row(self.compression, self.density())
-    }
-
-    pub fn value(&self) -> State {
-        State {
-            jamming: self.jamming.value(),
-            compression: self.compression.value(),
-            ratios: self.ratios.map(|ratio| ratio.map(Number::value)),
-            mobilised: self.mobilised.value(),
-            strength: self.strength,
-            coordination: self.coordination.value(),
-        }
-    }
-}
 
 /// Strain of an increment: growth of the radii positive, extension of the cell positive; xy, xz, yz are twice the shears.
 #[derive(Clone, Copy, Debug)]

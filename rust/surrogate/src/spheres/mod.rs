@@ -13,7 +13,7 @@
 //! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths, and stiffnesses of friction,
 //! depend on φ_J, since dense packings bear a larger deviator, on v, and on the friction that is mobilised. The stress is
 //! σ = A (1 + Σ η_k). While a packing opens, the powers of the elements of friction are larger by [`law::Law::reopening`]; one that
-//! starts with more than all strengths has larger ones for good ([`law::State::strength`]).
+//! starts with more than all strengths has larger ones for good ([`state::State::strength`]).
 //!
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
 //! isotropic compression loads that axis more. It does not slide but turns with the strain, dη_f = c_f |de|/v (t − (α + (1 − α) f²)
@@ -60,6 +60,7 @@ pub mod parameters;
 pub mod readout;
 pub mod score;
 mod start;
+pub mod state;
 pub mod tensor;
 #[cfg(test)]
 mod tests;

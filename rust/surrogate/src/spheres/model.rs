@@ -1,8 +1,9 @@
 //! The model of spheres: law and readouts, and their file.
 
-use super::law::{ELEMENTS, Known, Law, State, Strain};
+use super::law::{Law, Strain};
 use super::number::Dual;
 use super::readout::Readout;
+use super::state::{ELEMENTS, Known, State};
 use super::tensor::{Rotation, Tensor, contraction};
 use crate::SurrogateError;
 use crate::document::{field, hash, json, schema};

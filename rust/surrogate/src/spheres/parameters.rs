@@ -1,7 +1,8 @@
 //! The numbers of the law that are fitted to stresses, as parameters without bounds and of about equal size.
 
 use super::contacts::Contacts;
-use super::law::{Element, FABRIC, Law};
+use super::law::{Element, Law};
+use super::state::FABRIC;
 use nalgebra::DVector;
 
 /// How a number becomes a parameter, and its bounds.

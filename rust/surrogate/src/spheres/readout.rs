@@ -4,7 +4,7 @@
 //! (Batchelor and O'Brien, 1977, Proc. R. Soc. A 355:313), with more of it along the larger stress and along more contacts. C grows
 //! with the number of contacts. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
 
-use super::law::{FABRIC, State};
+use super::state::{FABRIC, State};
 use super::tensor::{Tensor, contraction, mean};
 use serde::{Deserialize, Serialize};
 

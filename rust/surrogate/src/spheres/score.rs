@@ -2,9 +2,9 @@
 
 use super::errors::{Errors, LEAST_PRESSURE, Sums};
 use super::fit::scales;
-use super::law::{Known, State};
 use super::model::SphereModel;
 use super::noise::noise;
+use super::state::{Known, State};
 use super::tensor::{contraction, deviator, mean};
 use super::tracks::{Track, follow, follow_from};
 use serde::Serialize;

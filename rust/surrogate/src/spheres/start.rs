@@ -1,9 +1,7 @@
 //! The state of a packing of which solid fraction, stress, and perhaps more are known.
 
-use super::law::{
-    ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, Law, MOST_COMPRESSION, MOST_OF_FRICTION, MOST_STRENGTH,
-    POURED, State, within,
-};
+use super::law::{Law, MOST_COMPRESSION, MOST_OF_FRICTION, MOST_STRENGTH, within};
+use super::state::{ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, POURED, State};
 use super::tensor::{Tensor, contraction, deviator, mean};
 
 /// Halvings of an interval, after which its ends are neighbouring numbers; and the ratio of the compressions that are looked at before.

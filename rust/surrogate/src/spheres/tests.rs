@@ -2,9 +2,10 @@
 
 use super::contacts::Contacts;
 use super::fit_state::readout;
-use super::law::{FABRIC, Known, Law, POURED, State};
+use super::law::Law;
 use super::model::{COLUMNS, Increment, SphereModel, columns, state};
 use super::parameters::{beginning, law as law_of, parameters};
+use super::state::{FABRIC, Known, POURED, State};
 use super::tensor::{Rotation, Tensor, contraction, deviator, mean, rotation, turned};
 use super::tracks::{Point, Step, Track, advanced, follow};
 use super::training::{is_held_out, train};

@@ -1,6 +1,7 @@
 //! Paths of strain of boxes of spheres, and the law along them.
 
-use super::law::{Known, Law, State, Strain};
+use super::law::{Law, Strain};
+use super::state::{Known, State};
 use super::tensor::{Tensor, contraction, mean, rotation};
 
 /// A state of a box. Stresses over E*, compression positive.
