@@ -154,7 +154,7 @@ class Spheres:
         stress: [Pa], compression positive: either one number or array, the pressure, or six of them in the order of `COMPONENTS`
             in a list or along the first axis. Spheres under no pressure just do not touch.
         coordination: contacts per sphere, all spheres counted, 0 to 12. None: that of periodic boxes; beds under gravity have
-            half a contact more.
+            about 0.4 more.
         mobilised: mobilised part of the friction, 0 to 1. None: 0.85, as in beds that were poured.
         fabric: mean of n n over the contacts, with the normals n, six components as of the stress, -1 to 1. None: that of usual
             packings.
