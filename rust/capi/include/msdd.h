@@ -255,8 +255,8 @@ const char *msdd_spheres_state_name(const msdd_spheres *spheres, size_t column);
 /** Computes the state of packings with a solid fraction (0.3 to 0.8) and a stress [Pa, compression positive; six columns]. A
  *  pressure of 0 or less is that of spheres that just do not touch. `coordination`: contacts per sphere, all spheres counted
  *  (0 to 12); `mobilised`: the mobilised part of the friction (0 to 1); `fabric`: mean of n n over the contacts, with the normals n
- *  (six columns, -1 to 1). Each may be NULL, and then is that of periodic boxes (beds that were poured under gravity have about
- *  0.4 more); of the friction, that of beds that were poured, 0.85. `state`: state_size writable columns. */
+ *  (six columns, -1 to 1). Each may be NULL, and then is that of periodic boxes (beds that were poured under gravity have 0.4
+ *  contacts a sphere more); of the friction, that of beds that were poured, 0.85. `state`: state_size writable columns. */
 int32_t msdd_spheres_initial_state(const msdd_spheres *spheres, const msdd_sphere_material *material, size_t cells,
                                    const double *solid_fraction, const double *const *stress, const double *coordination,
                                    const double *mobilised, const double *const *fabric, double *const *state);

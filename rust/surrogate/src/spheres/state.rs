@@ -67,6 +67,18 @@ impl<N: Number> State<N> {
         let [first, second, third, fabric] = &self.ratios;
         sum(&sum(first, second), &sum(third, fabric))
     }
+
+    /// The same state without the derivatives by the strain.
+    pub fn value(&self) -> State {
+        State {
+            jamming: self.jamming.value(),
+            compression: self.compression.value(),
+            ratios: self.ratios.map(|ratio| ratio.map(Number::value)),
+            mobilised: self.mobilised.value(),
+            strength: self.strength,
+            coordination: self.coordination.value(),
+        }
+    }
 }
 
 impl State {
@@ -79,19 +91,6 @@ impl State {
             mobilised: N::of(self.mobilised),
             strength: self.strength,
             coordination: N::of(self.coordination),
-        }
-    }
-}
-
-impl<N: Number> State<N> {
-    pub fn value(&self) -> State {
-        State {
-            jamming: self.jamming.value(),
-            compression: self.compression.value(),
-            ratios: self.ratios.map(|ratio| ratio.map(Number::value)),
-            mobilised: self.mobilised.value(),
-            strength: self.strength,
-            coordination: self.coordination.value(),
         }
     }
 }
