@@ -204,7 +204,7 @@ void Foam::heatEquation::addCrossed
         const bool coupled = patch.coupled();
         // No heat passes a wall of given gradient because of a change of T
         // along it: the gradient normal to such a wall stands for its heat
-        if (!coupled && !T_.boundaryField()[patchi].fixesValue())
+        if (!coupled && !isGiven(T_.boundaryField()[patchi]))
         {
             continue;
         }
@@ -239,7 +239,7 @@ void Foam::heatEquation::insulateWalls()
     forAll(mesh_.boundary(), patchi)
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
-        const bool given = T_.boundaryField()[patchi].fixesValue();
+        const bool given = isGiven(T_.boundaryField()[patchi]);
         if (patch.coupled() || (given && !isA<mappedPatchBase>(patch.patch())))
         {
             continue;

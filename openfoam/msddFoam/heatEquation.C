@@ -16,6 +16,10 @@ License
 
 #include "heatEquation.H"
 #include "mappedPatchBase.H"
+#include "mixedFvPatchFields.H"
+#include "coupledPolyPatch.H"
+#include "IStringStream.H"
+#include "OStringStream.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "unitConversion.H"
 
@@ -79,16 +83,16 @@ Foam::heatEquation::heatEquation
     crossed_(!grains.diagonal()),
     Kxx_
     (
-        IOobject("Kxx", mesh_.time().timeName(), mesh_),
+        unregistered("Kxx", mesh_),
         mesh_,
         dimensionedScalar(properties.thermalConductivity().dimensions(), Zero),
         extrapolatedCalculatedFvPatchScalarField::typeName
     ),
-    Kyy_(IOobject("Kyy", mesh_.time().timeName(), mesh_), Kxx_),
+    Kyy_(unregistered("Kyy", mesh_), Kxx_),
     Kxy_(unregistered("Kxy", mesh_), Kxx_),
     K_
     (
-        aligned_
+        aligned_ && !wallsReadTensor()
       ? nullptr
       : new volSymmTensorField
         (
@@ -152,7 +156,7 @@ Foam::heatEquation::heatEquation
 Foam::fvScalarMatrix Foam::heatEquation::equation(const granularState& grains)
 {
     // Making the matrix updates the boundary conditions, which may need K
-    if (!aligned_)
+    if (K_.valid())
     {
         setTensor(scaled(grains.conductivityOfCells()));
     }
@@ -181,6 +185,12 @@ bool Foam::heatEquation::isAligned() const
     forAll(mesh_.boundary(), patchi)
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
+        // Components of K are not those of the other side if it is turned
+        aligned = aligned
+         && (
+                !isA<coupledPolyPatch>(patch.patch())
+             || refCast<const coupledPolyPatch>(patch.patch()).parallel()
+            );
         const vectorField d(patch.delta());
         forAll(patch, facei)
         {
@@ -192,6 +202,34 @@ bool Foam::heatEquation::isAligned() const
         }
     }
     return returnReduce(aligned, andOp<bool>());
+}
+
+
+bool Foam::heatEquation::wallsReadTensor() const
+{
+    bool any = false;
+    for (const fvPatchScalarField& wall : T_.boundaryField())
+    {
+        if (!isA<mixedFvPatchScalarField>(wall))
+        {
+            continue;
+        }
+        any = true;
+        OStringStream os;
+        wall.write(os);
+        IStringStream is(os.str());
+        const dictionary dict(is);
+        const word kappa(dict.lookupOrDefault<word>("kappa", "K"));
+        if (kappa == "conductivity" || kappa == "Kxx" || kappa == "Kyy")
+        {
+            FatalErrorInFunction
+                << "Entry 'kappa' of patch " << wall.patch().name() << " of T"
+                << " is " << kappa << ", allowed: K, the conductivity in the"
+                << " equation of the step; 'conductivity' is that of the last"
+                << " output" << exit(FatalError);
+        }
+    }
+    return any;
 }
 
 
@@ -349,21 +387,45 @@ bool Foam::heatEquation::anyCoupled() const
 }
 
 
-void Foam::heatEquation::addSources()
+Foam::tmp<Foam::fvScalarMatrix> Foam::heatEquation::addSources()
 {
-    sourceHeat_ = 0;
     if (sources_.optionList::empty())
     {
-        return;
+        return nullptr;
     }
-    const fvScalarMatrix S(sources_(heatCapacity_, T_));
-    TEqn_ -= S;
+    tmp<fvScalarMatrix> S(sources_(heatCapacity_, T_));
+    TEqn_ -= S();
     sources_.constrain(TEqn_);
-    sourceHeat_ = -sum(S.source());
+    return S;
+}
+
+
+Foam::tmp<Foam::scalarField> Foam::heatEquation::heatOf
+(
+    const fvScalarMatrix& S
+) const
+{
+    tmp<scalarField> heat(-S.source());
     if (S.hasDiag())
     {
-        sourceHeat_ += sum(S.diag()*T_.primitiveField());
+        heat.ref() += S.diag()*T_.primitiveField();
     }
+    return heat;
+}
+
+
+bool Foam::heatEquation::finishSources(const tmp<fvScalarMatrix>& S)
+{
+    sourceHeat_ = 0;
+    if (!S.valid())
+    {
+        return true;
+    }
+    // The heat that the solution has got, and the one at its temperature
+    const scalarField got(heatOf(S()));
+    const scalarField due(heatOf(sources_(heatCapacity_, T_)()));
+    sourceHeat_ = sum(got);
+    return gMax(mag(got - due)) <= settled*gMax(mag(due));
 }
 
 
@@ -374,8 +436,8 @@ void Foam::heatEquation::solveBed
     const granularState::conductivityColumns& K
 )
 {
-    // Explicit parts and a heat capacity that depends on the temperature need
-    // repetitions
+    // Explicit parts, and a heat capacity or sources that depend on the
+    // temperature, need repetitions
     const bool explicitly = !aligned_ || crossed_;
     const label least = explicitly ? correctors_ : 0;
     scalarField before;
@@ -400,10 +462,16 @@ void Foam::heatEquation::solveBed
         {
             addTensor();
         }
-        addSources();
+        const tmp<fvScalarMatrix> S(addSources());
         TEqn_.solve(controls_);
 
-        if (corrector >= least && (heat_.isNumber() || hasSettled(before)))
+        const bool sourced = finishSources(S);
+        if
+        (
+            corrector >= least
+         && sourced
+         && (heat_.isNumber() || hasSettled(before))
+        )
         {
             break;
         }
@@ -413,6 +481,12 @@ void Foam::heatEquation::solveBed
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+bool Foam::heatEquation::isGiven(const fvPatchScalarField& wall)
+{
+    return wall.fixesValue() && !isA<mixedFvPatchScalarField>(wall);
+}
+
+
 void Foam::heatEquation::solve
 (
     const scalarField& Tstar,
@@ -421,7 +495,7 @@ void Foam::heatEquation::solve
 )
 {
     const granularState::conductivityColumns& K = scaled(given);
-    if (!aligned_)
+    if (K_.valid())
     {
         setTensor(K);
     }

@@ -191,6 +191,7 @@ int main(int argc, char *argv[])
 
     Info<< "msddFoam " << msddVersion << nl << endl;
 
+    checkWriteInterval(args.rootPath()/args.globalCaseName()/"system/controlDict");
     #include "createTime.H"
 
     restart.setValue(runTime);

@@ -40,7 +40,8 @@ Foam::runSummary::heatBalance Foam::runSummary::heat() const
         returnReduce(sum(record.heat), sumOp<scalar>()),
         returnReduce(record.sourceHeat, sumOp<scalar>()),
         grains_.storedHeat(T_),
-        returnReduce(record.exchanged, sumOp<scalar>())
+        returnReduce(record.exchanged, sumOp<scalar>()),
+        max(runRecord::roundedHeat*grains_.initialHeat(), VSMALL)
     };
 }
 
@@ -62,9 +63,13 @@ Foam::string Foam::runSummary::range() const
         " about lay outside the range that it was made for, where it answers as"
         " well as it can. At the end "
       + Foam::name(grains_.cellsOutside()) + " of " + Foam::name(cells)
-      + " cells are outside (field inRegion is 0 there). Such cells, at most"
-        " 10000 of each process, are listed in"
-        " postProcessing/msddFoam/offenders.json.";
+      + " cells are outside (field inRegion is 0 there)."
+      + (
+            grains_.model().tellColumns()
+          ? " Such cells, at most 10000 of each process, are listed in"
+            " postProcessing/msddFoam/offenders.json."
+          : ""
+        );
 }
 
 
@@ -85,7 +90,7 @@ Foam::string Foam::runSummary::doubt() const
 
 Foam::string Foam::runSummary::balance(const heatBalance& heat) const
 {
-    if (heat.exchanged < VSMALL)
+    if (heat.exchanged < heat.least)
     {
         return "Heat: none went into the bed or out of it.";
     }

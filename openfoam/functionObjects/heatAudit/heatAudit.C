@@ -39,7 +39,7 @@ Foam::functionObjects::heatAudit::heatAudit
 )
 :
     granularFunctionObject(name, typeName, runTime, dict),
-    tolerance_(dict.lookupOrDefault<scalar>("tolerance", GREAT))
+    tolerance_(dict.lookupOrDefault<scalar>("tolerance", VGREAT))
 {
     read(dict);
 }
@@ -66,22 +66,28 @@ bool Foam::functionObjects::heatAudit::write()
     const tmp<volScalarField> tT(present<scalar>("T"));
     const tmp<volScalarField> tT0(present<scalar>("initialTemperature"));
     const tmp<volScalarField> tbulk(present<scalar>("bulkDensity"));
-    const granularProperties grains(time_);
+    const granularProperties grains(mesh_);
     const scalarField& V = mesh_.V();
 
-    const scalar stored = grains.heatCapacity().value()*gSum
+    const scalarField capacity
     (
-        tbulk().primitiveField()*V
-       *(
-            grains.heatFunction().equivalent(tT().primitiveField())
-          - grains.heatFunction().equivalent(tT0().primitiveField())
-        )
+        grains.heatCapacity().value()*tbulk().primitiveField()*V
     );
+    const scalarField before
+    (
+        grains.heatFunction().equivalent(tT0().primitiveField())
+    );
+    const scalar stored = gSum
+    (
+        capacity
+       *(grains.heatFunction().equivalent(tT().primitiveField()) - before)
+    );
+    const scalar content = gSum(capacity*mag(before));
     const scalar patches = returnReduce(sum(known.heat), sumOp<scalar>());
     const scalar sources = returnReduce(known.sourceHeat, sumOp<scalar>());
     const scalar exchanged = returnReduce(known.exchanged, sumOp<scalar>());
-    const scalar difference =
-        mag(stored - patches - sources)/max(exchanged, VSMALL);
+    const scalar difference = mag(stored - patches - sources)
+       /max(exchanged, runRecord::roundedHeat*content);
 
     if (Pstream::master())
     {

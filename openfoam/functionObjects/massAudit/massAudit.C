@@ -65,7 +65,7 @@ bool Foam::functionObjects::massAudit::write()
     const tmp<volScalarField> tparticle(present<scalar>("particleDensity"));
     const tmp<volScalarField> tporosity(present<scalar>("porosity"));
     const tmp<volScalarField> tstrain(present<scalar>("thermalStrain"));
-    const granularProperties grains(time_);
+    const granularProperties grains(mesh_);
     // Area of the cells over their initial area, if they move
     const scalarField ratio(cellsOf("areaRatio", 1));
     const scalarField& V = mesh_.V();

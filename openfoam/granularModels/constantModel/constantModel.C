@@ -68,6 +68,7 @@ Foam::granularModels::constant::constant
         (
             !(K.xx() > 0 && K.yy() > 0 && sqr(K.xy()) < K.xx()*K.yy())
          || !(plane || K.zz() > 0)
+         || mag(K.xz()) + mag(K.yz()) > 0
         )
         {
             OStringStream value;
@@ -77,8 +78,8 @@ Foam::granularModels::constant::constant
                 "conductivity",
                 value.str(),
                 plane
-              ? "positive definite [W/(m K)]"
-              : "positive definite, with zz > 0 [W/(m K)]"
+              ? "positive definite, with xz and yz 0 [W/(m K)]"
+              : "positive definite, with zz > 0 and xz and yz 0 [W/(m K)]"
             );
         }
     }

@@ -21,6 +21,18 @@ License
 
 #include <cmath>
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Distance from the axis of a wedge, over the size of the mesh, below which a
+//- point lies on it
+static const scalar axial = 1e-9;
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::elementMesh::findKind()
@@ -117,17 +129,26 @@ void Foam::elementMesh::findPlaneNodes()
 void Foam::elementMesh::findBack(const labelList& nodeOfPoint)
 {
     back_ = front_;
+    const scalar near = axial*mesh_.bounds().mag();
+    const auto onAxis = [&](const label point)
+    {
+        return
+            kind_ == kind::axisymmetric
+         && mag(mesh_.points()[point][radial_]) < near;
+    };
     for (const face& f : mesh_.faces())
     {
         forAll(f, i)
         {
             const label p = f[i], q = f.nextLabel(i);
             const label a = nodeOfPoint[p], b = nodeOfPoint[q];
-            if (a >= 0 && b < 0)
+            // On the axis of a wedge a node has no point behind it: the points
+            // beside it belong to other nodes
+            if (a >= 0 && b < 0 && !onAxis(p))
             {
                 back_[a] = q;
             }
-            else if (b >= 0 && a < 0)
+            else if (b >= 0 && a < 0 && !onAxis(q))
             {
                 back_[b] = p;
             }

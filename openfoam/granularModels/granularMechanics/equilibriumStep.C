@@ -478,6 +478,7 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     slide_ = walls_.slide(lastTime_, time);
     share_ = 1;
     notGiven_ = false;
+    ignored_ = 0;
     guess_.clear();
 
     if (parts == 1 && nodes_.dot(velocity_, velocity_) > 0)
@@ -555,7 +556,6 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
 {
     const counters at(counters_);
     label parts = 1;
-    setResidual();
 
     while (!advance(parts))
     {
@@ -577,9 +577,14 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
     const label iterations = counters_.iterations - at.iterations;
     counters_.solves += before_ > tolerance_;
     counters_.cut += parts > 1;
-    counters_.unconverged += left_ > tolerance_;
+    const bool unconverged = left_ > tolerance_;
+    counters_.unconverged += unconverged;
     counters_.residual = max(counters_.residual, left_);
     largest_ = max(largest_, before_);
+
+    // For the next step, from the stress in equilibrium: by that of grains which
+    // have swelled in their places a step would be judged by its own error
+    setResidual();
 
     // Printed if and only if the line of the linear solver of T is
     if (solverPerformance::debug)
@@ -587,7 +592,7 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
         Info<< "Equilibrium: out of balance " << before_ << " Pa, after "
             << iterations << " iterations (" << counters_.linear - at.linear
             << " linear) " << left_ << " Pa"
-            << (left_ > tolerance_ ? ", not converged" : "") << nl;
+            << (unconverged ? ", not converged" : "") << nl;
     }
     return true;
 }

@@ -132,6 +132,14 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
             << " elasticCoeffs { youngModulus; poissonRatio; }"
             << exit(FatalIOError);
     }
+    if (grains.model().type() == "constant")
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'law' is grains (the default), and surrogate type constant"
+            << " has no grains that resist a strain. Allowed here: law elastic,"
+            << " with elasticCoeffs { youngModulus; poissonRatio; }, mechanics"
+            << " none, or another surrogate" << exit(FatalIOError);
+    }
     return autoPtr<stressLaw>(new grainLaw(properties, grains, mesh));
 }
 

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "caseChecks.H"
+#include "IFstream.H"
 
 #include <sstream>
 
@@ -88,6 +89,21 @@ static string whereBelow(const volScalarField& T, const scalar bound)
 
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+void Foam::checkWriteInterval(const fileName& file)
+{
+    // OpenFOAM divides by it while it makes the time
+    IFstream is(file);
+    const dictionary control(is);
+    scalar interval = 1;
+    if (control.readIfPresent("writeInterval", interval) && !(interval > 0))
+    {
+        FatalIOErrorInFunction(control)
+            << "Entry 'writeInterval' is " << interval << ", allowed: > 0"
+            << exit(FatalIOError);
+    }
+}
+
 
 void Foam::checkTimeStep(const Time& runTime)
 {

@@ -140,6 +140,11 @@ Foam::label Foam::granularState::ask
         model_->spatial() ? askedTemperature_.cdata() : nullptr;
     query.outside = wantOutside ? outside_.pointers.cdata() : nullptr;
     query.trial = trial;
+    if (!trial && !model_->tellColumns())
+    {
+        outsideRow_.resize(rows_.size());
+        query.outsideRow = outsideRow_.data();
+    }
 
     return query.size ? model_->advance(query) : 0;
 }
@@ -156,11 +161,24 @@ bool Foam::granularState::judge
     const bool any = returnReduce(outside > 0, orOp<bool>());
     if (any || outsideSeen_)
     {
-        inRegion_.primitiveFieldRef() = 1;
-        outsideSeen_ = any;
+        // Cells that were not asked are where they were
+        forAll(rows_, row)
+        {
+            inRegion_[rows_[row]] = 1;
+        }
+        outsideSeen_ = outsideSeen_ || any;
     }
     if (!any)
     {
+        return false;
+    }
+    if (!model_->tellColumns())
+    {
+        forAll(rows_, row)
+        {
+            inRegion_[rows_[row]] = !outsideRow_[row];
+        }
+        policy_.judgeRows(outside, when);
         return false;
     }
 

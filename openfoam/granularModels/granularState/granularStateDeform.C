@@ -106,6 +106,7 @@ void Foam::granularState::acceptStrain()
     originStrain_ = 0;
     K_ = deformedK_;
     sigma_ = deformedSigma_;
+    setWallResistance();
 }
 
 

@@ -251,6 +251,18 @@ Foam::scalar Foam::granularState::storedHeat(const volScalarField& T) const
 }
 
 
+Foam::scalar Foam::granularState::initialHeat() const
+{
+    const scalarField& start = initialTemperature_.primitiveField();
+    return properties_.heatCapacity().value()
+       *gSum
+        (
+            bulkDensity_.primitiveField()*mesh_.V().field()
+           *mag(properties_.heatFunction().equivalent(start))
+        );
+}
+
+
 Foam::scalar Foam::granularState::meanSpread()
 {
     findSpread();

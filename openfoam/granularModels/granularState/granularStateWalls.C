@@ -85,8 +85,13 @@ void Foam::granularState::setWallResistance()
             );
             stress[facei] = n[facei] & (sigma & n[facei]);
             temperature[facei] = temperature_[celli];
-            conductivity[facei] = properties_.conductivityFactor()
-               *(n[facei] & (K & n[facei]));
+            // Above zero for the law, also in a vacuum without contacts
+            conductivity[facei] = max
+            (
+                properties_.conductivityFactor()
+               *(n[facei] & (K & n[facei])),
+                SMALL
+            );
         }
         model_->wallResistance(stress, temperature, conductivity, resistance);
         wallResistance_().boundaryFieldRef()[patchi] == resistance;

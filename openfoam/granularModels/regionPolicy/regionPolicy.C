@@ -175,6 +175,25 @@ void Foam::regionPolicy::act
 }
 
 
+void Foam::regionPolicy::judgeShare
+(
+    const label cells,
+    const string& when
+) const
+{
+    if (cells <= maxFraction_*cells_.size())
+    {
+        return;
+    }
+    FatalIOErrorInFunction(dict_)
+        << when.c_str() << ' ' << cells << " of " << cells_.size()
+        << " cells are outside the region of the model. Entry 'maxFraction'"
+        << " of outOfRegion in constant/granularProperties is "
+        << maxFraction_ << ", allowed: 0 to 1. Field inRegion is 0 there"
+        << exit(FatalIOError);
+}
+
+
 bool Foam::regionPolicy::atStart() const
 {
     return mesh_.time().timeIndex() == 0;
@@ -292,16 +311,25 @@ bool Foam::regionPolicy::judge
             act(i/2, i % 2, counts[i], farthest[i], when);
         }
     }
-    if (ends)
-    {
-        FatalIOErrorInFunction(dict_)
-            << when.c_str() << ' ' << counts.last() << " of " << cells_.size()
-            << " cells are outside the region of the model. Entry 'maxFraction'"
-            << " of outOfRegion in constant/granularProperties is "
-            << maxFraction_ << ", allowed: 0 to 1. The cells are in "
-            << path(mesh_) << exit(FatalIOError);
-    }
+    judgeShare(counts.last(), when);
     return cut;
+}
+
+
+void Foam::regionPolicy::judgeRows
+(
+    const label outside,
+    const string& when
+) const
+{
+    const label cells = returnReduce(outside, sumOp<label>());
+    judgeShare(cells, when);
+    if (atStart())
+    {
+        Info<< when.c_str() << ' ' << cells << " of " << cells_.size()
+            << " cells are outside the range that the model was made for: it"
+            << " answers as well as it can" << nl << endl;
+    }
 }
 
 

@@ -221,9 +221,26 @@ void Foam::granularModels::spheres::initialState
         cells.stressXY, cells.stressXZ, cells.stressYZ
     });
     scalarField solid(cells.size);
+    scalar tension = 0;
+    label tense = 0;
     forAll(solid, celli)
     {
         solid[celli] = 1 - cells.porosity[celli];
+        const scalar p =
+            (stress[0][celli] + stress[1][celli] + stress[2][celli])/3;
+        tense += p < 0;
+        tension = max(tension, -p);
+    }
+    if (returnReduce(tense, sumOp<label>()))
+    {
+        FatalErrorInFunction
+            << "Field stress in "
+            << (mesh_.time().path()/mesh_.time().timeName()).c_str()
+            << " is tension in " << returnReduce(tense, sumOp<label>())
+            << " cells, in the mean of the directions up to "
+            << returnReduce(tension, maxOp<scalar>()) << " Pa, allowed: at most"
+            << " 0, because grains cannot bear tension. Tension is positive:"
+            << " the stress of a bed under load is negative" << exit(FatalError);
     }
     // What is not given is left to the law
     const auto given = [&](const char* key, const scalar most)
@@ -288,8 +305,14 @@ Foam::granularModels::spheres::fabricAtStart(const label size) const
     }
     for (const symmTensor& F : given)
     {
-        const scalar least = min(F.xx(), min(F.yy(), F.zz()));
-        if (!(least >= 0 && mag(tr(F) - 1) <= unitTrace))
+        // A mean of squares: along no direction is it negative
+        const bool possible =
+            min(F.xx(), min(F.yy(), F.zz())) >= 0
+         && sqr(F.xy()) <= F.xx()*F.yy()
+         && sqr(F.xz()) <= F.xx()*F.zz()
+         && sqr(F.yz()) <= F.yy()*F.zz()
+         && det(F) >= -SMALL;
+        if (!(possible && mag(tr(F) - 1) <= unitTrace))
         {
             OStringStream value;
             value << F;
@@ -298,7 +321,8 @@ Foam::granularModels::spheres::fabricAtStart(const label size) const
                 "fabric",
                 value.str(),
                 "the mean of n n over the contacts, with the normals n:"
-                " (xx xy xz yy yz zz) with xx, yy, zz >= 0 and the sum 1"
+                " (xx xy xz yy yz zz) with xx + yy + zz = 1, and along no"
+                " direction negative"
             );
         }
     }
@@ -399,6 +423,7 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     batch.stress = stress.data();
     batch.conductivity = conductivity.data();
     batch.solid_fraction = solid.data();
+    batch.outside = cells.outsideRow;
     try
     {
         law_.advance(material_, batch);
@@ -418,16 +443,9 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
         cells.nextState[0][row] =
             still ? cells.state[0][row] : 1 - solid[row];
         cells.nextState[1][row] = cells.state[1][row];
-        if (cells.outside)
-        {
-            for (label i = 0; i <= stateNames_.size(); ++i)
-            {
-                cells.outside[i][row] = 0;
-            }
-        }
     }
     outside_ += cells.trial ? 0 : int64_t(batch.outside_cells);
-    return 0;
+    return label(batch.outside_cells);
 }
 
 

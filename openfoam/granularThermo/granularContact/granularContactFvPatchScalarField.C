@@ -192,10 +192,11 @@ void Foam::granularContactFvPatchScalarField::updateCoeffs()
     mapped.distribute(RNbr);
 
     const scalarField here(kappa()*patch().deltaCoeffs());
-    const scalarField across(1/(1/KDeltaNbr + R + RNbr));
+    // Grains that do not touch in a vacuum conduct nothing
+    const scalarField across(KDeltaNbr/(1 + KDeltaNbr*(R + RNbr)));
     refValue() = TcNbr;
     refGrad() = Zero;
-    valueFraction() = across/(across + here);
+    valueFraction() = across/max(across + here, VSMALL);
     mixedFvPatchScalarField::updateCoeffs();
 
     UPstream::msgType() = oldTag;

@@ -16,6 +16,7 @@ License
 
 #include "secondOrderScheme.H"
 #include "stepWatch.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
 #include "addToRunTimeSelectionTable.H"
 
 #include <cmath>
@@ -57,6 +58,13 @@ static const scalar smallestShare = 5e-11;
 
 //- How often a step is halved because there is no equilibrium of the stress
 static const label mostHalvings = 10;
+
+//- Largest change of the conductivity by its extrapolation to a stage, over its
+//- least component of the directions in which heat is conducted
+static const scalar mostAhead = 0.5;
+
+//- Conductivity at the start of the last step, where grains move
+static const char* const earlierName = "conductivityBefore";
 
 } // End namespace Foam
 
@@ -108,32 +116,137 @@ Foam::timeSchemes::secondOrder::secondOrder
     ),
     stage_(T.size(), Zero),
     rate_(T.size(), Zero),
+    lastDeltaT_(grains.record().lastDeltaT),
     firstHeat_(T.mesh().boundary().size(), Zero),
     firstSource_(0),
     firstOutside_(0),
     rejected_(0),
     forced_(0)
 {
-    see(T_.primitiveField());
-    for (const fvPatchScalarField& patch : T_.boundaryField())
+    see();
+    if (mechanics.canFail())
     {
-        see(patch);
+        earlier_.reset
+        (
+            new volSymmTensorField
+            (
+                IOobject
+                (
+                    earlierName, time_.timeName(), T.mesh(),
+                    IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE
+                ),
+                T.mesh(),
+                dimensionedSymmTensor
+                (
+                    properties.thermalConductivity().dimensions(), Zero
+                ),
+                extrapolatedCalculatedFvPatchSymmTensorField::typeName
+            )
+        );
+        if (!earlier_().headerOk())
+        {
+            lastDeltaT_ = 0;
+        }
     }
-    runRecord& record = grains.record();
-    reduce(record.leastT, minOp<scalar>());
-    reduce(record.mostT, maxOp<scalar>());
 }
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::timeSchemes::secondOrder::see(const scalarField& T)
+void Foam::timeSchemes::secondOrder::see()
 {
     runRecord& record = grains_.record();
-    for (const scalar value : T)
+    const auto look = [&record](const scalarField& T)
     {
-        record.leastT = min(record.leastT, value);
-        record.mostT = max(record.mostT, value);
+        for (const scalar value : T)
+        {
+            record.leastT = min(record.leastT, value);
+            record.mostT = max(record.mostT, value);
+        }
+    };
+    look(T_.primitiveField());
+    for (const fvPatchScalarField& patch : T_.boundaryField())
+    {
+        if (heatEquation::isGiven(patch))
+        {
+            look(patch);
+        }
+    }
+    // On all processes alike, because the size of the steps follows from it
+    reduce(record.leastT, minOp<scalar>());
+    reduce(record.mostT, maxOp<scalar>());
+}
+
+
+const Foam::granularState::conductivityColumns&
+Foam::timeSchemes::secondOrder::ahead(const scalar deltaT)
+{
+    stageK_ = startK_;
+    if (lastDeltaT_ <= 0)
+    {
+        return stageK_;
+    }
+    const scalar factor = deltaT/(2*gamma2*lastDeltaT_);
+    const bool spatial = startK_.zz.size();
+    const symmTensorField& earlier = earlier_().primitiveField();
+    forAll(earlier, celli)
+    {
+        const auto component = [celli](const scalarField& column)
+        {
+            return column.empty() ? 0 : column[celli];
+        };
+        const symmTensor now
+        (
+            startK_.xx[celli], component(startK_.xy), component(startK_.xz),
+            startK_.yy[celli], component(startK_.yz), component(startK_.zz)
+        );
+        const symmTensor change(factor*(now - earlier[celli]));
+        const scalar least = min
+        (
+            min(now.xx(), now.yy()), spatial ? now.zz() : now.xx()
+        );
+        const scalar share =
+            min(scalar(1), mostAhead*least/max(mag(change), VSMALL));
+        const symmTensor then(now + share*change);
+        stageK_.xx[celli] = then.xx();
+        stageK_.yy[celli] = then.yy();
+        if (stageK_.xy.size())
+        {
+            stageK_.xy[celli] = then.xy();
+        }
+        if (spatial)
+        {
+            stageK_.zz[celli] = then.zz();
+            stageK_.xz[celli] = then.xz();
+            stageK_.yz[celli] = then.yz();
+        }
+    }
+    return stageK_;
+}
+
+
+void Foam::timeSchemes::secondOrder::keepConductivity(const scalar deltaT)
+{
+    if (!mechanics_.canFail())
+    {
+        return;
+    }
+    lastDeltaT_ = deltaT;
+    symmTensorField& earlier = earlier_().primitiveFieldRef();
+    forAll(earlier, celli)
+    {
+        earlier[celli].xx() = startK_.xx[celli];
+        earlier[celli].yy() = startK_.yy[celli];
+    }
+    forAll(startK_.xy, celli)
+    {
+        earlier[celli].xy() = startK_.xy[celli];
+    }
+    forAll(startK_.zz, celli)
+    {
+        earlier[celli].zz() = startK_.zz[celli];
+        earlier[celli].xz() = startK_.xz[celli];
+        earlier[celli].yz() = startK_.yz[celli];
     }
 }
 
@@ -170,7 +283,12 @@ Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
     );
     scalar left = time_.endTime().value() - now;
 
-    if (control == "runTime" || control == "adjustableRunTime")
+    if
+    (
+        control == "runTime"
+     || control == "adjustableRunTime"
+     || control == "adjustable"
+    )
     {
         const scalar interval =
             time_.controlDict().get<scalar>("writeInterval");
@@ -199,12 +317,7 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     // Boundary values are evaluated at the time of the stage
     time_.value() = start + gamma2*deltaT;
     const scalarField before(heat_.equivalent(Told_));
-    heat_.solve
-    (
-        before,
-        gamma2*deltaT,
-        mechanics_.pulledBack(grains_.conductivityOfCells())
-    );
+    heat_.solve(before, gamma2*deltaT, startK_);
     firstHeat_ = heat_.patchHeat();
     firstSource_ = heat_.sourceHeat();
     firstOutside_ = neighbours_.heat();
@@ -212,11 +325,20 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     forAll(T, celli)
     {
         rate_[celli] = (T[celli] - Told_[celli])/gamma2;
-        stage_[celli] = Told_[celli] + rate_[celli]/(2*gamma2);
+        // A step that is far too large would go below absolute zero before its
+        // error is known
+        stage_[celli] =
+            max(Told_[celli] + rate_[celli]/(2*gamma2), scalar(0));
     }
-    grains_.strain(Told_, stage_);
+    // Where grains move, those that swell in their places would conduct by far
+    // too well or too badly: their stress changes before it is in equilibrium
+    const bool moves = mechanics_.canFail();
+    if (!moves)
+    {
+        grains_.strain(Told_, stage_);
+    }
     const granularState::conductivityColumns& K =
-        mechanics_.pulledBack(grains_.trialConductivity());
+        moves ? ahead(deltaT) : grains_.trialConductivity();
 
     // The stages of the heat; only the first guess is one of T
     const scalarField first(heat_.equivalent(T));
@@ -352,6 +474,7 @@ void Foam::timeSchemes::secondOrder::step()
     }
     setLog();
     Told_ = T_.primitiveField();
+    startK_ = mechanics_.pulledBack(grains_.conductivityOfCells());
     neighbours_.begin();
 
     while (true)
@@ -383,7 +506,8 @@ void Foam::timeSchemes::secondOrder::step()
         deltaT = landing(max(minDeltaT_, deltaT*factor));
     }
     forced_ += adaptive_ && error > 1;
-    see(T_.primitiveField());
+    see();
+    keepConductivity(deltaT);
 
     accountStages(deltaT);
     if (adaptive_)

@@ -47,16 +47,40 @@ pub fn pairs(solid_fraction: f64, distance: f64, radius: f64) -> f64 {
     (0.861 + 5.45 * denser) * pair(h) + (0.547 + 0.925 * denser) * pair(h + 0.14)
 }
 
+/// ln(R/h) below which the law of spheres does not know κ_g, which is then that of the [`pairs`] of touching spheres.
+pub const LEAST_NUMBER: f64 = 2.5;
+
+/// κ_g at the number of a gas over that at [`LEAST_NUMBER`], where it is below; else 1.
+fn beyond_law(solid_fraction: f64, number: f64) -> f64 {
+    if number >= LEAST_NUMBER {
+        return 1.0;
+    }
+    let at = |number: f64| pairs(solid_fraction, (-number).exp(), 1.0);
+    at(number) / at(LEAST_NUMBER)
+}
+
 /// How much the law of pairs counts for κ: 0 for poor conductors, 1 for good ones.
 pub fn share_of_pairs(ratio: f64) -> f64 {
     ((ratio / POOR).ln() / (GOOD / POOR).ln()).clamp(0.0, 1.0)
 }
 
 /// κ_g of poor conductors, with the jump length M; [`poor_spheres`]. A jump at the surface is a resistance in series with the sphere (Hasselman and
-/// Johnson, J. Compos. Mater. 21, 508, 1987).
+/// Johnson, J. Compos. Mater. 21, 508, 1987). Where the sphere and its jump conduct less than the gas, molecules fly from grain to grain
+/// ([`is_rarefied`]): there κ_g goes with that conductivity, and so with the pressure of the gas, to nothing in a vacuum.
 fn poor_gas(solid_fraction: f64, ratio: f64, jump: f64, radius: f64) -> f64 {
-    let seen = ratio / (1.0 + 0.5 * ratio * jump / radius);
-    poor_spheres(solid_fraction, seen.max(1.0))
+    let seen = with_jump(ratio, jump, radius);
+    if seen < 1.0 { seen } else { poor_spheres(solid_fraction, seen) }
+}
+
+/// κ of a sphere with the jump at its surface.
+fn with_jump(ratio: f64, jump: f64, radius: f64) -> f64 {
+    ratio / (1.0 + 0.5 * ratio * jump / radius)
+}
+
+/// Whether a gas is so thin that its molecules fly from grain to grain, with κ: then κ_g is only of the right order and goes with the
+/// pressure.
+pub fn is_rarefied(gas: &Gas, ratio: f64, radius: f64) -> bool {
+    with_jump(ratio, gas.jump_length(), radius) < 1.0
 }
 
 /// What the gas of each pair is multiplied with, so that a homogeneous packing of spheres of the conductivity `solid` \[W/(m K)\] conducts as the
@@ -94,7 +118,7 @@ pub struct BedState {
     pub solid_fraction: f64,
     /// Contacts per sphere.
     pub coordination: f64,
-    /// κ_g by the law of pairs.
+    /// κ_g by the law of pairs, at the number of the gas, at least [`LEAST_NUMBER`].
     pub gas: f64,
 }
 
@@ -147,12 +171,13 @@ impl BedMaterial {
         let rough = self.roughness_factor(bed.pressure, bed.solid_fraction, bed.coordination);
         let Some(gas) = gas else { return Conduction { gas: 0.0, contacts: rough } };
         let (pairs, ratio) = (self.share_of_pairs(gas), self.ratio(gas));
+        let of_pairs = bed.gas * beyond_law(bed.solid_fraction, self.gas_number(gas));
         if pairs >= 1.0 {
-            return Conduction { gas: gas.conductivity * bed.gas, contacts: rough };
+            return Conduction { gas: gas.conductivity * of_pairs, contacts: rough };
         }
         let poor = poor_gas(bed.solid_fraction, ratio, gas.jump_length(), self.radius);
         Conduction {
-            gas: gas.conductivity * (pairs * bed.gas + (1.0 - pairs) * poor),
+            gas: gas.conductivity * (pairs * of_pairs + (1.0 - pairs) * poor),
             contacts: rough * contact_factor(ratio, rough * self.mean_contact(bed) / self.radius),
         }
     }
@@ -256,6 +281,30 @@ mod tests {
         assert_eq!(at(100.0 / air).1.contacts, steel().roughness_factor(1e5, 0.6, 5.0));
         let vacuum = steel().conduction(None, &bed);
         assert_eq!(vacuum.gas, 0.0);
+    }
+
+    /// A gas that is pumped off conducts less and less, and in proportion to its pressure where it is thin: of good, middling and poor conductors.
+    #[test]
+    fn a_thin_gas_conducts_nothing() {
+        for conductivity in [50.0, 6.0, 0.5] {
+            let solid = Solid { conductivity, roughness: None, ..steel().solid };
+            let at = |pressure: f64| {
+                let material = BedMaterial { solid, gas: GasName::Helium, gas_pressure: pressure, ..steel() };
+                let helium = material.gas_at(573.0).expect("no vacuum");
+                // As the law answers, which knows the gas of numbers from 2.5 on.
+                let number = material.gas_number(&helium).max(LEAST_NUMBER);
+                let gas = pairs(0.6, material.radius * (-number).exp(), material.radius);
+                let bed = BedState { pressure: 0.0, solid_fraction: 0.6, coordination: 5.0, gas };
+                (material.conduction(Some(&helium), &bed).gas, is_rarefied(&helium, material.ratio(&helium), 3.2e-3))
+            };
+            let all: Vec<(f64, bool)> = (0..40).map(|k| at(1e5 * libm::pow(0.6, f64::from(k)))).collect();
+            assert!(all.windows(2).all(|pair| pair[1].0 < pair[0].0), "{conductivity}: {all:?}");
+            // No jump where one description ends and the next begins.
+            assert!(all.windows(2).all(|pair| pair[1].0 > 0.55 * pair[0].0), "{conductivity}: {all:?}");
+            assert!(!all[0].1 && all[39].1);
+            let [thin, thinner] = [1e-2, 1e-3].map(|pressure| at(pressure).0);
+            assert!((thin / thinner - 10.0).abs() < 0.1, "{conductivity}: {thin} {thinner}");
+        }
     }
 
     /// Roughness leaves more of contacts that bear more, and all of smooth ones.

@@ -232,7 +232,8 @@ typedef struct msdd_sphere_batch {
     double *gas_conductivity;      /**< the part of it by the gas [W/(m K)], in every direction alike */
     double *solid_fraction;        /**< volume of the spheres over the volume [-] */
     uint8_t *outside;              /**< 1 where jamming fraction, pressure or stress ratio after the step, or the number of the gas,
-                                        are outside of those of the training, else 0 */
+                                        are outside of those of the training, where the gas is so thin that its molecules
+                                        fly from grain to grain, or colder or hotter than its properties are known; else 0 */
     size_t outside_cells;          /**< number of these cells */
 } msdd_sphere_batch;
 

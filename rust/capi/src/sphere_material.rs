@@ -5,7 +5,7 @@ use crate::status::{Failure, utf8};
 use ::msdd_surrogate::spheres::model::Answer;
 use ::msdd_surrogate::spheres::readout::GAS_RANGE;
 use ::msdd_surrogate::spheres::tensor::{Tensor, mean};
-use msdd_beds::effective::{BedMaterial, BedState, LEAST_RATIO};
+use msdd_beds::effective::{BedMaterial, BedState, LEAST_NUMBER, LEAST_RATIO, is_rarefied};
 use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::solid::{Roughness, Solid};
@@ -32,6 +32,9 @@ pub(crate) struct Conductivity {
     pub tensor: Tensor,
     pub gas: f64,
 }
+
+// Below the law's range the closure goes on from its end.
+const _: () = assert!(GAS_RANGE[0] == LEAST_NUMBER);
 
 /// Least number of contacts per sphere of a packing that bears load.
 const LEAST_CONTACTS: f64 = 2.0;
@@ -122,7 +125,12 @@ impl Material {
         }
         let (number, [low, high]) = (self.bed.gas_number(&gas), GAS_RANGE);
         // The number is that of the law of pairs, which poor conductors do not have.
-        let outside = (number < low || number > high) && self.bed.share_of_pairs(&gas) > 0.0;
+        let ratio = self.bed.ratio(&gas);
+        let [coldest, hottest] = self.bed.gas.range();
+        let outside = (number < low || number > high) && self.bed.share_of_pairs(&gas) > 0.0
+            || is_rarefied(&gas, ratio, self.bed.radius)
+            || temperature < coldest
+            || temperature > hottest;
         Ok(GasThere { number, outside, gas: Some(gas) })
     }
 

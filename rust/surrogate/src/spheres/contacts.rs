@@ -70,19 +70,34 @@ fn forgets<N: Number>(free: N) -> N {
     free.at_least(LEAST_FREE).inverse().times(KEEPING).power(SHARPLY).plus(1.0).inverse()
 }
 
+/// What the number of contacts of a state is compared with, which one state asks for several times.
+#[derive(Clone, Copy, Debug)]
+pub struct Usual<N> {
+    /// z̄.
+    pub contacts: N,
+    /// F.
+    pub forgets: N,
+}
+
+impl<N: Number> Usual<N> {
+    /// Those of the contacts z by which the fabric turns: z̄ + F ζ. Where nearly all friction is mobilised, what a bed has more are
+    /// grains that rest on others and bear no load.
+    pub fn bearing(&self, coordination: N) -> N {
+        self.contacts + self.forgets * (coordination - self.contacts)
+    }
+}
+
 impl Contacts {
+    /// z̄ and F of a state.
+    pub fn usual<N: Number>(&self, state: &State<N>) -> Usual<N> {
+        Usual { contacts: self.sheared(state), forgets: forgets(state.free()) }
+    }
+
     /// z̄ of a state.
     pub fn sheared<N: Number>(&self, state: &State<N>) -> N {
         let sum =
             row(state).into_iter().zip(self.sheared).fold(N::of(0.0), |sum, (part, c)| sum + part.times(c));
         sum.at_least(CONTACTS[0]).at_most(CONTACTS[1])
-    }
-
-    /// Those of the contacts by which the fabric turns: z̄ + F ζ. Where nearly all friction is mobilised, what a bed has more are grains
-    /// that rest on others and bear no load.
-    pub fn bearing<N: Number>(&self, state: &State<N>) -> N {
-        let sheared = self.sheared(state);
-        sheared + forgets(state.free()) * (state.coordination - sheared)
     }
 
     /// z of a packing that was not strained since it was made.
@@ -92,18 +107,22 @@ impl Contacts {
     }
 
     /// z after a strain, which takes the packing from one state to the other.
-    pub fn after<N: Number>(&self, from: &State<N>, to: &State<N>, strain: &Tensor<N>) -> N {
-        let [left, more] = self.shares(from, to, strain);
-        let kept = left * (from.coordination - self.sheared(from));
-        (self.sheared(to) + kept + more.times(self.surplus)).at_least(CONTACTS[0]).at_most(CONTACTS[1])
+    pub fn after<N: Number>(
+        &self,
+        [from, to]: [&State<N>; 2],
+        [before, after]: [&Usual<N>; 2],
+        strain: &Tensor<N>,
+    ) -> N {
+        let [left, more] = self.shares([from, to], before.forgets, strain);
+        let kept = left * (from.coordination - before.contacts);
+        (after.contacts + kept + more.times(self.surplus)).at_least(CONTACTS[0]).at_most(CONTACTS[1])
     }
 
-    /// What a strain leaves of ζ, and what it adds to it, over S.
-    pub fn shares<N: Number>(&self, from: &State<N>, to: &State<N>, strain: &Tensor<N>) -> [N; 2] {
+    /// What a strain leaves of ζ, and what it adds to it, over S, with F of the state before.
+    pub fn shares<N: Number>(&self, [from, to]: [&State<N>; 2], forgets: N, strain: &Tensor<N>) -> [N; 2] {
         let [of_compression, of_shear] = self.fading;
         let [before, after] = [from, to].map(|state| state.compression.at_least(LEAST_COMPRESSION));
         let free = from.free();
-        let forgets = forgets(free);
         let distortion = deviator(*strain);
         let length = contraction(&distortion, &distortion).plus(TINY).sqrt() * after.inverse();
         let sheared = length.times(-of_shear).at_least(-MOST_EXPONENT);

@@ -47,7 +47,8 @@ fn contacts_that_fade(tracks: &[(&Track, Vec<State>)], fading: [f64; 2]) -> (Con
         for (step, to) in track.steps.iter().zip(&states[1..]) {
             let [xx, yy, zz, xy, xz, yz] = step.stretch;
             let strain = [xx, yy, zz, 0.5 * xy, 0.5 * xz, 0.5 * yz];
-            let [left, more] = contacts.shares(&states[step.from], to, &strain);
+            let from = &states[step.from];
+            let [left, more] = contacts.shares([from, to], contacts.usual(from).forgets, &strain);
             let [of_packing, since] = all[step.from];
             let [left, more] = [left * of_packing, left * since + more];
             all.push([left, more]);

@@ -1,6 +1,6 @@
 //! The law of a packing of spheres, as in [`super`].
 
-use super::contacts::Contacts;
+use super::contacts::{Contacts, Usual};
 use super::number::Number;
 use super::state::{ELEMENTS, FABRIC, LEAST_COMPRESSION, State};
 use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
@@ -113,27 +113,32 @@ impl Law {
         (exponent.exp() * v * v.sqrt()).times(b0)
     }
 
-    /// The stiffness of an element of friction.
-    pub(super) fn stiffness<N: Number>(&self, k: usize, compression: N, x: N, free: N) -> N {
+    /// The two factors, of density and friction and of the compression, that the stiffnesses of all elements of friction have beside
+    /// [`Element::stiffness`].
+    pub(super) fn stiffening<N: Number>(&self, compression: N, x: N, free: N) -> [N; 2] {
         let [of_density, power, of_free] = self.shear;
         let exponent =
             (x.times(of_density) + free.times(of_free)).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
         let u = Self::compressions(compression).1;
-        exponent.exp() * u.power(power).times(self.elements[k].stiffness)
+        [exponent.exp(), u.power(power)]
     }
 
     /// c: the stiffness of the fabric's element, [`Element::stiffness`] (z_b − z₀) where there are contacts enough, and smoothly none
-    /// below, with the contacts z_b of [`Contacts::bearing`].
-    fn turning<N: Number>(&self, state: &State<N>) -> N {
-        let more = self.contacts.bearing(state).plus(-self.least_contacts);
+    /// below, with the contacts z_b of [`Usual::bearing`].
+    fn turning<N: Number>(&self, bearing: N) -> N {
+        let more = bearing.plus(-self.least_contacts);
         let length = (more * more).plus(ROUNDING * ROUNDING).sqrt();
         (more + length).times(0.5 * self.elements[FABRIC].stiffness)
     }
 
-    /// Strength of an element, by the root of v.
-    pub(super) fn strength<N: Number>(&self, k: usize, x: N, free: N, root: N) -> N {
+    /// ln min(√u, 1), by the root of v.
+    pub(super) fn hardened<N: Number>(root: N) -> N {
+        root.times(1.0 / libm::sqrt(USUAL_COMPRESSION)).at_most(1.0).ln()
+    }
+
+    /// Strength of an element, by ln min(√u, 1).
+    pub(super) fn strength<N: Number>(&self, k: usize, x: N, free: N, loaded: N) -> N {
         let Element { strength, growth, free: of_free, hardening, .. } = self.elements[k];
-        let loaded = root.times(1.0 / libm::sqrt(USUAL_COMPRESSION)).at_most(1.0).ln();
         let exponent = x.times(growth) + free.times(of_free) + loaded.times(hardening);
         exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
     }
@@ -167,21 +172,43 @@ impl Law {
         let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
         let square = square(&cell);
         let count = parts(state.compression.value());
+        let mut usual = self.contacts.usual(&next);
         for part in 0..count {
             // Equal parts of the whole, E/n (1 + k E/n)⁻¹, which compose to it; of the cell to the second order.
             let (part, share) = (f64::from(part), 1.0 / f64::from(count));
             let thermal = strain.thermal * strain.thermal.times(part).plus(f64::from(count)).inverse();
             let cell = std::array::from_fn(|c| cell[c].times(share) - square[c].times(part * share * share));
             let before = next;
-            next = self.part(&before, thermal, cell);
-            next.coordination = self.contacts.after(&before, &next, &cell);
+            next = self.part(&before, &usual, thermal, cell);
+            let reached = self.contacts.usual(&next);
+            next.coordination = self.contacts.after([&before, &next], [&usual, &reached], &cell);
+            usual = reached;
         }
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
         next
     }
 
-    /// After growth of the radii and a strain of the cell, whose shears are not doubled.
-    fn part<N: Number>(&self, state: &State<N>, thermal: N, strain: Tensor<N>) -> State<N> {
+    /// Loss of compression by a unit of sliding of the second element, see [`Law::dilatancy`], along a tensor of this length; u is that which is reached.
+    fn lost<N: Number>(&self, state: &State<N>, usual: &Usual<N>, u: N, (along, length): (&Tensor<N>, N)) -> N {
+        let (x, free) = (state.density(), state.free());
+        let [c0, c1, c2, c3] = self.collapse;
+        let bound = free.times(-1.0).plus(1.0).at_least(LEAST_MOBILISED);
+        let collapse = (Self::exponential(x, -c1) * u.power(-c2)).times(c0) * bound.power(c3);
+        let [d0, d1, d2, d3, d4] = self.dilatancy;
+        let surplus = (state.coordination - usual.contacts) * free;
+        let always = (x.times(d1) + free.times(d2) - surplus.times(self.climbing)).plus(d0) + collapse;
+        let climbs = scaled(&state.ratios[FABRIC], x.times(d4).plus(d3));
+        always - contraction(&climbs, along) * length.inverse()
+    }
+
+    /// After growth of the radii and a strain of the cell, whose shears are not doubled; `usual` is that of the state before.
+    fn part<N: Number>(
+        &self,
+        state: &State<N>,
+        usual: &Usual<N>,
+        thermal: N,
+        strain: Tensor<N>,
+    ) -> State<N> {
         let [xx, yy, zz, xy, xz, yz] = strain;
         // Growth of the volume of the cell, and of the grains.
         let second = xx * yy + yy * zz + zz * xx - (xy * xy + xz * xz + yz * yz);
@@ -203,23 +230,18 @@ impl Law {
         let opens = tried.value() < before.value();
         let distortion = deviator(strain);
         let (compressed, u) = Self::compressions(after);
-        let root = compressed.sqrt();
+        let loaded = Self::hardened(compressed.sqrt());
+        let [of_packing, of_load] = self.stiffening(after, x, free);
         let mut ratios = state.ratios;
-        let [c0, c1, c2, c3] = self.collapse;
-        let bound = free.times(-1.0).plus(1.0).at_least(LEAST_MOBILISED);
-        let collapse = (Self::exponential(x, -c1) * u.power(-c2)).times(c0) * bound.power(c3);
-        let [d0, d1, d2, d3, d4] = self.dilatancy;
-        let surplus = (state.coordination - self.contacts.sheared(state)) * free;
-        let usual = (x.times(d1) + free.times(d2) - surplus.times(self.climbing)).plus(d0) + collapse;
-        let climbs = scaled(&state.ratios[FABRIC], x.times(d4).plus(d3));
         let [mut loss, mut sliding, mut work] = [N::of(0.0); 3];
         for (k, ratio) in ratios.iter_mut().enumerate() {
-            let most = self.strength(k, x, free, root).times(Self::factor(k, state.strength));
+            let most = self.strength(k, x, free, loaded).times(Self::factor(k, state.strength));
             if k == FABRIC {
-                *ratio = reoriented(ratio, &distortion, self.turning(state) * over, most, self.forgetting);
+                let stiffness = self.turning(usual.bearing(state.coordination)) * over;
+                *ratio = reoriented(ratio, &distortion, stiffness, most, self.forgetting);
                 continue;
             }
-            let stiffness = self.stiffness(k, after, x, free);
+            let stiffness = of_packing * of_load.times(self.elements[k].stiffness);
             let reopened = if opens { self.reopening } else { 0.0 };
             let faded = scaled(ratio, opening.power(self.elements[k].power + reopened));
             let faded = within(&faded, most).0;
@@ -232,7 +254,7 @@ impl Law {
                 sliding = sliding + slid;
                 work = work + slid * most;
                 if k == FIRST {
-                    loss = slid * (usual - contraction(&climbs, &elastic) * length.inverse());
+                    loss = slid * self.lost(state, usual, u, (&elastic, length));
                 }
             }
         }

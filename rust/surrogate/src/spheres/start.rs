@@ -70,20 +70,20 @@ impl Law {
             coordination: 0.0,
         };
         let (x, free) = (state.density(), state.free());
-        let root = Self::compressions(compression).0.sqrt();
+        let loaded = Self::hardened(Self::compressions(compression).0.sqrt());
         let over = 1.0 / self.pressure(compression, x, free).max(f64::MIN_POSITIVE);
         if compression <= LEAST_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
             return state;
         }
         let ratio = load.map(|part| part * over);
         let [per_anisotropy, usual] = self.fabric;
-        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, free, root));
+        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, free, loaded));
         let strength = strengths.iter().sum::<f64>();
         let of_fabric = match fabric {
             Borne::Fabric(fabric) => fabric.map(|part| per_anisotropy * part),
             Borne::Usual => ratio.map(|part| usual * part),
         };
-        let most = self.strength(FABRIC, x, free, root);
+        let most = self.strength(FABRIC, x, free, loaded);
         state.ratios[FABRIC] = within(&of_fabric, most).0;
         let rest: Tensor = std::array::from_fn(|k| ratio[k] - state.ratios[FABRIC][k]);
         let size = contraction(&rest, &rest).sqrt();
@@ -98,7 +98,9 @@ impl Law {
             state.strength = needed.clamp(MOST_OF_FRICTION, MOST_STRENGTH);
             state.ratios[FABRIC] = within(&both, most * Self::factor(FABRIC, state.strength)).0;
         }
-        let stiffness: [f64; FABRIC] = std::array::from_fn(|k| self.stiffness(k, compression, x, free));
+        let [of_packing, of_load] = self.stiffening(compression, x, free);
+        let stiffness: [f64; FABRIC] =
+            std::array::from_fn(|k| of_packing * (of_load * self.elements[k].stiffness));
         let limits: [f64; FABRIC] =
             std::array::from_fn(|k| Self::factor(k, state.strength) * strengths[k] / stiffness[k]);
         let common = shared(limits, stiffness, size);
