@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "heatEquation.H"
+#include "cellSetOption.H"
 #include "mappedPatchBase.H"
 #include "mixedFvPatchFields.H"
 #include "coupledPolyPatch.H"
@@ -22,6 +23,7 @@ License
 #include "OStringStream.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "unitConversion.H"
+#include "OSspecific.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -125,6 +127,7 @@ Foam::heatEquation::heatEquation
     patchHeat_(mesh_.boundary().size(), Zero),
     sourceHeat_(0)
 {
+    checkSources();
     // Making the matrix has updated time-dependent walls to the start time and
     // marked them as up to date; without this call they would keep that value
     // during the first step
@@ -387,6 +390,37 @@ bool Foam::heatEquation::anyCoupled() const
 }
 
 
+void Foam::heatEquation::checkSources()
+{
+    for (const word& place : {mesh_.time().constant(), mesh_.time().system()})
+    {
+        IOobject file("fvOptions", place, mesh_, IOobject::MUST_READ);
+        const fileName path
+        (
+            mesh_.time().globalPath()/place/mesh_.dbDir()/"fvOptions"
+        );
+        if (isFile(path) && !file.typeHeaderOk<IOdictionary>(true))
+        {
+            FatalErrorInFunction
+                << "File " << path << " has no header FoamFile { version 2.0;"
+                << " format ascii; class dictionary; object fvOptions; }:"
+                << " OpenFOAM would leave its sources out" << exit(FatalError);
+        }
+    }
+    PtrList<fv::option>& all = sources_;
+    for (fv::option& source : all)
+    {
+        if (source.applyToField(T_.name()) < 0)
+        {
+            FatalErrorInFunction
+                << "Source " << source.name() << " of fvOptions is none of T,"
+                << " the only field that is solved for: allowed T, as in"
+                << " injectionRateSuSp { T (1e6 0); }" << exit(FatalError);
+        }
+    }
+}
+
+
 Foam::tmp<Foam::fvScalarMatrix> Foam::heatEquation::addSources()
 {
     if (sources_.optionList::empty())
@@ -484,6 +518,31 @@ void Foam::heatEquation::solveBed
 bool Foam::heatEquation::isGiven(const fvPatchScalarField& wall)
 {
     return wall.fixesValue() && !isA<mixedFvPatchScalarField>(wall);
+}
+
+
+void Foam::heatEquation::addLoads(loadHistories& loads) const
+{
+    const PtrList<fv::option>& all = sources_;
+    for (const fv::option& source : all)
+    {
+        const auto* cells = isA<fv::cellSetOption>(source);
+        if (!cells || cells->timeStart() < 0)
+        {
+            continue;
+        }
+        const scalar begin = cells->timeStart();
+        const scalar end = begin + cells->duration();
+        loads.add
+        (
+            [begin, end](const scalar time)
+            {
+                return vector(begin <= time && time <= end, 0, 0);
+            },
+            // Beside each, so that the range of the function is seen
+            scalarList({begin - VSMALL - mag(begin)*SMALL, begin, end})
+        );
+    }
 }
 
 

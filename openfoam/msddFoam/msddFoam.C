@@ -112,7 +112,7 @@ static void chooseSettings(const Time& runTime)
             << "Entry 'accuracy' is " << accuracy << ", allowed on several"
             << " processes: none. Run msddFoam once on one process; then"
             << " decompose and run the case that it has made, "
-            << runTime.path().name() << ".chosen" << exit(FatalIOError);
+            << runTime.globalPath().name() << ".chosen" << exit(FatalIOError);
     }
     const string path(runTime.path());
     ::execlp

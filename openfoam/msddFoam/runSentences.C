@@ -20,6 +20,10 @@ License
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
+//- Difference of the heat received and held, over the heat exchanged, that is
+//- no rounding and no tolerance of the linear solver
+static const double muchHeat = 0.01;
+
 //- Text of a number with three digits, whatever the case's writePrecision
 static std::string brief(const double value)
 {
@@ -95,10 +99,29 @@ Foam::string Foam::runSummary::balance(const heatBalance& heat) const
         return "Heat: none went into the bed or out of it.";
     }
     return
-        "Heat: since the start " + brief(heat.patches) + " J came in"
+        string(heat.difference() > muchHeat ? "Doubt: heat is lost. " : "")
+      + "Heat: since the start " + brief(heat.patches) + " J came in"
         " through the boundary and " + brief(heat.sources) + " J from sources;"
         " the grains hold " + brief(heat.stored) + " J more. Heat received and"
         " heat held differ by " + brief(heat.difference()) + " of all heat that was exchanged.";
+}
+
+
+Foam::string Foam::runSummary::contact() const
+{
+    label loose = 0;
+    for (const scalar p : grains_.pressure().primitiveField())
+    {
+        loose += !(p > 0);
+    }
+    reduce(loose, sumOp<label>());
+    const label cells =
+        returnReduce(grains_.mesh().nCells(), sumOp<label>());
+    return loose
+      ? "Doubt: grains in " + Foam::name(loose) + " of " + Foam::name(cells)
+      + " cells bear no load at the end. Where they have lost touch they lie"
+        " about as no model of a bed under load knows."
+      : string();
 }
 
 

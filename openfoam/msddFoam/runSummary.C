@@ -72,10 +72,18 @@ void Foam::runSummary::write(const label rejected) const
         returnReduce(time.elapsedCpuTime(), sumOp<scalar>());
 
     const heatBalance heat(this->heat());
-    const List<string> sentences
-    ({
-        range(), doubt(), balance(heat), motion(), cost()
-    });
+    DynamicList<string> sentences;
+    for
+    (
+        const string& sentence :
+        {range(), doubt(), contact(), balance(heat), motion(), cost()}
+    )
+    {
+        if (!sentence.empty())
+        {
+            sentences.append(sentence);
+        }
+    }
 
     Info<< "Steps: " << steps << ", repeated " << rejected << nl
         << "Wall time: " << wallSeconds << " s" << nl << nl

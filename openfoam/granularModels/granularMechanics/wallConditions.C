@@ -246,6 +246,22 @@ void Foam::wallConditions::read
 }
 
 
+void Foam::wallConditions::addLoads(loadHistories& loads) const
+{
+    for (const wall& w : walls_)
+    {
+        if (w.displacement.valid())
+        {
+            loads.add(w.displacement());
+        }
+        if (w.pressure.valid())
+        {
+            loads.add(w.pressure());
+        }
+    }
+}
+
+
 void Foam::wallConditions::findNormals()
 {
     const label dim = mesh_.dim();

@@ -19,6 +19,8 @@ License
 #include "SHA1.H"
 
 #include <cctype>
+#include <fstream>
+#include <iterator>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -72,10 +74,19 @@ static string shown(const dictionary& dict, const wordHashSet& but)
 
 static string shown(const temperatureFunction& f)
 {
-    return
-        f.isNumber()
-      ? shown(f.usual().value())
-      : shown(f.given(), wordHashSet());
+    if (f.isNumber())
+    {
+        return shown(f.usual().value());
+    }
+    string text(shown(f.given(), wordHashSet()));
+    fileName file;
+    if (f.given().readIfPresent("file", file))
+    {
+        std::ifstream is(file.expand(), std::ios::binary);
+        const std::string content(std::istreambuf_iterator<char>(is), {});
+        text += " (SHA-1 " + SHA1(content).digest().str() + ")";
+    }
+    return text;
 }
 
 } // End namespace Foam

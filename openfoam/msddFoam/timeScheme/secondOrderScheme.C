@@ -16,6 +16,8 @@ License
 
 #include "secondOrderScheme.H"
 #include "stepWatch.H"
+#include "IStringStream.H"
+#include "OStringStream.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "addToRunTimeSelectionTable.H"
 
@@ -114,6 +116,7 @@ Foam::timeSchemes::secondOrder::secondOrder
             time_.controlDict(), "maxDeltaT", GREAT, minDeltaT_, GREAT
         )
     ),
+    loads_(grains.record().startTime, time_.endTime().value()),
     stage_(T.size(), Zero),
     rate_(T.size(), Zero),
     lastDeltaT_(grains.record().lastDeltaT),
@@ -124,17 +127,26 @@ Foam::timeSchemes::secondOrder::secondOrder
     forced_(0)
 {
     see();
+    if (adaptive_)
+    {
+        findLoads();
+    }
     if (mechanics.canFail())
     {
+        IOobject io
+        (
+            earlierName, time_.timeName(), T.mesh(),
+            IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE
+        );
+        if (!io.typeHeaderOk<volSymmTensorField>(true))
+        {
+            lastDeltaT_ = 0;
+        }
         earlier_.reset
         (
             new volSymmTensorField
             (
-                IOobject
-                (
-                    earlierName, time_.timeName(), T.mesh(),
-                    IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE
-                ),
+                io,
                 T.mesh(),
                 dimensionedSymmTensor
                 (
@@ -143,10 +155,6 @@ Foam::timeSchemes::secondOrder::secondOrder
                 extrapolatedCalculatedFvPatchSymmTensorField::typeName
             )
         );
-        if (!earlier_().headerOk())
-        {
-            lastDeltaT_ = 0;
-        }
     }
 }
 
@@ -248,6 +256,7 @@ void Foam::timeSchemes::secondOrder::keepConductivity(const scalar deltaT)
         earlier[celli].xz() = startK_.xz[celli];
         earlier[celli].yz() = startK_.yz[celli];
     }
+    earlier_().correctBoundaryConditions();
 }
 
 
@@ -274,7 +283,30 @@ Foam::scalar Foam::timeSchemes::secondOrder::tolerance() const
 }
 
 
-Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
+void Foam::timeSchemes::secondOrder::findLoads()
+{
+    mechanics_.addLoads(loads_);
+    heat_.addLoads(loads_);
+    for (const fvPatchScalarField& wall : T_.boundaryField())
+    {
+        OStringStream os;
+        os.precision(17);
+        wall.write(os);
+        IStringStream is(os.str());
+        const dictionary dict(is);
+        for (const word key : {"uniformValue", "uniformGradient", "Ta", "Q"})
+        {
+            if (dict.found(key))
+            {
+                given_.append(Function1<scalar>::New(key, dict));
+                loads_.add(given_.last());
+            }
+        }
+    }
+}
+
+
+Foam::scalar Foam::timeSchemes::secondOrder::left() const
 {
     const scalar now = time_.value();
     const word control
@@ -303,9 +335,30 @@ Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
         const scalar next = std::floor((now - begin)/interval + rounding) + 1;
         left = min(left, begin + next*interval - now);
     }
+    return left;
+}
+
+
+Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
+{
     // At the end of the run what is left may be a rounding error, not zero
-    const scalar share = left/deltaT - rounding;
-    return share > 0 ? left/std::ceil(share) : deltaT;
+    const scalar all = left();
+    const scalar share = all/deltaT - rounding;
+    return share > 0 ? all/std::ceil(share) : deltaT;
+}
+
+
+Foam::scalar Foam::timeSchemes::secondOrder::fitted(const scalar deltaT) const
+{
+    const scalar whole = landing(deltaT);
+    const scalar part =
+        max(minDeltaT_, loads_.follow(time_.value(), whole));
+    // OpenFOAM takes a step that ends within half of its size before a write
+    // time for that which ends there
+    return
+        part >= whole ? whole
+      : left() - part > part ? part
+      : landing(part);
 }
 
 
@@ -470,7 +523,7 @@ void Foam::timeSchemes::secondOrder::step()
     if (adaptive_)
     {
         deltaT = record.nextDeltaT > 0 ? record.nextDeltaT : deltaT;
-        deltaT = landing(max(minDeltaT_, min(maxDeltaT_, deltaT)));
+        deltaT = fitted(max(minDeltaT_, min(maxDeltaT_, deltaT)));
     }
     setLog();
     Told_ = T_.primitiveField();
@@ -501,9 +554,7 @@ void Foam::timeSchemes::secondOrder::step()
         neighbours_.restore();
         const scalar factor =
             cut ? 0.5 : max(largestCut, safety/std::sqrt(error));
-        // Evenly to the next write time: OpenFOAM takes a step that ends
-        // within half of its size before one for that which ends there
-        deltaT = landing(max(minDeltaT_, deltaT*factor));
+        deltaT = fitted(max(minDeltaT_, deltaT*factor));
     }
     forced_ += adaptive_ && error > 1;
     see();

@@ -32,9 +32,9 @@ const HALF: f64 = 2.9;
 /// for φ from 0.54 to 0.63 (`examples/voxels.rs`), which are known within 1 % up to κ = 5, within 2 % at κ = 10 and 6 % at κ = 20: so far
 /// apart are their extrapolations with the powers 1/2 and 1 of the voxels' size.
 pub fn poor_spheres(solid_fraction: f64, ratio: f64) -> f64 {
-    let (x, [second, third]) = (ratio.ln(), FITTED);
+    let (x, [second, third]) = (libm::log(ratio), FITTED);
     let bend = x * (1.0 / 6.0 - x * (second - x * third));
-    (solid_fraction * x * (1.0 + (1.0 - solid_fraction) * bend)).exp()
+    libm::exp(solid_fraction * x * (1.0 + (1.0 - solid_fraction) * bend))
 }
 
 /// κ_g of the pairs of a packing with the solid fraction φ, whose gas has the distance h at a contact: (0.861 + 5.45 (φ − 0.6)) g(h) +
@@ -55,13 +55,13 @@ fn beyond_law(solid_fraction: f64, number: f64) -> f64 {
     if number >= LEAST_NUMBER {
         return 1.0;
     }
-    let at = |number: f64| pairs(solid_fraction, (-number).exp(), 1.0);
+    let at = |number: f64| pairs(solid_fraction, libm::exp(-number), 1.0);
     at(number) / at(LEAST_NUMBER)
 }
 
 /// How much the law of pairs counts for κ: 0 for poor conductors, 1 for good ones.
 pub fn share_of_pairs(ratio: f64) -> f64 {
-    ((ratio / POOR).ln() / (GOOD / POOR).ln()).clamp(0.0, 1.0)
+    (libm::log(ratio / POOR) / libm::log(GOOD / POOR)).clamp(0.0, 1.0)
 }
 
 /// κ_g of poor conductors, with the jump length M; [`poor_spheres`]. A jump at the surface is a resistance in series with the sphere (Hasselman and
@@ -153,7 +153,7 @@ impl BedMaterial {
 
     /// ln(R/h) \[-\]: 8.5 for steel spheres of 6 mm in air, less for small spheres, poor solids and thin gases.
     pub fn gas_number(&self, gas: &Gas) -> f64 {
-        (self.radius / gas.least_distance(self.radius, self.solid.conductivity)).ln()
+        libm::log(self.radius / gas.least_distance(self.radius, self.solid.conductivity))
     }
 
     /// κ \[-\].
@@ -293,7 +293,7 @@ mod tests {
                 let helium = material.gas_at(573.0).expect("no vacuum");
                 // As the law answers, which knows the gas of numbers from 2.5 on.
                 let number = material.gas_number(&helium).max(LEAST_NUMBER);
-                let gas = pairs(0.6, material.radius * (-number).exp(), material.radius);
+                let gas = pairs(0.6, material.radius * libm::exp(-number), material.radius);
                 let bed = BedState { pressure: 0.0, solid_fraction: 0.6, coordination: 5.0, gas };
                 (material.conduction(Some(&helium), &bed).gas, is_rarefied(&helium, material.ratio(&helium), 3.2e-3))
             };

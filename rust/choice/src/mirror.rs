@@ -43,13 +43,31 @@ fn sources(folder: &Path) -> bool {
     ["constant", "system"].iter().any(|part| folder.join(part).join("fvOptions").exists())
 }
 
+/// Gravity \[m/s²\] of the file `constant/g`; none without it. None if it cannot be read.
+fn gravity(folder: &Path) -> Option<[f64; 3]> {
+    let file = folder.join("constant/g");
+    if !file.exists() {
+        return Some([0.0; 3]);
+    }
+    let numbers: Vec<f64> = Dictionary::expanded(&file)
+        .ok()?
+        .value("value")
+        .ok()?
+        .iter()
+        .filter_map(|token| token.text.parse().ok())
+        .collect();
+    numbers.try_into().ok()
+}
+
 impl Mirror {
     /// Reads a case of one block; `start`: folder of its initial fields; `count`: its cells. None if nothing is known to mirror.
     pub fn read(folder: &Path, start: &str, count: [usize; 3], files: &Files) -> Option<Self> {
         let Files { mesh, control, grains } = files;
-        if sources(folder) {
+        // A bed at rest has its stress from the highest point of the mesh
+        if sources(folder) || grains.get("restStress").is_some() {
             return None;
         }
+        let gravity = gravity(folder)?;
         let (corners, boundary) = (corners(mesh)?, texts(mesh.value("boundary").ok()?));
         let probes = probes(control)?;
         let fields: Option<Vec<Dictionary>> =
@@ -59,6 +77,7 @@ impl Mirror {
             let [Some(low), Some(high)] = SIDES[k].map(|side| patch(&boundary, side)) else { return false };
             let same = |field: &Dictionary| matches!(conditions(field, &low, &high), Some([a, b]) if a == b);
             count[k] > 1
+                && gravity[k] == 0.0
                 && count[k].is_multiple_of(2)
                 && fields.iter().all(same)
                 && walls(grains, &low, &high)

@@ -5,7 +5,7 @@ use crate::bed::{Bed, Grains};
 use crate::mirror::{Files, Mirror};
 use crate::settings::{Level, Settings};
 use msdd_case::CaseError;
-use msdd_case::dictionary::{Dictionary, Entry, Token};
+use msdd_case::dictionary::{Dictionary, Entry, Token, joined};
 use msdd_case::path;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
@@ -264,21 +264,28 @@ impl Scene {
         own / (own / span).ceil().max(1.0)
     }
 
-    /// Checksum of what a run depends on: this version, the files of the case, and those that they include.
+    /// Checksum of what a run depends on: this version, the files of the case with their names, those that they include, and the
+    /// model or plug-in that it names.
     ///
     /// # Errors
     /// [`ChoiceError::File`].
     pub fn checksum(&self) -> Result<String, ChoiceError> {
         let mut files: Vec<PathBuf> = Vec::new();
-        for part in [self.start.as_str(), "constant", "constant/polyMesh", "system"] {
-            for file in msdd_files::list(&self.folder.join(part)).unwrap_or_default() {
-                add(&file, &mut files);
+        for part in [self.start.as_str(), "constant", "system"] {
+            add_all(&self.folder.join(part), DEPTH, &mut files);
+        }
+        if let Ok(grains) = Dictionary::expanded(&self.folder.join("constant/granularProperties")) {
+            for file in models(&grains) {
+                add(&self.folder.join(file), &mut files);
             }
         }
         files.sort();
         let mut sum = Sha256::new();
         sum.update(env!("CARGO_PKG_VERSION"));
         for file in files {
+            let name = file.strip_prefix(&self.folder).unwrap_or(&file);
+            sum.update(name.as_os_str().as_encoded_bytes());
+            sum.update([0]);
             sum.update(std::fs::read(&file).unwrap_or_default());
             sum.update([0]);
         }
@@ -292,6 +299,34 @@ fn model(grains: &Dictionary) -> Option<String> {
     let own = surrogate.dictionary_at("networkCoeffs").unwrap_or(surrogate);
     let [name] = own.value("model").ok()? else { return None };
     (surrogate.text("type").ok()? == "network").then(|| name.text.clone())
+}
+
+/// Folders in folders in which files of a case are looked for.
+const DEPTH: usize = 6;
+
+/// Adds the files of a folder and of those in it.
+fn add_all(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) {
+    for file in msdd_files::list(folder).unwrap_or_default() {
+        if file.is_dir() && depth > 0 {
+            add_all(&file, depth - 1, files);
+        } else {
+            add(&file, files);
+        }
+    }
+}
+
+/// Files of models and plug-ins that `surrogate` names.
+fn models(grains: &Dictionary) -> Vec<String> {
+    let Ok(surrogate) = grains.dictionary_at("surrogate") else { return Vec::new() };
+    let own = surrogate.keys().filter_map(|key| match surrogate.get(&key.text) {
+        Some(Entry::Dictionary(own)) => Some(own),
+        _ => None,
+    });
+    let all = std::iter::once(surrogate).chain(own);
+    all.flat_map(|dictionary| ["model", "library"].map(|key| dictionary.value(key).map(joined)))
+        .filter_map(Result::ok)
+        .map(|name| name.trim_matches('"').to_string())
+        .collect()
 }
 
 /// Adds a file and those that it includes.

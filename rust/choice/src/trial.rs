@@ -217,6 +217,9 @@ fn turn_back(scene: &Scene, settings: &Settings, outcome: &mut Outcome) {
     }
 }
 
+/// Changes of T over T that are none.
+const NOISE: f64 = 1e-9;
+
 /// Reads what a run of `seconds` has left in the folder of a combination.
 ///
 /// # Errors
@@ -247,6 +250,10 @@ pub fn read_outcome(folder: &Path, seconds: f64) -> Result<Outcome, ChoiceError>
     let mut range = values[&Quantity::Temperature].range();
     for start in starts(&format!("{WATCH}Range"))? {
         range = range.max(extremes(&start.join("fieldMinMax.dat"))?);
+    }
+    // What is left of rounding and of the linear solver, where nothing heats or cools
+    if range <= NOISE * values[&Quantity::Temperature].rms() {
+        range = 0.0;
     }
     let summary = folder.join("postProcessing/msddFoam/summary.json");
     let text = read_text(&summary)?;

@@ -62,9 +62,13 @@ pub unsafe extern "C" fn msdd_spheres_wall_resistance(
         }
         stress.check_range(-LARGEST_STRESS, LARGEST_STRESS, "-1e30 to 1e30 Pa")?;
         temperature.check_range(0.0, 1e5, "0 to 1e5 K")?;
-        conductivity.check_range(f64::MIN_POSITIVE, 1e30, "above 0, to 1e30 W/(m K)")?;
+        conductivity.check_range(0.0, 1e30, "0 to 1e30 W/(m K)")?;
         for face in 0..faces {
-            let found = wall.resistance(bed, stress.at(face), temperature.at(face), conductivity.at(face));
+            // Where grains do not touch and there is no gas
+            let found = match conductivity.at(face) {
+                0.0 => LARGEST,
+                across => wall.resistance(bed, stress.at(face), temperature.at(face), across),
+            };
             resistance.write_one(face, found.min(LARGEST));
         }
         Ok(())

@@ -3,7 +3,7 @@
 use super::fields::{self, FIELDS};
 use super::finding::Findings;
 use super::mesh::Mesh;
-use super::{control, grains, gravity, scales, state};
+use super::{control, grains, gravity, scales, spheres, state};
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
 use rayon::prelude::*;
@@ -60,6 +60,9 @@ pub fn check(folder: &Path, files: &Files, mesh: &Mesh, times: Option<control::T
         .each_ref()
         .map(|field| file(field.file).and_then(|dictionary| fields::check(field, dictionary, mesh, found)));
     let [temperature, porosity, fabric_index, conductivity, stress] = &values;
+    if let Some(properties) = properties {
+        spheres::check(folder, properties, mesh, [porosity.as_ref(), stress.as_ref()], found);
+    }
     let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), file(scales::SOURCES), mesh, times);
     scene.check_walls(found);
     let grains = properties.and_then(numbers);

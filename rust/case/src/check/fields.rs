@@ -169,7 +169,8 @@ fn check_patches(field: &Expected, file: &Dictionary, mesh: &Mesh, found: &mut F
         return;
     };
     for [name, kind] in &mesh.patches {
-        if boundary.matching(name).is_none() && boundary.get(kind).is_none() {
+        // OpenFOAM itself makes those of patches that are empty
+        if kind != "empty" && boundary.matching(name).is_none() && boundary.get(kind).is_none() {
             let advice = "The mesh has this patch; give it a condition, such as { type zeroGradient; }";
             found.error([field.file, &boundary.path_of(name)], "missing", "a dictionary in braces", advice);
         }

@@ -209,6 +209,11 @@ fn check_mechanics(
     let elastic = matches!(
         file.dictionary_at("equilibriumCoeffs"), Ok(settings) if settings.text("law").is_ok_and(|law| law == "elastic")
     );
+    let constant = file.dictionary_at("surrogate").and_then(|surrogate| surrogate.text("type"));
+    if equilibrium && !elastic && constant.is_ok_and(|kind| kind == "constant") {
+        let advice = "The surrogate type constant has no grains that resist a strain";
+        found.error([FILE, "mechanics"], "equilibrium", "none, or equilibrium with law elastic", advice);
+    }
     if equilibrium && !elastic && model.is_some_and(|model| !model.has_tangent()) {
         let advice = "The model has no mechanical tangent, which this needs; builtin has one";
         found.error([FILE, "mechanics"], "equilibrium", "none with this model", advice);

@@ -24,6 +24,7 @@ pub mod keys;
 pub mod mesh;
 pub mod regions;
 pub mod scales;
+mod spheres;
 pub mod state;
 
 pub use finding::{Finding, Findings, Severity};

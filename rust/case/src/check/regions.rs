@@ -2,7 +2,7 @@
 //! `granularSolidThermo`. Other regions are checked by OpenFOAM itself.
 
 use super::finding::Findings;
-use super::{bed, control, grains, keys, mesh, scales};
+use super::{bed, control, grains, gravity, keys, mesh, scales};
 use crate::dictionary::{Dictionary, Entry, Token};
 use std::path::Path;
 
@@ -14,12 +14,13 @@ const THERMO: &str = "constant/thermophysicalProperties";
 const BED: &str = "granularSolidThermo";
 
 /// Files of a bed, by their names without the region, and whether the solver needs them.
-const FILES: [(&str, bool); 12] = [
+const FILES: [(&str, bool); 13] = [
     (THERMO, true),
     (control::SOLUTION, true),
     ("system/fvSchemes", true),
     (mesh::BLOCKS, false),
     (grains::FILE, true),
+    (gravity::FILE, false),
     (scales::SOURCES, false),
     ("0/T", true),
     ("0/p", true),
@@ -96,7 +97,8 @@ fn check_bed(folder: &Path, region: &str, times: Option<control::Times>, found: 
         let advice = "Grains move in msddFoam, which solves a bed alone";
         found.error([grains::FILE, "mechanics"], &mechanics, "none in a region", advice);
     }
-    let mesh = mesh::check(&folder.join("constant").join(region), file(mesh::BLOCKS), true, found);
+    let is_plane = file(grains::FILE).is_none_or(grains::is_plane);
+    let mesh = mesh::check(&folder.join("constant").join(region), file(mesh::BLOCKS), is_plane, found);
     bed::check(folder, &files, &mesh, times, found);
 }
 

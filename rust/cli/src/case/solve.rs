@@ -126,13 +126,14 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
     }
     outln!("\nRunning it in {} ...", chosen.display());
     let outcome = trial::run(scene, &record.found.settings, &chosen, &lock)?;
-    let half = half(scene, &record, &lock)?;
     let mut space = Values::new();
-    if let Some(half) = &half {
-        // The error of the finer of two runs whose cells differ by a factor of two.
-        space = difference(&outcome, half, 1.0 / (2f64.powi(ORDER) - 1.0));
+    if record.found.range > 0.0
+        && let Some((half, ratio)) = half(scene, &record, &lock)?
+    {
+        // The error of the finer of two runs whose cells differ by this factor.
+        space = difference(&outcome, &half, 1.0 / (ratio.powi(ORDER) - 1.0));
         let percent = 100.0 * space[&Quantity::Temperature].rms() / record.found.range;
-        let how = "the chosen run and one with half the cells along each direction".to_string();
+        let how = format!("the chosen run and one with cells {ratio:.3} times as large along each direction");
         record.checked = Some(Share { source: "cells, checked".to_string(), percent, how });
     }
     let bands = interval::bands(scene, &outcome, &seen, &space, &Law::shipped(scene.bed.kind));
@@ -214,19 +215,25 @@ pub(crate) fn attempt(
     Ok(Outcome { seconds: began.elapsed().as_secs_f64(), ..outcome })
 }
 
-/// A run with half the cells along each direction of the chosen one, if there can be fewer.
-fn half(scene: &Scene, record: &Record, lock: &Lock) -> Result<Option<Outcome>, ChoiceError> {
+/// A run with about half the cells along each direction of the chosen one, if there can be fewer, and by what factor they are fewer along
+/// that of the directions where it is least.
+fn half(scene: &Scene, record: &Record, lock: &Lock) -> Result<Option<(Outcome, f64)>, ChoiceError> {
     let settings = &record.found.settings;
     let cells = scene.directions();
     let coarser =
         |(k, &level): (usize, &Level)| level.coarser(settings.own_cells(k, cells[k])).unwrap_or(level);
     let levels: Vec<Level> = settings.levels.iter().enumerate().map(coarser).collect();
-    if levels == settings.levels {
+    let own = |k: usize| settings.own_cells(k, cells[k]);
+    let ratios = (0..levels.len())
+        .map(|k| settings.levels[k].cells(own(k)) as f64 / levels[k].cells(own(k)) as f64)
+        .filter(|&ratio| ratio > 1.0);
+    let ratio = ratios.fold(f64::INFINITY, f64::min);
+    if ratio.is_infinite() {
         return Ok(None);
     }
     let half = Settings { levels, ..settings.clone() };
     let folder = beside(scene, "trial");
     let other = attempt(scene, &half, Some(record.found.range), &folder, lock);
     trial::clear(&folder)?;
-    other.map(Some)
+    other.map(|other| Some((other, ratio)))
 }

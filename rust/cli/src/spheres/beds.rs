@@ -68,6 +68,13 @@ fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) ->
             folder.join(FILE).display()
         )));
     }
+    if scene.closure().is_some() {
+        return Err(CliError::Message(format!(
+            "{}: spheres that conduct less than 60 times as well as the gas, allowed for a training: better ones, whose \
+             contacts conduct as in a vacuum",
+            folder.join(FILE).display()
+        )));
+    }
     let values = |name: &&str| {
         column(text, name).ok_or_else(|| {
             let allowed = "elements.csv of this version's 'msdd bed run'";

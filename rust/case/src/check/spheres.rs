@@ -1,0 +1,190 @@
+//! Checks what the law of spheres needs of a case, before the solver refuses it or answers as well as it can.
+
+use super::fields::Values;
+use super::finding::Findings;
+use super::grains::FILE;
+use super::keys;
+use super::mesh::Mesh;
+use crate::dictionary::{Dictionary, joined};
+use crate::numbers::rounded;
+use msdd_rve::message::number;
+use msdd_surrogate::spheres::model::SphereModel;
+use msdd_surrogate::spheres::state::Known;
+use std::path::Path;
+
+/// Solid fractions that the solver takes.
+const SOLID: [f64; 2] = [0.3, 0.8];
+/// By how much the trace of a fabric may differ from 1.
+const UNIT_TRACE: f64 = 0.01;
+/// Roughness over the radius above which it is hardly meant.
+const MOST_ROUGH: f64 = 0.01;
+/// Types of patches that need no entry in `walls`.
+const NO_WALLS: [&str; 6] = ["empty", "wedge", "symmetry", "symmetryPlane", "processor", "cyclic"];
+
+/// `properties` with the surrogate type spheres; nothing is done for others. `fields`: porosity and stress at the start.
+pub fn check(
+    folder: &Path,
+    properties: &Dictionary,
+    mesh: &Mesh,
+    fields: [Option<&Values>; 2],
+    found: &mut Findings,
+) {
+    let Ok(surrogate) = properties.dictionary_at("surrogate") else { return };
+    if !surrogate.text("type").is_ok_and(|kind| kind == "spheres") {
+        return;
+    }
+    let Ok(own) = surrogate.dictionary_at("spheresCoeffs") else {
+        let allowed = "a dictionary with poissonRatio and gas";
+        found.error([FILE, "surrogate/spheresCoeffs"], "missing", allowed, "");
+        return;
+    };
+    let radius = keys::number(properties, "meanRadius", "");
+    for surface in [Some(own), own.dictionary_at("wall").ok()].into_iter().flatten() {
+        check_roughness(surface, radius, found);
+    }
+    check_fabric(own, found);
+    check_walls(properties, mesh, found);
+    if let (Some(radius), Some([along, across])) = (radius, mesh.cell()) {
+        let least = along.min(across);
+        if 2.0 * radius > least {
+            let value = format!("cells of {} m", number(rounded(least, 3)));
+            let allowed = format!("at least a sphere's diameter, {} m", number(rounded(2.0 * radius, 3)));
+            let advice = "A cell smaller than a sphere has no mean over spheres; is meanRadius in metres?";
+            found.doubt(["system/blockMeshDict", "blocks"], &value, &allowed, advice);
+        }
+    }
+    let [porosity, stress] = fields;
+    let model = load(folder, own, found);
+    let (Some(porosity), Some(stress)) = (porosity, stress) else {
+        if stress.is_none() && porosity.is_some() && properties.get("restStress").is_none() && !folder.join("0/stress").exists() {
+            let advice = "Without it neither contacts nor stiffness are known; restStress gives that of a bed at rest";
+            found.error(["0/stress", ""], "missing", "the stress at the start [Pa], tension positive", advice);
+        }
+        return;
+    };
+    check_start(properties, own, model.as_ref(), porosity, stress, found);
+}
+
+fn check_roughness(surface: &Dictionary, radius: Option<f64>, found: &mut Findings) {
+    let Some(roughness) = keys::number(surface, "roughness", "") else { return };
+    if roughness > 0.0 && surface.get("hardness").is_none() {
+        found.error([FILE, &surface.path_of("hardness")], "missing", "1 to 1e15 Pa, with roughness above 0", "");
+    }
+    if radius.is_some_and(|radius| roughness > MOST_ROUGH * radius) {
+        let value = number(roughness);
+        let advice = "That is no roughness of spheres of this size; is it in metres?";
+        found.doubt([FILE, &surface.path_of("roughness")], &value, "at most a hundredth of meanRadius [m]", advice);
+    }
+}
+
+fn check_fabric(own: &Dictionary, found: &mut Findings) {
+    let Ok(tokens) = own.value("fabric") else { return };
+    let words = tokens.iter().map(|token| token.text.as_str()).filter(|word| !["(", ")"].contains(word));
+    let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
+    let tensor: Option<[f64; 6]> = numbers.and_then(|numbers| numbers.try_into().ok());
+    let possible = tensor.is_some_and(|[xx, xy, xz, yy, yz, zz]| {
+        let minors = [xx * yy - xy * xy, xx * zz - xz * xz, yy * zz - yz * yz];
+        let all = xx * minors[2] - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+        [xx, yy, zz].into_iter().chain(minors).all(|part| part >= 0.0)
+            && all >= -1e-15
+            && (xx + yy + zz - 1.0).abs() <= UNIT_TRACE
+    });
+    if !possible {
+        let allowed = "the mean of n n over the contacts, (xx xy xz yy yz zz) with xx + yy + zz = 1, and along no direction negative";
+        found.error([FILE, &own.path_of("fabric")], &joined(tokens), allowed, "");
+    }
+}
+
+/// Spheres have no friction at walls that they know by themselves.
+fn check_walls(properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
+    let Ok(settings) = properties.dictionary_at("equilibriumCoeffs") else { return };
+    let moves = properties.text("mechanics").is_ok_and(|kind| kind == "equilibrium");
+    if !moves || settings.text("law").is_ok_and(|law| law == "elastic") {
+        return;
+    }
+    let walls = settings.dictionary_at("walls").ok();
+    for [patch, kind] in &mesh.patches {
+        if NO_WALLS.contains(&kind.as_str()) {
+            continue;
+        }
+        let place = format!("equilibriumCoeffs/walls/{patch}");
+        let wall = walls.and_then(|walls| walls.dictionary_at(patch).ok());
+        let Some(wall) = wall else {
+            let given = walls.is_some_and(|walls| walls.matching(patch).is_some());
+            if !given {
+                let allowed = "a dictionary with the wall's type";
+                found.error([FILE, &place], "missing", allowed, "Spheres need a rule for each of their walls");
+            }
+            continue;
+        };
+        let rigid = wall.text("type").map_or(true, |kind| kind == "rigid");
+        if rigid && (wall.get("friction").is_none() || wall.get("slip").is_none()) {
+            let allowed = "friction and slip in a wall of type rigid";
+            found.error([FILE, &place], "one of them is missing", allowed, "Spheres know no friction at walls by themselves");
+        }
+    }
+}
+
+fn load(folder: &Path, own: &Dictionary, found: &mut Findings) -> Option<SphereModel> {
+    let name = own.value("model").map_or("builtin".to_string(), joined);
+    let name = name.trim_matches('"');
+    let model = if name == "builtin" {
+        SphereModel::builtin().map_err(|error| error.to_string())
+    } else if name.contains('$') || name.contains('<') {
+        return None;
+    } else {
+        let text = msdd_files::read_text(&folder.join(name)).map_err(|error| error.to_string());
+        text.and_then(|text| SphereModel::read(&text).map_err(|error| error.to_string()))
+    };
+    model
+        .map_err(|problem| {
+            let allowed = "builtin, or a readable model file of spheres, relative to the case folder";
+            found.error([FILE, &own.path_of("model")], name, allowed, &problem);
+        })
+        .ok()
+}
+
+/// Checks stress and porosity at the start, and how many cells the law knows.
+fn check_start(
+    properties: &Dictionary,
+    own: &Dictionary,
+    model: Option<&SphereModel>,
+    porosity: &Values,
+    stress: &Values,
+    found: &mut Findings,
+) {
+    let cells = porosity.numbers.len().max(stress.numbers.len());
+    // xx xy xz yy yz zz
+    let pressure = |cell: usize| {
+        let stress = stress.at(cell);
+        -(stress[0] + stress[3] + stress[5]) / 3.0
+    };
+    if (0..cells).any(|cell| pressure(cell) < 0.0) {
+        let advice = "OpenFOAM's stress is positive in tension, which grains cannot bear: that of a bed under load is negative";
+        let allowed = "a mean of xx, yy and zz of 0 and below";
+        found.error(["0/stress", "internalField"], "tension in some cells", allowed, advice);
+        return;
+    }
+    let wrong = (0..cells).map(|cell| 1.0 - porosity.at(cell)[0]).find(|solid| !(SOLID[0]..=SOLID[1]).contains(solid));
+    if let Some(solid) = wrong {
+        let allowed = format!("{} to {} with spheres", number(rounded(1.0 - SOLID[1], 3)), number(1.0 - SOLID[0]));
+        found.error(["0/porosity", "internalField"], &number(rounded(1.0 - solid, 4)), &allowed, "");
+        return;
+    }
+    let (Some(model), Some(young)) = (model, keys::number(properties, "youngModulus", "")) else { return };
+    let ratio = keys::number(own, "poissonRatio", "").unwrap_or(0.3);
+    let modulus = 0.5 * young / (1.0 - ratio * ratio);
+    let outside = (0..cells)
+        .filter(|&cell| {
+            let [xx, xy, xz, yy, yz, zz]: [f64; 6] = std::array::from_fn(|k| -stress.at(cell)[k] / modulus);
+            let state = model.initial_state(1.0 - porosity.at(cell)[0], [xx, yy, zz, xy, xz, yz], &Known::default());
+            model.advance(&state, &Default::default(), 6.0, false).outside
+        })
+        .count();
+    if outside > 0 {
+        let who = if outside == cells { "all cells".to_string() } else { format!("{outside} of {cells} cells") };
+        let advice = "The solver answers as well as it can there, and marks them by inRegion = 0";
+        let value = format!("{who} have a porosity and stress outside of those of the training");
+        found.doubt(["0/porosity", "internalField"], &value, "packings of spheres that the law was trained with", advice);
+    }
+}
