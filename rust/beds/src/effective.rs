@@ -295,7 +295,10 @@ mod tests {
                 let number = material.gas_number(&helium).max(LEAST_NUMBER);
                 let gas = pairs(0.6, material.radius * libm::exp(-number), material.radius);
                 let bed = BedState { pressure: 0.0, solid_fraction: 0.6, coordination: 5.0, gas };
-                (material.conduction(Some(&helium), &bed).gas, is_rarefied(&helium, material.ratio(&helium), 3.2e-3))
+                (
+                    material.conduction(Some(&helium), &bed).gas,
+                    is_rarefied(&helium, material.ratio(&helium), 3.2e-3),
+                )
             };
             let all: Vec<(f64, bool)> = (0..40).map(|k| at(1e5 * libm::pow(0.6, f64::from(k)))).collect();
             assert!(all.windows(2).all(|pair| pair[1].0 < pair[0].0), "{conductivity}: {all:?}");

@@ -49,13 +49,13 @@ fn gravity(folder: &Path) -> Option<[f64; 3]> {
     if !file.exists() {
         return Some([0.0; 3]);
     }
-    let numbers: Vec<f64> = Dictionary::expanded(&file)
-        .ok()?
-        .value("value")
-        .ok()?
-        .iter()
-        .filter_map(|token| token.text.parse().ok())
-        .collect();
+    vector(&Dictionary::expanded(&file).ok()?)
+}
+
+/// The entry `value` of a file of three numbers.
+fn vector(file: &Dictionary) -> Option<[f64; 3]> {
+    let tokens = file.value("value").ok()?;
+    let numbers: Vec<f64> = tokens.iter().filter_map(|token| token.text.parse().ok()).collect();
     numbers.try_into().ok()
 }
 
@@ -313,6 +313,14 @@ mod tests {
             std::fs::remove_file(folder.join(part).join("fvOptions")).unwrap();
         }
         std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn gravity_is_read() {
+        let file = parse("dimensions [0 1 -2 0 0 0 0]; value (0 -9.81 0);");
+        assert_eq!(vector(&file), Some([0.0, -9.81, 0.0]));
+        assert_eq!(vector(&parse("value (down);")), None);
+        assert_eq!(gravity(Path::new("no such folder")), Some([0.0; 3]));
     }
 
     #[test]

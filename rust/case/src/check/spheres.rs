@@ -56,9 +56,19 @@ pub fn check(
     let [porosity, stress] = fields;
     let model = load(folder, own, found);
     let (Some(porosity), Some(stress)) = (porosity, stress) else {
-        if stress.is_none() && porosity.is_some() && properties.get("restStress").is_none() && !folder.join("0/stress").exists() {
-            let advice = "Without it neither contacts nor stiffness are known; restStress gives that of a bed at rest";
-            found.error(["0/stress", ""], "missing", "the stress at the start [Pa], tension positive", advice);
+        if stress.is_none()
+            && porosity.is_some()
+            && properties.get("restStress").is_none()
+            && !folder.join("0/stress").exists()
+        {
+            let advice =
+                "Without it neither contacts nor stiffness are known; restStress gives that of a bed at rest";
+            found.error(
+                ["0/stress", ""],
+                "missing",
+                "the stress at the start [Pa], tension positive",
+                advice,
+            );
         }
         return;
     };
@@ -68,12 +78,22 @@ pub fn check(
 fn check_roughness(surface: &Dictionary, radius: Option<f64>, found: &mut Findings) {
     let Some(roughness) = keys::number(surface, "roughness", "") else { return };
     if roughness > 0.0 && surface.get("hardness").is_none() {
-        found.error([FILE, &surface.path_of("hardness")], "missing", "1 to 1e15 Pa, with roughness above 0", "");
+        found.error(
+            [FILE, &surface.path_of("hardness")],
+            "missing",
+            "1 to 1e15 Pa, with roughness above 0",
+            "",
+        );
     }
     if radius.is_some_and(|radius| roughness > MOST_ROUGH * radius) {
         let value = number(roughness);
         let advice = "That is no roughness of spheres of this size; is it in metres?";
-        found.doubt([FILE, &surface.path_of("roughness")], &value, "at most a hundredth of meanRadius [m]", advice);
+        found.doubt(
+            [FILE, &surface.path_of("roughness")],
+            &value,
+            "at most a hundredth of meanRadius [m]",
+            advice,
+        );
     }
 }
 
@@ -113,14 +133,24 @@ fn check_walls(properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
             let given = walls.is_some_and(|walls| walls.matching(patch).is_some());
             if !given {
                 let allowed = "a dictionary with the wall's type";
-                found.error([FILE, &place], "missing", allowed, "Spheres need a rule for each of their walls");
+                found.error(
+                    [FILE, &place],
+                    "missing",
+                    allowed,
+                    "Spheres need a rule for each of their walls",
+                );
             }
             continue;
         };
         let rigid = wall.text("type").map_or(true, |kind| kind == "rigid");
         if rigid && (wall.get("friction").is_none() || wall.get("slip").is_none()) {
             let allowed = "friction and slip in a wall of type rigid";
-            found.error([FILE, &place], "one of them is missing", allowed, "Spheres know no friction at walls by themselves");
+            found.error(
+                [FILE, &place],
+                "one of them is missing",
+                allowed,
+                "Spheres know no friction at walls by themselves",
+            );
         }
     }
 }
@@ -165,9 +195,12 @@ fn check_start(
         found.error(["0/stress", "internalField"], "tension in some cells", allowed, advice);
         return;
     }
-    let wrong = (0..cells).map(|cell| 1.0 - porosity.at(cell)[0]).find(|solid| !(SOLID[0]..=SOLID[1]).contains(solid));
+    let wrong = (0..cells)
+        .map(|cell| 1.0 - porosity.at(cell)[0])
+        .find(|solid| !(SOLID[0]..=SOLID[1]).contains(solid));
     if let Some(solid) = wrong {
-        let allowed = format!("{} to {} with spheres", number(rounded(1.0 - SOLID[1], 3)), number(1.0 - SOLID[0]));
+        let allowed =
+            format!("{} to {} with spheres", number(rounded(1.0 - SOLID[1], 3)), number(1.0 - SOLID[0]));
         found.error(["0/porosity", "internalField"], &number(rounded(1.0 - solid, 4)), &allowed, "");
         return;
     }
@@ -177,14 +210,76 @@ fn check_start(
     let outside = (0..cells)
         .filter(|&cell| {
             let [xx, xy, xz, yy, yz, zz]: [f64; 6] = std::array::from_fn(|k| -stress.at(cell)[k] / modulus);
-            let state = model.initial_state(1.0 - porosity.at(cell)[0], [xx, yy, zz, xy, xz, yz], &Known::default());
+            let state =
+                model.initial_state(1.0 - porosity.at(cell)[0], [xx, yy, zz, xy, xz, yz], &Known::default());
             model.advance(&state, &Default::default(), 6.0, false).outside
         })
         .count();
     if outside > 0 {
-        let who = if outside == cells { "all cells".to_string() } else { format!("{outside} of {cells} cells") };
+        let who =
+            if outside == cells { "all cells".to_string() } else { format!("{outside} of {cells} cells") };
         let advice = "The solver answers as well as it can there, and marks them by inRegion = 0";
         let value = format!("{who} have a porosity and stress outside of those of the training");
-        found.doubt(["0/porosity", "internalField"], &value, "packings of spheres that the law was trained with", advice);
+        found.doubt(
+            ["0/porosity", "internalField"],
+            &value,
+            "packings of spheres that the law was trained with",
+            advice,
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Findings of a bed with these entries beside its properties, its porosity, and its stress xx = yy = zz [Pa].
+    fn lines(coefficients: &str, more: &str, porosity: f64, stress: f64) -> Vec<String> {
+        let text = format!(
+            "youngModulus 200e9; meanRadius 1e-3; surrogate {{ type spheres; spheresCoeffs {{ poissonRatio 0.3; {coefficients} }} }} {more}"
+        );
+        let properties = Dictionary::parse(Path::new(FILE), &text).unwrap();
+        let patches = [["left", "wall"], ["right", "wall"], ["back", "empty"]];
+        let mesh = Mesh { patches: patches.map(|pair| pair.map(str::to_string)).to_vec(), ..Mesh::default() };
+        let values = |numbers: Vec<f64>| Values { numbers: vec![numbers], uniform: true };
+        let (porosity, stress) =
+            (values(vec![porosity]), values(vec![stress, 0.0, 0.0, stress, 0.0, stress]));
+        let mut found = Findings::default();
+        check(Path::new(""), &properties, &mesh, [Some(&porosity), Some(&stress)], &mut found);
+        found.0.iter().map(ToString::to_string).collect()
+    }
+
+    #[track_caller]
+    fn finds(lines: &[String], part: &str) {
+        assert!(lines.len() == 1 && lines[0].contains(part), "{lines:?}");
+    }
+
+    #[test]
+    fn a_good_bed_has_no_findings() {
+        let walls = "mechanics equilibrium; equilibriumCoeffs { walls { left { friction 0.3; slip 1e-6; } \".*\" { type frictionless; } } }";
+        let good = "fabric (0.32 0 0 0.32 0 0.36); roughness 1e-7; hardness 3e9;";
+        assert_eq!(lines(good, walls, 0.4, -1e4), Vec::<String>::new());
+    }
+
+    #[test]
+    fn what_the_solver_refuses_is_found() {
+        finds(&lines("roughness 1e-7;", "", 0.4, -1e4), "hardness");
+        finds(&lines("fabric (0.3 0.5 0.4 0.3 0.4 0.4);", "", 0.4, -1e4), "along no direction negative");
+        finds(&lines("fabric (0.4 0 0 0.4 0 0.4);", "", 0.4, -1e4), "xx + yy + zz = 1");
+        finds(&lines("model \"none.json\";", "", 0.4, -1e4), "model file of spheres");
+        finds(&lines("", "", 0.4, 1e4), "tension in some cells");
+        finds(&lines("", "", 0.9, -1e4), "0.2 to 0.7");
+        let moves = "mechanics equilibrium; equilibriumCoeffs";
+        let one = format!("{moves} {{ walls {{ left {{ type frictionless; }} }} }}");
+        finds(&lines("", &one, 0.4, -1e4), "walls/right = missing");
+        let rigid =
+            format!("{moves} {{ walls {{ left {{ friction 0.3; }} right {{ type frictionless; }} }} }}");
+        finds(&lines("", &rigid, 0.4, -1e4), "friction and slip");
+    }
+
+    #[test]
+    fn what_nobody_means_is_doubted() {
+        finds(&lines("roughness 1e-3; hardness 3e9;", "", 0.4, -1e4), "a hundredth of meanRadius");
+        finds(&lines("", "", 0.25, -1e4), "all cells have a porosity and stress outside");
     }
 }

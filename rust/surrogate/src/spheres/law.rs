@@ -189,7 +189,13 @@ impl Law {
     }
 
     /// Loss of compression by a unit of sliding of the second element, see [`Law::dilatancy`], along a tensor of this length; u is that which is reached.
-    fn lost<N: Number>(&self, state: &State<N>, usual: &Usual<N>, u: N, (along, length): (&Tensor<N>, N)) -> N {
+    fn lost<N: Number>(
+        &self,
+        state: &State<N>,
+        usual: &Usual<N>,
+        u: N,
+        (along, length): (&Tensor<N>, N),
+    ) -> N {
         let (x, free) = (state.density(), state.free());
         let [c0, c1, c2, c3] = self.collapse;
         let bound = free.times(-1.0).plus(1.0).at_least(LEAST_MOBILISED);
@@ -202,13 +208,7 @@ impl Law {
     }
 
     /// After growth of the radii and a strain of the cell, whose shears are not doubled; `usual` is that of the state before.
-    fn part<N: Number>(
-        &self,
-        state: &State<N>,
-        usual: &Usual<N>,
-        thermal: N,
-        strain: Tensor<N>,
-    ) -> State<N> {
+    fn part<N: Number>(&self, state: &State<N>, usual: &Usual<N>, thermal: N, strain: Tensor<N>) -> State<N> {
         let [xx, yy, zz, xy, xz, yz] = strain;
         // Growth of the volume of the cell, and of the grains.
         let second = xx * yy + yy * zz + zz * xx - (xy * xy + xz * xz + yz * yz);
