@@ -22,32 +22,53 @@ pub struct Start {
     pub porosity_outside: Option<f64>,
 }
 
+/// Porosities that the solver takes with spheres.
+const POROSITY: [f64; 2] = [0.2, 0.7];
+/// By how much the trace of a fabric may differ from 1: it is written rounded.
+const UNIT_TRACE: f64 = 0.01;
+
 impl Start {
     /// Reads the results of `msdd bed run`.
     ///
     /// # Errors
-    /// A file that cannot be read, or has no first row with these columns.
+    /// A file that cannot be read, or has no first row with these columns, or values in it that no bed has.
     pub fn read(file: &Path) -> Result<Self, CliError> {
         let text = read_text(file)?;
-        let number = |name: &str| {
-            at_start(&text, name).ok_or_else(|| {
+        let within = |name: &str, [low, high]: [f64; 2]| {
+            let value = at_start(&text, name).ok_or_else(|| {
                 CliError::Message(format!(
                     "{}: no column {name} with a first value, allowed: elements.csv of this version's 'msdd bed run'",
                     file.display()
                 ))
-            })
+            })?;
+            match (low..=high).contains(&value) {
+                true => Ok(value),
+                false => Err(CliError::Message(format!(
+                    "{}: {name} = {value} in the first row, allowed: {low} to {high}",
+                    file.display()
+                ))),
+            }
         };
-        let three = |name: &str| -> Result<[f64; 3], CliError> {
-            Ok([number(&format!("{name}_1"))?, number(&format!("{name}_2"))?, number(&format!("{name}_3"))?])
+        let three = |name: &str, range: [f64; 2]| -> Result<[f64; 3], CliError> {
+            let part = |k: usize| within(&format!("{name}_{k}"), range);
+            Ok([part(1)?, part(2)?, part(3)?])
         };
+        let fabric = three("fabric", [0.0, 1.0])?;
+        let trace: f64 = fabric.iter().sum();
+        if (trace - 1.0).abs() > UNIT_TRACE {
+            return Err(CliError::Message(format!(
+                "{}: fabric_1 + fabric_2 + fabric_3 = {trace} in the first row, allowed: 1",
+                file.display()
+            )));
+        }
         Ok(Self {
             file: file.to_path_buf(),
-            depth: number("depth")?,
-            stress: three("stress")?,
-            coordination: number("coordination")?,
-            mobilised: mobilised(number("mobilisation")?),
-            fabric: three("fabric")?,
-            porosity: number("porosity")?,
+            depth: within("depth", [f64::MIN_POSITIVE, f64::MAX])?,
+            stress: three("stress", [0.0, f64::MAX])?,
+            coordination: within("coordination", [0.0, 12.0])?,
+            mobilised: mobilised(within("mobilisation", [0.0, 1.0])?),
+            fabric,
+            porosity: within("porosity", POROSITY)?,
             porosity_outside: at_start(&text, "porosity_outside"),
         })
     }

@@ -12,6 +12,9 @@ use msdd_spheres::Simulation;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
+/// Pressures over that which was asked for that need no word.
+const NEAR: [f64; 2] = [0.8, 1.25];
+
 pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
     let compression = match arguments.compression {
         CompressionName::Isotropic => SphereCompression::Isotropic,
@@ -37,7 +40,15 @@ pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
     let prepared = prepare(&preparation).map_err(|error| CliError::Message(error.to_string()))?;
     write_state(&arguments.out, &prepared.simulation)?;
     series(arguments.vtk.as_deref(), 0, &prepared.simulation)?;
-    report("packed", &prepared.rest, &averaged(&prepared.simulation)?);
+    let averages = averaged(&prepared.simulation)?;
+    report("packed", &prepared.rest, &averages);
+    let (asked, reached) = (arguments.of_spheres.pressure, averages.pressure());
+    if !(NEAR[0]..=NEAR[1]).contains(&(reached / asked)) {
+        outln!(
+            "The pressure was asked to be {asked:e} E* and is {reached:.2e} E*: so near to where contacts open, boxes of {count} spheres come to rest at \
+             others. More spheres, or a higher pressure, are met better."
+        );
+    }
     Ok(())
 }
 
