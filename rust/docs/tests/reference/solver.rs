@@ -26,12 +26,13 @@ const CONTACT: &str = "openfoam/granularThermo/granularContact/granularContactFv
 const SECOND: &str = "openfoam/msddFoam/timeScheme/secondOrderScheme.C";
 
 /// Texts that are looked up in the solver and are no keys of a user.
-pub const NO_KEYS: [(&str, &str); 5] = [
+pub const NO_KEYS: [(&str, &str); 6] = [
     ("accept", "option of the command line, in the table of msddFoam"),
     ("solvers", "dictionary of every fvSolution"),
     ("equilibrium", "heading of the table solvers.equilibrium"),
     ("solid", "kind of region in every regionProperties"),
     ("PIMPLE", "dictionary of OpenFOAM's regions"),
+    ("kappa", "of conditions of OpenFOAM, which is refused with other values than K"),
 ];
 
 /// Keys of controlDict that OpenFOAM's Time reads for us.
