@@ -284,7 +284,8 @@ typedef struct msdd_sphere_wall {
 
 /** What a wall adds to the resistance of a bed that is taken to conduct alike up to its surface [m2 K/W], for each of `faces` faces:
  *  0 at least and 1e9 at most. `stress`: normal to the wall [Pa], compression positive; of 0 or less: gas alone conducts.
- *  `temperature`: of the gas [K], 0 to 1e5. `conductivity`: of the bed across the wall [W/(m K)], above 0. */
+ *  `temperature`: of the gas [K], 0 to 1e5. `conductivity`: of the bed across the wall [W/(m K)], 0 and above: where
+ *  nothing conducts the resistance is 1e9. */
 int32_t msdd_spheres_wall_resistance(const msdd_sphere_material *material, const msdd_sphere_wall *wall, size_t faces,
                                     const double *stress, const double *temperature, const double *conductivity,
                                     double *resistance);

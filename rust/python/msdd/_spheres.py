@@ -270,7 +270,7 @@ def wall_resistance(
     """What a wall adds to the resistance of a bed that conducts alike up to its surface [m2 K/W], 0 to 1e9.
 
     stress: normal to the wall [Pa], compression positive; where it is 0 or less, gas alone conducts.
-    conductivity: of the bed across the wall [W/(m K)], above 0.
+    conductivity: of the bed across the wall [W/(m K)], 0 and above.
     temperature: of the gas [K], 0 to 1e5.
     Arrays of any shapes that broadcast to one; the answer has that shape.
     Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
