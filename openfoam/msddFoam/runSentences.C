@@ -99,7 +99,7 @@ Foam::string Foam::runSummary::balance(const heatBalance& heat) const
         return "Heat: none went into the bed or out of it.";
     }
     return
-        string(heat.difference() > muchHeat ? "Doubt: heat is lost. " : "")
+        string(heat.difference() > muchHeat ? "Doubt: heat is lost or made. " : "")
       + "Heat: since the start " + brief(heat.patches) + " J came in"
         " through the boundary and " + brief(heat.sources) + " J from sources;"
         " the grains hold " + brief(heat.stored) + " J more. Heat received and"

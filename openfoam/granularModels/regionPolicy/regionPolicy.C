@@ -185,11 +185,14 @@ void Foam::regionPolicy::judgeShare
     {
         return;
     }
+    // Written before, unless the model tells no columns
+    const fileName list(path(mesh_));
     FatalIOErrorInFunction(dict_)
         << when.c_str() << ' ' << cells << " of " << cells_.size()
         << " cells are outside the region of the model. Entry 'maxFraction'"
         << " of outOfRegion in constant/granularProperties is "
-        << maxFraction_ << ", allowed: 0 to 1. Field inRegion is 0 there"
+        << maxFraction_ << ", allowed: 0 to 1."
+        << (isFile(list) ? " The cells are in " + list : string())
         << exit(FatalIOError);
 }
 
