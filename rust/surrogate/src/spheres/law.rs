@@ -164,14 +164,14 @@ impl Law {
         stress
     }
 
-    /// State after a strain, in parts where the packing is hardly compressed. `half` is half of the cell's rotation.
+    /// State after a strain, in [`parts`]. `half` is half of the cell's rotation.
     pub fn advanced<N: Number>(&self, state: &State<N>, strain: &Strain<N>, half: &Rotation) -> State<N> {
         let mut next = *state;
         next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
         let [xx, yy, zz, xy, xz, yz] = strain.cell;
         let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
         let square = square(&cell);
-        let count = parts(state.compression.value());
+        let count = parts(state.compression.value(), strain);
         let mut usual = self.contacts.usual(&next);
         for part in 0..count {
             // Equal parts of the whole, E/n (1 + k E/n)⁻¹, which compose to it; of the cell to the second order.
@@ -320,14 +320,19 @@ const LEAST_RATE: f64 = 1e-6;
 /// The largest such exponent: it forgets all.
 const MOST_RATE: f64 = 30.0;
 
-/// Number of parts of an increment: more where the packing is hardly compressed, because there its stress changes more.
-fn parts(compression: f64) -> u32 {
-    match compression {
-        v if v > 1e-2 => 1,
-        v if v > 1e-3 => 2,
-        v if v > 1e-4 => 4,
-        _ => 8,
-    }
+/// The size of a part of a strain over the elastic compression, at most; as long as there are not more than [`MOST_PARTS`].
+const PART: f64 = 0.1;
+const MOST_PARTS: f64 = 16.0;
+
+/// Number of equal parts in which a strain is applied: the more, the larger what it strains the contacts is beside the elastic
+/// compression v, or the gap that is left where grains do not touch (v below 0), because stress and strengths follow from v.
+fn parts<N: Number>(compression: f64, strain: &Strain<N>) -> u32 {
+    let [xx, yy, zz, xy, xz, yz] = strain.cell.map(Number::value);
+    let thermal = strain.thermal.value();
+    let contacts = [xx - thermal, yy - thermal, zz - thermal, 0.5 * xy, 0.5 * xz, 0.5 * yz];
+    let size = contraction(&contacts, &contacts).sqrt();
+    let v = compression.abs().max(LEAST_COMPRESSION);
+    (size / (PART * v)).ceil().clamp(1.0, MOST_PARTS) as u32
 }
 
 /// The tensor, shortened to `most` where it is longer; then by how much it was longer, and its length.
