@@ -13,7 +13,7 @@ use std::path::Path;
 /// The text of a page with its equations as MathML.
 ///
 /// # Errors
-/// Equations that do not parse, and $ that belong to none, with page and line.
+/// Equations that do not parse or are not between $, and $ that belong to none, with page and line.
 pub fn with_mathml(page: &Page) -> Result<String, DocsError> {
     let (mut text, mut findings) = (page.text.clone(), Vec::new());
     let options = Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_FOOTNOTES;
@@ -31,6 +31,9 @@ pub fn with_mathml(page: &Page) -> Result<String, DocsError> {
             Event::DisplayMath(latex) => mathml(latex, true),
             Event::Text(plain) if !in_block && plain.contains('$') && !escaped(&page.text, range.start) => {
                 Err("a $ that belongs to no equation: write \\$, or close the equation".to_string())
+            }
+            Event::Text(plain) if !in_block && ["\\(", "\\["].iter().any(|open| plain.contains(open)) => {
+                Err("an equation between \\( and \\), which is not shown as one: write $…$".to_string())
             }
             _ => continue,
         };

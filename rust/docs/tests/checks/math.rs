@@ -41,6 +41,7 @@ fn what_does_not_parse_is_named_with_page_and_line() {
         ("a\n\nb $\\frac{1}$\n", "docs/src/a.md:3: the equation '\\frac{1}' does not parse"),
         ("a\n\nb $\\nonsense$\n", "docs/src/a.md:3: the equation '\\nonsense' does not parse"),
         ("a\n\nb $x\n", "docs/src/a.md:3: a $ that belongs to no equation"),
+        ("a\n\nb \\\\(x\\\\)\n", "docs/src/a.md:3: an equation between \\( and"),
     ] {
         let wrong = found(with_mathml(&page(text)));
         assert!(wrong.len() == 1 && wrong[0].starts_with(message), "{wrong:?}");

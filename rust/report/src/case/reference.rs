@@ -116,8 +116,8 @@ fn of_finer(
     for finer in FINER {
         let times = (f64::from(finer)).log2().round() as i32;
         let levels = level(work.scene, -times);
-        // A step of second order grows with the cube root of the tolerance.
-        let settings = Settings::new(levels, tolerance / f64::from(finer).powi(3), moves);
+        // A step grows with the square root of the tolerance.
+        let settings = Settings::new(levels, tolerance / f64::from(finer).powi(2), moves);
         let rung = Rung::new(work.scene, range, settings);
         let guess = estimate(work, rungs, &rung).unwrap_or(limit as f64);
         if finer == FINER[0] && (quick || guess > limit as f64) {
@@ -172,7 +172,7 @@ fn nearest_error(work: &Work, rung: &Rung, truth: &Truth) -> Option<f64> {
 }
 
 /// Processor time that a run will take [s], about: that of the longest run with the same motion, times the cells to the power
-/// 1.2, times the steps, which go with the cube root of the tolerance.
+/// 1.2, times the steps, which go with the square root of the tolerance.
 fn estimate(work: &Work, rungs: &[Rung], wanted: &Rung) -> Option<f64> {
     let cost = |rung: &Rung| {
         let job = work.solver(rung, work.limit());
@@ -182,6 +182,6 @@ fn estimate(work: &Work, rungs: &[Rung], wanted: &Rung) -> Option<f64> {
     let known = like.filter_map(|rung| Some((rung, cost(rung)?))).max_by(|a, b| a.1.total_cmp(&b.1));
     let (rung, seconds) = known?;
     let cells = |rung: &Rung| count(work.scene, &rung.settings.levels) as f64;
-    let steps = (rung.settings.tolerance / wanted.settings.tolerance).cbrt();
+    let steps = (rung.settings.tolerance / wanted.settings.tolerance).sqrt();
     Some(seconds * steps * (cells(wanted) / cells(rung)).powf(1.2))
 }
