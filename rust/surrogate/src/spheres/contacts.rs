@@ -36,8 +36,8 @@ const LEVEL: f64 = 5e-3;
 const LEAST_SHARE: f64 = 1e-3;
 /// The part of the friction that is not mobilised below which a packing keeps ζ.
 const KEEPING: f64 = 0.25;
-/// How sharply.
-const SHARPLY: f64 = 16.0;
+/// How sharply: the power 16, by so many squares.
+const SHARPLY: u32 = 4;
 /// Least part of which that power is taken.
 const LEAST_FREE: f64 = 1e-3;
 /// Largest exponent with which shear makes ζ forgotten in one part of a strain.
@@ -67,7 +67,11 @@ fn share<N: Number>(compression: N) -> N {
 
 /// F, with the part of the friction that is not mobilised.
 fn forgets<N: Number>(free: N) -> N {
-    free.at_least(LEAST_FREE).inverse().times(KEEPING).power(SHARPLY).plus(1.0).inverse()
+    let mut power = free.at_least(LEAST_FREE).inverse().times(KEEPING);
+    for _ in 0..SHARPLY {
+        power = power.squared();
+    }
+    power.plus(1.0).inverse()
 }
 
 /// What the number of contacts of a state is compared with, which one state asks for several times.

@@ -113,14 +113,12 @@ impl Law {
         (exponent.exp() * v * v.sqrt()).times(b0)
     }
 
-    /// The two factors, of density and friction and of the compression, that the stiffnesses of all elements of friction have beside
-    /// [`Element::stiffness`].
-    pub(super) fn stiffening<N: Number>(&self, compression: N, x: N, free: N) -> [N; 2] {
+    /// The factor that the stiffnesses of all elements of friction have beside [`Element::stiffness`], by ln u.
+    pub(super) fn stiffening<N: Number>(&self, x: N, free: N, loaded: N) -> N {
         let [of_density, power, of_free] = self.shear;
         let exponent =
             (x.times(of_density) + free.times(of_free)).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
-        let u = Self::compressions(compression).1;
-        [exponent.exp(), u.power(power)]
+        (exponent + loaded.times(power)).exp()
     }
 
     /// c: the stiffness of the fabric's element, [`Element::stiffness`] (z_b − z₀) where there are contacts enough, and smoothly none
@@ -131,15 +129,15 @@ impl Law {
         (more + length).times(0.5 * self.elements[FABRIC].stiffness)
     }
 
-    /// ln min(√u, 1), by the root of v.
-    pub(super) fn hardened<N: Number>(root: N) -> N {
-        root.times(1.0 / libm::sqrt(USUAL_COMPRESSION)).at_most(1.0).ln()
+    /// ln u.
+    pub(super) fn loaded<N: Number>(compression: N) -> N {
+        Self::compressions(compression).1.ln()
     }
 
-    /// Strength of an element, by ln min(√u, 1).
+    /// Strength of an element, by ln u.
     pub(super) fn strength<N: Number>(&self, k: usize, x: N, free: N, loaded: N) -> N {
         let Element { strength, growth, free: of_free, hardening, .. } = self.elements[k];
-        let exponent = x.times(growth) + free.times(of_free) + loaded.times(hardening);
+        let exponent = x.times(growth) + free.times(of_free) + loaded.at_most(0.0).times(0.5 * hardening);
         exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
     }
 
@@ -188,18 +186,20 @@ impl Law {
         next
     }
 
-    /// Loss of compression by a unit of sliding of the second element, see [`Law::dilatancy`], along a tensor of this length; u is that which is reached.
+    /// Loss of compression by a unit of sliding of the second element, see [`Law::dilatancy`], along a tensor of this length; `loaded` is
+    /// ln u where it is reached.
     fn lost<N: Number>(
         &self,
         state: &State<N>,
         usual: &Usual<N>,
-        u: N,
+        loaded: N,
         (along, length): (&Tensor<N>, N),
     ) -> N {
         let (x, free) = (state.density(), state.free());
         let [c0, c1, c2, c3] = self.collapse;
         let bound = free.times(-1.0).plus(1.0).at_least(LEAST_MOBILISED);
-        let collapse = (Self::exponential(x, -c1) * u.power(-c2)).times(c0) * bound.power(c3);
+        let dense = x.times(-c1).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
+        let collapse = (dense - loaded.times(c2) + bound.ln().times(c3)).exp().times(c0);
         let [d0, d1, d2, d3, d4] = self.dilatancy;
         let surplus = (state.coordination - usual.contacts) * free;
         let always = (x.times(d1) + free.times(d2) - surplus.times(self.climbing)).plus(d0) + collapse;
@@ -229,9 +229,9 @@ impl Law {
         let opening = after * before.inverse();
         let opens = tried.value() < before.value();
         let distortion = deviator(strain);
-        let (compressed, u) = Self::compressions(after);
-        let loaded = Self::hardened(compressed.sqrt());
-        let [of_packing, of_load] = self.stiffening(after, x, free);
+        let loaded = Self::loaded(after);
+        let stiffening = self.stiffening(x, free, loaded);
+        let opened = opening.ln();
         let mut ratios = state.ratios;
         let [mut loss, mut sliding, mut work] = [N::of(0.0); 3];
         for (k, ratio) in ratios.iter_mut().enumerate() {
@@ -241,9 +241,9 @@ impl Law {
                 *ratio = reoriented(ratio, &distortion, stiffness, most, self.forgetting);
                 continue;
             }
-            let stiffness = of_packing * of_load.times(self.elements[k].stiffness);
+            let stiffness = stiffening.times(self.elements[k].stiffness);
             let reopened = if opens { self.reopening } else { 0.0 };
-            let faded = scaled(ratio, opening.power(self.elements[k].power + reopened));
+            let faded = scaled(ratio, opened.times(self.elements[k].power + reopened).exp());
             let faded = within(&faded, most).0;
             let added = scaled(&distortion, stiffness * over);
             let elastic: Tensor<N> = std::array::from_fn(|c| faded[c] - added[c]);
@@ -254,7 +254,7 @@ impl Law {
                 sliding = sliding + slid;
                 work = work + slid * most;
                 if k == FIRST {
-                    loss = slid * self.lost(state, usual, u, (&elastic, length));
+                    loss = slid * self.lost(state, usual, loaded, (&elastic, length));
                 }
             }
         }

@@ -19,6 +19,9 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
     fn times(self, factor: f64) -> Self {
         self.chain(self.value() * factor, factor)
     }
+    fn squared(self) -> Self {
+        self.chain(self.value() * self.value(), 2.0 * self.value())
+    }
     /// Of values above 0.
     fn sqrt(self) -> Self {
         let root = self.value().sqrt();

@@ -31,7 +31,7 @@ impl Law {
     fn start_of_stress(&self, solid: f64, stress: Tensor, fabric: Option<Tensor>, mobilised: f64) -> State {
         let (pressure, load) = (mean(stress), deviator(stress));
         let fabric = fabric.map_or(Borne::Usual, Borne::Fabric);
-        let at = |compression: f64| self.loaded(solid, compression, &load, &fabric, mobilised);
+        let at = |compression: f64| self.bearing(solid, compression, &load, &fabric, mobilised);
         if pressure <= 0.0 {
             return State { ratios: [[0.0; 6]; ELEMENTS], strength: 1.0, ..at(0.0) };
         }
@@ -60,7 +60,7 @@ impl Law {
         at(high)
     }
 
-    fn loaded(&self, solid: f64, compression: f64, load: &Tensor, fabric: &Borne, mobilised: f64) -> State {
+    fn bearing(&self, solid: f64, compression: f64, load: &Tensor, fabric: &Borne, mobilised: f64) -> State {
         let mut state = State {
             jamming: solid / (1.0 + compression),
             compression,
@@ -70,7 +70,7 @@ impl Law {
             coordination: 0.0,
         };
         let (x, free) = (state.density(), state.free());
-        let loaded = Self::hardened(Self::compressions(compression).0.sqrt());
+        let loaded = Self::loaded(compression);
         let over = 1.0 / self.pressure(compression, x, free).max(f64::MIN_POSITIVE);
         if compression <= LEAST_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
             return state;
@@ -98,9 +98,8 @@ impl Law {
             state.strength = needed.clamp(MOST_OF_FRICTION, MOST_STRENGTH);
             state.ratios[FABRIC] = within(&both, most * Self::factor(FABRIC, state.strength)).0;
         }
-        let [of_packing, of_load] = self.stiffening(compression, x, free);
-        let stiffness: [f64; FABRIC] =
-            std::array::from_fn(|k| of_packing * (of_load * self.elements[k].stiffness));
+        let stiffening = self.stiffening(x, free, loaded);
+        let stiffness: [f64; FABRIC] = std::array::from_fn(|k| stiffening * self.elements[k].stiffness);
         let limits: [f64; FABRIC] =
             std::array::from_fn(|k| Self::factor(k, state.strength) * strengths[k] / stiffness[k]);
         let common = shared(limits, stiffness, size);
