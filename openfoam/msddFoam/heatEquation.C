@@ -15,12 +15,9 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "heatEquation.H"
-#include "cellSetOption.H"
 #include "mappedPatchBase.H"
 #include "mixedFvPatchFields.H"
 #include "coupledPolyPatch.H"
-#include "IStringStream.H"
-#include "OStringStream.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "unitConversion.H"
 #include "OSspecific.H"
@@ -34,9 +31,7 @@ namespace Foam
 //- points are given with about ten digits
 static const scalar alignedSine = 1e-7;
 
-//- Change of T over its largest value at which Newton's method ends: the error
-//- of the heat is its square; and how often it is repeated at most
-static const scalar settled = 1e-8;
+//- How often Newton's method is repeated at most
 static const label mostNewton = 30;
 
 //- Non-orthogonality above which the user is warned, as by checkMesh [degrees]
@@ -124,6 +119,7 @@ Foam::heatEquation::heatEquation
     ),
     gradY_(unregistered("gradY", mesh_), gradX_),
     slanted_(false),
+    constrained_(false),
     patchHeat_(mesh_.boundary().size(), Zero),
     sourceHeat_(0)
 {
@@ -205,34 +201,6 @@ bool Foam::heatEquation::isAligned() const
         }
     }
     return returnReduce(aligned, andOp<bool>());
-}
-
-
-bool Foam::heatEquation::wallsReadTensor() const
-{
-    bool any = false;
-    for (const fvPatchScalarField& wall : T_.boundaryField())
-    {
-        if (!isA<mixedFvPatchScalarField>(wall))
-        {
-            continue;
-        }
-        any = true;
-        OStringStream os;
-        wall.write(os);
-        IStringStream is(os.str());
-        const dictionary dict(is);
-        const word kappa(dict.lookupOrDefault<word>("kappa", "K"));
-        if (kappa == "conductivity" || kappa == "Kxx" || kappa == "Kyy")
-        {
-            FatalErrorInFunction
-                << "Entry 'kappa' of patch " << wall.patch().name() << " of T"
-                << " is " << kappa << ", allowed: K, the conductivity in the"
-                << " equation of the step; 'conductivity' is that of the last"
-                << " output" << exit(FatalError);
-        }
-    }
-    return any;
 }
 
 
@@ -390,79 +358,6 @@ bool Foam::heatEquation::anyCoupled() const
 }
 
 
-void Foam::heatEquation::checkSources()
-{
-    for (const word& place : {mesh_.time().constant(), mesh_.time().system()})
-    {
-        IOobject file("fvOptions", place, mesh_, IOobject::MUST_READ);
-        const fileName path
-        (
-            mesh_.time().globalPath()/place/mesh_.dbDir()/"fvOptions"
-        );
-        if (isFile(path) && !file.typeHeaderOk<IOdictionary>(true))
-        {
-            FatalErrorInFunction
-                << "File " << path << " has no header FoamFile { version 2.0;"
-                << " format ascii; class dictionary; object fvOptions; }:"
-                << " OpenFOAM would leave its sources out" << exit(FatalError);
-        }
-    }
-    PtrList<fv::option>& all = sources_;
-    for (fv::option& source : all)
-    {
-        if (source.applyToField(T_.name()) < 0)
-        {
-            FatalErrorInFunction
-                << "Source " << source.name() << " of fvOptions is none of T,"
-                << " the only field that is solved for: allowed T, as in"
-                << " injectionRateSuSp { T (1e6 0); }" << exit(FatalError);
-        }
-    }
-}
-
-
-Foam::tmp<Foam::fvScalarMatrix> Foam::heatEquation::addSources()
-{
-    if (sources_.optionList::empty())
-    {
-        return nullptr;
-    }
-    tmp<fvScalarMatrix> S(sources_(heatCapacity_, T_));
-    TEqn_ -= S();
-    sources_.constrain(TEqn_);
-    return S;
-}
-
-
-Foam::tmp<Foam::scalarField> Foam::heatEquation::heatOf
-(
-    const fvScalarMatrix& S
-) const
-{
-    tmp<scalarField> heat(-S.source());
-    if (S.hasDiag())
-    {
-        heat.ref() += S.diag()*T_.primitiveField();
-    }
-    return heat;
-}
-
-
-bool Foam::heatEquation::finishSources(const tmp<fvScalarMatrix>& S)
-{
-    sourceHeat_ = 0;
-    if (!S.valid())
-    {
-        return true;
-    }
-    // The heat that the solution has got, and the one at its temperature
-    const scalarField got(heatOf(S()));
-    const scalarField due(heatOf(sources_(heatCapacity_, T_)()));
-    sourceHeat_ = sum(got);
-    return gMax(mag(got - due)) <= settled*gMax(mag(due));
-}
-
-
 void Foam::heatEquation::solveBed
 (
     const scalarField& Tstar,
@@ -521,31 +416,6 @@ bool Foam::heatEquation::isGiven(const fvPatchScalarField& wall)
 }
 
 
-void Foam::heatEquation::addLoads(loadHistories& loads) const
-{
-    const PtrList<fv::option>& all = sources_;
-    for (const fv::option& source : all)
-    {
-        const auto* cells = isA<fv::cellSetOption>(source);
-        if (!cells || cells->timeStart() < 0)
-        {
-            continue;
-        }
-        const scalar begin = cells->timeStart();
-        const scalar end = begin + cells->duration();
-        loads.add
-        (
-            [begin, end](const scalar time)
-            {
-                return vector(begin <= time && time <= end, 0, 0);
-            },
-            // Beside each, so that the range of the function is seen
-            scalarList({begin - VSMALL - mag(begin)*SMALL, begin, end})
-        );
-    }
-}
-
-
 void Foam::heatEquation::solve
 (
     const scalarField& Tstar,
@@ -560,6 +430,8 @@ void Foam::heatEquation::solve
     }
     neighbours_.couple(tau, [&]() { solveBed(Tstar, tau, K); });
 
+    // Constraints cut their cells off from the walls
+    const fvScalarMatrix& equation = free_.valid() ? free_() : TEqn_;
     forAll(patchHeat_, patchi)
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
@@ -567,8 +439,8 @@ void Foam::heatEquation::solve
         {
             continue;
         }
-        const scalarField& internal = TEqn_.internalCoeffs()[patchi];
-        const scalarField& boundary = TEqn_.boundaryCoeffs()[patchi];
+        const scalarField& internal = equation.internalCoeffs()[patchi];
+        const scalarField& boundary = equation.boundaryCoeffs()[patchi];
         const labelUList& cells = patch.faceCells();
         forAll(boundary, facei)
         {

@@ -56,6 +56,7 @@ Usage
 #include "restartTime.H"
 #include "stepWatch.H"
 #include "caseChecks.H"
+#include "caseLock.H"
 #include "equilibriumSolver.H"
 
 #include "runSummary.H"
@@ -89,7 +90,7 @@ static void checkPaths(const int argc, char* argv[])
 
 //- If system/fvSolution names an accuracy, let the program msdd find out what
 //- the scene needs for it, and run that
-static void chooseSettings(const Time& runTime)
+static void chooseSettings(const Time& runTime, caseLock& lock)
 {
     const IOdictionary solution
     (
@@ -115,6 +116,7 @@ static void chooseSettings(const Time& runTime)
             << runTime.globalPath().name() << ".chosen" << exit(FatalIOError);
     }
     const string path(runTime.path());
+    lock.release();
     ::execlp
     (
         "msdd", "msdd", "case", "solve", path.c_str(), static_cast<char*>(0)
@@ -187,6 +189,10 @@ int main(int argc, char *argv[])
     runRecord::accepted = wordHashSet(args.getList<word>("accept", false));
     // Before all that uses PETSc, so that it ends after it
     const petscSession petsc;
+    // Static, so that its file is removed after an error, too. Before the first
+    // that changes the case: an incomplete time may be one that another solver
+    // is writing
+    static caseLock lock(args.rootPath()/args.globalCaseName());
     const restartTime restart(args);
 
     Info<< "msddFoam " << msddVersion << nl << endl;
@@ -195,7 +201,7 @@ int main(int argc, char *argv[])
     #include "createTime.H"
 
     restart.setValue(runTime);
-    chooseSettings(runTime);
+    chooseSettings(runTime, lock);
 
     // Six digits in the log, whatever the writePrecision of the fields
     Sout.precision(6);

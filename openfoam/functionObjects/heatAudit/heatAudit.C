@@ -67,22 +67,9 @@ bool Foam::functionObjects::heatAudit::write()
     const tmp<volScalarField> tT0(present<scalar>("initialTemperature"));
     const tmp<volScalarField> tbulk(present<scalar>("bulkDensity"));
     const granularProperties grains(mesh_);
-    const scalarField& V = mesh_.V();
-
-    const scalarField capacity
-    (
-        grains.heatCapacity().value()*tbulk().primitiveField()*V
-    );
-    const scalarField before
-    (
-        grains.heatFunction().equivalent(tT0().primitiveField())
-    );
-    const scalar stored = gSum
-    (
-        capacity
-       *(grains.heatFunction().equivalent(tT().primitiveField()) - before)
-    );
-    const scalar content = gSum(capacity*mag(before));
+    const scalarField mass(tbulk().primitiveField()*mesh_.V().field());
+    const scalar stored = grains.storedHeat(mass, tT(), tT0());
+    const scalar content = grains.heldHeat(mass, tT0());
     const scalar patches = returnReduce(sum(known.heat), sumOp<scalar>());
     const scalar sources = returnReduce(known.sourceHeat, sumOp<scalar>());
     const scalar exchanged = returnReduce(known.exchanged, sumOp<scalar>());

@@ -32,6 +32,19 @@ namespace granularMechanicsModels
 }
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Mean stress at the start over the weight per area below which there is a
+//- warning. At rest it is about a half; in silos a hundred times as high as wide,
+//- whose sides bear nearly all, it may be a hundredth
+static const scalar leastBorne = 0.01;
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::granularMechanicsModels::equilibrium::equilibrium
@@ -167,6 +180,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     shapes_ = reference_;
     setWeight();
     setStart();
+    compareWeight();
     setSolver();
     findMetric();
     grains_.follow([this]() { makeFields(); });
@@ -299,6 +313,44 @@ void Foam::granularMechanicsModels::equilibrium::setStart()
         << returnReduce(most, maxOp<scalar>()) << " Pa, which "
         << (mag(gravity_) > 0 ? "the first step mends" : "is kept") << nl
         << endl;
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::compareWeight() const
+{
+    const scalar g = mag(gravity_);
+    if
+    (
+        !(g > 0) || mesh_.time().timeIndex() > 0
+     || law_->elastic() || !grains_.model().spatial()
+    )
+    {
+        return;
+    }
+    const vector down(gravity_/g);
+    scalar area = 0;
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        if (!patch.coupled() && patch.size())
+        {
+            area += sum(max(patch.Sf() & down, scalar(0)));
+        }
+    }
+    reduce(area, sumOp<scalar>());
+    const scalarField& V = mesh_.V();
+    const scalar borne =
+       -gSum(V*(down & (initialStress_.primitiveField() & down)))/gSum(V);
+    const scalar weight = g*gSum(grains_.mass())/max(area, VSMALL);
+    if (borne < leastBorne*weight)
+    {
+        WarningInFunction
+            << "The stress at the start is " << borne << " Pa along gravity in"
+            << " the mean, and the weight of the bed over the area below it is "
+            << weight << " Pa: spheres that bear so little are far too soft for"
+            << " it, and the run may take thousands of steps. Is the stress"
+            << " given in Pa? restStress in constant/granularProperties is that"
+            << " of a bed at rest" << nl << endl;
+    }
 }
 
 

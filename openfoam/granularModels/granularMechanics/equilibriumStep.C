@@ -361,7 +361,8 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     const bool pushed = nodes_.dot(du, du) > 0;
     before_ = left_ = imbalance(nodeField(du.size(), Zero), false);
     moved = pushed || (left_ > tolerance_ && guess(du));
-    if (pushed || left_ > tolerance_)
+    // After a guess that is accepted there is the tangent at its end
+    if (pushed || (left_ > tolerance_ && !moved))
     {
         law_->findTangent();
     }

@@ -197,4 +197,29 @@ Foam::fileName Foam::granularProperties::path(const fileName& name) const
 }
 
 
+Foam::scalar Foam::granularProperties::storedHeat
+(
+    const scalarField& mass,
+    const scalarField& T,
+    const scalarField& start
+) const
+{
+    return heatCapacity().value()
+       *gSum
+        (
+            mass*(heatFunction().equivalent(T) - heatFunction().equivalent(start))
+        );
+}
+
+
+Foam::scalar Foam::granularProperties::heldHeat
+(
+    const scalarField& mass,
+    const scalarField& T
+) const
+{
+    return heatCapacity().value()*gSum(mass*mag(heatFunction().equivalent(T)));
+}
+
+
 // ************************************************************************* //

@@ -158,6 +158,7 @@ bool Foam::granularState::judge
 )
 {
     clampedNow_ = outside;
+    policy_.forget();
     const bool any = returnReduce(outside > 0, orOp<bool>());
     if (any || outsideSeen_)
     {

@@ -135,6 +135,7 @@ void Foam::granularState::finishStep()
 {
     const bool writes = mesh_.time().writeTime();
 
+    policy_.accept();
     if (writes || refreshAlways_)
     {
         refresh();
@@ -235,31 +236,21 @@ Foam::label Foam::granularState::cellsOutside() const
 }
 
 
+Foam::scalarField Foam::granularState::mass() const
+{
+    return bulkDensity_.primitiveField()*mesh_.V().field();
+}
+
+
 Foam::scalar Foam::granularState::storedHeat(const volScalarField& T) const
 {
-    const scalarField& bulk = bulkDensity_.primitiveField();
-    const scalarField& start = initialTemperature_.primitiveField();
-    return properties_.heatCapacity().value()
-       *gSum
-        (
-            bulk*mesh_.V().field()
-           *(
-                properties_.heatFunction().equivalent(T.primitiveField())
-              - properties_.heatFunction().equivalent(start)
-            )
-        );
+    return properties_.storedHeat(mass(), T, initialTemperature_);
 }
 
 
 Foam::scalar Foam::granularState::initialHeat() const
 {
-    const scalarField& start = initialTemperature_.primitiveField();
-    return properties_.heatCapacity().value()
-       *gSum
-        (
-            bulkDensity_.primitiveField()*mesh_.V().field()
-           *mag(properties_.heatFunction().equivalent(start))
-        );
+    return properties_.heldHeat(mass(), initialTemperature_);
 }
 
 

@@ -456,6 +456,7 @@ void Foam::granularState::askStart()
     {
         policy_.refuseCut();
     }
+    policy_.accept();
 
     // This query is without strain. After a restart, strain accumulated in
     // thermalStrainIncrement is left for the first step, and the total strain

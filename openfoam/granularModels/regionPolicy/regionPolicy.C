@@ -286,7 +286,7 @@ bool Foam::regionPolicy::judge
             {
                 found.state[k] = state[k][row];
             }
-            keep(found);
+            tried_.append(found);
         }
         counts.last() += any;
     }
@@ -305,6 +305,7 @@ bool Foam::regionPolicy::judge
     }
     if (ends)
     {
+        accept();
         write();
     }
     forAll(farthest, i)
@@ -336,13 +337,24 @@ void Foam::regionPolicy::judgeRows
 }
 
 
-void Foam::regionPolicy::refuseCut() const
+void Foam::regionPolicy::accept()
 {
+    for (const offender& found : tried_)
+    {
+        keep(found);
+    }
+    tried_.clear();
+}
+
+
+void Foam::regionPolicy::refuseCut()
+{
+    accept();
     write();
     FatalIOErrorInFunction(dict_)
         << "Cells are outside the region of the model where outOfRegion in"
-        << " constant/granularProperties says cutStep, but the time step"
-        << " cannot be cut: it is fixed or at minDeltaT, or the state at the"
+        << " constant/granularProperties says cutStep, but the time step of "
+        << mesh_.time().deltaTValue() << " s cannot be cut: it is fixed or at minDeltaT, or the state at the"
         << " start is outside. The cells are in "
         << path(mesh_) << exit(FatalIOError);
 }

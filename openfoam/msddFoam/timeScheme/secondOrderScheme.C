@@ -16,8 +16,6 @@ License
 
 #include "secondOrderScheme.H"
 #include "stepWatch.H"
-#include "IStringStream.H"
-#include "OStringStream.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "addToRunTimeSelectionTable.H"
 
@@ -53,10 +51,13 @@ static const scalar rounding = 1e-9;
 
 //- Defaults: the tolerance of T is toleranceShare of the range of T seen so
 //- far, but at least noiseShare of the largest T, which is above the error of
-//- the linear solver; the smallest step is smallestShare of the end time
+//- the linear solver; the smallest step is smallestShare of the end time. None
+//- may be given below leastShare of it, which still is a hundred times the
+//- rounding error of the time
 static const scalar toleranceShare = 1e-3;
 static const scalar noiseShare = 1e-6;
 static const scalar smallestShare = 5e-11;
+static const scalar leastShare = 1e-14;
 
 //- How often a step is halved because there is no equilibrium of the stress
 static const label mostHalvings = 10;
@@ -105,7 +106,7 @@ Foam::timeSchemes::secondOrder::secondOrder
             time_.controlDict(),
             "minDeltaT",
             smallestShare*time_.endTime().value(),
-            0,
+            adaptive_ ? leastShare*time_.endTime().value() : 0,
             GREAT
         )
     ),
@@ -129,7 +130,8 @@ Foam::timeSchemes::secondOrder::secondOrder
     see();
     if (adaptive_)
     {
-        findLoads();
+        mechanics.addLoads(loads_);
+        heat_.addLoads(loads_);
     }
     if (mechanics.canFail())
     {
@@ -280,29 +282,6 @@ Foam::scalar Foam::timeSchemes::secondOrder::tolerance() const
         ),
         VSMALL
     );
-}
-
-
-void Foam::timeSchemes::secondOrder::findLoads()
-{
-    mechanics_.addLoads(loads_);
-    heat_.addLoads(loads_);
-    for (const fvPatchScalarField& wall : T_.boundaryField())
-    {
-        OStringStream os;
-        os.precision(17);
-        wall.write(os);
-        IStringStream is(os.str());
-        const dictionary dict(is);
-        for (const word key : {"uniformValue", "uniformGradient", "Ta", "Q"})
-        {
-            if (dict.found(key))
-            {
-                given_.append(Function1<scalar>::New(key, dict));
-                loads_.add(given_.last());
-            }
-        }
-    }
 }
 
 

@@ -1,4 +1,6 @@
-# Balances of heat and mass, function objects, sources.
+# Balances of heat and mass, function objects, sources, cells that are held.
+
+. "$here/region_cases"
 
 audited() { # folder, shape of the cells: small with all function objects
     changed "$1"
@@ -66,6 +68,24 @@ for kind in straight slanted triangles; do # straight: the heat equation is asse
     logged msddFoam
     e=$(paste -d ' ' <(field 0/V) <(field 0/T) <(field 1/T) | awk '{ V += $1; s += $1*($3 - $2) } END { e = s/V; print (NR == '$cells' ? (e < 0 ? -e : e) : "nan") }')
     check "K_xy, $kind: in an insulated box the mean of T stays to $e <= 1e-9 K" below "$e" 1e-9
+done
+
+held() { # shape, time scheme: cells that are held at a temperature, some beside a wall: the heat that this takes counts as a source
+    local e
+    audited "audit-held-$1-$2" "$1"
+    grains 'thermalExpansion 0;'
+    scheme "timeScheme $2;"
+    foam_file constant/fvOptions dictionary <<< 'held { type scalarFixedValueConstraint; active yes; selectionMode cellSet; cellSet held; fieldValues { T 120; } }'
+    foam_file system/topoSetDict dictionary <<< 'actions ({ name held; type cellSet; action new; source boxToCell; sourceInfo { box (-1 0.2 -1) (0.5 0.4 1); } });'
+    logged topoSet
+    logged msddFoam
+    e=$(worst heatAudit 6)
+    check "$1, $2: heat balance with cells that are held closes to $e <= 1e-10" below "$e" 1e-10
+    check "$1, $2: holding them gives heat" test "$(awk 'END { print ($4 > 0) }' postProcessing/heatAudit/0/heatAudit.dat)" = 1
+}
+for shape in $shapes; do
+    held "$shape" paper
+    held "$shape" secondOrder
 done
 
 shipped() { # case: goes into a copy of it, without results that stand there

@@ -128,6 +128,22 @@ unknown_states() {
     sed -i 's/-1e4/1e4/g' 0/stress
     check "loads: tension at the start is refused with spheres" refused "allowed: at most 0, because grains cannot bear tension"
 }
+heavy_bed() { # a stress given in kPa, as if these were Pa, is far below what the spheres weigh: 0.59*2500*9.81*0.4 = 5788 Pa at the bottom
+    local pressure said
+    for pressure in 3000 3; do
+        spheres_bed "heavy-$pressure" 'walls { top { type pressure; pressure constant 0; } ".*" { type frictionless; } }'
+        block_mesh '(0 0 0) (0.2 0 0) (0.2 0.2 0) (0 0.2 0) (0 0 0.4) (0.2 0 0.4) (0.2 0.2 0.4) (0 0.2 0.4)' 'hex (0 1 2 3 4 5 6 7) (1 1 4) simpleGrading (1 1 1)' '' '
+            bottom { type wall; faces ((0 3 2 1)); } top { type wall; faces ((4 5 6 7)); } sides { type wall; faces ((0 1 5 4) (3 7 6 2) (0 4 7 3) (1 2 6 5)); }'
+        gravity_is '0 0 -9.81'
+        start_field stress '[1 -1 -2 0 0 0 0]' "(-$pressure 0 0 -$pressure 0 -$pressure)"
+        sed -i s/volScalarField/volSymmTensorField/ 0/stress
+        controls 'endTime 1e-9; deltaT 1e-9; writeInterval 1;'
+        in_parts '2 1'
+        timeout 60 mpirun --oversubscribe -np 2 msddFoam -parallel > log.run 2>&1 || true
+        said=$(grep -c "is $pressure Pa along gravity in the mean, and the weight of the bed over the area below it is 5[67][0-9]*\.*[0-9]* Pa" log.run || true)
+        check "loads: a start under $pressure Pa below 5.8 kPa of weight: said $said times" test "$said" = "$([ $pressure = 3 ] && echo 1 || echo 0)"
+    done
+}
 pulses
 one_tolerance
 flux_walls
@@ -135,3 +151,4 @@ mixed_walls
 sources
 moving_spheres
 unknown_states
+heavy_bed

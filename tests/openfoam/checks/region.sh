@@ -40,6 +40,11 @@ scheme 'timeScheme secondOrder; temperatureTolerance 1000; stateTolerance 100;'
 logged msddFoam
 check "cutStep with adaptive steps: repeated" \
     grep -q '"rejected_steps": [1-9]' postProcessing/msddFoam/summary.json
+check "cells of steps that were repeated are not listed, others are" \
+    awk '/"column": "thermal_strain"/ { bad = 1 } /"column"/ { n++ } END { exit !(n > 0 && !bad) }' postProcessing/msddFoam/offenders.json
+controls 'minDeltaT 0;'
+rm -rf 1
+check "refused: adaptive steps without a least one" refused "Entry 'minDeltaT' is 0, allowed: 1e-14 to"
 
 changed region-start
 sed -i 's/^#include.*porosity.*/&\ninternalField uniform 0.02;/' 0/porosity

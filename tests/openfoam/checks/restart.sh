@@ -163,6 +163,36 @@ binary_and_compressed() { # restarts with these formats must give the same bytes
     done
 }
 
+one_solver() { # a second solver in a folder is refused while the first runs, also if that was started in parallel; a killed one keeps none out
+    local processes first second
+    for processes in 1 2; do
+        changed "one-solver-$processes"
+        controls 'endTime 1e6; writeInterval 1000000000;'
+        mesh_is '12 6 1'
+        in_parts '2 1'
+        if [ $processes = 1 ]; then
+            msddFoam > log.first 2>&1 &
+        else
+            mpirun --oversubscribe -np 2 msddFoam -parallel > log.first 2>&1 &
+        fi
+        first=$!
+        while ! grep -q '^Time = ' log.first && kill -0 $first; do sleep 0.1; done
+        second=$(sed 's/ .*//' <<< "$(cut -d ' ' -f 2 msddFoam.lock)")
+        check "a second solver in the folder of one on $processes processes is refused" \
+            refused "msddFoam.lock\" is locked by process $second on $(hostname)"
+        kill -9 "$second" # of several processes, the others end with it
+        wait $first 2> /dev/null || true
+        check "the lock file of a killed solver on $processes processes stays" test -e msddFoam.lock
+        controls 'endTime 0.05; writeInterval 1;'
+        logged msddFoam
+        check "it keeps no other solver out, and that one removes it" test ! -e msddFoam.lock
+    done
+    changed one-solver-error
+    mesh_is '12 6 1'
+    grains 'unknown 1;'
+    check "refused input leaves no lock file" bash -c '! msddFoam > log.bad 2>&1 && test ! -e msddFoam.lock'
+}
+
 halfway restart-none
 mesh_is '12 6 1'
 every_file "grains that stay"
@@ -186,5 +216,6 @@ every_file "online RVEs"
 
 full_disk
 blocked
+one_solver
 for shape in $shapes; do other_processes "$shape"; done
 binary_and_compressed

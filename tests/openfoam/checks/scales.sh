@@ -10,7 +10,7 @@ scaled() { # folder, mean radius over 5 mm, entries of fvSolution's msddFoam (th
     controls "$(awk "BEGIN { t = $size*$size; printf \"endTime %.17g; deltaT %.17g; writeInterval 20;\", t, 0.05*t }")"
     if [ -n "$3" ]; then
         scheme "$3"
-        controls "adjustTimeStep yes; writeControl runTime; writeInterval $(awk "BEGIN { printf \"%.17g\", $size*$size }"); minDeltaT 0;"
+        controls "adjustTimeStep yes; writeControl runTime; writeInterval $(awk "BEGIN { printf \"%.17g\", $size*$size }");"
     fi
     mesh_is '12 6 1'
 }

@@ -225,7 +225,7 @@ pub const CONTROL: &[Key] = &[
     must("endTime", Kind::Range(-1e300, 1e300, "s")),
     must("deltaT", Kind::Positive("s", "")),
     may("maxDeltaT", Kind::Positive("s", "")),
-    may("minDeltaT", Kind::NotNegative("s", "")),
+    may("minDeltaT", Kind::Positive("s", "")),
     may("writeInterval", Kind::Positive("s or steps", "")),
 ];
 
