@@ -256,7 +256,8 @@ impl Bed {
             return Err(BedError::Apart { wall: case.plate.wall.clone() });
         }
         let probe = |&distance: &f64| {
-            Probe::new(&self.simulation, &wall, normal, distance).ok_or(BedError::NoGrains { distance })
+            Probe::new(&self.simulation, &wall, normal, distance)
+                .ok_or(BedError::NoGrains { key: "heat.probes", distance })
         };
         let probes: Vec<Probe> = heat.probes.iter().map(probe).collect::<Result<_, _>>()?;
         let mut transient = Transient::new(&network, heat.initial_temperature, vec![case.plate.temperature]);

@@ -361,7 +361,7 @@ impl<'a> Coupled<'a> {
         let temperature = |&distance: &f64| {
             let used = |z: f64| !round || (keys.heights[0]..keys.heights[1]).contains(&z);
             let probe = Probe::layer(simulation, &wall, distance, |sphere| used(sphere.position[2]));
-            let probe = probe.ok_or(BedError::NoGrains { distance })?;
+            let probe = probe.ok_or(BedError::NoGrains { key: "record.distances", distance })?;
             Ok(probe.temperature(&self.temperatures))
         };
         let temperatures = keys.distances.iter().map(temperature).collect::<Result<_, BedError>>()?;
@@ -370,12 +370,12 @@ impl<'a> Coupled<'a> {
         let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (_, t)| (sum + t, count + 1.0));
         let mean_temperature: f64 = sum / count;
         if !mean_temperature.is_finite() {
-            return Err(BedError::NoGrains { distance: keys.heights[0] });
+            return Err(BedError::NoGrains { key: "record.heights", distance: keys.heights[0] });
         }
         let floor = simulation.boundary.walls()[0];
         let width = keys.radius.map_or(Width::Whole(region.area), |radius| Width::Ring([0.0, radius]));
         let averages = slab(simulation, &self.network, &floor, keys.heights, width, mean_temperature)
-            .ok_or(BedError::NoGrains { distance: keys.heights[0] })?;
+            .ok_or(BedError::NoGrains { key: "record.heights", distance: keys.heights[0] })?;
         let radius = (scene.container.radius)
             .map(|radius| radius - self.shell.as_ref().map_or(0.0, |shell| shell.moved));
         let outside = keys.radius.zip(radius).map(|(inner, radius)| {

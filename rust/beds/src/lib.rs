@@ -104,8 +104,9 @@ pub enum BedError {
          {highest:.4e} m, allowed: a smaller lid.porosity"
     )]
     Untouched { depth: f64, highest: f64 },
-    #[error("heat.probes = {distance}, allowed: distances from the plate at which there are grains")]
-    NoGrains { distance: f64 },
+    /// `key`: that of the distance \[m\].
+    #[error("{key} = {distance}, allowed: distances from the wall at which there are grains")]
+    NoGrains { key: &'static str, distance: f64 },
     #[error(transparent)]
     NotConverged(#[from] transient::NotConverged),
     #[error("cannot start threads: {0}")]

@@ -151,10 +151,11 @@ impl Scene {
             heated.temperature.check([1.0, 5000.0]).map_err(told)?;
         }
         self.grains.check(self.temperatures(), &self.gas)?;
-        for name in self.heated.iter().map(|heated| &heated.wall).chain([&self.record.wall]) {
+        let heated = self.heated.iter().map(|heated| ("heated.wall", &heated.wall));
+        for (key, name) in heated.chain([("record.wall", &self.record.wall)]) {
             if self.wall(name).is_none() {
                 let names: Vec<&str> = self.vessel().walls(0.0).into_iter().map(|(name, _)| name).collect();
-                return wrong("wall", name.clone(), &names.join(", "));
+                return wrong(key, name.clone(), &names.join(", "));
             }
         }
         match (&self.lid.strain, &self.lid.pressing) {

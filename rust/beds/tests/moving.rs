@@ -208,7 +208,7 @@ fn bad_descriptions_are_refused_with_key_and_value() {
             "pressure = 20000\nstrain = [[0, 0], [1, 0.5]]",
             "lid.strain = 0.5, allowed: -0.2 to 0.2",
         ),
-        ("wall = \"floor\"\nt", "wall = \"x_low\"\nt", "wall = x_low, allowed: floor, lid"),
+        ("wall = \"floor\"\nt", "wall = \"x_low\"\nt", "heated.wall = x_low, allowed: floor, lid"),
         ("interval = 200", "interval = 500", "time.interval = 500, allowed:"),
         ("steps = 3000", "steps = 3", "time.steps = 3, allowed: 100 to"),
         ("[time]", "[shell]\nyoung_modulus = 1e9\nthickness = 1e-3\n[time]", "shell = a box, allowed:"),

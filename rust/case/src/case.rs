@@ -47,13 +47,15 @@ impl Case {
     /// Reads `0/T`, `constant/granularProperties`, `system/controlDict` and `system/blockMeshDict` of a folder.
     ///
     /// # Errors
-    /// [`CaseError`] with file, key, value and what is allowed, for everything that this reader does not understand; nothing
-    /// that could change the result is ignored.
+    /// [`CaseError`] with file, key, value and what is allowed, for everything that this reader does not understand, and for
+    /// gravity and heat sources, which the discs do not know; nothing that could change the result is ignored.
     pub fn read(folder: &Path) -> Result<Self, CaseError> {
         let temperature = Dictionary::expanded(&folder.join("0/T"))?;
         let grains = Dictionary::expanded(&folder.join("constant/granularProperties"))?;
         let control = Dictionary::expanded(&folder.join("system/controlDict"))?;
         let mesh = Dictionary::expanded(&folder.join("system/blockMeshDict"))?;
+        check_gravity(folder)?;
+        check_sources(folder)?;
         let (low, high) = bounds(&mesh)?;
         let (material, thermal, mean_radius) = read_grains(&grains)?;
         let name = folder.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_owned()));
@@ -71,6 +73,34 @@ impl Case {
             probes: probes(&control)?.into_iter().map(|[x, y]| [x - low[0], y - low[1]]).collect(),
         })
     }
+}
+
+/// A file of a case, which may be packed; `None` if it is not there.
+fn optional(folder: &Path, name: &str) -> Result<Option<Dictionary>, CaseError> {
+    let is_there = folder.join(name).exists() || folder.join(format!("{name}.gz")).exists();
+    is_there.then(|| Dictionary::expanded(&folder.join(name))).transpose()
+}
+
+/// Discs have no weight.
+fn check_gravity(folder: &Path) -> Result<(), CaseError> {
+    let Some(gravity) = optional(folder, "constant/g")? else { return Ok(()) };
+    let tokens = gravity.value("value")?;
+    let mut numbers = tokens.iter().filter(|token| !["(", ")"].contains(&token.text.as_str()));
+    match numbers.all(|token| token.text.parse() == Ok(0.0)) {
+        true => Ok(()),
+        false => Err(gravity.refuse("value", &joined(tokens), "(0 0 0): discs have no weight")),
+    }
+}
+
+/// Discs know no heat from inside.
+fn check_sources(folder: &Path) -> Result<(), CaseError> {
+    for name in ["constant/fvOptions", "system/fvOptions"] {
+        let Some(sources) = optional(folder, name)? else { continue };
+        if let Some(key) = sources.keys().find(|key| key.text != "FoamFile") {
+            return Err(sources.refuse(&key.text, "{...}", "no sources: discs know no heat from inside"));
+        }
+    }
+    Ok(())
 }
 
 fn read_grains(file: &Dictionary) -> Result<(Material, Thermal, f64), CaseError> {
@@ -139,8 +169,19 @@ pub(crate) fn bounds(file: &Dictionary) -> Result<([f64; 2], [f64; 2]), CaseErro
     Ok((low, high))
 }
 
+/// All corners of the blocks [m], if they can be read.
+pub(crate) fn corners(file: &Dictionary) -> Option<Vec<[f64; 3]>> {
+    let key = if file.get("scale").is_some() { "scale" } else { "convertToMeters" };
+    let scale = match file.get(key) {
+        Some(_) => file.number(key, |v| v > 0.0 && v.is_finite(), "> 0").ok()?,
+        None => 1.0,
+    };
+    let points = points(file.value("vertices").ok()?)?;
+    Some(points.into_iter().map(|point| point.map(|x| scale * x)).collect())
+}
+
 /// Reads `( ( x y z ) ... )`, also with the number of points in front.
-fn points(tokens: &[Token]) -> Option<Vec<[f64; 3]>> {
+pub(crate) fn points(tokens: &[Token]) -> Option<Vec<[f64; 3]>> {
     let inner = match tokens {
         [open, inner @ .., close] if open.text == "(" && close.text == ")" => inner,
         [_, open, inner @ .., close] if open.text == "(" && close.text == ")" => inner,

@@ -101,6 +101,36 @@ fn values_stand_where_the_solver_looks_for_them() {
 
 /// Needs OpenFOAM, because it reads the files through foamDictionary.
 #[test]
+fn the_reference_refuses_gravity_and_heat_sources() {
+    if std::process::Command::new("foamDictionary").arg("-help").output().is_err() {
+        return;
+    }
+    let folder = std::env::temp_dir().join(format!("msdd-loads-{}", std::process::id()));
+    write(&folder, &made(|scene| scene.heat_source = Some(3000.0))).unwrap();
+    let refused = || Case::read(&folder).unwrap_err().to_string();
+    let error = refused();
+    assert!(
+        error.contains("constant/fvOptions: ") && error.contains("= {...}, allowed: no sources"),
+        "{error}"
+    );
+    fs::rename(folder.join("constant/fvOptions"), folder.join("system/fvOptions")).unwrap();
+    assert!(refused().contains("system/fvOptions: "));
+    fs::remove_file(folder.join("system/fvOptions")).unwrap();
+    let weigh = |value: &str| {
+        let text = head("uniformDimensionedVectorField", "g")
+            + &format!("dimensions [0 1 -2 0 0 0 0]; value {value};");
+        fs::write(folder.join("constant/g"), text).unwrap();
+    };
+    weigh("(0 -9.81 0)");
+    let error = refused();
+    assert!(error.contains("constant/g: value = ( 0 -9.81 0 ), allowed: (0 0 0): discs have"), "{error}");
+    weigh("(0 0 0)");
+    assert!(Case::read(&folder).is_ok());
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+/// Needs OpenFOAM, because it reads the files through foamDictionary.
+#[test]
 fn the_reference_reads_what_is_written() {
     if std::process::Command::new("foamDictionary").arg("-help").output().is_err() {
         return;

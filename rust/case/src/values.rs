@@ -112,7 +112,9 @@ fn readme_values(scene: &Scene, packing: &Packing) -> Values {
         (
             "noSource",
             match scene.heat_source {
-                Some(_) => "; but msdd reference cannot simulate heat sources and leaves this one out, so its results are not those of this case".to_string(),
+                Some(_) => {
+                    "; but msdd reference cannot simulate heat sources and refuses this case".to_string()
+                }
                 None => String::new(),
             },
         ),

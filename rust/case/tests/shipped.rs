@@ -135,12 +135,48 @@ fn what_is_doubtful_or_missing_is_said() {
             "equilibriumCoeffs {}",
             "doubt: constant/granularProperties: equilibriumCoeffs",
         ),
+        (
+            "word",
+            "system/controlDict",
+            "writeControl runtime;",
+            "error: system/controlDict: writeControl = runtime",
+        ),
+        ("from", "system/controlDict", "startFrom start;", "error: system/controlDict: startFrom = start"),
+        ("stop", "system/controlDict", "stopAt never;", "error: system/controlDict: stopAt = never"),
+        (
+            "unwritten",
+            "system/controlDict",
+            "writeControl runTime; writeInterval 1.1;",
+            "doubt: system/controlDict: writeInterval = 1.1 s, allowed: at most the length of the run, 1 s",
+        ),
+        (
+            "unwritten-steps",
+            "system/controlDict",
+            "writeControl timeStep; writeInterval 21;",
+            "doubt: system/controlDict: writeInterval = 21 steps",
+        ),
+        (
+            "function",
+            properties,
+            "thermalConductivity table ((0 1) (900 2));",
+            "error: constant/granularProperties: thermalConductivity = table",
+        ),
+        (
+            "falling",
+            properties,
+            "heatCapacity table ((900 1) (0 2));",
+            "error: constant/granularProperties: heatCapacity = ( ( 900 1 ) ( 0 2 ) )",
+        ),
         ("open", "system/fvSolution", "msddFoam {", "error: system/fvSolution: "),
     ] {
         let found = found_in(name, file, text);
         println!("{name}: {found:#?}");
         assert!(found.iter().any(|line| line.starts_with(wanted)), "{name}: {wanted}\n{found:#?}");
     }
+    let quiet = found_in("last", "system/controlDict", "writeControl runTime; writeInterval 1;");
+    assert!(!quiet.iter().any(|line| line.contains("writeInterval")), "{quiet:?}");
+    let found = found_in("with a blank", "none", "");
+    assert!(found.len() == 1 && found[0].starts_with("error: folder: "), "{found:?}");
     let empty = std::env::temp_dir().join(format!("msdd-check-{}-empty", std::process::id()));
     fs::create_dir_all(&empty).unwrap();
     let found = lines(&check(&empty));

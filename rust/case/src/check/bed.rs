@@ -3,7 +3,7 @@
 use super::fields::{self, FIELDS};
 use super::finding::Findings;
 use super::mesh::Mesh;
-use super::{control, grains, gravity, scales, spheres, state};
+use super::{control, grains, gravity, scales, spheres, state, tables, walls, weight, zones};
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
 use rayon::prelude::*;
@@ -62,6 +62,16 @@ pub fn check(folder: &Path, files: &Files, mesh: &Mesh, times: Option<control::T
     let [temperature, porosity, fabric_index, conductivity, stress] = &values;
     if let Some(properties) = properties {
         spheres::check(folder, properties, mesh, [porosity.as_ref(), stress.as_ref()], found);
+        walls::check(properties, mesh, found);
+        if let Some(gravity) = file(gravity::FILE) {
+            weight::check(properties, gravity, mesh, [porosity.as_ref(), stress.as_ref()], found);
+        }
+    }
+    for name in [grains::FILE, "0/T"] {
+        file(name).into_iter().for_each(|dictionary| tables::check(name, dictionary, found));
+    }
+    for name in [scales::SOURCES, control::CONTROL] {
+        file(name).into_iter().for_each(|dictionary| zones::check(name, dictionary, mesh, found));
     }
     let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), file(scales::SOURCES), mesh, times);
     scene.check_walls(found);

@@ -3,6 +3,7 @@
 use super::finding::Findings;
 use super::keys;
 use crate::dictionary::{Dictionary, Entry};
+use msdd_rve::message::number;
 
 /// Path in the case folder.
 pub const CONTROL: &str = "system/controlDict";
@@ -118,7 +119,28 @@ fn times(control: &Dictionary, adaptive: bool, found: &mut Findings) -> Option<T
         found.error([CONTROL, "endTime"], &end.to_string(), &allowed, "No step would be taken");
         return None;
     }
-    Some(Times { end: end - start, step, adaptive })
+    let times = Times { end: end - start, step, adaptive };
+    check_writes(control, times, found);
+    Some(times)
+}
+
+/// The solver writes at these times alone, not at the end.
+fn check_writes(control: &Dictionary, times: Times, found: &mut Findings) {
+    let Some(interval) = keys::number(control, "writeInterval", "") else { return };
+    let kind = control.text("writeControl").unwrap_or_else(|_| "timeStep".to_string());
+    let (longest, unit) = match kind.as_str() {
+        "runTime" | "adjustable" | "adjustableRunTime" => (times.end, "s"),
+        "timeStep" if !times.adaptive => ((times.end / times.step).round(), "steps"),
+        _ => return,
+    };
+    // OpenFOAM writes half a step before a time, too
+    let rest = if unit == "s" { 0.5 * times.step } else { 0.0 };
+    if interval > longest + rest {
+        let value = format!("{} {unit}", number(interval));
+        let allowed = format!("at most the length of the run, {} {unit}", number(longest));
+        let advice = "No fields will be written: the solver does not write at the end by itself";
+        found.doubt([CONTROL, "writeInterval"], &value, &allowed, advice);
+    }
 }
 
 /// Checks `system/fvSolution`; returns the time scheme.

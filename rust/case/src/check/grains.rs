@@ -19,7 +19,10 @@ pub fn check(
 ) -> Option<Box<dyn Surrogate>> {
     keys::check(file, FILE, keys::GRAINS, &[], found);
     let model = match file.dictionary_at("surrogate") {
-        Ok(surrogate) => check_surrogate(folder, surrogate, found),
+        Ok(surrogate) => {
+            check_conductivity(file, surrogate, found);
+            check_surrogate(folder, surrogate, found)
+        }
         Err(_) => None,
     };
     check_mechanics(file, patches, model.as_deref(), found);
@@ -30,6 +33,27 @@ pub fn check(
 pub fn is_plane(properties: &Dictionary) -> bool {
     let kind = properties.dictionary_at("surrogate").and_then(|surrogate| surrogate.text("type"));
     !matches!(kind.as_deref(), Ok("spheres" | "constant"))
+}
+
+/// The law of spheres alone follows a conductivity that depends on the temperature.
+fn check_conductivity(file: &Dictionary, surrogate: &Dictionary, found: &mut Findings) {
+    let kind = surrogate.text("type").unwrap_or_default();
+    let given = match file.get("thermalConductivity") {
+        Some(Entry::Dictionary(_)) => "{...}".to_string(),
+        Some(Entry::Value(tokens)) => joined(tokens),
+        None => return,
+    };
+    let is_function =
+        given == "{...}" || given.split(' ').next().is_some_and(|word| keys::FUNCTIONS.contains(&word));
+    if is_function && kind != "spheres" {
+        let allowed = format!("a number with surrogate type {kind}");
+        found.error(
+            [FILE, "thermalConductivity"],
+            &given,
+            &allowed,
+            "The surrogate type spheres takes a function of the temperature",
+        );
+    }
 }
 
 fn check_surrogate(
@@ -260,6 +284,7 @@ fn check_mechanics(
         if let Some(Entry::Dictionary(wall)) = walls.get_any(&key.text) {
             keys::check(wall, FILE, keys::WALL, &[], found);
             let radius = value("meanRadius");
+            between(wall, "layer", [0.0, 1e6 * radius], "m", found);
             between(wall, "slip", [2e-7 * radius, 2000.0 * radius], "m", found);
             give(wall, elastic, found);
         }

@@ -219,13 +219,27 @@ pub const SOLVER: &[Key] = &[
     may("waitLimit", Kind::Range(0.0, 1e9, "s")),
 ];
 
-/// Numbers of `system/controlDict`; all its other keys are checked by OpenFOAM itself.
+/// Words and numbers of `system/controlDict`; all its other keys are checked by OpenFOAM itself.
 pub const CONTROL: &[Key] = &[
+    may("startFrom", Kind::Word(&["startTime", "firstTime", "latestTime"])),
     may("startTime", Kind::Range(0.0, 1e300, "s")),
+    may("stopAt", Kind::Word(&["endTime", "noWriteNow", "writeNow", "nextWrite"])),
     must("endTime", Kind::Range(-1e300, 1e300, "s")),
     must("deltaT", Kind::Positive("s", "")),
     may("maxDeltaT", Kind::Positive("s", "")),
     may("minDeltaT", Kind::Positive("s", "")),
+    may(
+        "writeControl",
+        Kind::Word(&[
+            "none",
+            "timeStep",
+            "runTime",
+            "adjustable",
+            "adjustableRunTime",
+            "clockTime",
+            "cpuTime",
+        ]),
+    ),
     may("writeInterval", Kind::Positive("s or steps", "")),
 ];
 

@@ -1,6 +1,7 @@
 //! Checks the mesh: that in `constant/polyMesh` when it is there, else the one that `system/blockMeshDict` describes.
 
 use super::finding::Findings;
+use super::made;
 use crate::dictionary::{Dictionary, Entry, joined};
 use std::path::Path;
 
@@ -18,12 +19,44 @@ pub struct Mesh {
     pub shape: Option<[usize; 2]>,
     /// Lower left and upper right corner of the box [m].
     pub bounds: Option<[[f64; 2]; 2]>,
+    /// Least and greatest coordinates of its points [m].
+    pub extent: Option<[[f64; 3]; 2]>,
+    /// Of a wedge, the directions of its axis and of the normal of its middle plane, 0 for x.
+    pub axis: Option<[usize; 2]>,
+    /// Names of the zones of cells; none when they are not known.
+    pub zones: Option<Vec<String>>,
+}
+
+/// What a cell is, which the types of the patches say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// One layer in the plane of x and y.
+    Plane,
+    /// A body of revolution.
+    Wedge,
+    Solid,
+    Unknown,
 }
 
 impl Mesh {
     /// Names of the patches.
     pub fn names(&self) -> Vec<String> {
         self.patches.iter().map(|[name, _]| name.clone()).collect()
+    }
+
+    pub fn kind(&self) -> Kind {
+        let has = |kind: &str| self.patches.iter().any(|[_, other]| other == kind);
+        match (has("wedge"), has("empty")) {
+            (true, _) => Kind::Wedge,
+            (false, true) => Kind::Plane,
+            (false, false) if self.patches.is_empty() => Kind::Unknown,
+            (false, false) => Kind::Solid,
+        }
+    }
+
+    /// Whether it may have one layer of cells along z; that it has more is said apart.
+    fn is_one_layer(&self) -> bool {
+        self.shape.is_some() || self.cells.is_none() || self.bounds.is_none()
     }
 
     /// Sides of a cell [m], if all cells are equal.
@@ -43,20 +76,27 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
     // The solver reads the mesh in constant/polyMesh; blockMeshDict may have been changed after that was made.
     let boundary = constant.join("polyMesh/boundary");
     if let Ok(text) = msdd_files::read_text(&boundary) {
+        let folder = constant.join("polyMesh");
+        made::check(&folder, found);
+        mesh.extent = made::extent(&folder).or(mesh.extent);
+        mesh.zones = Some(match msdd_files::read_text(&folder.join("cellZones")) {
+            Ok(text) => patches_of_mesh(&boundary, &text)
+                .unwrap_or_default()
+                .into_iter()
+                .map(|[name, _]| name)
+                .collect(),
+            Err(_) => Vec::new(),
+        });
         match patches_of_mesh(&boundary, &text) {
             Some(patches) => mesh.patches = patches,
-            None => found.error(
-                ["constant/polyMesh/boundary", ""],
-                "no list of patches",
-                "",
-                "Make the mesh again: blockMesh",
-            ),
+            None => found.error(["constant/polyMesh/boundary", ""], "no list of patches", "", made::AGAIN),
         }
         let old = mesh.cells;
         mesh.cells = cells_of_mesh(constant).or(old);
         if old.is_some() && mesh.cells != old {
             let (made, wanted) = (mesh.cells.unwrap_or(0), old.unwrap_or(0));
-            let advice = "The mesh in constant/polyMesh is older than this file; Allrun makes it again, or run blockMesh";
+            let advice = "The mesh in constant/polyMesh is that of the run. If blockMesh alone makes it, it is older than this file: \
+                          Allrun makes it again, or run blockMesh; if snappyHexMesh or another program makes it, this may be meant";
             found.doubt([BLOCKS, "blocks"], &format!("{wanted} cells, but the mesh has {made}"), "", advice);
             mesh.shape = None;
         }
@@ -64,11 +104,24 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
         let advice = "Neither a mesh in constant/polyMesh nor a description for blockMesh is there; 'msdd case new' writes one";
         found.error([BLOCKS, ""], "missing", "", advice);
     }
+    if is_plane && (mesh.kind() == Kind::Wedge || mesh.kind() == Kind::Solid) && mesh.is_one_layer() {
+        let advice = "This model is made from discs and knows no third direction; the surrogate types spheres and constant take any mesh";
+        found.error(
+            [BLOCKS, "boundary"],
+            "no patch of type empty",
+            "patches of type empty in front and behind",
+            advice,
+        );
+    }
     mesh
 }
 
 fn read_blocks(blocks: &Dictionary, is_plane: bool, mesh: &mut Mesh, found: &mut Findings) {
     mesh.bounds = crate::case::bounds(blocks).ok().map(|(low, high)| [low, high]);
+    if let Some(corners) = crate::case::corners(blocks) {
+        mesh.extent = Some(made::extent_of(&corners));
+        mesh.axis = axis_of_wedge(blocks, &corners);
+    }
     match blocks.value("blocks").map(joined) {
         Ok(text) => {
             let numbers = cells_in(&text);
@@ -124,10 +177,37 @@ fn patches_in(words: &[&str]) -> Vec<[String; 2]> {
     patches
 }
 
+/// Axis and normal of the first patch of type wedge, as OpenFOAM finds them: the middle plane is normal to the coordinate that is nearest
+/// to the patch's normal, and the axis is at right angles to both.
+fn axis_of_wedge(blocks: &Dictionary, corners: &[[f64; 3]]) -> Option<[usize; 2]> {
+    let tokens = blocks.value("boundary").ok()?;
+    let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
+    let wedge = words.windows(2).position(|pair| pair == ["type", "wedge"])?;
+    let open = words[..wedge].iter().rposition(|&word| word == "{")?;
+    let inside = &words[open..];
+    let inside = &inside[..inside.iter().position(|&word| word == "}")?];
+    let faces = inside.iter().position(|&word| word == "faces")?;
+    let face = inside[faces..].iter().skip_while(|word| word.parse::<usize>().is_err());
+    let face: Vec<[f64; 3]> =
+        face.map_while(|word| word.parse::<usize>().ok()).map_while(|k| corners.get(k).copied()).collect();
+    let mut normal = [0.0; 3];
+    for (k, a) in face.iter().enumerate() {
+        let b = face[(k + 1) % face.len()];
+        for (i, part) in normal.iter_mut().enumerate() {
+            let (j, l) = ((i + 1) % 3, (i + 2) % 3);
+            *part += a[j] * b[l] - a[l] * b[j];
+        }
+    }
+    let size = |k: &usize| normal[*k].abs();
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| size(a).total_cmp(&size(b)));
+    let [axis, side, across] = order;
+    (size(&side) > 0.0 && size(&axis) <= 1e-6 * size(&side)).then_some([axis, across])
+}
+
 /// Patches of `constant/polyMesh/boundary`, a list with its length in front and no key.
 fn patches_of_mesh(file: &Path, text: &str) -> Option<Vec<[String; 2]>> {
-    let body = text.find('(').map(|open| &text[open..])?;
-    let list = Dictionary::parse(file, &format!("list {};", body.trim_end_matches(|c| c != ')'))).ok()?;
+    let list = Dictionary::parse(file, &format!("list {};", made::list_of(text)?)).ok()?;
     let Some(Entry::Value(tokens)) = list.get("list") else { return None };
     let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
     Some(patches_in(&words))

@@ -10,6 +10,11 @@
 //! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
 //! | [`mesh`] | mesh and `system/blockMeshDict` |
+//! | [`made`] | the files in `constant/polyMesh` |
+//! | [`zones`] | zones of cells that are named |
+//! | [`tables`] | tables against temperature or time |
+//! | [`walls`] | friction at walls, and wedges |
+//! | [`weight`] | gravity and the stress at the start |
 //! | [`fields`] | the fields in `0` |
 //! | [`state`] | the initial state, against the range of the model |
 //! | [`scales`] | temperatures, lengths and times, against each other |
@@ -21,11 +26,16 @@ pub mod finding;
 pub mod grains;
 pub mod gravity;
 pub mod keys;
+mod made;
 pub mod mesh;
 pub mod regions;
 pub mod scales;
 mod spheres;
 pub mod state;
+mod tables;
+mod walls;
+mod weight;
+mod zones;
 
 pub use finding::{Finding, Findings, Severity};
 
@@ -60,7 +70,10 @@ pub fn check(folder: &Path) -> Findings {
         );
         return found;
     }
-    check_path(folder, &mut found);
+    if !check_path(folder, &mut found) {
+        // OpenFOAM would not find any of the files
+        return found;
+    }
     // With a bed outside of the regions it is a case of msddFoam, with solids beside
     if folder.join(regions::FILE).exists() && !folder.join(grains::FILE).exists() {
         regions::check(folder, &mut found);
@@ -76,10 +89,12 @@ pub fn check(folder: &Path) -> Findings {
     found
 }
 
-/// Refuses paths that OpenFOAM cannot work with.
-fn check_path(folder: &Path, found: &mut Findings) {
+/// Refuses paths that OpenFOAM cannot work with; returns whether it can work with this one.
+fn check_path(folder: &Path, found: &mut Findings) -> bool {
     let whole = folder.canonicalize().unwrap_or_default();
-    if path::check(&whole).is_err() {
+    let good = path::check(&whole).is_ok();
+    if !good {
         found.error(["folder", ""], &whole.display().to_string(), path::ALLOWED, "move the case");
     }
+    good
 }

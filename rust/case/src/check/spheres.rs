@@ -5,7 +5,8 @@ use super::finding::Findings;
 use super::grains::FILE;
 use super::keys;
 use super::mesh::Mesh;
-use crate::dictionary::{Dictionary, joined};
+use super::walls::NO_WALLS;
+use crate::dictionary::{Dictionary, Entry, joined};
 use crate::numbers::rounded;
 use msdd_rve::message::number;
 use msdd_surrogate::spheres::model::SphereModel;
@@ -18,8 +19,6 @@ const SOLID: [f64; 2] = [0.3, 0.8];
 const UNIT_TRACE: f64 = 0.01;
 /// Roughness over the radius above which it is hardly meant.
 const MOST_ROUGH: f64 = 0.01;
-/// Types of patches that need no entry in `walls`.
-const NO_WALLS: [&str; 6] = ["empty", "wedge", "symmetry", "symmetryPlane", "processor", "cyclic"];
 
 /// `properties` with the surrogate type spheres; nothing is done for others. `fields`: porosity and stress at the start.
 pub fn check(
@@ -128,10 +127,9 @@ fn check_walls(properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
             continue;
         }
         let place = format!("equilibriumCoeffs/walls/{patch}");
-        let wall = walls.and_then(|walls| walls.dictionary_at(patch).ok());
-        let Some(wall) = wall else {
-            let given = walls.is_some_and(|walls| walls.matching(patch).is_some());
-            if !given {
+        let wall = walls.and_then(|walls| walls.matching(patch));
+        let Some(Entry::Dictionary(wall)) = wall else {
+            if wall.is_none() {
                 let allowed = "a dictionary with the wall's type";
                 found.error(
                     [FILE, &place],

@@ -1,6 +1,7 @@
 //! Converts results of `msdd bed run` to paths of strain, on which the law of spheres is fitted: beds that were poured, and whose strain is
 //! known inside.
 
+use super::same::Known;
 use crate::bed::start::{Start, packings};
 use crate::error::CliError;
 use msdd_beds::packings::column;
@@ -34,13 +35,16 @@ const STATE: [&str; 9] = [
 /// seeds: beds of one seed have the spheres at the same places before they are pressed.
 ///
 /// # Errors
-/// A folder without beds or results; results without strains; a bed whose conductivity by contacts is not that of the law.
-pub fn tracks(root: &Path, first: i64) -> Result<(Vec<Track>, String), CliError> {
+/// A folder without beds or results; results without strains; a bed whose conductivity by contacts is not that of the law; a bed of
+/// another friction than `material`.
+pub fn tracks(root: &Path, first: i64, material: &mut Known) -> Result<(Vec<Track>, String), CliError> {
     let folders = list(root)?.into_iter().filter(|folder| folder.join(FILE).is_file());
     let (mut all, mut texts) = (Vec::new(), String::new());
     let mut seeds: Vec<u64> = Vec::new();
     for folder in folders {
         let scene = Scene::read(&folder)?;
+        // Beds differ from boxes in Poisson's ratio: their law is asked with stresses over E* of their own.
+        material.agree(&folder.join(FILE), [Some(scene.grains.friction), None])?;
         for (seed, file) in packings(&folder)? {
             let known = seeds.iter().position(|known| *known == seed).unwrap_or_else(|| {
                 seeds.push(seed);

@@ -1,6 +1,7 @@
 //! `msdd train` and `msdd score` for the law of spheres.
 
 mod beds;
+mod same;
 mod tracks;
 
 use crate::error::CliError;
@@ -14,6 +15,7 @@ use msdd_surrogate::spheres::score::{PathErrors, score};
 use msdd_surrogate::spheres::tracks::Track;
 use msdd_surrogate::spheres::training::{USUAL_EPOCHS, is_held_out, train};
 use msdd_surrogate::{DatabaseProvenance, TrainingOptions};
+use same::Known;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -25,9 +27,10 @@ fn read(files: &[PathBuf]) -> Result<(Vec<Track>, DatabaseProvenance), CliError>
     let (mut all, mut next) = (Vec::new(), 0);
     let (mut plans, mut rows) = (String::new(), String::new());
     let mut provenance = DatabaseProvenance::default();
+    let mut known = Known::default();
     for file in files {
         if file.is_dir() {
-            let (tracks, text) = beds::tracks(file, next)?;
+            let (tracks, text) = beds::tracks(file, next, &mut known)?;
             next = tracks.iter().map(|track| track.packing + 1).max().unwrap_or(next);
             plans += &hash(&text);
             rows += &text;
@@ -44,6 +47,7 @@ fn read(files: &[PathBuf]) -> Result<(Vec<Track>, DatabaseProvenance), CliError>
             .map_err(|error| CliError::Message(format!("{}: {error}", file.display())))?;
         provenance.engine_version = value("engine_version");
         provenance.material = serde_json::from_str(&value("material")).unwrap_or_default();
+        known.agree(file, same::of_database(&provenance.material))?;
     }
     provenance.plan_hash = if files.len() > 1 { hash(&plans) } else { plans };
     provenance.rows_hash = Some(hash(&rows));

@@ -35,7 +35,6 @@ pub struct Discs {
 /// [`ReportError::Case`] with file, key, value and what is allowed if discs cannot be made for the case.
 pub fn of(scene: &Scene, checksum: &str, quick: bool) -> Result<Discs, ReportError> {
     let folder = &scene.folder;
-    check_heat(folder)?;
     check_mesh(scene)?;
     let case = Case::read(folder)?;
     check_walls(folder)?;
@@ -91,21 +90,6 @@ pub fn of(scene: &Scene, checksum: &str, quick: bool) -> Result<Discs, ReportErr
     let seeds = if quick { &SEEDS[..1] } else { &SEEDS[..] };
     let range = case.temperature_range();
     Ok(Discs { place: [case.origin, case.size], range, jobs: seeds.iter().map(job).collect() })
-}
-
-/// Discs know no heat from inside.
-fn check_heat(folder: &Path) -> Result<(), CaseError> {
-    for name in ["constant/fvOptions", "system/fvOptions"] {
-        let file = folder.join(name);
-        if !file.exists() {
-            continue;
-        }
-        let sources = Dictionary::expanded(&file)?;
-        if let Some(key) = sources.keys().find(|key| key.text != "FoamFile") {
-            return Err(sources.refuse(&key.text, "{...}", "no sources: discs know no heat from inside"));
-        }
-    }
-    Ok(())
 }
 
 /// The mesh is one block in the plane.

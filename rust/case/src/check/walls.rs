@@ -1,0 +1,133 @@
+//! Checks what walls against which grains move can be given, and the meshes in which they move.
+
+use super::finding::Findings;
+use super::grains::FILE;
+use super::keys;
+use super::mesh::{BLOCKS, Kind, Mesh};
+use crate::dictionary::{Dictionary, Entry, joined};
+
+/// Types of patches that need no entry in `walls`.
+pub const NO_WALLS: [&str; 6] = ["empty", "wedge", "symmetry", "symmetryPlane", "processor", "cyclic"];
+/// Keys that concern friction, which walls of type rigid have.
+const FRICTION: [&str; 4] = ["friction", "slip", "layer", "layerStrength"];
+
+/// Checks a bed whose grains move.
+pub fn check(properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
+    if !properties.text("mechanics").is_ok_and(|kind| kind == "equilibrium") {
+        return;
+    }
+    if let (Kind::Wedge, Some([axis, normal])) = (mesh.kind(), mesh.axis)
+        && (axis == 2 || normal != 2)
+    {
+        let value = format!("wedges about the axis {}, normal {}", name(axis), name(normal));
+        let advice = "Turn the mesh, by transformPoints for example";
+        found.error(
+            [BLOCKS, "boundary"],
+            &value,
+            "axis x or y, normal z, with mechanics equilibrium",
+            advice,
+        );
+    }
+    let settings = properties.dictionary_at("equilibriumCoeffs").ok();
+    let elastic = settings.is_some_and(|own| own.text("law").is_ok_and(|law| law == "elastic"));
+    let walls = settings.and_then(|own| own.dictionary_at("walls").ok());
+    for [patch, _] in mesh.patches.iter().filter(|[_, kind]| !NO_WALLS.contains(&kind.as_str())) {
+        let place = format!("equilibriumCoeffs/walls/{patch}");
+        match walls.and_then(|walls| walls.matching(patch)) {
+            Some(Entry::Dictionary(wall)) => {
+                check_friction(wall, elastic, mesh.kind() == Kind::Solid, found);
+            }
+            None if elastic => {
+                let allowed = "a dictionary with the wall's type";
+                found.error([FILE, &place], "missing", allowed, "Law elastic needs a rule for each wall");
+            }
+            _ => {}
+        }
+    }
+}
+
+fn name(axis: usize) -> &'static str {
+    ["x", "y", "z"][axis]
+}
+
+fn check_friction(wall: &Dictionary, elastic: bool, solid: bool, found: &mut Findings) {
+    let kind = wall.text("type").unwrap_or_else(|_| "rigid".to_string());
+    if kind != "rigid" {
+        for key in FRICTION.iter().filter(|key| wall.get(key).is_some()) {
+            let value = wall.value(key).map(joined).unwrap_or_default();
+            let advice = format!("The solver ignores it in a wall of type {kind}");
+            once([FILE, &wall.path_of(key)], &value, &advice, found);
+        }
+        return;
+    }
+    let friction = keys::number(wall, "friction", "");
+    let place = wall.path_of("friction");
+    let allowed = "0 in meshes of three dimensions";
+    if solid
+        && let Some(friction) = friction.filter(|&friction| friction > 0.0)
+        && !found.0.iter().any(|finding| finding.key == place && finding.allowed == allowed)
+    {
+        found.error([FILE, &place], &friction.to_string(), allowed, "");
+    }
+    let place = wall.path_of("slip");
+    if elastic
+        && friction.is_some()
+        && wall.get("slip").is_none()
+        && !found.0.iter().any(|finding| finding.key == place)
+    {
+        found.error([FILE, &place], "missing", "a way [m], beside friction", "");
+    }
+}
+
+/// A pattern may stand for several patches, and is reported once.
+fn once(place: [&str; 2], value: &str, advice: &str, found: &mut Findings) {
+    if !found.0.iter().any(|finding| finding.key == place[1] && finding.advice == advice) {
+        found.doubt(place, value, "in walls of type rigid", advice);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    fn lines(walls: &str, sides: &str, axis: Option<[usize; 2]>) -> Vec<String> {
+        let text = format!("mechanics equilibrium; equilibriumCoeffs {{ {walls} }}");
+        let properties = Dictionary::parse(Path::new(FILE), &text).unwrap();
+        let patches = [["left", "wall"], ["right", "wall"], ["sides", sides]];
+        let patches = patches.map(|pair| pair.map(str::to_string)).to_vec();
+        let mut found = Findings::default();
+        check(&properties, &Mesh { patches, axis, ..Mesh::default() }, &mut found);
+        found.0.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn friction_that_the_solver_ignores_or_refuses_is_found() {
+        let rigid = "walls { \".*\" { friction 0.3; slip 1e-6; } }";
+        assert_eq!(lines(rigid, "empty", None), Vec::<String>::new());
+        assert_eq!(
+            lines(rigid, "wall", None),
+            [
+                "error: constant/granularProperties: equilibriumCoeffs/walls/.*/friction = 0.3, allowed: 0 in meshes of three dimensions"
+            ]
+        );
+        assert_eq!(
+            lines("walls { \"l.*|right\" { type frictionless; friction 0.3; } }", "empty", None),
+            [
+                "doubt: constant/granularProperties: equilibriumCoeffs/walls/l.*|right/friction = 0.3, allowed: in walls of type rigid. The solver ignores it in a wall of type frictionless"
+            ]
+        );
+        let elastic = lines("law elastic; walls { left { friction 0.3; } }", "empty", None);
+        assert!(
+            elastic[0].contains("walls/left/slip = missing") && elastic[1].contains("walls/right = missing")
+        );
+    }
+
+    #[test]
+    fn wedges_lie_about_x_or_y() {
+        assert_eq!(lines("", "wedge", Some([1, 2])), Vec::<String>::new());
+        assert!(lines("", "wedge", Some([2, 1]))[0].starts_with(
+            "error: system/blockMeshDict: boundary = wedges about the axis z, normal y, allowed: axis x or y, normal z"
+        ));
+    }
+}
