@@ -89,6 +89,11 @@ bool Foam::caseLock::take()
         );
         if (file_ < 0)
         {
+            // That of another user can be read and locked, though not written
+            file_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+        }
+        if (file_ < 0)
+        {
             Info<< "No lock on the case: cannot write " << path_ << ": "
                 << std::strerror(errno) << nl << endl;
             return true;

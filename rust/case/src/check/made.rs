@@ -34,25 +34,29 @@ fn problem(file: &Path) -> Option<&'static str> {
     (!is_whole(text)).then_some("the list does not end: the file is truncated")
 }
 
-fn is_binary(text: &str) -> bool {
+/// Whether the head of a file says that it is binary.
+pub fn is_binary(text: &str) -> bool {
     let head = text.split('}').next().unwrap_or_default();
     head.split_whitespace().any(|word| word == "binary;")
 }
 
 /// Whether there is a list after the head of a file, and all brackets are closed.
 fn is_whole(text: &str) -> bool {
-    let (mut depth, mut lists) = (0_i64, 0);
-    for line in text.lines() {
-        let line = line.split("//").next().unwrap_or_default();
-        for byte in line.bytes() {
-            match byte {
-                b'(' | b'{' => {
-                    depth += 1;
-                    lists += usize::from(depth == 1);
-                }
-                b')' | b'}' => depth -= 1,
-                _ => {}
+    let (mut depth, mut lists, mut rest) = (0_i64, 0, text);
+    while let Some(at) = rest.find(['(', ')', '{', '}', '/']) {
+        let (found, after) = (rest.as_bytes()[at], &rest[at + 1..]);
+        rest = match found {
+            b'/' if after.starts_with('/') => after.split_once('\n').map_or("", |(_, next)| next),
+            b'/' if after.starts_with('*') => after[1..].split_once("*/").map_or("", |(_, next)| next),
+            _ => after,
+        };
+        match found {
+            b'(' | b'{' => {
+                depth += 1;
+                lists += usize::from(depth == 1);
             }
+            b')' | b'}' => depth -= 1,
+            _ => {}
         }
     }
     // The first of them is the head.
@@ -94,6 +98,7 @@ mod tests {
         assert!(is_whole(&format!("{HEAD}0()")));
         assert!(is_whole(&format!("{HEAD}3{{0}}")));
         assert!(!is_whole(&format!("{HEAD}2\n(\n(0 0 0)\n")));
+        assert!(is_whole(&format!("/* a smile :) */\n{HEAD}0()")));
         assert!(!is_whole(HEAD));
         assert!(is_binary("FoamFile { format binary; }") && !is_binary(HEAD));
     }

@@ -75,18 +75,18 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
     }
     // The solver reads the mesh in constant/polyMesh; blockMeshDict may have been changed after that was made.
     let boundary = constant.join("polyMesh/boundary");
+    let mut made = false;
     if let Ok(text) = msdd_files::read_text(&boundary) {
+        made = true;
         let folder = constant.join("polyMesh");
         made::check(&folder, found);
-        mesh.extent = made::extent(&folder).or(mesh.extent);
-        mesh.zones = Some(match msdd_files::read_text(&folder.join("cellZones")) {
-            Ok(text) => patches_of_mesh(&boundary, &text)
-                .unwrap_or_default()
-                .into_iter()
-                .map(|[name, _]| name)
-                .collect(),
-            Err(_) => Vec::new(),
-        });
+        let extent = made::extent(&folder);
+        if extent.is_none() || !mesh.extent.is_some_and(|wanted| is_near(extent, wanted)) {
+            // It may have been turned after blockMesh
+            mesh.axis = None;
+        }
+        mesh.extent = extent.or(mesh.extent);
+        mesh.zones = zones_of_mesh(&folder);
         match patches_of_mesh(&boundary, &text) {
             Some(patches) => mesh.patches = patches,
             None => found.error(["constant/polyMesh/boundary", ""], "no list of patches", "", made::AGAIN),
@@ -104,7 +104,8 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
         let advice = "Neither a mesh in constant/polyMesh nor a description for blockMesh is there; 'msdd case new' writes one";
         found.error([BLOCKS, ""], "missing", "", advice);
     }
-    if is_plane && (mesh.kind() == Kind::Wedge || mesh.kind() == Kind::Solid) && mesh.is_one_layer() {
+    // Faces that blockMeshDict does not name become a patch of type empty
+    if made && is_plane && (mesh.kind() == Kind::Wedge || mesh.kind() == Kind::Solid) && mesh.is_one_layer() {
         let advice = "This model is made from discs and knows no third direction; the surrogate types spheres and constant take any mesh";
         found.error(
             [BLOCKS, "boundary"],
@@ -114,6 +115,24 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
         );
     }
     mesh
+}
+
+/// Whether a mesh has the size of another, but for the digits of its file.
+fn is_near(extent: Option<[[f64; 3]; 2]>, [low, high]: [[f64; 3]; 2]) -> bool {
+    let size = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+    let near = |a: [f64; 3], b: [f64; 3]| (0..3).all(|k| (a[k] - b[k]).abs() <= 1e-4 * size);
+    extent.is_some_and(|[a, b]| near(a, low) && near(b, high))
+}
+
+/// Names of the zones of cells; none where their file cannot be read, because it is packed or binary.
+fn zones_of_mesh(folder: &Path) -> Option<Vec<String>> {
+    let file = folder.join("cellZones");
+    if !file.exists() {
+        return (!folder.join("cellZones.gz").exists()).then(Vec::new);
+    }
+    let text = msdd_files::read_text(&file).ok().filter(|text| !made::is_binary(text))?;
+    let zones = patches_of_mesh(&file, &text)?;
+    Some(zones.into_iter().map(|[name, _]| name).collect())
 }
 
 fn read_blocks(blocks: &Dictionary, is_plane: bool, mesh: &mut Mesh, found: &mut Findings) {

@@ -4,9 +4,14 @@ use super::finding::Findings;
 use super::mesh::Mesh;
 use crate::dictionary::{Dictionary, Entry, joined};
 
-/// Checks every entry `cellZone` of a file, and `name` beside `regionType cellZone`, if the mesh is made.
+/// Checks every entry `cellZone` of a file, but not in what is switched off or looks at another region, and `name` beside `regionType cellZone`, if the mesh is made.
 pub fn check(file: &str, dictionary: &Dictionary, mesh: &Mesh, found: &mut Findings) {
     let Some(zones) = &mesh.zones else { return };
+    let is =
+        |key: &str, words: &[&str]| dictionary.text(key).is_ok_and(|word| words.contains(&word.as_str()));
+    if is("enabled", &["no", "off", "false", "n", "f", "none"]) || dictionary.get("region").is_some() {
+        return;
+    }
     let of_region = dictionary.text("regionType").is_ok_and(|kind| kind == "cellZone");
     let selects = !dictionary.text("selectionMode").is_ok_and(|mode| mode != "cellZone");
     for key in dictionary.keys() {
@@ -34,7 +39,7 @@ mod tests {
 
     #[test]
     fn zones_that_the_mesh_does_not_have_are_named() {
-        let text = "heat { type scalarSemiImplicitSource; selectionMode cellZone; cellZone core; } all { selectionMode all; cellZone no; }
+        let text = "heat { type scalarSemiImplicitSource; selectionMode cellZone; cellZone core; } all { selectionMode all; cellZone no; } off { enabled no; cellZone no; } other { region wall; cellZone no; }
             mean { regionType cellZone; name rim; }";
         let file = Dictionary::parse(Path::new("constant/fvOptions"), text).unwrap();
         let lines = |zones: Option<&[&str]>| {
