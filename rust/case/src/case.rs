@@ -181,7 +181,7 @@ pub(crate) fn corners(file: &Dictionary) -> Option<Vec<[f64; 3]>> {
 }
 
 /// Reads `( ( x y z ) ... )`, also with the number of points in front.
-pub(crate) fn points(tokens: &[Token]) -> Option<Vec<[f64; 3]>> {
+fn points(tokens: &[Token]) -> Option<Vec<[f64; 3]>> {
     let inner = match tokens {
         [open, inner @ .., close] if open.text == "(" && close.text == ")" => inner,
         [_, open, inner @ .., close] if open.text == "(" && close.text == ")" => inner,

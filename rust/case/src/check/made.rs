@@ -1,7 +1,6 @@
 //! Checks the files of the mesh in `constant/polyMesh`.
 
 use super::finding::Findings;
-use crate::dictionary::Dictionary;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -66,8 +65,15 @@ fn is_whole(text: &str) -> bool {
 /// Least and greatest coordinates of the points \[m\]; `None` if they cannot be read.
 pub fn extent(folder: &Path) -> Option<[[f64; 3]; 2]> {
     let text = msdd_files::read_text(&folder.join("points")).ok()?;
-    let list = Dictionary::parse(&folder.join("points"), &format!("list {};", list_of(&text)?)).ok()?;
-    let points = crate::case::points(list.value("list").ok()?)?;
+    let mut points = Vec::new();
+    for point in
+        list_of(&text)?.split('(').map(|part| part.trim_end_matches(|c: char| c == ')' || c.is_whitespace()))
+    {
+        if !point.is_empty() {
+            let numbers: Result<Vec<f64>, _> = point.split_whitespace().map(str::parse).collect();
+            points.push(<[f64; 3]>::try_from(numbers.ok()?).ok()?);
+        }
+    }
     Some(extent_of(&points))
 }
 
