@@ -3,7 +3,7 @@
 use super::fields::{self, FIELDS};
 use super::finding::Findings;
 use super::mesh::Mesh;
-use super::{control, grains, gravity, scales, spheres, state, tables, walls, weight, zones};
+use super::{control, grains, gravity, keys, scales, spheres, state, tables, walls, weight, zones};
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
 use rayon::prelude::*;
@@ -92,10 +92,7 @@ pub fn check(folder: &Path, files: &Files, mesh: &Mesh, times: Option<control::T
 
 /// The six properties of the grains, if all are valid.
 fn numbers(file: &Dictionary) -> Option<Grains> {
-    let value = |key: &str| {
-        let text = file.value(key).ok()?.last()?;
-        text.text.parse::<f64>().ok().filter(|value| value.is_finite())
-    };
+    let value = |key: &str| keys::size(file, key);
     let grains = Grains {
         density: value("density")?,
         young_modulus: value("youngModulus")?,

@@ -1,5 +1,6 @@
 //! Checks the fields in `0`: dimensions, values, boundary conditions.
 
+use super::dimensions::Dimensions;
 use super::finding::Findings;
 use super::mesh::Mesh;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
@@ -71,9 +72,13 @@ impl Values {
 
 /// Checks a field; returns its values when they can be read.
 pub fn check(field: &Expected, file: &Dictionary, mesh: &Mesh, found: &mut Findings) -> Option<Values> {
-    match file.text("dimensions") {
-        Ok(given) if given == field.dimensions => {}
-        Ok(given) => found.error([field.file, "dimensions"], &given, field.dimensions, ""),
+    // Scaled units such as mm are refused in fields
+    let good = |given: &[Token]| {
+        Dimensions::read(given).is_some_and(|given| given.are(field.dimensions) && given.factor == 1.0)
+    };
+    match file.value("dimensions") {
+        Ok(given) if good(given) => {}
+        Ok(given) => found.error([field.file, "dimensions"], &joined(given), field.dimensions, ""),
         Err(error) => found.refused(field.file, error, ""),
     }
     check_patches(field, file, mesh, found);
@@ -253,6 +258,10 @@ mod tests {
             ["error: 0/T: internalField = -5, allowed: between 0 and 1000000 K. Temperatures are in Kelvin"]
         );
         assert_eq!(lines(0, &cold.replace("-5", "0")), Vec::<String>::new());
+        for units in ["[K]", "[0 0 0 1 0]"] {
+            let short = cold.replace("-5", "0").replace("[0 0 0 1 0 0 0]", units);
+            assert_eq!(lines(0, &short), Vec::<String>::new());
+        }
         let stress = "dimensions [1 -1 -2 0 0 0 0]; internalField uniform ( -3 0 0 -2 0 0 );
             boundaryField { \".*\" { type zeroGradient; } lft { type zeroGradient; } }";
         let all = lines(4, stress);

@@ -248,7 +248,7 @@ fn check_mechanics(
         found.doubt([FILE, "equilibriumCoeffs"], "", "", advice);
     }
     keys::check(settings, FILE, keys::EQUILIBRIUM, &[], found);
-    let value = |key: &str| keys::number(file, key, "").unwrap_or(0.0);
+    let value = |key: &str| keys::size(file, key).unwrap_or(0.0);
     let scale = value("youngModulus") * value("meanRadius");
     let mut scales = [scale, scale];
     let mut usual = 1e-4 * scale;
@@ -259,7 +259,7 @@ fn check_mechanics(
             return;
         };
         keys::check(solid, FILE, keys::ELASTIC, &[], found);
-        let number = |key: &str| keys::number(solid, key, "").unwrap_or(0.0);
+        let number = |key: &str| keys::size(solid, key).unwrap_or(0.0);
         let scale = number("youngModulus") / (2.0 + 2.0 * number("poissonRatio")) / 0.3;
         scales = [scale, scale];
         usual = 1e-9 * scale;
@@ -311,7 +311,7 @@ fn contact_modulus(file: &Dictionary) -> Option<f64> {
     let surrogate = file.dictionary_at("surrogate").ok()?;
     let own = surrogate.dictionary_at("spheresCoeffs").ok()?;
     let ratio = keys::number(own, "poissonRatio", "")?;
-    let modulus = keys::number(file, "youngModulus", "")?;
+    let modulus = keys::size(file, "youngModulus")?;
     surrogate.text("type").is_ok_and(|kind| kind == "spheres").then(|| 0.5 * modulus / (1.0 - ratio * ratio))
 }
 

@@ -1,5 +1,6 @@
 //! Checks `constant/g` and the stress at the start that follows from it.
 
+use super::dimensions::Dimensions;
 use super::finding::Findings;
 use super::grains;
 use super::keys;
@@ -41,9 +42,9 @@ pub fn check(properties: &Dictionary, gravity: Option<&Dictionary>, stress: bool
 }
 
 fn check_vector(gravity: &Dictionary, found: &mut Findings) {
-    let dimensions = gravity.value("dimensions").map(joined).unwrap_or_default();
-    if dimensions != DIMENSIONS {
-        found.error([FILE, "dimensions"], &dimensions, DIMENSIONS, "");
+    let given = gravity.value("dimensions").unwrap_or_default();
+    if !Dimensions::read(given).is_some_and(|given| given.are(DIMENSIONS)) {
+        found.error([FILE, "dimensions"], &joined(given), DIMENSIONS, "");
     }
     let tokens = gravity.value("value").unwrap_or_default();
     let numbers: Vec<f64> = tokens.iter().filter_map(|token| token.text.parse().ok()).collect();
@@ -90,6 +91,10 @@ mod tests {
 
     #[test]
     fn gravity_is_a_vector_with_its_dimensions() {
+        for dimensions in ["[0 1 -2 0 0]", "[m s^-2]", "[ m / s^2 ]"] {
+            let good = format!("dimensions {dimensions}; value (0 0 -9.81);");
+            assert_eq!(lines("", Some(&good), false), Vec::<String>::new());
+        }
         let wrong = lines("", Some("dimensions [0 1 -1 0 0 0 0]; value (0 -9.81);"), false);
         assert!(
             wrong[0].starts_with(

@@ -1,7 +1,8 @@
 //! Tables of the keys of the solver's dictionaries and their allowed values. A test compares them with the solver's sources.
 
+use super::dimensions::Dimensions;
 use super::finding::Findings;
-use crate::dictionary::{Dictionary, Entry, joined};
+use crate::dictionary::{Dictionary, Entry, Token, joined};
 use msdd_rve::message::number as number_text;
 
 /// Kind and range of the value of a key.
@@ -311,12 +312,31 @@ pub fn value(dictionary: &Dictionary, file: &str, key: &Key, found: &mut Finding
 
 /// Reads a number, which may have a name and dimensions in front; the dimensions must then be those given here.
 pub fn number(dictionary: &Dictionary, key: &str, dimensions: &str) -> Option<f64> {
-    let tokens = dictionary.value(key).ok()?;
+    let (given, value) = parts(dictionary.value(key).ok()?)?;
+    let factor = match given {
+        [] => 1.0,
+        given => {
+            Dimensions::read(given).filter(|given| !dimensions.is_empty() && given.are(dimensions))?.factor
+        }
+    };
+    Some(value * factor)
+}
+
+/// The same with any dimensions, which are checked elsewhere.
+pub fn size(dictionary: &Dictionary, key: &str) -> Option<f64> {
+    let (given, value) = parts(dictionary.value(key).ok()?)?;
+    Some(value * if given.is_empty() { 1.0 } else { Dimensions::read(given)?.factor })
+}
+
+/// Dimensions and number of `name [0 1 0 0 0 0 0] 0.01`; name and dimensions may be missing.
+fn parts(tokens: &[Token]) -> Option<(&[Token], f64)> {
     let (last, front) = tokens.split_last()?;
-    let given = joined(front);
-    let given = given.strip_prefix(key).unwrap_or(&given).trim();
-    let value: f64 = last.text.parse().ok()?;
-    (value.is_finite() && (given.is_empty() || given == dimensions)).then_some(value)
+    let value: f64 = last.text.parse().ok().filter(|value: &f64| value.is_finite())?;
+    let is_name = |token: &Token| token.text != "[" && token.text.parse::<f64>().is_err();
+    match front {
+        [name, rest @ ..] if is_name(name) => Some((rest, value)),
+        rest => Some((rest, value)),
+    }
 }
 
 fn shown(dictionary: &Dictionary, key: &str) -> String {

@@ -55,7 +55,7 @@ fn mistypes_are_told_from_what_is_far_off() {
 
 #[test]
 fn each_kind_of_value_is_refused_with_its_range() {
-    let text = "density -1; youngModulus young [1 -1 -2 0 0 0 0] 1e7; thermalConductivity [0 0 0 0 0 0 0] 5; heatCapacity x;
+    let text = "density -1; youngModulus young [1 -1 -1 0 0 0 0] 1e7; thermalConductivity [0 0 0 0 0 0 0] 5; heatCapacity x;
         thermalExpansion -1e-3; mechanics equilibrum; surrogate network; porosty 0.1;";
     let file = Dictionary::parse(Path::new("constant/granularProperties"), text).unwrap();
     let mut found = Findings::default();
@@ -65,7 +65,7 @@ fn each_kind_of_value_is_refused_with_its_range() {
         "porosty = 0.1, allowed: surrogate, density,",
         "surrogate = network, allowed: a dictionary in braces",
         "density = -1, allowed: > 0 kg/m3",
-        "youngModulus = young [ 1 -1 -2 0 0 0 0 ] 1e7, allowed: > 0 Pa",
+        "youngModulus = young [ 1 -1 -1 0 0 0 0 ] 1e7, allowed: > 0 Pa",
         "thermalConductivity = [ 0 0 0 0 0 0 0 ] 5, allowed: > 0 W/(m K) [ 1 1 -3 -1 0 0 0 ], if dimensions are given",
         "heatCapacity = x, allowed: > 0",
         "thermalExpansion = -1e-3, allowed: >= 0 1/K",
@@ -79,4 +79,24 @@ fn each_kind_of_value_is_refused_with_its_range() {
             "{line}\n{expected}"
         );
     }
+}
+
+#[test]
+fn numbers_have_any_name_and_any_form_of_their_dimensions() {
+    let density = |text: &str| {
+        let file = Dictionary::parse(Path::new("constant/granularProperties"), text).unwrap();
+        number(&file, "density", "[ 1 -3 0 0 0 0 0 ]")
+    };
+    for text in
+        ["3000", "density 3000", "rho [1 -3 0 0 0 0 0] 3000", "[1 -3 0 0 0] 3000", "[ kg / m^3 ] 3000"]
+    {
+        assert_eq!(density(&format!("density {text};")), Some(3000.0), "{text}");
+    }
+    for text in ["rho [1 -2 0 0 0 0 0] 3000", "1 3000", "3000 rho", "[kg/m^3 3000"] {
+        assert_eq!(density(&format!("density {text};")), None, "{text}");
+    }
+    let file = Dictionary::parse(Path::new("constant/granularProperties"), "meanRadius r [mm] 5;").unwrap();
+    assert_eq!(number(&file, "meanRadius", "[ 0 1 0 0 0 0 0 ]"), Some(0.005));
+    assert_eq!(size(&file, "meanRadius"), Some(0.005));
+    assert_eq!(number(&file, "meanRadius", ""), None);
 }

@@ -6,6 +6,7 @@
 //! | [`regions`] | cases of several regions |
 //! | [`finding`] | the findings |
 //! | [`keys`] | the keys of the solver's dictionaries and what they may hold |
+//! | [`dimensions`] | dimensions in brackets |
 //! | [`grains`] | `constant/granularProperties` and the model |
 //! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
@@ -21,6 +22,7 @@
 
 pub mod bed;
 pub mod control;
+mod dimensions;
 pub mod fields;
 pub mod finding;
 pub mod grains;

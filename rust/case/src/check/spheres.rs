@@ -37,7 +37,7 @@ pub fn check(
         found.error([FILE, "surrogate/spheresCoeffs"], "missing", allowed, "");
         return;
     };
-    let radius = keys::number(properties, "meanRadius", "");
+    let radius = keys::size(properties, "meanRadius");
     for surface in [Some(own), own.dictionary_at("wall").ok()].into_iter().flatten() {
         check_roughness(surface, radius, found);
     }
@@ -202,7 +202,7 @@ fn check_start(
         found.error(["0/porosity", "internalField"], &number(rounded(1.0 - solid, 4)), &allowed, "");
         return;
     }
-    let (Some(model), Some(young)) = (model, keys::number(properties, "youngModulus", "")) else { return };
+    let (Some(model), Some(young)) = (model, keys::size(properties, "youngModulus")) else { return };
     let ratio = keys::number(own, "poissonRatio", "").unwrap_or(0.3);
     let modulus = 0.5 * young / (1.0 - ratio * ratio);
     let outside = (0..cells)
