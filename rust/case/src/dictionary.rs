@@ -36,11 +36,14 @@ pub struct Dictionary {
 }
 
 impl Dictionary {
-    /// Reads a file of a case through `foamDictionary -expand`.
+    /// Reads a file of a case through `foamDictionary -expand`; a binary file, which that cannot read and a program has written, by itself.
     ///
     /// # Errors
     /// [`CaseError::Read`] with what OpenFOAM says; [`CaseError::Syntax`].
     pub fn expanded(file: &Path) -> Result<Self, CaseError> {
+        if let Some(text) = crate::binary::text_of(file) {
+            return Self::parse(file, &text);
+        }
         let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
         let mut command = Command::new("foamDictionary");
         command.arg("-expand").arg(file);

@@ -3,6 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`dictionary`] | OpenFOAM dictionaries as `foamDictionary -expand` prints them |
+//! | `binary` | files with lists in binary |
 //! | [`case`] | material, temperatures, box and times of a case folder |
 //! | [`walls`] | thermal boundary conditions of the walls over time |
 //! | [`mesh`] | cell centres of a case's mesh |
@@ -17,6 +18,7 @@
 //! | [`check`](mod@check) | what is missing, out of range or doubtful before a run |
 #![forbid(unsafe_code)]
 
+mod binary;
 pub mod case;
 pub mod check;
 pub mod dictionary;

@@ -112,7 +112,14 @@ fn read(field: &Expected, tokens: &[Token], mesh: &Mesh, found: &mut Findings) -
     let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
     let (numbers, uniform) = match words.as_slice() {
         ["uniform", rest @ ..] => (numbers_in(rest, field.components), true),
-        ["nonuniform", _, count, rest @ ..] => {
+        ["nonuniform", list @ ..] => {
+            // The kind of the list and its length may be missing in front of it
+            let list =
+                if list.first().is_some_and(|word| word.starts_with("List<")) { &list[1..] } else { list };
+            let (count, rest) = match list {
+                [count, rest @ ..] if *count != "(" => (count.parse::<usize>().ok(), rest),
+                rest => (None, rest),
+            };
             // A list of equal values is printed by OpenFOAM as 336 { 0.12 }.
             let (numbers, equal) = match rest {
                 ["{", value @ .., "}"] => {
@@ -120,11 +127,11 @@ fn read(field: &Expected, tokens: &[Token], mesh: &Mesh, found: &mut Findings) -
                 }
                 _ => (numbers_in(rest, field.components), false),
             };
-            let length = if equal { count.parse().ok() } else { numbers.as_ref().map(Vec::len) };
+            let length = if equal { count } else { numbers.as_ref().map(Vec::len) };
             if let (Some(length), Some(cells)) = (length, mesh.cells)
                 && length != cells
             {
-                let value = format!("a list of {count} values");
+                let value = format!("a list of {length} values");
                 let advice = "The field belongs to another mesh; a uniform value fits any, and 'msdd reference fields' makes one \
                               for this mesh";
                 found.error(
@@ -226,6 +233,10 @@ mod tests {
         assert_eq!(lines(1, good), Vec::<String>::new());
         // As OpenFOAM prints a list of equal values.
         assert_eq!(lines(1, &good.replace("3 ( 0.1 0.2 0.1 )", "3{0.1}")), Vec::<String>::new());
+        for bare in ["( 0.1 0.2 0.1 )", "3 ( 0.1 0.2 0.1 )"] {
+            let bare = good.replace("List<scalar> 3 ( 0.1 0.2 0.1 )", bare);
+            assert_eq!(lines(1, &bare), Vec::<String>::new());
+        }
         for (from, to, message) in [
             (
                 "[0 0 0 0 0 0 0]",

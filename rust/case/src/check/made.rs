@@ -1,6 +1,7 @@
 //! Checks the files of the mesh in `constant/polyMesh`.
 
 use super::finding::Findings;
+use crate::binary::is_binary;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -29,14 +30,8 @@ fn problem(file: &Path) -> Option<&'static str> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Some("empty");
     }
-    let text = std::str::from_utf8(&bytes).ok().filter(|text| !is_binary(text))?;
+    let text = std::str::from_utf8(&bytes).ok().filter(|text| !is_binary(text.as_bytes()))?;
     (!is_whole(text)).then_some("the list does not end: the file is truncated")
-}
-
-/// Whether the head of a file says that it is binary.
-pub fn is_binary(text: &str) -> bool {
-    let head = text.split('}').next().unwrap_or_default();
-    head.split_whitespace().any(|word| word == "binary;")
 }
 
 /// Whether there is a list after the head of a file, and all brackets are closed.
@@ -106,7 +101,7 @@ mod tests {
         assert!(!is_whole(&format!("{HEAD}2\n(\n(0 0 0)\n")));
         assert!(is_whole(&format!("/* a smile :) */\n{HEAD}0()")));
         assert!(!is_whole(HEAD));
-        assert!(is_binary("FoamFile { format binary; }") && !is_binary(HEAD));
+        assert!(is_binary(b"FoamFile { format binary; }") && !is_binary(HEAD.as_bytes()));
     }
 
     #[test]

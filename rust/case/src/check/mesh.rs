@@ -2,6 +2,7 @@
 
 use super::finding::Findings;
 use super::made;
+use crate::binary::is_binary;
 use crate::dictionary::{Dictionary, Entry, joined};
 use std::path::Path;
 
@@ -130,7 +131,7 @@ fn zones_of_mesh(folder: &Path) -> Option<Vec<String>> {
     if !file.exists() {
         return (!folder.join("cellZones.gz").exists()).then(Vec::new);
     }
-    let text = msdd_files::read_text(&file).ok().filter(|text| !made::is_binary(text))?;
+    let text = msdd_files::read_text(&file).ok().filter(|text| !is_binary(text.as_bytes()))?;
     let zones = patches_of_mesh(&file, &text)?;
     Some(zones.into_iter().map(|[name, _]| name).collect())
 }
