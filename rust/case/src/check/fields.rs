@@ -169,7 +169,7 @@ fn numbers_in(words: &[&str], components: usize) -> Option<Vec<Vec<f64>>> {
         .then(|| numbers.chunks(components).map(<[f64]>::to_vec).collect())
 }
 
-/// Checks that each patch of the mesh has a boundary condition: by its name, by a pattern, or by its type (empty).
+/// Checks that each patch of the mesh has a boundary condition: by its name, by a group, or by a pattern.
 fn check_patches(field: &Expected, file: &Dictionary, mesh: &Mesh, found: &mut Findings) {
     let Ok(boundary) = file.dictionary_at("boundaryField") else {
         found.error(
@@ -182,13 +182,14 @@ fn check_patches(field: &Expected, file: &Dictionary, mesh: &Mesh, found: &mut F
     };
     for [name, kind] in &mesh.patches {
         // OpenFOAM itself makes those of patches that are empty
-        if kind != "empty" && boundary.matching(name).is_none() && boundary.get(kind).is_none() {
+        if kind != "empty" && mesh.condition(boundary, name).is_none() {
             let advice = "The mesh has this patch; give it a condition, such as { type zeroGradient; }";
             found.error([field.file, &boundary.path_of(name)], "missing", "a dictionary in braces", advice);
         }
     }
     for key in boundary.keys().filter(|key| !key.quoted) {
-        let known = mesh.patches.iter().any(|[name, kind]| key.text == *name || key.text == *kind);
+        let known = mesh.patches.iter().any(|[name, kind]| key.text == *name || key.text == *kind)
+            || mesh.groups.iter().any(|[group, _]| key.text == *group);
         let constraint = match boundary.get(&key.text) {
             Some(Entry::Dictionary(patch)) => {
                 patch.text("type").is_ok_and(|kind| kind == key.text || kind.starts_with("processor"))
@@ -217,6 +218,7 @@ mod tests {
     fn lines(field: usize, text: &str) -> Vec<String> {
         let mesh = Mesh {
             patches: [["left", "wall"], ["back", "empty"]].map(|pair| pair.map(str::to_string)).to_vec(),
+            groups: vec![["hot".to_string(), "left".to_string()]],
             cells: Some(3),
             ..Mesh::default()
         };
@@ -233,6 +235,8 @@ mod tests {
         assert_eq!(lines(1, good), Vec::<String>::new());
         // As OpenFOAM prints a list of equal values.
         assert_eq!(lines(1, &good.replace("3 ( 0.1 0.2 0.1 )", "3{0.1}")), Vec::<String>::new());
+        let grouped = good.replace("\".*\"", "hot");
+        assert_eq!(lines(1, &grouped), Vec::<String>::new());
         for bare in ["( 0.1 0.2 0.1 )", "3 ( 0.1 0.2 0.1 )"] {
             let bare = good.replace("List<scalar> 3 ( 0.1 0.2 0.1 )", bare);
             assert_eq!(lines(1, &bare), Vec::<String>::new());

@@ -1,9 +1,9 @@
 //! Checks the mesh: that in `constant/polyMesh` when it is there, else the one that `system/blockMeshDict` describes.
 
 use super::finding::Findings;
-use super::made;
-use crate::binary::is_binary;
-use crate::dictionary::{Dictionary, Entry, joined};
+use super::{blocks, made};
+use crate::binary;
+use crate::dictionary::{Dictionary, Entry};
 use std::path::Path;
 
 /// Path in the case folder.
@@ -14,6 +14,10 @@ pub const BLOCKS: &str = "system/blockMeshDict";
 pub struct Mesh {
     /// Names of the patches with their types; empty when they are not known.
     pub patches: Vec<[String; 2]>,
+    /// Groups of patches, and a patch in each of them.
+    pub groups: Vec<[String; 2]>,
+    /// Names of the patches that have no faces.
+    pub bare: Vec<String>,
     /// Number of cells.
     pub cells: Option<usize>,
     /// Number of cells along x and y, if the mesh is a single block.
@@ -45,8 +49,29 @@ impl Mesh {
         self.patches.iter().map(|[name, _]| name.clone()).collect()
     }
 
+    /// Takes over patches, with their groups.
+    pub fn take(&mut self, patches: Vec<Patch>) {
+        let groups = |patch: &Patch| {
+            let name = patch.name.clone();
+            patch.groups.clone().into_iter().map(move |group| [group, name.clone()])
+        };
+        self.groups = patches.iter().flat_map(groups).collect();
+        self.bare = patches.iter().filter(|patch| !patch.has_faces).map(|patch| patch.name.clone()).collect();
+        self.patches = patches.into_iter().map(|patch| [patch.name, patch.kind]).collect();
+    }
+
+    /// The condition of a patch in `boundaryField` of a field: that of its name, else of the last of its groups, else of a pattern.
+    pub fn condition<'a>(&self, boundary: &'a Dictionary, patch: &str) -> Option<&'a Entry> {
+        let is_group = |key: &str| self.groups.iter().any(|[group, one]| group == key && one == patch);
+        let group = || boundary.keys().filter(|key| !key.quoted && is_group(&key.text)).last();
+        let named = boundary.get(patch).or_else(|| boundary.get(&group()?.text));
+        named.or_else(|| boundary.matching(patch))
+    }
+
     pub fn kind(&self) -> Kind {
-        let has = |kind: &str| self.patches.iter().any(|[_, other]| other == kind);
+        // OpenFOAM does not count patches without faces
+        let patches = self.patches.iter().filter(|[name, _]| !self.bare.contains(name));
+        let has = |kind: &str| patches.clone().any(|[_, other]| other == kind);
         match (has("wedge"), has("empty")) {
             (true, _) => Kind::Wedge,
             (false, true) => Kind::Plane,
@@ -72,7 +97,7 @@ impl Mesh {
 pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found: &mut Findings) -> Mesh {
     let mut mesh = Mesh::default();
     if let Some(blocks) = blocks {
-        read_blocks(blocks, is_plane, &mut mesh, found);
+        blocks::read(blocks, is_plane, &mut mesh, found);
     }
     // The solver reads the mesh in constant/polyMesh; blockMeshDict may have been changed after that was made.
     let boundary = constant.join("polyMesh/boundary");
@@ -89,17 +114,20 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
         mesh.extent = extent.or(mesh.extent);
         mesh.zones = zones_of_mesh(&folder);
         match patches_of_mesh(&boundary, &text) {
-            Some(patches) => mesh.patches = patches,
+            Some(patches) => mesh.take(patches),
             None => found.error(["constant/polyMesh/boundary", ""], "no list of patches", "", made::AGAIN),
         }
         let old = mesh.cells;
-        mesh.cells = cells_of_mesh(constant).or(old);
-        if old.is_some() && mesh.cells != old {
-            let (made, wanted) = (mesh.cells.unwrap_or(0), old.unwrap_or(0));
+        mesh.cells = cells_of_mesh(&folder);
+        if mesh.cells != old {
+            mesh.shape = None;
+        }
+        if let (Some(wanted), Some(made)) = (old, mesh.cells)
+            && wanted != made
+        {
             let advice = "The mesh in constant/polyMesh is that of the run. If blockMesh alone makes it, it is older than this file: \
                           Allrun makes it again, or run blockMesh; if snappyHexMesh or another program makes it, this may be meant";
             found.doubt([BLOCKS, "blocks"], &format!("{wanted} cells, but the mesh has {made}"), "", advice);
-            mesh.shape = None;
         }
     } else if blocks.is_none() {
         let advice = "Neither a mesh in constant/polyMesh nor a description for blockMesh is there; 'msdd case new' writes one";
@@ -131,113 +159,80 @@ fn zones_of_mesh(folder: &Path) -> Option<Vec<String>> {
     if !file.exists() {
         return (!folder.join("cellZones.gz").exists()).then(Vec::new);
     }
-    let text = msdd_files::read_text(&file).ok().filter(|text| !is_binary(text.as_bytes()))?;
+    let text = msdd_files::read_text(&file).ok().filter(|text| !binary::is_binary(text.as_bytes()))?;
     let zones = patches_of_mesh(&file, &text)?;
-    Some(zones.into_iter().map(|[name, _]| name).collect())
+    Some(zones.into_iter().map(|zone| zone.name).collect())
 }
 
-fn read_blocks(blocks: &Dictionary, is_plane: bool, mesh: &mut Mesh, found: &mut Findings) {
-    mesh.bounds = crate::case::bounds(blocks).ok().map(|(low, high)| [low, high]);
-    if let Some(corners) = crate::case::corners(blocks) {
-        mesh.extent = Some(made::extent_of(&corners));
-        mesh.axis = axis_of_wedge(blocks, &corners);
-    }
-    match blocks.value("blocks").map(joined) {
-        Ok(text) => {
-            let numbers = cells_in(&text);
-            mesh.cells = (!numbers.is_empty()).then(|| numbers.iter().map(|[x, y, z]| x * y * z).sum());
-            if let [[nx, ny, nz]] = numbers[..] {
-                mesh.shape = (nz == 1).then_some([nx, ny]);
-                if nz != 1 && is_plane {
-                    let advice = "This model is two-dimensional: one cell in z, with patches of type empty in front and behind; the surrogate types spheres and constant take any mesh";
-                    found.error(
-                        [BLOCKS, "blocks"],
-                        &format!("( {nx} {ny} {nz} )"),
-                        "one cell along z",
-                        advice,
-                    );
-                }
-            }
-        }
-        Err(error) => found.refused(BLOCKS, error, ""),
-    }
-    mesh.patches = patches_of_blocks(blocks);
+/// A patch as the mesh or `blockMeshDict` gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    name: String,
+    kind: String,
+    groups: Vec<String>,
+    has_faces: bool,
 }
 
-/// The numbers of cells in each `hex ( ... ) ( nx ny nz )`, also with the name of a zone in between.
-fn cells_in(text: &str) -> Vec<[usize; 3]> {
-    let after = |part: &str| {
-        let (_, rest) = part.split_once(')')?;
-        let (_, rest) = rest.split_once('(')?;
-        let (numbers, _) = rest.split_once(')')?;
-        let numbers: Option<Vec<usize>> = numbers.split_whitespace().map(|word| word.parse().ok()).collect();
-        <[usize; 3]>::try_from(numbers?).ok()
-    };
-    text.split("hex").skip(1).filter_map(after).collect()
-}
-
-/// Names and types of the patches in `boundary ( name { type t; faces (...); } ... )`.
-fn patches_of_blocks(blocks: &Dictionary) -> Vec<[String; 2]> {
-    let Ok(tokens) = blocks.value("boundary") else { return Vec::new() };
-    let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
-    patches_in(&words)
-}
-
-fn patches_in(words: &[&str]) -> Vec<[String; 2]> {
+/// Patches in `( name { type t; ... } ... )`.
+pub fn patches_in(words: &[&str]) -> Vec<Patch> {
     let mut patches = Vec::new();
     for (k, pair) in words.windows(2).enumerate() {
         if pair[1] != "{" {
             continue;
         }
         let inside = &words[k + 2..];
-        let end = inside.iter().position(|&word| word == "}").unwrap_or(inside.len());
-        let kind = inside[..end].windows(2).find(|pair| pair[0] == "type").map_or("", |pair| pair[1]);
-        patches.push([pair[0].to_string(), kind.to_string()]);
+        let inside = &inside[..inside.iter().position(|&word| word == "}").unwrap_or(inside.len())];
+        let value = |key: &str| {
+            let from = inside.iter().position(|&word| word == key)? + 1;
+            inside[from..].split(|&word| word == ";").next()
+        };
+        let kind = value("type").and_then(|words| words.first()).map_or("", |word| word);
+        let is_name = |word: &&str| !["(", ")"].contains(word) && !word.starts_with("List<");
+        let mut groups: Vec<&str> =
+            value("inGroups").unwrap_or_default().iter().copied().filter(is_name).collect();
+        groups.retain(|word| word.parse::<usize>().is_err());
+        // Those which OpenFOAM gives to patches by itself
+        match kind {
+            "patch" => {}
+            "mappedWall" => groups.extend([kind, "wall"]),
+            _ => groups.push(kind),
+        }
+        // Their number in the mesh, the faces themselves in blockMeshDict
+        let has_faces = match (value("nFaces"), value("faces")) {
+            (Some(count), _) => count != ["0"],
+            (None, Some(faces)) => faces.iter().skip(1).any(|word| word.parse::<usize>().is_ok()),
+            (None, None) => true,
+        };
+        let groups = groups.into_iter().map(str::to_string).collect();
+        patches.push(Patch { name: pair[0].to_string(), kind: kind.to_string(), groups, has_faces });
     }
     patches
 }
 
-/// Axis and normal of the first patch of type wedge, as OpenFOAM finds them: the middle plane is normal to the coordinate that is nearest
-/// to the patch's normal, and the axis is at right angles to both.
-fn axis_of_wedge(blocks: &Dictionary, corners: &[[f64; 3]]) -> Option<[usize; 2]> {
-    let tokens = blocks.value("boundary").ok()?;
-    let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
-    let wedge = words.windows(2).position(|pair| pair == ["type", "wedge"])?;
-    let open = words[..wedge].iter().rposition(|&word| word == "{")?;
-    let inside = &words[open..];
-    let inside = &inside[..inside.iter().position(|&word| word == "}")?];
-    let faces = inside.iter().position(|&word| word == "faces")?;
-    let face = inside[faces..].iter().skip_while(|word| word.parse::<usize>().is_err());
-    let face: Vec<[f64; 3]> =
-        face.map_while(|word| word.parse::<usize>().ok()).map_while(|k| corners.get(k).copied()).collect();
-    let mut normal = [0.0; 3];
-    for (k, a) in face.iter().enumerate() {
-        let b = face[(k + 1) % face.len()];
-        for (i, part) in normal.iter_mut().enumerate() {
-            let (j, l) = ((i + 1) % 3, (i + 2) % 3);
-            *part += a[j] * b[l] - a[l] * b[j];
-        }
-    }
-    let size = |k: &usize| normal[*k].abs();
-    let mut order = [0, 1, 2];
-    order.sort_by(|a, b| size(a).total_cmp(&size(b)));
-    let [axis, side, across] = order;
-    (size(&side) > 0.0 && size(&axis) <= 1e-6 * size(&side)).then_some([axis, across])
-}
-
 /// Patches of `constant/polyMesh/boundary`, a list with its length in front and no key.
-fn patches_of_mesh(file: &Path, text: &str) -> Option<Vec<[String; 2]>> {
+fn patches_of_mesh(file: &Path, text: &str) -> Option<Vec<Patch>> {
     let list = Dictionary::parse(file, &format!("list {};", made::list_of(text)?)).ok()?;
     let Some(Entry::Value(tokens)) = list.get("list") else { return None };
     let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
     Some(patches_in(&words))
 }
 
-/// Number of cells, from `nCells:N` in the note of `constant/polyMesh/owner`.
-fn cells_of_mesh(constant: &Path) -> Option<usize> {
-    let text = msdd_files::read_text(&constant.join("polyMesh/owner")).ok()?;
-    let (_, rest) = text.split_once("nCells:")?;
-    rest.trim_start().split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()
+/// Number of cells, from `nCells:N` in the note of `owner`; without that note, from the largest number of a cell there and in
+/// `neighbour`.
+fn cells_of_mesh(folder: &Path) -> Option<usize> {
+    let owner = binary::read(&folder.join("owner"))?;
+    if let Some((_, rest)) = binary::head(&owner).split_once("nCells:") {
+        return rest.trim_start().split(|c: char| !c.is_ascii_digit()).next()?.parse().ok();
+    }
+    let mut most = None;
+    for file in [owner, binary::read(&folder.join("neighbour"))?] {
+        let text = String::from_utf8(file).ok().filter(|text| !binary::is_binary(text.as_bytes()))?;
+        let list = made::list_of(&text)?.trim_matches(['(', ')']);
+        for word in list.split_whitespace() {
+            most = most.max(Some(word.parse::<usize>().ok()?));
+        }
+    }
+    most.map(|cell| cell + 1)
 }
 
 #[cfg(test)]
@@ -264,6 +259,10 @@ mod tests {
             Dictionary::parse(Path::new(BLOCKS), &text.replace("(20 10 1)", "zone (20 10 3)")).unwrap();
         let any = check(Path::new("no such folder"), Some(&deep), false, &mut found);
         assert!(found == Findings::default() && any.cells == Some(600) && any.shape.is_none());
+        let named =
+            Dictionary::parse(Path::new(BLOCKS), &text.replace("(20 10 1)", "hexZone (20 10 1)")).unwrap();
+        let named = check(Path::new("no such folder"), Some(&named), true, &mut found);
+        assert!(found == Findings::default() && named.cells == Some(200), "{:?}", named.cells);
         check(Path::new("no such folder"), Some(&deep), true, &mut found);
         assert!(found.0[0].to_string().contains("( 20 10 3 ), allowed: one cell along z"), "{}", found.0[0]);
         check(Path::new("no such folder"), None, true, &mut found);
@@ -274,6 +273,44 @@ mod tests {
     fn the_mesh_says_its_patches() {
         let text = "FoamFile { class polyBoundaryMesh; }\n2\n(\n left { type wall; inGroups 1(wall); nFaces 3; }\n back { type empty; }\n)\n// end";
         let patches = patches_of_mesh(Path::new("boundary"), text).unwrap();
-        assert_eq!(patches, [["left", "wall"], ["back", "empty"]].map(|pair| pair.map(str::to_string)));
+        let mut mesh = Mesh::default();
+        mesh.take(patches);
+        assert_eq!(mesh.patches, [["left", "wall"], ["back", "empty"]].map(|pair| pair.map(str::to_string)));
+        assert_eq!(mesh.kind(), Kind::Plane);
+        // An axis of a body in three dimensions
+        let bare = text.replace("type empty;", "type empty; nFaces 0;");
+        mesh.take(patches_of_mesh(Path::new("boundary"), &bare).unwrap());
+        assert_eq!(mesh.kind(), Kind::Solid);
+    }
+
+    #[test]
+    fn conditions_are_given_by_name_then_by_group_then_by_pattern() {
+        let text = "FoamFile { } 2 ( left { type wall; inGroups 2(hot wall); } right { type wall; inGroups 1(wall); } )";
+        let mut mesh = Mesh::default();
+        mesh.take(patches_of_mesh(Path::new("boundary"), text).unwrap());
+        let of = |conditions: &str, patch: &str| {
+            let field = Dictionary::parse(Path::new("0/T"), conditions).unwrap();
+            match mesh.condition(&field, patch) {
+                Some(Entry::Dictionary(one)) => one.text("k").unwrap(),
+                _ => "none".to_string(),
+            }
+        };
+        let all = "hot { k 1; } wall { k 2; } right { k 3; } \".*\" { k 4; }";
+        assert_eq!([of(all, "left"), of(all, "right"), of(all, "top")], ["2", "3", "4"]);
+        assert_eq!([of("hot { k 1; }", "left"), of("hot { k 1; }", "right")], ["1", "none"]);
+    }
+
+    #[test]
+    fn cells_are_counted_where_no_note_says_their_number() {
+        let folder = std::env::temp_dir().join(format!("msdd-cells-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let head = "FoamFile { format ascii; class labelList; }\n";
+        std::fs::write(folder.join("owner"), format!("{head}4\n(\n0\n0\n1\n2\n)\n// ***")).unwrap();
+        std::fs::write(folder.join("neighbour"), format!("{head}2(1 3)")).unwrap();
+        assert_eq!(cells_of_mesh(&folder), Some(4));
+        let noted = head.replace("class", "note \"nPoints:9  nCells:7 nFaces:2\"; class");
+        std::fs::write(folder.join("owner"), format!("{noted}1(0)")).unwrap();
+        assert_eq!(cells_of_mesh(&folder), Some(7));
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -10,7 +10,8 @@
 //! | [`grains`] | `constant/granularProperties` and the model |
 //! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
-//! | [`mesh`] | mesh and `system/blockMeshDict` |
+//! | [`mesh`] | the mesh |
+//! | [`blocks`] | `system/blockMeshDict` |
 //! | [`made`] | the files in `constant/polyMesh` |
 //! | [`zones`] | zones of cells that are named |
 //! | [`tables`] | tables against temperature or time |
@@ -21,6 +22,7 @@
 //! | [`scales`] | temperatures, lengths and times, against each other |
 
 pub mod bed;
+mod blocks;
 pub mod control;
 mod dimensions;
 pub mod fields;

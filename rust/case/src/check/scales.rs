@@ -69,7 +69,7 @@ impl<'a> Scene<'a> {
     }
 
     fn read_wall(&mut self, name: &str, boundary: &Dictionary) {
-        let Some(Entry::Dictionary(patch)) = boundary.matching(name) else { return };
+        let Some(Entry::Dictionary(patch)) = self.mesh.condition(boundary, name) else { return };
         let kind = patch.text("type").unwrap_or_default();
         let values = match kind.as_str() {
             "fixedValue" => patch.value("value").map(numbers_in).unwrap_or_default(),
