@@ -48,23 +48,33 @@ pub fn read(
     files
 }
 
-/// Checks grains, fields and their state; paths in the findings are those of a case of `msddFoam`.
-pub fn check(folder: &Path, files: &Files, mesh: &Mesh, times: Option<control::Times>, found: &mut Findings) {
+/// Checks grains, fields and their state; paths in the findings are those of a case of `msddFoam` that begins at time 0. `restarted`:
+/// whether a solver has written the fields.
+pub fn check(
+    folder: &Path,
+    files: &Files,
+    mesh: &Mesh,
+    (times, restarted): (Option<control::Times>, bool),
+    found: &mut Findings,
+) {
     let file = |name: &str| file(files, name);
     let properties = file(grains::FILE);
     let model = properties.and_then(|properties| grains::check(folder, properties, &mesh.names(), found));
     if let Some(properties) = properties {
-        gravity::check(properties, file(gravity::FILE), file("0/stress").is_some(), found);
+        let stress = (!restarted).then(|| file("0/stress").is_some());
+        gravity::check(properties, file(gravity::FILE), stress, found);
     }
     let values = FIELDS
         .each_ref()
         .map(|field| file(field.file).and_then(|dictionary| fields::check(field, dictionary, mesh, found)));
     let [temperature, porosity, fabric_index, conductivity, stress] = &values;
     if let Some(properties) = properties {
-        spheres::check(folder, properties, mesh, [porosity.as_ref(), stress.as_ref()], found);
+        // After a restart the state of the grains does not follow from these
+        let start = if restarted { [None, None] } else { [porosity.as_ref(), stress.as_ref()] };
+        spheres::check(folder, properties, mesh, start, found);
         walls::check(properties, mesh, found);
         if let Some(gravity) = file(gravity::FILE) {
-            weight::check(properties, gravity, mesh, [porosity.as_ref(), stress.as_ref()], found);
+            weight::check(properties, gravity, mesh, start, found);
         }
     }
     for name in [grains::FILE, "0/T"] {
@@ -75,6 +85,9 @@ pub fn check(folder: &Path, files: &Files, mesh: &Mesh, times: Option<control::T
     }
     let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), file(scales::SOURCES), mesh, times);
     scene.check_walls(found);
+    if restarted {
+        return;
+    }
     let grains = properties.and_then(numbers);
     if let (Some(grains), Some(porosity), Some(fabric_index)) = (grains, porosity, fabric_index) {
         scene.check_cells(&grains, porosity.mean(0), found);

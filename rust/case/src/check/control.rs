@@ -2,7 +2,8 @@
 
 use super::finding::Findings;
 use super::keys;
-use crate::dictionary::{Dictionary, Entry};
+use super::libraries::{self, BEDS};
+use crate::dictionary::Dictionary;
 use msdd_rve::message::number;
 
 /// Path in the case folder.
@@ -45,21 +46,6 @@ const OPENFOAM: [&str; 31] = [
     "writeOnceNow",
 ];
 
-/// Libraries that come with OpenFOAM or with this project. Others contain code of somebody else, and are reported.
-const LIBRARIES: [&str; 8] = [
-    "libsampling.so",
-    "libfieldFunctionObjects.so",
-    "libutilityFunctionObjects.so",
-    "libforces.so",
-    "libgranularFunctionObjects.so",
-    "libgranularModels.so",
-    BEDS,
-    "libsolverFunctionObjects.so",
-];
-
-/// The library that makes a region of OpenFOAM's own solvers a bed.
-const BEDS: &str = "libgranularThermo.so";
-
 /// Times of the case, which checks of other files need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
@@ -71,11 +57,14 @@ pub struct Times {
     pub adaptive: bool,
 }
 
-/// Checks both files; returns the times when they are known.
-pub fn check(control: &Dictionary, solution: Option<&Dictionary>, found: &mut Findings) -> Option<Times> {
-    for key in keys::CONTROL {
-        keys::value(control, CONTROL, key, found);
-    }
+/// Checks both files; returns the times when they are known. `start`: time of the start \[s\].
+pub fn check(
+    control: &Dictionary,
+    solution: Option<&Dictionary>,
+    start: f64,
+    found: &mut Findings,
+) -> Option<Times> {
+    check_keys(control, found);
     for key in control.keys().filter(|key| !OPENFOAM.contains(&key.text.as_str())) {
         if let Some(near) = keys::nearest(&key.text, &OPENFOAM) {
             let advice = format!("OpenFOAM does not know this key and ignores it: is '{near}' meant?");
@@ -89,33 +78,49 @@ pub fn check(control: &Dictionary, solution: Option<&Dictionary>, found: &mut Fi
                       system/fvSolution";
         found.error([CONTROL, "adjustTimeStep"], "yes", "no with timeScheme paper", advice);
     }
-    check_code(control, found);
-    times(control, adaptive, found)
+    libraries::check(control, found);
+    times(control, start, adaptive, found)
 }
 
 /// Checks `system/controlDict` of a case of several regions, in which the regions have their own `fvSolution`.
-pub fn check_of_regions(control: &Dictionary, found: &mut Findings) -> Option<Times> {
-    for key in keys::CONTROL {
-        keys::value(control, CONTROL, key, found);
-    }
-    let listed = control.value("libs").is_ok_and(|libs| libs.iter().any(|library| library.text == BEDS));
-    if !listed {
+pub fn check_of_regions(control: &Dictionary, start: f64, found: &mut Findings) -> Option<Times> {
+    check_keys(control, found);
+    if !control.value("libs").is_ok_and(libraries::has_beds) {
         let allowed = format!("a list with \"{BEDS}\"");
         found.error([CONTROL, "libs"], "", &allowed, "The library that makes a region a bed");
     }
-    check_code(control, found);
-    times(control, is_adaptive(control), found)
+    libraries::check(control, found);
+    times(control, start, is_adaptive(control), found)
 }
 
 fn is_adaptive(control: &Dictionary) -> bool {
     matches!(control.text("adjustTimeStep").as_deref(), Ok("yes" | "on" | "true"))
 }
 
-fn times(control: &Dictionary, adaptive: bool, found: &mut Findings) -> Option<Times> {
-    let number = |key: &str| keys::number(control, key, "");
-    let (start, end, step) = (number("startTime").unwrap_or(0.0), number("endTime")?, number("deltaT")?);
+fn check_keys(control: &Dictionary, found: &mut Findings) {
+    for key in keys::CONTROL {
+        keys::value(control, CONTROL, key, found);
+    }
+    let is = |key: &str, word: &str| control.text(key).is_ok_and(|text| text == word);
+    for (key, needed) in [("endTime", stops_at_end(control)), ("startTime", is("startFrom", "startTime"))] {
+        if needed && control.get(key).is_none() {
+            found.error([CONTROL, key], "missing", "a time [s]", "The solver needs it; add it");
+        }
+    }
+}
+
+/// Whether the run ends at endTime, not at the next time at which it writes.
+fn stops_at_end(control: &Dictionary) -> bool {
+    control.text("stopAt").map_or(true, |stop| stop == "endTime")
+}
+
+fn times(control: &Dictionary, start: f64, adaptive: bool, found: &mut Findings) -> Option<Times> {
+    if !stops_at_end(control) {
+        return None;
+    }
+    let (end, step) = (keys::number(control, "endTime", "")?, keys::number(control, "deltaT", "")?);
     if step > 0.0 && end - start <= 0.5 * step {
-        let allowed = format!("more than half of deltaT = {step} s after startTime = {start} s");
+        let allowed = format!("more than half of deltaT = {step} s after the start at {start} s");
         found.error([CONTROL, "endTime"], &end.to_string(), &allowed, "No step would be taken");
         return None;
     }
@@ -160,28 +165,34 @@ fn check_solution(solution: &Dictionary, found: &mut Findings) -> String {
     own.text("timeScheme").unwrap_or_else(|_| "paper".to_string())
 }
 
-/// Reports code in the case, because it runs with the rights of whoever runs the case.
-fn check_code(control: &Dictionary, found: &mut Findings) {
-    check_libraries(control, found);
-    let Ok(functions) = control.dictionary_at("functions") else { return };
-    for key in functions.keys() {
-        let Some(Entry::Dictionary(function)) = functions.get_any(&key.text) else { continue };
-        check_libraries(function, found);
-        let kind = function.text("type").unwrap_or_default();
-        if kind.starts_with("coded") {
-            let advice =
-                "This function is source code that the run compiles and starts, with all your rights";
-            found.doubt([CONTROL, &functions.path_of(&key.text)], &kind, "", advice);
-        }
-    }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
 
-fn check_libraries(dictionary: &Dictionary, found: &mut Findings) {
-    let Ok(tokens) = dictionary.value("libs") else { return };
-    let strange = |text: &str| !["(", ")"].contains(&text) && !LIBRARIES.contains(&text);
-    for token in tokens.iter().filter(|token| strange(&token.text)) {
-        let advice = "This library does not come with OpenFOAM or MSDD as far as is known here: running the case runs its code, \
-                      with all your rights. Run it only if you trust who wrote it";
-        found.doubt([CONTROL, &dictionary.path_of("libs")], &token.text, "", advice);
+    fn lines(text: &str, start: f64) -> Vec<String> {
+        let control = Dictionary::parse(Path::new(CONTROL), text).unwrap();
+        let mut found = Findings::default();
+        check(&control, None, start, &mut found);
+        found.0.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn times_are_those_of_the_start_and_the_end_that_is_meant() {
+        let good = "startFrom latestTime; startTime 10; endTime 2; deltaT 0.5;";
+        assert_eq!(lines(good, 0.0), Vec::<String>::new());
+        assert_eq!(
+            lines("startFrom startTime; startTime -1; endTime 2; deltaT 0.5;", -1.0),
+            Vec::<String>::new()
+        );
+        assert_eq!(lines("stopAt writeNow; deltaT 0.5;", 0.0), Vec::<String>::new());
+        assert!(lines("stopAt endTime; deltaT 0.5;", 0.0)[0].contains("endTime = missing"));
+        assert!(lines("startFrom startTime; endTime 2; deltaT 0.5;", 0.0)[0].contains("startTime = missing"));
+        assert_eq!(
+            lines(good, 5.0),
+            [
+                "error: system/controlDict: endTime = 2, allowed: more than half of deltaT = 0.5 s after the start at 5 s. No step would be taken"
+            ]
+        );
     }
 }

@@ -14,16 +14,21 @@ const DIMENSIONS: &str = "[ 0 1 -2 0 0 0 0 ]";
 const MOST: f64 = 1e6;
 
 /// Checks gravity, and whether the stress at the start is given once: by the field, or by `restStress`. `stress`: whether the field is
-/// there.
-pub fn check(properties: &Dictionary, gravity: Option<&Dictionary>, stress: bool, found: &mut Findings) {
+/// there; none at a time that the solver has written, with the whole state.
+pub fn check(
+    properties: &Dictionary,
+    gravity: Option<&Dictionary>,
+    stress: Option<bool>,
+    found: &mut Findings,
+) {
     if let Some(gravity) = gravity {
         check_vector(gravity, found);
     }
     let rest = properties.dictionary_at("restStress").ok();
     if let Some(rest) = rest {
         keys::check(rest, grains::FILE, keys::REST_STRESS, &[], found);
-        if stress {
-            let advice = "The stress at the start is given twice: 0/stress is there, too";
+        if stress == Some(true) {
+            let advice = "The stress at the start is given twice: the field stress is there, too";
             found.error([grains::FILE, "restStress"], "{...}", "one of both", advice);
         }
         if gravity.is_none() {
@@ -34,7 +39,7 @@ pub fn check(properties: &Dictionary, gravity: Option<&Dictionary>, stress: bool
     let spheres = properties
         .dictionary_at("surrogate")
         .is_ok_and(|own| own.text("type").is_ok_and(|kind| kind == "spheres"));
-    if spheres && !stress && rest.is_none() {
+    if spheres && stress == Some(false) && rest.is_none() {
         let advice = "The law of spheres needs the stress at the start; or, under the weight of the bed, restStress in \
                       constant/granularProperties";
         found.error(["0/stress", ""], "missing", "", advice);
@@ -66,7 +71,7 @@ mod tests {
         let read = |name: &str, text: &str| Dictionary::parse(Path::new(name), text).unwrap();
         let (properties, gravity) = (read(grains::FILE, properties), gravity.map(|text| read(FILE, text)));
         let mut found = Findings::default();
-        check(&properties, gravity.as_ref(), stress, &mut found);
+        check(&properties, gravity.as_ref(), Some(stress), &mut found);
         found.0.iter().map(ToString::to_string).collect()
     }
 

@@ -223,9 +223,9 @@ pub const SOLVER: &[Key] = &[
 /// Words and numbers of `system/controlDict`; all its other keys are checked by OpenFOAM itself.
 pub const CONTROL: &[Key] = &[
     may("startFrom", Kind::Word(&["startTime", "firstTime", "latestTime"])),
-    may("startTime", Kind::Range(0.0, 1e300, "s")),
+    may("startTime", Kind::Range(-1e300, 1e300, "s")),
     may("stopAt", Kind::Word(&["endTime", "noWriteNow", "writeNow", "nextWrite"])),
-    must("endTime", Kind::Range(-1e300, 1e300, "s")),
+    may("endTime", Kind::Range(-1e300, 1e300, "s")),
     must("deltaT", Kind::Positive("s", "")),
     may("maxDeltaT", Kind::Positive("s", "")),
     may("minDeltaT", Kind::Positive("s", "")),

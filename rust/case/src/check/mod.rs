@@ -10,6 +10,8 @@
 //! | [`grains`] | `constant/granularProperties` and the model |
 //! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
+//! | [`libraries`] | libraries and code that a case brings along |
+//! | [`start`] | the time at which a run begins |
 //! | [`mesh`] | the mesh |
 //! | [`blocks`] | `system/blockMeshDict` |
 //! | [`made`] | the files in `constant/polyMesh` |
@@ -30,11 +32,13 @@ pub mod finding;
 pub mod grains;
 pub mod gravity;
 pub mod keys;
+mod libraries;
 mod made;
 pub mod mesh;
 pub mod regions;
 pub mod scales;
 mod spheres;
+mod start;
 pub mod state;
 mod tables;
 mod walls;
@@ -47,8 +51,7 @@ use crate::path;
 use std::path::Path;
 
 /// Files that are read through `foamDictionary`, and whether the solver needs them.
-const FILES: [(&str, bool); 12] = [
-    (control::CONTROL, true),
+const FILES: [(&str, bool); 11] = [
     (control::SOLUTION, true),
     ("system/fvSchemes", true),
     (mesh::BLOCKS, false),
@@ -83,13 +86,20 @@ pub fn check(folder: &Path) -> Findings {
         regions::check(folder, &mut found);
         return found;
     }
-    let files = bed::read(folder, &FILES, str::to_string, &mut found);
+    let own = bed::read(folder, &[(control::CONTROL, true)], str::to_string, &mut found);
+    let control = bed::file(&own, control::CONTROL);
+    let start = start::Start::find(folder, control);
+    let mut files = bed::read(folder, &FILES, |name| start.path(name), &mut found);
     let file = |name: &str| bed::file(&files, name);
     let is_plane = file(grains::FILE).is_none_or(grains::is_plane);
     let mesh = mesh::check(&folder.join("constant"), file(mesh::BLOCKS), is_plane, &mut found);
-    let times = file(control::CONTROL)
-        .and_then(|control| control::check(control, file(control::SOLUTION), &mut found));
-    bed::check(folder, &files, &mesh, times, &mut found);
+    let times =
+        control.and_then(|control| control::check(control, file(control::SOLUTION), start.time, &mut found));
+    files.extend(own);
+    bed::check(folder, &files, &mesh, (times, start.restarted), &mut found);
+    for finding in &mut found.0 {
+        finding.file = start.path(&finding.file);
+    }
     found
 }
 

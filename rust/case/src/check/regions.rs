@@ -2,6 +2,7 @@
 //! `granularSolidThermo`. Other regions are checked by OpenFOAM itself.
 
 use super::finding::Findings;
+use super::start::Start;
 use super::{bed, control, grains, gravity, keys, mesh, scales};
 use crate::dictionary::{Dictionary, Entry, Token};
 use std::path::Path;
@@ -48,13 +49,14 @@ pub fn check(folder: &Path, found: &mut Findings) {
         found.doubt([FILE, "regions/solid"], "", "", &advice);
         return;
     }
-    let times =
-        bed::file(&own, control::CONTROL).and_then(|control| control::check_of_regions(control, found));
+    let control = bed::file(&own, control::CONTROL);
+    let start = Start::find(folder, control);
+    let times = control.and_then(|control| control::check_of_regions(control, start.time, found));
     for region in &beds {
         let mut here = Findings::default();
-        check_bed(folder, region, times, &mut here);
+        check_bed(folder, region, times, &start, &mut here);
         found.0.extend(here.0.into_iter().map(|mut finding| {
-            finding.file = in_region(&finding.file, region);
+            finding.file = start.path(&in_region(&finding.file, region));
             finding
         }));
     }
@@ -82,8 +84,14 @@ fn in_region(file: &str, region: &str) -> String {
 }
 
 /// Checks a bed; paths in the findings are without the region.
-fn check_bed(folder: &Path, region: &str, times: Option<control::Times>, found: &mut Findings) {
-    let files = bed::read(folder, &FILES, |name| in_region(name, region), found);
+fn check_bed(
+    folder: &Path,
+    region: &str,
+    times: Option<control::Times>,
+    start: &Start,
+    found: &mut Findings,
+) {
+    let files = bed::read(folder, &FILES, |name| start.path(&in_region(name, region)), found);
     let file = |name: &str| bed::file(&files, name);
     if let Some(thermo) = file(THERMO) {
         keys::check(thermo, THERMO, keys::THERMO, &[], found);
@@ -99,7 +107,7 @@ fn check_bed(folder: &Path, region: &str, times: Option<control::Times>, found: 
     }
     let is_plane = file(grains::FILE).is_none_or(grains::is_plane);
     let mesh = mesh::check(&folder.join("constant").join(region), file(mesh::BLOCKS), is_plane, found);
-    bed::check(folder, &files, &mesh, times, found);
+    bed::check(folder, &files, &mesh, (times, start.restarted), found);
 }
 
 /// The energy h needs a linear solver, and another entry for the last solution of a step.

@@ -54,23 +54,7 @@ pub fn check(
     }
     let [porosity, stress] = fields;
     let model = load(folder, own, found);
-    let (Some(porosity), Some(stress)) = (porosity, stress) else {
-        if stress.is_none()
-            && porosity.is_some()
-            && properties.get("restStress").is_none()
-            && !folder.join("0/stress").exists()
-        {
-            let advice =
-                "Without it neither contacts nor stiffness are known; restStress gives that of a bed at rest";
-            found.error(
-                ["0/stress", ""],
-                "missing",
-                "the stress at the start [Pa], tension positive",
-                advice,
-            );
-        }
-        return;
-    };
+    let (Some(porosity), Some(stress)) = (porosity, stress) else { return };
     check_start(properties, own, model.as_ref(), porosity, stress, found);
 }
 
