@@ -35,6 +35,12 @@ pub fn check(
             let advice = "The stress at rest follows from the weight: add constant/g";
             found.error([FILE, ""], "missing", "", advice);
         }
+        if let Some(value) = gravity.and_then(|gravity| gravity.value("value").ok())
+            && value.iter().filter_map(|token| token.text.parse::<f64>().ok()).all(|part| part == 0.0)
+        {
+            let advice = "The stress at rest follows from the weight";
+            found.error([FILE, "value"], &joined(value), "a vector longer than 0 with restStress", advice);
+        }
     }
     let spheres = properties
         .dictionary_at("surrogate")
@@ -87,6 +93,13 @@ mod tests {
         assert!(lines(spheres, Some(EARTH), false)[0].starts_with("error: 0/stress: missing"));
         assert!(lines(rest, Some(EARTH), true)[0].contains("restStress = {...}, allowed: one of both"));
         assert!(lines(rest, None, false)[0].starts_with("error: constant/g: missing"));
+        let weightless = lines(rest, Some(&EARTH.replace("-9.81", "0")), false);
+        assert!(
+            weightless.len() == 1
+                && weightless[0]
+                    .starts_with("error: constant/g: value = ( 0 0 0 ), allowed: a vector longer"),
+            "{weightless:?}"
+        );
         let twice = lines("surrogate { type spheres; } restStress { latera 0.6; }", Some(EARTH), false);
         assert!(
             twice[0].contains("Is 'lateral' meant?") || twice[0].contains("is 'lateral' meant?"),

@@ -28,6 +28,16 @@ pub fn check(properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
             advice,
         );
     }
+    let coupled: Vec<&str> = mesh
+        .patches
+        .iter()
+        .filter(|[_, kind]| kind.starts_with("cyclic"))
+        .map(|[name, _]| name.as_str())
+        .collect();
+    if !coupled.is_empty() {
+        let allowed = format!("none with patches of type cyclic, here {}", coupled.join(", "));
+        found.error([FILE, "mechanics"], "equilibrium", &allowed, "");
+    }
     let settings = properties.dictionary_at("equilibriumCoeffs").ok();
     let elastic = settings.is_some_and(|own| own.text("law").is_ok_and(|law| law == "elastic"));
     let walls = settings.and_then(|own| own.dictionary_at("walls").ok());
@@ -120,6 +130,16 @@ mod tests {
         let elastic = lines("law elastic; walls { left { friction 0.3; } }", "empty", None);
         assert!(
             elastic[0].contains("walls/left/slip = missing") && elastic[1].contains("walls/right = missing")
+        );
+    }
+
+    #[test]
+    fn grains_do_not_move_through_cyclic_patches() {
+        assert_eq!(
+            lines("", "cyclic", None),
+            [
+                "error: constant/granularProperties: mechanics = equilibrium, allowed: none with patches of type cyclic, here sides"
+            ]
         );
     }
 
