@@ -3,7 +3,9 @@
 use super::fields::{self, FIELDS};
 use super::finding::Findings;
 use super::mesh::Mesh;
-use super::{control, grains, gravity, keys, scales, spheres, state, tables, walls, weight, zones};
+use super::{
+    control, grains, gravity, keys, regions, scales, sources, spheres, state, tables, walls, weight, zones,
+};
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
 use rayon::prelude::*;
@@ -80,10 +82,12 @@ pub fn check(
     for name in [grains::FILE, "0/T"] {
         file(name).into_iter().for_each(|dictionary| tables::check(name, dictionary, found));
     }
-    for name in [scales::SOURCES, control::CONTROL] {
-        file(name).into_iter().for_each(|dictionary| zones::check(name, dictionary, mesh, found));
+    sources::check(files, mesh, file(regions::THERMO).is_none(), found);
+    if let Some(control) = file(control::CONTROL) {
+        zones::check(control::CONTROL, control, mesh, found);
     }
-    let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), file(scales::SOURCES), mesh, times);
+    let sources = sources::of(files).map(|(_, sources)| sources);
+    let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), sources, mesh, times);
     scene.check_walls(found);
     if restarted {
         return;

@@ -49,7 +49,9 @@ const OPENFOAM: [&str; 31] = [
 /// Times of the case, which checks of other files need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
-    /// End of the simulation [s].
+    /// Time of the start [s].
+    pub start: f64,
+    /// Length of the simulation [s].
     pub end: f64,
     /// Time step, or the first one when steps are adaptive [s].
     pub step: f64,
@@ -124,7 +126,7 @@ fn times(control: &Dictionary, start: f64, adaptive: bool, found: &mut Findings)
         found.error([CONTROL, "endTime"], &end.to_string(), &allowed, "No step would be taken");
         return None;
     }
-    let times = Times { end: end - start, step, adaptive };
+    let times = Times { start, end: end - start, step, adaptive };
     check_writes(control, times, found);
     Some(times)
 }

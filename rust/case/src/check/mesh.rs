@@ -30,6 +30,8 @@ pub struct Mesh {
     pub axis: Option<[usize; 2]>,
     /// Names of the zones of cells; none when they are not known.
     pub zones: Option<Vec<String>>,
+    /// Names of the sets of cells and faces; none when they are not known.
+    pub sets: Option<Vec<String>>,
 }
 
 /// What a cell is, which the types of the patches say.
@@ -113,6 +115,7 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
         }
         mesh.extent = extent.or(mesh.extent);
         mesh.zones = zones_of_mesh(&folder);
+        mesh.sets = Some(sets_of_mesh(&folder));
         match patches_of_mesh(&boundary, &text) {
             Some(patches) => mesh.take(patches),
             None => found.error(["constant/polyMesh/boundary", ""], "no list of patches", "", made::AGAIN),
@@ -162,6 +165,13 @@ fn zones_of_mesh(folder: &Path) -> Option<Vec<String>> {
     let text = msdd_files::read_text(&file).ok().filter(|text| !binary::is_binary(text.as_bytes()))?;
     let zones = patches_of_mesh(&file, &text)?;
     Some(zones.into_iter().map(|zone| zone.name).collect())
+}
+
+/// Names of the sets of cells and faces, which may be packed.
+fn sets_of_mesh(folder: &Path) -> Vec<String> {
+    let files = std::fs::read_dir(folder.join("sets")).into_iter().flatten().flatten();
+    let names = files.filter_map(|file| file.file_name().into_string().ok());
+    names.map(|name| name.trim_end_matches(".gz").to_string()).collect()
 }
 
 /// A patch as the mesh or `blockMeshDict` gives it.

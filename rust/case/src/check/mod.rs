@@ -15,8 +15,9 @@
 //! | [`mesh`] | the mesh |
 //! | [`blocks`] | `system/blockMeshDict` |
 //! | [`made`] | the files in `constant/polyMesh` |
-//! | [`zones`] | zones of cells that are named |
-//! | [`tables`] | tables against temperature or time |
+//! | [`sources`] | sources and constraints |
+//! | [`zones`] | zones and sets of cells that are named |
+//! | [`tables`] | functions of temperature or time |
 //! | [`walls`] | friction at walls, and wedges |
 //! | [`weight`] | gravity and the stress at the start |
 //! | [`fields`] | the fields in `0` |
@@ -37,6 +38,7 @@ mod made;
 pub mod mesh;
 pub mod regions;
 pub mod scales;
+mod sources;
 mod spheres;
 mod start;
 pub mod state;
@@ -51,13 +53,14 @@ use crate::path;
 use std::path::Path;
 
 /// Files that are read through `foamDictionary`, and whether the solver needs them.
-const FILES: [(&str, bool); 11] = [
+const FILES: [(&str, bool); 12] = [
     (control::SOLUTION, true),
     ("system/fvSchemes", true),
     (mesh::BLOCKS, false),
     (grains::FILE, true),
     (gravity::FILE, false),
-    (scales::SOURCES, false),
+    (sources::FILES[0], false),
+    (sources::FILES[1], false),
     ("0/T", true),
     ("0/porosity", true),
     ("0/fabricIndex", true),

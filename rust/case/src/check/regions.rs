@@ -3,26 +3,27 @@
 
 use super::finding::Findings;
 use super::start::Start;
-use super::{bed, control, grains, gravity, keys, mesh, scales};
+use super::{bed, control, grains, gravity, keys, mesh, sources};
 use crate::dictionary::{Dictionary, Entry, Token};
 use std::path::Path;
 
 /// Path in the case folder of the list of regions.
 pub const FILE: &str = "constant/regionProperties";
 /// Path of a region's thermo without the region.
-const THERMO: &str = "constant/thermophysicalProperties";
+pub const THERMO: &str = "constant/thermophysicalProperties";
 /// Name of the thermo of beds.
 const BED: &str = "granularSolidThermo";
 
 /// Files of a bed, by their names without the region, and whether the solver needs them.
-const FILES: [(&str, bool); 13] = [
+const FILES: [(&str, bool); 14] = [
     (THERMO, true),
     (control::SOLUTION, true),
     ("system/fvSchemes", true),
     (mesh::BLOCKS, false),
     (grains::FILE, true),
     (gravity::FILE, false),
-    (scales::SOURCES, false),
+    (sources::FILES[0], false),
+    (sources::FILES[1], false),
     ("0/T", true),
     ("0/p", true),
     ("0/porosity", true),

@@ -5,14 +5,13 @@ use super::fields::Values;
 use super::finding::Findings;
 use super::mesh::{BLOCKS, Mesh};
 use super::state::Bed;
+use super::tables;
 use crate::dictionary::{Dictionary, Entry, Token};
 use crate::grains::Grains;
 use crate::numbers::rounded;
 use crate::values::grains_in;
 use msdd_rve::message::number;
 
-/// Path in the case folder.
-pub const SOURCES: &str = "constant/fvOptions";
 /// Number of grains in a cell below which a mean over them says little.
 const LEAST_GRAINS: f64 = 4.0;
 /// Least width of a box in mean radii: four grains side by side.
@@ -71,15 +70,13 @@ impl<'a> Scene<'a> {
     fn read_wall(&mut self, name: &str, boundary: &Dictionary) {
         let Some(Entry::Dictionary(patch)) = self.mesh.condition(boundary, name) else { return };
         let kind = patch.text("type").unwrap_or_default();
+        let times = self.times.map(|times| [times.start, times.start + times.end]);
         let values = match kind.as_str() {
             "fixedValue" => patch.value("value").map(numbers_in).unwrap_or_default(),
-            "uniformFixedValue" => match patch.value("uniformValue") {
-                Ok([first, rows @ ..]) if first.text == "table" => {
-                    numbers_in(rows).into_iter().skip(1).step_by(2).collect()
-                }
-                Ok(tokens) => numbers_in(tokens),
-                Err(_) => Vec::new(),
-            },
+            "uniformFixedValue" => tables::values(patch, "uniformValue", times).unwrap_or_else(|| {
+                self.strange = true;
+                Vec::new()
+            }),
             "zeroGradient" => Vec::new(),
             _ => {
                 self.strange = true;
@@ -252,9 +249,10 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// All numbers among the tokens.
+/// All numbers among the tokens, but for the length of a list in front of it.
 fn numbers_in(tokens: &[Token]) -> Vec<f64> {
-    tokens.iter().filter_map(|token| token.text.parse().ok()).collect()
+    let open = tokens.iter().position(|token| ["(", "{"].contains(&token.text.as_str())).unwrap_or(0);
+    tokens[open..].iter().filter_map(|token| token.text.parse().ok()).collect()
 }
 
 /// Sum of the constant sources of T [W/m³] that are given per volume.
@@ -273,4 +271,39 @@ fn source_of(sources: &Dictionary) -> f64 {
         _ => None,
     });
     all.sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    fn lines(left: &str) -> Vec<String> {
+        let text = format!("boundaryField {{ left {{ {left} }} right {{ type zeroGradient; }} }}");
+        let file = Dictionary::parse(Path::new("0/T"), &text).unwrap();
+        let start = Values { numbers: vec![vec![300.0]], uniform: true };
+        let patches = [["left", "wall"], ["right", "wall"]].map(|pair| pair.map(str::to_string)).to_vec();
+        let mesh = Mesh { patches, ..Mesh::default() };
+        let times = Times { start: 0.0, end: 100.0, step: 1.0, adaptive: false };
+        let mut found = Findings::default();
+        Scene::new(Some(&file), Some(&start), None, &mesh, Some(times)).check_walls(&mut found);
+        found.0.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn walls_are_judged_by_their_temperatures_alone() {
+        for good in [
+            "type fixedValue; value nonuniform List<scalar> 2 ( 310 320 );",
+            "type uniformFixedValue; uniformValue polynomial ((350 0) (-0.1 1));",
+            "type uniformFixedValue; uniformValue table 2 ((-10 300) (10 400));",
+            "type uniformFixedValue; uniformValue sine; uniformValueCoeffs { level 330; }",
+            "type uniformFixedValue; uniformValue { type csvFile; file \"w.csv\"; }",
+        ] {
+            assert_eq!(lines(good), Vec::<String>::new(), "{good}");
+        }
+        let cold = lines("type uniformFixedValue; uniformValue polynomial ((350 0) (-4 1));");
+        assert!(cold[0].starts_with("error: 0/T: boundaryField/left = -10 K"), "{cold:?}");
+        assert!(lines("type fixedValue; value uniform 300;")[0].contains("nothing heats or cools"));
+        assert!(lines("type uniformFixedValue; uniformValue 300;")[0].contains("nothing heats or cools"));
+    }
 }

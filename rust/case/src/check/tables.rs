@@ -1,50 +1,103 @@
-//! Checks the tables of a file, whose first column must rise: temperatures, or times.
+//! Checks the functions of a file that depend on a temperature or a time, in the forms of OpenFOAM's Function1.
 
 use super::finding::Findings;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
 
-/// Checks every table in a dictionary and in those inside of it: `key table ((0 1) (2 3));`, and `key { type table; values (...); }`.
-/// OpenFOAM refuses a table whose first column does not rise.
+/// Forms whose values stand behind their name: `key table ((0 1) (2 3));`.
+const IN_LINE: [&str; 3] = ["constant", "polynomial", "table"];
+/// Number of times at which a function is looked at.
+const SAMPLES: u32 = 20;
+
+/// Checks every function in a dictionary and in those inside of it: `key table ((0 1) (2 3));`, and `key { type table; values (...); }`.
+/// OpenFOAM refuses a table whose first column does not rise, and one without rows.
 pub fn check(file: &str, dictionary: &Dictionary, found: &mut Findings) {
     let is_table = dictionary.text("type").is_ok_and(|kind| kind == "table");
     for key in dictionary.keys() {
+        let place = dictionary.path_of(&key.text);
         match dictionary.get_any(&key.text) {
-            Some(Entry::Dictionary(inner)) => check(file, inner, found),
+            Some(Entry::Dictionary(inner)) => {
+                check_braces([file, &place], &key.text, inner, found);
+                check(file, inner, found);
+            }
             Some(Entry::Value(tokens)) => {
                 let rows = match tokens.as_slice() {
-                    [word, rows @ ..] if word.text == "table" => rows,
+                    [word, rows @ ..] if word.text == "table" || word.text == "polynomial" => rows,
                     rows if is_table && key.text == "values" => rows,
                     _ => continue,
                 };
-                check_rows([file, &dictionary.path_of(&key.text)], rows, found);
+                let rises = tokens.first().is_none_or(|word| word.text != "polynomial");
+                check_rows([file, &place], rows, rises, found);
             }
             None => {}
         }
     }
 }
 
-fn check_rows(place: [&str; 2], rows: &[Token], found: &mut Findings) {
-    let column = first_column(rows);
-    if let Some(pair) = column.windows(2).find(|pair| pair[0] >= pair[1]) {
-        let allowed = format!("a first column that rises; {} stands before {}", pair[0], pair[1]);
-        found.error(place, &joined(rows), &allowed, "");
+/// OpenFOAM v1912 looks for the values of some forms under the name of the key, even in a dictionary of that name.
+fn check_braces(place: [&str; 2], key: &str, own: &Dictionary, found: &mut Findings) {
+    let kind = own.text("type").unwrap_or_default();
+    // A surrogate may be constant, too
+    if IN_LINE.contains(&kind.as_str()) && own.get(key).is_none() && key != "surrogate" {
+        let allowed = format!("{key} {kind} ...; without braces");
+        let advice = "OpenFOAM v1912 does not read this form in braces";
+        found.error(place, &format!("{{ type {kind}; ... }}"), &allowed, advice);
     }
 }
 
-/// The first number of each row of `( ( 0 1 ) ( 2 ( 3 4 5 ) ) )`, also with the number of rows in front.
-fn first_column(rows: &[Token]) -> Vec<f64> {
-    let (mut depth, mut column) = (0, Vec::new());
-    for pair in rows.windows(2) {
-        match pair[0].text.as_str() {
-            "(" => depth += 1,
+fn check_rows(place: [&str; 2], tokens: &[Token], rises: bool, found: &mut Findings) {
+    let rows = rows(tokens);
+    if rows.is_empty() && tokens.last().is_some_and(|token| token.text == ")") {
+        found.error(place, &joined(tokens), "at least one row", "");
+    }
+    let column: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
+    if let Some(pair) = column.windows(2).find(|pair| rises && pair[0] >= pair[1]) {
+        let allowed = format!("a first column that rises; {} stands before {}", pair[0], pair[1]);
+        found.error(place, &joined(tokens), &allowed, "");
+    }
+}
+
+/// The numbers in each row of `( ( 0 1 ) ( 2 ( 3 4 5 ) ) )`, also with the number of rows in front.
+fn rows(tokens: &[Token]) -> Vec<Vec<f64>> {
+    let (mut depth, mut rows) = (0, Vec::<Vec<f64>>::new());
+    for token in tokens {
+        match token.text.as_str() {
+            "(" => {
+                depth += 1;
+                if depth == 2 {
+                    rows.push(Vec::new());
+                }
+            }
             ")" => depth -= 1,
+            text if depth >= 2 => {
+                if let (Some(row), Ok(number)) = (rows.last_mut(), text.parse()) {
+                    row.push(number);
+                }
+            }
             _ => {}
         }
-        if depth == 2 && pair[0].text == "(" {
-            column.extend(pair[1].text.parse::<f64>());
-        }
     }
-    column
+    rows
+}
+
+/// Values that the function `key` takes between two times \[s\]: all of a table, those of a polynomial at some times. None where they are not
+/// known: they stand in another file, or the form is another one.
+pub fn values(dictionary: &Dictionary, key: &str, times: Option<[f64; 2]>) -> Option<Vec<f64>> {
+    let tokens = dictionary.value(key).ok()?;
+    let second = |row: &Vec<f64>| row.get(1).copied();
+    match tokens {
+        [number] => Some(vec![number.text.parse().ok()?]),
+        [form, number] if form.text == "constant" => Some(vec![number.text.parse().ok()?]),
+        [form, list @ ..] if form.text == "table" => rows(list).iter().map(second).collect(),
+        [form, list @ ..] if form.text == "polynomial" => {
+            let ([from, to], terms) = (times?, rows(list));
+            let terms: Option<Vec<[f64; 2]>> = terms.into_iter().map(|term| term.try_into().ok()).collect();
+            let terms = terms?;
+            let at = |time: f64| terms.iter().map(|[factor, power]| factor * time.powf(*power)).sum();
+            let share = |k| f64::from(k) / f64::from(SAMPLES);
+            Some((0..=SAMPLES).map(|k| at(from + share(k) * (to - from))).collect())
+        }
+        _ => None,
+    }
 }
 
 #[cfg(test)]
@@ -62,7 +115,7 @@ mod tests {
     #[test]
     fn first_columns_rise() {
         let good =
-            "k table ((300 1) (400 0.5)); walls { top { pressure { type table; values 2 ((0 9) (1 8)); }
+            "k table ((300 1) (400 0.5)); walls { top { pressure { type table; pressure table 2 ((0 9) (1 8)); }
             displacement table ((0 (3 2 1)) (1 (0 0 0))); } } t uniform 3; values ((3 1) (2 1));";
         assert_eq!(lines(good), Vec::<String>::new());
         let bad = lines(&good.replace("(400 0.5)", "(200 0.5)"));
@@ -74,8 +127,45 @@ mod tests {
         );
         assert!(
             lines(&good.replace("(1 8)", "(0 8)"))[0]
-                .starts_with("error: 0/T: walls/top/pressure/values = 2 (")
+                .starts_with("error: 0/T: walls/top/pressure/pressure = 2 (")
         );
         assert!(lines(&good.replace("(1 (0", "(-1 (0"))[0].contains("walls/top/displacement = "));
+    }
+
+    #[test]
+    fn what_openfoam_does_not_read_is_refused() {
+        assert_eq!(
+            lines("heatCapacity { type table; values ((0 1) (9 2)); }"),
+            [
+                "error: 0/T: heatCapacity = { type table; ... }, allowed: heatCapacity table ...; without braces. OpenFOAM v1912 does not read this form in braces"
+            ]
+        );
+        assert!(lines("a { uniformValue { type constant; value 3; } }")[0].contains("a/uniformValue = {"));
+        for good in [
+            "surrogate { type constant; }",
+            "k { type tableFile; file \"k\"; }",
+            "k polynomial ((9 0) (-1 1));",
+        ] {
+            assert_eq!(lines(good), Vec::<String>::new());
+        }
+        for empty in ["k table ();", "k table 0 ( );", "k polynomial ();"] {
+            let found = lines(empty);
+            assert!(found.len() == 1 && found[0].contains("allowed: at least one row"), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn values_are_those_over_time_alone() {
+        let of = |text: &str| {
+            let file = Dictionary::parse(Path::new("0/T"), &format!("k {text}")).unwrap();
+            values(&file, "k", Some([0.0, 10.0]))
+        };
+        assert_eq!(of("constant 3;"), Some(vec![3.0]));
+        assert_eq!(of("table 3((0 300)(1 310)(2 320));"), Some(vec![300.0, 310.0, 320.0]));
+        let falls = of("polynomial 2 ((350 0) (-0.5 1));").unwrap();
+        assert_eq!([falls[0], falls[10], falls[20]], [350.0, 347.5, 345.0]);
+        for unknown in ["sine;", "csvFile;", "{ type sine; level 3; }", "{ type scale; value 400; }"] {
+            assert_eq!(of(unknown), None, "{unknown}");
+        }
     }
 }
