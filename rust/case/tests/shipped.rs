@@ -167,6 +167,12 @@ fn what_is_doubtful_or_missing_is_said() {
             "heatCapacity table ((900 1) (0 2));",
             "error: constant/granularProperties: heatCapacity = ( ( 900 1 ) ( 0 2 ) )",
         ),
+        (
+            "braces",
+            properties,
+            "heatCapacity { type table; values ((0 1) (900 2)); }",
+            "error: constant/granularProperties: heatCapacity = { type table; ... }, allowed: heatCapacity table",
+        ),
         ("open", "system/fvSolution", "msddFoam {", "error: system/fvSolution: "),
     ] {
         let found = found_in(name, file, text);
@@ -185,6 +191,32 @@ fn what_is_doubtful_or_missing_is_said() {
         assert!(found.iter().any(|line| line.starts_with(&format!("error: {file}: missing"))), "{found:#?}");
     }
     assert!(lines(&check(Path::new("no-such-folder")))[0].contains("no such folder"));
+}
+
+#[test]
+fn what_the_solver_takes_is_not_refused() {
+    let right = "boundaryField { right { type uniformFixedValue; value uniform 50;";
+    for (name, file, text) in [
+        ("units", "0/T", "dimensions [K];".to_string()),
+        ("five", "0/fabricIndex", "dimensions [0 0 0 0 0];".to_string()),
+        ("density", "constant/granularProperties", "density rho [kg/m^3] $density;".to_string()),
+        ("falling", "0/T", format!("{right} uniformValue polynomial ((60 0) (-10 1)); }} }}")),
+        ("counted", "0/T", format!("{right} uniformValue table 2 ((-10 50) (1 60)); }} }}")),
+        ("libraries", "system/controlDict", "libs (sampling \"libfvOptions.so\");".to_string()),
+        ("now", "system/controlDict", "stopAt writeNow;".to_string()),
+        ("ignored", "system/controlDict", "startTime 10;".to_string()),
+    ] {
+        assert_eq!(found_in(name, file, &text), Vec::<String>::new(), "{name}");
+    }
+    let work = std::env::temp_dir().join(format!("msdd-check-{}-start", std::process::id()));
+    changed(&work, "system/controlDict", "endTime 6;");
+    fs::rename(work.join("0"), work.join("5")).unwrap();
+    let later = lines(&check(&work));
+    fs::write(work.join("5/T"), "dimensions [m];").unwrap();
+    let wrong = lines(&check(&work));
+    fs::remove_dir_all(&work).unwrap();
+    assert_eq!(later, Vec::<String>::new());
+    assert!(wrong[0].starts_with("error: 5/T: dimensions = [ m ]"), "{wrong:?}");
 }
 
 /// A copy of cases/blanket beside cases/common, with a text appended to one of its files; an empty text removes the file.

@@ -217,7 +217,7 @@ impl<'a> Scene<'a> {
             let ratio = times.end / whole;
             let steady =
                 self.walls.iter().all(|(_, values)| values.windows(2).all(|pair| pair[0] == pair[1]));
-            let value = format!("{} s", number(times.end));
+            let value = format!("{} s", number(times.start + times.end));
             let shown = number(rounded(whole, 2));
             if ratio < USUAL_END[0] {
                 let reach = number(rounded((bed.diffusivity * times.end).sqrt(), 2));

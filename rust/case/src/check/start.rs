@@ -6,7 +6,7 @@ use msdd_rve::message::number;
 use std::path::Path;
 
 /// By how much the name of a folder may differ from startTime, as a share of it.
-const ROUND_OFF: f64 = 1e-9;
+const ROUND_OFF: f64 = 1e-6;
 
 /// The time whose fields are checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,9 +23,11 @@ impl Start {
     /// Finds the time. From the latest time a run may go on that has begun before: then that is meant with whose fields it began.
     pub fn find(folder: &Path, control: Option<&Dictionary>) -> Self {
         let times = times_in(folder);
-        let restarted = |name: &str| {
-            ["time", "time.gz"].iter().any(|file| folder.join(name).join("uniform").join(file).exists())
+        let holds = |name: &str, file: &str| {
+            let file = format!("{name}/{file}");
+            folder.join(&file).exists() || folder.join(file + ".gz").exists()
         };
+        let restarted = |name: &str| holds(name, "uniform/time");
         let from = control.and_then(|control| control.text("startFrom").ok());
         let chosen = match from.as_deref() {
             Some("startTime") => {
@@ -37,8 +39,10 @@ impl Start {
             }
             Some("firstTime") => times.into_iter().next(),
             _ => {
-                let begun = times.iter().rev().find(|(_, name)| !restarted(name)).or(times.last());
-                begun.cloned()
+                let begun = || times.iter().rev().filter(|(_, name)| !restarted(name));
+                // msddFoam skips times without T; regions have theirs further inside
+                let whole = begun().find(|(_, name)| holds(name, "T"));
+                whole.or_else(|| begun().next()).or(times.last()).cloned()
             }
         };
         let (time, name) = chosen.unwrap_or((0.0, "0".to_string()));
@@ -88,6 +92,10 @@ mod tests {
         };
         let of = |name: &str, time: f64, restarted: bool| Start { name: name.to_string(), time, restarted };
         assert_eq!(start("startTime 10;"), of("5", 5.0, false));
+        std::fs::create_dir_all(folder.join("2")).unwrap();
+        std::fs::write(folder.join("2/T.gz"), "").unwrap();
+        assert_eq!(start("startTime 10;"), of("2", 2.0, false));
+        std::fs::remove_dir_all(folder.join("2")).unwrap();
         assert_eq!(start("startFrom firstTime;"), of("-1", -1.0, false));
         assert_eq!(start("startFrom startTime; startTime 10;"), of("10", 10.0, true));
         assert_eq!(start("startFrom startTime; startTime 0.5;"), of("0.5", 0.5, false));
