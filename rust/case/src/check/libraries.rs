@@ -68,10 +68,12 @@ fn check_libraries(dictionary: &Dictionary, found: &mut Findings) {
     for key in ["libs", "functionObjectLibs"] {
         let tokens = dictionary.value(key).unwrap_or_default();
         // The number of libraries may stand in front of their list
-        let names = tokens.iter().enumerate().filter(|(k, token)| {
-            !["(", ")"].contains(&token.text.as_str()) && !(*k == 0 && token.text.parse::<usize>().is_ok())
-        });
-        for (_, token) in names.filter(|(_, token)| !is_known(&token.text)) {
+        let list = match tokens {
+            [count, list @ ..] if count.text.parse::<usize>().is_ok() => list,
+            list => list,
+        };
+        let names = list.iter().filter(|token| !["(", ")"].contains(&token.text.as_str()));
+        for token in names.filter(|token| !is_known(&token.text)) {
             let advice = "This library does not come with OpenFOAM or MSDD as far as is known here: running the case runs its code, \
                           with all your rights. Run it only if you trust who wrote it";
             found.doubt([CONTROL, &dictionary.path_of(key)], &token.text, "", advice);
