@@ -1,54 +1,16 @@
 //! Checks one bed: a whole case of `msddFoam`, or a region of a case of several.
 
+use super::domain::Mesh;
 use super::fields::{self, FIELDS};
+use super::files::{self, Files};
 use super::finding::Findings;
-use super::mesh::Mesh;
-use super::{
-    control, grains, gravity, keys, regions, scales, sources, spheres, state, tables, walls, weight, zones,
-};
+use super::{control, grains, gravity, keys, scales, sources, spheres, state, tables, walls, weight, zones};
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
-use rayon::prelude::*;
 use std::path::Path;
 
-/// Files of a bed by their names in a case of `msddFoam`, and what stands in them.
-pub type Files = Vec<(&'static str, Dictionary)>;
-
-/// The dictionary of a file, if the file could be read.
-pub fn file<'a>(files: &'a Files, name: &str) -> Option<&'a Dictionary> {
-    files.iter().find(|(path, _)| *path == name).map(|(_, dictionary)| dictionary)
-}
-
-/// Reads files, and adds a finding for each that is missing although it is needed, or cannot be read. `place` is the path below
-/// the case folder at which a file stands.
-pub fn read(
-    folder: &Path,
-    names: &[(&'static str, bool)],
-    place: impl Fn(&str) -> String + Sync,
-    found: &mut Findings,
-) -> Files {
-    let there = |name: &str| folder.join(name).exists() || folder.join(format!("{name}.gz")).exists();
-    let results: Vec<_> = names
-        .par_iter()
-        .map(|&(name, required)| {
-            let path = place(name);
-            (name, required, there(&path).then(|| Dictionary::expanded(&folder.join(&path))))
-        })
-        .collect();
-    let mut files = Vec::new();
-    for (name, required, result) in results {
-        match result {
-            Some(Ok(dictionary)) => files.push((name, dictionary)),
-            Some(Err(error)) => found.refused(name, error, ""),
-            None if required => {
-                let advice = "The solver needs this file; 'msdd case new' writes a case with all of them";
-                found.error([name, ""], "missing", "", advice);
-            }
-            None => {}
-        }
-    }
-    files
-}
+/// Path of the thermo of a bed that is a region of OpenFOAM's own solvers.
+pub const THERMO: &str = "constant/thermophysicalProperties";
 
 /// Checks grains, fields and their state; paths in the findings are those of a case of `msddFoam` that begins at time 0. `restarted`:
 /// whether a solver has written the fields.
@@ -59,7 +21,7 @@ pub fn check(
     (times, restarted): (Option<control::Times>, bool),
     found: &mut Findings,
 ) {
-    let file = |name: &str| file(files, name);
+    let file = |name: &str| files::file(files, name);
     let properties = file(grains::FILE);
     let model = properties.and_then(|properties| grains::check(folder, properties, &mesh.names(), found));
     if let Some(properties) = properties {
@@ -82,7 +44,7 @@ pub fn check(
     for name in [grains::FILE, "0/T"] {
         file(name).into_iter().for_each(|dictionary| tables::check(name, dictionary, found));
     }
-    sources::check(files, mesh, file(regions::THERMO).is_none(), found);
+    sources::check(files, mesh, file(THERMO).is_none(), found);
     if let Some(control) = file(control::CONTROL) {
         zones::check(control::CONTROL, control, mesh, found);
     }

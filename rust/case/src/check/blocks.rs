@@ -1,8 +1,8 @@
 //! Reads `system/blockMeshDict`, the description of a mesh that blockMesh makes.
 
+use super::domain::{BLOCKS as FILE, Mesh, Patch, patches_in};
 use super::finding::Findings;
 use super::made;
-use super::mesh::{BLOCKS as FILE, Mesh, Patch, patches_in};
 use crate::dictionary::{Dictionary, Token};
 
 /// Reads what the dictionary says of the mesh that blockMesh will make.

@@ -80,7 +80,7 @@ pub fn check(
                       system/fvSolution";
         found.error([CONTROL, "adjustTimeStep"], "yes", "no with timeScheme paper", advice);
     }
-    libraries::check(control, found);
+    libraries::check(CONTROL, control, found);
     times(control, start, adaptive, found)
 }
 
@@ -91,7 +91,7 @@ pub fn check_of_regions(control: &Dictionary, start: f64, found: &mut Findings) 
         let allowed = format!("a list with \"{BEDS}\"");
         found.error([CONTROL, "libs"], "", &allowed, "The library that makes a region a bed");
     }
-    libraries::check(control, found);
+    libraries::check(CONTROL, control, found);
     times(control, start, is_adaptive(control), found)
 }
 

@@ -1,8 +1,8 @@
 //! Checks the fields in `0`: dimensions, values, boundary conditions.
 
 use super::dimensions::Dimensions;
+use super::domain::Mesh;
 use super::finding::Findings;
-use super::mesh::Mesh;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
 use msdd_rve::message::number;
 

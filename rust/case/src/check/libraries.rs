@@ -1,6 +1,5 @@
 //! Reports code in a case, because it runs with the rights of whoever runs the case.
 
-use super::control::CONTROL;
 use super::finding::Findings;
 use crate::dictionary::{Dictionary, Entry, Token};
 
@@ -47,23 +46,23 @@ pub fn has_beds(libraries: &[Token]) -> bool {
     libraries.iter().any(|library| bare(&library.text) == bare(BEDS))
 }
 
-/// Reports libraries and source code in `system/controlDict`.
-pub fn check(control: &Dictionary, found: &mut Findings) {
-    check_libraries(control, found);
+/// Reports libraries and source code in a `controlDict`.
+pub fn check(file: &str, control: &Dictionary, found: &mut Findings) {
+    check_libraries(file, control, found);
     let Ok(functions) = control.dictionary_at("functions") else { return };
     for key in functions.keys() {
         let Some(Entry::Dictionary(function)) = functions.get_any(&key.text) else { continue };
-        check_libraries(function, found);
+        check_libraries(file, function, found);
         let kind = function.text("type").unwrap_or_default();
         if kind.starts_with("coded") {
             let advice =
                 "This function is source code that the run compiles and starts, with all your rights";
-            found.doubt([CONTROL, &functions.path_of(&key.text)], &kind, "", advice);
+            found.doubt([file, &functions.path_of(&key.text)], &kind, "", advice);
         }
     }
 }
 
-fn check_libraries(dictionary: &Dictionary, found: &mut Findings) {
+fn check_libraries(file: &str, dictionary: &Dictionary, found: &mut Findings) {
     let is_known = |name: &str| KNOWN.split_whitespace().any(|known| known == bare(name));
     for key in ["libs", "functionObjectLibs"] {
         let tokens = dictionary.value(key).unwrap_or_default();
@@ -76,7 +75,7 @@ fn check_libraries(dictionary: &Dictionary, found: &mut Findings) {
         for token in names.filter(|token| !is_known(&token.text)) {
             let advice = "This library does not come with OpenFOAM or MSDD as far as is known here: running the case runs its code, \
                           with all your rights. Run it only if you trust who wrote it";
-            found.doubt([CONTROL, &dictionary.path_of(key)], &token.text, "", advice);
+            found.doubt([file, &dictionary.path_of(key)], &token.text, "", advice);
         }
     }
 }
@@ -86,10 +85,12 @@ mod tests {
     use super::*;
     use std::path::Path;
 
+    const FILE: &str = "system/controlDict";
+
     fn lines(text: &str) -> Vec<String> {
-        let control = Dictionary::parse(Path::new(CONTROL), text).unwrap();
+        let control = Dictionary::parse(Path::new(FILE), text).unwrap();
         let mut found = Findings::default();
-        check(&control, &mut found);
+        check(FILE, &control, &mut found);
         found.0.iter().map(ToString::to_string).collect()
     }
 

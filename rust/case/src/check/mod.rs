@@ -3,6 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`bed`] | a bed: a whole case, or a region of one |
+//! | [`files`] | the files that are read |
 //! | [`regions`] | cases of several regions |
 //! | [`finding`] | the findings |
 //! | [`keys`] | the keys of the solver's dictionaries and what they may hold |
@@ -13,6 +14,7 @@
 //! | [`libraries`] | libraries and code that a case brings along |
 //! | [`start`] | the time at which a run begins |
 //! | [`mesh`] | the mesh |
+//! | [`domain`] | what is known of a mesh |
 //! | [`blocks`] | `system/blockMeshDict` |
 //! | [`made`] | the files in `constant/polyMesh` |
 //! | [`sources`] | sources and constraints |
@@ -28,7 +30,9 @@ pub mod bed;
 mod blocks;
 pub mod control;
 mod dimensions;
+mod domain;
 pub mod fields;
+mod files;
 pub mod finding;
 pub mod grains;
 pub mod gravity;
@@ -56,7 +60,7 @@ use std::path::Path;
 const FILES: [(&str, bool); 12] = [
     (control::SOLUTION, true),
     ("system/fvSchemes", true),
-    (mesh::BLOCKS, false),
+    (domain::BLOCKS, false),
     (grains::FILE, true),
     (gravity::FILE, false),
     (sources::FILES[0], false),
@@ -89,13 +93,13 @@ pub fn check(folder: &Path) -> Findings {
         regions::check(folder, &mut found);
         return found;
     }
-    let own = bed::read(folder, &[(control::CONTROL, true)], str::to_string, &mut found);
-    let control = bed::file(&own, control::CONTROL);
+    let own = files::read(folder, &[(control::CONTROL, true)], str::to_string, &mut found);
+    let control = files::file(&own, control::CONTROL);
     let start = start::Start::find(folder, control);
-    let mut files = bed::read(folder, &FILES, |name| start.path(name), &mut found);
-    let file = |name: &str| bed::file(&files, name);
+    let mut files = files::read(folder, &FILES, |name| start.path(name), &mut found);
+    let file = |name: &str| files::file(&files, name);
     let is_plane = file(grains::FILE).is_none_or(grains::is_plane);
-    let mesh = mesh::check(&folder.join("constant"), file(mesh::BLOCKS), is_plane, &mut found);
+    let mesh = mesh::check(&folder.join("constant"), file(domain::BLOCKS), is_plane, &mut found);
     let times =
         control.and_then(|control| control::check(control, file(control::SOLUTION), start.time, &mut found));
     files.extend(own);

@@ -1,16 +1,15 @@
 //! Checks a case of several regions, which OpenFOAM's `chtMultiRegionFoam` solves: its beds are regions of solids with the thermo
 //! `granularSolidThermo`. Other regions are checked by OpenFOAM itself.
 
+use super::bed::THERMO;
 use super::finding::Findings;
 use super::start::Start;
-use super::{bed, control, grains, gravity, keys, mesh, sources};
+use super::{bed, control, domain, files, grains, gravity, keys, mesh, sources};
 use crate::dictionary::{Dictionary, Entry, Token};
 use std::path::Path;
 
 /// Path in the case folder of the list of regions.
 pub const FILE: &str = "constant/regionProperties";
-/// Path of a region's thermo without the region.
-pub const THERMO: &str = "constant/thermophysicalProperties";
 /// Name of the thermo of beds.
 const BED: &str = "granularSolidThermo";
 
@@ -19,7 +18,7 @@ const FILES: [(&str, bool); 14] = [
     (THERMO, true),
     (control::SOLUTION, true),
     ("system/fvSchemes", true),
-    (mesh::BLOCKS, false),
+    (domain::BLOCKS, false),
     (grains::FILE, true),
     (gravity::FILE, false),
     (sources::FILES[0], false),
@@ -34,8 +33,8 @@ const FILES: [(&str, bool); 14] = [
 
 /// Checks the beds of the case.
 pub fn check(folder: &Path, found: &mut Findings) {
-    let own = bed::read(folder, &[(FILE, true), (control::CONTROL, true)], str::to_string, found);
-    let Some(listed) = bed::file(&own, FILE) else { return };
+    let own = files::read(folder, &[(FILE, true), (control::CONTROL, true)], str::to_string, found);
+    let Some(listed) = files::file(&own, FILE) else { return };
     let names = |kind: &str| match listed.value("regions") {
         Ok(tokens) => regions_of(tokens, kind),
         Err(_) => Vec::new(),
@@ -50,7 +49,7 @@ pub fn check(folder: &Path, found: &mut Findings) {
         found.doubt([FILE, "regions/solid"], "", "", &advice);
         return;
     }
-    let control = bed::file(&own, control::CONTROL);
+    let control = files::file(&own, control::CONTROL);
     let start = Start::find(folder, control);
     let times = control.and_then(|control| control::check_of_regions(control, start.time, found));
     for region in &beds {
@@ -92,8 +91,8 @@ fn check_bed(
     start: &Start,
     found: &mut Findings,
 ) {
-    let files = bed::read(folder, &FILES, |name| start.path(&in_region(name, region)), found);
-    let file = |name: &str| bed::file(&files, name);
+    let files = files::read(folder, &FILES, |name| start.path(&in_region(name, region)), found);
+    let file = |name: &str| files::file(&files, name);
     if let Some(thermo) = file(THERMO) {
         keys::check(thermo, THERMO, keys::THERMO, &[], found);
     }
@@ -107,7 +106,7 @@ fn check_bed(
         found.error([grains::FILE, "mechanics"], &mechanics, "none in a region", advice);
     }
     let is_plane = file(grains::FILE).is_none_or(grains::is_plane);
-    let mesh = mesh::check(&folder.join("constant").join(region), file(mesh::BLOCKS), is_plane, found);
+    let mesh = mesh::check(&folder.join("constant").join(region), file(domain::BLOCKS), is_plane, found);
     bed::check(folder, &files, &mesh, (times, start.restarted), found);
 }
 

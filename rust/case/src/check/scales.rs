@@ -1,9 +1,9 @@
 //! Checks temperatures, lengths and times of a case against each other.
 
 use super::control::{CONTROL, Times};
+use super::domain::{BLOCKS, Mesh};
 use super::fields::Values;
 use super::finding::Findings;
-use super::mesh::{BLOCKS, Mesh};
 use super::state::Bed;
 use super::tables;
 use crate::dictionary::{Dictionary, Entry, Token};

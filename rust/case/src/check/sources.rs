@@ -1,8 +1,9 @@
 //! Checks `fvOptions`, the sources and constraints of a case.
 
+use super::domain::Mesh;
+use super::files::{self, Files};
 use super::finding::Findings;
-use super::mesh::Mesh;
-use super::{bed, zones};
+use super::zones;
 use crate::dictionary::{Dictionary, Entry};
 
 /// Paths in the case folder; OpenFOAM reads the first that is there.
@@ -11,12 +12,12 @@ pub const FILES: [&str; 2] = ["constant/fvOptions", "system/fvOptions"];
 const OF_ENTHALPY: [&str; 2] = ["fixedTemperatureConstraint", "limitTemperature"];
 
 /// The sources of a bed, with the file in which they stand.
-pub fn of(files: &bed::Files) -> Option<(&'static str, &Dictionary)> {
-    FILES.iter().find_map(|&name| Some((name, bed::file(files, name)?)))
+pub fn of(files: &Files) -> Option<(&'static str, &Dictionary)> {
+    FILES.iter().find_map(|&name| Some((name, files::file(files, name)?)))
 }
 
 /// Checks the sources; `alone`: whether msddFoam solves the bed, which knows no enthalpy.
-pub fn check(files: &bed::Files, mesh: &Mesh, alone: bool, found: &mut Findings) {
+pub fn check(files: &Files, mesh: &Mesh, alone: bool, found: &mut Findings) {
     let Some((name, sources)) = of(files) else { return };
     zones::check(name, sources, mesh, found);
     for key in sources.keys().filter(|_| alone) {
@@ -43,7 +44,7 @@ mod tests {
             Dictionary::parse(Path::new("fvOptions"), &text).unwrap()
         };
         let lines = |files: &[(&'static str, &str)], alone: bool| {
-            let files: bed::Files = files.iter().map(|(name, kind)| (*name, file(kind))).collect();
+            let files: Files = files.iter().map(|(name, kind)| (*name, file(kind))).collect();
             let mut found = Findings::default();
             check(&files, &Mesh::default(), alone, &mut found);
             found.0.iter().map(ToString::to_string).collect::<Vec<_>>()

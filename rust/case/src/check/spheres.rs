@@ -1,10 +1,10 @@
 //! Checks what the law of spheres needs of a case, before the solver refuses it or answers as well as it can.
 
+use super::domain::Mesh;
 use super::fields::Values;
 use super::finding::Findings;
 use super::grains::FILE;
 use super::keys;
-use super::mesh::Mesh;
 use super::walls::NO_WALLS;
 use crate::dictionary::{Dictionary, Entry, joined};
 use crate::numbers::rounded;

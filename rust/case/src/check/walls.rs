@@ -1,9 +1,9 @@
 //! Checks what walls against which grains move can be given, and the meshes in which they move.
 
+use super::domain::{BLOCKS, Kind, Mesh};
 use super::finding::Findings;
 use super::grains::FILE;
 use super::keys;
-use super::mesh::{BLOCKS, Kind, Mesh};
 use crate::dictionary::{Dictionary, Entry, joined};
 
 /// Types of patches that need no entry in `walls`.

@@ -1,8 +1,8 @@
 //! Checks beds that bear their own weight: where the solver knows gravity, and the stress at the start.
 
+use super::domain::{Kind, Mesh};
 use super::fields::Values;
 use super::finding::Findings;
-use super::mesh::{Kind, Mesh};
 use super::{gravity, keys};
 use crate::dictionary::Dictionary;
 use crate::numbers::rounded;

@@ -1,7 +1,7 @@
 //! Checks the zones and sets of cells that dictionaries name.
 
+use super::domain::Mesh;
 use super::finding::Findings;
-use super::mesh::Mesh;
 use crate::dictionary::{Dictionary, Entry, joined};
 
 /// Checks, if the mesh is made, every entry `cellZone` or `cellSet` of a file that selects cells, and `name` beside
