@@ -298,11 +298,21 @@ void Foam::granularMechanicsModels::equilibrium::setStart()
     }
     const label dim = nodes_.dim();
     nodeField free(start_ - weight_);
+    // Shells are at rest under what they bear at the start
+    nodeField borne(free.size(), Zero);
+    if (!law_->elastic())
+    {
+        borne = walls_.borneByShells(free);
+        free -= borne;
+    }
     walls_.release(free);
     scalar most = 0;
     forAll(start_, i)
     {
-        start_[i] *= mag(gravity_) > 0 ? 0 : walls_.balanced()[i/dim];
+        if (mag(gravity_) > 0 || walls_.balanced()[i/dim] == 0)
+        {
+            start_[i] = borne[i];
+        }
         most = max
         (
             most, mag(walls_.balanced()[i/dim]*free[i])/nodeSize_[i/dim]

@@ -106,6 +106,31 @@ void Foam::wallConditions::findSupports()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::scalarField Foam::wallConditions::borneByShells
+(
+    const scalarField& force
+) const
+{
+    const label dim = mesh_.dim();
+    scalarField rest(force);
+    forAll(supports_, i)
+    {
+        const scalar* n = normal_.cdata() + dim*i;
+        scalar* f = rest.data() + dim*supports_[i];
+        scalar along = 0;
+        for (label k = 0; k < dim; ++k)
+        {
+            along += n[k]*f[k];
+        }
+        for (label k = 0; k < dim; ++k)
+        {
+            f[k] -= along*n[k];
+        }
+    }
+    return force - rest;
+}
+
+
 void Foam::wallConditions::addShells
 (
     const scalarField& u,

@@ -167,6 +167,30 @@ weights() {
     check "refused: gravity with other dimensions" refused 'allowed: a vector shorter than 1e6'
 }
 
+# A wall that gives way is at rest under what it bears at the start, by the weight of the bed or without, also where a lid meets it. Then
+# the whole bed is pressed by 2 kPa more.
+resting_shell() { # folder, what, pressure on the lid [Pa]
+    local e
+    spheres_bed "shell-at-rest-$1" 'residual 1e-4; walls { ".*" { type frictionless; }
+        high { type shell; youngModulus 2e8; thickness 3e-3; radius 1; } top { type pressure; pressure table ((1 '"$3"') (2 '"$(($3 + 2000))"')); } }'
+    if [ "$1" = weight ]; then
+        rm 0/stress
+        grains 'restStress { lateral 0.7; }'
+        gravity_is '0 0 -9.81'
+    fi
+    cube 4
+    controls 'endTime 2;'
+    logged msddFoam
+    e=$(field 1/nodeDisplacement | awk '{ for (k = 1; k <= 3; k++) { e = $k < 0 ? -$k : $k; if (!(e <= w)) w = e } } END { print (NR ? w + 0 : "nan") }')
+    check "a shell under $2 stays at rest: it moves by $e <= 1e-9 m" below "$e" 1e-9
+    e=$(field 2/nodeDisplacement | awk '{ if ($1 > w) w = $1 } END { print w }')
+    check "and gives way under more: $e m, from 1e-4 to 4e-3" awk "BEGIN { exit !($e > 1e-4 && $e < 4e-3) }"
+}
+resting_shells() {
+    resting_shell weight "the weight of the bed" 0
+    resting_shell lid "a lid" 5000
+}
+
 # A hollow cylinder, from radius 1 to 2 m, is heated from within for a day, in a rigid ring and with a given pressure inside: as a wedge
 # and as a quarter in space. Rows: for each radius T and the stress along the radius, the hoop and the axis.
 hollow() { # folder, mesh
@@ -264,5 +288,6 @@ patch_tests_of_spheres
 growth_of_spheres
 walls_that_give
 weights
+resting_shells
 wedge_and_sector
 again_and_in_parts_in_space
