@@ -2,9 +2,9 @@
 
 use crate::abi::msdd_sphere_material;
 use crate::status::{Failure, utf8};
-use ::msdd_surrogate::spheres::model::Answer;
+use ::msdd_surrogate::spheres::model::Answers;
 use ::msdd_surrogate::spheres::readout::GAS_RANGE;
-use ::msdd_surrogate::spheres::tensor::{Tensor, mean};
+use ::msdd_surrogate::spheres::tensor::Tensor;
 use msdd_beds::effective::{BedMaterial, BedState, LEAST_NUMBER, LEAST_RATIO, is_rarefied};
 use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
@@ -134,21 +134,21 @@ impl Material {
         Ok(GasThere { number, outside, gas: Some(gas) })
     }
 
-    /// Conductivity of a bed for which the law answers this.
-    pub fn conductivity(&self, answer: &Answer, gas: &GasThere) -> Conductivity {
-        let pressure = mean(answer.stress);
+    /// Conductivity of a bed for which the law answers this, as the cell of a block.
+    pub fn conductivity(&self, answers: &Answers, cell: usize, gas: &GasThere) -> Conductivity {
+        let [xx, yy, zz, ..] = &answers.stress;
         let conduction = self.bed.conduction(
             gas.gas.as_ref(),
             &BedState {
-                pressure: pressure * self.modulus(),
-                solid_fraction: answer.solid,
-                coordination: answer.coordination.max(LEAST_CONTACTS),
-                gas: answer.gas,
+                pressure: (xx[cell] + yy[cell] + zz[cell]) / 3.0 * self.modulus(),
+                solid_fraction: answers.solid[cell],
+                coordination: answers.coordination[cell].max(LEAST_CONTACTS),
+                gas: answers.gas[cell],
             },
         );
         let solid = self.bed.solid.conductivity * conduction.contacts;
         let normal = |k: usize| if k < 3 { conduction.gas } else { 0.0 };
-        let tensor = std::array::from_fn(|k| solid * answer.contact[k] + normal(k));
+        let tensor = std::array::from_fn(|k| solid * answers.contact[k][cell] + normal(k));
         Conductivity { tensor, gas: conduction.gas }
     }
 }

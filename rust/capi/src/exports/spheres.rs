@@ -8,8 +8,9 @@ use crate::handles::SpheresHandle;
 use crate::si::LARGEST_STRESS;
 use crate::sphere_material::Material;
 use crate::status::{Failure, status, value};
+use ::msdd_surrogate::kernel::{LANES, Lanes};
 use ::msdd_surrogate::models::BUILTIN;
-use ::msdd_surrogate::spheres::model::{COLUMNS, Increment, NAMES, SphereModel};
+use ::msdd_surrogate::spheres::model::{Answers, Block, COLUMNS, NAMES, SphereModel};
 use ::msdd_surrogate::spheres::state::Known;
 use ::msdd_surrogate::spheres::tensor::Tensor;
 use std::ffi::c_char;
@@ -316,30 +317,50 @@ impl<'a> Columns<'a> {
             there(cell).gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
         }
         let mut count = 0;
-        for cell in 0..cells {
-            let at = |columns: &[Input], k: usize| columns.get(k).map_or(0.0, |column| column.at(cell));
-            let state = std::array::from_fn(|k| at(&self.state, k));
-            let strain = Increment {
-                thermal: one(&self.thermal, 0.0, cell),
-                cell: std::array::from_fn(|k| at(&self.strain, k)),
-                rotation: std::array::from_fn(|k| at(&self.rotation, k)),
+        let (mut block, mut answers) = (Block::default(), Answers::default());
+        let mut gases = Vec::with_capacity(LANES);
+        for first in (0..cells).step_by(LANES) {
+            let here = (cells - first).min(LANES);
+            // What is not given is 0.
+            let read = |lanes: &mut [Lanes], columns: &[Input]| {
+                lanes.iter_mut().zip(columns).for_each(|(lanes, column)| *lanes = column.lanes(first));
             };
-            let material = there(cell);
-            let gas = material.gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
-            let answer = model.advance(&state, &strain, gas.number, !self.tangent.is_empty());
-            let found = material.conductivity(&answer, &gas);
-            let outside = answer.outside || gas.outside;
-            let write = |columns: &[Output<f64>], values: &[f64], scale: f64| {
-                columns.iter().zip(values).for_each(|(column, value)| column.write_one(cell, value * scale));
+            read(&mut block.state, &self.state);
+            read(&mut block.cell, &self.strain);
+            read(&mut block.rotation, &self.rotation);
+            if let Some(column) = &self.thermal {
+                block.thermal = column.lanes(first);
+            }
+            gases.clear();
+            for cell in first..first + here {
+                let gas = there(cell).gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
+                block.gas_number[cell - first] = gas.number;
+                gases.push(gas);
+            }
+            model.advance_block(&block, here, !self.tangent.is_empty(), &mut answers);
+            let write = |columns: &[Output<f64>], lanes: &[Lanes]| {
+                columns.iter().zip(lanes).for_each(|(column, lanes)| column.write(first, lanes));
             };
-            write(&self.next_state, &answer.state, 1.0);
-            write(&self.stress, &answer.stress, material.modulus());
-            write(&self.tangent, answer.tangent.as_flattened(), material.modulus());
-            write(&self.conductivity, &found.tensor, 1.0);
-            self.gas.write_one(cell, found.gas);
-            self.solid.write_one(cell, answer.solid);
-            self.outside.write_one(cell, u8::from(outside));
-            count += usize::from(outside);
+            let in_pascal = |lanes: &Lanes| lanes.map(|value| value * material.modulus());
+            write(&self.next_state, &answers.state);
+            write(&self.stress, &answers.stress.each_ref().map(in_pascal));
+            if !self.tangent.is_empty() {
+                for (column, lanes) in self.tangent.iter().zip(answers.tangent.as_flattened()) {
+                    column.write(first, &in_pascal(lanes));
+                }
+            }
+            self.solid.write(first, &answers.solid);
+            for (k, gas) in gases.iter().enumerate() {
+                let cell = first + k;
+                let found = there(cell).conductivity(&answers, k, gas);
+                let outside = answers.outside[k] > 0.0 || gas.outside;
+                for (column, value) in self.conductivity.iter().zip(found.tensor) {
+                    column.write_one(cell, value);
+                }
+                self.gas.write_one(cell, found.gas);
+                self.outside.write_one(cell, u8::from(outside));
+                count += usize::from(outside);
+            }
         }
         Ok(count)
     }

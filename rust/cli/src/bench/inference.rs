@@ -5,8 +5,9 @@ use crate::simd::SimdArgument;
 use clap::Args;
 use msdd_files::read_text;
 use msdd_surrogate::kernel;
+use msdd_surrogate::kernel::LANES;
 use msdd_surrogate::models;
-use msdd_surrogate::spheres::model::{Increment, SphereModel};
+use msdd_surrogate::spheres::model::{Answers, Block, SphereModel};
 use msdd_surrogate::spheres::state;
 use msdd_surrogate::surrogate::{Batch, Known, MAX_STATE, Surrogate, evaluate_batch};
 use serde_json::{Map, Value, json};
@@ -119,7 +120,7 @@ fn discs(model: &dyn Surrogate, cells: usize, queries: usize, with_tangent: bool
 /// Logarithm of R/h of a usual gas, for [`SphereModel::advance`].
 const GAS_NUMBER: f64 = 6.0;
 
-/// Nanoseconds per query of a law of spheres, which is asked cell by cell.
+/// Nanoseconds per query of a law of spheres.
 fn spheres(model: &SphereModel, cells: usize, queries: usize, with_tangent: bool) -> f64 {
     // Pressures from those of a bed under its own weight to those of one that is pressed by its vessel.
     let start = |cell: usize| {
@@ -128,12 +129,22 @@ fn spheres(model: &SphereModel, cells: usize, queries: usize, with_tangent: bool
         let stress = [pressure, pressure, 1.5 * pressure, 0.0, 0.0, 0.0];
         model.initial_state(solid, stress, &state::Known::default())
     };
-    let states: Vec<[f64; msdd_surrogate::spheres::model::COLUMNS]> = (0..cells).map(start).collect();
+    let block = |first: usize| {
+        let mut block = Block::default();
+        for (lane, cell) in (first..cells.min(first + LANES)).enumerate() {
+            block.state.iter_mut().zip(start(cell)).for_each(|(column, value)| column[lane] = value);
+            block.thermal[lane] = strain(cell);
+            block.cell[2][lane] = 0.5 * strain(cell + 2);
+            block.gas_number[lane] = GAS_NUMBER;
+        }
+        (block, LANES.min(cells - first))
+    };
+    let blocks: Vec<(Block, usize)> = (0..cells).step_by(LANES).map(block).collect();
+    let mut answers = Answers::default();
     nanoseconds(cells, queries, || {
-        for (cell, state) in states.iter().enumerate() {
-            let (thermal, along) = (strain(cell), 0.5 * strain(cell + 2));
-            let strain = Increment { thermal, cell: [0.0, 0.0, along, 0.0, 0.0, 0.0], rotation: [0.0; 3] };
-            std::hint::black_box(model.advance(state, &strain, GAS_NUMBER, with_tangent));
+        for (block, cells) in &blocks {
+            model.advance_block(block, *cells, with_tangent, &mut answers);
+            std::hint::black_box(&answers);
         }
     })
 }

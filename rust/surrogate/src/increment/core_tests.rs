@@ -2,7 +2,7 @@
 
 use super::super::synthetic::{self, core};
 use super::*;
-use crate::kernel::vector::Portable;
+use crate::kernel::vector::{Arithmetic, Portable};
 use crate::kernel::{LANES, with_every_set};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

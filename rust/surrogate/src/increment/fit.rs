@@ -6,7 +6,7 @@ use super::number::Plain;
 use super::paths::{States, follow, stresses};
 use super::readout::{Conductivity, Features, Readout, conductivity_row, direction_rows, fabric_rows};
 use crate::dataset::ConductivityKind;
-use crate::kernel::vector::{Portable, Vector};
+use crate::kernel::vector::{Arithmetic, Portable};
 use crate::least_squares;
 use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};
 use crate::surrogate::MAX_STATE;

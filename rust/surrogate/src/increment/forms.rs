@@ -13,7 +13,7 @@ use super::paths::{States, packed, stresses};
 use super::readout::Features;
 use super::start::start_of_solid;
 use crate::kernel::LANES;
-use crate::kernel::vector::{Portable, Vector};
+use crate::kernel::vector::{Arithmetic, Portable};
 use crate::network::symmetric_unit;
 use crate::surrogate::{Answer, Increment, MAX_STATE};
 use crate::tracks::{PathErrors, Point, Track};

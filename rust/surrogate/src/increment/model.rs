@@ -12,7 +12,7 @@ use crate::SurrogateError;
 use crate::dataset::ConductivityKind;
 use crate::document::{field, hash, json, schema};
 use crate::kernel::LANES;
-use crate::kernel::vector::{Portable, Vector};
+use crate::kernel::vector::{Arithmetic, Portable};
 use crate::network::WEIGHT_LIMIT;
 use crate::options::TrainingOptions;
 use crate::region::{Coordinates, MOST_COORDINATES, Region, Spread};

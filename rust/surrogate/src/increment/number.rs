@@ -1,12 +1,12 @@
 //! Numbers in which the law is evaluated: values of a block of cells, or values with their derivatives by the strain, so
 //! that the tangent is the derivative of exactly the stress that is answered.
 
-use crate::kernel::vector::Vector;
+use crate::kernel::vector::Arithmetic;
 use std::ops::{Add, Mul, Sub};
 
 /// A number of each cell of a block.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    type Values: Vector;
+    type Values: Arithmetic;
 
     /// Values that do not depend on the strain.
     fn of(values: Self::Values) -> Self;
@@ -39,7 +39,7 @@ pub struct Dual<V> {
     pub by: [V; 3],
 }
 
-impl<V: Vector> Dual<V> {
+impl<V: Arithmetic> Dual<V> {
     /// A strain itself: its derivative by strain number `k` is 1.
     #[inline(always)]
     pub fn strain(value: V, k: usize) -> Self {
@@ -62,7 +62,7 @@ impl<V: Vector> Dual<V> {
     }
 }
 
-impl<V: Vector> Number for Plain<V> {
+impl<V: Arithmetic> Number for Plain<V> {
     type Values = V;
 
     #[inline(always)]
@@ -95,7 +95,7 @@ impl<V: Vector> Number for Plain<V> {
     }
 }
 
-impl<V: Vector> Number for Dual<V> {
+impl<V: Arithmetic> Number for Dual<V> {
     type Values = V;
 
     #[inline(always)]
@@ -141,7 +141,7 @@ impl<V: Vector> Number for Dual<V> {
 
 macro_rules! plain {
     ($name:ident, $function:ident, $symbol:tt) => {
-        impl<V: Vector> $name for Plain<V> {
+        impl<V: Arithmetic> $name for Plain<V> {
             type Output = Self;
             #[inline(always)]
             fn $function(self, other: Self) -> Self {
@@ -154,7 +154,7 @@ plain!(Add, add, +);
 plain!(Sub, sub, -);
 plain!(Mul, mul, *);
 
-impl<V: Vector> Add for Dual<V> {
+impl<V: Arithmetic> Add for Dual<V> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -163,7 +163,7 @@ impl<V: Vector> Add for Dual<V> {
     }
 }
 
-impl<V: Vector> Sub for Dual<V> {
+impl<V: Arithmetic> Sub for Dual<V> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -172,7 +172,7 @@ impl<V: Vector> Sub for Dual<V> {
     }
 }
 
-impl<V: Vector> Mul for Dual<V> {
+impl<V: Arithmetic> Mul for Dual<V> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {

@@ -5,7 +5,7 @@ use super::number::Plain;
 use crate::SurrogateError;
 use crate::dataset::ConductivityKind;
 use crate::document::field;
-use crate::kernel::vector::{Portable, Vector};
+use crate::kernel::vector::{Arithmetic, Portable};
 use serde::{Deserialize, Serialize};
 
 /// Overlaps and fabric. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`], porosity x above [`USUAL_POROSITY`].
@@ -81,7 +81,7 @@ impl Features<f64> {
     }
 }
 
-impl<V: Vector> Features<V> {
+impl<V: Arithmetic> Features<V> {
     #[inline(always)]
     pub fn of(stress: &Stress<Plain<V>>, loose: V) -> Self {
         let [Plain(p), Plain(q1), Plain(q2)] = *stress;
@@ -94,7 +94,7 @@ impl<V: Vector> Features<V> {
 
 /// Terms of K/(k s), see [`Conductivity::mean`].
 #[inline(always)]
-pub fn conductivity_row<V: Vector>(features: &Features<V>, porosity: V) -> [V; 11] {
+pub fn conductivity_row<V: Arithmetic>(features: &Features<V>, porosity: V) -> [V; 11] {
     let Features { pressure: p, root: s, square: r, .. } = *features;
     let x = porosity - V::all(USUAL_POROSITY);
     [V::all(1.0), s, p, r, s * r, x, x * s, x * p, x * r, x * x, s * (x * x)]
@@ -105,7 +105,7 @@ const USUAL_POROSITY: f64 = 0.12;
 
 /// Terms of the fabric, see [`Readout::fabric`], for each component.
 #[inline(always)]
-pub fn fabric_rows<V: Vector>(features: &Features<V>, porosity: V) -> [[V; 4]; 2] {
+pub fn fabric_rows<V: Arithmetic>(features: &Features<V>, porosity: V) -> [[V; 4]; 2] {
     let Features { root, loose, ratio: [along, across], .. } = *features;
     let x = porosity - V::all(USUAL_POROSITY);
     [[along, along * x, along * root, along * loose], [across, across * x, across * root, across * loose]]
@@ -113,7 +113,7 @@ pub fn fabric_rows<V: Vector>(features: &Features<V>, porosity: V) -> [[V; 4]; 2
 
 /// Terms of the direction of the conductivity, see [`Conductivity::direction`], for each component.
 #[inline(always)]
-pub fn direction_rows<V: Vector>(features: &Features<V>, porosity: V, fabric: [V; 2]) -> [[V; 3]; 2] {
+pub fn direction_rows<V: Arithmetic>(features: &Features<V>, porosity: V, fabric: [V; 2]) -> [[V; 3]; 2] {
     let [along, across] = features.ratio;
     let x = porosity - V::all(USUAL_POROSITY);
     [[along, along * x, fabric[0]], [across, across * x, fabric[1]]]
@@ -121,7 +121,7 @@ pub fn direction_rows<V: Vector>(features: &Features<V>, porosity: V, fabric: [V
 
 /// Sum of terms times coefficients.
 #[inline(always)]
-fn sum<V: Vector, const N: usize>(terms: [V; N], coefficients: [f64; N]) -> V {
+fn sum<V: Arithmetic, const N: usize>(terms: [V; N], coefficients: [f64; N]) -> V {
     let mut sum = V::zero();
     for k in 0..N {
         sum = terms[k].fused(V::all(coefficients[k]), sum);
@@ -132,7 +132,7 @@ fn sum<V: Vector, const N: usize>(terms: [V; N], coefficients: [f64; N]) -> V {
 impl Readout {
     /// o [-]: the part of the plane that overlaps cover.
     #[inline(always)]
-    pub fn overlap<V: Vector>(&self, x: &Features<V>) -> V {
+    pub fn overlap<V: Arithmetic>(&self, x: &Features<V>) -> V {
         let [one, s, p, sz, sr] = self.overlap;
         let (one, s, p, sz, sr) = (V::all(one), V::all(s), V::all(p), V::all(sz), V::all(sr));
         let of_root = sr.fused(x.square, sz.fused(x.loose, s));
@@ -141,7 +141,7 @@ impl Readout {
 
     /// The part of the fabric that follows the stress.
     #[inline(always)]
-    pub fn fabric<V: Vector>(&self, x: &Features<V>, porosity: V) -> [V; 2] {
+    pub fn fabric<V: Arithmetic>(&self, x: &Features<V>, porosity: V) -> [V; 2] {
         let [along, across] = fabric_rows(x, porosity);
         [sum(along, self.fabric), sum(across, self.fabric)]
     }
@@ -159,7 +159,7 @@ impl Conductivity {
     /// `own`: mean conductivity of the packing over that of packings in the same state, less 1; and what is added to the
     /// direction (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy). They stay as they are when the packing is strained.
     #[inline(always)]
-    pub fn at<V: Vector>(
+    pub fn at<V: Arithmetic>(
         &self,
         x: &Features<V>,
         porosity: V,

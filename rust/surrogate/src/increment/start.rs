@@ -3,7 +3,7 @@
 use super::law::{ELEMENTS, Elastic, Law};
 use super::number::Plain;
 use super::readout::{Features, Readout};
-use crate::kernel::vector::{Portable, Vector};
+use crate::kernel::vector::{Arithmetic, Portable};
 
 /// The elastic state.
 #[derive(Clone, Copy, Debug, PartialEq)]

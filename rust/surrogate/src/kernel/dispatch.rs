@@ -55,29 +55,42 @@ pub fn simd() -> &'static str {
     "scalar"
 }
 
-/// Does the work with the widest vectors of the machine. All of them give the same bits.
-#[inline]
-pub fn dispatch<T: Task>(task: T) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx512f,avx512dq,fma")]
-        unsafe fn avx512<T: Task>(task: T) {
-            task.run::<x86::Avx512>();
+macro_rules! dispatcher {
+    ($(#[$about:meta])* $name:ident: $avx512:ident, $avx2:ident, $portable:ty) => {
+        $(#[$about])*
+        #[inline]
+        pub fn $name<T: Task>(task: T) {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "avx512f,avx512dq,fma")]
+                unsafe fn avx512<T: Task>(task: T) {
+                    task.run::<x86::$avx512>();
+                }
+                #[target_feature(enable = "avx2,fma")]
+                unsafe fn avx2<T: Task>(task: T) {
+                    task.run::<x86::$avx2>();
+                }
+                if has_avx512() {
+                    // SAFETY: the processor has the instructions; the function has no other requirement.
+                    return unsafe { avx512(task) };
+                }
+                if has_avx2() {
+                    // SAFETY: the processor has the instructions; the function has no other requirement.
+                    return unsafe { avx2(task) };
+                }
+            }
+            task.run::<$portable>();
         }
-        #[target_feature(enable = "avx2,fma")]
-        unsafe fn avx2<T: Task>(task: T) {
-            task.run::<x86::Avx2>();
-        }
-        if has_avx512() {
-            // SAFETY: the processor has the instructions; the function has no other requirement.
-            return unsafe { avx512(task) };
-        }
-        if has_avx2() {
-            // SAFETY: the processor has the instructions; the function has no other requirement.
-            return unsafe { avx2(task) };
-        }
-    }
-    task.run::<Portable>();
+    };
+}
+
+dispatcher! {
+    /// Does the work with the widest vectors of the machine, in blocks of [`LANES`](super::LANES). All of them give the same bits.
+    dispatch: Avx512, Avx2, Portable
+}
+dispatcher! {
+    /// As [`dispatch`], in blocks of as many cells as one register has: for work with more numbers than registers.
+    dispatch_narrow: OneAvx512, OneAvx2, f64
 }
 
 /// As [`dispatch`], with each set of the machine in turn: for tests that compare bits.

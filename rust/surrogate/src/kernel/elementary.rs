@@ -1,6 +1,7 @@
-//! tanh of blocks of cells.
+//! Functions of blocks of cells. They take the same steps everywhere, raise no floating-point exceptions, and do not depend on the
+//! system's mathematical library.
 
-use super::vector::Vector;
+use super::vector::{Arithmetic, Vector};
 
 /// ln 2 in two parts; the high one has 21 trailing zero bits, so n · LN2_HIGH is exact for |n| < 2^20.
 const LN2_HIGH: f64 = f64::from_bits(0x3FE6_2E42_FEE0_0000);
@@ -33,6 +34,64 @@ fn series<V: Vector>(r: V) -> V {
     let middle = c(7).fused(r, c(6)).fused(r2, c(5).fused(r, c(4)));
     let high = c(11).fused(r, c(10)).fused(r2, c(9).fused(r, c(8)));
     high.fused(r4, middle).fused(r4, low)
+}
+
+/// The largest size of an exponent of [`exp`].
+const MOST_EXPONENT: f64 = 700.0;
+
+/// e^x in two parts, with |x| at most 700: 2^n, and e^r − 1 with e^x = 2^n e^r and |r| <= ln 2 / 2. It has no fused operations, which
+/// a processor may lack, since single numbers need it, too.
+#[inline(always)]
+fn power_of_two_and_rest<V: Arithmetic>(x: V) -> (V, V) {
+    let x = x.within(V::all(-MOST_EXPONENT), V::all(MOST_EXPONENT));
+    let rounded = x * V::all(std::f64::consts::LOG2_E) + V::all(ROUNDER);
+    let n = rounded - V::all(ROUNDER);
+    let r = (x - n * V::all(LN2_HIGH)) - n * V::all(LN2_LOW);
+    let r2 = r * r;
+    let r4 = r2 * r2;
+    let low = pair(r, 0) + r2 * pair(r, 2);
+    let middle = pair(r, 4) + r2 * pair(r, 6);
+    let high = pair(r, 8) + r2 * pair(r, 10);
+    (rounded.power_of_low_bits(), r + r2 * (low + r4 * (middle + r4 * high)))
+}
+
+/// Two terms of the series of e^r.
+#[inline(always)]
+fn pair<V: Arithmetic>(r: V, k: usize) -> V {
+    V::all(INVERSE_FACTORIALS[k]) + r * V::all(INVERSE_FACTORIALS[k + 1])
+}
+
+/// e^x; that of ±700 for x beyond. The error is at most 1 unit in the last place.
+#[inline(always)]
+pub fn exp<V: Arithmetic>(x: V) -> V {
+    let (power, rest) = power_of_two_and_rest(x);
+    power + power * rest
+}
+
+/// e^x − 1, without cancellation near zero.
+#[inline(always)]
+pub fn exp_less_one<V: Arithmetic>(x: V) -> V {
+    let (power, rest) = power_of_two_and_rest(x);
+    (power - V::all(1.0)) + power * rest
+}
+
+/// Number of terms of the series of [`ln`]; the next is below 1e-17 of the sum.
+const TERMS: usize = 11;
+
+/// ln x, of numbers from 2^-1021 on. The error is at most 2 units in the last place.
+#[inline(always)]
+pub fn ln<V: Arithmetic>(x: V) -> V {
+    let (mantissa, n) = x.split();
+    // ln m = 2 artanh s = 2 (s + s³/3 + …) with s = (m − 1)/(m + 1), of which |s| <= 0.172; 2 s = f − s f with f = m − 1, and so f
+    // counts without rounding.
+    let f = mantissa - V::all(1.0);
+    let s = f / (f + V::all(2.0));
+    let z = s * s;
+    let mut sum = V::all(2.0 / (2 * TERMS + 1) as f64);
+    for k in (1..TERMS).rev() {
+        sum = sum * z + V::all(2.0 / (2 * k + 1) as f64);
+    }
+    n * V::all(LN2_HIGH) + (f - (s * (f - z * sum) - n * V::all(LN2_LOW)))
 }
 
 /// e^{2|x|} − 1, without branches and without cancellation near zero.
@@ -90,7 +149,7 @@ fn invert<V: Vector, const N: usize>(d: &mut [V; N]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::vector::Portable;
+    use crate::kernel::vector::{Arithmetic, Portable};
     use crate::kernel::{LANES, Lanes};
 
     fn of<const N: usize>(x: [f64; N]) -> [f64; N] {
@@ -101,6 +160,23 @@ mod tests {
             neuron.write(&mut lanes);
             lanes[5]
         })
+    }
+
+    #[test]
+    fn exponentials_and_logarithms_agree_with_the_mathematical_library() {
+        let [mut of_exp, mut of_less, mut of_ln] = [0.0f64; 3];
+        for i in -40_000..=40_000 {
+            for x in [f64::from(i) * 1.7e-2, f64::from(i) * 3.1e-4, f64::from(i) * 1e-12] {
+                of_exp = of_exp.max(half_units(exp(x), libm::exp(x)));
+                of_less = of_less.max(half_units(exp_less_one(x), libm::expm1(x)));
+                let y = libm::exp(x);
+                of_ln = of_ln.max(half_units(ln(y), libm::log(y)));
+                of_ln = of_ln.max(half_units(ln(1.0 + x.abs()), libm::log(1.0 + x.abs())));
+            }
+        }
+        assert!(of_exp <= 3.0 && of_less <= 4.0 && of_ln <= 4.0, "{of_exp} {of_less} {of_ln} half units");
+        assert_eq!([exp(1e3), exp(-1e3), ln(1.0), exp(0.0)], [exp(700.0), exp(-700.0), 0.0, 1.0]);
+        assert_eq!((ln(2.0f64), exp_less_one(-0.0f64)), (std::f64::consts::LN_2, 0.0));
     }
 
     /// Distance in half units in the last place, for numbers as large as the largest between the same powers of two as

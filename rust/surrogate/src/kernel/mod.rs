@@ -8,7 +8,7 @@
 #![allow(unsafe_code)] // calls of functions compiled for an instruction set
 
 mod dispatch;
-mod elementary;
+pub mod elementary;
 mod layers;
 mod products;
 pub mod vector;
@@ -17,7 +17,7 @@ mod x86;
 
 #[cfg(test)]
 pub(crate) use dispatch::with_every_set;
-pub use dispatch::{Task, dispatch, limit, simd};
+pub use dispatch::{Task, dispatch, dispatch_narrow, limit, simd};
 pub use layers::layer;
 pub use products::add_outer_products;
 pub use vector::{LANES, Lanes};

@@ -31,7 +31,7 @@ fn outer_generic<V: Vector>(rows: &[f64], width: usize, matrix: &mut [f64]) {
         for column in (0..first + TILE).step_by(LANES) {
             let mut sums = [V::zero(); TILE];
             for row in rows.chunks_exact(width) {
-                let right = V::read(row[column..].first_chunk().expect("width is a multiple of the lanes"));
+                let right = V::read(&row[column..]);
                 let left: &[f64; TILE] =
                     row[first..].first_chunk().expect("width is a multiple of the lanes");
                 for (sum, left) in sums.iter_mut().zip(left) {
@@ -40,7 +40,6 @@ fn outer_generic<V: Vector>(rows: &[f64], width: usize, matrix: &mut [f64]) {
             }
             for (i, sum) in sums.iter().enumerate() {
                 let entries = &mut matrix[(first + i) * width + column..];
-                let entries = entries.first_chunk_mut().expect("width is a multiple of the lanes");
                 (V::read(entries) + *sum).write(entries);
             }
         }

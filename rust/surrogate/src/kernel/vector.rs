@@ -9,13 +9,11 @@ pub const LANES: usize = 16;
 /// One quantity of a block of cells.
 pub type Lanes = [f64; LANES];
 
-/// One quantity of a block of cells in registers. Every operation acts on each lane separately, rounds as IEEE 754
-/// prescribes, and gives the same bits in all implementations.
-pub trait Vector:
+/// Numbers of one cell or of several. Every operation acts on each cell separately, rounds as IEEE 754 prescribes, and gives the
+/// same bits in all implementations.
+pub trait Arithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    fn read(lanes: &Lanes) -> Self;
-    fn write(self, lanes: &mut Lanes);
     /// The same value in all lanes.
     fn all(value: f64) -> Self;
     /// self · factor + addend, rounded once.
@@ -29,8 +27,12 @@ pub trait Vector:
     fn at_most(self, other: Self) -> Self;
     /// 2^n, where the integer n stands in the low bits of the number's bit pattern.
     fn power_of_low_bits(self) -> Self;
+    /// m and n with self = m · 2^n and m from √½ to √2, of numbers from 2^-1021 on.
+    fn split(self) -> (Self, Self);
     /// `this` where `self` > `than`, `other` elsewhere.
     fn where_greater(self, than: Self, this: Self, other: Self) -> Self;
+    /// Whether `self` > `than` in any cell.
+    fn any_greater(self, than: Self) -> bool;
 
     #[inline(always)]
     fn zero() -> Self {
@@ -41,6 +43,88 @@ pub trait Vector:
     #[inline(always)]
     fn within(self, low: Self, high: Self) -> Self {
         self.at_least(low).at_most(high)
+    }
+}
+
+/// One quantity of several cells in registers.
+pub trait Vector: Arithmetic {
+    /// Number of cells.
+    const WIDTH: usize;
+
+    /// The first [`Vector::WIDTH`] of some numbers, which are as many at least.
+    fn read(lanes: &[f64]) -> Self;
+    /// Overwrites those.
+    fn write(self, lanes: &mut [f64]);
+}
+
+/// What is added to the bits of a number so that their exponent is n + 1023 in [`Arithmetic::split`]: those of 1 less those of √½; and
+/// then to the mantissa's bits.
+pub(super) const TO_EXPONENT: u64 = 0x3FF0_0000_0000_0000 - ROOT_HALF;
+pub(super) const ROOT_HALF: u64 = 0x3FE6_A09E_667F_3BCD;
+pub(super) const MANTISSA: u64 = (1 << 52) - 1;
+/// The bits of 2^52, in whose low bits an integer stands when it is added; and 2^52 + 1023.
+pub(super) const INTEGER: u64 = 0x4330_0000_0000_0000;
+pub(super) const INTEGER_AND_BIAS: f64 = 4_503_599_627_370_496.0 + 1023.0;
+
+impl Arithmetic for f64 {
+    #[inline(always)]
+    fn all(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn fused(self, factor: Self, addend: Self) -> Self {
+        self.mul_add(factor, addend)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        f64::copysign(self, sign)
+    }
+    #[inline(always)]
+    fn at_least(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+    #[inline(always)]
+    fn power_of_low_bits(self) -> Self {
+        f64::from_bits((self.to_bits() << 52).wrapping_add(1023 << 52))
+    }
+    #[inline(always)]
+    fn split(self) -> (Self, Self) {
+        let bits = self.to_bits().wrapping_add(TO_EXPONENT);
+        let mantissa = f64::from_bits((bits & MANTISSA) + ROOT_HALF);
+        (mantissa, f64::from_bits((bits >> 52) | INTEGER) - INTEGER_AND_BIAS)
+    }
+    #[inline(always)]
+    fn where_greater(self, than: Self, this: Self, other: Self) -> Self {
+        if self > than { this } else { other }
+    }
+    #[inline(always)]
+    fn any_greater(self, than: Self) -> bool {
+        self > than
+    }
+}
+
+impl Vector for f64 {
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn read(lanes: &[f64]) -> Self {
+        lanes[0]
+    }
+    #[inline(always)]
+    fn write(self, lanes: &mut [f64]) {
+        lanes[0] = self;
     }
 }
 
@@ -77,21 +161,26 @@ operator!(Mul, mul, *);
 operator!(Div, div, /);
 
 impl Vector for Portable {
+    const WIDTH: usize = LANES;
+
     #[inline(always)]
-    fn read(lanes: &Lanes) -> Self {
-        Self(*lanes)
+    fn read(lanes: &[f64]) -> Self {
+        Self::of(|k| lanes[k])
     }
     #[inline(always)]
-    fn write(self, lanes: &mut Lanes) {
-        *lanes = self.0;
+    fn write(self, lanes: &mut [f64]) {
+        lanes[..LANES].copy_from_slice(&self.0);
     }
+}
+
+impl Arithmetic for Portable {
     #[inline(always)]
     fn all(value: f64) -> Self {
         Self([value; LANES])
     }
     #[inline(always)]
     fn fused(self, factor: Self, addend: Self) -> Self {
-        Self::of(|k| self.0[k].mul_add(factor.0[k], addend.0[k]))
+        Self::of(|k| self.0[k].fused(factor.0[k], addend.0[k]))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -107,18 +196,27 @@ impl Vector for Portable {
     }
     #[inline(always)]
     fn at_least(self, other: Self) -> Self {
-        Self::of(|k| if self.0[k] > other.0[k] { self.0[k] } else { other.0[k] })
+        Self::of(|k| self.0[k].at_least(other.0[k]))
     }
     #[inline(always)]
     fn at_most(self, other: Self) -> Self {
-        Self::of(|k| if self.0[k] < other.0[k] { self.0[k] } else { other.0[k] })
+        Self::of(|k| self.0[k].at_most(other.0[k]))
     }
     #[inline(always)]
     fn power_of_low_bits(self) -> Self {
-        Self(self.0.map(|v| f64::from_bits((v.to_bits() << 52).wrapping_add(1023 << 52))))
+        Self(self.0.map(Arithmetic::power_of_low_bits))
+    }
+    #[inline(always)]
+    fn split(self) -> (Self, Self) {
+        let both = self.0.map(Arithmetic::split);
+        (Self::of(|k| both[k].0), Self::of(|k| both[k].1))
     }
     #[inline(always)]
     fn where_greater(self, than: Self, this: Self, other: Self) -> Self {
-        Self::of(|k| if self.0[k] > than.0[k] { this.0[k] } else { other.0[k] })
+        Self::of(|k| self.0[k].where_greater(than.0[k], this.0[k], other.0[k]))
+    }
+    #[inline(always)]
+    fn any_greater(self, than: Self) -> bool {
+        self.0.iter().zip(&than.0).any(|(a, b)| a > b)
     }
 }

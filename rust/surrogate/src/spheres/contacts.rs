@@ -52,13 +52,15 @@ const CONTACTS: [f64; 2] = [0.0, 12.0];
 const TINY: f64 = 1e-30;
 
 /// 1, s, v, x, x s, o, with s = √v and o = 1/(1 + v/1.5e-4), of the elastic compression v and x = φ_J − 0.6.
+#[inline(always)]
 pub fn row<N: Number>(state: &State<N>) -> [N; COEFFICIENTS] {
-    let (v, x) = (state.compression.at_least(LEAST_COMPRESSION), state.density());
-    let s = v.sqrt();
-    [N::of(1.0), s, v, x, x * s, v.times(1.0 / HARDLY).plus(1.0).inverse()]
+    let (v, x) = (state.compression.not_below(LEAST_COMPRESSION), state.density());
+    let s = v.root();
+    [N::constant(1.0), s, v, x, x * s, v.times(1.0 / HARDLY).plus(1.0).inverse()]
 }
 
 /// h.
+#[inline(always)]
 fn share<N: Number>(compression: N) -> N {
     let w = compression.times(1.0 / LEVEL);
     let over = w.plus(1.0).inverse();
@@ -66,8 +68,9 @@ fn share<N: Number>(compression: N) -> N {
 }
 
 /// F, with the part of the friction that is not mobilised.
+#[inline(always)]
 fn forgets<N: Number>(free: N) -> N {
-    let mut power = free.at_least(LEAST_FREE).inverse().times(KEEPING);
+    let mut power = free.not_below(LEAST_FREE).inverse().times(KEEPING);
     for _ in 0..SHARPLY {
         power = power.squared();
     }
@@ -86,6 +89,7 @@ pub struct Usual<N> {
 impl<N: Number> Usual<N> {
     /// Those of the contacts z by which the fabric turns: z̄ + F ζ. Where nearly all friction is mobilised, what a bed has more are
     /// grains that rest on others and bear no load.
+    #[inline(always)]
     pub fn bearing(&self, coordination: N) -> N {
         self.contacts + self.forgets * (coordination - self.contacts)
     }
@@ -93,15 +97,21 @@ impl<N: Number> Usual<N> {
 
 impl Contacts {
     /// z̄ and F of a state.
+    #[inline(always)]
     pub fn usual<N: Number>(&self, state: &State<N>) -> Usual<N> {
         Usual { contacts: self.sheared(state), forgets: forgets(state.free()) }
     }
 
     /// z̄ of a state.
+    #[inline(always)]
     pub fn sheared<N: Number>(&self, state: &State<N>) -> N {
-        let sum =
-            row(state).into_iter().zip(self.sheared).fold(N::of(0.0), |sum, (part, c)| sum + part.times(c));
-        sum.at_least(CONTACTS[0]).at_most(CONTACTS[1])
+        let [first, others @ ..] = row(state);
+        let [c0, coefficients @ ..] = self.sheared;
+        let mut sum = first.times(c0);
+        for (part, c) in others.into_iter().zip(coefficients) {
+            sum = sum + part.times(c);
+        }
+        sum.not_below(CONTACTS[0]).not_above(CONTACTS[1])
     }
 
     /// z of a packing that was not strained since it was made.
@@ -111,6 +121,7 @@ impl Contacts {
     }
 
     /// z after a strain, which takes the packing from one state to the other.
+    #[inline(always)]
     pub fn after<N: Number>(
         &self,
         [from, to]: [&State<N>; 2],
@@ -119,28 +130,29 @@ impl Contacts {
     ) -> N {
         let [left, more] = self.shares([from, to], before.forgets, strain);
         let kept = left * (from.coordination - before.contacts);
-        (after.contacts + kept + more.times(self.surplus)).at_least(CONTACTS[0]).at_most(CONTACTS[1])
+        (after.contacts + kept + more.times(self.surplus)).not_below(CONTACTS[0]).not_above(CONTACTS[1])
     }
 
     /// What a strain leaves of ζ, and what it adds to it, over S, with F of the state before.
+    #[inline(always)]
     pub fn shares<N: Number>(&self, [from, to]: [&State<N>; 2], forgets: N, strain: &Tensor<N>) -> [N; 2] {
         let [of_compression, of_shear] = self.fading;
-        let [before, after] = [from, to].map(|state| state.compression.at_least(LEAST_COMPRESSION));
+        let before = from.compression.not_below(LEAST_COMPRESSION);
+        let after = to.compression.not_below(LEAST_COMPRESSION);
         let free = from.free();
         let distortion = deviator(*strain);
-        let length = contraction(&distortion, &distortion).plus(TINY).sqrt() * after.inverse();
-        let sheared = length.times(-of_shear).at_least(-MOST_EXPONENT);
-        let [had, has] = [before, after].map(share);
-        if has.value() <= had.value() {
-            let opened = (has.plus(LEAST_SHARE) * had.plus(LEAST_SHARE).inverse()).ln();
-            let keeps = forgets.times(-1.0).plus(1.0);
-            return [(forgets * (sheared + opened)).exp(), (has - had) * free * keeps];
-        }
+        let length = contraction(&distortion, &distortion).plus(TINY).root() * after.inverse();
+        let sheared = length.times(-of_shear).not_below(-MOST_EXPONENT);
+        let [had, has] = [share(before), share(after)];
+        let keeps = forgets.times(-1.0).plus(1.0);
+        let opened = (has.plus(LEAST_SHARE) * had.plus(LEAST_SHARE).inverse()).ln();
         let closed = (after * before.inverse()).ln();
-        let sense = if closed.value() > 0.0 { -1.0 } else { 1.0 };
-        let left = (forgets * (sheared + closed.times(sense * of_compression))).exp();
+        let faded = N::constant(0.0)
+            - closed.where_above(N::constant(0.0), closed, closed.times(-1.0)).times(of_compression);
         // Half of what is new has seen the shear.
-        [left, (has - had) * free * (forgets * sheared).times(0.5).exp()]
+        let seen = (forgets * sheared).times(0.5).exp();
+        let left = (forgets * (sheared + has.where_above(had, faded, opened))).exp();
+        [left, (has - had) * free * has.where_above(had, seen, keeps)]
     }
 
     /// Numbers for [`super::law::Law::check`]: name, value, whether it is allowed, and what is.

@@ -3,7 +3,9 @@
 use super::contacts::{Contacts, Usual};
 use super::number::Number;
 use super::state::{ELEMENTS, FABRIC, LEAST_COMPRESSION, State};
-use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
+use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, six, square, sum, turned};
+use crate::kernel::elementary;
+use crate::kernel::vector::Arithmetic;
 use serde::{Deserialize, Serialize};
 
 /// The element with whose sliding goes the dilatancy. In all but the loosest packings it slides first, and its sliding is nearly the
@@ -88,106 +90,129 @@ const MOST_EXPONENT: f64 = 8.0;
 
 /// Strain of an increment: growth of the radii positive, extension of the cell positive; xy, xz, yz are twice the shears.
 #[derive(Clone, Copy, Debug)]
-pub struct Strain<N = f64> {
-    pub thermal: N,
+pub struct Strain<N: Number = f64> {
+    pub thermal: N::Values,
     pub cell: Tensor<N>,
 }
 
 impl Law {
+    #[inline(always)]
     fn exponential<N: Number>(x: N, rate: f64) -> N {
-        x.times(rate).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp()
+        x.times(rate).not_below(-MOST_EXPONENT).not_above(MOST_EXPONENT).exp()
     }
 
     /// v, and u, between bounds.
+    #[inline(always)]
     pub(super) fn compressions<N: Number>(compression: N) -> (N, N) {
-        let v = compression.at_least(LEAST_COMPRESSION).at_most(MOST_COMPRESSION);
+        let v = compression.not_below(LEAST_COMPRESSION).not_above(MOST_COMPRESSION);
         (v, v.times(1.0 / USUAL_COMPRESSION))
     }
 
     /// A: the pressure over E* without shear.
+    #[inline(always)]
     pub fn pressure<N: Number>(&self, compression: N, x: N, free: N) -> N {
         let (v, u) = Self::compressions(compression);
         let [b0, b1, b2, b3, b4, b5] = self.bulk;
-        let contacts = u.sqrt().plus(1.0).ln();
+        let contacts = u.root().plus(1.0).ln();
         let exponent = x.times(b1) + free.times(b2) + contacts * (free.times(b4) + x.times(b5)).plus(b3);
-        (exponent.exp() * v * v.sqrt()).times(b0)
+        (exponent.exp() * v * v.root()).times(b0)
     }
 
     /// The factor that the stiffnesses of all elements of friction have beside [`Element::stiffness`], by ln u.
+    #[inline(always)]
     pub(super) fn stiffening<N: Number>(&self, x: N, free: N, loaded: N) -> N {
         let [of_density, power, of_free] = self.shear;
         let exponent =
-            (x.times(of_density) + free.times(of_free)).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
+            (x.times(of_density) + free.times(of_free)).not_below(-MOST_EXPONENT).not_above(MOST_EXPONENT);
         (exponent + loaded.times(power)).exp()
     }
 
     /// c: the stiffness of the fabric's element, [`Element::stiffness`] (z_b − z₀) where there are contacts enough, and smoothly none
     /// below, with the contacts z_b of [`Usual::bearing`].
+    #[inline(always)]
     fn turning<N: Number>(&self, bearing: N) -> N {
         let more = bearing.plus(-self.least_contacts);
-        let length = (more * more).plus(ROUNDING * ROUNDING).sqrt();
+        let length = (more * more).plus(ROUNDING * ROUNDING).root();
         (more + length).times(0.5 * self.elements[FABRIC].stiffness)
     }
 
     /// ln u.
+    #[inline(always)]
     pub(super) fn loaded<N: Number>(compression: N) -> N {
         Self::compressions(compression).1.ln()
     }
 
     /// Strength of an element, by ln u.
+    #[inline(always)]
     pub(super) fn strength<N: Number>(&self, k: usize, x: N, free: N, loaded: N) -> N {
         let Element { strength, growth, free: of_free, hardening, .. } = self.elements[k];
-        let exponent = x.times(growth) + free.times(of_free) + loaded.at_most(0.0).times(0.5 * hardening);
-        exponent.at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT).exp().times(strength)
+        let exponent = x.times(growth) + free.times(of_free) + loaded.not_above(0.0).times(0.5 * hardening);
+        exponent.not_below(-MOST_EXPONENT).not_above(MOST_EXPONENT).exp().times(strength)
     }
 
     /// The factor of an element's strength in a packing with this [`State::strength`]: friction is as strong as that, up to twice as
     /// strong as it usually is, and beyond that the fabric is stronger.
-    pub(super) fn factor(k: usize, strength: f64) -> f64 {
-        if k == FABRIC { (strength / MOST_OF_FRICTION).max(1.0) } else { strength.min(MOST_OF_FRICTION) }
+    #[inline(always)]
+    pub(super) fn factor<V: Arithmetic>(k: usize, strength: V) -> V {
+        let most = V::all(MOST_OF_FRICTION);
+        if k == FABRIC { (strength / most).at_least(V::all(1.0)) } else { strength.at_most(most) }
     }
 
     /// σ over E*, compression positive.
+    #[inline(always)]
     pub fn stress<N: Number>(&self, state: &State<N>) -> Tensor<N> {
         let (x, free) = (state.density(), state.free());
-        let pressure = if state.compression.value() > LEAST_COMPRESSION {
-            self.pressure(state.compression, x, free)
-        } else {
-            return [N::of(0.0); 6];
-        };
-        let mut stress = scaled(&state.ratio(), pressure);
-        for normal in &mut stress[..3] {
-            *normal = *normal + pressure;
-        }
-        stress
+        let (least, zero) = (N::constant(LEAST_COMPRESSION), N::constant(0.0));
+        let pressure = self.pressure(state.compression, x, free);
+        let pressure = state.compression.where_above(least, pressure, zero);
+        // The sums with zero make it 0, and not −0, where there is no pressure.
+        let [xx, yy, zz, xy, xz, yz] = scaled(&state.ratio(), pressure);
+        [xx + pressure, yy + pressure, zz + pressure, xy + zero, xz + zero, yz + zero]
     }
 
     /// State after a strain, in [`parts`]. `half` is half of the cell's rotation.
-    pub fn advanced<N: Number>(&self, state: &State<N>, strain: &Strain<N>, half: &Rotation) -> State<N> {
+    #[inline(always)]
+    pub fn advanced<N: Number>(
+        &self,
+        state: &State<N>,
+        strain: &Strain<N>,
+        half: &Rotation<N::Values>,
+    ) -> State<N> {
         let mut next = *state;
-        next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
+        for ratio in &mut next.ratios {
+            *ratio = turned(ratio, half);
+        }
         let [xx, yy, zz, xy, xz, yz] = strain.cell;
         let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
         let square = square(&cell);
-        let count = parts(state.compression.value(), strain);
+        let count = parts(state.compression.value(), strain.thermal, six!(k => strain.cell[k].value()));
+        let share = N::Values::all(1.0) / count;
         let mut usual = self.contacts.usual(&next);
-        for part in 0..count {
+        for number in 0..MOST_PARTS {
+            // Cells whose parts are fewer stay as they are.
+            let number = N::Values::all(f64::from(number));
+            if !count.any_greater(number) {
+                break;
+            }
             // Equal parts of the whole, E/n (1 + k E/n)⁻¹, which compose to it; of the cell to the second order.
-            let (part, share) = (f64::from(part), 1.0 / f64::from(count));
-            let thermal = strain.thermal * strain.thermal.times(part).plus(f64::from(count)).inverse();
-            let cell = std::array::from_fn(|c| cell[c].times(share) - square[c].times(part * share * share));
-            let before = next;
-            next = self.part(&before, &usual, thermal, cell);
-            let reached = self.contacts.usual(&next);
-            next.coordination = self.contacts.after([&before, &next], [&usual, &reached], &cell);
-            usual = reached;
+            let thermal = strain.thermal / (strain.thermal * number + count);
+            let second = number * share * share;
+            let cell: Tensor<N> = six!(c => cell[c].by(share) - square[c].by(second));
+            let mut reached = self.part(&next, &usual, thermal, cell);
+            let usual_there = self.contacts.usual(&reached);
+            reached.coordination = self.contacts.after([&next, &reached], [&usual, &usual_there], &cell);
+            next = State::where_greater([count, number], &reached, &next);
+            usual = usual_there;
         }
-        next.ratios = next.ratios.map(|ratio| turned(&ratio, half));
+        for ratio in &mut next.ratios {
+            *ratio = turned(ratio, half);
+        }
         next
     }
 
     /// Loss of compression by a unit of sliding of the second element, see [`Law::dilatancy`], along a tensor of this length; `loaded` is
     /// ln u where it is reached.
+    #[inline(always)]
     fn lost<N: Number>(
         &self,
         state: &State<N>,
@@ -197,8 +222,8 @@ impl Law {
     ) -> N {
         let (x, free) = (state.density(), state.free());
         let [c0, c1, c2, c3] = self.collapse;
-        let bound = free.times(-1.0).plus(1.0).at_least(LEAST_MOBILISED);
-        let dense = x.times(-c1).at_least(-MOST_EXPONENT).at_most(MOST_EXPONENT);
+        let bound = free.times(-1.0).plus(1.0).not_below(LEAST_MOBILISED);
+        let dense = x.times(-c1).not_below(-MOST_EXPONENT).not_above(MOST_EXPONENT);
         let collapse = (dense - loaded.times(c2) + bound.ln().times(c3)).exp().times(c0);
         let [d0, d1, d2, d3, d4] = self.dilatancy;
         let surplus = (state.coordination - usual.contacts) * free;
@@ -208,87 +233,89 @@ impl Law {
     }
 
     /// After growth of the radii and a strain of the cell, whose shears are not doubled; `usual` is that of the state before.
-    fn part<N: Number>(&self, state: &State<N>, usual: &Usual<N>, thermal: N, strain: Tensor<N>) -> State<N> {
+    #[inline(always)]
+    fn part<N: Number>(
+        &self,
+        state: &State<N>,
+        usual: &Usual<N>,
+        thermal: N::Values,
+        strain: Tensor<N>,
+    ) -> State<N> {
         let [xx, yy, zz, xy, xz, yz] = strain;
         // Growth of the volume of the cell, and of the grains.
         let second = xx * yy + yy * zz + zz * xx - (xy * xy + xz * xz + yz * yz);
         let third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
         let cell = xx + yy + zz + second + third;
-        let grains = thermal.times(3.0) + thermal * thermal * thermal.plus(3.0);
-        let denser = (grains - cell) * cell.plus(1.0).inverse();
+        let three = N::Values::all(3.0);
+        let grains = thermal * three + thermal * thermal * (thermal + three);
+        let denser = cell.times(-1.0).plus_values(grains) * cell.plus(1.0).inverse();
         let tried = state.compression + state.compression.plus(1.0) * denser;
-        if tried.value() <= 0.0 {
-            // Grains that do not touch forget the deviator.
-            let zero = [N::of(0.0); 6];
-            return State { compression: tried, ratios: [zero; ELEMENTS], ..*state };
-        }
         let (x, free) = (state.density(), state.free());
-        let before = state.compression.at_least(LEAST_COMPRESSION);
-        let after = tried.at_least(LEAST_COMPRESSION);
+        let before = state.compression.not_below(LEAST_COMPRESSION);
+        let after = tried.not_below(LEAST_COMPRESSION);
         let over = after.inverse();
         let opening = after * before.inverse();
-        let opens = tried.value() < before.value();
         let distortion = deviator(strain);
         let loaded = Self::loaded(after);
         let stiffening = self.stiffening(x, free, loaded);
         let opened = opening.ln();
         let mut ratios = state.ratios;
-        let [mut loss, mut sliding, mut work] = [N::of(0.0); 3];
+        let zero = N::constant(0.0);
+        let [mut loss, mut sliding, mut work] = [zero; 3];
         for (k, ratio) in ratios.iter_mut().enumerate() {
-            let most = self.strength(k, x, free, loaded).times(Self::factor(k, state.strength));
+            let most = self.strength(k, x, free, loaded).by(Self::factor(k, state.strength));
             if k == FABRIC {
                 let stiffness = self.turning(usual.bearing(state.coordination)) * over;
                 *ratio = reoriented(ratio, &distortion, stiffness, most, self.forgetting);
                 continue;
             }
             let stiffness = stiffening.times(self.elements[k].stiffness);
-            let reopened = if opens { self.reopening } else { 0.0 };
-            let faded = scaled(ratio, opened.times(self.elements[k].power + reopened).exp());
+            let power = self.elements[k].power;
+            let faded =
+                before.where_above(tried, opened.times(power + self.reopening), opened.times(power)).exp();
+            let faded = scaled(ratio, faded);
             let faded = within(&faded, most).0;
             let added = scaled(&distortion, stiffness * over);
-            let elastic: Tensor<N> = std::array::from_fn(|c| faded[c] - added[c]);
+            let elastic: Tensor<N> = six!(c => faded[c] - added[c]);
             let (kept, excess, length) = within(&elastic, most);
             *ratio = kept;
-            if let Some(excess) = excess {
-                let slid = excess * after * stiffness.inverse();
-                sliding = sliding + slid;
-                work = work + slid * most;
-                if k == FIRST {
-                    loss = slid * self.lost(state, usual, loaded, (&elastic, length));
-                }
+            let slid = excess * after * stiffness.inverse();
+            sliding = sliding + slid;
+            work = work + slid * most;
+            if k == FIRST {
+                loss = slid * self.lost(state, usual, loaded, (&elastic, length));
             }
         }
-        let least = work.times(-MOST_CLIMBING);
-        if loss.value() < least.value() {
-            loss = least;
-        }
+        loss = loss.not_below_number(work.times(-MOST_CLIMBING));
         // What the stress of the fabric does is stored in the compression.
         let middle = sum(&state.ratios[FABRIC], &ratios[FABRIC]);
         loss = loss + contraction(&middle, &distortion).times(0.5);
         let [s0, s1, s2, s3] = self.settling;
-        if opens {
-            let usual = Self::exponential(x, -s2).times(s1);
-            let level = after * usual.inverse();
-            let always = free.times(-s3).plus(s3);
-            loss = loss + (before - tried) * ((level * level).plus(1.0).inverse().times(s0) + always);
-        }
-        let loss = if loss.value() < tried.value() { loss } else { tried };
+        let usual = Self::exponential(x, -s2).times(s1);
+        let level = after * usual.inverse();
+        let always = free.times(-s3).plus(s3);
+        let settled = (before - tried) * ((level * level).plus(1.0).inverse().times(s0) + always);
+        let loss = (loss + before.where_above(tried, settled, zero)).not_above_number(tried);
         let compression = tried - loss;
         // Contacts keep their directions where grains give way.
-        let kept = compression.at_least(LEAST_COMPRESSION) * before.inverse();
+        let kept = compression.not_below(LEAST_COMPRESSION) * before.inverse();
         ratios[FABRIC] = scaled(&ratios[FABRIC], kept.power(self.elements[FABRIC].power));
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         // Where packings are about to lose their load, v is small beside any sliding.
         let soft = after.plus(SOFT).inverse();
-        let left = free * (sliding * soft).times(-self.mobilising).at_least(-MOST_EXPONENT).exp();
+        let left = free * (sliding * soft).times(-self.mobilising).not_below(-MOST_EXPONENT).exp();
         let mobilised = left.times(-1.0).plus(1.0);
-        State { jamming, compression, ratios, mobilised, ..*state }
+        let after = State { jamming, compression, ratios, mobilised, ..*state };
+        // Grains that do not touch forget the deviator.
+        let apart = State { compression: tried, ratios: [[zero; 6]; ELEMENTS], ..*state };
+        State::where_greater([tried.value(), N::Values::zero()], &after, &apart)
     }
 }
 
 /// The stress ratio of the fabric after a shear strain: dη = −c de/v − (c/M) (α + (1 − α) f²) η |de|/v with f = (η·t)₊/M and the
 /// direction t of −de, so that it goes to its strength M along t; `stiffness` is c/v, `always` is α: with 1 it would be the rule of
 /// Armstrong and Frederick, with 0 small cycles would hardly change the fabric.
+#[inline(always)]
 fn reoriented<N: Number>(
     ratio: &Tensor<N>,
     distortion: &Tensor<N>,
@@ -298,20 +325,20 @@ fn reoriented<N: Number>(
 ) -> Tensor<N> {
     let ratio = within(ratio, most).0;
     let over = most.inverse();
-    let size = contraction(distortion, distortion).plus(TINY).sqrt();
-    let near = (contraction(&ratio, distortion) * (size * most).inverse()).times(-1.0).at_least(0.0);
+    let size = contraction(distortion, distortion).plus(TINY).root();
+    let near = (contraction(&ratio, distortion) * (size * most).inverse()).times(-1.0).not_below(0.0);
     let forgets = (near * near).times(1.0 - always).plus(always);
-    let rate = (stiffness * size * forgets * over).at_most(MOST_RATE);
-    let left = libm::exp(-rate.value());
-    let kept = rate.chain(left, -left);
+    let rate = (stiffness * size * forgets * over).not_above(MOST_RATE);
+    let (value, one) = (rate.value(), N::Values::all(1.0));
+    let gone = elementary::exp_less_one(N::Values::zero() - value);
+    let left = one + gone;
+    let kept = rate.chain(left, N::Values::zero() - left);
     // (1 − e^(−rate))/rate.
-    let share = if rate.value() > LEAST_RATE {
-        rate.chain(-libm::expm1(-rate.value()), left) * rate.inverse()
-    } else {
-        rate.times(-0.5).plus(1.0)
-    };
+    let least = N::constant(LEAST_RATE);
+    let ratio_of_gone = rate.chain(N::Values::zero() - gone, left) * rate.not_below(LEAST_RATE).inverse();
+    let share = rate.where_above(least, ratio_of_gone, rate.times(-0.5).plus(1.0));
     let added = share * stiffness;
-    let reached: Tensor<N> = std::array::from_fn(|c| ratio[c] * kept - distortion[c] * added);
+    let reached: Tensor<N> = six!(c => ratio[c] * kept - distortion[c] * added);
     within(&reached, most).0
 }
 
@@ -322,24 +349,32 @@ const MOST_RATE: f64 = 30.0;
 
 /// The size of a part of a strain over the elastic compression, at most; as long as there are not more than [`MOST_PARTS`].
 const PART: f64 = 0.1;
-const MOST_PARTS: f64 = 16.0;
+const MOST_PARTS: u32 = 16;
 
 /// Number of equal parts in which a strain is applied: the more, the larger what it strains the contacts is beside the elastic
 /// compression v, or the gap that is left where grains do not touch (v below 0), because stress and strengths follow from v.
-fn parts<N: Number>(compression: f64, strain: &Strain<N>) -> u32 {
-    let [xx, yy, zz, xy, xz, yz] = strain.cell.map(Number::value);
-    let thermal = strain.thermal.value();
-    let contacts = [xx - thermal, yy - thermal, zz - thermal, 0.5 * xy, 0.5 * xz, 0.5 * yz];
+#[inline(always)]
+fn parts<V: Arithmetic>(compression: V, thermal: V, cell: Tensor<V>) -> V {
+    let [xx, yy, zz, xy, xz, yz] = cell;
+    let (half, one, most) = (V::all(0.5), V::all(1.0), V::all(f64::from(MOST_PARTS)));
+    let contacts = [xx - thermal, yy - thermal, zz - thermal, half * xy, half * xz, half * yz];
     let size = contraction(&contacts, &contacts).sqrt();
-    let v = compression.abs().max(LEAST_COMPRESSION);
-    (size / (PART * v)).ceil().clamp(1.0, MOST_PARTS) as u32
+    let v = compression.abs().at_least(V::all(LEAST_COMPRESSION));
+    let needed = (size / (V::all(PART) * v)).at_most(most);
+    // The next integer.
+    let (half, rounder) = (V::all(0.5), V::all(ROUNDER));
+    let below = (needed - half + rounder) - rounder;
+    needed.where_greater(below, below + one, below).at_least(one)
 }
 
+/// 2^52 and half of it, among numbers of which all are integers: a sum with it is rounded to one.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
 /// The tensor, shortened to `most` where it is longer; then by how much it was longer, and its length.
-pub(super) fn within<N: Number>(tensor: &Tensor<N>, most: N) -> (Tensor<N>, Option<N>, N) {
-    let length = contraction(tensor, tensor).plus(TINY).sqrt();
-    if length.value() <= most.value() * SLACK {
-        return (*tensor, None, length);
-    }
-    (scaled(tensor, most * length.inverse()), Some(length - most), length)
+#[inline(always)]
+pub(super) fn within<N: Number>(tensor: &Tensor<N>, most: N) -> (Tensor<N>, N, N) {
+    let length = contraction(tensor, tensor).plus(TINY).root();
+    let (limit, one, zero) = (most.times(SLACK), N::constant(1.0), N::constant(0.0));
+    let factor = length.where_above(limit, most * length.inverse(), one);
+    (scaled(tensor, factor), length.where_above(limit, length - most, zero), length)
 }

@@ -1,12 +1,14 @@
 //! The model of spheres: law and readouts, and their file.
 
 use super::law::{Law, Strain};
-use super::number::Dual;
+use super::number::{Differentiable, Dual, Number};
 use super::readout::Readout;
 use super::state::{ELEMENTS, Known, State};
-use super::tensor::{Rotation, Tensor, contraction};
+use super::tensor::{Tensor, contraction, mean, rotation, six, three};
 use crate::SurrogateError;
 use crate::document::{field, hash, json, schema};
+use crate::kernel::vector::{Arithmetic, Vector};
+use crate::kernel::{LANES, Lanes, Task, dispatch_narrow};
 use crate::options::TrainingOptions;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
@@ -134,36 +136,133 @@ fn limited(value: f64, [low, high]: [f64; 2]) -> f64 {
     if value > low { value.min(high) } else { low }
 }
 
-/// A number of at most this size; 0 for one that is none.
-fn small(value: f64, most: f64) -> f64 {
-    if value.is_nan() { 0.0 } else { value.clamp(-most, most) }
+/// The same of several cells.
+#[inline(always)]
+fn between<V: Arithmetic>(value: V, [low, high]: [f64; 2]) -> V {
+    value.within(V::all(low), V::all(high))
+}
+
+/// Numbers of at most this size; 0 for those that are none.
+#[inline(always)]
+fn small<V: Arithmetic>(value: V, most: f64) -> V {
+    value.abs().where_greater(V::all(-1.0), between(value, [-most, most]), V::zero())
 }
 
 /// The columns of a state.
-pub fn columns(state: &State) -> [f64; COLUMNS] {
-    let mut columns = [0.0; COLUMNS];
+#[inline(always)]
+pub fn columns<V: Arithmetic + Number<Values = V>>(state: &State<V>) -> [V; COLUMNS] {
+    let mut columns = [V::zero(); COLUMNS];
     let State { jamming, compression, strength, mobilised, coordination, .. } = *state;
     columns[..SCALARS].copy_from_slice(&[jamming, compression, strength, mobilised, coordination]);
-    for (k, [xx, yy, _, xy, xz, yz]) in state.ratios.into_iter().enumerate() {
+    for (k, &[xx, yy, _, xy, xz, yz]) in state.ratios.iter().enumerate() {
         columns[SCALARS + 5 * k..][..5].copy_from_slice(&[xx, yy, xy, xz, yz]);
     }
     columns
 }
 
 /// The state of columns.
-pub fn state(columns: &[f64; COLUMNS]) -> State {
-    let ratios = std::array::from_fn(|k| {
-        let part = |i: usize| small(columns[SCALARS + 5 * k + i], MOST_RATIO);
-        let (xx, yy) = (part(0), part(1));
-        [xx, yy, -xx - yy, part(2), part(3), part(4)]
-    });
+#[inline(always)]
+pub fn state<V: Arithmetic + Number<Values = V>>(columns: &[V; COLUMNS]) -> State<V> {
+    let mut ratios = [[V::zero(); 6]; ELEMENTS];
+    for (k, ratio) in ratios.iter_mut().enumerate() {
+        let first = SCALARS + 5 * k;
+        let xx = small(columns[first], MOST_RATIO);
+        let yy = small(columns[first + 1], MOST_RATIO);
+        let xy = small(columns[first + 2], MOST_RATIO);
+        let xz = small(columns[first + 3], MOST_RATIO);
+        let yz = small(columns[first + 4], MOST_RATIO);
+        *ratio = [xx, yy, V::zero() - xx - yy, xy, xz, yz];
+    }
     State {
-        jamming: limited(columns[0], JAMMING),
-        compression: limited(columns[1], COMPRESSION),
-        strength: limited(columns[2], STRENGTH),
-        mobilised: limited(columns[3], MOBILISED),
-        coordination: limited(columns[4], COORDINATION),
+        jamming: between(columns[0], JAMMING),
+        compression: between(columns[1], COMPRESSION),
+        strength: between(columns[2], STRENGTH),
+        mobilised: between(columns[3], MOBILISED),
+        coordination: between(columns[4], COORDINATION),
         ratios,
+    }
+}
+
+/// What is asked for a block of cells, in columns: the state before, the strain and rotation of [`Increment`], and the number of the gas.
+#[derive(Clone, Debug)]
+pub struct Block {
+    pub state: [Lanes; COLUMNS],
+    pub thermal: Lanes,
+    pub cell: [Lanes; 6],
+    pub rotation: [Lanes; 3],
+    pub gas_number: Lanes,
+}
+
+impl Default for Block {
+    fn default() -> Self {
+        let zero = [0.0; LANES];
+        Self { state: [zero; COLUMNS], thermal: zero, cell: [zero; 6], rotation: [zero; 3], gas_number: zero }
+    }
+}
+
+/// The answers for a block, in columns: those of [`Answer`], `outside` as 1 or 0.
+#[derive(Clone, Debug)]
+pub struct Answers {
+    pub state: [Lanes; COLUMNS],
+    pub stress: [Lanes; 6],
+    pub tangent: [[Lanes; 6]; 6],
+    pub contact: [Lanes; 6],
+    pub gas: Lanes,
+    pub solid: Lanes,
+    pub coordination: Lanes,
+    pub outside: Lanes,
+}
+
+impl Default for Answers {
+    fn default() -> Self {
+        let zero = [0.0; LANES];
+        Self {
+            state: [zero; COLUMNS],
+            stress: [zero; 6],
+            tangent: [[zero; 6]; 6],
+            contact: [zero; 6],
+            gas: zero,
+            solid: zero,
+            coordination: zero,
+            outside: zero,
+        }
+    }
+}
+
+impl Answers {
+    /// The answer for one cell.
+    pub fn at(&self, cell: usize) -> Answer {
+        Answer {
+            state: self.state.map(|column| column[cell]),
+            stress: self.stress.map(|column| column[cell]),
+            tangent: self.tangent.map(|row| row.map(|column| column[cell])),
+            contact: self.contact.map(|column| column[cell]),
+            gas: self.gas[cell],
+            solid: self.solid[cell],
+            coordination: self.coordination[cell],
+            outside: self.outside[cell] > 0.0,
+        }
+    }
+}
+
+/// The work of [`SphereModel::advance_block`].
+struct Advance<'a> {
+    model: &'a SphereModel,
+    block: &'a Block,
+    cells: usize,
+    tangent: bool,
+    answers: &'a mut Answers,
+}
+
+impl Task for Advance<'_> {
+    #[inline(always)]
+    fn run<V: Vector>(self) {
+        for first in (0..self.cells).step_by(V::WIDTH) {
+            match self.tangent {
+                true => self.model.some::<V, Dual<V>>(self.block, first, self.answers),
+                false => self.model.some::<V, V>(self.block, first, self.answers),
+            }
+        }
     }
 }
 
@@ -228,55 +327,82 @@ impl SphereModel {
         gas_number: f64,
         tangent: bool,
     ) -> Answer {
-        let law = &self.file.law;
-        let from = state(before);
-        let thermal = small(strain.thermal, MOST_STRAIN);
-        let cell = strain.cell.map(|part| small(part, MOST_STRAIN));
-        let half = super::tensor::rotation(strain.rotation.map(|angle| 0.5 * small(angle, 1.0)));
-        let still = strain == &Increment::default();
-        let (next, derivatives) = if tangent {
-            self.with_tangent(&from, thermal, cell, &half)
-        } else {
-            let next = if still { from } else { law.advanced(&from, &Strain { thermal, cell }, &half) };
-            (next, [[0.0; 6]; 6])
+        let all = |value: f64| [value; LANES];
+        let block = Block {
+            state: before.map(all),
+            thermal: all(strain.thermal),
+            cell: strain.cell.map(all),
+            rotation: strain.rotation.map(all),
+            gas_number: all(gas_number),
         };
-        // As it is read again from its columns, so that it answers the same then, to the last bit.
-        let next = if still { from } else { state(&columns(&next)) };
+        let mut answers = Answers::default();
+        self.advance_block(&block, 1, tangent, &mut answers);
+        answers.at(0)
+    }
+
+    /// Strains the first `cells` of a block. The answer for a cell does not depend on the others, nor on the processor. That for others
+    /// of the block stays as it is or is that of their columns; the tangent stays where it is not asked for.
+    pub fn advance_block(&self, block: &Block, cells: usize, tangent: bool, answers: &mut Answers) {
+        dispatch_narrow(Advance { model: self, block, cells: cells.min(LANES), tangent, answers });
+    }
+
+    /// The answers for the cells from `first` on, by numbers with their derivatives or without.
+    #[inline(always)]
+    fn some<V: Vector, N: Differentiable<V>>(&self, block: &Block, first: usize, answers: &mut Answers) {
+        let law = &self.file.law;
+        let mut before = [V::zero(); COLUMNS];
+        for (value, column) in before.iter_mut().zip(&block.state) {
+            *value = V::read(&column[first..]);
+        }
+        let from = state(&before);
+        let thermal = small(V::read(&block.thermal[first..]), MOST_STRAIN);
+        let cell = six!(k => small(V::read(&block.cell[k][first..]), MOST_STRAIN));
+        let turn = three!(k => small(V::read(&block.rotation[k][first..]), 1.0));
+        // 0 where nothing happens.
+        let mut moved = thermal.abs();
+        for part in cell.iter().chain(&turn) {
+            moved = moved + part.abs();
+        }
+        let mut next = from;
+        if N::DIFFERENTIATES || moved.any_greater(V::zero()) {
+            let strain = Strain { thermal, cell: N::strains(cell) };
+            let half = rotation(three!(k => turn[k] * V::all(0.5)));
+            let reached = law.advanced(&State::<N>::fixed(&from), &strain, &half);
+            if N::DIFFERENTIATES {
+                let stress = law.stress(&reached);
+                for (row, part) in answers.tangent.iter_mut().zip(&stress) {
+                    for (column, by) in row.iter_mut().zip(&part.derivatives()) {
+                        (V::zero() - *by).write(&mut column[first..]);
+                    }
+                }
+            }
+            // As it is read again from its columns, so that it answers the same then, to the last bit.
+            let reached = state(&columns(&reached.values()));
+            next = State::where_greater([moved, V::zero()], &reached, &from);
+        }
         let stress = law.stress(&next);
         let ratio = next.ratio();
         let Ranges { jamming_fraction, pressure, stress_ratio } = self.file.ranges;
-        let within = |range: Range, value: f64| range.min <= value && value <= range.max;
-        let inside = within(jamming_fraction, next.jamming)
-            && super::tensor::mean(stress) <= pressure.max
-            && contraction(&ratio, &ratio) <= stress_ratio * stress_ratio;
-        Answer {
-            state: if still { *before } else { columns(&next) },
-            stress,
-            tangent: derivatives,
-            contact: self.file.readout.contact(&next, &stress),
-            gas: self.file.readout.gas(&next, gas_number),
-            solid: next.solid(),
-            coordination: next.coordination,
-            outside: !inside,
+        let (zero, one) = (V::zero(), V::all(1.0));
+        let outside = V::all(jamming_fraction.min).where_greater(next.jamming, one, zero);
+        let outside = next.jamming.where_greater(V::all(jamming_fraction.max), one, outside);
+        let outside = mean(stress).where_greater(V::all(pressure.max), one, outside);
+        let most = V::all(stress_ratio * stress_ratio);
+        let outside = contraction(&ratio, &ratio).where_greater(most, one, outside);
+        let readout = &self.file.readout;
+        // After no strain the state before, bit for bit.
+        for ((column, value), before) in answers.state.iter_mut().zip(&columns(&next)).zip(&before) {
+            moved.where_greater(zero, *value, *before).write(&mut column[first..]);
         }
-    }
-
-    fn with_tangent(
-        &self,
-        from: &State,
-        thermal: f64,
-        cell: Tensor,
-        half: &Rotation,
-    ) -> (State, [Tensor; 6]) {
-        let law = &self.file.law;
-        let mut k = 0;
-        let cell = cell.map(|part| {
-            k += 1;
-            Dual::strain(part, k - 1)
-        });
-        let strain = Strain { thermal: super::number::Number::of(thermal), cell };
-        let next = law.advanced(&from.fixed::<Dual>(), &strain, half);
-        let stress = law.stress(&next);
-        (next.value(), stress.map(|component| component.by.map(|by| -by)))
+        for (column, value) in answers.stress.iter_mut().zip(&stress) {
+            value.write(&mut column[first..]);
+        }
+        for (column, value) in answers.contact.iter_mut().zip(&readout.contact(&next, &stress)) {
+            value.write(&mut column[first..]);
+        }
+        readout.gas(&next, V::read(&block.gas_number[first..])).write(&mut answers.gas[first..]);
+        next.solid().write(&mut answers.solid[first..]);
+        next.coordination.write(&mut answers.coordination[first..]);
+        outside.write(&mut answers.outside[first..]);
     }
 }

@@ -1,118 +1,221 @@
-//! Numbers in which the law is evaluated: values, or values with their derivatives by the six strains, so that the tangent
-//! is the derivative of exactly the stress that is answered.
+//! Numbers in which the law is evaluated: values of one cell or of several, or values with their derivatives by the six strains, so
+//! that the tangent is the derivative of exactly the stress that is answered.
 
+use super::tensor::six;
+use crate::kernel::elementary;
+use crate::kernel::vector::Arithmetic;
 use std::ops::{Add, Mul, Sub};
 
 /// Number of strains by which is differentiated.
 const STRAINS: usize = 6;
 
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    /// A value that does not depend on the strain.
-    fn of(value: f64) -> Self;
-    fn value(self) -> f64;
-    /// f(self), from value and derivative of f there.
-    fn chain(self, value: f64, derivative: f64) -> Self;
+    type Values: Arithmetic;
 
-    fn plus(self, addend: f64) -> Self {
-        self.chain(self.value() + addend, 1.0)
+    /// Values that do not depend on the strain.
+    fn of(values: Self::Values) -> Self;
+    fn value(self) -> Self::Values;
+    /// f(self), from values and derivatives of f there.
+    fn chain(self, value: Self::Values, derivative: Self::Values) -> Self;
+    /// The values with another added, whose derivative is 0.
+    fn plus_values(self, addend: Self::Values) -> Self;
+    /// `this` where `self` > `than`, `other` elsewhere.
+    fn where_above(self, than: Self, this: Self, other: Self) -> Self;
+
+    /// The same value in all cells.
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        Self::of(Self::Values::all(value))
     }
+    #[inline(always)]
+    fn plus(self, addend: f64) -> Self {
+        self.plus_values(Self::Values::all(addend))
+    }
+    #[inline(always)]
     fn times(self, factor: f64) -> Self {
+        self.by(Self::Values::all(factor))
+    }
+    #[inline(always)]
+    fn by(self, factor: Self::Values) -> Self {
         self.chain(self.value() * factor, factor)
     }
+    #[inline(always)]
     fn squared(self) -> Self {
-        self.chain(self.value() * self.value(), 2.0 * self.value())
+        self.chain(self.value() * self.value(), self.value() + self.value())
     }
     /// Of values above 0.
-    fn sqrt(self) -> Self {
+    #[inline(always)]
+    fn root(self) -> Self {
         let root = self.value().sqrt();
-        self.chain(root, 0.5 / root)
+        self.chain(root, Self::Values::all(0.5) / root)
     }
+    #[inline(always)]
     fn inverse(self) -> Self {
-        let inverse = 1.0 / self.value();
-        self.chain(inverse, -inverse * inverse)
+        let inverse = Self::Values::all(1.0) / self.value();
+        self.chain(inverse, Self::Values::zero() - inverse * inverse)
     }
+    /// Of values from -700 to 700; beyond, it is that of these.
+    #[inline(always)]
     fn exp(self) -> Self {
-        let value = libm::exp(self.value());
+        let value = elementary::exp(self.value());
         self.chain(value, value)
     }
-    /// Of values above 0.
+    /// Of values above 1e-307.
+    #[inline(always)]
     fn ln(self) -> Self {
         let value = self.value();
-        self.chain(libm::log(value), 1.0 / value)
+        self.chain(elementary::ln(value), Self::Values::all(1.0) / value)
     }
-    /// Of values above 0.
+    /// Of values above 1e-307.
+    #[inline(always)]
     fn power(self, exponent: f64) -> Self {
-        let value = libm::pow(self.value(), exponent);
-        self.chain(value, exponent * value / self.value())
+        self.ln().times(exponent).exp()
     }
-    fn at_least(self, least: f64) -> Self {
-        if self.value() > least { self } else { Self::of(least) }
+    #[inline(always)]
+    fn not_below(self, least: f64) -> Self {
+        self.not_below_number(Self::constant(least))
     }
-    fn at_most(self, most: f64) -> Self {
-        if self.value() < most { self } else { Self::of(most) }
+    #[inline(always)]
+    fn not_above(self, most: f64) -> Self {
+        self.not_above_number(Self::constant(most))
+    }
+    /// The larger one; `least` when they are equal.
+    #[inline(always)]
+    fn not_below_number(self, least: Self) -> Self {
+        self.where_above(least, self, least)
+    }
+    /// The smaller one; `most` when they are equal.
+    #[inline(always)]
+    fn not_above_number(self, most: Self) -> Self {
+        most.where_above(self, self, most)
     }
 }
 
-impl Number for f64 {
-    fn of(value: f64) -> Self {
-        value
+impl<V: Arithmetic> Number for V {
+    type Values = V;
+
+    #[inline(always)]
+    fn of(values: V) -> Self {
+        values
     }
-    fn value(self) -> f64 {
+    #[inline(always)]
+    fn value(self) -> V {
         self
     }
-    fn chain(self, value: f64, _: f64) -> Self {
+    #[inline(always)]
+    fn chain(self, value: V, _: V) -> Self {
         value
     }
+    #[inline(always)]
+    fn plus_values(self, addend: V) -> Self {
+        self + addend
+    }
+    #[inline(always)]
+    fn where_above(self, than: Self, this: Self, other: Self) -> Self {
+        self.where_greater(than, this, other)
+    }
 }
 
-/// A value and its derivatives by the strains.
+/// Values and their derivatives by the strains.
 #[derive(Clone, Copy, Debug)]
-pub struct Dual {
-    pub value: f64,
-    pub by: [f64; STRAINS],
+pub struct Dual<V> {
+    pub value: V,
+    pub by: [V; STRAINS],
 }
 
-impl Dual {
-    /// Strain number `k` itself.
-    pub fn strain(value: f64, k: usize) -> Self {
-        let mut by = [0.0; STRAINS];
-        by[k] = 1.0;
-        Self { value, by }
-    }
-}
+impl<V: Arithmetic> Number for Dual<V> {
+    type Values = V;
 
-impl Number for Dual {
-    fn of(value: f64) -> Self {
-        Self { value, by: [0.0; STRAINS] }
+    #[inline(always)]
+    fn of(values: V) -> Self {
+        Self { value: values, by: [V::zero(); STRAINS] }
     }
-    fn value(self) -> f64 {
+    #[inline(always)]
+    fn value(self) -> V {
         self.value
     }
-    fn chain(self, value: f64, derivative: f64) -> Self {
-        Self { value, by: self.by.map(|by| by * derivative) }
+    #[inline(always)]
+    fn chain(self, value: V, derivative: V) -> Self {
+        Self { value, by: six!(k => self.by[k] * derivative) }
+    }
+    #[inline(always)]
+    fn plus_values(self, addend: V) -> Self {
+        Self { value: self.value + addend, ..self }
+    }
+    #[inline(always)]
+    fn where_above(self, than: Self, this: Self, other: Self) -> Self {
+        let (a, b) = (self.value, than.value);
+        Self {
+            value: a.where_greater(b, this.value, other.value),
+            by: six!(k => a.where_greater(b, this.by[k], other.by[k])),
+        }
     }
 }
 
-impl Add for Dual {
+impl<V: Arithmetic> Add for Dual<V> {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, by: std::array::from_fn(|k| self.by[k] + other.by[k]) }
+        Self { value: self.value + other.value, by: six!(k => self.by[k] + other.by[k]) }
     }
 }
 
-impl Sub for Dual {
+impl<V: Arithmetic> Sub for Dual<V> {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self { value: self.value - other.value, by: std::array::from_fn(|k| self.by[k] - other.by[k]) }
+        Self { value: self.value - other.value, by: six!(k => self.by[k] - other.by[k]) }
     }
 }
 
-impl Mul for Dual {
+impl<V: Arithmetic> Mul for Dual<V> {
     type Output = Self;
-    // The product rule adds.
-    #[expect(clippy::suspicious_arithmetic_impl)]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let by = std::array::from_fn(|k| self.by[k] * other.value + other.by[k] * self.value);
-        Self { value: self.value * other.value, by }
+        Self {
+            value: self.value * other.value,
+            by: six!(k => self.by[k].fused(other.value, other.by[k] * self.value)),
+        }
+    }
+}
+
+/// Values, or values with derivatives, of a strain.
+pub trait Differentiable<V: Arithmetic>: Number<Values = V> {
+    /// Whether they have derivatives.
+    const DIFFERENTIATES: bool;
+
+    /// The strains themselves.
+    fn strains(values: [V; STRAINS]) -> [Self; STRAINS];
+    /// Derivatives by the strains; 0 without.
+    fn derivatives(self) -> [V; STRAINS];
+}
+
+impl<V: Arithmetic> Differentiable<V> for V {
+    const DIFFERENTIATES: bool = false;
+
+    #[inline(always)]
+    fn strains(values: [V; STRAINS]) -> [Self; STRAINS] {
+        values
+    }
+    #[inline(always)]
+    fn derivatives(self) -> [V; STRAINS] {
+        [V::zero(); STRAINS]
+    }
+}
+
+impl<V: Arithmetic> Differentiable<V> for Dual<V> {
+    const DIFFERENTIATES: bool = true;
+
+    #[inline(always)]
+    fn strains(values: [V; STRAINS]) -> [Self; STRAINS] {
+        six!(k => {
+            let mut by = [V::zero(); STRAINS];
+            by[k] = V::all(1.0);
+            Self { value: values[k], by }
+        })
+    }
+    #[inline(always)]
+    fn derivatives(self) -> [V; STRAINS] {
+        self.by
     }
 }

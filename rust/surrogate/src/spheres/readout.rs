@@ -4,8 +4,9 @@
 //! (Batchelor and O'Brien, 1977, Proc. R. Soc. A 355:313), with more of it along the larger stress and along more contacts. C grows
 //! with the number of contacts. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
 
+use super::number::Number;
 use super::state::{FABRIC, State};
-use super::tensor::{Tensor, contraction, mean};
+use super::tensor::{Tensor, contraction, mean, scaled, six, three};
 use serde::{Deserialize, Serialize};
 
 /// Numbers ln(R/h) of the gas for which κ_g is known: h is the width of the gap at a contact, for heat.
@@ -37,74 +38,93 @@ const CONTACTS: [f64; 2] = [2.0, 9.0];
 const SOLID: [f64; 2] = [-0.1, 0.15];
 
 /// √v, v and n.
-fn common(state: &State) -> [f64; 3] {
-    let v = state.compression.clamp(0.0, MOST_COMPRESSION);
-    [v.sqrt(), v, state.coordination.clamp(CONTACTS[0], CONTACTS[1]) - USUAL_CONTACTS]
+#[inline(always)]
+fn common<N: Number>(state: &State<N>) -> [N; 3] {
+    let v = state.compression.not_below(0.0).not_above(MOST_COMPRESSION);
+    let contacts = state.coordination.not_below(CONTACTS[0]).not_above(CONTACTS[1]);
+    [v.root(), v, contacts.plus(-USUAL_CONTACTS)]
 }
 
-pub fn contact_row(state: &State) -> [f64; 10] {
+#[inline(always)]
+pub fn contact_row<N: Number>(state: &State<N>) -> [N; 10] {
     let ([s, v, n], ratio, free) = (common(state), state.ratio(), state.free());
-    [1.0, n, n * n, s, v, n * s, state.density(), contraction(&ratio, &ratio).sqrt(), free, free * n]
+    let length = contraction(&ratio, &ratio).root();
+    [N::constant(1.0), n, n * n, s, v, n * s, state.density(), length, free, free * n]
 }
 
 /// η without the fabric's part, and that.
-pub fn directions(state: &State) -> [Tensor; 2] {
+#[inline(always)]
+pub fn directions<N: Number>(state: &State<N>) -> [Tensor<N>; 2] {
     let (all, fabric) = (state.ratio(), state.ratios[FABRIC]);
-    [std::array::from_fn(|k| all[k] - fabric[k]), fabric]
+    [six!(k => all[k] - fabric[k]), fabric]
 }
 
 /// κ_c over its mean, with the coefficients of [`Readout::direction`].
-pub fn relative([of_elastic, of_fabric]: &[f64; 2], state: &State) -> Tensor {
+#[inline(always)]
+pub fn relative<N: Number>([of_elastic, of_fabric]: &[f64; 2], state: &State<N>) -> Tensor<N> {
     let [elastic, fabric] = directions(state);
-    let ratio: Tensor = std::array::from_fn(|k| of_elastic * elastic[k] + of_fabric * fabric[k]);
-    let length = contraction(&ratio, &ratio).sqrt();
-    let limit = if length > MOST_DEVIATOR { MOST_DEVIATOR / length } else { 1.0 };
-    std::array::from_fn(|k| f64::from(u8::from(k < 3)) + limit * ratio[k])
+    let ratio: Tensor<N> = six!(k => elastic[k].times(*of_elastic) + fabric[k].times(*of_fabric));
+    let length = contraction(&ratio, &ratio).root();
+    let limit = length.not_below(MOST_DEVIATOR).inverse().times(MOST_DEVIATOR);
+    let [xx, yy, zz, xy, xz, yz] = scaled(&ratio, limit);
+    [xx.plus(1.0), yy.plus(1.0), zz.plus(1.0), xy, xz, yz]
 }
 
-pub fn gas_row(state: &State) -> [f64; 8] {
+#[inline(always)]
+pub fn gas_row<N: Number>(state: &State<N>) -> [N; 8] {
     let [s, v, n] = common(state);
-    let y = (state.solid() - 0.6).clamp(SOLID[0], SOLID[1]);
-    [1.0, y, y * y, s, v, s * y, n, n * s]
+    let y = state.solid().plus(-0.6).not_below(SOLID[0]).not_above(SOLID[1]);
+    [N::constant(1.0), y, y * y, s, v, s * y, n, n * s]
 }
 
 /// Contacts per sphere from which n is counted.
 const USUAL_CONTACTS: f64 = 5.5;
 
-fn product<const M: usize>(row: &[f64; M], coefficients: &[f64; M]) -> f64 {
-    row.iter().zip(coefficients).map(|(a, b)| a * b).sum()
+#[inline(always)]
+fn product<N: Number, const M: usize>(row: &[N; M], coefficients: &[f64; M]) -> N {
+    let mut sum = row[0].times(coefficients[0]);
+    for k in 1..M {
+        sum = sum + row[k].times(coefficients[k]);
+    }
+    sum
 }
 
 impl Readout {
     /// κ_c of a state with this stress over E*; 0 without load.
-    pub fn contact(&self, state: &State, stress: &Tensor) -> Tensor {
-        let pressure = mean(*stress);
-        if pressure <= 0.0 {
-            return [0.0; 6];
-        }
-        let size = product(&contact_row(state), &self.contact).max(LEAST_CONTACT) * libm::cbrt(pressure);
-        relative(&self.direction, state).map(|part| size * part)
+    #[inline(always)]
+    pub fn contact<N: Number>(&self, state: &State<N>, stress: &Tensor<N>) -> Tensor<N> {
+        let (pressure, zero) = (mean(*stress), N::constant(0.0));
+        let per_root = product(&contact_row(state), &self.contact).not_below(LEAST_CONTACT);
+        let size = per_root * pressure.not_below(LEAST_PRESSURE).power(1.0 / 3.0);
+        let size = pressure.where_above(zero, size, zero);
+        let [xx, yy, zz, xy, xz, yz] = scaled(&relative(&self.direction, state), size);
+        // The sums with zero make it 0, and not −0, where there is no load.
+        [xx, yy, zz, xy + zero, xz + zero, yz + zero]
     }
 
     /// κ_g at each of [`GAS_NUMBERS`].
-    pub fn gases(&self, state: &State) -> [f64; 3] {
+    #[inline(always)]
+    pub fn gases<N: Number>(&self, state: &State<N>) -> [N; 3] {
         let row = gas_row(state);
-        self.gas.map(|coefficients| product(&row, &coefficients).clamp(GAS[0], GAS[1]))
+        three!(k => product(&row, &self.gas[k]).not_below(GAS[0]).not_above(GAS[1]))
     }
 
     /// κ_g at a number of the gas.
-    pub fn gas(&self, state: &State, number: f64) -> f64 {
+    #[inline(always)]
+    pub fn gas<N: Number>(&self, state: &State<N>, number: N) -> N {
         let [a, b, c] = GAS_NUMBERS;
         let [low, high] = GAS_RANGE;
-        let n = number.clamp(low, high);
-        let weights = [
-            (n - b) * (n - c) / ((a - b) * (a - c)),
-            (n - a) * (n - c) / ((b - a) * (b - c)),
-            (n - a) * (n - b) / ((c - a) * (c - b)),
-        ];
-        product(&self.gases(state), &weights).max(GAS[0])
+        let n = number.not_below(low).not_above(high);
+        let [of_a, of_b, of_c] = self.gases(state);
+        let [to_a, to_b, to_c] = [n.plus(-a), n.plus(-b), n.plus(-c)];
+        let sum = of_a * (to_b * to_c).times(1.0 / ((a - b) * (a - c)))
+            + of_b * (to_a * to_c).times(1.0 / ((b - a) * (b - c)))
+            + of_c * (to_a * to_b).times(1.0 / ((c - a) * (c - b)));
+        sum.not_below(GAS[0])
     }
 }
 
+/// Least p/E* of which a root is taken.
+const LEAST_PRESSURE: f64 = 1e-100;
 /// Least C: a third of that of the loosest packings.
 const LEAST_CONTACT: f64 = 0.25;

@@ -1,7 +1,8 @@
 //! The state of a cell, and what may be known of it at the start.
 
 use super::number::Number;
-use super::tensor::{Tensor, sum};
+use super::tensor::{Tensor, six, sum};
+use crate::kernel::vector::Arithmetic;
 
 /// Number of elements, each of which bears a part of the deviator. The last is that of the fabric.
 pub const ELEMENTS: usize = 4;
@@ -20,7 +21,7 @@ pub const POURED: f64 = 0.85;
 
 /// What determines the stress of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<N = f64> {
+pub struct State<N: Number = f64> {
     /// φ_J: the solid fraction at which the packing would bear no load \[-\].
     pub jamming: N,
     /// v = φ/φ_J − 1; negative where the grains do not touch.
@@ -28,7 +29,7 @@ pub struct State<N = f64> {
     /// η_k: parts of the deviator of the stress over A.
     pub ratios: [Tensor<N>; ELEMENTS],
     /// Factor of the strengths, see [`super::law::Law::factor`], which does not change: 1 but for packings that bear more.
-    pub strength: f64,
+    pub strength: N::Values,
     /// Part of the friction that is mobilised, 0 to 1: as where all contacts were made under friction (1), or without any (0).
     pub mobilised: N,
     /// z: contacts per sphere, all spheres counted. By those that bear load the fabric turns.
@@ -46,51 +47,82 @@ pub struct Known {
     pub mobilised: Option<f64>,
 }
 
+/// An array of all elements.
+macro_rules! four {
+    ($k:ident => $of:expr) => {
+        six!([0 1 2 3] $k => $of)
+    };
+}
+
 impl<N: Number> State<N> {
     /// x, between those of the packings of the training.
+    #[inline(always)]
     pub fn density(&self) -> N {
-        self.jamming.plus(-USUAL_FRACTION).at_least(MOST_LOOSE).at_most(MOST_DENSE)
+        self.jamming.plus(-USUAL_FRACTION).not_below(MOST_LOOSE).not_above(MOST_DENSE)
     }
 
     /// g: the part of the friction that is not mobilised.
+    #[inline(always)]
     pub(super) fn free(&self) -> N {
-        self.mobilised.times(-1.0).plus(1.0).at_least(0.0).at_most(1.0)
+        self.mobilised.times(-1.0).plus(1.0).not_below(0.0).not_above(1.0)
     }
 
     /// φ: volume of the grains over the volume \[-\].
+    #[inline(always)]
     pub fn solid(&self) -> N {
         self.jamming + self.jamming * self.compression
     }
 
     /// Deviator of the stress over A.
+    #[inline(always)]
     pub fn ratio(&self) -> Tensor<N> {
         let [first, second, third, fabric] = &self.ratios;
         sum(&sum(first, second), &sum(third, fabric))
     }
 
+    /// A state whose numbers do not depend on the strain.
+    #[inline(always)]
+    pub fn fixed<V: Arithmetic + Number<Values = V>>(state: &State<V>) -> Self
+    where
+        N: Number<Values = V>,
+    {
+        State {
+            jamming: N::of(state.jamming),
+            compression: N::of(state.compression),
+            ratios: four!(k => six!(c => N::of(state.ratios[k][c]))),
+            strength: state.strength,
+            mobilised: N::of(state.mobilised),
+            coordination: N::of(state.coordination),
+        }
+    }
+
     /// The same state without the derivatives by the strain.
-    pub fn value(&self) -> State {
+    #[inline(always)]
+    pub fn values<V: Arithmetic + Number<Values = V>>(&self) -> State<V>
+    where
+        N: Number<Values = V>,
+    {
         State {
             jamming: self.jamming.value(),
             compression: self.compression.value(),
-            ratios: self.ratios.map(|ratio| ratio.map(Number::value)),
-            mobilised: self.mobilised.value(),
+            ratios: four!(k => six!(c => self.ratios[k][c].value())),
             strength: self.strength,
+            mobilised: self.mobilised.value(),
             coordination: self.coordination.value(),
         }
     }
-}
 
-impl State {
-    /// The same state, as numbers that do not depend on the strain.
-    pub fn fixed<N: Number>(&self) -> State<N> {
+    /// `this` where `a` > `b`, `other` elsewhere.
+    #[inline(always)]
+    pub(super) fn where_greater([a, b]: [N::Values; 2], this: &Self, other: &Self) -> Self {
+        let (a, b) = (N::of(a), N::of(b));
         State {
-            jamming: N::of(self.jamming),
-            compression: N::of(self.compression),
-            ratios: self.ratios.map(|ratio| ratio.map(N::of)),
-            mobilised: N::of(self.mobilised),
-            strength: self.strength,
-            coordination: N::of(self.coordination),
+            jamming: a.where_above(b, this.jamming, other.jamming),
+            compression: a.where_above(b, this.compression, other.compression),
+            ratios: four!(k => six!(c => a.where_above(b, this.ratios[k][c], other.ratios[k][c]))),
+            strength: this.strength,
+            mobilised: a.where_above(b, this.mobilised, other.mobilised),
+            coordination: a.where_above(b, this.coordination, other.coordination),
         }
     }
 }

@@ -6,14 +6,35 @@ use super::number::Number;
 pub type Tensor<N = f64> = [N; 6];
 
 /// A rotation matrix, row by row.
-pub type Rotation = [[f64; 3]; 3];
+pub type Rotation<V = f64> = [[V; 3]; 3];
+
+/// An array of so many components. Closures would not always be compiled for the instruction set of their caller.
+macro_rules! six {
+    ($k:ident => $of:expr) => {
+        six!([0 1 2 3 4 5] $k => $of)
+    };
+    ([$($number:literal)*] $k:ident => $of:expr) => {
+        [$({
+            let $k: usize = $number;
+            $of
+        }),*]
+    };
+}
+macro_rules! three {
+    ($k:ident => $of:expr) => {
+        $crate::spheres::tensor::six!([0 1 2] $k => $of)
+    };
+}
+pub(super) use {six, three};
 
 /// A third of the trace.
+#[inline(always)]
 pub fn mean<N: Number>([xx, yy, zz, ..]: Tensor<N>) -> N {
     (xx + yy + zz).times(1.0 / 3.0)
 }
 
 /// The tensor without its mean.
+#[inline(always)]
 pub fn deviator<N: Number>(tensor: Tensor<N>) -> Tensor<N> {
     let mean = mean(tensor);
     let [xx, yy, zz, xy, xz, yz] = tensor;
@@ -21,20 +42,24 @@ pub fn deviator<N: Number>(tensor: Tensor<N>) -> Tensor<N> {
 }
 
 /// Σ_ij a_ij b_ij.
+#[inline(always)]
 pub fn contraction<N: Number>(a: &Tensor<N>, b: &Tensor<N>) -> N {
     let normal = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     normal + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]).times(2.0)
 }
 
+#[inline(always)]
 pub fn sum<N: Number>(a: &Tensor<N>, b: &Tensor<N>) -> Tensor<N> {
-    std::array::from_fn(|k| a[k] + b[k])
+    six!(k => a[k] + b[k])
 }
 
+#[inline(always)]
 pub fn scaled<N: Number>(tensor: &Tensor<N>, factor: N) -> Tensor<N> {
-    tensor.map(|component| component * factor)
+    six!(k => tensor[k] * factor)
 }
 
 /// T T.
+#[inline(always)]
 pub fn square<N: Number>(tensor: &Tensor<N>) -> Tensor<N> {
     let [xx, yy, zz, xy, xz, yz] = *tensor;
     [
@@ -47,36 +72,41 @@ pub fn square<N: Number>(tensor: &Tensor<N>) -> Tensor<N> {
     ]
 }
 
+/// Σ_i v_i a_i.
+#[inline(always)]
+fn along<N: Number>([x, y, z]: [N; 3], axis: [N::Values; 3]) -> N {
+    x.by(axis[0]) + y.by(axis[1]) + z.by(axis[2])
+}
+
 /// R T Rᵀ.
-pub fn turned<N: Number>(tensor: &Tensor<N>, rotation: &Rotation) -> Tensor<N> {
+#[inline(always)]
+pub fn turned<N: Number>(tensor: &Tensor<N>, rotation: &Rotation<N::Values>) -> Tensor<N> {
     let [xx, yy, zz, xy, xz, yz] = *tensor;
     let full = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-    let half: [[N; 3]; 3] = std::array::from_fn(|i| {
-        std::array::from_fn(|j| {
-            full[0][j].times(rotation[i][0])
-                + full[1][j].times(rotation[i][1])
-                + full[2][j].times(rotation[i][2])
-        })
-    });
-    let at = |i: usize, j: usize| {
-        half[i][0].times(rotation[j][0]) + half[i][1].times(rotation[j][1]) + half[i][2].times(rotation[j][2])
-    };
-    [at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(0, 2), at(1, 2)]
+    let half = three!(i => three!(j => along(full[j], rotation[i])));
+    let [x, y, z] = *rotation;
+    [
+        along(half[0], x),
+        along(half[1], y),
+        along(half[2], z),
+        along(half[0], y),
+        along(half[0], z),
+        along(half[1], z),
+    ]
 }
 
 /// The rotation about the direction of a vector by twice the arc tangent of half of its length (Cayley), which for small angles is
 /// the length \[rad\]; counter-clockwise seen from the vector's tip.
-pub fn rotation([x, y, z]: [f64; 3]) -> Rotation {
-    let [x, y, z] = [0.5 * x, 0.5 * y, 0.5 * z];
+#[inline(always)]
+pub fn rotation<V: Number>(vector: [V; 3]) -> Rotation<V> {
+    let [x, y, z] = three!(k => vector[k].times(0.5));
     let square = x * x + y * y + z * z;
-    let over = 1.0 / (1.0 + square);
-    let part = |a: f64, b: f64, c: f64| 2.0 * over * (a * b + c);
-    let diagonal = |a: f64| over * (1.0 - square + 2.0 * a * a);
-    [
-        [diagonal(x), part(x, y, -z), part(x, z, y)],
-        [part(x, y, z), diagonal(y), part(y, z, -x)],
-        [part(x, z, -y), part(y, z, x), diagonal(z)],
-    ]
+    let over = square.plus(1.0).inverse();
+    let (twice, rest) = (over.times(2.0), over - square * over);
+    let [xx, yy, zz] = [x * x * twice + rest, y * y * twice + rest, z * z * twice + rest];
+    let [xy, xz, yz] = [x * y * twice, x * z * twice, y * z * twice];
+    let [x, y, z] = [x * twice, y * twice, z * twice];
+    [[xx, xy - z, xz + y], [xy + z, yy, yz - x], [xz - y, yz + x, zz]]
 }
 
 #[cfg(test)]
