@@ -16,6 +16,8 @@ License
 
 #include "runSummary.H"
 #include "Time.H"
+
+#include <map>
 #include <sstream>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -68,12 +70,38 @@ Foam::string Foam::runSummary::range() const
         " well as it can. At the end "
       + Foam::name(grains_.cellsOutside()) + " of " + Foam::name(cells)
       + " cells are outside (field inRegion is 0 there)."
+      + outsideBy()
       + (
             grains_.model().tellColumns()
           ? " Such cells, at most 10000 of each process, are listed in"
             " postProcessing/msddFoam/offenders.json."
           : ""
         );
+}
+
+
+Foam::string Foam::runSummary::outsideBy() const
+{
+    const std::map<std::string, string> reasons
+    ({
+        {"answers_outside_by_density", "the density at which it jams"},
+        {"answers_outside_by_pressure", "the pressure"},
+        {"answers_outside_by_stress_ratio", "the stress ratio"},
+        {"answers_outside_by_gas", "the gas or its temperature"}
+    });
+    const scalar all = max(scalar(grains_.asked()), 1.0);
+    string found;
+    for (const auto& count : grains_.modelCounts())
+    {
+        const auto reason = reasons.find(count.first);
+        if (reason != reasons.end() && count.second)
+        {
+            found +=
+                (found.empty() ? " By " : ", by ") + reason->second + " "
+              + brief(100*scalar(count.second)/all) + " %";
+        }
+    }
+    return found.empty() ? found : string(found + ".");
 }
 
 
@@ -140,7 +168,7 @@ Foam::string Foam::runSummary::motion() const
         "Grains: they moved by at most " + brief(1e3*moved.displacement)
       + " mm; " + (moved.unconverged
           ? Foam::name(moved.unconverged) + " steps ended out of balance, by at"
-            " most " + brief(moved.residual) + " Pa."
+            " most " + brief(moved.unbalanced) + " Pa."
           : string("the stress was brought into balance in every step."));
 }
 

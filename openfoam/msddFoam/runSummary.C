@@ -118,6 +118,7 @@ void Foam::runSummary::write(const label rejected) const
         << ", \"cut_steps\": " << moved.cut
         << ", \"unconverged_steps\": " << moved.unconverged
         << ", \"residual\": " << moved.residual
+        << ", \"unconverged_residual\": " << moved.unbalanced
         << ", \"displacement\": " << moved.displacement
         << ", \"warnings\": [";
     forAll(moved.warnings, i)

@@ -189,8 +189,12 @@ void Foam::granularMechanicsModels::equilibrium::writeReport() const
         << " steps solved, " << all.iterations << " iterations, " << all.linear
         << " linear, " << all.cut << " steps in parts; largest displacement "
         << all.displacement << " m; largest residual left " << all.residual
-        << " Pa, in " << all.unconverged << " steps above " << tolerance_
-        << " Pa" << nl;
+        << " Pa, in " << all.unconverged << " steps above that of the step";
+    if (all.unconverged)
+    {
+        Info<< ", by at most " << all.unbalanced << " Pa";
+    }
+    Info<< nl;
     for (const string& warning : all.warnings)
     {
         Info<< "Equilibrium: " << warning.c_str() << nl;

@@ -581,6 +581,10 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
     const bool unconverged = left_ > tolerance_;
     counters_.unconverged += unconverged;
     counters_.residual = max(counters_.residual, left_);
+    if (unconverged)
+    {
+        counters_.unbalanced = max(counters_.unbalanced, left_);
+    }
     largest_ = max(largest_, before_);
 
     // For the next step, from the stress in equilibrium: by that of grains which

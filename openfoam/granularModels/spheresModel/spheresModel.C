@@ -64,7 +64,8 @@ Foam::granularModels::spheres::spheres
     material_(material()),
     hasWall_(coeffs_.isDict("wall")),
     wall_(wall()),
-    outside_(0)
+    outside_(0),
+    outsideBy_(int64_t(0))
 {
     if (&coeffs_ == &properties.surrogateDict())
     {
@@ -444,7 +445,17 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
             still ? cells.state[0][row] : 1 - solid[row];
         cells.nextState[1][row] = cells.state[1][row];
     }
-    outside_ += cells.trial ? 0 : int64_t(batch.outside_cells);
+    if (!cells.trial && batch.outside_cells)
+    {
+        outside_ += batch.outside_cells;
+        for (label row = 0; row < cells.size; ++row)
+        {
+            forAll(outsideBy_, k)
+            {
+                outsideBy_[k] += (cells.outsideRow[row] >> k) & 1;
+            }
+        }
+    }
     return label(batch.outside_cells);
 }
 
@@ -492,7 +503,14 @@ void Foam::granularModels::spheres::wallResistance
 
 Foam::granularModel::counters Foam::granularModels::spheres::count() const
 {
-    return counters{{"answers_outside", outside_}};
+    return counters
+    {
+        {"answers_outside", outside_},
+        {"answers_outside_by_density", outsideBy_[0]},
+        {"answers_outside_by_pressure", outsideBy_[1]},
+        {"answers_outside_by_stress_ratio", outsideBy_[2]},
+        {"answers_outside_by_gas", outsideBy_[3]}
+    };
 }
 
 

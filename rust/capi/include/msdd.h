@@ -231,9 +231,9 @@ typedef struct msdd_sphere_batch {
     double *const *conductivity;   /**< six columns after the step [W/(m K)], contacts and gas together */
     double *gas_conductivity;      /**< the part of it by the gas [W/(m K)], in every direction alike */
     double *solid_fraction;        /**< volume of the spheres over the volume [-] */
-    uint8_t *outside;              /**< 1 where jamming fraction, pressure or stress ratio after the step, or the number of the gas,
-                                        are outside of those of the training, where the gas is so thin that its molecules
-                                        fly from grain to grain, or colder or hotter than its properties are known; else 0 */
+    uint8_t *outside;              /**< what is outside of the training, as a sum: 1 the jamming fraction, 2 the pressure, 4 the
+                                        stress ratio after the step; 8 the gas: its number, or where it is so thin that its
+                                        molecules fly from grain to grain, or colder or hotter than its properties are known */
     size_t outside_cells;          /**< number of these cells */
 } msdd_sphere_batch;
 

@@ -90,6 +90,14 @@ what_changes_it() {
     logged msddFoam
     plain=$(component 100/conductivity 6)
     check "isotropic stress conducts alike in all directions" [ "$plain" = "$(component 100/conductivity 1)" ]
+    # 10 Pa: molecules fly from sphere to sphere; the heart of the bed is as usual
+    steel spheres-thin
+    sed -i 's/gas  *air;/& gasPressure 10;/' constant/granularProperties
+    logged msddFoam
+    check "a gas that is too thin is told from other reasons" \
+        grep -q '^  *- Range.* By the gas or its temperature 100 %\.$' log
+    check "and so it is for programs" [ "$(sed -n 's/^answers_outside_by_//p' log | tr '\n' ' ')" = \
+        "density: 0 pressure: 0 stress_ratio: 0 gas: $(sed -n 's/^answers_outside: //p' log) " ]
     steel spheres-vacuum
     coefficient gas vacuum
     logged msddFoam

@@ -23,6 +23,8 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 const LARGEST_STEP: f64 = 0.2;
 /// \[K\]
 const USUAL_TEMPERATURE: f64 = 293.15;
+/// Beside [`OUTSIDE`](::msdd_surrogate::spheres::model::OUTSIDE), in the column `outside`.
+const OUTSIDE_BY_GAS: u8 = 8;
 
 /// The law behind a handle.
 ///
@@ -353,13 +355,13 @@ impl<'a> Columns<'a> {
             for (k, gas) in gases.iter().enumerate() {
                 let cell = first + k;
                 let found = there(cell).conductivity(&answers, k, gas);
-                let outside = answers.outside[k] > 0.0 || gas.outside;
+                let outside = answers.outside_at(k) | if gas.outside { OUTSIDE_BY_GAS } else { 0 };
                 for (column, value) in self.conductivity.iter().zip(found.tensor) {
                     column.write_one(cell, value);
                 }
                 self.gas.write_one(cell, found.gas);
-                self.outside.write_one(cell, u8::from(outside));
-                count += usize::from(outside);
+                self.outside.write_one(cell, outside);
+                count += usize::from(outside > 0);
             }
         }
         Ok(count)

@@ -194,7 +194,7 @@ fn check_start(
             let [xx, xy, xz, yy, yz, zz]: [f64; 6] = std::array::from_fn(|k| -stress.at(cell)[k] / modulus);
             let state =
                 model.initial_state(1.0 - porosity.at(cell)[0], [xx, yy, zz, xy, xz, yz], &Known::default());
-            model.advance(&state, &Default::default(), 6.0, false).outside
+            model.advance(&state, &Default::default(), 6.0, false).outside > 0
         })
         .count();
     if outside > 0 {

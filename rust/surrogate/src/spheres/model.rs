@@ -92,6 +92,9 @@ pub struct SphereModel {
     hash: String,
 }
 
+/// What may be outside of the training: jamming fraction, pressure, stress ratio.
+pub const OUTSIDE: [u8; 3] = [1, 2, 4];
+
 /// What a model answers for a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
@@ -108,8 +111,8 @@ pub struct Answer {
     pub solid: f64,
     /// z.
     pub coordination: f64,
-    /// Whether jamming fraction, pressure or stress ratio are outside of those of the training.
-    pub outside: bool,
+    /// What is outside of the training: the sum of [`OUTSIDE`].
+    pub outside: u8,
 }
 
 /// The strain of a cell: extension positive; xy, xz, yz are twice the shears.
@@ -200,7 +203,7 @@ impl Default for Block {
     }
 }
 
-/// The answers for a block, in columns: those of [`Answer`], `outside` as 1 or 0.
+/// The answers for a block, in columns: those of [`Answer`].
 #[derive(Clone, Debug)]
 pub struct Answers {
     pub state: [Lanes; COLUMNS],
@@ -230,6 +233,12 @@ impl Default for Answers {
 }
 
 impl Answers {
+    /// [`Answer::outside`] of one cell.
+    pub fn outside_at(&self, cell: usize) -> u8 {
+        // A sum of three small integers.
+        self.outside[cell] as u8
+    }
+
     /// The answer for one cell.
     pub fn at(&self, cell: usize) -> Answer {
         Answer {
@@ -240,7 +249,7 @@ impl Answers {
             gas: self.gas[cell],
             solid: self.solid[cell],
             coordination: self.coordination[cell],
-            outside: self.outside[cell] > 0.0,
+            outside: self.outside_at(cell),
         }
     }
 }
@@ -383,12 +392,14 @@ impl SphereModel {
         let stress = law.stress(&next);
         let ratio = next.ratio();
         let Ranges { jamming_fraction, pressure, stress_ratio } = self.file.ranges;
-        let (zero, one) = (V::zero(), V::all(1.0));
-        let outside = V::all(jamming_fraction.min).where_greater(next.jamming, one, zero);
-        let outside = next.jamming.where_greater(V::all(jamming_fraction.max), one, outside);
-        let outside = mean(stress).where_greater(V::all(pressure.max), one, outside);
+        let zero = V::zero();
+        let [density, pressed, sheared] = OUTSIDE.map(f64::from);
+        let dense = next.jamming.where_greater(V::all(jamming_fraction.max), V::all(density), zero);
+        let of_density = V::all(jamming_fraction.min).where_greater(next.jamming, V::all(density), dense);
+        let of_pressure = mean(stress).where_greater(V::all(pressure.max), V::all(pressed), zero);
         let most = V::all(stress_ratio * stress_ratio);
-        let outside = contraction(&ratio, &ratio).where_greater(most, one, outside);
+        let of_ratio = contraction(&ratio, &ratio).where_greater(most, V::all(sheared), zero);
+        let outside = of_density + of_pressure + of_ratio;
         let readout = &self.file.readout;
         // After no strain the state before, bit for bit.
         for ((column, value), before) in answers.state.iter_mut().zip(&columns(&next)).zip(&before) {
