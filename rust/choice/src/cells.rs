@@ -2,7 +2,7 @@
 
 use crate::ChoiceError;
 use crate::found::Share;
-use crate::runs::Runs;
+use crate::runs::{Each, Runs, larger};
 use crate::settings::{Level, Settings};
 use crate::trial::Outcome;
 
@@ -61,6 +61,14 @@ pub struct Known {
     how: String,
 }
 
+/// The cells along one direction.
+pub struct Chosen {
+    pub level: Level,
+    pub share: Share,
+    /// Errors of T and p, if not even the finest level is fine enough.
+    pub missed: Option<Each>,
+}
+
 impl Known {
     /// Compares the coarse mesh with one of half the cells along a direction, and with a single cell if that changes no more
     /// than `drop` [% of the range of T].
@@ -103,14 +111,13 @@ impl Known {
     ///
     /// # Errors
     /// Those of the runs.
-    pub fn level(&self, runs: &mut Runs, base: &Base, share: f64) -> Result<(Level, Share), ChoiceError> {
-        let estimate = |percent, how: String| Share {
-            source: format!("cells, direction {}", self.direction + 1),
-            percent,
-            how,
+    pub fn level(&self, runs: &mut Runs, base: &Base, share: f64) -> Result<Chosen, ChoiceError> {
+        let chosen = |level, percent, how: String, missed| {
+            let source = format!("cells, direction {}", self.direction + 1);
+            Chosen { level, share: Share { source, percent, how }, missed }
         };
         if self.single {
-            return Ok((Level::One, estimate(self.error, self.how.clone())));
+            return Ok(chosen(Level::One, self.error, self.how.clone(), None));
         }
         let cells = self.cells;
         let mut level = base.settings.levels[self.direction];
@@ -121,26 +128,28 @@ impl Known {
                 error *= ratio(next);
                 level = next;
             }
-            return Ok((level, estimate(error, how)));
+            return Ok(chosen(level, error, how, None));
         }
+        let mut each = [error, 0.0];
         let mut last = base.outcome.clone();
         while level > FINEST {
             let finer = level.finer();
             let what = format!("{} cells along direction {}", finer.cells(cells), self.direction + 1);
             let next = runs.compare(&what, base.with(self.direction, finer), Some(&base.outcome))?;
             let ratio = (finer.cells(cells) as f64 / level.cells(cells) as f64).powi(ORDER);
-            let away = runs.percent(&next, &last);
+            let away = runs.apart(&next, &last);
             how = format!("runs with {} and {} cells", level.cells(cells), finer.cells(cells));
             // The distance itself is most of the error of the coarser of the two.
-            let coarse = SEEN * away * ratio / (ratio - 1.0);
+            let coarse = SEEN * larger(away) * ratio / (ratio - 1.0);
             if coarse <= share {
-                return Ok((level, estimate(coarse, how)));
+                return Ok(chosen(level, coarse, how, None));
             }
-            (error, level, last) = (SAFETY * away / (ratio - 1.0), finer, next);
+            each = away.map(|away| SAFETY * away / (ratio - 1.0));
+            (error, level, last) = (larger(each), finer, next);
             if error <= share {
-                break;
+                return Ok(chosen(level, error, how, None));
             }
         }
-        Ok((level, estimate(error, how)))
+        Ok(chosen(level, error, how, Some(each)))
     }
 }

@@ -54,6 +54,28 @@ pub enum ChoiceError {
         folder.display()
     )]
     Foreign { folder: PathBuf },
-    #[error("accuracy = {asked} %, allowed: at least {best:.2} % for this scene: {reason}")]
-    OutOfReach { asked: f64, best: f64, reason: String },
+    #[error("{}: {reason}", missed.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    OutOfReach { missed: Vec<Missed>, reason: String },
+}
+
+/// A wanted accuracy that cannot be had.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Missed {
+    /// Its key in `system/fvSolution`: `accuracy` or `pressureAccuracy`.
+    pub key: &'static str,
+    pub asked: f64,
+    /// The best that can be had \[% of the range\].
+    pub best: f64,
+}
+
+impl std::fmt::Display for Missed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { key, asked, best } = self;
+        match *best <= 100.0 {
+            true => write!(f, "{key} = {asked} %, allowed: at least {best:.2} % for this scene"),
+            false => {
+                write!(f, "{key} = {asked} %, allowed: none for this scene, where the best is {best:.2} %")
+            }
+        }
+    }
 }

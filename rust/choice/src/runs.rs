@@ -28,6 +28,14 @@ pub struct Wishes {
     pub law: Law,
 }
 
+/// Errors of T and of p \[% of the range of T\]: that of p in its share of what is asked of p, 0 if nothing is.
+pub type Each = [f64; 2];
+
+/// The larger of both.
+pub fn larger(each: Each) -> f64 {
+    each[0].max(each[1])
+}
+
 /// Makes one run, given the range of T [K] once it is known.
 pub type Run<'a> = dyn FnMut(&Settings, Option<f64>) -> Result<Outcome, ChoiceError> + 'a;
 
@@ -72,39 +80,48 @@ impl<'a> Runs<'a> {
 
     /// How far two runs are apart [% of the range of T].
     pub fn percent(&self, a: &Outcome, b: &Outcome) -> f64 {
+        larger(self.apart(a, b))
+    }
+
+    /// How far two runs are apart in T and in p [% of the range of T].
+    pub fn apart(&self, a: &Outcome, b: &Outcome) -> Each {
         let away = |quantity| Some(a.values.get(&quantity)?.distance(b.values.get(&quantity)?));
-        self.share(away(Quantity::Temperature).unwrap_or(0.0), away(Quantity::Pressure).unwrap_or(0.0))
+        self.each(away(Quantity::Temperature).unwrap_or(0.0), away(Quantity::Pressure).unwrap_or(0.0))
     }
 
-    /// Errors of T [K] and p [Pa] as one share [% of the range of T].
-    fn share(&self, temperature: f64, pressure: f64) -> f64 {
-        let percent = 100.0 * temperature / self.range;
-        match self.wishes.pressure {
+    /// Of errors of T [K] and p [Pa].
+    fn each(&self, temperature: f64, pressure: f64) -> Each {
+        let pressure = match self.wishes.pressure {
             Some(wanted) if self.pressure_range > 0.0 => {
-                percent.max(100.0 * pressure / self.pressure_range * self.wishes.accuracy / wanted)
+                100.0 * pressure / self.pressure_range * self.wishes.accuracy / wanted
             }
-            _ => percent,
-        }
+            _ => 0.0,
+        };
+        [100.0 * temperature / self.range, pressure]
     }
 
-    /// What model and packing leave open, from a run with another conductivity, and the change of T with its logarithm.
-    pub fn open(&self, base: &Outcome, other: &Outcome) -> (Vec<Share>, Series) {
+    /// What model and packing leave open, from a run with another conductivity: its parts, of T or of p, whichever is the larger
+    /// share of what is asked for; both for T and p; and the change of T with the logarithm of the conductivity.
+    pub fn open(&self, base: &Outcome, other: &Outcome) -> (Vec<Share>, Each, Series) {
         let sensitivity = sensitivity(base, other);
         let bed = &self.wishes.bed;
         let lengths = Lengths::new(bed, base, &sensitivity);
         let part = |k: usize| {
             let of = |quantity| self.wishes.law.doubt(quantity, k, &lengths);
-            self.share(of(Quantity::Temperature), of(Quantity::Pressure))
+            self.each(of(Quantity::Temperature), of(Quantity::Pressure))
         };
+        let parts = [part(0), part(1)];
+        let all = [0, 1].map(|quantity| parts[0][quantity].hypot(parts[1][quantity]));
+        let worse = usize::from(all[1] > all[0]);
         let model =
             "what another conductivity would change, and the scenes that the model was judged by".to_string();
         let packing = format!("scatter of beds of {:.0} grains", bed.grains);
         let shares = [("model", 0, model), ("packing", 1, packing)];
         let share = |(source, k, how): (&str, usize, String)| Share {
             source: source.to_string(),
-            percent: part(k),
+            percent: parts[k][worse],
             how,
         };
-        (shares.into_iter().map(share).collect(), sensitivity)
+        (shares.into_iter().map(share).collect(), all, sensitivity)
     }
 }

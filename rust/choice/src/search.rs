@@ -4,13 +4,13 @@
 //! grains, with a loose tolerance in time, and with half the cells along each direction show what each choice changes; the known
 //! orders of the methods carry these differences to the settings that are not run.
 
-use crate::ChoiceError;
 use crate::bands::CONDUCTIVITY;
-use crate::cells::{Base, Known, SAFETY, coarse_level, even_level};
+use crate::cells::{Base, Chosen, Known, SAFETY, coarse_level, even_level};
 use crate::found::{Differences, Found, Share, difference};
 use crate::quantity::Quantity;
-use crate::runs::{Run, Runs, Wishes};
+use crate::runs::{Each, Run, Runs, Wishes, larger};
 use crate::settings::Settings;
+use crate::{ChoiceError, Missed};
 
 /// Tolerance in time of the runs on the coarse mesh, a share of the range of T, and the loose one.
 const TOLERANCE: f64 = 1e-3;
@@ -33,6 +33,9 @@ const OPEN: f64 = 0.95;
 const OFFERED: f64 = 0.8;
 /// What is offered instead of an accuracy out of reach is a little more than the bound.
 const ABOVE: f64 = 1.001;
+
+/// Keys of the accuracies of T and p.
+const KEYS: [&str; 2] = ["accuracy", "pressureAccuracy"];
 
 /// The power of the time step's tolerance with which the error of T is taken to fall. Steps grow with the square root of the
 /// tolerance, so the power is 1 at best; in case HC it was 0.7 to 0.9, and with moving grains 0.5 to 0.8. A smaller one counts
@@ -68,8 +71,8 @@ struct Search<'a> {
     base: Base,
     found: Found,
     seen: Differences,
-    /// What model and packing leave open, and the accuracy that is left for the numerical method [% of the range of T].
-    open: f64,
+    /// What model and packing leave open of T and p, and the accuracy that is left for the numerical method [% of the range of T].
+    open: Each,
     accuracy: f64,
     /// Error of half a box, of grains that stay and of a constant conductivity [% of the range of T].
     left_out: f64,
@@ -78,7 +81,7 @@ struct Search<'a> {
 /// Whether the steps can be small enough, and their error [% of the range of T].
 struct Steps {
     enough: bool,
-    percent: f64,
+    each: Each,
 }
 
 impl<'a> Search<'a> {
@@ -104,7 +107,7 @@ impl<'a> Search<'a> {
             base: Base { settings, outcome },
             found,
             seen: Differences::default(),
-            open: 0.0,
+            open: [0.0; 2],
             accuracy: wishes.accuracy,
             left_out: 0.0,
         })
@@ -114,18 +117,44 @@ impl<'a> Search<'a> {
     fn doubt(&mut self) -> Result<(), ChoiceError> {
         let more = Settings { conductivity: CONDUCTIVITY, ..self.base.settings.clone() };
         let more = self.runs.compare("more conductivity", more, Some(&self.base.outcome))?;
-        (self.found.open, self.seen.sensitivity) = self.runs.open(&self.base.outcome, &more);
-        self.open = self.found.open.iter().fold(0.0f64, |all, share| all.hypot(share.percent));
+        (self.found.open, self.open, self.seen.sensitivity) = self.runs.open(&self.base.outcome, &more);
         let asked = self.wishes.accuracy;
-        if self.open > OPEN * asked {
+        if larger(self.open) > OPEN * asked {
+            let missed = [0, 1].into_iter().filter(|&k| self.open[k] > OPEN * asked);
+            let missed: Vec<Missed> = missed.map(|k| self.missed(k, self.open[k] / OFFERED)).collect();
+            let of = |one: &Missed| {
+                let name = if one.key == KEYS[0] { "T" } else { "p" };
+                format!("{:.2} % of the range of {name}", OFFERED * one.best)
+            };
             let reason = format!(
-                "model and packing leave {:.2} % open, for a bed of about {:.0} grains",
-                self.open, self.wishes.bed.grains
+                "model and packing leave {} open, for a bed of about {:.0} grains",
+                missed.iter().map(of).collect::<Vec<_>>().join(" and "),
+                self.wishes.bed.grains
             );
-            return Err(ChoiceError::OutOfReach { asked, best: self.open / OFFERED, reason });
+            return Err(ChoiceError::OutOfReach { missed, reason });
         }
-        self.accuracy = (asked.powi(2) - self.open.powi(2)).sqrt();
+        self.accuracy = (asked.powi(2) - larger(self.open).powi(2)).sqrt();
         Ok(())
+    }
+
+    /// The wanted accuracy of T (0) or p (1) that is missed, with the best that can be had as a share of the accuracy of T.
+    fn missed(&self, quantity: usize, best: f64) -> Missed {
+        let asked = [Some(self.wishes.accuracy), self.wishes.pressure][quantity].unwrap_or(f64::NAN);
+        Missed { key: KEYS[quantity], asked, best: best * asked / self.wishes.accuracy }
+    }
+
+    /// The refusal of a search in which T and p need these accuracies of the numerical method [% of the range of T].
+    fn out_of_reach(&self, needed: Each, reason: String) -> ChoiceError {
+        let asked = self.wishes.accuracy;
+        let enough = self.accuracy.min(larger(needed));
+        let best = |k: usize| {
+            // What is open of the other one stays
+            let left = (asked.powi(2) - self.open[1 - k].powi(2)).sqrt();
+            ABOVE * self.open[k].hypot(needed[k]).max(asked * needed[k] / left)
+        };
+        let missed = [0, 1].into_iter().filter(|&k| needed[k] >= enough);
+        let missed = missed.map(|k| self.missed(k, best(k))).collect();
+        ChoiceError::OutOfReach { missed, reason }
     }
 
     /// Whether half the box, or a quarter, is enough: if it mirrors, and a run of it gives what one of the whole box gives.
@@ -183,7 +212,8 @@ impl<'a> Search<'a> {
             }
             other => other?,
         };
-        let percent = self.runs.percent(&moving, &self.base.outcome);
+        let each = self.runs.apart(&moving, &self.base.outcome);
+        let percent = larger(each);
         if self.wishes.moves.is_none() && percent > MECHANICS * self.accuracy {
             self.base = Base { settings, outcome: moving };
         } else if percent > STAYING * self.accuracy {
@@ -191,8 +221,7 @@ impl<'a> Search<'a> {
                 "constant/granularProperties says 'mechanics none', and grains that move change T by {percent:.2} %; \
                  without this key, or with --choose-mechanics, they may move"
             );
-            let best = ABOVE * self.open.hypot(percent / STAYING);
-            return Err(ChoiceError::OutOfReach { asked: self.wishes.accuracy, best, reason });
+            return Err(self.out_of_reach(each.map(|one| one / STAYING), reason));
         } else {
             let how = "runs with and without their motion".to_string();
             self.found.shares.push(Share { source: "grains stay".to_string(), percent, how });
@@ -240,17 +269,17 @@ impl<'a> Search<'a> {
         // Error of the base's tolerance over the difference of the two runs.
         let part = 1.0 / ((LOOSE / TOLERANCE).powf(order) - 1.0);
         let growth = |tolerance: f64| part * (tolerance / TOLERANCE).powf(order);
-        let away = self.runs.percent(&loose, &base.outcome);
-        let error = |tolerance: f64| SAFETY * away * growth(tolerance);
+        let away = self.runs.apart(&loose, &base.outcome);
+        let error = |tolerance: f64| SAFETY * larger(away) * growth(tolerance);
         let enough = TOLERANCES.into_iter().find(|&tolerance| error(tolerance) <= TIME * self.accuracy);
         let tolerance = enough.unwrap_or(TOLERANCES[TOLERANCES.len() - 1]);
         let how =
             format!("runs with tolerances of {} and {} % of the range", 100.0 * LOOSE, 100.0 * TOLERANCE);
-        let percent = error(tolerance);
-        self.found.shares.push(Share { source: "time".to_string(), percent, how });
+        self.found.shares.push(Share { source: "time".to_string(), percent: error(tolerance), how });
         self.seen.time = difference(&loose, &base.outcome, growth(tolerance));
         self.found.settings = Settings { tolerance, ..base.settings.clone() };
-        Ok(Steps { enough: enough.is_some(), percent })
+        let each = away.map(|one| SAFETY * one * growth(tolerance));
+        Ok(Steps { enough: enough.is_some(), each })
     }
 
     /// The fewest cells along each direction. What motion and steps have left is shared by the directions; those along which
@@ -267,29 +296,31 @@ impl<'a> Search<'a> {
             directions.push(known);
         }
         let many = directions.iter().filter(|one| !one.single).count().max(1) as f64;
-        let mut worst: f64 = 0.0;
+        let mut worst: Option<Each> = None;
         for (direction, known) in directions.iter().enumerate() {
-            let (level, estimate) = known.level(&mut self.runs, &self.base, left / many)?;
-            if estimate.percent > left / many && !known.single {
-                worst = worst.max(estimate.percent);
+            let Chosen { level, share, missed } = known.level(&mut self.runs, &self.base, left / many)?;
+            if let Some(missed) = missed {
+                let so_far = worst.unwrap_or_default();
+                worst = Some([0, 1].map(|k| missed[k].max(so_far[k])));
             }
             self.found.settings.levels[direction] = level;
-            self.found.shares.push(estimate);
+            self.found.shares.push(share);
         }
         if directions.is_empty() {
             self.found.notes.push(
                 "the error of the mesh is not known, and no part of the estimate and the bands".to_string(),
             );
         }
-        let reason = match (worst > 0.0, steps.enough) {
+        let reason = match (worst.is_some(), steps.enough) {
             (false, true) => return Ok(()),
             (true, _) => "four times the cells of the case along a direction are too few for less",
             (false, false) => "smaller steps than the smallest would be needed",
         };
         let taken = self.accuracy * (1.0 - TIME) - left;
-        let best = (steps.percent / TIME).max((worst * many + taken) / (1.0 - TIME));
-        let best = ABOVE * best.hypot(self.open);
-        Err(ChoiceError::OutOfReach { asked: self.wishes.accuracy, best, reason: reason.to_string() })
+        let worst = worst.unwrap_or_default();
+        let cells = |k: usize| if worst[k] > 0.0 { (worst[k] * many + taken) / (1.0 - TIME) } else { 0.0 };
+        let needed = |k: usize| cells(k).max(steps.each[k] / TIME);
+        Err(self.out_of_reach([0, 1].map(needed), reason.to_string()))
     }
 }
 

@@ -71,6 +71,17 @@ impl Scene {
     }
 }
 
+/// The best accuracy of T that a refusal offers, and its reason.
+fn refused(found: Result<Found, ChoiceError>) -> (f64, String) {
+    match found {
+        Err(ChoiceError::OutOfReach { missed, reason }) => {
+            assert_eq!(missed.iter().map(|one| one.key).collect::<Vec<_>>(), ["accuracy"]);
+            (missed[0].best, reason)
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
 #[test]
 fn the_true_error_is_within_the_request_and_no_finer_than_it_needs() {
     let scene = Scene {
@@ -109,7 +120,7 @@ fn motion_counts_where_it_matters_and_where_the_user_says_so() {
     assert!(!scene.find(20.0, None).unwrap().settings.moves);
     assert!(scene.find(20.0, Some(true)).unwrap().settings.moves);
     assert!(!scene.find(20.0, Some(false)).unwrap().settings.moves);
-    let Err(ChoiceError::OutOfReach { best, reason, .. }) = scene.find(1.0, Some(false)) else { panic!() };
+    let (best, reason) = refused(scene.find(1.0, Some(false)));
     assert!(reason.contains("mechanics none") && !scene.find(best, Some(false)).unwrap().settings.moves);
 }
 
@@ -138,7 +149,7 @@ fn a_request_out_of_reach_is_refused_with_the_best_that_can_be_had() {
         constant: 50.0,
         mirrors: Vec::new(),
     };
-    let Err(ChoiceError::OutOfReach { best, .. }) = scene.find(0.5, None) else { panic!() };
+    let (best, _) = refused(scene.find(0.5, None));
     assert!(best > 0.5 && scene.find(best, None).is_ok(), "{best}");
 }
 
@@ -157,7 +168,7 @@ fn what_model_and_packing_leave_open_is_not_asked_of_the_cells() {
     let (sure, unsure) = (scene(0.0).find(2.0, None).unwrap(), scene(30.0).find(2.0, None).unwrap());
     assert!(cells(&unsure) > cells(&sure), "{} {}", cells(&unsure), cells(&sure));
     assert!(unsure.total() <= 2.0);
-    let Err(ChoiceError::OutOfReach { best, .. }) = scene(100.0).find(2.0, None) else { panic!() };
+    let (best, _) = refused(scene(100.0).find(2.0, None));
     assert!(best > 2.0 && scene(100.0).find(best, None).is_ok(), "{best}");
 }
 
@@ -198,4 +209,77 @@ fn half_of_a_box_that_mirrors_is_enough() {
     let whole = Scene { mirrors: Vec::new(), ..scene };
     let cells = |found: &Found| found.tried.iter().map(|tried| tried.cells).min().unwrap();
     assert!(cells(&found) < cells(&whole.find(2.0, None).unwrap()));
+}
+
+/// Asks for accuracies of T and p in a bed where p grows threefold, whose doubt of p is far above that of T. `error`: of p on the
+/// coarse mesh [% of its range].
+fn with_pressure(accuracy: f64, pressure: f64, error: f64) -> Result<Found, ChoiceError> {
+    let (kind, neighbours) = (Grains::Discs, Vec::new());
+    let bed = Bed { kind, grains: 1e9, mean_radius: 1e-3, window: 1e6, neighbours };
+    let wishes = Wishes {
+        accuracy,
+        pressure: Some(pressure),
+        cells: vec![16],
+        mirrors: Vec::new(),
+        moves: Some(true),
+        constant: false,
+        bed,
+        law: Law::shipped(kind),
+    };
+    let run = &mut |settings: &Settings, _| {
+        let more = settings.conductivity - 1.0;
+        let cells = settings.levels[0].cells(16);
+        let away = 2.0 * error * (16.0 / cells as f64).powi(2);
+        let series = |values: [f64; 2]| Series {
+            times: vec![0.0, 1.0],
+            values: values.map(|value| vec![value, value]).to_vec(),
+        };
+        let values = Values::from([
+            (Quantity::Temperature, series([100.0, 100.0 + more])),
+            (Quantity::Pressure, series([100.0, 300.0 + away])),
+        ]);
+        Ok(Outcome {
+            values,
+            strain: Series::default(),
+            start_pressure: vec![100.0; 2],
+            range: 100.0,
+            cells,
+            seconds: 1.0,
+            processor: 1.0,
+        })
+    };
+    Ok(find(&wishes, run)?.0)
+}
+
+#[test]
+fn a_refusal_names_what_of_t_and_p_cannot_be_had_and_the_best_of_it() {
+    let missed = |found: Result<Found, ChoiceError>| match found {
+        Err(ChoiceError::OutOfReach { missed, .. }) => missed,
+        other => panic!("{other:?}"),
+    };
+    // What model and packing leave open of p does not depend on what is asked
+    let [low, high] = [2.0, 5.0].map(|pressure| missed(with_pressure(10.0, pressure, 0.0)));
+    assert_eq!(low.len(), 1);
+    assert_eq!((low[0].key, low[0].asked), ("pressureAccuracy", 2.0));
+    assert!((low[0].best / high[0].best - 1.0).abs() < 1e-9, "{low:?} {high:?}");
+    let best = low[0].best;
+    assert!(best > 5.0 && with_pressure(10.0, best, 0.0).is_ok(), "{best}");
+    // The message has the key, and the numbers of p
+    let text = with_pressure(10.0, 5.0, 0.0).unwrap_err().to_string();
+    let wanted =
+        format!("pressureAccuracy = 5 %, allowed: at least {best:.2} % for this scene: model and packing");
+    assert!(text.starts_with(&wanted) && text.contains("of the range of p open"), "{text}");
+    // T beside it
+    let both = missed(with_pressure(1e-6, 5.0, 0.0));
+    assert_eq!(both.iter().map(|one| one.key).collect::<Vec<_>>(), ["accuracy", "pressureAccuracy"]);
+    assert!((both[1].best / best - 1.0).abs() < 1e-9 && with_pressure(both[0].best, best, 0.0).is_ok());
+    // Cells that are too few for p
+    let cells = missed(with_pressure(10.0, 1.2 * best, 100.0 * best));
+    assert_eq!((cells.len(), cells[0].key), (1, "pressureAccuracy"));
+    // More than the range itself
+    let none = Missed { key: "pressureAccuracy", asked: 20.0, best: 136.95 };
+    assert_eq!(
+        none.to_string(),
+        "pressureAccuracy = 20 %, allowed: none for this scene, where the best is 136.95 %"
+    );
 }

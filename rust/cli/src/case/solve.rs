@@ -174,7 +174,8 @@ fn search(
         law,
     };
     let folder = beside(scene, "trial");
-    outln!("Looking for the cheapest run with an error of T of at most {accuracy} % of its range:");
+    let also = pressure.map_or(String::new(), |percent| format!(", and of p of at most {percent} %"));
+    outln!("Looking for the cheapest run with an error of T of at most {accuracy} % of its range{also}:");
     let found = find(&wishes, &mut |settings: &Settings, range| {
         let outcome = attempt(scene, settings, range, &folder, lock);
         match &outcome {

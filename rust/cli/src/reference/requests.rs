@@ -175,7 +175,8 @@ pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
                         own.0
                     );
                 }
-                Err(ChoiceError::OutOfReach { best, reason, .. }) => {
+                Err(ChoiceError::OutOfReach { missed, reason }) => {
+                    let best = missed.first().map_or(f64::NAN, |one| one.best);
                     let could = others.iter().map(|other| other.0).fold(f64::INFINITY, f64::min);
                     let _ = writeln!(csv, "{head},{},,,,{},,,,", plain(best), plain(could));
                     outln!(
