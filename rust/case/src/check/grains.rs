@@ -91,6 +91,12 @@ fn check_surrogate(
         "network" => load(folder, coefficients, None, found),
         "constant" => {
             check_tensor(coefficients, found);
+            if coefficients.get("conductivity").is_none() && surrogate.get("spheresCoeffs").is_some() {
+                let advice = "Without it the surrogate type constant takes conductivity and stress from a model of discs without gas, \
+                              and does not read spheresCoeffs";
+                let place = coefficients.path_of("conductivity");
+                found.doubt([FILE, &place], "missing", "that of the bed of spheres [W/(m K)]", advice);
+            }
             load(folder, coefficients, Some("builtin"), found).and(None)
         }
         "plugin" => {
@@ -329,5 +335,28 @@ fn between(
     if let Some(finding) = found.0.get_mut(count) {
         let short = |value: f64| number_text(crate::numbers::rounded(value, 6));
         finding.allowed = format!("{} to {} {unit} for these grains", short(least), short(most));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spheres_do_not_get_the_conductivity_of_discs_without_a_doubt() {
+        let lines = |more: &str| {
+            let text = format!("surrogate {{ spheresCoeffs {{ poissonRatio 0.3; }} type constant; {more} }}");
+            let file = Dictionary::parse(Path::new(FILE), &text).unwrap();
+            let mut found = Findings::default();
+            check(Path::new(""), &file, &[], &mut found);
+            let lines = found.0.iter().map(ToString::to_string);
+            lines.filter(|line| line.contains("conductivity = ")).collect::<Vec<_>>()
+        };
+        let bare = lines("");
+        let start = "doubt: constant/granularProperties: surrogate/conductivity = missing, allowed: that of the bed of spheres [W/(m K)]. \
+                     Without it the surrogate type constant takes conductivity and stress from a model of discs";
+        assert!(bare.len() == 1 && bare[0].starts_with(start), "{bare:?}");
+        assert_eq!(lines("conductivity (1 0 0 1 0 1);"), Vec::<String>::new());
+        assert_eq!(lines("constantCoeffs { conductivity (1 0 0 1 0 1); }"), Vec::<String>::new());
     }
 }

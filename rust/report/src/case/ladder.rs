@@ -3,6 +3,7 @@
 use crate::ReportError;
 use crate::jobs::job::CaseRun;
 use msdd_case::dictionary::{Dictionary, Entry};
+use msdd_choice::bed::Grains;
 use msdd_choice::scene::Scene;
 use msdd_choice::settings::{Level, Settings};
 use std::collections::BTreeMap;
@@ -108,12 +109,14 @@ pub fn ladder(scene: &Scene, range: f64, quick: bool) -> Result<Vec<Rung>, Repor
             rungs.extend(tolerances.map(|&tolerance| new(levels, tolerance, moves)));
         }
     }
-    for levels in
-        meshes.iter().filter(|levels| levels.iter().all(|level| *level >= Level::Halved(0))).rev().take(2)
-    {
-        let mut rung = new(levels, USUAL, false);
-        rung.family = FAMILIES[2];
-        rungs.push(rung.with("constant/granularProperties", "surrogate { type constant; }\n"));
+    // The surrogate type constant takes the conductivity of a law of discs
+    if scene.bed.kind == Grains::Discs {
+        let coarser = meshes.iter().filter(|levels| levels.iter().all(|level| *level >= Level::Halved(0)));
+        for levels in coarser.rev().take(2) {
+            let mut rung = new(levels, USUAL, false);
+            rung.family = FAMILIES[2];
+            rungs.push(rung.with("constant/granularProperties", "surrogate { type constant; }\n"));
+        }
     }
     let own = level(scene, 0);
     for (moves, steps) in [false, true].into_iter().flat_map(|moves| STEPS.map(|steps| (moves, steps))) {
@@ -161,7 +164,7 @@ fn as_it_is(scene: &Scene) -> Result<Option<Rung>, ReportError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use msdd_choice::bed::{Bed, Grains};
+    use msdd_choice::bed::Bed;
 
     fn scene() -> Scene {
         let folder = std::env::temp_dir().join(format!("msdd-report-ladder-{}", std::process::id()));
@@ -203,5 +206,16 @@ mod tests {
         let unique: std::collections::BTreeSet<_> = names.iter().collect();
         assert_eq!(unique.len(), names.len());
         assert!(ladder(&scene(), 50.0, true).unwrap().len() < rungs.len());
+    }
+
+    #[test]
+    fn spheres_do_not_get_the_constant_conductivity_of_discs() {
+        let mut scene = scene();
+        let discs = ladder(&scene, 50.0, false).unwrap();
+        scene.bed.kind = Grains::Spheres;
+        let spheres = ladder(&scene, 50.0, false).unwrap();
+        assert!(discs.iter().any(|rung| rung.family == FAMILIES[2]));
+        assert!(spheres.iter().all(|rung| rung.append.values().all(|text| !text.contains("constant"))));
+        assert!(spheres.len() < discs.len());
     }
 }
