@@ -1,6 +1,6 @@
 //! Checks what the law of spheres needs of a case, before the solver refuses it or answers as well as it can.
 
-use super::domain::Mesh;
+use super::domain::{Kind, Mesh};
 use super::fields::Values;
 use super::finding::Findings;
 use super::grains::FILE;
@@ -125,14 +125,17 @@ fn check_walls(properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
             continue;
         };
         let rigid = wall.text("type").map_or(true, |kind| kind == "rigid");
-        if rigid && (wall.get("friction").is_none() || wall.get("slip").is_none()) {
-            let allowed = "friction and slip in a wall of type rigid";
-            found.error(
-                [FILE, &place],
-                "one of them is missing",
-                allowed,
-                "Spheres know no friction at walls by themselves",
-            );
+        let solid = mesh.kind() == Kind::Solid;
+        // Friction in space is refused elsewhere
+        let refused = solid && keys::number(wall, "friction", "").is_some_and(|friction| friction > 0.0);
+        if rigid && !refused && wall.get("friction").is_some() && wall.get("slip").is_none() {
+            let allowed = if solid {
+                "neither friction nor slip in meshes of three dimensions"
+            } else {
+                "both friction and slip in a wall of type rigid, or neither: then it has no friction"
+            };
+            let advice = "Spheres know no slip at walls by themselves";
+            found.error([FILE, &format!("{place}/slip")], "missing", allowed, advice);
         }
     }
 }
@@ -257,6 +260,12 @@ mod tests {
         let rigid =
             format!("{moves} {{ walls {{ left {{ friction 0.3; }} right {{ type frictionless; }} }} }}");
         finds(&lines("", &rigid, 0.4, -1e4), "friction and slip");
+    }
+
+    #[test]
+    fn rigid_walls_without_friction_are_taken() {
+        let walls = "mechanics equilibrium; equilibriumCoeffs { walls { left { type rigid; } right { slip 1e-6; } } }";
+        assert_eq!(lines("", walls, 0.4, -1e4), Vec::<String>::new());
     }
 
     #[test]
