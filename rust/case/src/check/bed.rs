@@ -4,7 +4,9 @@ use super::domain::Mesh;
 use super::fields::{self, FIELDS};
 use super::files::{self, Files};
 use super::finding::Findings;
-use super::{control, grains, gravity, keys, scales, sources, spheres, state, tables, walls, weight, zones};
+use super::{
+    control, gas, grains, gravity, keys, scales, sources, spheres, state, tables, walls, weight, zones,
+};
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
 use std::path::Path;
@@ -51,6 +53,10 @@ pub fn check(
     let sources = sources::of(files).map(|(_, sources)| sources);
     let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), sources, mesh, times);
     scene.check_walls(found);
+    if let Some(properties) = properties {
+        let (walls, heated) = (scene.wall_temperatures().collect(), scene.is_heated());
+        gas::check(properties, &gas::Temperatures { start: temperature.as_ref(), walls, heated }, found);
+    }
     if restarted {
         return;
     }

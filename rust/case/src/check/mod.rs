@@ -9,6 +9,7 @@
 //! | [`keys`] | the keys of the solver's dictionaries and what they may hold |
 //! | [`dimensions`] | dimensions in brackets |
 //! | [`grains`] | `constant/granularProperties` and the model |
+//! | [`gas`] | the conductivity of spheres beside that of their gas |
 //! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
 //! | [`libraries`] | libraries and code that a case brings along |
@@ -34,6 +35,7 @@ mod domain;
 pub mod fields;
 mod files;
 pub mod finding;
+mod gas;
 pub mod grains;
 pub mod gravity;
 pub mod keys;

@@ -86,6 +86,16 @@ impl<'a> Scene<'a> {
         self.walls.push((name.to_string(), values));
     }
 
+    /// Temperatures of all walls over time [K].
+    pub fn wall_temperatures(&self) -> impl Iterator<Item = f64> {
+        self.walls.iter().flat_map(|(_, values)| values.iter().copied())
+    }
+
+    /// Whether there are heat sources.
+    pub fn is_heated(&self) -> bool {
+        self.has_source
+    }
+
     /// Reports walls below 0 K, and a case in which nothing heats or cools.
     pub fn check_walls(&self, found: &mut Findings) {
         for (name, values) in &self.walls {
@@ -112,9 +122,8 @@ impl<'a> Scene<'a> {
 
     /// Least and largest temperature of these and of all walls [K].
     fn range(&self, values: impl Iterator<Item = f64>) -> [f64; 2] {
-        let walls = self.walls.iter().flat_map(|(_, values)| values.iter().copied());
         values
-            .chain(walls)
+            .chain(self.wall_temperatures())
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)])
     }
 

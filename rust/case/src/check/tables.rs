@@ -100,6 +100,25 @@ pub fn values(dictionary: &Dictionary, key: &str, times: Option<[f64; 2]>) -> Op
     }
 }
 
+/// Value of the function `key` at a temperature or time: linear between the rows of a table, constant beyond. None where it is not known.
+pub fn at(dictionary: &Dictionary, key: &str, x: f64) -> Option<f64> {
+    let list = match dictionary.value(key).ok()? {
+        [form, list @ ..] if form.text == "table" => rows(list),
+        _ => return values(dictionary, key, Some([x, x]))?.first().copied(),
+    };
+    let pairs: Option<Vec<[f64; 2]>> = list.into_iter().map(|row| row.try_into().ok()).collect();
+    let pairs = pairs?;
+    let next = pairs.iter().position(|[there, _]| *there >= x);
+    match next {
+        None => pairs.last().map(|[_, value]| *value),
+        Some(0) => pairs.first().map(|[_, value]| *value),
+        Some(k) => {
+            let ([from, low], [to, high]) = (pairs[k - 1], pairs[k]);
+            Some(low + (high - low) * (x - from) / (to - from))
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -152,6 +171,19 @@ mod tests {
             let found = lines(empty);
             assert!(found.len() == 1 && found[0].contains("allowed: at least one row"), "{found:?}");
         }
+    }
+
+    #[test]
+    fn a_table_is_linear_between_its_rows_and_constant_beyond() {
+        let at = |text: &str, x: f64| {
+            let file = Dictionary::parse(Path::new("0/T"), &format!("k {text};")).unwrap();
+            at(&file, "k", x)
+        };
+        let table = "table 2((300 3)(400 1))";
+        assert_eq!([250.0, 300.0, 350.0, 450.0].map(|x| at(table, x)), [3.0, 3.0, 2.0, 1.0].map(Some));
+        assert_eq!(at("polynomial ((2 0) (0.5 1))", 4.0), Some(4.0));
+        assert_eq!([at("constant 3", 1.0), at("3", 1.0)], [Some(3.0); 2]);
+        assert_eq!([at("csvFile", 1.0), at("table ()", 1.0)], [None; 2]);
     }
 
     #[test]

@@ -1,0 +1,142 @@
+//! Checks that spheres conduct at least as well as the gas between them, as the law of spheres needs.
+
+use super::fields::Values;
+use super::finding::Findings;
+use super::grains::FILE;
+use super::{keys, tables};
+use crate::dictionary::Dictionary;
+use crate::numbers::rounded;
+use msdd_beds::effective::LEAST_RATIO;
+use msdd_beds::named_gases::GasName;
+use msdd_rve::message::number;
+
+/// By how much a heat source is taken to warm the bed \[K\].
+const HEATED: f64 = 500.0;
+/// Distance of the temperatures that are looked at \[K\]; the solver samples functions so, too.
+const STEP: f64 = 1.0;
+
+/// Temperatures of the bed.
+pub struct Temperatures<'a> {
+    /// At the start, in the cells \[K\].
+    pub start: Option<&'a Values>,
+    /// Of the walls \[K\].
+    pub walls: Vec<f64>,
+    /// Whether there are heat sources.
+    pub heated: bool,
+}
+
+/// `properties` with the surrogate type spheres; nothing is done for others.
+pub fn check(properties: &Dictionary, temperatures: &Temperatures, found: &mut Findings) {
+    let Some(gas) = gas_of(properties) else { return };
+    let start = || temperatures.start.into_iter().flat_map(|start| &start.numbers).map(|value| value[0]);
+    let advice = "The law of spheres does not know spheres that conduct less than the gas between them";
+    if let Some(case) = below(properties, gas, start()) {
+        let [value, allowed] = texts(gas, case);
+        found.error([FILE, KEY], &value, &allowed, &format!("{advice}, and the solver refuses them"));
+        return;
+    }
+    // From the start's temperatures outwards: the first is where the run ends
+    let (least, most) = start().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
+    if least > most {
+        return;
+    }
+    let walls = temperatures.walls.iter().copied();
+    let hottest = walls.clone().fold(most, f64::max) + if temperatures.heated { HEATED } else { 0.0 };
+    let coldest = walls.fold(least, f64::min).max(0.0);
+    let steps = |way: f64| (0..=(way / STEP) as u32).map(|k| STEP * f64::from(k));
+    let up = below(properties, gas, steps(hottest - most).map(|way| most + way).chain([hottest]));
+    let down = || below(properties, gas, steps(least - coldest).map(|way| least - way).chain([coldest]));
+    if let Some(case) = up.or_else(down) {
+        let [value, allowed] = texts(gas, case);
+        let advice = format!("{advice}: the run ends when a cell reaches this temperature");
+        found.doubt([FILE, KEY], &value, &allowed, &advice);
+    }
+}
+
+/// The first of these temperatures at which the spheres conduct less than the gas, and both conductivities.
+fn below(properties: &Dictionary, gas: GasName, mut all: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
+    let number = keys::size(properties, KEY);
+    all.find_map(|t| {
+        let solid = number.or_else(|| tables::at(properties, KEY, t))?;
+        let gas = conductivity(gas, t)?;
+        (solid < LEAST_RATIO * gas).then_some([t, solid, gas])
+    })
+}
+
+const KEY: &str = "thermalConductivity";
+
+/// The gas of the law of spheres, if there is one.
+fn gas_of(properties: &Dictionary) -> Option<GasName> {
+    let surrogate = properties.dictionary_at("surrogate").ok()?;
+    let name = surrogate.dictionary_at("spheresCoeffs").ok()?.text("gas").ok()?;
+    let is_law = surrogate.text("type").is_ok_and(|kind| kind == "spheres");
+    GasName::ALL.into_iter().find(|gas| is_law && gas.as_str() == name)
+}
+
+/// \[W/(m K)\]; none in a vacuum. It does not depend on the pressure.
+fn conductivity(gas: GasName, temperature: f64) -> Option<f64> {
+    let [low, high] = gas.range();
+    gas.at(temperature.clamp(low, high), 1e5, 1.0).map(|gas| gas.conductivity)
+}
+
+fn texts(gas: GasName, [temperature, solid, least]: [f64; 3]) -> [String; 2] {
+    let short = |value: f64| number(rounded(value, 4));
+    let value = format!("{} W/(m K) at {} K", short(solid), number(rounded(temperature, 5)));
+    [value, format!("at least that of the gas ({}), which is {} W/(m K) there", gas.as_str(), short(least))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    fn lines(conductivity: &str, gas: &str, start: f64, walls: &[f64], heated: bool) -> Vec<String> {
+        let text = format!(
+            "thermalConductivity {conductivity}; surrogate {{ type spheres; spheresCoeffs {{ poissonRatio 0.3; {gas} }} }}"
+        );
+        let properties = Dictionary::parse(Path::new(FILE), &text).unwrap();
+        let start = Values { numbers: vec![vec![start]], uniform: true };
+        let temperatures = Temperatures { start: Some(&start), walls: walls.to_vec(), heated };
+        let mut found = Findings::default();
+        check(&properties, &temperatures, &mut found);
+        found.0.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn spheres_that_conduct_less_than_the_gas_at_the_start_are_refused() {
+        let helium = "gas helium;";
+        assert_eq!(
+            lines("0.2", helium, 673.15, &[], false),
+            [
+                "error: constant/granularProperties: thermalConductivity = 0.2 W/(m K) at 673.15 K, allowed: at least that of the gas \
+                 (helium), which is 0.2733 W/(m K) there. The law of spheres does not know spheres that conduct less than the gas \
+                 between them, and the solver refuses them"
+            ]
+        );
+        for [good, gas] in
+            [["0.2", "gas air;"], ["0.3", helium], ["1e-3", "gas vacuum;"], ["1e-3", ""], ["sine", helium]]
+        {
+            assert_eq!(lines(good, gas, 673.15, &[], false), Vec::<String>::new(), "{good} {gas}");
+        }
+        let named = "k [1 1 -3 -1 0 0 0] 0.2";
+        assert!(lines(named, helium, 673.15, &[], false)[0].starts_with("error"));
+    }
+
+    #[test]
+    fn spheres_that_conduct_less_where_a_wall_or_a_source_warms_them_are_doubted() {
+        let (falls, helium) = ("table ((300 3.2) (700 0.3) (1300 0.2))", "gas helium;");
+        assert_eq!(lines(falls, helium, 673.15, &[600.0, 700.0], false), Vec::<String>::new());
+        for (walls, heated) in [(vec![900.0], false), (vec![], true)] {
+            let found = lines(falls, helium, 673.15, &walls, heated);
+            assert_eq!(found.len(), 1);
+            let [start, end] = [
+                "doubt: constant/granularProperties: thermalConductivity = 0.2928 W/(m K) at 743.15 K, allowed: at least that of the gas",
+                "the run ends when a cell reaches this temperature",
+            ];
+            assert!(found[0].starts_with(start) && found[0].ends_with(end), "{found:?}");
+        }
+        // A cold wall, and a polynomial
+        let rises = "polynomial ((-0.2 0) (0.001 1))";
+        assert!(lines(rises, helium, 673.15, &[300.0], false)[0].contains("W/(m K) at 3"));
+    }
+}
