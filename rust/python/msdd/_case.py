@@ -77,10 +77,10 @@ def read_table(case: PathLike, name: str) -> dict[str, Array]:
     """What a function object of ours (massAudit, heatAudit, wallPressure, spaceProbes, ...) wrote: an array (times,) for each
     column by its name, "Time" [s] first. A restarted run is joined to what came before.
 
-    case: folder of the case. name: of the function object in system/controlDict. Raises CaseError.
+    case: folder of the case. name: of the function object in system/controlDict, whatever its type. Raises CaseError.
     """
     table: dict[str, Array] = {}
-    for start, file in _outputs(case, name, f"{name}.dat"):
+    for start, file in _outputs(case, name, _table_name(case, name)):
         text = _text(file)
         comments = [line for line in text.splitlines() if line.startswith("#")]
         names = comments[-1][1:].split() if comments else []
@@ -92,6 +92,18 @@ def read_table(case: PathLike, name: str) -> dict[str, Array]:
         kept = table["Time"] <= start if table else np.zeros(0, np.bool_)
         table = {name: np.concatenate([table[name][kept], new]) if table else new for name, new in columns.items()}
     return table
+
+
+def _table_name(case: PathLike, name: str) -> str:
+    """The file that a function object writes: it is named after its type, which its name need not be."""
+    folder = Path(case) / "postProcessing" / name
+    starts = time_folders(folder) if folder.is_dir() else []
+    tables = [(start, file) for start in starts for file in (folder / start).glob("*.dat")]
+    # Where a run is repeated, OpenFOAM writes a second file beside the first, and adds the time to its name.
+    files = {file.name for start, file in tables if not file.stem.endswith(f"_{start}")}
+    if len(files) > 1 and f"{name}.dat" not in files:
+        raise CaseError(f"{folder}: several tables: {', '.join(sorted(files))}")
+    return files.pop() if len(files) == 1 else f"{name}.dat"
 
 
 def time_folders(case: PathLike) -> list[str]:

@@ -168,6 +168,19 @@ class Outputs(WithCase):
         store(file, b"0.05 3.5\n")
         self.refused("names of columns", msdd.read_table, self.case, "massAudit")
 
+    def test_tables_of_function_objects_with_a_name_of_their_own(self) -> None:
+        folder = self.case / "postProcessing/sp"
+        self.refused("no sp.dat", msdd.read_table, self.case, "sp")
+        store(folder / "0/spaceProbes.dat", b"# Time T_0\n0.5\t300\n1\t301\n")
+        store(folder / "0/spaceProbes_0.dat", b"# Time T_0\n0.5\t7\n")
+        store(folder / "1/spaceProbes.dat", b"# Time T_0\n1.5\t302\n")
+        table = msdd.read_table(self.case, "sp")
+        self.assertEqual(list(table), ["Time", "T_0"])
+        np.testing.assert_array_equal(table["Time"], [0.5, 1, 1.5])
+        np.testing.assert_array_equal(table["T_0"], [300, 301, 302])
+        store(folder / "0/other.dat", b"# Time T_0\n0.5\t300\n")
+        self.refused("several tables: other.dat, spaceProbes.dat", msdd.read_table, self.case, "sp")
+
 
 if __name__ == "__main__":
     unittest.main()
