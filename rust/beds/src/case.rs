@@ -96,6 +96,7 @@ pub struct GasKeys {
     pub name: GasName,
     #[serde(default = "usual_pressure")]
     pub pressure: f64,
+    #[serde(default = "usual_accommodation")]
     pub accommodation: f64,
 }
 
@@ -152,6 +153,10 @@ fn usual_gravity() -> f64 {
 
 fn usual_pressure() -> f64 {
     101_325.0
+}
+
+fn usual_accommodation() -> f64 {
+    0.9
 }
 
 fn usual_tolerance() -> f64 {

@@ -197,6 +197,8 @@ fn grains_that_conduct_poorly_follow_the_closure() {
 fn bad_descriptions_are_refused_with_key_and_value() {
     let good = text([ENDLESS, "", FLOOR, COLUMN]);
     assert!(read(&good).is_ok());
+    let usual = read(&good.replace("accommodation = 0.9\n", "")).unwrap();
+    assert_eq!(usual.gas.accommodation, 0.9);
     for (from, to, message) in [
         (
             "pressure = 20000",
