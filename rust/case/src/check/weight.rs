@@ -41,7 +41,8 @@ pub fn check(
         let allowed =
             format!("about the weight of the bed, {} Pa at its lowest point", number(rounded(weight, 3)));
         let advice = "Grains that hardly touch have to be pressed together first, in thousands of short steps. Is the stress in \
-                      Pa, not in kPa? restStress in constant/granularProperties finds it from the weight";
+                      Pa, not in kPa? restStress in constant/granularProperties finds it from the weight, without what friction at \
+                      walls bears; a tall bed between rough walls should begin with a few hundredths of its weight";
         found.doubt(["0/stress", "internalField"], &value, &allowed, advice);
     }
 }
@@ -105,6 +106,10 @@ mod tests {
         let found = lines("equilibrium", "(0 -9.81 0)", "empty", -30.0);
         let wanted = "doubt: 0/stress: internalField = at most 30 Pa, allowed: about the weight of the bed, 29400 Pa at its lowest";
         assert!(found.len() == 1 && found[0].starts_with(wanted), "{found:?}");
+        assert!(
+            found[0]
+                .ends_with("a tall bed between rough walls should begin with a few hundredths of its weight")
+        );
         assert!(lines("none", "(0 -9.81 0)", "empty", -30.0).is_empty());
         let elastic = "equilibrium; equilibriumCoeffs { law elastic; } more 1";
         assert!(lines(elastic, "(0 -9.81 0)", "empty", -30.0).is_empty());
