@@ -46,7 +46,7 @@ fn inference(section: &mut Section, root: &Path) -> Result<(), DocsError> {
     let names: Vec<String> =
         models.value.as_object().map(|map| map.keys().cloned().collect()).unwrap_or_default();
     for name in names {
-        let mut row = vec![name.clone()];
+        let (mut row, mut with_tangent) = (vec![name.clone()], vec![format!("{name}, with the tangent")]);
         for batch in models.list(&format!("/{name}/batches"))? {
             let (cells, time) = (batch.number("/batch")?, two(batch.number("/ns_per_query")?));
             let meaning = format!("time of a query of model {name} in batches of {cells}");
@@ -58,8 +58,15 @@ fn inference(section: &mut Section, root: &Path) -> Result<(), DocsError> {
                 "msdd bench inference",
             );
             row.push(time);
+            // The paper's network has none.
+            if let Ok(time) = batch.number("/ns_per_query_with_tangent") {
+                with_tangent.push(two(time));
+            }
         }
         rows.push(row);
+        if with_tangent.len() > 1 {
+            rows.push(with_tangent);
+        }
     }
     let columns = ["model", "1 cell [ns a cell]", "64 cells", "3 000 cells", "1 000 000 cells"];
     let meaning = "time of a query by size of the batch, one thread";
