@@ -1,9 +1,10 @@
 //! The law of a packing of spheres, as in [`super`].
 
+use super::components::six;
 use super::contacts::{Contacts, Usual};
 use super::number::Number;
 use super::state::{ELEMENTS, FABRIC, LEAST_COMPRESSION, State};
-use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, six, square, sum, turned};
+use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
 use crate::kernel::elementary;
 use crate::kernel::vector::Arithmetic;
 use serde::{Deserialize, Serialize};

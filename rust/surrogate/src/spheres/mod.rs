@@ -48,6 +48,7 @@
 
 pub mod ablation;
 mod check;
+mod components;
 pub mod contacts;
 pub mod errors;
 pub mod fit;

@@ -1,10 +1,11 @@
 //! The model of spheres: law and readouts, and their file.
 
+use super::components::{six, three};
 use super::law::{Law, Strain};
 use super::number::{Differentiable, Dual, Number};
 use super::readout::Readout;
 use super::state::{ELEMENTS, Known, State};
-use super::tensor::{Tensor, contraction, mean, rotation, six, three};
+use super::tensor::{Tensor, contraction, mean, rotation};
 use crate::SurrogateError;
 use crate::document::{field, hash, json, schema};
 use crate::kernel::vector::{Arithmetic, Vector};

@@ -1,7 +1,8 @@
 //! Numbers in which the law is evaluated: values of one cell or of several, or values with their derivatives by the six strains, so
 //! that the tangent is the derivative of exactly the stress that is answered.
 
-use super::tensor::six;
+use super::components::six;
+
 use crate::kernel::elementary;
 use crate::kernel::vector::Arithmetic;
 use std::ops::{Add, Mul, Sub};

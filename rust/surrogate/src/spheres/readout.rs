@@ -4,9 +4,10 @@
 //! (Batchelor and O'Brien, 1977, Proc. R. Soc. A 355:313), with more of it along the larger stress and along more contacts. C grows
 //! with the number of contacts. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
 
+use super::components::{six, three};
 use super::number::Number;
 use super::state::{FABRIC, State};
-use super::tensor::{Tensor, contraction, mean, scaled, six, three};
+use super::tensor::{Tensor, contraction, mean, scaled};
 use serde::{Deserialize, Serialize};
 
 /// Numbers ln(R/h) of the gas for which κ_g is known: h is the width of the gap at a contact, for heat.

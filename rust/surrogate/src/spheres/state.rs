@@ -1,7 +1,8 @@
 //! The state of a cell, and what may be known of it at the start.
 
+use super::components::six;
 use super::number::Number;
-use super::tensor::{Tensor, six, sum};
+use super::tensor::{Tensor, sum};
 use crate::kernel::vector::Arithmetic;
 
 /// Number of elements, each of which bears a part of the deviator. The last is that of the fabric.

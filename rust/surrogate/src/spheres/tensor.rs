@@ -1,5 +1,6 @@
 //! Symmetric tensors of three dimensions: xx, yy, zz, xy, xz, yz.
 
+use super::components::{six, three};
 use super::number::Number;
 
 /// Components xx, yy, zz, xy, xz, yz.
@@ -7,25 +8,6 @@ pub type Tensor<N = f64> = [N; 6];
 
 /// A rotation matrix, row by row.
 pub type Rotation<V = f64> = [[V; 3]; 3];
-
-/// An array of so many components. Closures would not always be compiled for the instruction set of their caller.
-macro_rules! six {
-    ($k:ident => $of:expr) => {
-        six!([0 1 2 3 4 5] $k => $of)
-    };
-    ([$($number:literal)*] $k:ident => $of:expr) => {
-        [$({
-            let $k: usize = $number;
-            $of
-        }),*]
-    };
-}
-macro_rules! three {
-    ($k:ident => $of:expr) => {
-        $crate::spheres::tensor::six!([0 1 2] $k => $of)
-    };
-}
-pub(super) use {six, three};
 
 /// A third of the trace.
 #[inline(always)]
