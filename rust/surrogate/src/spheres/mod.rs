@@ -47,6 +47,8 @@
 //! `cases/database`), and to beds that were poured (`cases/database/poured`).
 
 pub mod ablation;
+#[cfg(test)]
+mod block_tests;
 mod check;
 mod components;
 pub mod contacts;

@@ -135,12 +135,7 @@ const COORDINATION: [f64; 2] = [0.0, 12.0];
 const MOST_RATIO: f64 = 2.0;
 const MOST_STRAIN: f64 = 0.2;
 
-/// A number within an interval; its lower end for one that is none.
-fn limited(value: f64, [low, high]: [f64; 2]) -> f64 {
-    if value > low { value.min(high) } else { low }
-}
-
-/// The same of several cells.
+/// Numbers within an interval; its lower end for those that are none.
 #[inline(always)]
 fn between<V: Arithmetic>(value: V, [low, high]: [f64; 2]) -> V {
     value.within(V::all(low), V::all(high))
@@ -326,7 +321,7 @@ impl SphereModel {
 
     /// The state of a cell with this solid fraction φ, stress over E*, and what else is known of it.
     pub fn initial_state(&self, solid: f64, stress: Tensor, known: &Known) -> [f64; COLUMNS] {
-        columns(&self.file.law.start(limited(solid, JAMMING), stress, known))
+        columns(&self.file.law.start(between(solid, JAMMING), stress, known))
     }
 
     /// Strains a cell. Finite inputs give finite answers.

@@ -3,28 +3,27 @@
 use super::contacts::Contacts;
 use super::fit_state::readout;
 use super::law::Law;
-use super::model::{Answer, Answers, Block, COLUMNS, Increment, SphereModel, columns, state};
+use super::model::{COLUMNS, Increment, SphereModel, columns, state};
 use super::parameters::{beginning, law as law_of, parameters};
 use super::state::{FABRIC, Known, POURED, State};
 use super::tensor::{Rotation, Tensor, contraction, deviator, mean, rotation, turned};
 use super::tracks::{Point, Step, Track, advanced, follow};
 use super::training::{is_held_out, train};
 use crate::TrainingOptions;
-use crate::kernel::{LANES, with_every_set};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// A number between −1 and 1.
-fn random(generator: &mut ChaCha8Rng) -> f64 {
+pub(super) fn random(generator: &mut ChaCha8Rng) -> f64 {
     f64::from(generator.next_u32()) / f64::from(u32::MAX) * 2.0 - 1.0
 }
 
-fn tensor(generator: &mut ChaCha8Rng, size: f64) -> Tensor {
+pub(super) fn tensor(generator: &mut ChaCha8Rng, size: f64) -> Tensor {
     std::array::from_fn(|_| size * random(generator))
 }
 
 /// A packing that bears load, with a deviator.
-fn packing(law: &Law, generator: &mut ChaCha8Rng) -> State {
+pub(super) fn packing(law: &Law, generator: &mut ChaCha8Rng) -> State {
     let solid = 0.605 + 0.025 * random(generator);
     let pressure = libm::pow(10.0, -5.0 + 2.5 * random(generator));
     let mut stress = tensor(generator, 0.15 * pressure);
@@ -33,7 +32,7 @@ fn packing(law: &Law, generator: &mut ChaCha8Rng) -> State {
     law.start(solid, stress, &Known { mobilised, ..Known::default() })
 }
 
-fn model() -> SphereModel {
+pub(super) fn model() -> SphereModel {
     SphereModel::builtin().expect("a good file")
 }
 
@@ -212,53 +211,6 @@ fn extreme_inputs_give_finite_answers() {
                 let all = answer.stress.iter().chain(&answer.contact).chain(answer.tangent.as_flattened());
                 assert!(all.chain([&answer.gas, &answer.solid]).all(|value| value.is_finite()), "{a} {b}");
             }
-        }
-    }
-}
-
-/// Packings of all kinds in one block: with and without strain, few and many parts, opening until they do not touch.
-#[test]
-fn answers_do_not_depend_on_the_instruction_set_nor_on_the_other_cells() {
-    let (model, mut generator) = (model(), ChaCha8Rng::seed_from_u64(12));
-    for round in 0..20 {
-        let mut block = Block::default();
-        let mut cells = Vec::new();
-        for lane in 0..LANES {
-            let state = columns(&packing(&model.file.law, &mut generator));
-            let size = [0.0, 1e-6, 1e-4, 3e-2][(lane + round) % 4];
-            let strain = Increment {
-                thermal: 0.1 * size * random(&mut generator),
-                cell: tensor(&mut generator, size),
-                rotation: [0.0, 0.0, size * random(&mut generator)],
-            };
-            block.state.iter_mut().zip(state).for_each(|(column, value)| column[lane] = value);
-            block.cell.iter_mut().zip(strain.cell).for_each(|(column, value)| column[lane] = value);
-            block.rotation.iter_mut().zip(strain.rotation).for_each(|(column, value)| column[lane] = value);
-            block.thermal[lane] = strain.thermal;
-            block.gas_number[lane] = 5.0 + 0.1 * lane as f64;
-            cells.push((state, strain));
-        }
-        let bits = |answer: &Answer| {
-            let mut numbers = answer.state.to_vec();
-            numbers.extend(answer.stress.iter().chain(&answer.contact).chain(answer.tangent.as_flattened()));
-            numbers.extend([answer.gas, answer.solid, answer.coordination, f64::from(answer.outside)]);
-            numbers.into_iter().map(f64::to_bits).collect::<Vec<u64>>()
-        };
-        for tangent in [false, true] {
-            let mut first: Option<Vec<Vec<u64>>> = None;
-            with_every_set(|set| {
-                let mut answers = Answers::default();
-                model.advance_block(&block, LANES, tangent, &mut answers);
-                let all: Vec<Vec<u64>> = (0..LANES).map(|lane| bits(&answers.at(lane))).collect();
-                for (lane, (state, strain)) in cells.iter().enumerate() {
-                    let alone = model.advance(state, strain, block.gas_number[lane], tangent);
-                    assert_eq!(bits(&alone), all[lane], "{set}, cell {lane} of block {round}");
-                    // The stress does not depend on whether the tangent is asked for.
-                    let without = model.advance(state, strain, block.gas_number[lane], false);
-                    assert_eq!(without.stress.map(f64::to_bits), alone.stress.map(f64::to_bits));
-                }
-                assert!(first.get_or_insert_with(|| all.clone()) == &all, "{set}");
-            });
         }
     }
 }
