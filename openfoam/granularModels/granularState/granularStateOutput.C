@@ -150,8 +150,10 @@ void Foam::granularState::finishStep()
 
 Foam::string Foam::granularState::describe(const label celli) const
 {
+    // Columns after the first two belong to a law's inner state: a law of
+    // spheres has two dozen
     OStringStream text;
-    forAll(state_, i)
+    for (label i = 0; i < min(state_.size(), label(2)); ++i)
     {
         text<< state_[i].name() << ' ' << state_[i][celli] << ", ";
     }
