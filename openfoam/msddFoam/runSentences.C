@@ -45,7 +45,7 @@ Foam::runSummary::heatBalance Foam::runSummary::heat() const
     {
         returnReduce(sum(record.heat), sumOp<scalar>()),
         returnReduce(record.sourceHeat, sumOp<scalar>()),
-        grains_.storedHeat(T_),
+        grains_.storedHeat(T_) - record.startHeat,
         returnReduce(record.exchanged, sumOp<scalar>()),
         max(runRecord::roundedHeat*grains_.initialHeat(), VSMALL)
     };

@@ -68,7 +68,8 @@ bool Foam::functionObjects::heatAudit::write()
     const tmp<volScalarField> tbulk(present<scalar>("bulkDensity"));
     const granularProperties grains(mesh_);
     const scalarField mass(tbulk().primitiveField()*mesh_.V().field());
-    const scalar stored = grains.storedHeat(mass, tT(), tT0());
+    const scalar stored =
+        grains.storedHeat(mass, tT(), tT0()) - known.startHeat;
     const scalar content = grains.heldHeat(mass, tT0());
     const scalar patches = returnReduce(sum(known.heat), sumOp<scalar>());
     const scalar sources = returnReduce(known.sourceHeat, sumOp<scalar>());

@@ -179,6 +179,10 @@ Foam::granularState::granularState
     {
         setInitialBulkDensity();
     }
+    if (!record_.continues)
+    {
+        record_.startHeat = storedHeat(T);
+    }
     findWalls(T);
     askStart();
     findReaders();

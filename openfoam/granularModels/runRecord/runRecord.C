@@ -64,8 +64,10 @@ Foam::runRecord::runRecord(const fvMesh& mesh, const bool registered)
 void Foam::runRecord::read(const timeFolder& folder)
 {
     const dictionary& dict = folder.record();
+    continues = true;
     dict.readEntry("nextDeltaT", nextDeltaT);
     dict.readEntry("initialMass", initialMass);
+    dict.readIfPresent("startHeat", startHeat);
     dict.readIfPresent("lastDeltaT", lastDeltaT);
     dict.readIfPresent("startTime", startTime);
     dict.readIfPresent("leastT", leastT);
@@ -168,6 +170,7 @@ void Foam::runRecord::writeLast()
     os.writeEntry("leastT", leastT);
     os.writeEntry("mostT", mostT);
     os.writeEntry("initialMass", initialMass);
+    os.writeEntry("startHeat", startHeat);
     os.writeEntry("sourceHeat", sourceHeat);
     os.writeEntry("exchanged", exchanged);
 

@@ -193,6 +193,26 @@ one_solver() { # a second solver in a folder is refused while the first runs, al
     check "refused input leaves no lock file" bash -c '! msddFoam > log.bad 2>&1 && test ! -e msddFoam.lock'
 }
 
+mapped() { # goes on from fields that OpenFOAM's mapFields took to finer cells: heat counts from there, also after a restart
+    local source e
+    halfway mapped-from
+    mesh_is '12 6 1'
+    logged msddFoam
+    source=$PWD
+    changed mapped
+    controls "startFrom latestTime; endTime 0.05; writeInterval 1; functions { #include \"$here/audits\" }"
+    mesh_is '24 12 1'
+    logged mapFields "$source" -sourceTime 0.5 -consistent
+    logged msddFoam
+    controls 'endTime 0.1;'
+    logged msddFoam
+    for e in 0 0.05; do
+        e=$(tail -n 1 postProcessing/heatAudit/$e/heatAudit.dat | awk '{ print $NF }')
+        check "fields mapped to finer cells: heat received and held differ by $e <= 1e-6" below "$e" 1e-6
+    done
+    check "fields mapped to finer cells: no doubt about the heat" bash -c '! grep -q "heat is lost" log'
+}
+
 halfway restart-none
 mesh_is '12 6 1'
 every_file "grains that stay"
@@ -217,5 +237,6 @@ every_file "online RVEs"
 full_disk
 blocked
 one_solver
+mapped
 for shape in $shapes; do other_processes "$shape"; done
 binary_and_compressed
