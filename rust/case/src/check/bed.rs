@@ -4,6 +4,7 @@ use super::domain::Mesh;
 use super::fields::{self, FIELDS};
 use super::files::{self, Files};
 use super::finding::Findings;
+use super::temperatures::{self, Temperatures};
 use super::{
     control, gas, grains, gravity, keys, scales, sources, spheres, state, tables, walls, weight, zones,
 };
@@ -55,7 +56,9 @@ pub fn check(
     scene.check_walls(found);
     if let Some(properties) = properties {
         let (walls, heated) = (scene.wall_temperatures().collect(), scene.is_heated());
-        gas::check(properties, &gas::Temperatures { start: temperature.as_ref(), walls, heated }, found);
+        let temperatures = Temperatures { start: temperature.as_ref(), walls, heated };
+        temperatures::check(properties, &temperatures, found);
+        gas::check(properties, &temperatures, found);
     }
     if restarted {
         return;

@@ -21,6 +21,7 @@
 //! | [`sources`] | sources and constraints |
 //! | [`zones`] | zones and sets of cells that are named |
 //! | [`tables`] | functions of temperature or time |
+//! | [`temperatures`] | the temperatures of a bed, and properties that depend on them |
 //! | [`walls`] | friction at walls, and wedges |
 //! | [`weight`] | gravity and the stress at the start |
 //! | [`fields`] | the fields in `0` |
@@ -49,6 +50,7 @@ mod spheres;
 mod start;
 pub mod state;
 mod tables;
+mod temperatures;
 mod walls;
 mod weight;
 mod zones;
