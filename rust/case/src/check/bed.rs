@@ -6,7 +6,7 @@ use super::files::{self, Files};
 use super::finding::Findings;
 use super::temperatures::{self, Temperatures};
 use super::{
-    control, gas, grains, gravity, keys, scales, sources, spheres, state, tables, walls, weight, zones,
+    control, gas, grains, gravity, held, keys, scales, sources, spheres, state, tables, walls, weight, zones,
 };
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
@@ -40,6 +40,7 @@ pub fn check(
         let start = if restarted { [None, None] } else { [porosity.as_ref(), stress.as_ref()] };
         spheres::check(folder, properties, mesh, start, found);
         walls::check(properties, mesh, found);
+        held::check(properties, mesh, found);
         if let Some(gravity) = file(gravity::FILE) {
             weight::check(properties, gravity, mesh, start, found);
         }
