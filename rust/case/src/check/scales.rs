@@ -86,7 +86,7 @@ impl<'a> Scene<'a> {
         self.walls.push((name.to_string(), values));
     }
 
-    /// Temperatures of all walls over time [K].
+    /// Temperatures of all walls over time \[K\].
     pub fn wall_temperatures(&self) -> impl Iterator<Item = f64> {
         self.walls.iter().flat_map(|(_, values)| values.iter().copied())
     }

@@ -32,7 +32,7 @@ pub struct Rung {
     pub name: String,
     pub family: &'static str,
     pub settings: Settings,
-    /// Range of T [K], from which the tolerance follows; `None`: that of the case stays.
+    /// Range of T \[K\], from which the tolerance follows; `None`: that of the case stays.
     pub range: Option<f64>,
     /// Text that is added at the end of files of the case.
     pub append: BTreeMap<String, String>,
@@ -50,7 +50,7 @@ impl Rung {
         self
     }
 
-    /// The run, compared with discs in a box of this lower left corner and size [m] if there is one.
+    /// The run, compared with discs in a box of this lower left corner and size \[m\] if there is one.
     pub fn run(&self, discs: Option<[[f64; 2]; 2]>) -> CaseRun {
         let (settings, append) = (self.settings.clone(), self.append.clone());
         CaseRun { settings, range: self.range, append, discs }
@@ -86,7 +86,7 @@ pub fn finest(quick: bool) -> (f64, i32) {
     (TOLERANCES[TOLERANCES.len() - 1 - left_out], HALVED[HALVED.len() - 1 - left_out])
 }
 
-/// The configurations. `range`: of T [K].
+/// The configurations. `range`: of T \[K\].
 ///
 /// # Errors
 /// [`ReportError::Case`] for dictionaries of the case that cannot be read.
