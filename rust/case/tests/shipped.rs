@@ -185,6 +185,12 @@ fn what_is_doubtful_or_missing_is_said() {
             "heatCapacity { type table; values ((0 1) (900 2)); }",
             "error: constant/granularProperties: heatCapacity = { type table; ... }, allowed: heatCapacity table",
         ),
+        (
+            "free",
+            properties,
+            "mechanics equilibrium; equilibriumCoeffs { walls { \".*\" { type pressure; pressure 0; } top { type frictionless; } } }",
+            "error: constant/granularProperties: equilibriumCoeffs/walls = nothing against motion along (1 0 0)",
+        ),
         ("open", "system/fvSolution", "msddFoam {", "error: system/fvSolution: "),
     ] {
         let found = found_in(name, file, text);

@@ -60,7 +60,9 @@ pub fn check(properties: &Dictionary, temperatures: &Temperatures, found: &mut F
         if !keys::is_function(properties, key) {
             continue;
         }
-        let wrong = |t: f64| tables::at(properties, key, t).filter(|value| !(*value > 0.0)).map(|v| [v, t]);
+        let wrong = |t: f64| {
+            tables::at(properties, key, t).filter(|value| value.is_nan() || *value <= 0.0).map(|v| [v, t])
+        };
         let text = |[value, t]: [f64; 2]| {
             format!("{} {unit} at {} K", number(rounded(value, 4)), number(rounded(t, 5)))
         };
