@@ -53,9 +53,14 @@ Foam::caseLock::caseLock(const fileName& caseFolder)
     }
     for (label i = 1; !take(); ++i)
     {
+        const string other(holder());
+        if (i == 1)
+        {
+            Info<< "Waiting up to " << tries*pause/1000000 << " s for "
+                << other.c_str() << ", which computes this case" << nl << endl;
+        }
         if (i == tries)
         {
-            const string other(holder());
             ::close(file_);
             file_ = -1;
             FatalErrorInFunction

@@ -202,6 +202,12 @@ int main(int argc, char *argv[])
 
     restart.setValue(runTime);
     chooseSettings(runTime, lock);
+    // Every run writes, at least its summary
+    checkWritable(runTime.path());
+    if (Pstream::master())
+    {
+        checkWritable(runTime.globalPath());
+    }
 
     // Six digits in the log, whatever the writePrecision of the fields
     Sout.precision(6);

@@ -197,6 +197,15 @@ void Foam::wallConditions::read
         scalar limit = 0, slip = radius_;
         const bool known =
             elastic_ ? !dict.found("friction") : model.wallFriction(limit, slip);
+        w.friction =
+            granularProperties::ranged(dict, "friction", limit, 0, 10);
+        if (w.friction > 0 && mesh_.dim() == 3)
+        {
+            FatalIOErrorInFunction(walls)
+                << "Patch " << patch.name() << " has friction " << w.friction
+                << ", allowed in meshes of three dimensions: 0"
+                << exit(FatalIOError);
+        }
         if (!known && !(dict.found("friction") && dict.found("slip")))
         {
             FatalIOErrorInFunction(walls)
@@ -204,8 +213,6 @@ void Foam::wallConditions::read
                 << " 'slip': the model has no friction at walls"
                 << exit(FatalIOError);
         }
-        w.friction =
-            granularProperties::ranged(dict, "friction", limit, 0, 10);
         w.slip = granularProperties::ranged
         (
             dict, "slip", slip, 2e-7*radius_, 2000*radius_
@@ -222,13 +229,6 @@ void Foam::wallConditions::read
             0.1,
             3
         );
-        if (w.friction > 0 && mesh_.dim() == 3)
-        {
-            FatalIOErrorInFunction(walls)
-                << "Patch " << patch.name() << " has friction " << w.friction
-                << ", allowed in meshes of three dimensions: 0"
-                << exit(FatalIOError);
-        }
     }
     if (w.type == kind::shell)
     {

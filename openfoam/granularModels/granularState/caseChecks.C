@@ -17,7 +17,10 @@ License
 #include "caseChecks.H"
 #include "IFstream.H"
 
+#include <cerrno>
+#include <cstring>
 #include <sstream>
+#include <unistd.h>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -89,6 +92,19 @@ static string whereBelow(const volScalarField& T, const scalar bound)
 
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
+
+void Foam::checkWritable(const fileName& folder)
+{
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    {
+        FatalErrorInFunction
+            << "Folder " << folder << " cannot be written: "
+            << std::strerror(errno) << ". Allowed: a case folder in which you can"
+            << " make files, since a run writes its results there; take a copy"
+            << exit(FatalError);
+    }
+}
+
 
 void Foam::checkWriteInterval(const fileName& file)
 {

@@ -21,24 +21,24 @@ pub struct Case {
     /// Material with the density and E of the case; parameters that the solver does not have are those of the paper's Table 2.
     pub material: Material,
     pub thermal: Thermal,
-    /// r̄ of the grains [m].
+    /// r̄ of the grains \[m\].
     pub mean_radius: f64,
-    /// Initial temperature of all grains [K].
+    /// Initial temperature of all grains \[K\].
     pub initial_temperature: f64,
-    /// Thermal boundary conditions, in the order of [`Side`].
+    /// Thermal boundary conditions, in the order of `Side`.
     pub walls: [WallOverTime; 4],
-    /// Lower left corner of the box in the case's coordinates [m].
+    /// Lower left corner of the box in the case's coordinates \[m\].
     pub origin: [f64; 2],
-    /// Width and height of the box [m].
+    /// Width and height of the box \[m\].
     pub size: [f64; 2],
-    /// End of the simulation [s].
+    /// End of the simulation \[s\].
     pub end_time: f64,
-    /// Points where T is recorded [m], relative to the lower left corner of the box.
+    /// Points where T is recorded \[m\], relative to the lower left corner of the box.
     pub probes: Vec<[f64; 2]>,
 }
 
 impl Case {
-    /// Highest less lowest temperature of the walls at any time and of the start [K].
+    /// Highest less lowest temperature of the walls at any time and of the start \[K\].
     pub fn temperature_range(&self) -> f64 {
         let all = || self.walls.iter().flat_map(WallOverTime::temperatures).chain([self.initial_temperature]);
         all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)

@@ -7,7 +7,7 @@ use std::fmt::Write;
 pub enum FieldKind {
     /// A number without unit.
     Ratio,
-    /// A symmetric tensor [Pa], tension positive as everywhere in OpenFOAM.
+    /// A symmetric tensor \[Pa\], tension positive as everywhere in OpenFOAM.
     Stress,
     /// A symmetric tensor [W/(m K)].
     Conductivity,

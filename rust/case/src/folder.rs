@@ -84,7 +84,7 @@ pub fn files(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> R
 }
 
 /// The files that hardly depend on the bed: what runs and removes, and numerical schemes. `tolerance`: error of T that a step may
-/// make [K]; `grains`: number of grains of the bed, of which the mesh may be a part.
+/// make \[K\]; `grains`: number of grains of the bed, of which the mesh may be a part.
 pub fn programs(name: &str, checkout: &Path, tolerance: f64, grains: usize) -> Vec<File> {
     let keys = format!(
         "temperatureTolerance    {};\n\n    // Number of grains of the whole bed, for 'msdd case solve'\n    grains                  {grains};",

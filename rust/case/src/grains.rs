@@ -9,7 +9,7 @@ use msdd_rve::message::number;
 pub struct Grains {
     /// Density ρ of a grain, not of the bed [kg/m³].
     pub density: f64,
-    /// Young's modulus E [Pa]. Contact forces are E r δ (r: harmonic mean of the two radii, δ: overlap), so the pressure is
+    /// Young's modulus E \[Pa\]. Contact forces are E r δ (r: harmonic mean of the two radii, δ: overlap), so the pressure is
     /// in proportion to E.
     pub young_modulus: f64,
     /// Thermal conductivity k [W/(m K)].
@@ -18,7 +18,7 @@ pub struct Grains {
     pub heat_capacity: f64,
     /// Linear thermal expansion coefficient α [1/K].
     pub thermal_expansion: f64,
-    /// Mean radius r̄ [m]; the radii are uniformly distributed between 0.6 r̄ and 1.4 r̄.
+    /// Mean radius r̄ \[m\]; the radii are uniformly distributed between 0.6 r̄ and 1.4 r̄.
     pub mean_radius: f64,
 }
 
@@ -28,7 +28,7 @@ pub struct Preset {
     /// Description, and the source of the numbers.
     pub about: &'static str,
     pub grains: Grains,
-    /// Proposed initial temperature [K].
+    /// Proposed initial temperature \[K\].
     pub temperature: f64,
 }
 
@@ -140,7 +140,7 @@ impl Grains {
         Material { density: self.density, young_modulus: self.young_modulus, ..Material::default() }
     }
 
-    /// E r̄/ℓ with ℓ = 1 m [Pa]. The stresses of packings of equal structure are in proportion to this scale.
+    /// E r̄/ℓ with ℓ = 1 m \[Pa\]. The stresses of packings of equal structure are in proportion to this scale.
     pub fn stress_scale(&self) -> f64 {
         self.young_modulus * self.mean_radius
     }

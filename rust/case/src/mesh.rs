@@ -4,7 +4,7 @@
 use crate::CaseError;
 use std::path::Path;
 
-/// x and y of the centres of all cells [m].
+/// x and y of the centres of all cells \[m\].
 ///
 /// # Errors
 /// [`CaseError::Read`] when a file is missing, and [`CaseError::Key`] when it is not a list of text.

@@ -33,7 +33,7 @@ const USUAL_SLOPE: f64 = -0.47;
 pub enum Start {
     /// η [-], overlaps counted once.
     Porosity(f64),
-    /// p [Pa], compression positive.
+    /// p \[Pa\], compression positive.
     Pressure(f64),
 }
 
@@ -56,9 +56,9 @@ pub struct Packing {
     pub porosity: Spread,
     /// f = F_xx − F_yy [-].
     pub fabric_index: Spread,
-    /// σ_xx, σ_yy [Pa].
+    /// σ_xx, σ_yy \[Pa\].
     pub stress: [Spread; 2],
-    /// p [Pa].
+    /// p \[Pa\].
     pub pressure: Spread,
     /// (K_xx + K_yy)/(2 k) [-], resistor network of the contacts solved.
     pub conductivity: Spread,

@@ -32,13 +32,13 @@ pub enum Mechanics {
 /// All parameters of a new case. SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Width and height of the box [m].
+    /// Width and height of the box \[m\].
     pub size: [f64; 2],
     /// Cells along x and y.
     pub cells: [usize; 2],
     /// Thermal boundary conditions, in the order of [`WALLS`].
     pub walls: [WallOverTime; 4],
-    /// Initial temperature of the whole bed [K].
+    /// Initial temperature of the whole bed \[K\].
     pub initial_temperature: f64,
     /// Name of the material, for comments in the files.
     pub material: String,
@@ -48,27 +48,27 @@ pub struct Scene {
     pub mechanics: Mechanics,
     /// Heat released in the bed [W/m³], negative for a sink.
     pub heat_source: Option<f64>,
-    /// End of the simulation [s].
+    /// End of the simulation \[s\].
     pub end_time: f64,
-    /// Largest error of T that a time step may add [K]; `None`: a thousandth of the range of T.
+    /// Largest error of T that a time step may add \[K\]; `None`: a thousandth of the range of T.
     pub tolerance: Option<f64>,
-    /// Points where T is recorded [m].
+    /// Points where T is recorded \[m\].
     pub probes: Vec<[f64; 2]>,
 }
 
-/// Proposed numbers of cells along x and y of a box of this size [m]: cells are about [`CELL_RADII`] mean radii wide, or
+/// Proposed numbers of cells along x and y of a box of this size \[m\]: cells are about [`CELL_RADII`] mean radii wide, or
 /// wider in large boxes.
 pub fn proposed_cells(size: [f64; 2], mean_radius: f64) -> [usize; 2] {
     let cell = (CELL_RADII * mean_radius).max(size[0].max(size[1]) / PROPOSED_CELLS);
     cells_of(size, cell)
 }
 
-/// Numbers of cells along x and y if the cells have about this side [m].
+/// Numbers of cells along x and y if the cells have about this side \[m\].
 pub fn cells_of(size: [f64; 2], cell: f64) -> [usize; 2] {
     size.map(|length| (length / cell).round().max(1.0) as usize)
 }
 
-/// Three points on the horizontal middle line of the box [m]: near the left wall, in the middle, near the right wall.
+/// Three points on the horizontal middle line of the box \[m\]: near the left wall, in the middle, near the right wall.
 pub fn proposed_probes(size: [f64; 2]) -> Vec<[f64; 2]> {
     let near = (0.5 * size[1]).min(0.25 * size[0]);
     [near, 0.5 * size[0], size[0] - near].map(|x| [rounded(x, 6), rounded(0.5 * size[1], 6)]).to_vec()
@@ -128,18 +128,18 @@ impl Scene {
         packing::check(&self.grains, self.start, self.compression)
     }
 
-    /// Sides of a cell [m].
+    /// Sides of a cell \[m\].
     pub fn cell(&self) -> [f64; 2] {
         [0, 1].map(|k| self.size[k] / self.cells[k] as f64)
     }
 
-    /// Least and largest temperature of the initial state and of the walls at any time [K].
+    /// Least and largest temperature of the initial state and of the walls at any time \[K\].
     pub fn temperatures(&self) -> [f64; 2] {
         let walls = self.walls.iter().flat_map(WallOverTime::temperatures);
         walls.fold([self.initial_temperature; 2], |[least, most], value| [least.min(value), most.max(value)])
     }
 
-    /// Length over which heat has to spread [m]: in each direction half of the box if both walls have a temperature, the whole
+    /// Length over which heat has to spread \[m\]: in each direction half of the box if both walls have a temperature, the whole
     /// box if one has; the shorter of the two directions.
     pub fn heat_way(&self) -> f64 {
         let warm = |wall: usize| !self.walls[wall].temperatures().is_empty();
@@ -173,7 +173,7 @@ impl Scene {
         Ok([conductivity / storage, conductivity])
     }
 
-    /// Proposed end time L²/D [s], rounded to two digits: the time in which most of the heat has spread over the length
+    /// Proposed end time L²/D \[s\], rounded to two digits: the time in which most of the heat has spread over the length
     /// L = [`Scene::heat_way`].
     ///
     /// # Errors
@@ -183,7 +183,7 @@ impl Scene {
         Ok(rounded(way * way / self.diffusivity()?[0], 2))
     }
 
-    /// The first time step [s], rounded to two digits: a twentieth of the time in which heat crosses a cell.
+    /// The first time step \[s\], rounded to two digits: a twentieth of the time in which heat crosses a cell.
     ///
     /// # Errors
     /// [`CaseError::Model`].
@@ -215,7 +215,7 @@ pub fn parse_pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], String> {
     }
 }
 
-/// Reads x and y [m], such as `0.1,0.05`.
+/// Reads x and y \[m\], such as `0.1,0.05`.
 ///
 /// # Errors
 /// A text that says what is allowed.
@@ -227,7 +227,7 @@ pub fn parse_point(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-/// Reads the condition of a wall: `insulated`, a temperature [K], or `time:T,time:T,...`.
+/// Reads the condition of a wall: `insulated`, a temperature \[K\], or `time:T,time:T,...`.
 ///
 /// # Errors
 /// A text that says what is allowed.

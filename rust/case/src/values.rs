@@ -86,7 +86,7 @@ fn mesh_values(scene: &Scene, packing: &Packing) -> Values {
     ]
 }
 
-/// Number of grains on an area [m²] with this porosity, if overlaps are neglected.
+/// Number of grains on an area \[m²\] with this porosity, if overlaps are neglected.
 pub fn grains_in(area: f64, porosity: f64, mean_radius: f64) -> f64 {
     let [low, high] = RADIUS_RANGE.map(|ratio| ratio * mean_radius);
     // Mean of r² for radii that are uniformly distributed between the two.

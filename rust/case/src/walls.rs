@@ -27,12 +27,12 @@ const CONSTRAINTS: [&str; 12] = [
 #[derive(Clone, Debug, PartialEq)]
 pub enum WallOverTime {
     Steady(WallHeat),
-    /// Times [s], rising from 0, and temperatures [K]: linear between two rows, constant after the last.
+    /// Times \[s\], rising from 0, and temperatures \[K\]: linear between two rows, constant after the last.
     Table(Vec<[f64; 2]>),
 }
 
 impl WallOverTime {
-    /// Makes a table from rows of time [s] and temperature [K]; `None` unless there are at least two rows with finite numbers,
+    /// Makes a table from rows of time \[s\] and temperature \[K\]; `None` unless there are at least two rows with finite numbers,
     /// and their times rise from 0.
     pub fn table(rows: Vec<[f64; 2]>) -> Option<Self> {
         let finite = rows.iter().flatten().all(|number: &f64| number.is_finite());
@@ -40,7 +40,7 @@ impl WallOverTime {
         (rows.len() > 1 && rows[0][0] == 0.0 && finite && rising).then_some(Self::Table(rows))
     }
 
-    /// Temperatures that the wall has over time [K]; empty when it has none.
+    /// Temperatures that the wall has over time \[K\]; empty when it has none.
     pub fn temperatures(&self) -> Vec<f64> {
         match self {
             Self::Steady(WallHeat::Temperature(value)) => vec![*value],
@@ -49,7 +49,7 @@ impl WallOverTime {
         }
     }
 
-    /// The condition at `time` [s].
+    /// The condition at `time` \[s\].
     pub fn at(&self, time: f64) -> WallHeat {
         match self {
             Self::Steady(heat) => *heat,

@@ -168,10 +168,28 @@ fn what_is_doubtful_or_missing_is_said() {
             "error: constant/granularProperties: heatCapacity = ( ( 900 1 ) ( 0 2 ) )",
         ),
         (
+            "cold",
+            properties,
+            "heatCapacity table ((50 -1) (51 1) (300 1));",
+            "error: constant/granularProperties: heatCapacity = -1 J/(kg K) at 50 K, allowed: > 0 J/(kg K)",
+        ),
+        (
+            "hot",
+            properties,
+            "heatCapacity table ((50 1) (60 -1) (300 1));",
+            "doubt: constant/granularProperties: heatCapacity = 0 J/(kg K) at 55 K, allowed: > 0 J/(kg K)",
+        ),
+        (
             "braces",
             properties,
             "heatCapacity { type table; values ((0 1) (900 2)); }",
             "error: constant/granularProperties: heatCapacity = { type table; ... }, allowed: heatCapacity table",
+        ),
+        (
+            "free",
+            properties,
+            "mechanics equilibrium; equilibriumCoeffs { walls { \".*\" { type pressure; pressure 0; } top { type frictionless; } } }",
+            "error: constant/granularProperties: equilibriumCoeffs/walls = nothing against motion along (1 0 0)",
         ),
         ("open", "system/fvSolution", "msddFoam {", "error: system/fvSolution: "),
     ] {
@@ -202,6 +220,19 @@ fn what_the_solver_takes_is_not_refused() {
         ("density", "constant/granularProperties", "density rho [kg/m^3] $density;".to_string()),
         ("falling", "0/T", format!("{right} uniformValue polynomial ((60 0) (-10 1)); }} }}")),
         ("counted", "0/T", format!("{right} uniformValue table 2 ((-10 50) (1 60)); }} }}")),
+        (
+            "coefficients",
+            "0/T",
+            format!(
+                "{right} uniformValue table; uniformValueCoeffs {{ uniformValue table ((0 50) (1 60)); }} }} }}"
+            ),
+        ),
+        (
+            "inside",
+            "0/T",
+            format!("{right} uniformValue {{ type table; uniformValue table ((0 50) (1 60)); }} }} }}"),
+        ),
+        ("warm", "constant/granularProperties", "heatCapacity table ((-1 0) (10 1) (300 1));".to_string()),
         ("libraries", "system/controlDict", "libs (sampling \"libfvOptions.so\");".to_string()),
         ("now", "system/controlDict", "stopAt writeNow;".to_string()),
         ("ignored", "system/controlDict", "startTime 10;".to_string()),

@@ -120,7 +120,7 @@ impl Law {
 /// Factor of the conductivity of the run that shows what another conductivity would change.
 pub const CONDUCTIVITY: f64 = 1.05;
 
-/// Change of T with the logarithm of the conductivity [K]: `more` has [`CONDUCTIVITY`] times that of `base`.
+/// Change of T with the logarithm of the conductivity \[K\]: `more` has [`CONDUCTIVITY`] times that of `base`.
 pub fn sensitivity(base: &Outcome, more: &Outcome) -> Series {
     let temperature = |run: &Outcome| run.values.get(&Quantity::Temperature).cloned().unwrap_or_default();
     temperature(more).minus(&temperature(base), 1.0 / CONDUCTIVITY.ln())

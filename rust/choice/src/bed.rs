@@ -28,11 +28,11 @@ pub struct Bed {
     pub kind: Grains,
     /// Number of grains.
     pub grains: f64,
-    /// Mean radius [m].
+    /// Mean radius \[m\].
     pub mean_radius: f64,
     /// Number of grains over which a value is a mean.
     pub window: f64,
-    /// Neighbouring points that differ in one coordinate: their numbers, the direction, and the distance [m].
+    /// Neighbouring points that differ in one coordinate: their numbers, the direction, and the distance \[m\].
     pub neighbours: Vec<([usize; 2], usize, f64)>,
 }
 

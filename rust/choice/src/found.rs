@@ -32,9 +32,9 @@ pub struct Share {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     pub settings: Settings,
-    /// Range of T [K].
+    /// Range of T \[K\].
     pub range: f64,
-    /// Of p [Pa].
+    /// Of p \[Pa\].
     pub pressure_range: f64,
     /// Errors of the numerical method and of grains that stay.
     pub shares: Vec<Share>,
@@ -66,7 +66,7 @@ pub struct Differences {
     pub motion: Values,
     /// What changes with the model, where the conductivity is constant in the chosen run.
     pub constant: Values,
-    /// Change of T with the logarithm of the conductivity [K].
+    /// Change of T with the logarithm of the conductivity \[K\].
     pub sensitivity: Series,
 }
 

@@ -20,7 +20,7 @@ const HEAD: &str = "time,x,y,z,quantity,unit,value,low,high,time_error,space_err
 #[derive(Clone, Debug, PartialEq)]
 pub struct Band {
     pub quantity: Quantity,
-    /// Time [s], and number of the point.
+    /// Time \[s\], and number of the point.
     pub time: f64,
     pub point: usize,
     pub value: f64,

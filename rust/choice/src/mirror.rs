@@ -127,7 +127,7 @@ impl Mirror {
         format!("boundaryField\n{{\n{entries}}}\n")
     }
 
-    /// Entries of `system/controlDict` that move the points of function objects into the half. `bounds`: of the box [m].
+    /// Entries of `system/controlDict` that move the points of function objects into the half. `bounds`: of the box \[m\].
     pub fn functions(&self, halved: [bool; 2], bounds: [[f64; 3]; 2]) -> String {
         let mut text = "functions\n{\n".to_string();
         for (name, points) in &self.probes {

@@ -25,9 +25,9 @@ pub struct Record {
     /// Checksum of the case and its mesh.
     pub checksum: String,
     pub found: Found,
-    /// Wall time of the search [s].
+    /// Wall time of the search \[s\].
     pub search_seconds: f64,
-    /// Wall time of the chosen run [s], and the estimate of its error in space that a run with half the cells gave [% of the
+    /// Wall time of the chosen run \[s\], and the estimate of its error in space that a run with half the cells gave [% of the
     /// range of T], once they are known.
     pub run_seconds: Option<f64>,
     pub checked: Option<Share>,
@@ -121,7 +121,7 @@ fn write_json(file: &Path, value: &impl Serialize, pretty: bool) -> Result<(), C
     Ok(write(file, format!("{text}\n").as_bytes())?)
 }
 
-/// Settings as a sentence. `range`: of T [K].
+/// Settings as a sentence. `range`: of T \[K\].
 pub fn sentence(settings: &Settings, scene: &Scene, range: f64) -> String {
     let mesh = match &scene.blocks {
         Ok(blocks) => {

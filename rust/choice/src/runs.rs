@@ -36,14 +36,14 @@ pub fn larger(each: Each) -> f64 {
     each[0].max(each[1])
 }
 
-/// Makes one run, given the range of T [K] once it is known.
+/// Makes one run, given the range of T \[K\] once it is known.
 pub type Run<'a> = dyn FnMut(&Settings, Option<f64>) -> Result<Outcome, ChoiceError> + 'a;
 
 /// The runs so far.
 pub struct Runs<'a> {
     run: &'a mut Run<'a>,
     wishes: &'a Wishes,
-    /// Range of T [K] and of p [Pa] over all runs.
+    /// Range of T \[K\] and of p \[Pa\] over all runs.
     pub range: f64,
     pub pressure_range: f64,
     pub tried: Vec<Tried>,

@@ -99,7 +99,7 @@ pub struct Scene {
     pub start_time: f64,
     pub end: f64,
     pub first_step: f64,
-    /// Interval of the times that the user writes [s].
+    /// Interval of the times that the user writes \[s\].
     pub write_interval: f64,
     /// Wanted accuracy of T [% of its range], if the case names one.
     pub accuracy: Option<f64>,
@@ -110,7 +110,7 @@ pub struct Scene {
     /// An error if the mesh is not that of `system/blockMeshDict`; then it is taken as it is, for the reason beside.
     pub blocks: Result<Blocks, String>,
     pub cells: usize,
-    /// Points at which runs are compared [m].
+    /// Points at which runs are compared \[m\].
     pub points: Vec<[f64; 3]>,
     pub bed: Bed,
     /// Factor of the conductivity that the case asks for.
@@ -119,7 +119,7 @@ pub struct Scene {
     pub model: Option<String>,
     /// What is known of a box that is its own mirror image.
     pub mirror: Option<Mirror>,
-    /// Lowest and highest coordinates of the mesh [m].
+    /// Lowest and highest coordinates of the mesh \[m\].
     pub bounds: [[f64; 3]; 2],
     /// Whether the mesh extends along z.
     pub in_space: bool,
@@ -256,7 +256,7 @@ impl Scene {
         halves
     }
 
-    /// Interval of the times at which runs are compared [s]: a part of the user's own interval, so that the times of the chosen
+    /// Interval of the times at which runs are compared \[s\]: a part of the user's own interval, so that the times of the chosen
     /// run are among those of all others.
     pub fn interval(&self) -> f64 {
         let span = (self.end - self.start_time) / TIMES;

@@ -10,7 +10,7 @@ const OUTSIDE: f64 = 1e200;
 /// Times of two runs are the same up to this share of the largest.
 const SAME_TIME: f64 = 1e-6;
 
-/// Numbers at points, in rows of one time [s] each.
+/// Numbers at points, in rows of one time \[s\] each.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Series {
     pub times: Vec<f64>,

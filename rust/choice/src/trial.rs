@@ -32,15 +32,15 @@ pub enum Purpose {
 #[derive(Clone, Debug)]
 pub struct Outcome {
     pub values: BTreeMap<Quantity, Series>,
-    /// Thermal strain of the grains, and pressure at each point after the first step [Pa], if that was watched.
+    /// Thermal strain of the grains, and pressure at each point after the first step \[Pa\], if that was watched.
     pub strain: Series,
     pub start_pressure: Vec<f64>,
-    /// Largest minus smallest T anywhere, the walls included [K].
+    /// Largest minus smallest T anywhere, the walls included \[K\].
     pub range: f64,
     pub cells: usize,
-    /// Wall time with the making of the mesh [s].
+    /// Wall time with the making of the mesh \[s\].
     pub seconds: f64,
-    /// Processor time of the solver alone [s].
+    /// Processor time of the solver alone \[s\].
     pub processor: f64,
 }
 
@@ -55,7 +55,7 @@ impl Outcome {
 }
 
 /// Makes the case of `settings` in `folder`, which stands beside the user's, so that relative paths in its files mean the same.
-/// `range`: of T [K], once it is known.
+/// `range`: of T \[K\], once it is known.
 ///
 /// # Errors
 /// When files cannot be read or written, OpenFOAM cannot make the mesh or map the fields, or `folder` is somebody else's.

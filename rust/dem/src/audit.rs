@@ -36,7 +36,7 @@ use crate::law::{damping_scale, pair_stiffness, wall_stiffness};
 use crate::simulation::Simulation;
 use crate::walls::Side;
 
-/// Work and losses since [`EnergyAudit::new`] [J], and the energy stored then.
+/// Work and losses since [`EnergyAudit::new`] \[J\], and the energy stored then.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyAudit {
     /// Lost to the damping force (Table 1).
@@ -160,7 +160,7 @@ impl EnergyAudit {
         Self { damping: 0.0, drag: 0.0, friction: 0.0, walls: 0.0, growth: 0.0, stored, forces }
     }
 
-    /// Work done on the grains, less all losses, less the increase of the stored energy since the start [J]: 0 up to
+    /// Work done on the grains, less all losses, less the increase of the stored energy since the start \[J\]: 0 up to
     /// the error of the time integration.
     pub fn residual(&self, simulation: &Simulation) -> f64 {
         let gained = simulation.synchronised_energy() - self.stored;
@@ -213,12 +213,12 @@ fn kinetic_energy(disc: &Disc) -> f64 {
 }
 
 impl Simulation {
-    /// Σ ½ m v² + ¼ m r² ω² [J].
+    /// Σ ½ m v² + ¼ m r² ω² \[J\].
     pub fn kinetic_energy(&self) -> f64 {
         self.discs.iter().map(kinetic_energy).sum()
     }
 
-    /// Σ ½ s_n δ² + ½ f_t²/s_t [J]. Between walls, a contact that opened in the last motion keeps its f_t, and is
+    /// Σ ½ s_n δ² + ½ f_t²/s_t \[J\]. Between walls, a contact that opened in the last motion keeps its f_t, and is
     /// counted, until the next step; in a periodic box it is not.
     pub fn elastic_energy(&self) -> f64 {
         let mut sum = 0.0;

@@ -18,29 +18,29 @@ pub struct Contact {
     pub shift: Shift,
     /// Unit normal.
     pub normal: [f64; 2],
-    /// Centre to centre, of j's image in a periodic box; of a wall contact, the foot of the centre on the wall to the centre [m].
+    /// Centre to centre, of j's image in a periodic box; of a wall contact, the foot of the centre on the wall to the centre \[m\].
     pub branch: [f64; 2],
-    /// δ [m].
+    /// δ \[m\].
     pub overlap: f64,
     /// s_n [N/m].
     pub stiffness: f64,
-    /// f_t [N], on j along t.
+    /// f_t \[N\], on j along t.
     pub tangential_force: f64,
 }
 
 impl Contact {
-    /// f_n = s_n δ [N], repulsive.
+    /// f_n = s_n δ \[N\], repulsive.
     pub fn normal_force(&self) -> f64 {
         self.stiffness * self.overlap
     }
 
-    /// Force on j [N].
+    /// Force on j \[N\].
     pub fn force(&self) -> [f64; 2] {
         let ([nx, ny], normal, tangential) = (self.normal, self.normal_force(), self.tangential_force);
         [normal * nx - tangential * ny, normal * ny + tangential * nx]
     }
 
-    /// ½ s_n δ² + ½ f_t²/s_t [J].
+    /// ½ s_n δ² + ½ f_t²/s_t \[J\].
     pub fn energy(&self, stiffness_ratio: f64) -> f64 {
         let (normal, tangential) = (self.normal_force(), self.tangential_force);
         // Without tangential stiffness there is no f_t to divide.

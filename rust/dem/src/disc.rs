@@ -11,24 +11,24 @@ pub(crate) type Columns<V> = [V; 8];
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Disc {
-    /// Centre [m].
+    /// Centre \[m\].
     pub x: f64,
     pub y: f64,
-    /// Current radius [m].
+    /// Current radius \[m\].
     pub radius: f64,
     /// Velocity [m/s].
     pub vx: f64,
     pub vy: f64,
     /// ω [rad/s], counter-clockwise.
     pub angular_velocity: f64,
-    /// m = ρ π r₀² · 1 m [kg]: constant while the radius changes.
+    /// m = ρ π r₀² · 1 m \[kg\]: constant while the radius changes.
     pub mass: f64,
-    /// T [K].
+    /// T \[K\].
     pub temperature: f64,
 }
 
 impl Disc {
-    /// A disc at rest at 0 K; mass from `density` [kg/m³] and `radius` [m].
+    /// A disc at rest at 0 K; mass from `density` [kg/m³] and `radius` \[m\].
     pub fn at_rest(x: f64, y: f64, radius: f64, density: f64) -> Self {
         Self {
             x,
@@ -52,7 +52,7 @@ impl Disc {
         (self.vx * self.vx + self.vy * self.vy).sqrt()
     }
 
-    /// Area of the disc, π r² [m²].
+    /// Area of the disc, π r² \[m²\].
     pub fn area(&self) -> f64 {
         PI * self.radius * self.radius
     }

@@ -33,9 +33,9 @@ impl Default for Thermal {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WallHeat {
     Insulated,
-    /// Fixed temperature [K].
+    /// Fixed temperature \[K\].
     Temperature(f64),
-    /// Total heat flow into the grains [W], shared among the discs that touch the wall in proportion to their
+    /// Total heat flow into the grains \[W\], shared among the discs that touch the wall in proportion to their
     /// conductances. When no disc touches the wall, no heat flows.
     Flux(f64),
 }
@@ -57,7 +57,7 @@ pub struct HeatPipes {
     pub walls: [WallHeat; 4],
     /// T at which each disc has its reference radius [K].
     pub(crate) reference_temperature: Vec<f64>,
-    /// Heat that has come in through each wall since heat was turned on [J].
+    /// Heat that has come in through each wall since heat was turned on \[J\].
     pub wall_heat: [f64; 4],
     /// Sub-steps taken so far, to report what they cost.
     pub substeps: u64,
@@ -84,9 +84,9 @@ pub struct HeatPipes {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeatState {
-    /// T at which each disc has its reference radius [K].
+    /// T at which each disc has its reference radius \[K\].
     pub reference_temperature: Vec<f64>,
-    /// Heat that has come in through each wall since heat was turned on [J].
+    /// Heat that has come in through each wall since heat was turned on \[J\].
     pub wall_heat: [f64; 4],
     pub substeps: u64,
     /// Estimate of the fastest mode, one value per disc, its rate λ_max [1/s], and the number of steps since that
@@ -96,7 +96,7 @@ pub struct HeatState {
     pub since_estimate: u32,
 }
 
-/// Length of the common chord of two circles at centre distance `d` [m]: the contact area on 1 m depth.
+/// Length of the common chord of two circles at centre distance `d` \[m\]: the contact area on 1 m depth.
 pub fn chord([r1, r2]: [f64; 2], d: f64) -> f64 {
     // Distance of the chord from the first centre.
     let to_chord = (d * d + r1 * r1 - r2 * r2) / (2.0 * d);
@@ -246,7 +246,7 @@ impl HeatPipes {
         self.since_estimate = 0;
     }
 
-    /// Stability limit of explicit Euler, 2/λ_max [s], by the last estimate.
+    /// Stability limit of explicit Euler, 2/λ_max \[s\], by the last estimate.
     pub fn stable_step(&self) -> f64 {
         2.0 / self.largest_rate
     }

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 pub struct Material {
     /// ρ [kg/m³], of the grains.
     pub density: f64,
-    /// E [Pa].
+    /// E \[Pa\].
     pub young_modulus: f64,
     /// ν [-]: tangential over normal contact stiffness.
     pub stiffness_ratio: f64,
-    /// φ [rad]: contacts slide at |f_t| = f_n tan φ.
+    /// φ \[rad\]: contacts slide at |f_t| = f_n tan φ.
     pub friction_angle: f64,
     /// Wall stiffness over E r [-]. The paper gives no value; 1 is that of the authors' public code (2 would be the
     /// limit r₂ → ∞ of the law for pairs).

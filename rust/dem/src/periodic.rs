@@ -14,7 +14,7 @@ use msdd_engine::Lattice;
 /// Shear of a periodic box, beside the positions and normal velocities of [`Walls`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Periodic {
-    /// s [m]: displacement along x of the upper image relative to the lower.
+    /// s \[m\]: displacement along x of the upper image relative to the lower.
     pub shear_offset: f64,
     /// ∂u_x/∂y [1/s].
     pub shear_rate: f64,
@@ -44,12 +44,12 @@ pub struct SmallCell {
 /// The periodic cell at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
-    /// Lower left corner [m].
+    /// Lower left corner \[m\].
     pub origin: [f64; 2],
-    /// W and H [m].
+    /// W and H \[m\].
     pub width: f64,
     pub height: f64,
-    /// s [m].
+    /// s \[m\].
     pub shear_offset: f64,
 }
 
@@ -67,7 +67,7 @@ impl Cell {
         Lattice { origin: self.origin, edges }
     }
 
-    /// a (W, 0) + b (s, H) [m].
+    /// a (W, 0) + b (s, H) \[m\].
     pub fn displacement(&self, shift: Shift) -> [f64; 2] {
         self.lattice().displacement(shift)
     }
@@ -82,7 +82,7 @@ impl Cell {
         self.lattice().fraction([x, y])
     }
 
-    /// The point [m] of given [`Cell::fraction`].
+    /// The point \[m\] of given [`Cell::fraction`].
     pub fn point(&self, fraction: [f64; 2]) -> [f64; 2] {
         self.lattice().point(fraction)
     }

@@ -8,15 +8,15 @@ use msdd_engine::lattice::{forward, index_of};
 /// Time, strain and radii at which a run continues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunState {
-    /// t [s].
+    /// t \[s\].
     pub time: f64,
     pub steps: u64,
-    /// Δt [s] of the next step.
+    /// Δt \[s\] of the next step.
     pub time_step: f64,
     /// ε [-] and dε/dt [1/s], relative to the reference radii.
     pub strain: f64,
     pub strain_rate: f64,
-    /// Radii at ε = 0 [m], one per disc.
+    /// Radii at ε = 0 \[m\], one per disc.
     pub reference_radius: Vec<f64>,
 }
 
@@ -46,7 +46,7 @@ impl Simulation {
         self.set_reference_radii(state.reference_radius);
     }
 
-    /// Sets the stored tangential force of a contact [N]: `i` a disc or a wall, `j` a disc. It is the force on j along
+    /// Sets the stored tangential force of a contact \[N\]: `i` a disc or a wall, `j` a disc. It is the force on j along
     /// t, which is the same number whichever of two discs is called i. Returns false when the two are not near each
     /// other.
     pub fn set_tangential_force(&mut self, i: Result<usize, Side>, j: usize, force: f64) -> bool {

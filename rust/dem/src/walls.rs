@@ -23,7 +23,7 @@ impl Side {
     }
 }
 
-/// Positions [m] and velocities [m/s] of the four walls, indexed by [`Side`].
+/// Positions \[m\] and velocities [m/s] of the four walls, indexed by [`Side`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Walls {
     /// x of left and right, y of bottom and top.
@@ -86,7 +86,7 @@ impl Walls {
         Flow { gradient: [xx, yy, shear_rate], at_origin: [x0 - shear_rate * bottom, y0] }
     }
 
-    /// Resting walls around [0, width] × [0, height] [m].
+    /// Resting walls around [0, width] × [0, height] \[m\].
     pub fn around(width: f64, height: f64) -> Self {
         Self { position: [0.0, width, 0.0, height], normal_velocity: [0.0; 4], tangential_velocity: [0.0; 4] }
     }
@@ -99,12 +99,12 @@ impl Walls {
         self.position[Side::Top as usize] - self.position[Side::Bottom as usize]
     }
 
-    /// Area of the box [m²].
+    /// Area of the box \[m²\].
     pub fn area(&self) -> f64 {
         self.width() * self.height()
     }
 
-    /// Distance of (x, y) from the wall, positive inside the box [m].
+    /// Distance of (x, y) from the wall, positive inside the box \[m\].
     #[inline(always)]
     pub fn distance(&self, side: Side, x: f64, y: f64) -> f64 {
         let at = self.position[side as usize];

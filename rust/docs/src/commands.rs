@@ -48,7 +48,7 @@ pub struct Settings {
     pub programs: PathBuf,
     /// Whether slow blocks run, too.
     pub slow: bool,
-    /// Most time that a page may take [s].
+    /// Most time that a page may take \[s\].
     pub limit: u64,
 }
 

@@ -45,7 +45,7 @@ impl Default for Descent {
 }
 
 impl Descent {
-    /// Takes [`LARGEST_STEP`] times the present stability bound, `largest` [s], as the largest step.
+    /// Takes [`LARGEST_STEP`] times the present stability bound, `largest` \[s\], as the largest step.
     pub fn limit(&mut self, largest: f64) {
         self.largest_step = largest;
         if self.step == 0.0 {
@@ -53,12 +53,12 @@ impl Descent {
         }
     }
 
-    /// The next step [s].
+    /// The next step \[s\].
     pub fn step(&self) -> f64 {
         self.step.min(self.largest_step)
     }
 
-    /// How to turn the velocities after a step of length `dt` [s]; none when all grains are to be stopped because they
+    /// How to turn the velocities after a step of length `dt` \[s\]; none when all grains are to be stopped because they
     /// move against the forces.
     ///
     /// The step took the forces before it changed the velocities by them. Half of that change is subtracted here, so

@@ -2,9 +2,9 @@
 
 /// A disc (D = 2) or a sphere (D = 3).
 pub trait Grain<const D: usize>: Copy {
-    /// Centre [m].
+    /// Centre \[m\].
     fn centre(&self) -> [f64; D];
-    /// [m]
+    /// \[m\]
     fn radius(&self) -> f64;
     /// The same grain elsewhere.
     fn at(self, centre: [f64; D]) -> Self;
@@ -22,7 +22,7 @@ pub fn square<const D: usize>(a: [f64; D]) -> f64 {
     a.iter().fold(0.0, |sum, x| sum + x * x)
 }
 
-/// The largest radius [m]; 0 without grains.
+/// The largest radius \[m\]; 0 without grains.
 pub fn largest_radius<const D: usize>(grains: &[impl Grain<D>]) -> f64 {
     grains.iter().fold(0.0f64, |largest, grain| largest.max(grain.radius()))
 }

@@ -92,7 +92,7 @@ fn near<const D: usize>(a: &impl Grain<D>, b: &impl Grain<D>, skin: f64) -> bool
     square(difference(b.centre(), a.centre())) < reach * reach
 }
 
-/// All pairs whose surfaces are closer than `skin` [m].
+/// All pairs whose surfaces are closer than `skin` \[m\].
 pub fn pairs_within<const D: usize>(grains: &[impl Grain<D>], skin: f64) -> Rows {
     if grains.is_empty() {
         return Rows::build(0, |_, _| ());
@@ -127,7 +127,7 @@ impl<const D: usize> Grain<D> for Placed<D> {
     }
 }
 
-/// All pairs closer than `skin` [m], images across the periodic border included; and these images (ghosts), which are
+/// All pairs closer than `skin` \[m\], images across the periodic border included; and these images (ghosts), which are
 /// numbered after the grains. `apart`: see [`Rows::build_periodic`].
 pub fn pairs_within_cell<const D: usize>(
     grains: &[impl Grain<D>],

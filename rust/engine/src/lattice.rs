@@ -16,9 +16,9 @@ pub type Shift<const D: usize> = [i32; D];
 /// The periodic cell at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lattice<const D: usize> {
-    /// The corner from which the edges go out [m].
+    /// The corner from which the edges go out \[m\].
     pub origin: [f64; D],
-    /// Edge m is `edges[m]` [m]; its coordinates after the m-th are 0.
+    /// Edge m is `edges\[m\]` \[m\]; its coordinates after the m-th are 0.
     pub edges: [[f64; D]; D],
 }
 
@@ -39,7 +39,7 @@ impl<const D: usize> Lattice<D> {
         (k + 1..D).fold(first, |sum, m| sum + coefficient(m) * self.edges[m][k])
     }
 
-    /// Sum of `shift` times the edges [m].
+    /// Sum of `shift` times the edges \[m\].
     #[inline]
     pub fn displacement(&self, shift: Shift<D>) -> [f64; D] {
         std::array::from_fn(|k| self.sum(k, None, |m| f64::from(shift[m])))
@@ -63,7 +63,7 @@ impl<const D: usize> Lattice<D> {
         fraction
     }
 
-    /// The point [m] of given [`Lattice::fraction`].
+    /// The point \[m\] of given [`Lattice::fraction`].
     pub fn point(&self, fraction: [f64; D]) -> [f64; D] {
         std::array::from_fn(|k| self.sum(k, Some(self.origin[k]), |m| fraction[m]))
     }

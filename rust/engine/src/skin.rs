@@ -8,7 +8,7 @@ use crate::vector::larger;
 /// A bound on how far the grains have moved since the search.
 #[derive(Clone, Debug)]
 pub struct Skin<const D: usize> {
-    /// [m]
+    /// \[m\]
     pub width: f64,
     /// Upper bound on how much nearer the surfaces of any two grains have come since the last search [m].
     closed: f64,
@@ -37,7 +37,7 @@ impl<const D: usize> Default for Skin<D> {
 }
 
 impl<const D: usize> Skin<D> {
-    /// Begins anew: the list that is found now holds all pairs closer than `width` [m].
+    /// Begins anew: the list that is found now holds all pairs closer than `width` \[m\].
     pub fn begin(&mut self, width: f64, grains: &[impl Grain<D>], cell: Option<&Lattice<D>>) {
         self.width = width;
         self.closed = 0.0;
@@ -64,7 +64,7 @@ impl<const D: usize> Skin<D> {
         self.closed.is_nan() || self.closed > 0.8 * self.width
     }
 
-    /// Adds the motion of one step of `dt` [s] to the bound: `speed` [m/s] is at least that of every grain, `wall_speed`
+    /// Adds the motion of one step of `dt` \[s\] to the bound: `speed` [m/s] is at least that of every grain, `wall_speed`
     /// that of every wall, and `growth` [m/s] that of every radius.
     pub fn record_motion(&mut self, speed: f64, wall_speed: f64, growth: f64, dt: f64) {
         let boundaries = (2.0 * growth + wall_speed) * dt;
@@ -72,7 +72,7 @@ impl<const D: usize> Skin<D> {
         self.closed += 2.0 * speed * dt + boundaries;
     }
 
-    /// Adds the deformation of a periodic cell during `dt` [s] to the bound: `rate` [1/s] is at least the velocity
+    /// Adds the deformation of a periodic cell during `dt` \[s\] to the bound: `rate` [1/s] is at least the velocity
     /// gradient. Two grains at most `reach` apart approach each other at no more than `rate` · `reach`; while they are
     /// farther apart they cannot touch, so that motion does not count.
     pub fn record_flow(&mut self, rate: f64, dt: f64) {

@@ -9,7 +9,7 @@ pub const SAFETY: f64 = 0.4;
 pub enum StepChoice {
     /// `safety` times the stability bound, adapted as the contacts change.
     Adaptive { safety: f64 },
-    /// A fixed step [s].
+    /// A fixed step \[s\].
     Fixed { step: f64, on_excess: Excess },
 }
 
@@ -23,7 +23,7 @@ pub enum Excess {
 }
 
 impl StepChoice {
-    /// The step [s] for the present stability `bound` [s]; none when a fixed step that must not be cut exceeds it.
+    /// The step \[s\] for the present stability `bound` \[s\]; none when a fixed step that must not be cut exceeds it.
     pub fn step(self, bound: f64) -> Option<f64> {
         match self {
             Self::Adaptive { safety } => Some(safety * bound),

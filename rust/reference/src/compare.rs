@@ -89,7 +89,7 @@ pub fn errors(reference: &Reference, runs: &[&Run], affine: bool) -> Option<Erro
     })
 }
 
-/// Refuses to compare a run that recorded T at other points [m] than the discs.
+/// Refuses to compare a run that recorded T at other points \[m\] than the discs.
 ///
 /// # Errors
 /// [`ReferenceError::Parameter`].

@@ -13,7 +13,7 @@ pub const WINDOW: f64 = 43.0;
 /// Height of a band of the box over the side of a window.
 const BAND: f64 = 0.25;
 
-/// Averages over a window of side `window` [m] around each of the centres [m], on `threads` threads; results do not depend
+/// Averages over a window of side `window` \[m\] around each of the centres \[m\], on `threads` threads; results do not depend
 /// on their number.
 ///
 /// # Errors

@@ -97,11 +97,11 @@ pub struct Statistics {
     pub fabric_index: f64,
     /// f of the sub-regions, least and largest; paper (over windows): 0.030 to 0.064.
     pub fabric_range: [f64; 2],
-    /// p [Pa], compression positive.
+    /// p \[Pa\], compression positive.
     pub pressure: f64,
     /// σ_xx over σ_yy of the box [-].
     pub stress_ratio: f64,
-    /// σ_xx [Pa] of the box's first and last tenth along x, which shows how even the packing is.
+    /// σ_xx \[Pa\] of the box's first and last tenth along x, which shows how even the packing is.
     pub stress_xx_ends: [f64; 2],
     /// K/k, xx and yy [-], affine estimate (Eq. 9) and solved resistor network.
     pub conductivity: [f64; 2],

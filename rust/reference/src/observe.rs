@@ -42,7 +42,7 @@ pub fn series_columns(probes: usize) -> Vec<String> {
     names
 }
 
-/// One row of the time series; `window` is the side of the windows around the probes [m]. Temperatures in K, conductivities
+/// One row of the time series; `window` is the side of the windows around the probes \[m\]. Temperatures in K, conductivities
 /// over k, stresses in Pa, forces in N, energies in J.
 pub fn series_row(simulation: &Simulation, probes: &[[f64; 2]], window: f64) -> Vec<f64> {
     let mut row = vec![simulation.time];
@@ -118,9 +118,9 @@ pub(crate) fn mean_temperature(simulation: &Simulation, low: [f64; 2], high: [f6
 /// Forces of the grains on a wall.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct WallLoad {
-    /// Normal force [N], outwards positive.
+    /// Normal force \[N\], outwards positive.
     pub normal: f64,
-    /// Tangential force [N], positive along the positive coordinate axis.
+    /// Tangential force \[N\], positive along the positive coordinate axis.
     pub tangential: f64,
     /// Mobilised friction Σ |f_t| / Σ f_n of its contacts [-].
     pub mobilised: f64,
@@ -151,7 +151,7 @@ fn tangential_on_wall(side: Side, [fx, fy]: [f64; 2]) -> f64 {
     }
 }
 
-/// Table of the sub-regions, x index fastest: centre [m], η, f, K/k, σ [Pa], T [K].
+/// Table of the sub-regions, x index fastest: centre \[m\], η, f, K/k, σ \[Pa\], T \[K\].
 pub fn sub_regions(simulation: &Simulation) -> Table {
     let mut columns = vec!["x", "y", "porosity", "fabric_index"];
     columns.extend(CONDUCTIVITIES);
@@ -168,7 +168,7 @@ pub fn sub_regions(simulation: &Simulation) -> Table {
     table
 }
 
-/// Table of the sub-regions, x index fastest: centre, and mean displacement [m] of the discs that were in the sub-region at
+/// Table of the sub-regions, x index fastest: centre, and mean displacement \[m\] of the discs that were in the sub-region at
 /// the start (`start` are their centres).
 pub fn displacements(simulation: &Simulation, start: &[[f64; 2]]) -> Table {
     let [left, right, bottom, top] = simulation.walls.position;
@@ -190,8 +190,8 @@ pub fn displacements(simulation: &Simulation, start: &[[f64; 2]]) -> Table {
     table
 }
 
-/// The discs that reach into the window of side `side` [m] around a point, at the start and now; at the start all have the
-/// temperature `initial` [K].
+/// The discs that reach into the window of side `side` \[m\] around a point, at the start and now; at the start all have the
+/// temperature `initial` \[K\].
 pub fn grains(start: &Simulation, initial: f64, now: &Simulation, [x, y]: [f64; 2], side: f64) -> Grains {
     let half = 0.5 * side;
     let listed = |simulation: &Simulation, temperature: Option<f64>| {
@@ -229,7 +229,7 @@ pub fn profile_table() -> Table {
 }
 
 /// Adds the present profile along x. For each bin: T of the discs in it, displacement of the discs that were in it at the
-/// start [m] (`start` are their centres), stress [Pa], and forces on bottom and top over the length of the bin [Pa].
+/// start \[m\] (`start` are their centres), stress \[Pa\], and forces on bottom and top over the length of the bin \[Pa\].
 pub fn add_profile(table: &mut Table, simulation: &Simulation, start: &[[f64; 2]]) {
     let [left, right, ..] = simulation.walls.position;
     let width = (right - left) / BINS as f64;

@@ -13,12 +13,12 @@ pub const CASES: [(&str, &str); 6] =
 /// Conductivity of the grains in the cases [W/(m K)], by which the reference's K/k is multiplied.
 pub const GRAIN_CONDUCTIVITY: f64 = 100.0;
 
-/// Range of the temperature in a case [K]; errors are given in per cent of it.
+/// Range of the temperature in a case \[K\]; errors are given in per cent of it.
 pub fn temperature_range(case: &str) -> f64 {
     if case.starts_with("HC") { 100.0 } else { 50.0 }
 }
 
-/// The paper's range of the pressure [Pa]; errors are given in per cent of it (section 3.3).
+/// The paper's range of the pressure \[Pa\]; errors are given in per cent of it (section 3.3).
 pub fn pressure_range(case: &str) -> f64 {
     match case.trim_end_matches("star") {
         "H" => 3200.0,
@@ -51,7 +51,7 @@ impl Reference {
         Self { case: self.case.clone(), results: self.results.iter().take(packings).cloned().collect() }
     }
 
-    /// Times of the series [s], the same for all packings.
+    /// Times of the series \[s\], the same for all packings.
     pub fn times(&self) -> Vec<f64> {
         self.results[0].series.column("time").unwrap_or_default()
     }
@@ -61,7 +61,7 @@ impl Reference {
         self.results.iter().map(|r| r.series.column(column).unwrap_or_default()).collect()
     }
 
-    /// Mean T [K] over 40 mm windows at P1 to P3: by probe, then by packing.
+    /// Mean T \[K\] over 40 mm windows at P1 to P3: by probe, then by packing.
     pub fn temperature(&self) -> [Vec<Vec<f64>>; 3] {
         [1, 2, 3].map(|probe| self.series(&format!("T_P{probe}_window")))
     }
@@ -76,7 +76,7 @@ impl Reference {
         self.results.iter().map(|r| r.sub_regions_start.column(column).unwrap_or_default()).collect()
     }
 
-    /// Mean displacement along x of the discs that started in each sub-region [m], by packing; packings without it are left
+    /// Mean displacement along x of the discs that started in each sub-region \[m\], by packing; packings without it are left
     /// out.
     pub fn displacement(&self) -> Vec<Vec<f64>> {
         let tables = self.results.iter().filter_map(|r| r.displacement.as_ref());

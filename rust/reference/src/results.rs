@@ -65,12 +65,12 @@ pub struct Results {
     pub case: String,
     pub seed: u64,
     pub discs: usize,
-    /// Width and height of the box [m].
+    /// Width and height of the box \[m\].
     #[serde(rename = "box")]
     pub size: [f64; 2],
-    /// Points where T was recorded [m].
+    /// Points where T was recorded \[m\].
     pub probes: Vec<[f64; 2]>,
-    /// Side of the windows around the probes over which T is averaged [m]; absent in older files, where it was 40 mm.
+    /// Side of the windows around the probes over which T is averaged \[m\]; absent in older files, where it was 40 mm.
     #[serde(default = "older_window")]
     pub probe_window: f64,
     /// Statistics of the packed model at the start.
@@ -78,7 +78,7 @@ pub struct Results {
     /// Mechanical steps (none in a case without expansion, where the grains stay at rest), and thermal sub-steps.
     pub steps: u64,
     pub thermal_substeps: u64,
-    /// Largest mechanical time step that was given [s]; absent: that of the stability bound was used.
+    /// Largest mechanical time step that was given \[s\]; absent: that of the stability bound was used.
     pub time_step: Option<f64>,
     pub series: Table,
     pub sub_regions_start: Table,
@@ -87,7 +87,7 @@ pub struct Results {
     pub profiles: Table,
     /// K/k of the box by the solved resistor network of the contacts, at the times of the profiles.
     pub network: Table,
-    /// Mean u_x, u_y [m] at the end of the discs that started in each sub-region; absent in older files.
+    /// Mean u_x, u_y \[m\] at the end of the discs that started in each sub-region; absent in older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub displacement: Option<Table>,
     /// Discs around the second probe at the start and at the end; absent in older files and without that probe.
@@ -110,11 +110,11 @@ impl Results {
     }
 }
 
-/// Discs in a small window: number, x, y, r [m], T [K].
+/// Discs in a small window: number, x, y, r \[m\], T \[K\].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grains {
-    /// Lower left and upper right corner of the window [m]; discs that reach into it are listed.
+    /// Lower left and upper right corner of the window \[m\]; discs that reach into it are listed.
     pub window: [[f64; 2]; 2],
     pub start: Table,
     pub end: Table,

@@ -23,13 +23,13 @@ const RUN: u64 = 50;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunSpec {
     pub seed: u64,
-    /// End of the run [s]; usually that of the case.
+    /// End of the run \[s\]; usually that of the case.
     pub end: f64,
-    /// Time between two rows of the time series [s].
+    /// Time between two rows of the time series \[s\].
     pub interval: f64,
     /// Number of profiles, evenly spaced over the run, the first at the start and the last at the end.
     pub profiles: usize,
-    /// Largest mechanical time step [s], also when heat alone is conducted; `None`: that of the stability bound.
+    /// Largest mechanical time step \[s\], also when heat alone is conducted; `None`: that of the stability bound.
     pub time_step: Option<f64>,
     /// Number of threads; results do not depend on it.
     pub threads: usize,
@@ -69,12 +69,12 @@ impl RunSpec {
     }
 }
 
-/// Called whenever a profile is recorded, with the times of the profiles so far [s] and the state.
+/// Called whenever a profile is recorded, with the times of the profiles so far \[s\] and the state.
 pub type OnProfile<'a> = &'a mut dyn FnMut(&[f64], &Simulation) -> Result<(), ReferenceError>;
 
 /// Functions that are called during a run.
 pub struct Watch<'a> {
-    /// Called from time to time with the simulated time [s].
+    /// Called from time to time with the simulated time \[s\].
     pub progress: &'a mut dyn FnMut(f64),
     pub profile: OnProfile<'a>,
     /// Writes the text of a checkpoint to its file.

@@ -26,17 +26,17 @@ pub const COLUMNS: [&str; 8] = [
 /// Results of a run of the solver.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Run {
-    /// t [s], and T [K] at P1, P2, P3.
+    /// t \[s\], and T \[K\] at P1, P2, P3.
     pub temperature: Vec<[f64; 4]>,
-    /// t [s], mean pressure [Pa].
+    /// t \[s\], mean pressure \[Pa\].
     pub pressure: Vec<[f64; 2]>,
     /// A row of [`COLUMNS`] for each of the 10 x 3 sub-regions, from the lower left, x index fastest.
     pub sub_regions: Vec<Vec<f64>>,
     /// A row of [`COLUMNS`] for each of ten slices along x.
     pub columns: Vec<Vec<f64>>,
-    /// Displacement along x in ten slices [m]; with grains that move only.
+    /// Displacement along x in ten slices \[m\]; with grains that move only.
     pub displacement: Option<Vec<f64>>,
-    /// Displacement along x and y of the grains that started in each sub-region [m]; with grains that move only.
+    /// Displacement along x and y of the grains that started in each sub-region \[m\]; with grains that move only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<Vec<[f64; 2]>>,
     /// Rows of numbers of each function object that the job adds, by its name, which begins with [`WATCH`].
@@ -48,13 +48,13 @@ pub struct Run {
     pub cell_queries: u64,
     pub cell_steps: u64,
     pub clamped_queries: u64,
-    /// Mean pressure [Pa] and porosity at the end.
+    /// Mean pressure \[Pa\] and porosity at the end.
     pub end_pressure: f64,
     pub end_porosity: f64,
 }
 
 /// Reads the results in a case folder. `mesh`: number of cells along x and y, needed to average displacements over
-/// sub-regions; `end_time`: end of the run [s].
+/// sub-regions; `end_time`: end of the run \[s\].
 ///
 /// # Errors
 /// [`ReferenceError::File`], [`ReferenceError::Read`] for a file that is missing or has other contents.
@@ -84,7 +84,7 @@ pub fn read(folder: &Path, mesh: [usize; 2], end_time: f64) -> Result<Run, Refer
     })
 }
 
-/// Time [s] and T [K] at P1, P2, P3: the means over windows of 40 mm around the probes, which `spaceProbes` writes.
+/// Time \[s\] and T \[K\] at P1, P2, P3: the means over windows of 40 mm around the probes, which `spaceProbes` writes.
 ///
 /// # Errors
 /// As [`read`].
@@ -93,7 +93,7 @@ pub fn temperatures(folder: &Path) -> Result<Vec<[f64; 4]>, ReferenceError> {
     Ok(rows.iter().filter_map(|row| row.get(..4)?.try_into().ok()).collect())
 }
 
-/// The points [m] of the function object `spaceProbes`, from the head of its file: `# Probe 0 : (x y z)`.
+/// The points \[m\] of the function object `spaceProbes`, from the head of its file: `# Probe 0 : (x y z)`.
 ///
 /// # Errors
 /// As [`read`].
@@ -110,7 +110,7 @@ pub fn probe_points(folder: &Path) -> Result<Vec<[f64; 2]>, ReferenceError> {
     heads.map(|line| point(line.trim_end()).ok_or_else(|| wrong(line))).collect()
 }
 
-/// Rows of time [s] and T [K] at each of the points of the function object `spaceProbes`, however many there are.
+/// Rows of time \[s\] and T \[K\] at each of the points of the function object `spaceProbes`, however many there are.
 ///
 /// # Errors
 /// As [`read`].
@@ -118,7 +118,7 @@ pub fn probe_rows(folder: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
     numbers(&newest(&folder.join("postProcessing/spaceProbes"))?)
 }
 
-/// Rows of time [s] and mean pressure [Pa], which `wallPressure` writes.
+/// Rows of time \[s\] and mean pressure \[Pa\], which `wallPressure` writes.
 ///
 /// # Errors
 /// As [`read`].

@@ -21,9 +21,9 @@ pub const FAMILIES: [&str; 9] = [
 pub enum Known {
     /// The configuration is run to the end for all packings.
     Run,
-    /// It is run to this time [s] to measure its cost alone; the error is that of the configuration with this name.
+    /// It is run to this time \[s\] to measure its cost alone; the error is that of the configuration with this name.
     Segment(f64, String),
-    /// It is run to this time [s] to measure the cost of one evaluation of the model; the number of evaluations for each cell,
+    /// It is run to this time \[s\] to measure the cost of one evaluation of the model; the number of evaluations for each cell,
     /// and the error, are those of the configuration with this name, which has another mesh.
     Answers(f64, String),
 }
@@ -51,7 +51,7 @@ pub struct Configuration {
     pub known: Known,
     /// Number of the report's packings that it is run for.
     pub packings: usize,
-    /// Estimate of its processor time [s].
+    /// Estimate of its processor time \[s\].
     pub guess: f64,
 }
 
@@ -271,7 +271,7 @@ fn boxes(name: &str, keys: &str, coefficients: &str, guess: f64) -> Configuratio
     base
 }
 
-/// A run of a case by discrete elements on one thread, to `end` [s]. `step`: largest time step [s]; `None`: that of the
+/// A run of a case by discrete elements on one thread, to `end` \[s\]. `step`: largest time step \[s\]; `None`: that of the
 /// stability bound.
 pub fn elements(case: &str, end: f64, step: Option<f64>, limit: u64) -> Job {
     let mut arguments: Vec<String> = ["reference", "run", "--case", &format!("cases/{case}"), "--seed", "1"]

@@ -30,7 +30,7 @@ pub struct Report {
     pub made: Stamp,
     pub jobs: usize,
     pub cached_jobs: usize,
-    /// Processor time of a run with a single step, that is of the start of the program [s].
+    /// Processor time of a run with a single step, that is of the start of the program \[s\].
     pub start_up: Option<f64>,
     /// Scatter of T between the packings, the largest over time and probes, standard deviation [% of the range].
     pub scatter: BTreeMap<String, f64>,

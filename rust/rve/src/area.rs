@@ -64,7 +64,7 @@ fn overlapping(simulation: &Simulation) -> Vec<Vec<usize>> {
     partners
 }
 
-/// Area of (union of the discs) ∩ region [m²]. `partners[i]` lists the discs that overlap disc i.
+/// Area of (union of the discs) ∩ region \[m²\]. `partners[i]` lists the discs that overlap disc i.
 pub fn union_area(discs: &[Disc], partners: &[Vec<usize>], region: &Polygon) -> f64 {
     // Coordinates relative to a corner keep the cancelling terms small.
     let origin = region.corners[0];
@@ -73,7 +73,7 @@ pub fn union_area(discs: &[Disc], partners: &[Vec<usize>], region: &Polygon) -> 
     arcs + edges
 }
 
-/// Σ area(disc ∩ region) [m²]: an area that n discs cover counts n times.
+/// Σ area(disc ∩ region) \[m²\]: an area that n discs cover counts n times.
 pub fn sum_of_areas(discs: &[Disc], region: &Polygon) -> f64 {
     discs.iter().map(|disc| union_area(std::slice::from_ref(disc), &[Vec::new()], region)).sum()
 }

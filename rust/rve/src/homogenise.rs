@@ -35,12 +35,12 @@ pub struct Averages {
     pub conductivity_network_xx: f64,
     pub conductivity_network_yy: f64,
     pub conductivity_network_xy: f64,
-    /// σ [Pa], Love's formula (Eq. 10), compression positive; σ_ab sums branch_a force_b.
+    /// σ \[Pa\], Love's formula (Eq. 10), compression positive; σ_ab sums branch_a force_b.
     pub stress_xx: f64,
     pub stress_yy: f64,
     pub stress_xy: f64,
     pub stress_yx: f64,
-    /// p = (σ_xx + σ_yy)/2 [Pa] (Eq. 11).
+    /// p = (σ_xx + σ_yy)/2 \[Pa\] (Eq. 11).
     pub pressure: f64,
     /// Mean number of force-bearing contacts, walls included, of the discs with a contact [-].
     pub coordination: f64,
@@ -48,7 +48,7 @@ pub struct Averages {
     pub rattlers: u64,
     /// Number of pair contacts that were counted, wholly or in part.
     pub contacts: u64,
-    /// r̄ [m], current.
+    /// r̄ \[m\], current.
     pub mean_radius: f64,
 }
 

@@ -13,7 +13,7 @@ pub fn write(out: &Path, state: &Simulation) -> Result<PathBuf, LastGoodError> {
     write_text(out, &to_file(state)?)
 }
 
-/// As [`write`], with the text of the state.
+/// As [`write()`], with the text of the state.
 ///
 /// # Errors
 /// [`LastGoodError::File`].

@@ -16,7 +16,7 @@ use msdd_dem::{Disc, Simulation};
 pub struct Link {
     pub i: usize,
     pub j: usize,
-    /// From i to j [m].
+    /// From i to j \[m\].
     pub branch: [f64; 2],
     /// A/|d|: conductance over k, for 1 m depth [-].
     pub conductance: f64,
@@ -61,7 +61,7 @@ impl Network {
 
     /// K/k [-] as xx, yy, xy: Σ share · flow · branch / area, the mean flux for a unit gradient, with the weights of
     /// Eq. 9. The two mixed components K_xy and K_yx differ because the border cuts contacts; xy is their mean. `area`
-    /// is that of the region [m²].
+    /// is that of the region \[m²\].
     pub fn conductivity(&self, area: f64) -> [f64; 3] {
         let fluctuation = self.fluctuations();
         let mut sums = [[0.0; 2]; 2];

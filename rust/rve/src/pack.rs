@@ -79,7 +79,7 @@ pub struct PackingSpec {
     /// it little.
     pub porosity: f64,
     pub compression: Compression,
-    /// Radii are uniform between these [m].
+    /// Radii are uniform between these \[m\].
     pub radius_min: f64,
     pub radius_max: f64,
     #[serde(default, skip_serializing_if = "Boundary::is_walls")]
@@ -107,7 +107,7 @@ impl Default for PackingSpec {
 /// Details of the packing procedure, with the usual values as default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preparation {
-    /// Friction angle of the grains while the walls close [rad]; none: that of the material. Before the final
+    /// Friction angle of the grains while the walls close \[rad\]; none: that of the material. Before the final
     /// relaxation the material's own angle is restored, so that all packed states are in equilibrium under the same
     /// contact law. Less friction gives denser packings at equal pressure.
     pub friction_angle: Option<f64>,

@@ -24,7 +24,7 @@ impl Random {
     }
 }
 
-/// `count` radii, uniform in [low, high) [m].
+/// `count` radii, uniform in [low, high) \[m\].
 pub fn radii(random: &mut Random, count: usize, low: f64, high: f64) -> Vec<f64> {
     (0..count).map(|_| random.uniform(low, high)).collect()
 }

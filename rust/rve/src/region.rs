@@ -56,7 +56,7 @@ pub(crate) fn contact_share(simulation: &Simulation, region: &Polygon, cut: Cut,
 /// Inset over the mean radius, authors' code.
 const INSET: f64 = 0.8;
 
-/// A convex polygon, counter-clockwise [m].
+/// A convex polygon, counter-clockwise \[m\].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     pub corners: Vec<[f64; 2]>,
@@ -85,7 +85,7 @@ impl Polygon {
         self.corners.iter().zip(next).map(|(&a, &b)| (a, b))
     }
 
-    /// Area [m²]. The triangles from the middle of the bounding box are summed in the order of their size, so that the
+    /// Area \[m²\]. The triangles from the middle of the bounding box are summed in the order of their size, so that the
     /// result is the same to the last bit whichever corner comes first, and after a quarter turn.
     pub fn area(&self) -> f64 {
         let Some(&first) = self.corners.first() else { return 0.0 };

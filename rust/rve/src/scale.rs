@@ -11,14 +11,14 @@ use crate::Material;
 /// Mean radius of the paper's grains, for which speeds and rates are given [m].
 const RADIUS: f64 = 5e-3;
 
-/// Factor of speeds [-] for grains of the mean radius `radius` [m].
+/// Factor of speeds [-] for grains of the mean radius `radius` \[m\].
 pub fn speed_factor(material: &Material, radius: f64) -> f64 {
     let paper = Material::default();
     let squared = |m: &Material, r: f64| m.young_modulus * r / m.density;
     root_as_power_of_two(squared(material, radius) / squared(&paper, RADIUS))
 }
 
-/// Factor of strain rates and of the drag [-] for grains of the mean radius `radius` [m].
+/// Factor of strain rates and of the drag [-] for grains of the mean radius `radius` \[m\].
 pub fn rate_factor(material: &Material, radius: f64) -> f64 {
     let paper = Material::default();
     let squared = |m: &Material, r: f64| m.young_modulus / (m.density * r);

@@ -44,11 +44,11 @@ pub struct Sliding {
     /// Mobilised friction: tangential over normal force of the wall, positive against the motion [-].
     pub friction: f64,
     /// Slip: displacement of the wall less that of the grains that touch it (which move because the assembly behind
-    /// them deforms), weighted by their normal forces [m].
+    /// them deforms), weighted by their normal forces \[m\].
     pub slip: f64,
 }
 
-/// Moves bottom and top along x by the given displacements [m], counted from the present state and growing. The
+/// Moves bottom and top along x by the given displacements \[m\], counted from the present state and growing. The
 /// assembly relaxes at each stop; `visit` is called there with friction and slip.
 ///
 /// # Errors

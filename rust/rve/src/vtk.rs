@@ -21,7 +21,7 @@ pub fn particles(simulation: &Simulation) -> String {
     file + "</PointData>\n</Piece></PolyData></VTKFile>\n"
 }
 
-/// Contacts as lines along the branch with normal and tangential force [N] (XML PolyData).
+/// Contacts as lines along the branch with normal and tangential force \[N\] (XML PolyData).
 pub fn contacts(simulation: &Simulation) -> String {
     let (mut points, mut normal, mut tangential) = (Vec::new(), Vec::new(), Vec::new());
     simulation.for_each_contact(|contact| {
@@ -51,7 +51,7 @@ pub fn contacts(simulation: &Simulation) -> String {
     file + "</CellData>\n</Piece></PolyData></VTKFile>\n"
 }
 
-/// A time series (PVD) of files beside it: (time [s] or strain, file name).
+/// A time series (PVD) of files beside it: (time \[s\] or strain, file name).
 pub fn series(files: &[(f64, String)]) -> String {
     let mut text = String::from("<VTKFile type=\"Collection\" version=\"0.1\"><Collection>\n");
     for (time, file) in files {

@@ -9,7 +9,7 @@ use msdd_dem::{Disc, Side};
 /// coordination, rattlers, mean radius) are here those of the discs in the window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Window {
-    /// Lower left and upper right corner [m].
+    /// Lower left and upper right corner \[m\].
     pub low: [f64; 2],
     pub high: [f64; 2],
     pub averages: Averages,
@@ -35,7 +35,7 @@ pub fn windows(simulation: &Simulation, nx: usize, ny: usize) -> Vec<Window> {
     list
 }
 
-/// The square window of side `size` [m] around a point, moved inwards where needed to keep the distance `margin` [m]
+/// The square window of side `size` \[m\] around a point, moved inwards where needed to keep the distance `margin` \[m\]
 /// from the walls. Along an axis on which the box is too short for that, the window spans all but the margins. Contacts
 /// are clipped.
 pub fn window_around(simulation: &Simulation, centre: [f64; 2], size: f64, margin: f64) -> Window {

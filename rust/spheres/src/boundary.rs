@@ -18,7 +18,7 @@ pub enum Surface {
     Cylinder {
         /// Unit vector along the axis.
         axis: [f64; 3],
-        /// [m]
+        /// \[m\]
         radius: f64,
         /// Rate at which the radius grows [m/s].
         #[serde(default)]
@@ -30,7 +30,7 @@ pub enum Surface {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
-    /// A point of the plane, or of the cylinder's axis [m].
+    /// A point of the plane, or of the cylinder's axis \[m\].
     pub point: [f64; 3],
     pub surface: Surface,
     /// [m/s]; its component along the wall counts as slip.
@@ -48,7 +48,7 @@ impl Wall {
         Self { point, surface: Surface::Cylinder { axis, radius, growth: 0.0 }, velocity: [0.0; 3] }
     }
 
-    /// Distance of a point from the wall, positive on the side of the spheres [m], and the unit normal of the wall at the
+    /// Distance of a point from the wall, positive on the side of the spheres \[m\], and the unit normal of the wall at the
     /// foot of the point, towards the spheres. On the axis of a cylinder the normal is 0.
     #[inline]
     pub fn foot(&self, point: [f64; 3]) -> (f64, [f64; 3]) {
@@ -85,12 +85,12 @@ impl Wall {
         }
     }
 
-    /// Distance of a point from the wall, positive on the side of the spheres [m].
+    /// Distance of a point from the wall, positive on the side of the spheres \[m\].
     pub fn distance(&self, point: [f64; 3]) -> f64 {
         self.foot(point).0
     }
 
-    /// The six walls of the block from the origin to `size` [m], at rest.
+    /// The six walls of the block from the origin to `size` \[m\], at rest.
     pub fn block(size: [f64; 3]) -> Vec<Self> {
         let along = |k: usize, sign: f64| std::array::from_fn(|m| if m == k { sign } else { 0.0 });
         (0..3)
@@ -131,7 +131,7 @@ impl Cell {
         Self { lattice: Lattice { origin: [0.0; 3], edges }, velocity_gradient: [[0.0; 3]; 3] }
     }
 
-    /// [m³]
+    /// \[m³\]
     pub fn volume(&self) -> f64 {
         let [a, b, c] = self.lattice.edges;
         a[0] * b[1] * c[2]

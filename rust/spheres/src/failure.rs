@@ -8,7 +8,7 @@ pub const LARGEST_OVERLAP: f64 = 1.0;
 /// Largest distance that a sphere may move in one step, over its radius.
 pub(crate) const LARGEST_STRIDE: f64 = 0.5;
 
-/// Why a run ended early. `time` [s] is that of the check that found the failure.
+/// Why a run ended early. `time` \[s\] is that of the check that found the failure.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error("t = {} s: sphere {sphere} has a non-finite position or velocity", number(*time))]

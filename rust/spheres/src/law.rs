@@ -46,7 +46,7 @@ pub struct ContactLaw {
     pub damping: [f64; 2],
     /// μ [-] of two grains, and of a grain and a wall.
     pub friction: [f64; 2],
-    /// Δt [s].
+    /// Δt \[s\].
     pub dt: f64,
     /// L [1/s], 0 below the diagonal, of the flow that carries the grains along.
     pub gradient: Matrix,

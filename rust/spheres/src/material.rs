@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Stiffness {
-    /// Hertz (normal) and Mindlin (tangential), by Young's modulus E [Pa] and Poisson's ratio ν [-] of the grains.
+    /// Hertz (normal) and Mindlin (tangential), by Young's modulus E \[Pa\] and Poisson's ratio ν [-] of the grains.
     HertzMindlin { young_modulus: f64, poisson_ratio: f64 },
     /// Springs of constant stiffness [N/m] along the normal and along the contact plane.
     Linear { normal: f64, tangential: f64 },

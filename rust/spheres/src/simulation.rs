@@ -28,14 +28,14 @@ pub struct Simulation {
     pub gravity: [f64; 3],
     /// Drag on all spheres [1/s]: velocities and angular velocities fade at this rate, relative to the flow of a cell.
     pub drag: f64,
-    /// Δt [s] of the next step; [`Simulation::run`] sets it as chosen.
+    /// Δt \[s\] of the next step; [`Simulation::run`] sets it as chosen.
     pub time_step: f64,
     pub(crate) step_choice: StepChoice,
     /// Steps taken.
     pub steps: u64,
-    /// t [s].
+    /// t \[s\].
     pub time: f64,
-    /// Force of the spheres on each wall [N].
+    /// Force of the spheres on each wall \[N\].
     pub wall_force: Vec<[f64; 3]>,
     /// ε [-]: radii are the reference radii times 1 + ε.
     pub(crate) strain: f64,
@@ -200,7 +200,7 @@ impl Simulation {
         }
     }
 
-    /// Bound on the stable time step at the present contacts [s], see [`crate::time_step`].
+    /// Bound on the stable time step at the present contacts \[s\], see [`crate::time_step`].
     pub fn stable_step(&self) -> f64 {
         time_step::stable_step(&self.touching(), self.largest_speed, length(self.gravity))
     }
@@ -242,7 +242,7 @@ impl Simulation {
         loads
     }
 
-    /// Mean radius [m].
+    /// Mean radius \[m\].
     pub fn mean_radius(&self) -> f64 {
         self.spheres.iter().map(|s| s.radius).sum::<f64>() / self.spheres.len() as f64
     }

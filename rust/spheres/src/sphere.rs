@@ -11,26 +11,26 @@ pub(crate) type Columns<V> = [V; 11];
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Sphere {
-    /// x [m] of the centre.
+    /// x \[m\] of the centre.
     pub position: [f64; 3],
-    /// Current radius [m].
+    /// Current radius \[m\].
     pub radius: f64,
     /// v [m/s]; in a periodic box relative to the flow of the cell.
     pub velocity: [f64; 3],
-    /// m = 4/3 π ρ r₀³ [kg]: constant while the radius changes.
+    /// m = 4/3 π ρ r₀³ \[kg\]: constant while the radius changes.
     pub mass: f64,
     /// ω [rad/s].
     pub angular_velocity: [f64; 3],
-    /// T [K].
+    /// T \[K\].
     pub temperature: f64,
-    /// Radius at zero strain [m].
+    /// Radius at zero strain \[m\].
     pub reference_radius: f64,
     /// Padding up to two cache lines; has no meaning.
     pub(crate) spare: [f64; 3],
 }
 
 impl Sphere {
-    /// A sphere at rest at 0 K; mass from `density` [kg/m³] and `radius` [m].
+    /// A sphere at rest at 0 K; mass from `density` [kg/m³] and `radius` \[m\].
     pub fn at_rest(position: [f64; 3], radius: f64, density: f64) -> Self {
         Self {
             position,
@@ -54,13 +54,13 @@ impl Sphere {
         0.4 * self.mass * self.radius * self.radius
     }
 
-    /// ½ m v² + ½ I ω² [J].
+    /// ½ m v² + ½ I ω² \[J\].
     pub fn kinetic_energy(&self) -> f64 {
         let square = |[x, y, z]: [f64; 3]| x * x + y * y + z * z;
         0.5 * (self.mass * square(self.velocity) + self.inertia() * square(self.angular_velocity))
     }
 
-    /// 4/3 π r³ [m³].
+    /// 4/3 π r³ \[m³\].
     pub fn volume(&self) -> f64 {
         4.0 / 3.0 * PI * self.radius * self.radius * self.radius
     }

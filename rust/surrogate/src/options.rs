@@ -17,7 +17,7 @@ pub struct DatabaseProvenance {
     pub engine_version: String,
     /// Grain parameters of the database.
     pub material: serde_json::Value,
-    /// Smallest and largest grain radius [m].
+    /// Smallest and largest grain radius \[m\].
     pub radius_min: f64,
     pub radius_max: f64,
 }

@@ -21,7 +21,7 @@ pub const MOST_COORDINATES: usize = 6;
 pub struct Region {
     /// Number of coordinates in use.
     pub dimensions: usize,
-    /// Largest n·z/|n| over the training states z, for the normals n in the order of [`normals`].
+    /// Largest n·z/|n| over the training states z, for the normals n in the order of `normals`.
     pub support: Vec<f64>,
     /// Some of the training states, such that every other one is near one of them (farthest-point sampling; Gonzalez
     /// 1985).

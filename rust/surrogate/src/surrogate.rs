@@ -14,7 +14,7 @@ pub const MAX_STATE: usize = 13;
 pub type StateLanes = [Lanes; MAX_STATE];
 
 /// Strain of a block of cells: relative growth of the radii, above −1, and strain of the cell, extension positive; xy is
-/// 2 e_xy. `rotation` is the angle by which the cell turns, counter-clockwise positive [rad].
+/// 2 e_xy. `rotation` is the angle by which the cell turns, counter-clockwise positive \[rad\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Increment {
     pub thermal: Lanes,

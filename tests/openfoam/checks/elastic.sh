@@ -254,6 +254,8 @@ refusals() {
     solid friction-in-space 'walls { ".*" { type rigid; friction 0.3; slip 1e-3; } }'
     cube 2
     check "refused: friction in three dimensions" refused 'allowed in meshes of three dimensions: 0'
+    sed -i 's/ slip 1e-3;//' constant/granularProperties
+    check "refused: the same, whether or not the way of slip is given" refused 'allowed in meshes of three dimensions: 0'
     solid shell-without-thickness 'walls { inner { type shell; youngModulus 1e11; radius 1; } "outer|low|left" { type frictionless; } }'
     ring_mesh 4
     check "refused: a shell without thickness" refused 'thickness'

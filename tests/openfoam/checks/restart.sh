@@ -117,6 +117,24 @@ blocked() { # a file stands where the folder of summary.json must be
     check "a file that cannot be written is named with the reason" refused 'msddFoam/summary.json": Not a directory'
 }
 
+read_only() { # a folder in which nothing can be made is refused before the first step
+    local without=()
+    changed read-only
+    mesh_is '12 6 1'
+    in_parts '2 1'
+    # Who may write everywhere gives that up
+    [ "$(id -u)" != 0 ] || without=(setpriv --bounding-set=-dac_override)
+    unwritable() { # folder, program and arguments: they must fail with the folder's name before the first step
+        local folder=$1 log=$work/read-only.log
+        chmod a-w "$folder"
+        ! "${without[@]}" "${@:2}" > "$log" 2>&1
+        chmod u+w "$folder"
+        grep -qF "Folder \"$folder\" cannot be written: Permission denied" "$log" && ! grep -q '^Time = ' "$log"
+    }
+    check "a case folder that cannot be written is refused at the start" unwritable "$PWD" msddFoam
+    check "a folder of one of two processes, too" unwritable "$PWD/processor1" mpirun --oversubscribe -np 2 msddFoam -parallel
+}
+
 other_processes() { # shape: on 1, 3, 1 and 2 x 2 processes in turn, compared with 1 throughout; the sums of heat must be kept
     local e way end=0.5
     changed "moved-on-$1-whole"
@@ -180,6 +198,7 @@ one_solver() { # a second solver in a folder is refused while the first runs, al
         second=$(sed 's/ .*//' <<< "$(cut -d ' ' -f 2 msddFoam.lock)")
         check "a second solver in the folder of one on $processes processes is refused" \
             refused "msddFoam.lock\" is locked by process $second on $(hostname)"
+        check "it says at once what it waits for" grep -q "^Waiting up to 5 s for process $second on $(hostname), which computes this case" log.bad
         kill -9 "$second" # of several processes, the others end with it
         wait $first 2> /dev/null || true
         check "the lock file of a killed solver on $processes processes stays" test -e msddFoam.lock
@@ -236,6 +255,7 @@ every_file "online RVEs"
 
 full_disk
 blocked
+read_only
 one_solver
 mapped
 for shape in $shapes; do other_processes "$shape"; done

@@ -4,8 +4,9 @@ use super::domain::Mesh;
 use super::fields::{self, FIELDS};
 use super::files::{self, Files};
 use super::finding::Findings;
+use super::temperatures::{self, Temperatures};
 use super::{
-    control, gas, grains, gravity, keys, scales, sources, spheres, state, tables, walls, weight, zones,
+    control, gas, grains, gravity, held, keys, scales, sources, spheres, state, tables, walls, weight, zones,
 };
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
@@ -39,6 +40,7 @@ pub fn check(
         let start = if restarted { [None, None] } else { [porosity.as_ref(), stress.as_ref()] };
         spheres::check(folder, properties, mesh, start, found);
         walls::check(properties, mesh, found);
+        held::check(properties, mesh, found);
         if let Some(gravity) = file(gravity::FILE) {
             weight::check(properties, gravity, mesh, start, found);
         }
@@ -55,7 +57,9 @@ pub fn check(
     scene.check_walls(found);
     if let Some(properties) = properties {
         let (walls, heated) = (scene.wall_temperatures().collect(), scene.is_heated());
-        gas::check(properties, &gas::Temperatures { start: temperature.as_ref(), walls, heated }, found);
+        let temperatures = Temperatures { start: temperature.as_ref(), walls, heated };
+        temperatures::check(properties, &temperatures, found);
+        gas::check(properties, &temperatures, found);
     }
     if restarted {
         return;

@@ -2,7 +2,7 @@
 
 use super::domain::{BLOCKS as FILE, Mesh, Patch, patches_in};
 use super::finding::Findings;
-use super::made;
+use super::{held, made};
 use crate::dictionary::{Dictionary, Token};
 
 /// Reads what the dictionary says of the mesh that blockMesh will make.
@@ -11,6 +11,7 @@ pub fn read(blocks: &Dictionary, is_plane: bool, mesh: &mut Mesh, found: &mut Fi
     if let Some(corners) = crate::case::corners(blocks) {
         mesh.extent = Some(made::extent_of(&corners));
         mesh.axis = axis_of_wedge(blocks, &corners);
+        mesh.sides = held::sides(blocks, &corners);
     }
     match blocks.value("blocks") {
         Ok(tokens) => {

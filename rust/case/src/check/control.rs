@@ -49,11 +49,11 @@ const OPENFOAM: [&str; 31] = [
 /// Times of the case, which checks of other files need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
-    /// Time of the start [s].
+    /// Time of the start \[s\].
     pub start: f64,
-    /// Length of the simulation [s].
+    /// Length of the simulation \[s\].
     pub end: f64,
-    /// Time step, or the first one when steps are adaptive [s].
+    /// Time step, or the first one when steps are adaptive \[s\].
     pub step: f64,
     /// Whether steps are adaptive: their length follows from their error.
     pub adaptive: bool,

@@ -24,10 +24,21 @@ pub struct Mesh {
     pub extent: Option<[[f64; 3]; 2]>,
     /// Of a wedge, the directions of its axis and of the normal of its middle plane, 0 for x.
     pub axis: Option<[usize; 2]>,
+    /// Plane sides of the mesh; none when they are not known.
+    pub sides: Option<Vec<Side>>,
     /// Names of the zones of cells; none when they are not known.
     pub zones: Option<Vec<String>>,
     /// Names of the sets of cells and faces; none when they are not known.
     pub sets: Option<Vec<String>>,
+}
+
+/// A plane side of a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Side {
+    /// Its patch; none if it is in that of type `empty` that OpenFOAM makes of what is left.
+    pub patch: Option<String>,
+    /// Of length 1.
+    pub normal: [f64; 3],
 }
 
 /// What a cell is, which the types of the patches say.

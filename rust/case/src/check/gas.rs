@@ -1,8 +1,8 @@
 //! Checks that spheres conduct at least as well as the gas between them, as the law of spheres needs.
 
-use super::fields::Values;
 use super::finding::Findings;
 use super::grains::FILE;
+use super::temperatures::Temperatures;
 use super::{keys, tables};
 use crate::dictionary::Dictionary;
 use crate::numbers::rounded;
@@ -10,43 +10,16 @@ use msdd_beds::effective::LEAST_RATIO;
 use msdd_beds::named_gases::GasName;
 use msdd_rve::message::number;
 
-/// By how much a heat source is taken to warm the bed \[K\].
-const HEATED: f64 = 500.0;
-/// Distance of the temperatures that are looked at \[K\]; the solver samples functions so, too.
-const STEP: f64 = 1.0;
-
-/// Temperatures of the bed.
-pub struct Temperatures<'a> {
-    /// At the start, in the cells \[K\].
-    pub start: Option<&'a Values>,
-    /// Of the walls \[K\].
-    pub walls: Vec<f64>,
-    /// Whether there are heat sources.
-    pub heated: bool,
-}
-
 /// `properties` with the surrogate type spheres; nothing is done for others.
 pub fn check(properties: &Dictionary, temperatures: &Temperatures, found: &mut Findings) {
     let Some(gas) = gas_of(properties) else { return };
-    let start = || temperatures.start.into_iter().flat_map(|start| &start.numbers).map(|value| value[0]);
     let advice = "The law of spheres does not know spheres that conduct less than the gas between them";
-    if let Some(case) = below(properties, gas, start()) {
+    if let Some(case) = below(properties, gas, temperatures.at_start()) {
         let [value, allowed] = texts(gas, case);
         found.error([FILE, KEY], &value, &allowed, &format!("{advice}, and the solver refuses them"));
         return;
     }
-    // From the start's temperatures outwards: the first is where the run ends
-    let (least, most) = start().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
-    if least > most {
-        return;
-    }
-    let walls = temperatures.walls.iter().copied();
-    let hottest = walls.clone().fold(most, f64::max) + if temperatures.heated { HEATED } else { 0.0 };
-    let coldest = walls.fold(least, f64::min).max(0.0);
-    let steps = |way: f64| (0..=(way / STEP) as u32).map(|k| STEP * f64::from(k));
-    let up = below(properties, gas, steps(hottest - most).map(|way| most + way).chain([hottest]));
-    let down = || below(properties, gas, steps(least - coldest).map(|way| least - way).chain([coldest]));
-    if let Some(case) = up.or_else(down) {
+    if let Some(case) = below(properties, gas, temperatures.later()) {
         let [value, allowed] = texts(gas, case);
         let advice = format!("{advice}: the run ends when a cell reaches this temperature");
         found.doubt([FILE, KEY], &value, &allowed, &advice);
@@ -88,6 +61,7 @@ fn texts(gas: GasName, [temperature, solid, least]: [f64; 3]) -> [String; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::fields::Values;
     use std::path::Path;
 
     fn lines(conductivity: &str, gas: &str, start: f64, walls: &[f64], heated: bool) -> Vec<String> {

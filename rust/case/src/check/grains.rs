@@ -38,14 +38,8 @@ pub fn is_plane(properties: &Dictionary) -> bool {
 /// The law of spheres alone follows a conductivity that depends on the temperature.
 fn check_conductivity(file: &Dictionary, surrogate: &Dictionary, found: &mut Findings) {
     let kind = surrogate.text("type").unwrap_or_default();
-    let given = match file.get("thermalConductivity") {
-        Some(Entry::Dictionary(_)) => "{...}".to_string(),
-        Some(Entry::Value(tokens)) => joined(tokens),
-        None => return,
-    };
-    let is_function =
-        given == "{...}" || given.split(' ').next().is_some_and(|word| keys::FUNCTIONS.contains(&word));
-    if is_function && kind != "spheres" {
+    if keys::is_function(file, "thermalConductivity") && kind != "spheres" {
+        let given = file.value("thermalConductivity").map_or("{...}".to_string(), joined);
         let allowed = format!("a number with surrogate type {kind}");
         found.error(
             [FILE, "thermalConductivity"],

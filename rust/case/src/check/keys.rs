@@ -328,6 +328,17 @@ pub fn size(dictionary: &Dictionary, key: &str) -> Option<f64> {
     Some(value * if given.is_empty() { 1.0 } else { Dimensions::read(given)?.factor })
 }
 
+/// Whether a key holds a function of the temperature and not a number.
+pub fn is_function(dictionary: &Dictionary, key: &str) -> bool {
+    match dictionary.get(key) {
+        Some(Entry::Dictionary(_)) => true,
+        Some(Entry::Value(tokens)) => {
+            tokens.first().is_some_and(|word| FUNCTIONS.contains(&word.text.as_str()))
+        }
+        None => false,
+    }
+}
+
 /// Dimensions and number of `name [0 1 0 0 0 0 0] 0.01`; name and dimensions may be missing.
 fn parts(tokens: &[Token]) -> Option<(&[Token], f64)> {
     let (last, front) = tokens.split_last()?;

@@ -25,6 +25,7 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
         if extent.is_none() || !mesh.extent.is_some_and(|wanted| is_near(extent, wanted)) {
             // It may have been turned after blockMesh
             mesh.axis = None;
+            mesh.sides = None;
         }
         mesh.extent = extent.or(mesh.extent);
         mesh.zones = zones_of_mesh(&folder);
@@ -37,6 +38,7 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
         mesh.cells = cells_of_mesh(&folder);
         if mesh.cells != old {
             mesh.shape = None;
+            mesh.sides = None;
         }
         if let (Some(wanted), Some(made)) = (old, mesh.cells)
             && wanted != made

@@ -3,26 +3,28 @@
 //! | module | what |
 //! |---|---|
 //! | [`bed`] | a bed: a whole case, or a region of one |
-//! | [`files`] | the files that are read |
+//! | `files` | the files that are read |
 //! | [`regions`] | cases of several regions |
 //! | [`finding`] | the findings |
 //! | [`keys`] | the keys of the solver's dictionaries and what they may hold |
-//! | [`dimensions`] | dimensions in brackets |
+//! | `dimensions` | dimensions in brackets |
 //! | [`grains`] | `constant/granularProperties` and the model |
-//! | [`gas`] | the conductivity of spheres beside that of their gas |
+//! | `gas` | the conductivity of spheres beside that of their gas |
 //! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
-//! | [`libraries`] | libraries and code that a case brings along |
-//! | [`start`] | the time at which a run begins |
+//! | `libraries` | libraries and code that a case brings along |
+//! | `start` | the time at which a run begins |
 //! | [`mesh`] | the mesh |
-//! | [`domain`] | what is known of a mesh |
-//! | [`blocks`] | `system/blockMeshDict` |
-//! | [`made`] | the files in `constant/polyMesh` |
-//! | [`sources`] | sources and constraints |
-//! | [`zones`] | zones and sets of cells that are named |
-//! | [`tables`] | functions of temperature or time |
-//! | [`walls`] | friction at walls, and wedges |
-//! | [`weight`] | gravity and the stress at the start |
+//! | `domain` | what is known of a mesh |
+//! | `blocks` | `system/blockMeshDict` |
+//! | `made` | the files in `constant/polyMesh` |
+//! | `sources` | sources and constraints |
+//! | `zones` | zones and sets of cells that are named |
+//! | `tables` | functions of temperature or time |
+//! | `temperatures` | the temperatures of a bed, and properties that depend on them |
+//! | `held` | whether walls hold a bed whose grains move |
+//! | `walls` | friction at walls, and wedges |
+//! | `weight` | gravity and the stress at the start |
 //! | [`fields`] | the fields in `0` |
 //! | [`state`] | the initial state, against the range of the model |
 //! | [`scales`] | temperatures, lengths and times, against each other |
@@ -38,6 +40,7 @@ pub mod finding;
 mod gas;
 pub mod grains;
 pub mod gravity;
+mod held;
 pub mod keys;
 mod libraries;
 mod made;
@@ -49,6 +52,7 @@ mod spheres;
 mod start;
 pub mod state;
 mod tables;
+mod temperatures;
 mod walls;
 mod weight;
 mod zones;

@@ -86,7 +86,7 @@ impl<'a> Scene<'a> {
         self.walls.push((name.to_string(), values));
     }
 
-    /// Temperatures of all walls over time [K].
+    /// Temperatures of all walls over time \[K\].
     pub fn wall_temperatures(&self) -> impl Iterator<Item = f64> {
         self.walls.iter().flat_map(|(_, values)| values.iter().copied())
     }
@@ -307,11 +307,17 @@ mod tests {
             "type uniformFixedValue; uniformValue table 2 ((-10 300) (10 400));",
             "type uniformFixedValue; uniformValue sine; uniformValueCoeffs { level 330; }",
             "type uniformFixedValue; uniformValue { type csvFile; file \"w.csv\"; }",
+            "type uniformFixedValue; uniformValue table; uniformValueCoeffs { uniformValue table ((0 300) (10 400)); }",
+            "type uniformFixedValue; uniformValue { type table; uniformValue table ((0 300) (10 400)); }",
         ] {
             assert_eq!(lines(good), Vec::<String>::new(), "{good}");
         }
         let cold = lines("type uniformFixedValue; uniformValue polynomial ((350 0) (-4 1));");
         assert!(cold[0].starts_with("error: 0/T: boundaryField/left = -10 K"), "{cold:?}");
+        let cold = lines(
+            "type uniformFixedValue; uniformValue table; uniformValueCoeffs { uniformValue table ((0 300) (9 -4)); }",
+        );
+        assert!(cold[0].starts_with("error: 0/T: boundaryField/left = -4 K"), "{cold:?}");
         assert!(lines("type fixedValue; value uniform 300;")[0].contains("nothing heats or cools"));
         assert!(lines("type uniformFixedValue; uniformValue 300;")[0].contains("nothing heats or cools"));
     }

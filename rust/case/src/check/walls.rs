@@ -73,11 +73,11 @@ fn check_friction(wall: &Dictionary, elastic: bool, solid: bool, found: &mut Fin
     let friction = keys::number(wall, "friction", "");
     let place = wall.path_of("friction");
     let allowed = "0 in meshes of three dimensions";
-    if solid
-        && let Some(friction) = friction.filter(|&friction| friction > 0.0)
-        && !found.0.iter().any(|finding| finding.key == place && finding.allowed == allowed)
-    {
-        found.error([FILE, &place], &friction.to_string(), allowed, "");
+    if let Some(friction) = friction.filter(|&friction| solid && friction > 0.0) {
+        if !found.0.iter().any(|finding| finding.key == place && finding.allowed == allowed) {
+            found.error([FILE, &place], &friction.to_string(), allowed, "");
+        }
+        return;
     }
     let place = wall.path_of("slip");
     if elastic
@@ -131,6 +131,18 @@ mod tests {
         assert!(
             elastic[0].contains("walls/left/slip = missing") && elastic[1].contains("walls/right = missing")
         );
+    }
+
+    #[test]
+    fn friction_in_space_is_one_error_whether_or_not_slip_is_given() {
+        let wanted = "error: constant/granularProperties: equilibriumCoeffs/walls/.*/friction = 0.3, allowed: 0 in meshes";
+        for slip in ["", "slip 1e-6;"] {
+            let found =
+                lines(&format!("law elastic; walls {{ \".*\" {{ friction 0.3; {slip} }} }}"), "wall", None);
+            assert!(found.len() == 1 && found[0].starts_with(wanted), "{found:?}");
+        }
+        let still = lines("law elastic; walls { \".*\" { friction 0; } }", "wall", None);
+        assert!(still.len() == 1 && still[0].contains("slip = missing"), "{still:?}");
     }
 
     #[test]

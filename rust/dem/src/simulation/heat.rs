@@ -37,12 +37,12 @@ impl Simulation {
         self.pipes.as_deref()
     }
 
-    /// Conducts heat over `dt` [s] in the present geometry, without motion; does nothing when heat is off.
+    /// Conducts heat over `dt` \[s\] in the present geometry, without motion; does nothing when heat is off.
     pub fn conduct(&mut self, dt: f64) {
         self.conduct_through(dt, |pipes, touching, _| pipes.connect(touching));
     }
 
-    /// Takes one explicit Euler step of heat of any length `dt` [s] through the pipes of the last
+    /// Takes one explicit Euler step of heat of any length `dt` \[s\] through the pipes of the last
     /// [`Simulation::conduct`]. Used to measure at which step the scheme turns unstable.
     pub fn conduct_once(&mut self, dt: f64) {
         if let Some(pipes) = &mut self.pipes {

@@ -28,7 +28,7 @@ pub struct Simulation {
     /// None between walls. For a periodic box, `walls` are the borders of the cell. The constructor decides which of
     /// the two it is, and that stays so.
     pub periodic: Option<Periodic>,
-    /// Δt [s] of the next step; [`Simulation::run`] sets it as chosen.
+    /// Δt \[s\] of the next step; [`Simulation::run`] sets it as chosen.
     pub time_step: f64,
     pub(crate) step_choice: StepChoice,
     /// Drag on discs without contact force [1/s]. 0 (off) as in the paper, whose damping, proportional to the contact
@@ -42,9 +42,9 @@ pub struct Simulation {
     pub affine_walls: bool,
     /// Steps taken.
     pub steps: u64,
-    /// t [s].
+    /// t \[s\].
     pub time: f64,
-    /// Force of the grains on each wall [N]: normal (outwards positive) and tangential (along t of the inward normal).
+    /// Force of the grains on each wall \[N\]: normal (outwards positive) and tangential (along t of the inward normal).
     pub wall_force: [[f64; 2]; 4],
     /// Radii at zero strain [m].
     pub(crate) reference_radius: Vec<f64>,
@@ -207,7 +207,7 @@ impl Simulation {
         }
     }
 
-    /// Bound on the stable time step at the present contacts [s], see [`crate::time_step`].
+    /// Bound on the stable time step at the present contacts \[s\], see [`crate::time_step`].
     pub fn stable_step(&self) -> f64 {
         time_step::stable_step(&self.touching())
     }
@@ -242,7 +242,7 @@ impl Simulation {
         self.loads.iter(&self.neighbours).copied().collect()
     }
 
-    /// Mean disc radius [m].
+    /// Mean disc radius \[m\].
     pub fn mean_radius(&self) -> f64 {
         self.discs.iter().map(|d| d.radius).sum::<f64>() / self.discs.len() as f64
     }

@@ -66,7 +66,7 @@ fn compressed(text: &str) -> std::io::Result<Vec<u8>> {
     encoder.finish()
 }
 
-/// The text of a table that [`write`] has written.
+/// The text of a table that [`write()`] has written.
 ///
 /// # Errors
 /// [`ReferenceError::File`], [`ReferenceError::Read`].

@@ -195,7 +195,7 @@ impl PlannedScene {
         ])
     }
 
-    /// Width and height of the box [m].
+    /// Width and height of the box \[m\].
     pub fn box_size(&self) -> [f64; 2] {
         self.size.map(|length| length * self.mean_radius)
     }

@@ -52,7 +52,7 @@ fn pressures(results: &SceneResults) -> Vec<[f64; 2]> {
 }
 
 /// The errors of a scene: `packings` are the results of its discs and the case folder in which the solver has run from the same
-/// packing; `range` is that of T [K].
+/// packing; `range` is that of T \[K\].
 ///
 /// # Errors
 /// [`ReferenceError::File`], [`ReferenceError::Read`] for results of the solver that are missing.

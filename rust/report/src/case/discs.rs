@@ -15,16 +15,16 @@ use std::path::Path;
 const DISCS: [usize; 2] = [100, 20_000];
 /// Processor time of a disc's step [s], which decides what is begun at all.
 const STEP: f64 = 1e-7;
-/// Processor time after which a packing is stopped [s].
+/// Processor time after which a packing is stopped \[s\].
 pub const LIMIT: u64 = 3600;
 /// Seeds of the packings; a quick report takes the first.
 const SEEDS: [u64; 3] = [1, 2, 3];
 
 /// The box of a case and its packings.
 pub struct Discs {
-    /// Lower left corner and size of the box [m].
+    /// Lower left corner and size of the box \[m\].
     pub place: [[f64; 2]; 2],
-    /// Range of T of the start and the walls [K].
+    /// Range of T of the start and the walls \[K\].
     pub range: f64,
     pub jobs: Vec<CaseJob>,
 }

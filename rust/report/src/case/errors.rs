@@ -28,7 +28,7 @@ pub struct Truth {
     pub temperature: Series,
     pub pressure: Series,
     pub displacement: Series,
-    /// Range of T [K].
+    /// Range of T \[K\].
     pub range: f64,
 }
 

@@ -32,7 +32,7 @@ pub struct Rung {
     pub name: String,
     pub family: &'static str,
     pub settings: Settings,
-    /// Range of T [K], from which the tolerance follows; `None`: that of the case stays.
+    /// Range of T \[K\], from which the tolerance follows; `None`: that of the case stays.
     pub range: Option<f64>,
     /// Text that is added at the end of files of the case.
     pub append: BTreeMap<String, String>,
@@ -50,7 +50,7 @@ impl Rung {
         self
     }
 
-    /// The run, compared with discs in a box of this lower left corner and size [m] if there is one.
+    /// The run, compared with discs in a box of this lower left corner and size \[m\] if there is one.
     pub fn run(&self, discs: Option<[[f64; 2]; 2]>) -> CaseRun {
         let (settings, append) = (self.settings.clone(), self.append.clone());
         CaseRun { settings, range: self.range, append, discs }
@@ -86,7 +86,7 @@ pub fn finest(quick: bool) -> (f64, i32) {
     (TOLERANCES[TOLERANCES.len() - 1 - left_out], HALVED[HALVED.len() - 1 - left_out])
 }
 
-/// The configurations. `range`: of T [K].
+/// The configurations. `range`: of T \[K\].
 ///
 /// # Errors
 /// [`ReportError::Case`] for dictionaries of the case that cannot be read.
@@ -109,13 +109,12 @@ pub fn ladder(scene: &Scene, range: f64, quick: bool) -> Result<Vec<Rung>, Repor
             rungs.extend(tolerances.map(|&tolerance| new(levels, tolerance, moves)));
         }
     }
-    // The surrogate type constant takes the conductivity of a law of discs
-    if scene.bed.kind == Grains::Discs {
+    if let Some(constant) = constant(scene) {
         let coarser = meshes.iter().filter(|levels| levels.iter().all(|level| *level >= Level::Halved(0)));
         for levels in coarser.rev().take(2) {
             let mut rung = new(levels, USUAL, false);
             rung.family = FAMILIES[2];
-            rungs.push(rung.with("constant/granularProperties", "surrogate { type constant; }\n"));
+            rungs.push(rung.with("constant/granularProperties", &constant));
         }
     }
     let own = level(scene, 0);
@@ -135,6 +134,13 @@ pub fn ladder(scene: &Scene, range: f64, quick: bool) -> Result<Vec<Rung>, Repor
     }
     rungs.extend(as_it_is(scene)?);
     Ok(rungs)
+}
+
+/// What gives the bed the conductivity of the case's own model at the start. None where the surrogate type constant cannot: it loads
+/// models of discs alone, no plug-ins.
+fn constant(scene: &Scene) -> Option<String> {
+    let model = scene.model.as_ref().filter(|_| scene.bed.kind == Grains::Discs)?;
+    Some(format!("surrogate {{ type constant; constantCoeffs {{ model \"{model}\"; }} }}\n"))
 }
 
 /// The case with its own cells, steps and mechanics; none if it leaves them to `msdd case solve`.
@@ -182,7 +188,7 @@ mod tests {
             points: Vec::new(),
             pressure_accuracy: None,
             conductivity_factor: 1.0,
-            model: None,
+            model: Some("own.json".to_string()),
             mirror: None,
             bounds: [[0.0; 3], [1.0; 3]],
             in_space: false,
@@ -206,6 +212,23 @@ mod tests {
         let unique: std::collections::BTreeSet<_> = names.iter().collect();
         assert_eq!(unique.len(), names.len());
         assert!(ladder(&scene(), 50.0, true).unwrap().len() < rungs.len());
+    }
+
+    #[test]
+    fn the_constant_conductivity_is_that_of_the_own_model() {
+        let mut scene = scene();
+        let constant = |scene: &Scene| {
+            let rungs = ladder(scene, 50.0, false).unwrap();
+            let of = |rung: &Rung| rung.append["constant/granularProperties"].clone();
+            rungs.iter().filter(|rung| rung.family == FAMILIES[2]).map(of).collect::<Vec<_>>()
+        };
+        assert_eq!(
+            constant(&scene),
+            ["surrogate { type constant; constantCoeffs { model \"own.json\"; } }\n"]
+        );
+        // Plug-ins, and boxes of grains
+        scene.model = None;
+        assert_eq!(constant(&scene), Vec::<String>::new());
     }
 
     #[test]

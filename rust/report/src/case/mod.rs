@@ -3,11 +3,11 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`ladder`] | the configurations |
+//! | [`mod@ladder`] | the configurations |
 //! | [`discs`] | whether discs can be made for the case, and which |
 //! | [`errors`] | how far a run is from the reference |
-//! | [`reference`] | the reference |
-//! | [`work`] | the case, and the records of its jobs |
+//! | [`mod@reference`] | the reference |
+//! | `work` | the case, and the records of its jobs |
 //! | [`table`] | the results as CSV |
 
 pub mod discs;
@@ -62,7 +62,7 @@ pub struct Choice {
     pub row: Option<String>,
     /// Its own estimate of the error of T [% of the range].
     pub estimate: Option<f64>,
-    /// Processor time of the search [s].
+    /// Processor time of the search \[s\].
     pub search_seconds: f64,
     /// The choice, its error, and where it lies, as sentences.
     pub sentence: String,
@@ -77,7 +77,7 @@ pub struct CaseReport {
     pub made: Stamp,
     pub jobs: usize,
     pub cached_jobs: usize,
-    /// Range of T, of which errors are given in percent [K].
+    /// Range of T, of which errors are given in percent \[K\].
     pub range: f64,
     /// Number of points and of times at which runs are compared.
     pub points: usize,

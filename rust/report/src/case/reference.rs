@@ -26,7 +26,7 @@ pub struct Reference {
     pub finer: Option<i32>,
     /// Cells of its mesh, or discs of a packing.
     pub size: usize,
-    /// Processor time of the run, or of the packings [s].
+    /// Processor time of the run, or of the packings \[s\].
     pub core_seconds: f64,
     /// Error of T that it has itself, by the order of the methods, if that is known [%].
     pub own_error: Option<f64>,
@@ -34,7 +34,7 @@ pub struct Reference {
     pub scatter: Option<Errors>,
 }
 
-/// Makes the reference. `range`: of T [K].
+/// Makes the reference. `range`: of T \[K\].
 ///
 /// # Errors
 /// [`ReportError::Useless`] if no reference comes to its end.

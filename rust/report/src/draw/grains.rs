@@ -5,7 +5,7 @@ use super::{Drawn, FONT, SIZE, responsive};
 use crate::ReportError;
 use plotters::prelude::*;
 
-/// A grain: centre and radius [m], and the value that determines its colour.
+/// A grain: centre and radius \[m\], and the value that determines its colour.
 #[derive(Clone, Copy, Debug)]
 pub struct Grain {
     pub at: [f64; 2],
@@ -18,7 +18,7 @@ const WINDOW: (i32, i32, i32) = (30, 34, 420);
 /// Height of the scale below the window [px].
 const SCALE: i32 = 46;
 
-/// Draws the grains in the square from `low` to `high` [m], from dark for the value 0 to light for `most`, with the colour
+/// Draws the grains in the square from `low` to `high` \[m\], from dark for the value 0 to light for `most`, with the colour
 /// scale and `label` below.
 ///
 /// # Errors

@@ -12,7 +12,7 @@ use plotters::coord::Shift;
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::prelude::*;
 
-/// Width and height of a figure [px], before it is scaled to the page.
+/// Width and height of a figure \[px\], before it is scaled to the page.
 pub const SIZE: (u32, u32) = (480, 330);
 const FONT: &str = "sans-serif";
 const COLOURS: [RGBColor; 8] = [
@@ -70,7 +70,7 @@ pub struct Style {
     pub marker: Marker,
     pub line: Line,
     pub hollow: bool,
-    /// Half the size of a marker [px].
+    /// Half the size of a marker \[px\].
     pub size: i32,
 }
 

@@ -20,7 +20,7 @@ pub struct Cycles {
     pub anisotropy: f64,
 }
 
-/// Duration of a cycle [s]. The walls have 50 K at its start, 70 K after a quarter, 30 K after three quarters.
+/// Duration of a cycle \[s\]. The walls have 50 K at its start, 70 K after a quarter, 30 K after three quarters.
 pub const PERIOD: f64 = 8.0;
 pub const COUNT: usize = 10;
 const SEEDS: [u32; 3] = [21, 22, 23];

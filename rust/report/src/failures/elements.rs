@@ -5,7 +5,7 @@ use crate::plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Largest stable time steps of 500 discs [s].
+/// Largest stable time steps of 500 discs \[s\].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StableStep {
     pub porosity: f64,
@@ -53,7 +53,7 @@ pub struct WallSpeed {
     /// Speed of the walls [m/s].
     pub speed: f64,
     pub failed: u64,
-    /// Pressure [Pa].
+    /// Pressure \[Pa\].
     pub pressure: [f64; 2],
     pub porosity: [f64; 2],
     pub fabric_index: [f64; 2],
@@ -70,7 +70,7 @@ pub struct Unjamming {
 pub struct Answer {
     /// K/k, mean of xx and yy [-].
     pub conductivity: f64,
-    /// Pressure [Pa].
+    /// Pressure \[Pa\].
     pub pressure: f64,
 }
 

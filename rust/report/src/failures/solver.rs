@@ -12,9 +12,9 @@ use serde::Serialize;
 #[derive(Clone, Debug, Serialize)]
 pub struct Coupling {
     pub scheme: String,
-    /// Time step [s].
+    /// Time step \[s\].
     pub step: f64,
-    /// Largest error of T at the probes from 1 s on [K]; `None` when the run ended early.
+    /// Largest error of T at the probes from 1 s on \[K\]; `None` when the run ended early.
     pub error: Option<f64>,
     pub outcome: String,
     pub message: String,
@@ -36,7 +36,7 @@ pub struct Contrast {
 /// Case H* in a box whose ends are slanted.
 #[derive(Clone, Debug, Serialize)]
 pub struct Slant {
-    /// Angle between the line through the centres of two cells and the normal of their face [degrees].
+    /// Angle between the line through the centres of two cells and the normal of their face \[degrees\].
     pub angle: f64,
     pub cells: [usize; 2],
     pub correctors: usize,

@@ -21,7 +21,7 @@ pub enum Outcome {
     Refused,
     /// The job ended with an error later.
     Failed,
-    /// The job was stopped at its limit of processor time or, on a busy machine, at [`PATIENCE`] times as much wall time.
+    /// The job was stopped at its limit of processor time or, on a busy machine, at `PATIENCE` times as much wall time.
     TimedOut,
     /// The job was not run, because only results of the cache were wanted.
     NotRun,
@@ -63,7 +63,7 @@ pub struct Record {
     pub outcome: Outcome,
     /// Why the job is not done; for a run of the solver that is done, its first warning.
     pub message: String,
-    /// Processor time of the program alone, user and system [s].
+    /// Processor time of the program alone, user and system \[s\].
     pub cpu_seconds: f64,
     pub wall_seconds: f64,
     pub run: Option<Run>,

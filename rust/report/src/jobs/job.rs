@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 /// Cells along x and y of the shipped cases.
 pub const MESH: [usize; 2] = [100, 30];
-/// Width and height of the box of the cases [m] (Fig. 7).
+/// Width and height of the box of the cases \[m\] (Fig. 7).
 pub const BOX: [f64; 2] = [2.15, 0.645];
-/// The probes P1, P2, P3, where T is compared [m] (Fig. 7).
+/// The probes P1, P2, P3, where T is compared \[m\] (Fig. 7).
 pub const PROBES: [[f64; 2]; 3] = [[0.3225, 0.3225], [1.075, 0.3225], [1.8275, 0.3225]];
 
 /// Source folders of the discrete element engine and the programs that use it; results depend on them.
@@ -28,7 +28,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// Width and height of the part of the box that is computed [m].
+    /// Width and height of the part of the box that is computed \[m\].
     pub fn size(self) -> [f64; 2] {
         match self {
             Self::Whole | Self::Shipped => BOX,
@@ -64,13 +64,13 @@ pub struct SolverJob {
     pub uniform: Option<[f64; 2]>,
     /// Text that is added at the end of files of the case: OpenFOAM merges dictionaries, and the last value counts.
     pub append: BTreeMap<String, String>,
-    /// End of the simulation [s].
+    /// End of the simulation \[s\].
     pub end: f64,
     /// C source of a plug-in, relative to the checkout, which the case finds as `plugin.so`.
     pub plugin: Option<String>,
-    /// Angle by which the ends of the box are slanted to the right [degrees]; its height stays the same.
+    /// Angle by which the ends of the box are slanted to the right \[degrees\]; its height stays the same.
     pub slant: f64,
-    /// Processor time after which the run is stopped [s].
+    /// Processor time after which the run is stopped \[s\].
     pub limit: u64,
 }
 
@@ -129,7 +129,7 @@ pub struct SpheresJob {
     pub append: BTreeMap<String, String>,
     /// Arguments of `cases/common/compare-elements`; none: the case has no discrete elements.
     pub compare: Vec<String>,
-    /// Processor time after which the run is stopped [s].
+    /// Processor time after which the run is stopped \[s\].
     pub limit: u64,
 }
 
@@ -169,11 +169,11 @@ pub enum CaseProgram {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseRun {
     pub settings: Settings,
-    /// Range of T [K], from which the tolerance follows; `None`: that of the case stays.
+    /// Range of T \[K\], from which the tolerance follows; `None`: that of the case stays.
     pub range: Option<f64>,
     /// Text that is added at the end of files of the case.
     pub append: BTreeMap<String, String>,
-    /// Lower left corner and size of the box [m] if the run is compared with discs, which are observed at points that stay in
+    /// Lower left corner and size of the box \[m\] if the run is compared with discs, which are observed at points that stay in
     /// space.
     pub discs: Option<[[f64; 2]; 2]>,
 }
@@ -185,7 +185,7 @@ pub struct CaseDiscs {
     pub porosity: f64,
     /// Whether the box is closed along x and y, instead of along x alone.
     pub isotropic: bool,
-    /// Time between two rows of the results [s].
+    /// Time between two rows of the results \[s\].
     pub interval: f64,
 }
 

@@ -16,14 +16,14 @@ pub type Records = BTreeMap<String, Record>;
 pub struct Progress<'a> {
     pub done: usize,
     pub total: usize,
-    /// Estimated times of the jobs that have run and of all jobs that have to run [s].
+    /// Estimated times of the jobs that have run and of all jobs that have to run \[s\].
     pub work: [f64; 2],
-    /// Time that has passed since the first job was started [s].
+    /// Time that has passed since the first job was started \[s\].
     pub elapsed: f64,
     pub last: &'a str,
 }
 
-/// A job and an estimate of its wall time [s], which is only used to show the time left.
+/// A job and an estimate of its wall time \[s\], which is only used to show the time left.
 #[derive(Clone, Debug)]
 pub struct Asked {
     pub job: Job,

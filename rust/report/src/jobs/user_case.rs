@@ -24,7 +24,7 @@ const WATCH: &str = "msddReport";
 /// Folder of the results of discs in the copy.
 const DISCS: &str = "discs";
 
-/// Rows of numbers of one time [s] each. A number that a point outside of the mesh does not have is missing.
+/// Rows of numbers of one time \[s\] each. A number that a point outside of the mesh does not have is missing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rows {
     pub times: Vec<f64>,
@@ -50,17 +50,17 @@ impl Rows {
 pub struct Measured {
     /// Cells of the mesh, or discs.
     pub size: usize,
-    /// Largest minus smallest T anywhere, the walls included [K].
+    /// Largest minus smallest T anywhere, the walls included \[K\].
     pub range: f64,
-    /// T at the points of the case [K].
+    /// T at the points of the case \[K\].
     pub temperature: Rows,
-    /// Pressure at these points; beside discs one column, the mean of the box [Pa].
+    /// Pressure at these points; beside discs one column, the mean of the box \[Pa\].
     pub pressure: Rows,
     /// Displacement at these points, three columns for each; beside discs at the end alone, in the centres of
-    /// [`SUB_REGIONS`]. Empty if grains stay [m].
+    /// [`SUB_REGIONS`]. Empty if grains stay \[m\].
     pub displacement: Rows,
     /// Discs alone: porosity with overlaps counted once and away from the walls [-], fabric index [-], and pressure away from the
-    /// walls [Pa] at the start.
+    /// walls \[Pa\] at the start.
     pub packing: Option<[f64; 3]>,
 }
 

@@ -17,7 +17,7 @@ const TEMPERATURE: usize = 3;
 #[derive(Clone, Debug, Serialize)]
 pub struct Convergence {
     pub scheme: String,
-    /// Step [s] and root mean square over 20 s of the error of the mean T [K].
+    /// Step \[s\] and root mean square over 20 s of the error of the mean T \[K\].
     pub errors: Vec<[f64; 2]>,
     /// Error = factor × step ^ order, least squares of the logarithms; with two steps or more.
     pub factor: Option<f64>,

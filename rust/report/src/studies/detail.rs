@@ -10,7 +10,7 @@ use crate::studies::other_cases::grain_value;
 use msdd_reference::solver::Run;
 use std::collections::BTreeMap;
 
-/// Function object that writes time, mean pressure, and for each wall mean pressure and normal stress [Pa] in the cells at it.
+/// Function object that writes time, mean pressure, and for each wall mean pressure and normal stress \[Pa\] in the cells at it.
 pub const WALLS: &str = "watchWalls";
 /// Columns of the normal stress at left, right, bottom and top in the rows of [`WALLS`].
 pub const WALL_COLUMNS: [usize; 4] = [3, 5, 7, 9];
@@ -25,7 +25,7 @@ const START: &str = "Hstar";
 pub struct Details {
     pub watched: BTreeMap<(String, String), Vec<Run>>,
     pub start: BTreeMap<String, Vec<Run>>,
-    /// E [Pa], r̄ [m] and α [1/K] of the grains in these cases.
+    /// E \[Pa\], r̄ \[m\] and α [1/K] of the grains in these cases.
     pub grains: [f64; 3],
 }
 

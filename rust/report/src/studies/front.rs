@@ -8,7 +8,7 @@ pub struct Point {
     pub name: String,
     /// Kind of the configuration, which determines its marker: one of [`crate::plan::FAMILIES`].
     pub family: String,
-    /// Processor time, with the start of the program [s].
+    /// Processor time, with the start of the program \[s\].
     pub core_seconds: Option<f64>,
     /// Error of T at the worst probe [% of the range], and of the pressure [% of the paper's range]; `None` for runs that were
     /// not completed.

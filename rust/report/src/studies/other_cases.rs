@@ -37,7 +37,7 @@ pub struct OtherCase {
     pub what: String,
     /// Errors of T at P1, P2, P3, the largest over time [% of the range].
     pub temperature: Option<[f64; 3]>,
-    /// Mean pressure at the end [Pa]: solver, discs (whole box).
+    /// Mean pressure at the end \[Pa\]: solver, discs (whole box).
     pub pressure: Option<[f64; 2]>,
     pub outcome: String,
 }
@@ -49,7 +49,7 @@ pub struct Scaling {
     pub young_modulus: f64,
     pub mean_radius: f64,
     pub porosity: f64,
-    /// Pressure of the packed box [Pa].
+    /// Pressure of the packed box \[Pa\].
     pub pressure: f64,
     /// p/E, as in the paper.
     pub over_modulus: f64,

@@ -22,7 +22,7 @@ pub struct Block {
     /// Target porosities of the packings, whole box, overlaps counted once [-].
     pub porosities: Vec<f64>,
     pub compressions: Vec<Compression>,
-    /// Friction angles of the grains while the walls close [rad]; default: the material's alone.
+    /// Friction angles of the grains while the walls close \[rad\]; default: the material's alone.
     #[serde(default)]
     pub packing_friction_angles: Vec<f64>,
     /// Packings for each porosity, compression and packing friction.
@@ -30,7 +30,7 @@ pub struct Block {
     /// Ramps of each packing; default: `up` and `down`, or `xx` and `yy`, or `wall_shear`, by the kind of the block.
     #[serde(default)]
     pub ramps: Vec<RampName>,
-    /// Magnitudes at which a ramp stops, growing: strain [-], or slip [m] of `wall_shear`.
+    /// Magnitudes at which a ramp stops, growing: strain [-], or slip \[m\] of `wall_shear`.
     pub stops: Vec<f64>,
     /// Magnitudes at which the return of `up_down` and `down_up` stops, falling; 0 is the packed strain and negative
     /// values lie beyond it. Default: the stops in reverse order, then 0.
@@ -56,7 +56,7 @@ pub struct PathBlock {
     /// Target porosities of the packings, whole box, overlaps counted once [-].
     pub porosities: Vec<f64>,
     pub compressions: Vec<Compression>,
-    /// Friction angles of the grains while the box closes [rad]; default: the material's alone.
+    /// Friction angles of the grains while the box closes \[rad\]; default: the material's alone.
     #[serde(default)]
     pub packing_friction_angles: Vec<f64>,
     /// Packings for each porosity, compression and packing friction.

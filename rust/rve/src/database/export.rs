@@ -23,7 +23,7 @@ const ALL_DIGITS: usize = 15;
 /// of rows.
 ///
 /// # Errors
-/// Those of [`read`]; [`DatabaseError::File`] when a file cannot be written.
+/// Those of `read`; [`DatabaseError::File`] when a file cannot be written.
 pub fn export_csv(database: &Path, csv: &Path, digits: Option<usize>) -> Result<usize, DatabaseError> {
     check_target(csv)?;
     match grains(database)? {
@@ -76,7 +76,7 @@ fn write_provenance<R>(csv: &Path, dataset: &Dataset<R>) -> Result<(), DatabaseE
 /// CSV only the provenance file beside it is written. Returns the number of rows.
 ///
 /// # Errors
-/// Those of [`read`]; [`DatabaseError::Unsound`]; [`DatabaseError::Format`] for a database that is not finished.
+/// Those of `read`; [`DatabaseError::Unsound`]; [`DatabaseError::Format`] for a database that is not finished.
 pub fn seal(path: &Path) -> Result<usize, DatabaseError> {
     match grains(path)? {
         Grains::Discs => seal_rows::<Plan>(path),

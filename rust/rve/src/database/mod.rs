@@ -23,7 +23,7 @@
 //! | [`merge`](mod@merge) | shards made on several machines become one file |
 //! | [`offenders`] | a plan of new packings from a solver's queries outside a model's range |
 //! | [`dataset`] | rows with their provenance (where they come from) |
-//! | [`read`](mod@read) | reading a database or CSV, or several files as one dataset |
+//! | `read`(mod@read) | reading a database or CSV, or several files as one dataset |
 //! | [`export`] | CSV with a column dictionary |
 //! | [`csv_file`] | reading CSV |
 //! | `schema` | checks of an SQLite file before it is read |

@@ -36,7 +36,7 @@ pub struct Offender {
     pub side: Side,
     /// Distance from the range [unit of that input], above 0.
     pub distance: f64,
-    /// Cell and time [s] in the solver; for information only.
+    /// Cell and time \[s\] in the solver; for information only.
     #[serde(default)]
     pub cell: i64,
     #[serde(default)]

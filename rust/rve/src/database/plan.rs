@@ -18,7 +18,7 @@ const SHEAR_ASPECT: f64 = 2.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
-    /// Radii are uniform between these [m].
+    /// Radii are uniform between these \[m\].
     pub radius_min: f64,
     pub radius_max: f64,
     /// Seed of the whole plan.
@@ -219,7 +219,7 @@ impl Plan {
         self.jobs().iter().map(|job| job.rows().len()).sum()
     }
 
-    /// Mean of the radius distribution [m].
+    /// Mean of the radius distribution \[m\].
     pub fn mean_radius(&self) -> f64 {
         0.5 * (self.radius_min + self.radius_max)
     }

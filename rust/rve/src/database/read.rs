@@ -95,7 +95,7 @@ const SHARED: [&str; 5] = ["engine_version", "material", "radius_distribution", 
 /// of the files before it; `plan_hash` becomes a hash over the hashes of all plans.
 ///
 /// # Errors
-/// Those of [`read`]; [`DatabaseError::Unsound`] for what [`check::violations`] finds; [`DatabaseError::Mismatch`] for
+/// Those of [`read`]; [`DatabaseError::Unsound`] for what `check::violations` finds; [`DatabaseError::Mismatch`] for
 /// databases of different grains or engines; [`DatabaseError::Twice`] for a packing that stands in two of them.
 pub fn read_all(paths: &[PathBuf]) -> Result<Dataset, DatabaseError> {
     let mut all = Dataset { records: Vec::new(), provenance: BTreeMap::new() };

@@ -79,7 +79,7 @@ macro_rules! row {
         #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
         #[serde(deny_unknown_fields)]
         pub struct $row {
-            $(#[doc = concat!("[", $unit, "] ", $meaning)] pub $name: $type,)*
+            $(#[doc = concat!("\\[", $unit, "\\] ", $meaning)] pub $name: $type,)*
         }
 
         impl $row {

@@ -35,7 +35,7 @@ pub struct Form {
     pub cycles: Vec<Cycles>,
 }
 
-/// Closed cycles of strain that are repeated [`REPEATS`] times.
+/// Closed cycles of strain that are repeated `REPEATS` times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cycles {
     /// Largest strain.

@@ -24,7 +24,7 @@ pub struct Law {
     pub elements: [Element; ELEMENTS],
     /// Growth of all elements' dilatancy with z.
     pub dilatancy_of_looseness: f64,
-    /// Relative growth of φ_J by a unit of v by which grains that have lost contact part, up to [`SETTLED`] [0 to 1].
+    /// Relative growth of φ_J by a unit of v by which grains that have lost contact part, up to `SETTLED` [0 to 1].
     #[serde(default)]
     pub settling: f64,
 }

@@ -17,7 +17,7 @@ pub(super) fn parts(strains: impl IntoIterator<Item = f64>) -> f64 {
     (largest / PART).ceil().clamp(1.0, MOST_PARTS)
 }
 
-/// The law's states of one track: number k as [`Step::from`].
+/// The law's states of one track: number k as `Step::from`.
 pub type States = Vec<[f64; MAX_STATE]>;
 
 /// The state of a packing whose porosity, fabric, solid fraction and stress are known.

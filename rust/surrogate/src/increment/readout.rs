@@ -8,7 +8,7 @@ use crate::document::field;
 use crate::kernel::vector::{Arithmetic, Portable};
 use serde::{Deserialize, Serialize};
 
-/// Overlaps and fabric. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`], porosity x above [`USUAL_POROSITY`].
+/// Overlaps and fabric. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`], porosity x above `USUAL_POROSITY`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {

@@ -23,7 +23,7 @@ pub struct Law {
     pub shear: [f64; 3],
     /// z₀: contacts per sphere of a packing whose fabric does not turn.
     pub least_contacts: f64,
-    /// α: the part of the fabric's forgetting that does not wait until the fabric is near its strength, see [`reoriented`].
+    /// α: the part of the fabric's forgetting that does not wait until the fabric is near its strength, see `reoriented`.
     pub forgetting: f64,
     pub elements: [Element; ELEMENTS],
     /// Loss of compression by a unit of sliding of the second element: d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n, with the stress ratio of the fabric η_f and the
@@ -171,7 +171,7 @@ impl Law {
         [xx + pressure, yy + pressure, zz + pressure, xy + zero, xz + zero, yz + zero]
     }
 
-    /// State after a strain, in [`parts`]. `half` is half of the cell's rotation.
+    /// State after a strain, in `parts`. `half` is half of the cell's rotation.
     #[inline(always)]
     pub fn advanced<N: Number>(
         &self,

@@ -29,7 +29,7 @@ pub struct State<N: Number = f64> {
     pub compression: N,
     /// η_k: parts of the deviator of the stress over A.
     pub ratios: [Tensor<N>; ELEMENTS],
-    /// Factor of the strengths, see [`super::law::Law::factor`], which does not change: 1 but for packings that bear more.
+    /// Factor of the strengths, see `super::law::Law::factor`, which does not change: 1 but for packings that bear more.
     pub strength: N::Values,
     /// Part of the friction that is mobilised, 0 to 1: as where all contacts were made under friction (1), or without any (0).
     pub mobilised: N,

@@ -1,7 +1,7 @@
 //! The paths of `[[spheres]]`: the increments of strain that each consists of.
 //!
 //! What a strain does depends on the pressure: it changes p^(2/3), roughly by half of the strain of each axis. So the first
-//! increment of a path is [`FIRST`] times (p/E*)^(2/3) at most, and the following ones grow to the size that the plan says.
+//! increment of a path is `FIRST` times (p/E*)^(2/3) at most, and the following ones grow to the size that the plan says.
 
 use super::kind::PathName;
 use crate::place::Random;
