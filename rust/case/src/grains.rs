@@ -32,7 +32,7 @@ pub struct Preset {
     pub temperature: f64,
 }
 
-/// The named materials; the first one is the default.
+/// The named materials of discs; the first one is the default.
 pub const PRESETS: [Preset; 4] = [
     Preset {
         name: "paper",
@@ -90,13 +90,13 @@ pub const PRESETS: [Preset; 4] = [
     },
 ];
 
-/// The material of this name.
+/// The material of this name among `presets`.
 ///
 /// # Errors
 /// [`CaseError::Parameter`] that lists the names there are.
-pub fn preset(name: &str) -> Result<&'static Preset, CaseError> {
-    PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
-        let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+pub fn preset(presets: &[&'static Preset], name: &str) -> Result<&'static Preset, CaseError> {
+    presets.iter().copied().find(|preset| preset.name == name).ok_or_else(|| {
+        let names: Vec<&str> = presets.iter().map(|preset| preset.name).collect();
         CaseError::Parameter {
             key: "material".to_string(),
             value: name.to_string(),

@@ -12,6 +12,7 @@
 //! | [`scene`] | the parameters of a new case |
 //! | [`packing`] | the initial packing of a new case |
 //! | [`folder`] | the files of a new case |
+//! | [`spheres`] | new cases of beds of spheres |
 //! | [`path`] | paths that OpenFOAM can work with |
 //! | [`numbers`] | numbers as a person writes them |
 //! | [`values`] | values in these files, as text |
@@ -30,6 +31,7 @@ pub mod numbers;
 pub mod packing;
 pub mod path;
 pub mod scene;
+pub mod spheres;
 pub mod values;
 pub mod walls;
 

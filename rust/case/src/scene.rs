@@ -16,7 +16,7 @@ pub const CELL_RADII: f64 = 4.3;
 /// Largest number of cells along the longer side that is proposed.
 const PROPOSED_CELLS: f64 = 100.0;
 /// Largest number of cells of a case; a run with more would take too long to be useful.
-const MOST_CELLS: usize = 4_000_000;
+pub(crate) const MOST_CELLS: usize = 4_000_000;
 /// Names of the walls, in the order of [`msdd_dem::Side`].
 pub const WALLS: [&str; 4] = ["left", "right", "bottom", "top"];
 
@@ -63,8 +63,8 @@ pub fn proposed_cells(size: [f64; 2], mean_radius: f64) -> [usize; 2] {
     cells_of(size, cell)
 }
 
-/// Numbers of cells along x and y if the cells have about this side \[m\].
-pub fn cells_of(size: [f64; 2], cell: f64) -> [usize; 2] {
+/// Numbers of cells along each direction if the cells have about this side \[m\].
+pub fn cells_of<const N: usize>(size: [f64; N], cell: f64) -> [usize; N] {
     size.map(|length| (length / cell).round().max(1.0) as usize)
 }
 
@@ -194,37 +194,60 @@ impl Scene {
     }
 }
 
-fn allow(key: &str, value: f64, good: bool, allowed: impl FnOnce() -> String) -> Result<(), CaseError> {
+pub(crate) fn allow(
+    key: &str,
+    value: f64,
+    good: bool,
+    allowed: impl FnOnce() -> String,
+) -> Result<(), CaseError> {
     if good {
         return Ok(());
     }
     Err(CaseError::Parameter { key: key.to_string(), value: number(value), allowed: allowed() })
 }
 
-/// Reads two numbers with an x between them, such as `0.6x0.2`.
-///
-/// # Errors
-/// A text that says what is allowed.
-pub fn parse_pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], String> {
-    let parts: Option<Vec<T>> = text.split(['x', 'X', '×']).map(|part| part.trim().parse().ok()).collect();
-    match parts.map(<[T; 2]>::try_from) {
-        Some(Ok(pair)) => Ok(pair),
-        _ => {
-            Err("two numbers with an x between, such as 0.6x0.2 [m] for a box or 30x10 for cells".to_string())
-        }
+/// Two or three numbers, one for each direction: beds of discs have two, boxes of spheres three.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbers<T>(pub Vec<T>);
+
+impl<T: Copy + std::fmt::Display> Numbers<T> {
+    /// The numbers of `key` as an array.
+    ///
+    /// # Errors
+    /// [`CaseError::Parameter`] for another count, with what is `allowed`.
+    pub fn exactly<const N: usize>(&self, key: &str, allowed: &str) -> Result<[T; N], CaseError> {
+        <[T; N]>::try_from(self.0.as_slice()).map_err(|_| CaseError::Parameter {
+            key: key.to_string(),
+            value: self.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+            allowed: allowed.to_string(),
+        })
     }
 }
 
-/// Reads x and y \[m\], such as `0.1,0.05`.
+fn parse_numbers<T: std::str::FromStr>(text: &str, between: &[char]) -> Option<Numbers<T>> {
+    let parts: Option<Vec<T>> = text.split(between).map(|part| part.trim().parse().ok()).collect();
+    parts.filter(|parts| (2..=3).contains(&parts.len())).map(Numbers)
+}
+
+/// Reads two or three numbers with an x between them, such as `0.6x0.2`.
 ///
 /// # Errors
 /// A text that says what is allowed.
-pub fn parse_point(text: &str) -> Result<[f64; 2], String> {
-    let parts: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-    match parts.map(<[f64; 2]>::try_from) {
-        Some(Ok(point)) => Ok(point),
-        _ => Err("x,y in metres from the lower left corner, such as 0.1,0.05".to_string()),
-    }
+pub fn parse_sides<T: std::str::FromStr>(text: &str) -> Result<Numbers<T>, String> {
+    parse_numbers(text, &['x', 'X', '×']).ok_or_else(|| {
+        "two numbers with an x between, such as 0.6x0.2 [m] for a box or 30x10 for cells; a box of spheres has three"
+            .to_string()
+    })
+}
+
+/// Reads the place of a point \[m\], such as `0.1,0.05`.
+///
+/// # Errors
+/// A text that says what is allowed.
+pub fn parse_point(text: &str) -> Result<Numbers<f64>, String> {
+    parse_numbers(text, &[',']).ok_or_else(|| {
+        "x,y in metres from the lower left corner, such as 0.1,0.05; x,y,z in a box of spheres".to_string()
+    })
 }
 
 /// Reads the condition of a wall: `insulated`, a temperature \[K\], or `time:T,time:T,...`.

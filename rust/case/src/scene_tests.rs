@@ -54,11 +54,15 @@ fn walls_boxes_and_points_are_read_as_they_are_written() {
     for wrong in ["", "warm", "0:300", "5:300,6:310", "0:300,0:310", "0:300;60:350", "1,2"] {
         assert!(parse_wall(wrong).unwrap_err().starts_with("insulated, a temperature in Kelvin"), "{wrong}");
     }
-    assert_eq!(parse_pair::<f64>("0.6 x 0.2").unwrap(), [0.6, 0.2]);
-    assert_eq!(parse_pair::<usize>("30x10").unwrap(), [30, 10]);
-    assert!(parse_pair::<usize>("30").is_err() && parse_pair::<f64>("1x2x3").is_err());
-    assert_eq!(parse_point("0.1, 0.05").unwrap(), [0.1, 0.05]);
+    assert_eq!(parse_sides::<f64>("0.6 x 0.2").unwrap(), Numbers(vec![0.6, 0.2]));
+    assert_eq!(parse_sides::<usize>("30x10x5").unwrap(), Numbers(vec![30, 10, 5]));
+    assert!(parse_sides::<usize>("30").is_err() && parse_sides::<f64>("1x2x3x4").is_err());
+    assert_eq!(parse_point("0.1, 0.05").unwrap(), Numbers(vec![0.1, 0.05]));
     assert!(parse_point("0.1").is_err());
+    let three = parse_sides::<f64>("1x2x3").unwrap();
+    assert_eq!(three.exactly::<3>("box", "").unwrap(), [1.0, 2.0, 3.0]);
+    let error = three.exactly::<2>("box", "two lengths").unwrap_err().to_string();
+    assert_eq!(error, "box = 1, 2, 3, allowed: two lengths");
 }
 
 #[test]

@@ -30,8 +30,6 @@ pub(crate) fn values(
     name: &str,
     checkout: &Path,
 ) -> Result<Values, CaseError> {
-    let end = scene.end_time;
-    let probe_interval = plain(rounded(end / PROBE_LINES, 2));
     let depth = scene.cell()[0].min(scene.cell()[1]);
     let mut values: Values = vec![
         (
@@ -44,15 +42,12 @@ pub(crate) fn values(
         ("checkout", checkout.display().to_string()),
         ("name", name.to_string()),
         ("mechanics", mechanics_name(scene.mechanics).to_string()),
-        ("endTime", plain(end)),
-        ("deltaT", plain(scene.first_step()?)),
-        ("maxDeltaT", plain(rounded(end / STEPS, 2))),
-        ("writeInterval", plain(end / WRITES)),
-        ("probeInterval", probe_interval),
         ("depth", plain(rounded(depth, 3))),
         ("probes", probes(scene, depth)),
+        ("probesNote", format!(". z is between 0 and {} m", plain(rounded(depth, 3)))),
         ("initialTemperature", plain(scene.initial_temperature)),
-        ("walls", walls(scene)),
+        ("walls", walls(WALLS.into_iter().zip(&scene.walls))),
+        ("parts", "$..numberOfSubdomains 1 1".to_string()),
         ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
         (
             "tolerance",
@@ -62,10 +57,22 @@ pub(crate) fn values(
             },
         ),
     ];
+    values.extend(times(scene.end_time, scene.first_step()?));
     values.extend(scene.grains.named().map(|(key, value, _)| (key, plain(value))));
     values.extend(mesh_values(scene, packing));
     values.extend(readme_values(scene, packing));
     Ok(values)
+}
+
+/// The times of `system/controlDict` \[s\], of a run with this end and first step.
+pub(crate) fn times(end: f64, first_step: f64) -> Values {
+    vec![
+        ("endTime", plain(end)),
+        ("deltaT", plain(first_step)),
+        ("maxDeltaT", plain(rounded(end / STEPS, 2))),
+        ("writeInterval", plain(end / WRITES)),
+        ("probeInterval", plain(rounded(end / PROBE_LINES, 2))),
+    ]
 }
 
 fn mesh_values(scene: &Scene, packing: &Packing) -> Values {
@@ -94,21 +101,14 @@ pub fn grains_in(area: f64, porosity: f64, mean_radius: f64) -> f64 {
 }
 
 fn readme_values(scene: &Scene, packing: &Packing) -> Values {
-    let row = |(name, wall): (&str, &WallOverTime)| format!("| {name} wall | {} | `0/T` |\n", describe(wall));
     vec![
-        ("wallRows", WALLS.into_iter().zip(&scene.walls).map(row).collect()),
+        ("wallRows", wall_rows(WALLS.into_iter().zip(&scene.walls))),
         ("material", scene.material.clone()),
         ("compression", compression_name(packing.compression).to_string()),
         ("boxes", packing.boxes.to_string()),
         ("boxGrains", packing.grains.to_string()),
         ("packing", table(packing)),
-        (
-            "sourceRow",
-            match scene.heat_source {
-                Some(value) => format!("{} W/m3", plain(value)),
-                None => "nothing (no such file)".to_string(),
-            },
-        ),
+        ("sourceRow", source(scene.heat_source)),
         (
             "noSource",
             match scene.heat_source {
@@ -119,6 +119,19 @@ fn readme_values(scene: &Scene, packing: &Packing) -> Values {
             },
         ),
     ]
+}
+
+/// Rows of the table in README.md for the walls.
+pub(crate) fn wall_rows<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>) -> String {
+    walls.map(|(name, wall)| format!("| {name} wall | {} | `0/T` |\n", describe(wall))).collect()
+}
+
+/// Heat released in the bed [W/m³], as text.
+pub(crate) fn source(heat_source: Option<f64>) -> String {
+    match heat_source {
+        Some(value) => format!("{} W/m3", plain(value)),
+        None => "nothing (no such file)".to_string(),
+    }
 }
 
 /// Estimated duration of a discrete element simulation of the case, as text; from measurements with the paper's grains.
@@ -182,7 +195,8 @@ fn probes(scene: &Scene, depth: f64) -> String {
     scene.probes.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-fn walls(scene: &Scene) -> String {
+/// Patches of `0/T`.
+pub(crate) fn walls<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>) -> String {
     let condition = |wall: &WallOverTime| match wall {
         WallOverTime::Steady(WallHeat::Temperature(value)) => {
             format!("type    fixedValue;\n        value   uniform {};", plain(*value))
@@ -201,7 +215,7 @@ fn walls(scene: &Scene) -> String {
     let block = |(name, wall): (&str, &WallOverTime)| {
         format!("    {name}\n    {{\n        {}\n    }}\n", condition(wall))
     };
-    WALLS.into_iter().zip(&scene.walls).map(block).collect()
+    walls.map(block).collect()
 }
 
 /// Name of the mechanics in `constant/granularProperties`.

@@ -20,6 +20,12 @@ const UNIT_TRACE: f64 = 0.01;
 /// Roughness over the radius above which it is hardly meant.
 const MOST_ROUGH: f64 = 0.01;
 
+/// Whether the properties are those of spheres.
+pub fn are_meant(properties: &Dictionary) -> bool {
+    let surrogate = properties.dictionary_at("surrogate");
+    surrogate.is_ok_and(|own| own.text("type").is_ok_and(|kind| kind == "spheres"))
+}
+
 /// `properties` with the surrogate type spheres; nothing is done for others. `fields`: porosity and stress at the start.
 pub fn check(
     folder: &Path,
@@ -28,10 +34,10 @@ pub fn check(
     fields: [Option<&Values>; 2],
     found: &mut Findings,
 ) {
-    let Ok(surrogate) = properties.dictionary_at("surrogate") else { return };
-    if !surrogate.text("type").is_ok_and(|kind| kind == "spheres") {
+    if !are_meant(properties) {
         return;
     }
+    let Ok(surrogate) = properties.dictionary_at("surrogate") else { return };
     let Ok(own) = surrogate.dictionary_at("spheresCoeffs") else {
         let allowed = "a dictionary with poissonRatio and gas";
         found.error([FILE, "surrogate/spheresCoeffs"], "missing", allowed, "");

@@ -3,13 +3,13 @@
 use super::ask::{Asker, number};
 use crate::error::CliError;
 use clap::Args;
-use msdd_case::grains::{Grains, PRESETS, Preset, preset};
+use msdd_case::grains::{Grains, Preset, preset};
 use msdd_case::numbers::plain;
 
 #[derive(Args)]
 pub struct GrainWishes {
-    /// Material of the grains: paper, steel, glass or alumina (values and sources: `msdd case new --list-materials`). The
-    /// options below replace single values of it.
+    /// Material of the grains: paper, steel, glass or alumina; with --spheres steel, glass, alumina or lithium-orthosilicate (values and
+    /// sources: `msdd case new --list-materials`). The options below replace single values of it.
     #[arg(long, value_name = "NAME", help_heading = "Grains")]
     material: Option<String>,
     /// Density of the grains [kg/m3].
@@ -27,23 +27,27 @@ pub struct GrainWishes {
     /// Linear thermal expansion coefficient of the grains [1/K].
     #[arg(long, value_name = "1/K", help_heading = "Grains")]
     thermal_expansion: Option<f64>,
-    /// Mean radius of the grains [m]; the radii are uniformly distributed between 0.6 and 1.4 times this value.
+    /// Mean radius of the grains [m]. The radii of discs are uniformly distributed between 0.6 and 1.4 times this value; spheres are equal.
     #[arg(long, value_name = "M", help_heading = "Grains")]
     mean_radius: Option<f64>,
 }
 
 impl GrainWishes {
-    /// The named material that was chosen first, the name of the material as changed by the user, and the grains.
-    pub fn ask(&self, asker: &Asker) -> Result<(&'static Preset, String, Grains), CliError> {
+    /// The named material of `presets` that was chosen first, the name of the material as changed by the user, and the grains.
+    pub fn ask(
+        &self,
+        asker: &Asker,
+        presets: &[&'static Preset],
+    ) -> Result<(&'static Preset, String, Grains), CliError> {
         let base = match &self.material {
-            Some(name) => preset(name)?,
+            Some(name) => preset(presets, name)?,
             None => {
                 let list: Vec<String> =
-                    PRESETS.iter().map(|one| format!("  {:8} {}", one.name, one.about)).collect();
+                    presets.iter().map(|one| format!("  {:8} {}", one.name, one.about)).collect();
                 let help = format!("Material of the grains:\n{}", list.join("\n"));
-                let names: Vec<&str> = PRESETS.iter().map(|one| one.name).collect();
-                let read = |text: &str| preset(text).map_err(|_| names.join(", "));
-                asker.value(None, &help, "Material", PRESETS[0].name, read)?
+                let names: Vec<&str> = presets.iter().map(|one| one.name).collect();
+                let read = |text: &str| preset(presets, text).map_err(|_| names.join(", "));
+                asker.value(None, &help, "Material", presets[0].name, read)?
             }
         };
         let own = Grains {
@@ -91,20 +95,20 @@ impl GrainWishes {
         let questions = [
             ("The density of a grain, not that of the bed.", "Density [kg/m3]"),
             (
-                "How stiff contacts are: force is Young's modulus times mean radius times overlap. The pressure of the bed is in \
-                 proportion to it.",
+                "How stiff contacts are. The force between discs is Young's modulus times mean radius times overlap; that between \
+                 spheres follows Hertz.",
                 "Young's modulus [Pa]",
             ),
-            (
-                "The thermal conductivity of a grain; the bed conducts about a third of it.",
-                "Thermal conductivity [W/(m K)]",
-            ),
+            ("The thermal conductivity of a grain, not that of the bed.", "Thermal conductivity [W/(m K)]"),
             ("The specific heat capacity of a grain.", "Specific heat capacity [J/(kg K)]"),
             (
-                "The linear thermal expansion coefficient. Times the change of temperature it should stay below 0.05.",
+                "The linear thermal expansion coefficient. Of discs, times the change of temperature, it should stay below 0.05.",
                 "Thermal expansion [1/K]",
             ),
-            ("The mean radius; radii are uniform between 0.6 and 1.4 times it.", "Mean radius [m]"),
+            (
+                "The mean radius. Radii of discs are uniform between 0.6 and 1.4 times it; spheres are equal.",
+                "Mean radius [m]",
+            ),
         ];
         let mut values = from.named().map(|(_, value, _)| value);
         for ((value, given), (help, question)) in values.iter_mut().zip(given).zip(questions) {

@@ -5,6 +5,7 @@ mod check;
 mod grain_wishes;
 mod new;
 mod solve;
+mod sphere_wishes;
 mod wishes;
 
 use crate::error::CliError;
@@ -14,7 +15,8 @@ pub(crate) use solve::{attempt, beside};
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Make a new case: asks for what is not given as an option, packs grains, and writes a folder that is ready to run.
+    /// Make a new case: asks for what is not given as an option, finds how the grains lie at the start, and writes a
+    /// folder that is ready to run.
     New(Box<new::Arguments>),
     /// Check a case folder before the run: lists what is missing, out of range or doubtful.
     Check(check::Arguments),

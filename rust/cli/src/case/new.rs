@@ -1,15 +1,18 @@
 //! `msdd case new`.
 
 use super::ask::Asker;
+use super::sphere_wishes::{self, SphereWishes};
 use super::wishes::{Wishes, summary};
 use crate::error::CliError;
 use crate::progress::Progress;
 use clap::Args;
-use msdd_case::folder::{self, check_folder, files};
-use msdd_case::grains::PRESETS;
+use msdd_case::folder::{self, File, check_folder, files};
+use msdd_case::grains::{PRESETS, Preset};
 use msdd_case::numbers::plain;
 use msdd_case::packing::{Effort, pack};
 use msdd_case::scene::Scene;
+use msdd_case::spheres;
+use msdd_case::spheres::material::MATERIALS;
 use msdd_case::values::packing_rows;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -25,6 +28,7 @@ Examples:
   msdd case new bed --yes                             the paper's grains, hot on the left
   msdd case new bed --yes --material glass --box 0.05x0.02 --left 350 --pressure 2e6
   msdd case new bed --yes --box 0.5x0.2 --left insulated --right insulated --top 50 --bottom 50 --heat-source 3000
+  msdd case new store --yes --spheres --radius 0.1 --height 0.4 --side 400 --bottom 293 --gas helium
 
 Then: bed/Allrun. The folder needs no files of other cases, so it may stand anywhere and be copied."
 )]
@@ -44,14 +48,19 @@ pub struct Arguments {
     /// List the materials that can be named by --material, with their values and sources.
     #[arg(long)]
     list_materials: bool,
+    /// A bed of equal spheres with gas between them, in space or in a cylinder, instead of discs in the plane.
+    #[arg(long)]
+    spheres: bool,
     #[command(flatten)]
     wishes: Wishes,
-    /// Number of boxes of 500 grains that are packed to find the initial state; their averages are averaged.
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = "Packing at the start")]
+    /// Number of boxes of 500 discs that are packed to find the initial state; their averages are averaged.
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1000), conflicts_with = "spheres", help_heading = "Packing at the start")]
     packings: u32,
     /// Seed of the random numbers for the first box; each further box has the next one.
-    #[arg(long, default_value_t = 1, help_heading = "Packing at the start")]
+    #[arg(long, default_value_t = 1, conflicts_with = "spheres", help_heading = "Packing at the start")]
     seed: u64,
+    #[command(flatten)]
+    sphere_wishes: SphereWishes,
     /// Number of threads; the results do not depend on it. Default: all processor cores.
     #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
     threads: u32,
@@ -73,7 +82,50 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let checkout = checkout(arguments.checkout.as_deref())?;
     let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
     let asker = Asker { interactive: arguments.ask || (terminal && !arguments.yes) };
-    let scene = arguments.wishes.scene(&asker)?;
+    let name = whole.file_name().unwrap_or_default().to_string_lossy();
+    let made = match asks_for_spheres(arguments, &asker)? {
+        true => spheres_made(arguments, &asker, &name, &checkout)?,
+        false => discs_made(arguments, &asker, &name, &checkout)?,
+    };
+    folder::write(folder, &made)?;
+    outln!("written: {}", folder.display());
+    super::check::report(folder)?;
+    outln!("Run it with {}/Allrun; {0}/README.md says what is where.", folder.display());
+    Ok(())
+}
+
+fn asks_for_spheres(arguments: &Arguments, asker: &Asker) -> Result<bool, CliError> {
+    let help = "The bed is of discs in the plane, as the paper's, or of equal spheres with gas between them.";
+    asker.value(arguments.spheres.then_some(true), help, "Grains (discs or spheres)", "discs", |text| {
+        match text {
+            "spheres" => Ok(true),
+            "discs" => Ok(false),
+            _ => Err("discs, spheres".to_string()),
+        }
+    })
+}
+
+fn spheres_made(
+    arguments: &Arguments,
+    asker: &Asker,
+    name: &str,
+    checkout: &Path,
+) -> Result<Vec<File>, CliError> {
+    let scene = arguments.sphere_wishes.scene(&arguments.wishes, asker)?;
+    outln!("{}", sphere_wishes::summary(&scene)?);
+    for note in scene.notes() {
+        outln!("Note: {note}");
+    }
+    Ok(spheres::folder::files(&scene, name, checkout)?)
+}
+
+fn discs_made(
+    arguments: &Arguments,
+    asker: &Asker,
+    name: &str,
+    checkout: &Path,
+) -> Result<Vec<File>, CliError> {
+    let scene = arguments.wishes.scene(asker)?;
     outln!("{}", summary(&scene));
     let packing = packed(&scene, arguments)?;
     outln!(
@@ -84,12 +136,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     for [what, mean, deviation] in packing_rows(&packing) {
         outln!("    {what:55} {mean:>10} +- {deviation}");
     }
-    let name = whole.file_name().unwrap_or_default().to_string_lossy();
-    folder::write(folder, &files(&scene, &packing, &name, &checkout)?)?;
-    outln!("written: {}", folder.display());
-    super::check::report(folder)?;
-    outln!("Run it with {}/Allrun; {0}/README.md says what is where.", folder.display());
-    Ok(())
+    Ok(files(&scene, &packing, name, checkout)?)
 }
 
 fn packed(scene: &Scene, arguments: &Arguments) -> Result<msdd_case::packing::Packing, CliError> {
@@ -131,10 +178,19 @@ pub(crate) fn checkout(named: Option<&Path>) -> Result<PathBuf, CliError> {
 }
 
 fn list_materials() {
+    outln!("Discs");
     for preset in &PRESETS {
-        outln!("{}: {}", preset.name, preset.about);
-        for (key, value, unit) in preset.grains.named() {
-            outln!("    {key:20} {:>10} {unit}", plain(value));
-        }
+        list(preset, &[]);
+    }
+    outln!("\nSpheres (--spheres); the law of spheres knows a friction of 0.3");
+    for material in &MATERIALS {
+        list(&material.preset, &material.spheres().named());
+    }
+}
+
+fn list(preset: &Preset, more: &[(&str, f64, &str)]) {
+    outln!("{}: {}", preset.name, preset.about);
+    for (key, value, unit) in preset.grains.named().iter().chain(more) {
+        outln!("    {key:20} {:>10} {unit}", plain(*value));
     }
 }

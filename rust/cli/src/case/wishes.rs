@@ -4,75 +4,82 @@ use super::ask::{Asker, number};
 use super::grain_wishes::GrainWishes;
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
+use msdd_case::grains::{PRESETS, Preset};
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::packing::{POROSITIES, Start};
 use msdd_case::scene::{
-    Mechanics, Scene, cells_of, parse_pair, parse_point, parse_wall, proposed_cells, proposed_probes,
+    Mechanics, Numbers, Scene, cells_of, parse_point, parse_sides, parse_wall, proposed_cells,
+    proposed_probes,
 };
 use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
 use msdd_rve::Compression;
 
 /// Proposed difference between the hot wall's temperature and the initial one [K]; the paper's grains strain by 5 % then.
-const HOTTER: f64 = 50.0;
+pub(super) const HOTTER: f64 = 50.0;
+
+pub(super) const WALL_HELP: &str = "Each wall is insulated, or has a temperature [K], or one that changes over time: 0:300,60:350 is \
+                                    300 K at 0 s, 350 K at 60 s, and linear between them.";
 
 #[derive(Args)]
 pub struct Wishes {
-    /// Width x height of the box [m], such as 0.6x0.2.
-    #[arg(long = "box", value_name = "WxH", value_parser = parse_pair::<f64>, help_heading = "Box")]
-    size: Option<[f64; 2]>,
+    /// Width x height of the box [m], such as 0.6x0.2; of a box of spheres width x depth x height, such as 0.3x0.1x0.2.
+    #[arg(long = "box", value_name = "WxH", value_parser = parse_sides::<f64>, help_heading = "Box")]
+    pub(super) size: Option<Numbers<f64>>,
     /// Number of cells along x and y, such as 30x10. Default: cells with sides of 4.3 mean radii, which hold nearly five
-    /// grains, but at most 100 along the longer side.
-    #[arg(long, value_name = "NXxNY", value_parser = parse_pair::<usize>, conflicts_with = "cell_size", help_heading = "Box")]
-    cells: Option<[usize; 2]>,
+    /// grains, but at most 100 along the longer side. A box of spheres has cells along x, y and z, a cylinder along radius and axis.
+    #[arg(long, value_name = "NXxNY", value_parser = parse_sides::<usize>, conflicts_with = "cell_size", help_heading = "Box")]
+    pub(super) cells: Option<Numbers<usize>>,
     /// Approximate side of a cell [m], instead of the number of cells.
     #[arg(long, value_name = "M", help_heading = "Box")]
-    cell_size: Option<f64>,
+    pub(super) cell_size: Option<f64>,
     /// Left wall: a temperature [K], 'insulated', or temperatures over time such as 0:300,60:350 (300 K at 0 s, 350 K at 60 s,
     /// linear between them). Default: 50 K above the start; insulated if another wall is given.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
-    left: Option<WallOverTime>,
+    pub(super) left: Option<WallOverTime>,
     /// Right wall; values as for the left one. Default: the initial temperature; insulated if another wall is given.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
-    right: Option<WallOverTime>,
+    pub(super) right: Option<WallOverTime>,
     /// Bottom wall; values as for the left one. Default: insulated.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
-    bottom: Option<WallOverTime>,
+    pub(super) bottom: Option<WallOverTime>,
     /// Top wall; values as for the left one. Default: insulated.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
-    top: Option<WallOverTime>,
+    pub(super) top: Option<WallOverTime>,
     /// Initial temperature of the whole bed [K]. Default: that of the coldest wall if walls of different temperatures are given,
     /// else the usual one of the material.
     #[arg(long, value_name = "K", help_heading = "Walls and temperatures")]
-    initial_temperature: Option<f64>,
+    pub(super) initial_temperature: Option<f64>,
     /// Heat released inside of the bed [W per m3 of bed]; negative for heat that is taken away.
     #[arg(long, value_name = "W/M3", allow_negative_numbers = true, help_heading = "Walls and temperatures")]
-    heat_source: Option<f64>,
+    pub(super) heat_source: Option<f64>,
     #[command(flatten)]
-    grains: GrainWishes,
-    /// Initial porosity: share of the plane without grains (overlaps counted once), 0.06 (dense) to 0.19 (loose).
-    #[arg(long, value_name = "ETA", conflicts_with = "pressure", help_heading = "Packing at the start")]
-    porosity: Option<f64>,
-    /// Initial pressure [Pa] instead of the porosity; the porosity with this pressure is then found by packing.
+    pub(super) grains: GrainWishes,
+    /// Initial porosity: share of the plane without grains (overlaps counted once), 0.06 (dense) to 0.19 (loose). Of spheres: 1 - volume
+    /// of the spheres over the volume, about 0.36 to 0.43. Default: 0.125, of spheres 0.4.
+    #[arg(long, value_name = "ETA", help_heading = "Packing at the start")]
+    pub(super) porosity: Option<f64>,
+    /// Initial pressure [Pa] instead of the porosity; the porosity with this pressure is then found by packing. Of spheres: the pressure
+    /// on the top, beside the porosity. Default with spheres: 20 kPa.
     #[arg(long, value_name = "PA", help_heading = "Packing at the start")]
-    pressure: Option<f64>,
+    pub(super) pressure: Option<f64>,
     /// How the grains were compressed: equally from all sides, or along x alone, as `msdd reference` fills its box (then more
     /// contacts point along x, and the bed conducts better along x).
-    #[arg(long, value_enum, help_heading = "Packing at the start")]
+    #[arg(long, value_enum, conflicts_with = "spheres", help_heading = "Packing at the start")]
     compression: Option<CompressionName>,
     /// Whether the grains move until the stress is in equilibrium, as real grains do, or stay where they are, as in the paper.
     #[arg(long, value_enum, help_heading = "Computation")]
-    mechanics: Option<MechanicsName>,
+    pub(super) mechanics: Option<MechanicsName>,
     /// End of the simulation [s]. Default: the time in which heat spreads over the box.
     #[arg(long, value_name = "S", help_heading = "Computation")]
-    end_time: Option<f64>,
+    pub(super) end_time: Option<f64>,
     /// Largest error of the temperature that one time step may add [K]. Default: a thousandth of the range of temperatures.
     #[arg(long, value_name = "K", help_heading = "Computation")]
-    tolerance: Option<f64>,
-    /// Point where the temperature is recorded [m], such as 0.1,0.05; may be given several times. Default: three points along
-    /// the horizontal middle line.
+    pub(super) tolerance: Option<f64>,
+    /// Point where the temperature is recorded [m], such as 0.1,0.05; may be given several times. Three numbers in a box of spheres;
+    /// distance from the axis and height in a cylinder. Default: three points along the middle.
     #[arg(long = "probe", value_name = "X,Y", value_parser = parse_point, help_heading = "Computation")]
-    probes: Vec<[f64; 2]>,
+    pub(super) probes: Vec<Numbers<f64>>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -93,15 +100,11 @@ impl Wishes {
     /// # Errors
     /// The errors of [`Scene::check`], when no case can be made from the choices.
     pub fn scene(&self, asker: &Asker) -> Result<Scene, CliError> {
-        let (base, material, grains) = self.grains.ask(asker)?;
+        let presets: Vec<&'static Preset> = PRESETS.iter().collect();
+        let (base, material, grains) = self.grains.ask(asker, &presets)?;
         let (size, cells) = self.ask_box(asker, grains.mean_radius)?;
-        let initial_temperature = asker.value(
-            self.initial_temperature,
-            "The whole bed has one temperature at the start. Temperatures are in Kelvin.",
-            "Temperature at the start [K]",
-            &plain(self.coldest_wall().unwrap_or(base.temperature)),
-            number,
-        )?;
+        let initial_temperature =
+            self.ask_initial(asker, coldest(self.given_walls()).unwrap_or(base.temperature))?;
         let walls = self.ask_walls(asker, initial_temperature)?;
         let start = self.ask_start(asker)?;
         let mut scene = Scene {
@@ -117,48 +120,69 @@ impl Wishes {
             heat_source: self.ask_heat(asker)?.filter(|&value| value != 0.0),
             end_time: 1.0,
             tolerance: self.tolerance,
-            probes: if self.probes.is_empty() { proposed_probes(size) } else { self.probes.clone() },
+            probes: self.points(size)?,
         };
         scene.check()?;
-        scene.end_time = asker.value(
-            self.end_time,
-            "Heat spreads over a length L in a time of about L^2/D (D: thermal diffusivity of the bed). The proposal is that \
-             time for this box: most of the change has happened by then.",
-            "End of the simulation [s]",
-            &plain(scene.proposed_end()?),
-            number,
-        )?;
+        scene.end_time = self.ask_end(asker, scene.proposed_end()?)?;
         scene.check()?;
         Ok(scene)
     }
 
+    pub(super) fn ask_initial(&self, asker: &Asker, proposal: f64) -> Result<f64, CliError> {
+        let help = "The whole bed has one temperature at the start. Temperatures are in Kelvin.";
+        asker.value(self.initial_temperature, help, "Temperature at the start [K]", &plain(proposal), number)
+    }
+
+    pub(super) fn ask_end(&self, asker: &Asker, proposal: f64) -> Result<f64, CliError> {
+        let help = "Heat spreads over a length L in a time of about L^2/D (D: thermal diffusivity of the bed). The proposal is that \
+                    time for this bed: most of the change has happened by then.";
+        asker.value(self.end_time, help, "End of the simulation [s]", &plain(proposal), number)
+    }
+
+    /// The cells that options give, of a bed with these sides [m].
+    pub(super) fn given_cells<const N: usize>(
+        &self,
+        sides: [f64; N],
+    ) -> Result<Option<[usize; N]>, CliError> {
+        match (self.cell_size, &self.cells) {
+            (Some(cell), _) if cell > 0.0 && cell.is_finite() => Ok(Some(cells_of(sides, cell))),
+            (Some(cell), _) => Err(CliError::Message(format!("cell size = {cell}, allowed: > 0 m"))),
+            (None, Some(cells)) => Ok(Some(cells.exactly("cells", &format!("{N} numbers"))?)),
+            (None, None) => Ok(None),
+        }
+    }
+
+    fn points(&self, size: [f64; 2]) -> Result<Vec<[f64; 2]>, CliError> {
+        if self.probes.is_empty() {
+            return Ok(proposed_probes(size));
+        }
+        let points = self.probes.iter().map(|point| point.exactly("probe", "x,y: two numbers"));
+        Ok(points.collect::<Result<_, _>>()?)
+    }
+
     fn ask_box(&self, asker: &Asker, mean_radius: f64) -> Result<([f64; 2], [usize; 2]), CliError> {
         let proposal = [129.0, 43.0].map(|radii| plain(rounded(radii * mean_radius, 3)));
+        let allowed = "two lengths, as 0.6x0.2; three belong to --spheres";
+        let given = self.size.as_ref().map(|sides| sides.exactly("box", allowed)).transpose()?;
+        let pair = |text: &str| parse_sides(text)?.exactly("box", allowed).map_err(|_| allowed.to_string());
         let size = asker.value(
-            self.size,
+            given,
             &format!(
                 "The bed fills a box with four walls. It is two-dimensional; mean radius of the grains: {} m.",
                 plain(mean_radius)
             ),
             "Width x height of the box [m]",
             &proposal.join("x"),
-            parse_pair::<f64>,
+            pair,
         )?;
-        let given = match self.cell_size {
-            Some(cell) if cell > 0.0 && cell.is_finite() => Some(cells_of(size, cell)),
-            Some(cell) => {
-                return Err(CliError::Message(format!("cell size = {cell}, allowed: > 0 m")));
-            }
-            None => self.cells,
-        };
         let [nx, ny] = proposed_cells(size, mean_radius);
         let cells = asker.value(
-            given,
+            self.given_cells(size)?,
             "The box is divided into cells; each stands for the grains in it, which should be four or more. More cells resolve \
              more and take longer.",
             "Cells along x and y",
             &format!("{nx}x{ny}"),
-            parse_pair::<usize>,
+            |text| parse_sides(text)?.exactly("cells", "").map_err(|_| "two numbers, as 30x10".to_string()),
         )?;
         Ok((size, cells))
     }
@@ -167,23 +191,12 @@ impl Wishes {
         [&self.left, &self.right, &self.bottom, &self.top]
     }
 
-    /// The temperature of the coldest wall [K], if options gave walls of different temperatures: the bed then starts at it. A
-    /// single temperature would leave nothing to heat or cool; a wall below 0 K is refused as a wall, not as the start.
-    fn coldest_wall(&self) -> Option<f64> {
-        let given = self.given_walls().into_iter().flatten().flat_map(WallOverTime::temperatures);
-        let [least, most] =
-            given.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)]);
-        (0.0 <= least && least < most).then_some(least)
-    }
-
     /// Where options gave any wall, the others are insulated unless answered otherwise; else the left wall is hot.
     fn ask_walls(&self, asker: &Asker, initial: f64) -> Result<[WallOverTime; 4], CliError> {
-        let help = "Each wall is insulated, or has a temperature [K], or one that changes over time: 0:300,60:350 is 300 K at \
-                    0 s, 350 K at 60 s, and linear between them.";
         let given = self.given_walls().into_iter().any(Option::is_some);
         let or_insulated = |value: f64| if given { "insulated".to_string() } else { plain(value) };
         let (hot, cold) = (or_insulated(initial + HOTTER), or_insulated(initial));
-        let left = asker.value(self.left.clone(), help, "Left wall", &hot, parse_wall)?;
+        let left = asker.value(self.left.clone(), WALL_HELP, "Left wall", &hot, parse_wall)?;
         let others = [
             (&self.right, "Right wall", cold.as_str()),
             (&self.bottom, "Bottom", "insulated"),
@@ -204,7 +217,12 @@ impl Wishes {
 
     fn ask_start(&self, asker: &Asker) -> Result<Start, CliError> {
         let given = match (self.porosity, self.pressure) {
-            (Some(porosity), _) => Some(Start::Porosity(porosity)),
+            (Some(_), Some(_)) => {
+                let message =
+                    "--porosity cannot be used with --pressure: in a bed of discs one follows from the other";
+                return Err(CliError::Message(message.to_string()));
+            }
+            (Some(porosity), None) => Some(Start::Porosity(porosity)),
             (None, Some(pressure)) => Some(Start::Pressure(pressure)),
             (None, None) => None,
         };
@@ -236,7 +254,7 @@ impl Wishes {
         })
     }
 
-    fn ask_mechanics(&self, asker: &Asker) -> Result<Mechanics, CliError> {
+    pub(super) fn ask_mechanics(&self, asker: &Asker) -> Result<Mechanics, CliError> {
         let name = asker.value(
             self.mechanics,
             "Grains that are heated push their neighbours away. With 'equilibrium' they move until all forces are in balance, \
@@ -251,10 +269,19 @@ impl Wishes {
         })
     }
 
-    fn ask_heat(&self, asker: &Asker) -> Result<Option<f64>, CliError> {
+    pub(super) fn ask_heat(&self, asker: &Asker) -> Result<Option<f64>, CliError> {
         let help = "Heat may be released inside of the bed, as by radiation or a reaction [W per m3 of bed].";
         asker.value(self.heat_source, help, "Heat released inside [W/m3]", "0", number).map(Some)
     }
+}
+
+/// The temperature of the coldest wall [K], if options gave walls of different temperatures: the bed then starts at it. A
+/// single temperature would leave nothing to heat or cool; a wall below 0 K is refused as a wall, not as the start.
+pub(super) fn coldest<'a>(given: impl IntoIterator<Item = &'a Option<WallOverTime>>) -> Option<f64> {
+    let given = given.into_iter().flatten().flat_map(WallOverTime::temperatures);
+    let [least, most] =
+        given.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)]);
+    (0.0 <= least && least < most).then_some(least)
 }
 
 /// `0.125` or `3000 Pa`.

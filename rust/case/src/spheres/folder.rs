@@ -1,0 +1,247 @@
+//! Makes the files of a new case of a bed of spheres.
+
+use super::scene::{Lid, Scene};
+use super::shape::{HALF_ANGLE, INNER, Shape};
+use super::start::{ACCOMMODATION, FABRIC, LATERAL, Start};
+use crate::CaseError;
+use crate::fields::{FieldKind, head, uniform};
+use crate::folder::{File, programs};
+use crate::numbers::{plain, rounded};
+use crate::scene::Mechanics;
+use crate::values::{Values, fill, mechanics_name, source, times, wall_rows, walls};
+use std::path::Path;
+
+macro_rules! template {
+    ($name:literal) => {
+        include_str!(concat!("../../templates/", $name))
+    };
+}
+
+/// The files of the case. `checkout`: folder of MSDD in which the solver was built; `name`: name of the case folder.
+///
+/// # Errors
+/// [`CaseError::Model`] when the shipped law cannot be read.
+pub fn files(scene: &Scene, name: &str, checkout: &Path) -> Result<Vec<File>, CaseError> {
+    let values = values(scene, name, checkout)?;
+    let filled = |template: &str| fill(template, &values);
+    let foam = |path: &'static str, class: &str, template: &str| {
+        let object = path.rsplit('/').next().unwrap_or(path);
+        File { path, text: head(class, object) + &filled(template), program: false }
+    };
+    let mesh = match scene.shape {
+        Shape::Box(_) => template!("spheres/box"),
+        Shape::Cylinder { .. } => template!("spheres/cylinder"),
+    };
+    let mut files = programs(name, checkout, tolerance(scene), scene.number() as usize);
+    files.extend([
+        File { path: "README.md", text: filled(template!("spheres/README.md")), program: false },
+        foam("constant/granularProperties", "dictionary", template!("spheres/granularProperties")),
+        foam("system/controlDict", "dictionary", template!("controlDict")),
+        foam("system/blockMeshDict", "dictionary", mesh),
+        foam("system/decomposeParDict", "dictionary", template!("decomposeParDict")),
+        foam("0/T", "volScalarField", template!("T")),
+    ]);
+    files.extend(initial_fields(scene));
+    if scene.heat_source.is_some() {
+        files.push(foam("constant/fvOptions", "dictionary", template!("fvOptions")));
+    }
+    if scene.gravity > 0.0 {
+        let vector = scene.shape.upwards(-scene.gravity);
+        let text = format!("dimensions      [0 1 -2 0 0 0 0];\nvalue           {vector};\n");
+        let text = head("uniformDimensionedVectorField", "g") + &text;
+        files.push(File { path: "constant/g", text, program: false });
+    }
+    Ok(files)
+}
+
+/// \[K\]
+fn tolerance(scene: &Scene) -> f64 {
+    let [least, most] = scene.temperatures();
+    // A bed that is heated from inside alone has no range before it is run.
+    let range = if most > least { most - least } else { 10.0 };
+    scene.tolerance.unwrap_or(1e-3 * range)
+}
+
+/// Porosity, fabric index, and the stress unless it follows from the weight, with the same value in all cells.
+fn initial_fields(scene: &Scene) -> Vec<File> {
+    let field = |path: &'static str, kind: FieldKind, note: &str, value: &str| {
+        let name = path.trim_start_matches("0/");
+        File { path, text: uniform(name, kind, note, value), program: false }
+    };
+    let mut fields = vec![
+        field(
+            "0/porosity",
+            FieldKind::Ratio,
+            "Initial porosity: 1 - volume of the spheres over the volume",
+            &plain(scene.porosity),
+        ),
+        field("0/fabricIndex", FieldKind::Ratio, "Not used with spheres", "0"),
+    ];
+    if scene.gravity == 0.0 {
+        let note = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM: the vertical one is the \
+                    pressure on the top";
+        let horizontal = rounded(-LATERAL * scene.pressure, 6);
+        fields.push(field(
+            "0/stress",
+            FieldKind::Stress,
+            note,
+            &scene.shape.tensor(horizontal, -scene.pressure),
+        ));
+    }
+    fields
+}
+
+fn values(scene: &Scene, name: &str, checkout: &Path) -> Result<Values, CaseError> {
+    let start = scene.start()?;
+    let probe = |probe: &Vec<f64>| format!("            {}", scene.shape.point(probe));
+    let named = || scene.shape.walls().iter().copied().zip(&scene.walls);
+    let mut values: Values = vec![
+        ("checkout", checkout.display().to_string()),
+        ("name", name.to_string()),
+        ("mechanics", mechanics_name(scene.mechanics).to_string()),
+        ("probes", scene.probes.iter().map(probe).collect::<Vec<_>>().join("\n")),
+        ("probesNote", String::new()),
+        ("spaceProbes", String::new()),
+        ("initialTemperature", plain(scene.initial_temperature)),
+        ("walls", walls(named()) + inner(&scene.shape)),
+        ("wallRows", wall_rows(named())),
+        ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
+        ("sourceRow", source(scene.heat_source)),
+        ("parts", scene.shape.parts(&scene.cells)),
+        ("material", scene.material.clone()),
+    ];
+    values.extend(times(scene.end_time, scene.first_step()?));
+    values.extend(scene.spheres.grains.named().map(|(key, value, _)| (key, plain(value))));
+    values.extend(scene.spheres.named().map(|(key, value, _)| (key, plain(value))));
+    values.extend(mesh_values(scene));
+    values.extend(bed_values(scene, &start));
+    Ok(values)
+}
+
+/// The hole for the axis, in `0/T`.
+fn inner(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Box(_) => "",
+        Shape::Cylinder { .. } => "    inner\n    {\n        type    zeroGradient;\n    }\n",
+    }
+}
+
+fn mesh_values(scene: &Scene) -> Values {
+    let counts = |order: &[usize]| order.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
+    let mut values = vec![
+        ("height", plain(scene.shape.height())),
+        ("diameter", plain(rounded(2.0 * scene.spheres.radius(), 6))),
+    ];
+    match (scene.shape, scene.cells.as_slice()) {
+        (Shape::Cylinder { radius, height }, &[across, along]) => {
+            let place = |share: f64| [share * radius * HALF_ANGLE.cos(), share * radius * HALF_ANGLE.sin()];
+            let ([inner_y, inner_z], [outer_y, outer_z]) = (place(INNER), place(1.0));
+            let digits = |value: f64| plain(rounded(value, 10));
+            values.extend([
+                ("radius", plain(radius)),
+                ("innerY", digits(inner_y)),
+                ("innerZ", digits(inner_z)),
+                ("outerY", digits(outer_y)),
+                ("outerZ", digits(outer_z)),
+                ("cells", counts(&[along, across, 1])),
+                ("sizes", format!("a cylinder with a radius of {radius} m and a height of {height} m")),
+            ]);
+        }
+        (Shape::Box([width, depth, height]), cells) => values.extend([
+            ("width", plain(width)),
+            ("depth", plain(depth)),
+            ("cells", counts(cells)),
+            ("sizes", format!("a box of {width} x {depth} x {height} m")),
+        ]),
+        (Shape::Cylinder { .. }, _) => {}
+    }
+    values
+}
+
+fn bed_values(scene: &Scene, start: &Start) -> Values {
+    let short = |value: f64| plain(rounded(value, 3));
+    let [along, up] = FABRIC;
+    vec![
+        ("rest", rest(scene)),
+        ("gas", scene.gas.name.as_str().to_string()),
+        ("gasPressure", plain(scene.gas.pressure)),
+        ("accommodation", plain(ACCOMMODATION)),
+        ("coordination", short(start.coordination)),
+        ("fabric", scene.shape.tensor(along, up)),
+        ("lateral", plain(LATERAL)),
+        ("conductivity", short(start.conductivity)),
+        ("byGas", short(start.by_gas)),
+        ("number", plain(rounded(scene.number(), 2))),
+        ("porosity", plain(scene.porosity)),
+        ("pressure", plain(scene.pressure)),
+        (
+            "pressureFile",
+            match scene.gravity > 0.0 {
+                true => "`constant/granularProperties`".to_string(),
+                false => "`0/stress`".to_string(),
+            },
+        ),
+        (
+            "gravity",
+            match scene.gravity > 0.0 {
+                true => format!("{} m/s2 downwards", plain(scene.gravity)),
+                false => "none (no such file)".to_string(),
+            },
+        ),
+    ]
+}
+
+/// What `constant/granularProperties` says of walls and of the stress at the start.
+fn rest(scene: &Scene) -> String {
+    if scene.mechanics == Mechanics::None {
+        return String::new();
+    }
+    let give = match scene.give > 0.0 {
+        true => format!(" give {}; giveBack 0.1;", plain(scene.give)),
+        false => String::new(),
+    };
+    let wall = |name: &str| match name {
+        "top" if scene.lid == Lid::Presses => {
+            format!("type pressure; pressure constant {};", plain(scene.pressure))
+        }
+        "top" | "bottom" => format!("type frictionless;{give}"),
+        "side" => side(scene),
+        _ => "type frictionless;".to_string(),
+    };
+    let inner = match scene.shape {
+        Shape::Box(_) => None,
+        Shape::Cylinder { .. } => Some("inner"),
+    };
+    let names = scene.shape.walls().iter().copied().chain(inner);
+    let walls: String = names.map(|name| format!("        {name:8} {{ {} }}\n", wall(name))).collect();
+    let mut text = format!(
+        "\n// Walls: frictionless ones stay, and spheres slide along them; pressure gives way and goes on pressing; shell is a thin\n\
+         // vessel that gives way. give: by how many diameters of bed spheres give way at a smooth wall\n\
+         equilibriumCoeffs\n{{\n    walls\n    {{\n{walls}    }}\n}}\n"
+    );
+    if scene.gravity > 0.0 {
+        text += &format!(
+            "\n// The stress at the start: under the weight of what lies above and the pressure on the top; lateral: the horizontal one over\n\
+             // the vertical one\nrestStress\n{{\n    lateral         {};\n    surface         {};\n}}\n",
+            plain(LATERAL),
+            plain(scene.pressure)
+        );
+    }
+    text
+}
+
+fn side(scene: &Scene) -> String {
+    match (scene.shell, scene.shape) {
+        (Some(shell), Shape::Cylinder { radius, .. }) => format!(
+            "type shell; youngModulus {}; thickness {}; radius {};",
+            plain(shell.young_modulus),
+            plain(shell.thickness),
+            plain(radius)
+        ),
+        _ => "type frictionless;".to_string(),
+    }
+}
+
+#[cfg(test)]
+#[path = "folder_tests.rs"]
+mod tests;

@@ -1,0 +1,15 @@
+//! New cases of beds of equal spheres with gas between them.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`material`] | named materials |
+//! | [`shape`] | boxes and cylinders, their walls, cells and points |
+//! | [`scene`] | the parameters of a new case |
+//! | [`start`] | what the law of spheres says of the bed at the start |
+//! | [`folder`] | the files of a new case |
+
+pub mod folder;
+pub mod material;
+pub mod scene;
+pub mod shape;
+pub mod start;

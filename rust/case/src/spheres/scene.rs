@@ -1,0 +1,319 @@
+//! The parameters of a new case of a bed of spheres: shape, walls, spheres, gas, start, end. Nothing is written or printed here.
+
+use super::material::Spheres;
+use super::shape::Shape;
+use super::start::{Bed, Gas, Start};
+use crate::CaseError;
+use crate::numbers::{plain, rounded};
+use crate::scene::{MOST_CELLS, Mechanics, allow};
+use crate::walls::WallOverTime;
+use msdd_beds::effective::LEAST_RATIO;
+use msdd_rve::message::number;
+use std::f64::consts::PI;
+
+/// What the top of the bed does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lid {
+    /// It goes on pressing with the pressure of the start, and gives way.
+    #[default]
+    Presses,
+    /// It stays where it is.
+    Stays,
+}
+
+/// The side of a cylinder as a thin wall that gives way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shell {
+    /// Young's modulus \[Pa\].
+    pub young_modulus: f64,
+    /// \[m\]
+    pub thickness: f64,
+}
+
+/// All parameters of a new case. SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    pub shape: Shape,
+    /// Cells along each direction of the shape.
+    pub cells: Vec<usize>,
+    /// Thermal boundary conditions, in the order of [`Shape::walls`].
+    pub walls: Vec<WallOverTime>,
+    /// Initial temperature of the whole bed \[K\].
+    pub initial_temperature: f64,
+    /// Name of the material, for comments in the files.
+    pub material: String,
+    pub spheres: Spheres,
+    pub gas: Gas,
+    /// 1 − volume of the spheres over the volume.
+    pub porosity: f64,
+    /// Pressure on the top at the start, which is the vertical stress there \[Pa\].
+    pub pressure: f64,
+    pub mechanics: Mechanics,
+    pub lid: Lid,
+    pub shell: Option<Shell>,
+    /// By how much spheres give way at bottom and top where these stay \[mean diameters\].
+    pub give: f64,
+    /// Acceleration downwards \[m/s²\].
+    pub gravity: f64,
+    /// Heat released in the bed \[W/m³\], negative for a sink.
+    pub heat_source: Option<f64>,
+    /// End of the simulation \[s\].
+    pub end_time: f64,
+    /// Largest error of T that a time step may add \[K\]; `None`: a thousandth of the range of T.
+    pub tolerance: Option<f64>,
+    /// Points where T is recorded \[m\]: x, y, z, or distance from the axis and height.
+    pub probes: Vec<Vec<f64>>,
+}
+
+fn refuse<T>(key: &str, value: &str, allowed: &str) -> Result<T, CaseError> {
+    Err(CaseError::Parameter { key: key.to_string(), value: value.to_string(), allowed: allowed.to_string() })
+}
+
+impl Scene {
+    /// Refuses values out of range; the error names the first of them.
+    ///
+    /// # Errors
+    /// [`CaseError::Parameter`]; [`CaseError::Model`] when the shipped law cannot be read.
+    pub fn check(&self) -> Result<(), CaseError> {
+        self.spheres.check()?;
+        self.check_mesh()?;
+        self.check_heat()?;
+        self.check_start()?;
+        self.check_mechanics()?;
+        allow("end time", self.end_time, (1e-9..=1e12).contains(&self.end_time), || {
+            "1e-9 to 1e12 s".to_string()
+        })?;
+        if let Some(value) = self.tolerance {
+            allow("tolerance", value, (1e-12..=1e6).contains(&value), || "1e-12 to 1e6 K".to_string())?;
+        }
+        Ok(())
+    }
+
+    fn check_mesh(&self) -> Result<(), CaseError> {
+        let least = 8.0 * self.spheres.radius();
+        for (key, length) in self.shape.lengths() {
+            // A cylinder's radius is half of its width.
+            let least = if key.starts_with("radius") { 0.5 * least } else { least };
+            allow(key, length, length >= least && length <= 1e6, || {
+                format!(
+                    "{} to 1e6 m, since a bed has at least four spheres side by side",
+                    number(rounded(least, 3))
+                )
+            })?;
+        }
+        let cells = self.cells.iter().fold(1_usize, |product, &count| product.saturating_mul(count));
+        allow("cells", cells as f64, (1..=MOST_CELLS).contains(&cells), || {
+            format!("1 to {MOST_CELLS} in all")
+        })?;
+        match self.probes.iter().find(|probe| !self.shape.holds(probe)) {
+            Some(probe) => {
+                let value = probe.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+                refuse("probe", &value, &self.shape.points_allowed())
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn check_heat(&self) -> Result<(), CaseError> {
+        let gas = self.gas.name;
+        let [low, high] = gas.range();
+        let high = high.min(1e5);
+        let walls = self.shape.walls().iter().zip(&self.walls);
+        let walls =
+            walls.flat_map(|(name, wall)| wall.temperatures().into_iter().map(|value| (*name, value)));
+        for (key, value) in [("initial temperature", self.initial_temperature)].into_iter().chain(walls) {
+            allow(key, value, (low..=high).contains(&value), || {
+                let gas = gas.as_str();
+                format!(
+                    "{} to {} K, for which {gas} is known; temperatures are in Kelvin",
+                    number(low),
+                    number(high)
+                )
+            })?;
+        }
+        allow("gas pressure", self.gas.pressure, (1e-3..=1e9).contains(&self.gas.pressure), || {
+            "1e-3 to 1e9 Pa".to_string()
+        })?;
+        for temperature in self.temperatures() {
+            let Some(between) = gas.at(temperature, self.gas.pressure, 1.0) else { continue };
+            let (solid, least) =
+                (self.spheres.grains.thermal_conductivity, LEAST_RATIO * between.conductivity);
+            allow("thermalConductivity", solid, solid >= least, || {
+                format!(
+                    "at least that of the gas ({}), which is {} W/(m K) at {} K",
+                    gas.as_str(),
+                    number(rounded(least, 3)),
+                    number(temperature)
+                )
+            })?;
+        }
+        if let Some(value) = self.heat_source {
+            allow("heat source", value, value.abs() <= 1e15, || "-1e15 to 1e15 W/m3".to_string())?;
+        }
+        Ok(())
+    }
+
+    fn check_start(&self) -> Result<(), CaseError> {
+        let bed = self.bed()?;
+        let short = |value: f64| number(rounded(value, 3));
+        let [least, most] = bed.pressures();
+        allow("pressure", self.pressure, (least..=most).contains(&self.pressure), || {
+            format!("{} to {} Pa, which the law of spheres knows of these", short(least), short(most))
+        })?;
+        let known = bed.porosities();
+        let inside = known.is_some_and(|[least, most]| (least..=most).contains(&self.porosity));
+        allow("porosity", self.porosity, inside, || match known {
+            Some([least, most]) => format!(
+                "{least} to {most}, those of the packings that the law of spheres was trained with, under {} Pa",
+                number(self.pressure)
+            ),
+            None => "none under this pressure: take another".to_string(),
+        })
+    }
+
+    fn check_mechanics(&self) -> Result<(), CaseError> {
+        allow("gravity", self.gravity, (0.0..=1e3).contains(&self.gravity), || {
+            "0 to 1000 m/s2 downwards".to_string()
+        })?;
+        allow("give", self.give, (0.0..=1000.0).contains(&self.give), || {
+            "0 to 1000 diameters of a sphere".to_string()
+        })?;
+        let still = self.mechanics == Mechanics::None;
+        if still && self.gravity > 0.0 {
+            return refuse(
+                "gravity",
+                &number(self.gravity),
+                "0 with mechanics none, where spheres stay where they are",
+            );
+        }
+        let Some(shell) = self.shell else { return Ok(()) };
+        let Shape::Cylinder { radius, .. } = self.shape else {
+            return refuse("shell", "given", "with the shape cylinder, whose side it is");
+        };
+        if still {
+            return refuse("shell", "given", "with mechanics equilibrium");
+        }
+        allow(
+            "Young's modulus of the shell",
+            shell.young_modulus,
+            (1.0..=1e15).contains(&shell.young_modulus),
+            || "1 to 1e15 Pa".to_string(),
+        )?;
+        let most = 0.2 * radius;
+        allow(
+            "thickness of the shell",
+            shell.thickness,
+            0.0 < shell.thickness && shell.thickness <= most,
+            || format!("more than 0, at most a fifth of the radius, {} m", number(rounded(most, 3))),
+        )
+    }
+
+    fn bed(&self) -> Result<Bed, CaseError> {
+        Bed::new(self.spheres, self.pressure)
+    }
+
+    /// The bed at the start.
+    ///
+    /// # Errors
+    /// [`CaseError::Model`] when the shipped law cannot be read.
+    pub fn start(&self) -> Result<Start, CaseError> {
+        Ok(self.bed()?.start(self.porosity, &self.gas, self.initial_temperature))
+    }
+
+    /// Number of spheres of the whole bed.
+    pub fn number(&self) -> f64 {
+        let radius = self.spheres.radius();
+        self.shape.volume() * (1.0 - self.porosity) / (4.0 / 3.0 * PI * radius * radius * radius)
+    }
+
+    /// What the weight of the bed, under 9.81 m/s², adds to the vertical stress at the bottom \[Pa\].
+    pub fn weight(&self) -> f64 {
+        self.spheres.grains.density * (1.0 - self.porosity) * 9.81 * self.shape.height()
+    }
+
+    /// Least and largest temperature of the initial state and of the walls at any time \[K\].
+    pub fn temperatures(&self) -> [f64; 2] {
+        let walls = self.walls.iter().flat_map(WallOverTime::temperatures);
+        walls.fold([self.initial_temperature; 2], |[least, most], value| [least.min(value), most.max(value)])
+    }
+
+    /// Which walls have a temperature.
+    pub fn warm(&self) -> Vec<bool> {
+        self.walls.iter().map(|wall| !wall.temperatures().is_empty()).collect()
+    }
+
+    /// Directions of the shape along which the bed is not alike: where walls have a temperature, and upwards under gravity.
+    pub fn varies(&self) -> Vec<bool> {
+        let mut varies: Vec<bool> =
+            self.shape.heat_ways(&self.warm()).into_iter().map(f64::is_finite).collect();
+        if let Some(up) = varies.last_mut() {
+            *up |= self.gravity > 0.0;
+        }
+        varies
+    }
+
+    /// The direction along which heat has the shortest way; the first if no wall has a temperature.
+    pub fn steepest(&self) -> usize {
+        let ways = self.shape.heat_ways(&self.warm());
+        (0..ways.len()).min_by(|&a, &b| ways[a].total_cmp(&ways[b])).unwrap_or(0)
+    }
+
+    /// Length over which heat has to spread \[m\]: the shortest of the directions along which walls have a temperature, else the
+    /// longest side of the bed.
+    pub fn heat_way(&self) -> f64 {
+        let way = self.shape.heat_ways(&self.warm()).into_iter().fold(f64::INFINITY, f64::min);
+        if way.is_finite() {
+            return way;
+        }
+        self.shape.lengths().iter().fold(0.0, |most, (_, length)| most.max(*length))
+    }
+
+    /// Thermal diffusivity of the bed at the start, K/(ρ c (1 − η)) \[m²/s\].
+    ///
+    /// # Errors
+    /// As for [`Scene::start`].
+    pub fn diffusivity(&self) -> Result<f64, CaseError> {
+        let grains = &self.spheres.grains;
+        let storage = grains.density * grains.heat_capacity * (1.0 - self.porosity);
+        Ok(self.start()?.conductivity / storage)
+    }
+
+    /// Proposed end time L²/D \[s\], rounded to two digits, with the length L = [`Scene::heat_way`].
+    ///
+    /// # Errors
+    /// As for [`Scene::start`].
+    pub fn proposed_end(&self) -> Result<f64, CaseError> {
+        let way = self.heat_way();
+        Ok(rounded(way * way / self.diffusivity()?, 2))
+    }
+
+    /// The first time step \[s\], rounded to two digits: a twentieth of the time in which heat crosses a cell, at most a hundredth of
+    /// the run.
+    ///
+    /// # Errors
+    /// As for [`Scene::start`].
+    pub fn first_step(&self) -> Result<f64, CaseError> {
+        let sides = self.shape.lengths().into_iter().zip(&self.cells);
+        let cell = sides.fold(f64::INFINITY, |least, ((_, length), &count)| least.min(length / count as f64));
+        let crossed = cell * cell / self.diffusivity()?;
+        Ok(rounded((0.05 * crossed).min(0.01 * self.end_time), 2))
+    }
+
+    /// What the case leaves out that may matter, in sentences.
+    pub fn notes(&self) -> Vec<String> {
+        let weight = self.weight();
+        let light =
+            self.gravity == 0.0 && self.mechanics == Mechanics::Equilibrium && weight > 0.2 * self.pressure;
+        let weight = light.then(|| {
+            format!(
+                "the weight of the bed, up to {} Pa at the bottom, is left out; --gravity 9.81 adds it",
+                plain(rounded(weight, 2))
+            )
+        });
+        weight.into_iter().collect()
+    }
+}
+
+#[cfg(test)]
+#[path = "scene_tests.rs"]
+mod tests;

@@ -1,0 +1,153 @@
+//! What the law of spheres says of a bed at the start, which is taken as one that was poured and pressed from above.
+
+use super::material::Spheres;
+use crate::CaseError;
+use msdd_beds::effective::{BedMaterial, BedState};
+use msdd_beds::named_gases::GasName;
+use msdd_beds::solid::{Roughness, Solid};
+use msdd_surrogate::spheres::model::{Answer, Increment, SphereModel};
+use msdd_surrogate::spheres::state::Known;
+use msdd_surrogate::spheres::tensor::mean;
+
+/// Horizontal over vertical stress: 0.81 and 0.85 in the beds of cases/store and cases/column, which were poured and pressed.
+pub const LATERAL: f64 = 0.8;
+/// Fabric along the horizontal and the vertical of beds that were poured, see the book's page on the law of spheres: gravity leaves
+/// more contacts along the vertical.
+pub const FABRIC: [f64; 2] = [0.325, 0.35];
+/// Contacts per sphere that a bed under gravity has more than boxes with its solid fraction and stress.
+const MORE_CONTACTS: f64 = 0.4;
+/// Accommodation of the gas at the spheres, the solver's default.
+pub const ACCOMMODATION: f64 = 0.9;
+/// ln(R/h) where no gas matters.
+const ANY_GAS: f64 = 6.0;
+/// Porosities that are tried to find those that the law knows, in thousandths.
+const TRIED: std::ops::Range<u32> = 200..700;
+
+/// The gas between the spheres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gas {
+    pub name: GasName,
+    /// \[Pa\]
+    pub pressure: f64,
+}
+
+/// A bed that was poured.
+pub struct Bed {
+    model: SphereModel,
+    spheres: Spheres,
+    /// Vertical stress \[Pa\].
+    pressure: f64,
+}
+
+/// A bed of a porosity at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Contacts per sphere.
+    pub coordination: f64,
+    /// Mean over the directions \[W/(m K)\], and the part of it by the gas.
+    pub conductivity: f64,
+    pub by_gas: f64,
+}
+
+impl Bed {
+    /// Of these spheres with this vertical stress \[Pa\].
+    ///
+    /// # Errors
+    /// [`CaseError::Model`] when the shipped model cannot be read.
+    pub fn new(spheres: Spheres, pressure: f64) -> Result<Self, CaseError> {
+        Ok(Self { model: SphereModel::builtin()?, spheres, pressure })
+    }
+
+    /// Least and largest vertical stress that the law knows \[Pa\].
+    pub fn pressures(&self) -> [f64; 2] {
+        let known = self.model.file.ranges.pressure;
+        let vertical = 3.0 / (1.0 + 2.0 * LATERAL) * self.spheres.contact_modulus();
+        [known.min, known.max].map(|pressure| pressure * vertical)
+    }
+
+    /// Least and largest porosity that the law knows under this stress, to a thousandth; none under a stress that it does not know.
+    pub fn porosities(&self) -> Option<[f64; 2]> {
+        let mut known = TRIED.map(|k| f64::from(k) / 1000.0).filter(|&porosity| self.knows(porosity));
+        let least = known.next()?;
+        Some([least, known.next_back().unwrap_or(least)])
+    }
+
+    /// What the law answers for a porosity, contacts per sphere if they are known, and ln(R/h) of a gas.
+    fn answer(&self, porosity: f64, coordination: Option<f64>, gas_number: f64) -> Answer {
+        let pressure = self.pressure / self.spheres.contact_modulus();
+        let diagonal = |[along, up]: [f64; 2]| [along, along, up, 0.0, 0.0, 0.0];
+        let known = Known { coordination, fabric: Some(diagonal(FABRIC)), mobilised: None };
+        let stress = diagonal([LATERAL * pressure, pressure]);
+        let state = self.model.initial_state(1.0 - porosity, stress, &known);
+        self.model.advance(&state, &Increment::default(), gas_number, false)
+    }
+
+    fn knows(&self, porosity: f64) -> bool {
+        self.answer(porosity, None, ANY_GAS).outside == 0
+    }
+
+    /// The bed with this porosity and gas at a temperature \[K\].
+    pub fn start(&self, porosity: f64, gas: &Gas, temperature: f64) -> Start {
+        let coordination = self.answer(porosity, None, ANY_GAS).coordination + MORE_CONTACTS;
+        let material = self.material(gas);
+        let between = material.gas_at(temperature);
+        let number = between.as_ref().map_or(ANY_GAS, |gas| material.gas_number(gas));
+        let answer = self.answer(porosity, Some(coordination), number);
+        let conduction = material.conduction(
+            between.as_ref(),
+            &BedState {
+                pressure: mean(answer.stress) * material.solid.effective_modulus,
+                solid_fraction: answer.solid,
+                coordination,
+                gas: answer.gas,
+            },
+        );
+        let by_contacts = material.solid.conductivity * conduction.contacts * mean(answer.contact);
+        Start { coordination, conductivity: by_contacts + conduction.gas, by_gas: conduction.gas }
+    }
+
+    fn material(&self, gas: &Gas) -> BedMaterial {
+        let spheres = &self.spheres;
+        let rough = Roughness { height_over_slope: spheres.roughness, hardness: spheres.hardness };
+        let solid = Solid {
+            conductivity: spheres.grains.thermal_conductivity,
+            effective_modulus: spheres.contact_modulus(),
+            roughness: (spheres.roughness > 0.0).then_some(rough),
+        };
+        BedMaterial {
+            radius: spheres.radius(),
+            solid,
+            gas: gas.name,
+            gas_pressure: gas.pressure,
+            accommodation: ACCOMMODATION,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spheres::material::MATERIALS;
+
+    /// The discrete elements of cases/column (steel in air, 24 kPa, porosity 0.4037) have 4.70 contacts per sphere at the start and
+    /// conduct 0.233 W/(m K) through contacts and 0.415 through the gas.
+    #[test]
+    fn a_poured_bed_is_that_of_discrete_elements() {
+        let bed = Bed::new(MATERIALS[0].spheres(), 24e3).unwrap();
+        let air = Gas { name: GasName::Air, pressure: 101_325.0 };
+        let start = bed.start(0.4037, &air, 293.15);
+        assert!((start.coordination / 4.70 - 1.0).abs() < 0.03, "{start:?}");
+        assert!((start.by_gas / 0.415 - 1.0).abs() < 0.03, "{start:?}");
+        let vacuum = bed.start(0.4037, &Gas { name: GasName::Vacuum, pressure: 1.0 }, 293.15);
+        assert!(vacuum.by_gas == 0.0 && (vacuum.conductivity / 0.233 - 1.0).abs() < 0.05, "{vacuum:?}");
+    }
+
+    #[test]
+    fn porosities_of_the_law_are_those_of_packings_of_spheres() {
+        let known = |pressure| Bed::new(MATERIALS[0].spheres(), pressure).unwrap().porosities();
+        let [least, most] = known(2e4).unwrap();
+        assert!((0.34..0.37).contains(&least) && (0.42..0.44).contains(&most), "{least} {most}");
+        // Beyond all packings of the training
+        assert_eq!(known(1e10), None);
+    }
+}

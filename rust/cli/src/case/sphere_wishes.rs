@@ -1,0 +1,376 @@
+//! The user's choices for a new case of a bed of spheres: options beside those of all beds, and questions.
+
+use super::ask::{Asker, number};
+use super::wishes::{HOTTER, WALL_HELP, Wishes, coldest};
+use crate::error::CliError;
+use clap::{Args, ValueEnum};
+use msdd_beds::named_gases::GasName;
+use msdd_case::numbers::{plain, rounded};
+use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
+use msdd_case::spheres::material::{MATERIALS, Spheres, presets};
+use msdd_case::spheres::scene::{Lid, Scene, Shell};
+use msdd_case::spheres::shape::Shape;
+use msdd_case::spheres::start::Gas;
+use msdd_case::values::describe;
+use msdd_case::walls::WallOverTime;
+
+/// Proposed porosity, of beds that were poured with a friction of 0.3, and pressure on the top [Pa].
+const POROSITY: f64 = 0.4;
+const PRESSURE: f64 = 2e4;
+/// By how many diameters spheres give way at plates that stay: about the mean of the poured beds, see `msdd bed give`.
+const GIVE: f64 = 1.0;
+/// Proposed lengths of a bed in diameters of a sphere: width, depth and height of a box, radius and height of a cylinder.
+const BOX: [f64; 3] = [40.0, 15.0, 15.0];
+const CYLINDER: [f64; 2] = [15.0, 60.0];
+
+#[derive(Args)]
+#[command(next_help_heading = "Spheres (with --spheres)")]
+pub struct SphereWishes {
+    /// Shape of the bed. Default: cylinder if --radius or --side is given, else box.
+    #[arg(long, value_enum, requires = "spheres")]
+    shape: Option<ShapeName>,
+    /// Radius of the cylinder [m].
+    #[arg(long, value_name = "M", requires = "spheres", conflicts_with = "size")]
+    radius: Option<f64>,
+    /// Height of the cylinder [m].
+    #[arg(long, value_name = "M", requires = "spheres", conflicts_with = "size")]
+    height: Option<f64>,
+    /// Side of the cylinder; values as for --left. Default: 50 K above the start; insulated if another wall is given.
+    #[arg(long, value_name = "WALL", value_parser = parse_wall, requires = "spheres", conflicts_with = "size")]
+    side: Option<WallOverTime>,
+    /// Front wall of the box, where y is 0; values as for --left. Default: insulated.
+    #[arg(long, value_name = "WALL", value_parser = parse_wall, requires = "spheres")]
+    front: Option<WallOverTime>,
+    /// Back wall of the box; values as for --left. Default: insulated.
+    #[arg(long, value_name = "WALL", value_parser = parse_wall, requires = "spheres")]
+    back: Option<WallOverTime>,
+    /// Poisson's ratio of the spheres. Default: that of the material.
+    #[arg(long, value_name = "NU", allow_negative_numbers = true, requires = "spheres")]
+    poisson_ratio: Option<f64>,
+    /// Height of the asperities (root mean square) over their slope [m]; 0: smooth. Default: that of the material.
+    #[arg(long, value_name = "M", requires = "spheres")]
+    roughness: Option<f64>,
+    /// Hardness of the spheres, which counts where they are rough [Pa]. Default: that of the material.
+    #[arg(long, value_name = "PA", requires = "spheres")]
+    hardness: Option<f64>,
+    /// Gas between the spheres: air, nitrogen, helium, argon or vacuum. Default: air.
+    #[arg(long, value_name = "NAME", value_parser = parse_gas, requires = "spheres")]
+    gas: Option<GasName>,
+    /// Pressure of the gas [Pa]. Default: 1.013e5.
+    #[arg(long, value_name = "PA", requires = "spheres")]
+    gas_pressure: Option<f64>,
+    /// Whether the top goes on pressing with the pressure of the start and gives way, or stays where it is. Default: presses.
+    #[arg(long, value_enum, requires = "spheres")]
+    lid: Option<LidName>,
+    /// The side of the cylinder as a thin vessel that gives way: Young's modulus [Pa] and thickness [m], such as 200e9,0.002.
+    #[arg(long, value_name = "PA,M", value_parser = parse_shell, requires = "spheres")]
+    shell: Option<Shell>,
+    /// By how many diameters of bed spheres give way at a bottom and top that stay. Default: 1; 0 under a top that presses.
+    #[arg(long, value_name = "D", requires = "spheres")]
+    give: Option<f64>,
+    /// Gravity [m/s2], downwards. Default: 0.
+    #[arg(long, value_name = "M/S2", requires = "spheres")]
+    gravity: Option<f64>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ShapeName {
+    Box,
+    Cylinder,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum LidName {
+    Presses,
+    Stays,
+}
+
+fn parse_gas(text: &str) -> Result<GasName, String> {
+    let names = || GasName::ALL.map(GasName::as_str).join(", ");
+    GasName::ALL.into_iter().find(|gas| gas.as_str() == text).ok_or_else(names)
+}
+
+fn parse_shell(text: &str) -> Result<Shell, String> {
+    let allowed =
+        || "Young's modulus [Pa] and thickness [m] with a comma between, such as 200e9,0.002".to_string();
+    let (modulus, thickness) = text.split_once(',').ok_or_else(allowed)?;
+    let read = |text: &str| number(text.trim()).map_err(|_| allowed());
+    Ok(Shell { young_modulus: read(modulus)?, thickness: read(thickness)? })
+}
+
+fn choice<T: ValueEnum>(text: &str) -> Result<T, String> {
+    T::from_str(text, true).map_err(|_| {
+        let names = T::value_variants().iter().filter_map(T::to_possible_value);
+        names.map(|value| value.get_name().to_string()).collect::<Vec<_>>().join(", ")
+    })
+}
+
+impl SphereWishes {
+    /// The scene, once all questions are answered; `common` are the options of all beds.
+    ///
+    /// # Errors
+    /// The errors of [`Scene::check`], and options that the shape of the bed does not have.
+    pub fn scene(&self, common: &Wishes, asker: &Asker) -> Result<Scene, CliError> {
+        let (material, spheres, usual) = self.ask_spheres(common, asker)?;
+        let shape = self.ask_shape(common, asker, 2.0 * spheres.radius())?;
+        let given = self.given_walls(common, &shape)?;
+        let initial_temperature = common.ask_initial(asker, coldest(&given).unwrap_or(usual))?;
+        let walls = ask_walls(asker, &shape, given, initial_temperature)?;
+        let gas = self.ask_gas(asker)?;
+        let (porosity, pressure) = ask_start(common, asker)?;
+        let mechanics = common.ask_mechanics(asker)?;
+        let (lid, gravity) = self.ask_load(asker, mechanics)?;
+        let stays = lid == Lid::Stays && mechanics == Mechanics::Equilibrium;
+        let mut scene = Scene {
+            shape,
+            cells: vec![1; shape.lengths().len()],
+            walls,
+            initial_temperature,
+            material,
+            spheres,
+            gas,
+            porosity,
+            pressure,
+            mechanics,
+            lid,
+            shell: self.shell,
+            give: self.give.unwrap_or(if stays { GIVE } else { 0.0 }),
+            gravity,
+            heat_source: common.ask_heat(asker)?.filter(|&value| value != 0.0),
+            end_time: 1.0,
+            tolerance: common.tolerance,
+            probes: common.probes.iter().map(|point| point.0.clone()).collect(),
+        };
+        scene.check()?;
+        scene.cells = ask_cells(common, asker, &scene)?;
+        if scene.probes.is_empty() {
+            scene.probes = shape.proposed_probes(scene.steepest());
+        }
+        scene.check()?;
+        scene.end_time = common.ask_end(asker, scene.proposed_end()?)?;
+        scene.check()?;
+        Ok(scene)
+    }
+
+    /// The name of the material, the spheres, and the usual temperature [K].
+    fn ask_spheres(&self, common: &Wishes, asker: &Asker) -> Result<(String, Spheres, f64), CliError> {
+        let (base, material, grains) = common.grains.ask(asker, &presets())?;
+        let named = MATERIALS.iter().find(|material| material.preset.name == base.name);
+        let named = named.ok_or_else(|| wrong("material", base.name, "one of spheres"))?.spheres();
+        let spheres = Spheres {
+            grains,
+            poisson_ratio: self.poisson_ratio.unwrap_or(named.poisson_ratio),
+            roughness: self.roughness.unwrap_or(named.roughness),
+            hardness: self.hardness.unwrap_or(named.hardness),
+        };
+        spheres.check()?;
+        let changed = spheres.named().into_iter().zip(named.named()).filter(|(a, b)| a.1 != b.1);
+        let changed: Vec<&str> = changed.map(|(a, _)| a.0).collect();
+        let material = match changed.is_empty() {
+            true => material,
+            false => format!("{material}; {} of your own", changed.join(", ")),
+        };
+        Ok((material, spheres, base.temperature))
+    }
+
+    fn ask_shape(&self, common: &Wishes, asker: &Asker, diameter: f64) -> Result<Shape, CliError> {
+        let round = self.radius.is_some() || self.height.is_some() || self.side.is_some();
+        let kind = asker.value(
+            self.shape
+                .or(common.size.as_ref().map(|_| ShapeName::Box))
+                .or(round.then_some(ShapeName::Cylinder)),
+            "The bed fills a box in space, or an upright cylinder, which is computed as a wedge.",
+            "Shape (box or cylinder)",
+            "box",
+            choice::<ShapeName>,
+        )?;
+        let proposed = |diameters: f64| plain(rounded(diameters * diameter, 2));
+        match kind {
+            ShapeName::Box => {
+                if round {
+                    return Err(wrong("--radius, --height, --side", "given", "with --shape cylinder"));
+                }
+                let allowed = "three lengths, width x depth x height, such as 0.3x0.1x0.2 [m]";
+                let given = common.size.as_ref().map(|sides| sides.exactly("box", allowed)).transpose()?;
+                let sides = asker.value(
+                    given,
+                    "Width, depth and height of the box, along x, y and z. One cell is enough along directions in which nothing changes.",
+                    "Width x depth x height [m]",
+                    &BOX.map(proposed).join("x"),
+                    |text| parse_sides(text)?.exactly("box", allowed).map_err(|_| allowed.to_string()),
+                )?;
+                Ok(Shape::Box(sides))
+            }
+            ShapeName::Cylinder => {
+                if common.size.is_some() {
+                    return Err(wrong(
+                        "--box",
+                        "given",
+                        "with --shape box; a cylinder has --radius and --height",
+                    ));
+                }
+                let [radius, height] = CYLINDER.map(proposed);
+                let help = "The radius of the cylinder, inside of its wall.";
+                let radius = asker.value(self.radius, help, "Radius of the cylinder [m]", &radius, number)?;
+                let help = "The height of the bed.";
+                let height = asker.value(self.height, help, "Height of the cylinder [m]", &height, number)?;
+                Ok(Shape::Cylinder { radius, height })
+            }
+        }
+    }
+
+    /// Walls that options give, in the order of [`Shape::walls`].
+    fn given_walls(&self, common: &Wishes, shape: &Shape) -> Result<Vec<Option<WallOverTime>>, CliError> {
+        let options = [
+            ("left", &common.left),
+            ("right", &common.right),
+            ("front", &self.front),
+            ("back", &self.back),
+            ("bottom", &common.bottom),
+            ("top", &common.top),
+            ("side", &self.side),
+        ];
+        let walls = shape.walls();
+        if let Some((name, _)) = options.iter().find(|(name, given)| given.is_some() && !walls.contains(name))
+        {
+            let allowed = format!("the walls of a {}: {}", shape.name(), walls.join(", "));
+            return Err(wrong(&format!("--{name}"), "given", &allowed));
+        }
+        let given = |wall: &&str| {
+            options.iter().find(|(name, _)| name == wall).and_then(|(_, given)| (*given).clone())
+        };
+        Ok(walls.iter().map(given).collect())
+    }
+
+    fn ask_gas(&self, asker: &Asker) -> Result<Gas, CliError> {
+        let name = asker.value(
+            self.gas,
+            "The gas between the spheres: air, nitrogen, helium, argon or vacuum.",
+            "Gas",
+            "air",
+            parse_gas,
+        )?;
+        let pressure = asker.value(
+            self.gas_pressure,
+            "The pressure of the gas. A thin gas conducts less.",
+            "Pressure of the gas [Pa]",
+            "101300",
+            number,
+        )?;
+        Ok(Gas { name, pressure })
+    }
+
+    /// What the top does, and gravity, where spheres move.
+    fn ask_load(&self, asker: &Asker, mechanics: Mechanics) -> Result<(Lid, f64), CliError> {
+        if mechanics == Mechanics::None {
+            for (option, given) in [("--lid", self.lid.is_some()), ("--give", self.give.is_some())] {
+                if given {
+                    return Err(wrong(option, "given", "with --mechanics equilibrium, where spheres move"));
+                }
+            }
+            return Ok((Lid::default(), self.gravity.unwrap_or(0.0)));
+        }
+        let lid = asker.value(
+            self.lid,
+            "The top of the bed goes on pressing with the pressure of the start, and gives way; or it stays where it is, and the \
+             pressure rises where the spheres grow.",
+            "Top (presses or stays)",
+            "presses",
+            choice::<LidName>,
+        )?;
+        let help = "Gravity points downwards; 0 leaves the weight of the bed out.";
+        let gravity = asker.value(self.gravity, help, "Gravity [m/s2]", "0", number)?;
+        let lid = match lid {
+            LidName::Presses => Lid::Presses,
+            LidName::Stays => Lid::Stays,
+        };
+        Ok((lid, gravity))
+    }
+}
+
+/// Where options gave any wall, the others are insulated unless answered otherwise; else the first one is hot, and one beside it has
+/// the temperature of the start.
+fn ask_walls(
+    asker: &Asker,
+    shape: &Shape,
+    given: Vec<Option<WallOverTime>>,
+    initial: f64,
+) -> Result<Vec<WallOverTime>, CliError> {
+    let any = given.iter().any(Option::is_some);
+    let walls = shape.walls().iter().zip(given).enumerate().map(|(k, (name, given))| {
+        let proposal = match k {
+            0 if !any => plain(initial + HOTTER),
+            1 if !any && shape.name() == "box" => plain(initial),
+            _ => "insulated".to_string(),
+        };
+        asker.value(given, WALL_HELP, &format!("Wall '{name}'"), &proposal, parse_wall)
+    });
+    walls.collect()
+}
+
+fn ask_start(common: &Wishes, asker: &Asker) -> Result<(f64, f64), CliError> {
+    let porosity = asker.value(
+        common.porosity,
+        "The porosity at the start: 1 - volume of the spheres over the volume. Beds that were poured have 0.38 to 0.42.",
+        "Porosity",
+        &plain(POROSITY),
+        number,
+    )?;
+    let pressure = asker.value(
+        common.pressure,
+        "The pressure on the top of the bed at the start; contacts conduct as its cube root.",
+        "Pressure on the top [Pa]",
+        &plain(PRESSURE),
+        number,
+    )?;
+    Ok((porosity, pressure))
+}
+
+fn ask_cells(common: &Wishes, asker: &Asker, scene: &Scene) -> Result<Vec<usize>, CliError> {
+    let lengths: Vec<f64> = scene.shape.lengths().iter().map(|(_, length)| *length).collect();
+    let given = match *lengths.as_slice() {
+        [x, y, z] => common.given_cells([x, y, z])?.map(Vec::from),
+        [radius, height] => common.given_cells([radius, height])?.map(Vec::from),
+        _ => None,
+    };
+    let proposed = scene.shape.proposed_cells(&scene.varies(), 2.0 * scene.spheres.radius());
+    let proposal = proposed.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
+    let help = "The bed is divided into cells, which should not be smaller than a sphere. More cells resolve more and take longer.";
+    let allowed = || format!("{} numbers with an x between, such as {proposal}", lengths.len());
+    asker.value(given, help, "Cells along each direction", &proposal, |text| {
+        let cells: Option<Vec<usize>> = text.split('x').map(|part| part.trim().parse().ok()).collect();
+        cells.filter(|cells| cells.len() == lengths.len()).ok_or_else(allowed)
+    })
+}
+
+fn wrong(key: &str, value: &str, allowed: &str) -> CliError {
+    CliError::Message(format!("{key} = {value}, allowed: {allowed}"))
+}
+
+/// Summary of the case that will be made, for the terminal.
+///
+/// # Errors
+/// Those of [`Scene::start`].
+pub fn summary(scene: &Scene) -> Result<String, CliError> {
+    let lengths: Vec<String> = scene.shape.lengths().iter().map(|(_, length)| plain(*length)).collect();
+    let cells: Vec<String> = scene.cells.iter().map(ToString::to_string).collect();
+    let walls = scene.shape.walls().iter().zip(&scene.walls);
+    let walls: Vec<String> = walls.map(|(name, wall)| format!("{name} {}", describe(wall))).collect();
+    let start = scene.start()?;
+    let short = |value: f64| plain(rounded(value, 3));
+    Ok(format!(
+        "{} {} m, {} cells, about {} spheres; {}; {} K at the start; {} s\n\
+         at the start the bed conducts {} W/(m K), {} of it through the gas ({}), with {} contacts per sphere",
+        scene.shape.name(),
+        lengths.join(" x "),
+        cells.join(" x "),
+        plain(rounded(scene.number(), 2)),
+        walls.join("; "),
+        plain(scene.initial_temperature),
+        plain(scene.end_time),
+        short(start.conductivity),
+        short(start.by_gas),
+        scene.gas.name.as_str(),
+        short(start.coordination),
+    ))
+}
