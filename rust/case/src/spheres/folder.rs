@@ -168,6 +168,7 @@ fn bed_values(scene: &Scene, start: &Start) -> Values {
         ("accommodation", plain(ACCOMMODATION)),
         ("coordination", short(start.coordination)),
         ("fabric", scene.shape.tensor(along, up)),
+        ("held", held(scene)),
         ("lateral", plain(LATERAL)),
         ("conductivity", short(start.conductivity)),
         ("byGas", short(start.by_gas)),
@@ -189,6 +190,17 @@ fn bed_values(scene: &Scene, start: &Start) -> Values {
             },
         ),
     ]
+}
+
+/// How top and side hold the spheres, for README.md.
+fn held(scene: &Scene) -> String {
+    let top = match (scene.mechanics, scene.lid) {
+        (Mechanics::None, _) => return "nothing moves".to_string(),
+        (_, Lid::Presses) => "the top goes on pressing",
+        (_, Lid::Stays) => "the top stays",
+    };
+    let side = if scene.shell.is_some() { "gives way" } else { "stays" };
+    format!("{top}, the side {side}")
 }
 
 /// What `constant/granularProperties` says of walls and of the stress at the start.

@@ -18,6 +18,9 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
+/// Boxes of discs that are packed unless another number is given.
+const PACKINGS: u32 = 16;
+
 #[derive(Args)]
 #[command(
     after_help = "On a terminal the program asks for everything that is not given as an option, and proposes a value; an empty answer \
@@ -53,12 +56,12 @@ pub struct Arguments {
     spheres: bool,
     #[command(flatten)]
     wishes: Wishes,
-    /// Number of boxes of 500 discs that are packed to find the initial state; their averages are averaged.
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1000), conflicts_with = "spheres", help_heading = "Packing at the start")]
-    packings: u32,
-    /// Seed of the random numbers for the first box; each further box has the next one.
-    #[arg(long, default_value_t = 1, conflicts_with = "spheres", help_heading = "Packing at the start")]
-    seed: u64,
+    /// Number of boxes of 500 discs that are packed to find the initial state; their averages are averaged. Default: 16.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = "Packing at the start")]
+    packings: Option<u32>,
+    /// Seed of the random numbers for the first box; each further box has the next one. Default: 1.
+    #[arg(long, help_heading = "Packing at the start")]
+    seed: Option<u64>,
     #[command(flatten)]
     sphere_wishes: SphereWishes,
     /// Number of threads; the results do not depend on it. Default: all processor cores.
@@ -111,6 +114,16 @@ fn spheres_made(
     name: &str,
     checkout: &Path,
 ) -> Result<Vec<File>, CliError> {
+    // Not by clap: where an option conflicts with --spheres, it forgets that others require --spheres.
+    let of_discs = [
+        ("--packings", arguments.packings.is_some()),
+        ("--seed", arguments.seed.is_some()),
+        ("--compression", arguments.wishes.compression.is_some()),
+    ];
+    if let Some((option, _)) = of_discs.iter().find(|(_, given)| *given) {
+        let message = format!("{option} cannot be used with --spheres: discs alone are packed");
+        return Err(CliError::Message(message));
+    }
     let scene = arguments.sphere_wishes.scene(&arguments.wishes, asker)?;
     outln!("{}", sphere_wishes::summary(&scene)?);
     for note in scene.notes() {
@@ -140,14 +153,14 @@ fn discs_made(
 }
 
 fn packed(scene: &Scene, arguments: &Arguments) -> Result<msdd_case::packing::Packing, CliError> {
-    let boxes = arguments.packings as usize;
+    let boxes = arguments.packings.unwrap_or(PACKINGS) as usize;
     let progress = Mutex::new(Progress::new("packing boxes of grains", boxes as u64));
     let watch = |done: usize, all: usize| {
         if let Ok(mut progress) = progress.lock() {
             progress.set(done as u64, all as u64, "");
         }
     };
-    let effort = Effort { boxes, seed: arguments.seed, threads: arguments.threads as usize };
+    let effort = Effort { boxes, seed: arguments.seed.unwrap_or(1), threads: arguments.threads as usize };
     let packing = pack(&scene.grains, scene.start, scene.compression, effort, &watch)?;
     if let Ok(progress) = progress.lock() {
         progress.finish();

@@ -65,8 +65,8 @@ pub struct Wishes {
     pub(super) pressure: Option<f64>,
     /// How the grains were compressed: equally from all sides, or along x alone, as `msdd reference` fills its box (then more
     /// contacts point along x, and the bed conducts better along x).
-    #[arg(long, value_enum, conflicts_with = "spheres", help_heading = "Packing at the start")]
-    compression: Option<CompressionName>,
+    #[arg(long, value_enum, help_heading = "Packing at the start")]
+    pub(super) compression: Option<CompressionName>,
     /// Whether the grains move until the stress is in equilibrium, as real grains do, or stay where they are, as in the paper.
     #[arg(long, value_enum, help_heading = "Computation")]
     pub(super) mechanics: Option<MechanicsName>,
