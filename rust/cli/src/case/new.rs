@@ -54,6 +54,12 @@ pub struct Arguments {
     /// A bed of equal spheres with gas between them, in space or in a cylinder, instead of discs in the plane.
     #[arg(long)]
     spheres: bool,
+    /// Number of threads; the results do not depend on it. Default: all processor cores.
+    #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
+    threads: u32,
+    /// MSDD's checkout, whose solver the case will run. Default: the one that this program was built in.
+    #[arg(long, value_name = "DIR")]
+    checkout: Option<PathBuf>,
     #[command(flatten)]
     wishes: Wishes,
     /// Number of boxes of 500 discs that are packed to find the initial state; their averages are averaged. Default: 16.
@@ -64,12 +70,6 @@ pub struct Arguments {
     seed: Option<u64>,
     #[command(flatten)]
     sphere_wishes: SphereWishes,
-    /// Number of threads; the results do not depend on it. Default: all processor cores.
-    #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
-    threads: u32,
-    /// MSDD's checkout, whose solver the case will run. Default: the one that this program was built in.
-    #[arg(long, value_name = "DIR")]
-    checkout: Option<PathBuf>,
 }
 
 fn threads() -> u32 {
