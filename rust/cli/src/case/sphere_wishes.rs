@@ -26,7 +26,7 @@ const CYLINDER: [f64; 2] = [15.0, 60.0];
 #[derive(Args)]
 #[command(next_help_heading = "Spheres (with --spheres)")]
 pub struct SphereWishes {
-    /// Shape of the bed. Default: cylinder if --radius or --side is given, else box.
+    /// Shape of the bed. Default: cylinder if --radius, --height or --side is given, else box.
     #[arg(long, value_enum, requires = "spheres")]
     shape: Option<ShapeName>,
     /// Radius of the cylinder [m].
