@@ -151,8 +151,13 @@ void Foam::runSummary::write(const label rejected) const
         << "    \"porosity\": " << meanPorosity << ",\n"
         << "    \"fabric\": " << meanFabric << ",\n"
         << "    \"conductivity_xx\": " << meanK.xx() << ",\n"
-        << "    \"conductivity_yy\": " << meanK.yy() << ",\n"
-        << "    \"stress_xx\": " << -meanStress.xx() << ",\n"
+        << "    \"conductivity_yy\": " << meanK.yy() << ",\n";
+    if (grains_.model().spatial())
+    {
+        os  << "    \"conductivity_zz\": " << meanK.zz() << ",\n"
+            << "    \"stress_zz\": " << -meanStress.zz() << ",\n";
+    }
+    os  << "    \"stress_xx\": " << -meanStress.xx() << ",\n"
         << "    \"stress_yy\": " << -meanStress.yy() << ",\n"
         << "    \"pressure\": " << meanPressure << "\n  }\n}" << endl;
     writeWhole(path(), [&](std::ostream& file) { file << os.str(); });

@@ -43,16 +43,27 @@ void Foam::granularState::findReaders()
             continue;
         }
         const dictionary& dict = item.dict();
-        wordList fields(dict.lookupOrDefault<wordList>("fields", wordList()));
-        if (dict.found("field"))
+        // Names may stand among other words, as in the blocks of fieldAverage,
+        // and text in quotation marks may be an expression that matches any
+        label names = 0;
+        bool sees = false;
+        for (const word key : {"fields", "field"})
         {
-            fields.append(dict.get<word>("field"));
+            const entry* list = dict.findEntry(key, keyType::LITERAL);
+            if (!list || !list->isStream())
+            {
+                continue;
+            }
+            for (const token& part : list->stream())
+            {
+                const bool named = part.isWord();
+                names += named;
+                sees =
+                    sees || part.isString() || part.isCompound()
+                 || (named && following.found(part.wordToken()));
+            }
         }
-        bool sees = fields.empty();
-        for (const word& field : fields)
-        {
-            sees = sees || following.found(field);
-        }
+        sees = sees || !names;
         const word type(dict.lookupOrDefault<word>("type", word::null));
         const wordList ours
         ({

@@ -120,6 +120,15 @@ for case in "corner corner_seed11" "material material_seed12"; do
     check "$1: T against 15 000 discs $e <= 1 % of the range" below "$e" 1
 done
 
+# OpenFOAM's means over time, whose lists of fields hold blocks, see the stress of every step
+changed averaged
+controls 'functions { means { type fieldAverage; libs ("libfieldFunctionObjects.so"); fields (stress { mean on; prime2Mean off; base iteration; }); } }'
+mesh_is '12 6 1'
+logged msddFoam
+e=$(for time in 0.[0-9]* 1; do field $time/stress | sed -n 1p; done | awk -v mean="$(field 1/stressMean | sed -n 1p)" '
+    { sum += $1 } END { split(mean, m, " "); e = m[1]*NR/sum - 1; print (NR == 20 ? (e < 0 ? -e : e) : "nan") }')
+check "fieldAverage: mean of the stress of 20 steps differs by $e <= 1e-10" below "$e" 1e-10
+
 # The shipped case cycle, ten thermal cycles: grains slide only in the first cycle, when they are strained further than before;
 # a restart must keep the largest and least strains
 shipped cycle

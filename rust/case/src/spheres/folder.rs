@@ -105,6 +105,7 @@ fn values(scene: &Scene, name: &str, checkout: &Path) -> Result<Values, CaseErro
         ("initialTemperature", plain(scene.initial_temperature)),
         ("walls", walls(named()) + inner(&scene.shape)),
         ("wallRows", wall_rows(named())),
+        ("wedge", wedge(&scene.shape).to_string()),
         ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
         ("sourceRow", source(scene.heat_source)),
         ("parts", scene.shape.parts(&scene.cells)),
@@ -123,6 +124,17 @@ fn inner(shape: &Shape) -> &'static str {
     match shape {
         Shape::Box(_) => "",
         Shape::Cylinder { .. } => "    inner\n    {\n        type    zeroGradient;\n    }\n",
+    }
+}
+
+/// What a cylinder's mesh means for the numbers, for README.md.
+fn wedge(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Box(_) => "",
+        Shape::Cylinder { .. } => {
+            "- **The mesh is a wedge of 5 degrees**: heat and sources in J and W, in the log and in the tables, are 1/72 of those of the whole bed.\n  \
+             x is the height and y the radius: probes have (height radius 0), and `conductivity_xx` is the vertical conductivity.\n"
+        }
     }
 }
 
@@ -200,7 +212,11 @@ fn held(scene: &Scene) -> String {
         (_, Lid::Stays) => "the top stays",
     };
     let side = if scene.shell.is_some() { "gives way" } else { "stays" };
-    format!("{top}, the side {side}")
+    let give = match scene.give > 0.0 {
+        true => format!("; spheres give way by {} diameters at top and bottom", plain(scene.give)),
+        false => String::new(),
+    };
+    format!("{top}, the side {side}{give}")
 }
 
 /// What `constant/granularProperties` says of walls and of the stress at the start.
@@ -228,7 +244,7 @@ fn rest(scene: &Scene) -> String {
     let walls: String = names.map(|name| format!("        {name:8} {{ {} }}\n", wall(name))).collect();
     let mut text = format!(
         "\n// Walls: frictionless ones stay, and spheres slide along them; pressure gives way and goes on pressing; shell is a thin\n\
-         // vessel that gives way. give: by how many diameters of bed spheres give way at a smooth wall\n\
+         // vessel that gives way and expands with its own temperature. give: by how many diameters of bed spheres give way at a smooth wall\n\
          equilibriumCoeffs\n{{\n    walls\n    {{\n{walls}    }}\n}}\n"
     );
     if scene.gravity > 0.0 {
@@ -245,10 +261,12 @@ fn rest(scene: &Scene) -> String {
 fn side(scene: &Scene) -> String {
     match (scene.shell, scene.shape) {
         (Some(shell), Shape::Cylinder { radius, .. }) => format!(
-            "type shell; youngModulus {}; thickness {}; radius {};",
+            "type shell; youngModulus {}; thickness {}; radius {}; thermalExpansion {}; temperature {};",
             plain(shell.young_modulus),
             plain(shell.thickness),
-            plain(radius)
+            plain(radius),
+            plain(shell.thermal_expansion),
+            plain(scene.initial_temperature)
         ),
         _ => "type frictionless;".to_string(),
     }

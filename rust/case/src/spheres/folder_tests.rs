@@ -91,12 +91,13 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
         lid: Lid::Stays,
         give: 1.0,
         gravity: 9.81,
-        shell: Some(Shell { young_modulus: 2e11, thickness: 0.002 }),
+        shell: Some(Shell { young_modulus: 2e11, thickness: 0.002, thermal_expansion: 1.2e-5 }),
         ..scene(ROUND)
     };
     let vessel = made(&vessel);
     assert_eq!(wall(&vessel, "top").text("give").unwrap(), "1");
     assert_eq!(wall(&vessel, "side").text("radius").unwrap(), "0.1");
+    assert_eq!(wall(&vessel, "side").text("thermalExpansion").unwrap(), "1.2e-5");
     assert_eq!(read(&vessel, "constant/g").text("value").unwrap(), "( -9.81 0 0 )");
     assert!(vessel.iter().all(|file| file.path != "0/stress"));
     let still = made(&Scene { mechanics: Mechanics::None, ..scene(ROUND) });

@@ -28,6 +28,8 @@ pub struct Shell {
     pub young_modulus: f64,
     /// \[m\]
     pub thickness: f64,
+    /// Linear thermal expansion coefficient \[1/K\]; the wall has its place of the start at the bed's temperature of the start.
+    pub thermal_expansion: f64,
 }
 
 /// All parameters of a new case. SI units.
@@ -199,6 +201,10 @@ impl Scene {
             (1.0..=1e15).contains(&shell.young_modulus),
             || "1 to 1e15 Pa".to_string(),
         )?;
+        let expansion = shell.thermal_expansion;
+        allow("thermal expansion of the shell", expansion, (0.0..=0.01).contains(&expansion), || {
+            "0 to 0.01 1/K".to_string()
+        })?;
         let most = 0.2 * radius;
         allow(
             "thickness of the shell",

@@ -59,7 +59,7 @@ fn each_wish_out_of_range_is_refused_with_key_value_and_range() {
         (|s| s.gravity = -9.81, "gravity = -9.81, allowed: 0 to 1000 m/s2 downwards"),
         (|s| s.give = -1.0, "give = -1, allowed: 0 to 1000 diameters"),
         (
-            |s| s.shell = Some(Shell { young_modulus: 2e11, thickness: 0.0 }),
+            |s| s.shell = Some(Shell { young_modulus: 2e11, thickness: 0.0, thermal_expansion: 0.0 }),
             "thickness of the shell = 0, allowed: more than 0, at most a fifth of the radius, 0.02 m",
         ),
         (

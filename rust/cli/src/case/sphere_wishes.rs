@@ -62,8 +62,9 @@ pub struct SphereWishes {
     /// Whether the top goes on pressing with the pressure of the start and gives way, or stays where it is. Default: presses.
     #[arg(long, value_enum, requires = "spheres")]
     lid: Option<LidName>,
-    /// The side of the cylinder as a thin vessel that gives way: Young's modulus [Pa] and thickness [m], such as 200e9,0.002.
-    #[arg(long, value_name = "PA,M", value_parser = parse_shell, requires = "spheres")]
+    /// The side of the cylinder as a thin vessel that gives way: Young's modulus [Pa], thickness [m] and linear thermal expansion
+    /// coefficient [1/K], such as 200e9,0.002,1.2e-5 of steel.
+    #[arg(long, value_name = "PA,M,1/K", value_parser = parse_shell, requires = "spheres")]
     shell: Option<Shell>,
     /// By how many diameters of bed spheres give way at a bottom and top that stay. Default: 1; 0 under a top that presses.
     #[arg(long, value_name = "D", requires = "spheres")]
@@ -91,11 +92,15 @@ fn parse_gas(text: &str) -> Result<GasName, String> {
 }
 
 fn parse_shell(text: &str) -> Result<Shell, String> {
-    let allowed =
-        || "Young's modulus [Pa] and thickness [m] with a comma between, such as 200e9,0.002".to_string();
-    let (modulus, thickness) = text.split_once(',').ok_or_else(allowed)?;
-    let read = |text: &str| number(text.trim()).map_err(|_| allowed());
-    Ok(Shell { young_modulus: read(modulus)?, thickness: read(thickness)? })
+    let numbers: Vec<f64> = text.split(',').map_while(|part| number(part.trim()).ok()).collect();
+    match (numbers.as_slice(), text.split(',').count()) {
+        (&[young_modulus, thickness, thermal_expansion], 3) => {
+            Ok(Shell { young_modulus, thickness, thermal_expansion })
+        }
+        _ => Err("Young's modulus [Pa], thickness [m] and thermal expansion coefficient [1/K] with commas between, such as \
+                  200e9,0.002,1.2e-5"
+            .to_string()),
+    }
 }
 
 fn choice<T: ValueEnum>(text: &str) -> Result<T, String> {
