@@ -47,14 +47,9 @@ void Foam::granularState::findReaders()
         // and text in quotation marks may be an expression that matches any
         label names = 0;
         bool sees = false;
-        for (const word key : {"fields", "field"})
+        const auto look = [&](const ITstream& list)
         {
-            const entry* list = dict.findEntry(key, keyType::LITERAL);
-            if (!list || !list->isStream())
-            {
-                continue;
-            }
-            for (const token& part : list->stream())
+            for (const token& part : list)
             {
                 const bool named = part.isWord();
                 names += named;
@@ -62,6 +57,14 @@ void Foam::granularState::findReaders()
                     sees || part.isString() || part.isCompound()
                  || (named && following.found(part.wordToken()));
             }
+        };
+        if (dict.found("fields"))
+        {
+            look(dict.lookup("fields"));
+        }
+        if (dict.found("field"))
+        {
+            look(dict.lookup("field"));
         }
         sees = sees || !names;
         const word type(dict.lookupOrDefault<word>("type", word::null));
