@@ -104,11 +104,27 @@ pub fn programs(name: &str, checkout: &Path, tolerance: f64, grains: usize) -> V
     ]
 }
 
-/// Writes the files, each whole or not at all.
+/// Writes the files, each whole or not at all; a folder that is not there yet gets its name when all of them are in it. Until then
+/// it is `<name>.making`, which a killed program leaves behind and the next one replaces.
 ///
 /// # Errors
 /// [`CaseError::File`].
 pub fn write(folder: &Path, files: &[File]) -> Result<(), CaseError> {
+    let Some(name) = folder.file_name().filter(|_| !folder.exists()) else {
+        return write_files(folder, files);
+    };
+    let mut making = name.to_os_string();
+    making.push(".making");
+    let making = folder.with_file_name(making);
+    let failed = |source| msdd_files::FileError::Write { file: making.clone(), source };
+    if making.exists() {
+        fs::remove_dir_all(&making).map_err(failed)?;
+    }
+    write_files(&making, files)?;
+    Ok(fs::rename(&making, folder).map_err(failed)?)
+}
+
+fn write_files(folder: &Path, files: &[File]) -> Result<(), CaseError> {
     for file in files {
         let path = folder.join(file.path);
         msdd_files::write(&path, file.text.as_bytes())?;

@@ -160,3 +160,20 @@ fn folders_that_are_none_are_refused() {
     );
     assert!(check_folder(Path::new("/tmp/no/such/folder/yet"), false).is_ok());
 }
+
+#[test]
+fn a_folder_has_its_name_when_all_files_are_in_it() {
+    let parent = std::env::temp_dir().join(format!("msdd-making-{}", std::process::id()));
+    let (folder, making) = (parent.join("bed"), parent.join("bed.making"));
+    // What a killed program left
+    fs::create_dir_all(&making).unwrap();
+    fs::write(making.join("old"), "").unwrap();
+    // The second file cannot be written below the first
+    let file = |path: &'static str| File { path, text: String::new(), program: false };
+    assert!(write(&folder, &[file("a"), file("a/b")]).is_err());
+    assert!(!folder.exists());
+    write(&folder, &[file("a"), file("c/b")]).unwrap();
+    assert!(folder.join("a").exists() && folder.join("c/b").exists());
+    assert!(!folder.join("old").exists() && !making.exists());
+    fs::remove_dir_all(&parent).unwrap();
+}
