@@ -4,29 +4,41 @@ use super::domain::Mesh;
 use super::fields::{self, FIELDS};
 use super::files::{self, Files};
 use super::finding::Findings;
+use super::start::Start;
 use super::temperatures::{self, Temperatures};
 use super::{
     control, gas, grains, gravity, held, keys, scales, sources, spheres, state, tables, walls, weight, zones,
 };
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
+use msdd_surrogate::spheres::model::NAMES;
 use std::path::Path;
 
 /// Path of the thermo of a bed that is a region of OpenFOAM's own solvers.
 pub const THERMO: &str = "constant/thermophysicalProperties";
 
-/// Checks grains, fields and their state; paths in the findings are those of a case of `msddFoam` that begins at time 0. `restarted`:
-/// whether a solver has written the fields.
+/// Checks grains, fields and their state; paths in the findings are those of a case of `msddFoam` that begins at time 0. `region`: its
+/// name, empty in such a case.
 pub fn check(
-    folder: &Path,
+    [folder, region]: [&Path; 2],
     files: &Files,
     mesh: &Mesh,
-    (times, restarted): (Option<control::Times>, bool),
+    (times, start): (Option<control::Times>, &Start),
     found: &mut Findings,
 ) {
     let file = |name: &str| files::file(files, name);
     let properties = file(grains::FILE);
     let model = properties.and_then(|properties| grains::check(folder, properties, &mesh.names(), found));
+    let columns: Vec<String> = match (properties, &model) {
+        (Some(properties), _) if spheres::are_meant(properties) => {
+            NAMES.iter().map(|name| grains::field_name(name)).collect()
+        }
+        // Beside porosity and fabricIndex, which are always there
+        (_, Some(model)) => model.state_names().iter().skip(2).map(|name| grains::field_name(name)).collect(),
+        _ => Vec::new(),
+    };
+    // Also of fields that were mapped, or copied from a later time
+    let restarted = start.restarted || start.has_state(folder, region, &columns);
     if let Some(properties) = properties {
         let stress = (!restarted).then(|| file("0/stress").is_some());
         gravity::check(properties, file(gravity::FILE), stress, found);

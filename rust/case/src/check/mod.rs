@@ -109,7 +109,7 @@ pub fn check(folder: &Path) -> Findings {
     let times =
         control.and_then(|control| control::check(control, file(control::SOLUTION), start.time, &mut found));
     files.extend(own);
-    bed::check(folder, &files, &mesh, (times, start.restarted), &mut found);
+    bed::check([folder, Path::new("")], &files, &mesh, (times, &start), &mut found);
     for finding in &mut found.0 {
         finding.file = start.path(&finding.file);
     }

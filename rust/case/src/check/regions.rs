@@ -107,7 +107,7 @@ fn check_bed(
     }
     let is_plane = file(grains::FILE).is_none_or(grains::is_plane);
     let mesh = mesh::check(&folder.join("constant").join(region), file(domain::BLOCKS), is_plane, found);
-    bed::check(folder, &files, &mesh, (times, start.restarted), found);
+    bed::check([folder, Path::new(region)], &files, &mesh, (times, start), found);
 }
 
 /// The energy h needs a linear solver, and another entry for the last solution of a step.

@@ -50,6 +50,14 @@ impl Start {
         Self { name, time, restarted }
     }
 
+    /// Whether these columns of the state of the grains are all there as fields; the solver then takes nothing else for the state.
+    pub fn has_state(&self, folder: &Path, region: &Path, columns: &[String]) -> bool {
+        let fields = folder.join(&self.name).join(region);
+        let is_there =
+            |name: &String| fields.join(name).exists() || fields.join(format!("{name}.gz")).exists();
+        !columns.is_empty() && columns.iter().all(is_there)
+    }
+
     /// Path of a file of the start: 0/T becomes 5/T.
     pub fn path(&self, file: &str) -> String {
         match file.strip_prefix("0/") {
@@ -99,6 +107,13 @@ mod tests {
         assert_eq!(start("startFrom firstTime;"), of("-1", -1.0, false));
         assert_eq!(start("startFrom startTime; startTime 10;"), of("10", 10.0, true));
         assert_eq!(start("startFrom startTime; startTime 0.5;"), of("0.5", 0.5, false));
+        let columns = ["jammingFraction", "strength"].map(str::to_string);
+        let whole = |region| of("5", 5.0, false).has_state(&folder, Path::new(region), &columns);
+        std::fs::create_dir_all(folder.join("5/bed")).unwrap();
+        for file in ["5/jammingFraction", "5/bed/jammingFraction", "5/bed/strength.gz"] {
+            std::fs::write(folder.join(file), "").unwrap();
+        }
+        assert!(!whole("") && whole("bed") && !of("5", 5.0, false).has_state(&folder, Path::new("bed"), &[]));
         assert_eq!(start("startFrom latestTime;").path("0/T"), "5/T");
         assert_eq!(start("startFrom latestTime;").path("constant/g"), "constant/g");
         std::fs::remove_dir_all(&folder).unwrap();
