@@ -46,7 +46,12 @@ impl Dictionary {
         }
         let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
         let mut command = Command::new("foamDictionary");
-        command.arg("-expand").arg(file);
+        command.arg("-expand");
+        if let Some(case) = case_of(file) {
+            // Else $FOAM_CASE and <case> in the file stand for the folder of this process
+            command.arg("-case").arg(case);
+        }
+        command.arg(file);
         // A PWD that is missing, or is not the folder of this process, makes OpenFOAM print a warning amid its output.
         if let Ok(folder) = std::env::current_dir() {
             command.env("PWD", folder);
@@ -232,6 +237,12 @@ impl Token {
     }
 }
 
+/// The folder of the case that a file is in: the nearest around it with a folder `system`.
+fn case_of(file: &Path) -> Option<PathBuf> {
+    let file = std::path::absolute(file).ok()?;
+    file.ancestors().skip(1).find(|folder| folder.join("system").is_dir()).map(Path::to_path_buf)
+}
+
 /// Tokens as text.
 pub fn joined(tokens: &[Token]) -> String {
     tokens.iter().map(|token| token.text.as_str()).collect::<Vec<_>>().join(" ")
@@ -339,6 +350,23 @@ mod tests {
         let inner = dictionary.dictionary_at("inner").unwrap();
         assert_eq!(inner.dictionary_at("deep").unwrap().uniform("b").unwrap(), 3.0);
         assert!(inner.get("q").is_none() && inner.matching("q").is_some() && inner.matching("pq").is_none());
+    }
+
+    #[test]
+    fn includes_stand_in_the_case_of_the_file() {
+        let case = std::env::temp_dir().join(format!("msdd-included-{}", std::process::id()));
+        for folder in ["system", "0/bed", "constant"] {
+            std::fs::create_dir_all(case.join(folder)).unwrap();
+        }
+        assert_eq!(case_of(&case.join("0/bed/T")), Some(case.clone()));
+        std::fs::write(case.join("constant/temps"), "hot 360;").unwrap();
+        for place in ["$FOAM_CASE", "<case>"] {
+            let text = format!("#include \"{place}/constant/temps\"\nvalue $hot;");
+            std::fs::write(case.join("0/bed/T"), text).unwrap();
+            let read = Dictionary::expanded(&case.join("0/bed/T")).unwrap();
+            assert_eq!(read.text("value").unwrap(), "360", "{place}");
+        }
+        std::fs::remove_dir_all(&case).unwrap();
     }
 
     #[test]
