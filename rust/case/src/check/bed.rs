@@ -7,7 +7,8 @@ use super::finding::Findings;
 use super::start::Start;
 use super::temperatures::{self, Temperatures};
 use super::{
-    control, gas, grains, gravity, held, keys, scales, sources, spheres, state, tables, walls, weight, zones,
+    conditions, control, gas, grains, gravity, held, keys, scales, sources, spheres, state, tables, walls, weight,
+    zones,
 };
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
@@ -59,6 +60,12 @@ pub fn check(
     }
     for name in [grains::FILE, "0/T"] {
         file(name).into_iter().for_each(|dictionary| tables::check(name, dictionary, found));
+    }
+    if let Some(temperature) = file("0/T") {
+        let alone = file(THERMO).is_none();
+        // Those of function objects are loaded after T is read
+        let closed = alone && file(control::CONTROL).is_some_and(|control| control.get_any("libs").is_none());
+        conditions::check(temperature, mesh, [alone, closed], found);
     }
     sources::check(files, mesh, file(THERMO).is_none(), found);
     if let Some(control) = file(control::CONTROL) {

@@ -25,12 +25,14 @@
 //! | `held` | whether walls hold a bed whose grains move |
 //! | `walls` | friction at walls, and wedges |
 //! | `weight` | gravity and the stress at the start |
+//! | `conditions` | conditions of T with which the solver cannot work |
 //! | [`fields`] | the fields in `0` |
 //! | [`state`] | the initial state, against the range of the model |
 //! | [`scales`] | temperatures, lengths and times, against each other |
 
 pub mod bed;
 mod blocks;
+mod conditions;
 pub mod control;
 mod dimensions;
 mod domain;
