@@ -79,6 +79,7 @@ pub fn check(
         let temperatures = Temperatures { start: temperature.as_ref(), walls, heated };
         temperatures::check(properties, &temperatures, found);
         gas::check(properties, &temperatures, found);
+        gas::check_range(properties, &temperatures, scene.walls(), found);
     }
     if restarted {
         return;

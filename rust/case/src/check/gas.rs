@@ -1,4 +1,5 @@
-//! Checks that spheres conduct at least as well as the gas between them, as the law of spheres needs.
+//! Checks that spheres conduct at least as well as the gas between them, as the law of spheres needs, and that the gas is known at the
+//! temperatures of the bed.
 
 use super::finding::Findings;
 use super::grains::FILE;
@@ -23,6 +24,33 @@ pub fn check(properties: &Dictionary, temperatures: &Temperatures, found: &mut F
         let [value, allowed] = texts(gas, case);
         let advice = format!("{advice}: the run ends when a cell reaches this temperature");
         found.doubt([FILE, KEY], &value, &allowed, &advice);
+    }
+}
+
+/// Doubts temperatures of the start and of walls at which the gas is not known.
+pub fn check_range(
+    properties: &Dictionary,
+    temperatures: &Temperatures,
+    walls: &[(String, Vec<f64>)],
+    found: &mut Findings,
+) {
+    let Some(gas) = gas_of(properties) else { return };
+    let [low, high] = gas.range();
+    let outside = |t: &f64| *t >= 0.0 && !(low..=high).contains(t);
+    let mut doubt = |place: &str, t: f64| {
+        let value = format!("{} K", number(rounded(t, 5)));
+        let allowed = format!("{} to {} K, where {} is known", number(low), number(high), gas.as_str());
+        let advice =
+            "Beyond, the solver takes the gas as it is at the nearest of these; temperatures are in Kelvin";
+        found.doubt(["0/T", place], &value, &allowed, advice);
+    };
+    if let Some(t) = temperatures.at_start().find(outside) {
+        doubt("internalField", t);
+    }
+    for (name, values) in walls {
+        if let Some(&t) = values.iter().find(|t| outside(t)) {
+            doubt(&format!("boundaryField/{name}"), t);
+        }
     }
 }
 
@@ -94,6 +122,28 @@ mod tests {
         }
         let named = "k [1 1 -3 -1 0 0 0] 0.2";
         assert!(lines(named, helium, 673.15, &[], false)[0].starts_with("error"));
+    }
+
+    #[test]
+    fn temperatures_at_which_the_gas_is_not_known_are_doubted() {
+        let lines = |gas: &str, start: f64, wall: f64| {
+            let text = format!("surrogate {{ type spheres; spheresCoeffs {{ gas {gas}; }} }}");
+            let properties = Dictionary::parse(Path::new(FILE), &text).unwrap();
+            let start = Values { numbers: vec![vec![start]], uniform: true };
+            let temperatures = Temperatures { start: Some(&start), walls: vec![wall], heated: false };
+            let mut found = Findings::default();
+            check_range(&properties, &temperatures, &[("left".to_string(), vec![300.0, wall])], &mut found);
+            found.0.iter().map(ToString::to_string).collect::<Vec<_>>()
+        };
+        assert_eq!(lines("air", 200.0, 2000.0), Vec::<String>::new());
+        assert_eq!(lines("vacuum", 20.0, 9000.0), Vec::<String>::new());
+        assert_eq!(
+            lines("helium", 27.0, 2000.0),
+            ["internalField = 27 K", "boundaryField/left = 2000 K"].map(|place| format!(
+                "doubt: 0/T: {place}, allowed: 273 to 1800 K, where helium is known. Beyond, the solver takes the gas as it is at the \
+                 nearest of these; temperatures are in Kelvin"
+            ))
+        );
     }
 
     #[test]

@@ -86,6 +86,11 @@ impl<'a> Scene<'a> {
         self.walls.push((name.to_string(), values));
     }
 
+    /// Names of the walls, and the temperatures of each over time \[K\].
+    pub fn walls(&self) -> &[(String, Vec<f64>)] {
+        &self.walls
+    }
+
     /// Temperatures of all walls over time \[K\].
     pub fn wall_temperatures(&self) -> impl Iterator<Item = f64> {
         self.walls.iter().flat_map(|(_, values)| values.iter().copied())

@@ -17,6 +17,9 @@ use std::path::Path;
 const SOLID: [f64; 2] = [0.3, 0.8];
 /// By how much the trace of a fabric may differ from 1.
 const UNIT_TRACE: f64 = 0.01;
+/// Porosities in hundredths, and parts of the range of pressures, that are tried to find what the law knows.
+const TRIED: std::ops::Range<u32> = 20..70;
+const PRESSURES: u32 = 20;
 /// Roughness over the radius above which it is hardly meant.
 const MOST_ROUGH: f64 = 0.01;
 
@@ -60,8 +63,13 @@ pub fn check(
     }
     let [porosity, stress] = fields;
     let model = load(folder, own, found);
-    let (Some(porosity), Some(stress)) = (porosity, stress) else { return };
-    check_start(properties, own, model.as_ref(), porosity, stress, found);
+    match (porosity, stress) {
+        (Some(porosity), Some(stress)) => {
+            check_start(properties, own, model.as_ref(), porosity, stress, found);
+        }
+        (Some(porosity), None) => check_porosity(model.as_ref(), porosity, found),
+        _ => {}
+    }
 }
 
 fn check_roughness(surface: &Dictionary, radius: Option<f64>, found: &mut Findings) {
@@ -186,13 +194,7 @@ fn check_start(
         found.error(["0/stress", "internalField"], "tension in some cells", allowed, advice);
         return;
     }
-    let wrong = (0..cells)
-        .map(|cell| 1.0 - porosity.at(cell)[0])
-        .find(|solid| !(SOLID[0]..=SOLID[1]).contains(solid));
-    if let Some(solid) = wrong {
-        let allowed =
-            format!("{} to {} with spheres", number(rounded(1.0 - SOLID[1], 3)), number(1.0 - SOLID[0]));
-        found.error(["0/porosity", "internalField"], &number(rounded(1.0 - solid, 4)), &allowed, "");
+    if refuse_porosity(porosity, found) {
         return;
     }
     let (Some(model), Some(young)) = (model, keys::size(properties, "youngModulus")) else { return };
@@ -218,6 +220,46 @@ fn check_start(
             advice,
         );
     }
+}
+
+/// Reports a porosity that the solver refuses; returns whether there is one.
+fn refuse_porosity(porosity: &Values, found: &mut Findings) -> bool {
+    let mut solids = porosity.numbers.iter().map(|value| 1.0 - value[0]);
+    let wrong = solids.find(|solid| !(SOLID[0]..=SOLID[1]).contains(solid));
+    if let Some(solid) = wrong {
+        let allowed =
+            format!("{} to {} with spheres", number(rounded(1.0 - SOLID[1], 3)), number(1.0 - SOLID[0]));
+        found.error(["0/porosity", "internalField"], &number(rounded(1.0 - solid, 4)), &allowed, "");
+    }
+    wrong.is_some()
+}
+
+/// Checks the porosity at the start of a bed whose stress follows from its weight: doubts one that the law knows under no stress.
+fn check_porosity(model: Option<&SphereModel>, porosity: &Values, found: &mut Findings) {
+    if refuse_porosity(porosity, found) {
+        return;
+    }
+    let Some(model) = model else { return };
+    let pressures = model.file.ranges.pressure;
+    let knows = |porosity: f64| {
+        (0..=PRESSURES).any(|k| {
+            let share = f64::from(k) / f64::from(PRESSURES);
+            let pressure = pressures.min * (pressures.max / pressures.min).powf(share);
+            let stress = [pressure, pressure, pressure, 0.0, 0.0, 0.0];
+            let state = model.initial_state(1.0 - porosity, stress, &Known::default());
+            model.advance(&state, &Default::default(), 6.0, false).outside == 0
+        })
+    };
+    let all = || porosity.numbers.iter().map(|value| value[0]);
+    let ends = [all().fold(1.0, f64::min), all().fold(0.0, f64::max)];
+    let Some(wrong) = ends.into_iter().find(|&porosity| !knows(porosity)) else { return };
+    let mut known = TRIED.map(|k| f64::from(k) / 100.0).filter(|&porosity| knows(porosity));
+    let Some(least) = known.next() else { return };
+    let most = known.next_back().unwrap_or(least);
+    let allowed = format!("about {} to {}", number(least), number(most));
+    let advice = "The law was trained with no packings of spheres of this porosity; the solver answers as well as it can there, and \
+                  marks such cells by inRegion = 0";
+    found.doubt(["0/porosity", "internalField"], &number(rounded(wrong, 4)), &allowed, advice);
 }
 
 #[cfg(test)]
@@ -278,5 +320,26 @@ mod tests {
     fn what_nobody_means_is_doubted() {
         finds(&lines("roughness 1e-3; hardness 3e9;", "", 0.4, -1e4), "a hundredth of meanRadius");
         finds(&lines("", "", 0.25, -1e4), "all cells have a porosity and stress outside");
+    }
+
+    #[test]
+    fn porosities_that_the_law_does_not_know_are_doubted_without_stress() {
+        let lines = |porosities: &[f64]| {
+            let properties =
+                "youngModulus 200e9; meanRadius 1e-3; surrogate { type spheres; spheresCoeffs { } }";
+            let properties = Dictionary::parse(Path::new(FILE), properties).unwrap();
+            let porosity =
+                Values { numbers: porosities.iter().map(|&one| vec![one]).collect(), uniform: false };
+            let mut found = Findings::default();
+            check(Path::new(""), &properties, &Mesh::default(), [Some(&porosity), None], &mut found);
+            found.0.iter().map(ToString::to_string).collect::<Vec<_>>()
+        };
+        assert_eq!(lines(&[0.38, 0.4]), Vec::<String>::new());
+        finds(&lines(&[0.38, 0.55]), "doubt: 0/porosity: internalField = 0.55, allowed: about 0.26 to 0.42");
+        finds(&lines(&[0.22, 0.4]), "doubt: 0/porosity: internalField = 0.22, allowed: about 0.26 to 0.42");
+        finds(
+            &lines(&[0.4, 0.9]),
+            "error: 0/porosity: internalField = 0.9, allowed: 0.2 to 0.7 with spheres",
+        );
     }
 }
