@@ -7,8 +7,8 @@ use super::finding::Findings;
 use super::start::Start;
 use super::temperatures::{self, Temperatures};
 use super::{
-    conditions, control, gas, grains, gravity, held, keys, scales, sources, spheres, state, tables, walls, weight,
-    zones,
+    conditions, control, domain, gas, grains, gravity, held, keys, probes, scales, sources, spheres, state,
+    tables, walls, weight, zones,
 };
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
@@ -53,6 +53,7 @@ pub fn check(
         let start = if restarted { [None, None] } else { [porosity.as_ref(), stress.as_ref()] };
         spheres::check(folder, properties, mesh, start, found);
         walls::check(properties, mesh, found);
+        walls::check_pressures(properties, times, found);
         held::check(properties, mesh, found);
         if let Some(gravity) = file(gravity::FILE) {
             weight::check(properties, gravity, mesh, start, found);
@@ -70,6 +71,7 @@ pub fn check(
     sources::check(files, mesh, file(THERMO).is_none(), found);
     if let Some(control) = file(control::CONTROL) {
         zones::check(control::CONTROL, control, mesh, found);
+        probes::check(control, file(domain::BLOCKS), mesh, found);
     }
     let sources = sources::of(files).map(|(_, sources)| sources);
     let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), sources, mesh, times);

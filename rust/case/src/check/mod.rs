@@ -18,6 +18,7 @@
 //! | `domain` | what is known of a mesh |
 //! | `blocks` | `system/blockMeshDict` |
 //! | `made` | the files in `constant/polyMesh` |
+//! | `probes` | probes outside of the mesh |
 //! | `sources` | sources and constraints |
 //! | `zones` | zones and sets of cells that are named |
 //! | `tables` | functions of temperature or time |
@@ -47,6 +48,7 @@ pub mod keys;
 mod libraries;
 mod made;
 pub mod mesh;
+mod probes;
 pub mod regions;
 pub mod scales;
 mod sources;

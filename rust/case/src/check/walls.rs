@@ -1,10 +1,12 @@
 //! Checks what walls against which grains move can be given, and the meshes in which they move.
 
+use super::control::Times;
 use super::domain::{BLOCKS, Kind, Mesh};
 use super::finding::Findings;
 use super::grains::FILE;
-use super::keys;
+use super::{keys, tables};
 use crate::dictionary::{Dictionary, Entry, joined};
+use msdd_rve::message::number;
 
 /// Types of patches that need no entry in `walls`.
 pub const NO_WALLS: [&str; 6] = ["empty", "wedge", "symmetry", "symmetryPlane", "processor", "cyclic"];
@@ -52,6 +54,25 @@ pub fn check(properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
                 found.error([FILE, &place], "missing", allowed, "Law elastic needs a rule for each wall");
             }
             _ => {}
+        }
+    }
+}
+
+/// Doubts walls that pull: grains bear no tension.
+pub fn check_pressures(properties: &Dictionary, times: Option<Times>, found: &mut Findings) {
+    let walls = properties.dictionary_at("equilibriumCoeffs").and_then(|own| own.dictionary_at("walls"));
+    let Ok(walls) = walls else { return };
+    let times = times.map(|times| [times.start, times.start + times.end]);
+    for key in walls.keys() {
+        let Some(Entry::Dictionary(wall)) = walls.get_any(&key.text) else { continue };
+        if !wall.text("type").is_ok_and(|kind| kind == "pressure") {
+            continue;
+        }
+        let values = tables::values(wall, "pressure", times).unwrap_or_default();
+        if let Some(value) = values.into_iter().find(|&value| value < 0.0) {
+            let advice = "A wall that pulls: grains bear no tension";
+            let value = format!("{} Pa", number(value));
+            found.doubt([FILE, &wall.path_of("pressure")], &value, "0 Pa and more", advice);
         }
     }
 }
@@ -153,6 +174,28 @@ mod tests {
                 "error: constant/granularProperties: mechanics = equilibrium, allowed: none with patches of type cyclic, here sides"
             ]
         );
+    }
+
+    #[test]
+    fn walls_that_pull_are_doubted() {
+        let lines = |pressure: &str| {
+            let text = format!(
+                "equilibriumCoeffs {{ walls {{ \"t.*\" {{ type pressure; pressure {pressure}; }} }} }}"
+            );
+            let mut found = Findings::default();
+            check_pressures(&Dictionary::parse(Path::new(FILE), &text).unwrap(), None, &mut found);
+            found.0.iter().map(ToString::to_string).collect::<Vec<_>>()
+        };
+        assert_eq!(lines("constant 0"), Vec::<String>::new());
+        for pulls in ["constant -5", "table ((0 100) (10 -5))"] {
+            assert_eq!(
+                lines(pulls),
+                [
+                    "doubt: constant/granularProperties: equilibriumCoeffs/walls/t.*/pressure = -5 Pa, allowed: 0 Pa and more. A wall \
+                     that pulls: grains bear no tension"
+                ]
+            );
+        }
     }
 
     #[test]
