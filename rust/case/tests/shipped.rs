@@ -339,3 +339,27 @@ fn beds_of_several_regions_are_checked_with_their_paths() {
         assert!(found.iter().any(|line| line.starts_with(wanted)), "{name}: {found:#?}, expected {wanted}");
     }
 }
+
+#[test]
+fn stress_beside_rest_stress_is_refused_unless_the_whole_state_is_there() {
+    let work = std::env::temp_dir().join(format!("msdd-check-{}-state", std::process::id()));
+    let more = "surrogate { type spheres; spheresCoeffs { poissonRatio 0.3; } } restStress { lateral 0.6; }";
+    changed(&work, "constant/granularProperties", more);
+    let header = "FoamFile { version 2.0; format ascii; class dictionary; object g; }";
+    let gravity = format!("{header} dimensions [0 1 -2 0 0 0 0]; value (0 -9.81 0);");
+    fs::write(work.join("constant/g"), gravity).unwrap();
+    let stress = "dimensions [1 -1 -2 0 0 0 0]; internalField uniform (-3 0 0 -3 0 -3);
+        boundaryField { \".*\" { type zeroGradient; } }";
+    fs::write(work.join("0/stress"), format!("{header} {stress}")).unwrap();
+    let twice =
+        || lines(&check(&work)).iter().any(|line| line.contains("The stress at the start is given twice"));
+    let [last, others @ ..] = msdd_surrogate::spheres::model::NAMES.map(msdd_case::check::grains::field_name);
+    for name in others {
+        fs::write(work.join("0").join(name), "").unwrap();
+    }
+    assert!(twice());
+    fs::write(work.join("0").join(last), "").unwrap();
+    let mended = !twice();
+    fs::remove_dir_all(&work).unwrap();
+    assert!(mended);
+}
