@@ -59,6 +59,14 @@ static const scalar noiseShare = 1e-6;
 static const scalar smallestShare = 5e-11;
 static const scalar leastShare = 1e-14;
 
+//- The end of the run, of which the least steps are shares [s]. Where stopAt is
+//- not endTime, OpenFOAM takes it as GREAT: then the first step counts
+static scalar lastTime(const Time& time)
+{
+    const scalar end = time.endTime().value();
+    return end < GREAT ? end : time.deltaTValue();
+}
+
 //- How often a step is halved because there is no equilibrium of the stress
 static const label mostHalvings = 10;
 
@@ -105,8 +113,8 @@ Foam::timeSchemes::secondOrder::secondOrder
         (
             time_.controlDict(),
             "minDeltaT",
-            smallestShare*time_.endTime().value(),
-            adaptive_ ? leastShare*time_.endTime().value() : 0,
+            smallestShare*lastTime(time_),
+            adaptive_ ? leastShare*lastTime(time_) : 0,
             GREAT
         )
     ),

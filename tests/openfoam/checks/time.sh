@@ -55,6 +55,15 @@ last_step() { # the sum of these steps is below the end by a rounding error, whi
     check "adaptive: ends where the sum of its steps is rounded" test -e 0.11/T -a "$(grep -c '^Time = 0.11$' log)" = 1
 }
 
+# OpenFOAM knows no end of such a run, and the least step is not a share of it
+stopped_now() {
+    adaptive stopped 0.1
+    controls 'stopAt nextWrite; writeInterval 0.1; minDeltaT 1e-9;'
+    logged msddFoam
+    check "adaptive: stopAt nextWrite ends at the first write time, after small steps" \
+        test -e 0.1/T -a "$(grep -c '^Time' log)" -gt 3
+}
+
 # A hundredth of the tolerance must give less than a ninth of the error, a third for each tenth. Tolerances of 3 and 1 give the same
 # steps, since these may grow only so much from one to the next, and where grains begin to slide the error falls with the first
 # power of the step.
@@ -114,6 +123,7 @@ rm -rf "$work"/{halves,two,second-half}
 adaptive_restart
 write_times
 last_step
+stopped_now
 tolerance_counts
 fixed_restart
 default_tolerance
