@@ -1,8 +1,8 @@
 //! The grains of a new case: named materials, and materials given by their values.
 
 use crate::CaseError;
+use crate::ranges::allow;
 use msdd_dem::{Material, Thermal};
-use msdd_rve::message::number;
 
 /// Properties of the grains that the solver needs. All grains are of one material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,6 +105,16 @@ pub fn preset(presets: &[&'static Preset], name: &str) -> Result<&'static Preset
     })
 }
 
+/// Refuses a value out of range, of [`Grains::named`].
+///
+/// # Errors
+/// [`CaseError::Parameter`].
+pub fn check_value((key, value, unit): (&str, f64, &str)) -> Result<(), CaseError> {
+    // Ranges so narrow that products of such numbers cannot overflow.
+    let (least, most) = if key == "thermalExpansion" { (0.0, 1.0) } else { (1e-12, 1e15) };
+    allow(key, value, (least..=most).contains(&value), || format!("{least:e} to {most:e} {unit}"))
+}
+
 impl Grains {
     /// Values by the names that they have in `constant/granularProperties`, with unit.
     pub fn named(&self) -> [(&'static str, f64, &'static str); 6] {
@@ -123,15 +133,7 @@ impl Grains {
     /// # Errors
     /// [`CaseError::Parameter`].
     pub fn check(&self) -> Result<(), CaseError> {
-        for (key, value, unit) in self.named() {
-            // Ranges so narrow that products of such numbers cannot overflow.
-            let (least, most) = if key == "thermalExpansion" { (0.0, 1.0) } else { (1e-12, 1e15) };
-            if !(least..=most).contains(&value) {
-                let allowed = format!("{least:e} to {most:e} {unit}");
-                return Err(CaseError::Parameter { key: key.to_string(), value: number(value), allowed });
-            }
-        }
-        Ok(())
+        self.named().into_iter().try_for_each(check_value)
     }
 
     /// The material for the discrete element engine. Friction, stiffness ratio and damping are those of the paper, for which

@@ -30,6 +30,7 @@ pub mod mesh;
 pub mod numbers;
 pub mod packing;
 pub mod path;
+pub mod ranges;
 pub mod scene;
 pub mod spheres;
 pub mod values;

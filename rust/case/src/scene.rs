@@ -4,10 +4,10 @@ use crate::CaseError;
 use crate::grains::Grains;
 use crate::numbers::rounded;
 use crate::packing::{self, Start, usual_fabric};
+use crate::ranges::{self, allow};
 use crate::walls::WallOverTime;
 use msdd_dem::WallHeat;
 use msdd_rve::Compression;
-use msdd_rve::message::number;
 use msdd_surrogate::models;
 use msdd_surrogate::surrogate::Known;
 
@@ -15,8 +15,9 @@ use msdd_surrogate::surrogate::Known;
 pub const CELL_RADII: f64 = 4.3;
 /// Largest number of cells along the longer side that is proposed.
 const PROPOSED_CELLS: f64 = 100.0;
-/// Largest number of cells of a case; a run with more would take too long to be useful.
-pub(crate) const MOST_CELLS: usize = 4_000_000;
+/// Names of the lengths of the box, and what it has, for messages.
+pub const SIDES: [&str; 2] = ["width of the box", "height of the box"];
+pub const BOX_HAS: &str = "box has at least four grains";
 /// Names of the walls, in the order of [`msdd_dem::Side`].
 pub const WALLS: [&str; 4] = ["left", "right", "bottom", "top"];
 
@@ -82,39 +83,19 @@ impl Scene {
     pub fn check(&self) -> Result<(), CaseError> {
         self.grains.check()?;
         let radius = self.grains.mean_radius;
-        let least = 8.0 * radius;
-        for (key, length) in ["width of the box", "height of the box"].into_iter().zip(self.size) {
-            allow(key, length, length >= least && length <= 1e6, || {
-                format!(
-                    "{} to 1e6 m, since a box has at least four grains side by side",
-                    number(rounded(least, 3))
-                )
-            })?;
+        for (key, length) in SIDES.into_iter().zip(self.size) {
+            ranges::length(key, length, radius, BOX_HAS)?;
         }
-        let cells = self.cells[0].saturating_mul(self.cells[1]);
-        allow("cells", cells as f64, (1..=MOST_CELLS).contains(&cells), || {
-            format!("1 to {MOST_CELLS} in all")
-        })?;
-        let temperature = |key: &str, value: f64| {
-            allow(key, value, (0.0..=1e5).contains(&value), || {
-                "0 to 1e5 K; temperatures are in Kelvin".to_string()
-            })
-        };
-        temperature("initial temperature", self.initial_temperature)?;
+        ranges::cells(&self.cells)?;
+        ranges::temperature("initial temperature", self.initial_temperature)?;
         for (name, wall) in WALLS.into_iter().zip(&self.walls) {
-            for value in wall.temperatures() {
-                temperature(name, value)?;
-            }
+            ranges::wall(wall, |value| ranges::temperature(name, value))?;
         }
-        allow("end time", self.end_time, (1e-9..=1e12).contains(&self.end_time), || {
-            "1e-9 to 1e12 s".to_string()
-        })?;
+        ranges::end_time(self.end_time)?;
         if let Some(value) = self.tolerance {
             allow("tolerance", value, (1e-12..=1e6).contains(&value), || "1e-12 to 1e6 K".to_string())?;
         }
-        if let Some(value) = self.heat_source {
-            allow("heat source", value, value.abs() <= 1e15, || "-1e15 to 1e15 W/m3".to_string())?;
-        }
+        self.heat_source.map_or(Ok(()), ranges::heat_source)?;
         let inside =
             |[x, y]: [f64; 2]| (0.0..=self.size[0]).contains(&x) && (0.0..=self.size[1]).contains(&y);
         if let Some([x, y]) = self.probes.iter().copied().find(|&probe| !inside(probe)) {
@@ -192,18 +173,6 @@ impl Scene {
         let crossed = x.min(y) * x.min(y) / self.diffusivity()?[0];
         Ok(rounded((0.05 * crossed).min(0.01 * self.end_time), 2))
     }
-}
-
-pub(crate) fn allow(
-    key: &str,
-    value: f64,
-    good: bool,
-    allowed: impl FnOnce() -> String,
-) -> Result<(), CaseError> {
-    if good {
-        return Ok(());
-    }
-    Err(CaseError::Parameter { key: key.to_string(), value: number(value), allowed: allowed() })
 }
 
 /// Two or three numbers, one for each direction: beds of discs have two, boxes of spheres three.

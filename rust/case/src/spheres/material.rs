@@ -2,7 +2,7 @@
 
 use crate::CaseError;
 use crate::grains::{Grains, Preset};
-use crate::scene::allow;
+use crate::ranges::allow;
 
 /// Equal spheres of one material. The law of spheres knows one friction between them, 0.3.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,8 @@ use super::shape::Shape;
 use super::start::{Bed, Gas, Start};
 use crate::CaseError;
 use crate::numbers::{plain, rounded};
-use crate::scene::{MOST_CELLS, Mechanics, allow};
+use crate::ranges::{self, allow};
+use crate::scene::Mechanics;
 use crate::walls::WallOverTime;
 use msdd_beds::effective::LEAST_RATIO;
 use msdd_rve::message::number;
@@ -67,8 +68,39 @@ pub struct Scene {
     pub probes: Vec<Vec<f64>>,
 }
 
+/// What a bed has, for messages.
+pub const BED_HAS: &str = "bed has at least four spheres";
+
 fn refuse<T>(key: &str, value: &str, allowed: &str) -> Result<T, CaseError> {
     Err(CaseError::Parameter { key: key.to_string(), value: value.to_string(), allowed: allowed.to_string() })
+}
+
+/// Refuses a vertical stress on the top \[Pa\] that the law does not know of these spheres.
+///
+/// # Errors
+/// [`CaseError::Parameter`]; [`CaseError::Model`] when the shipped law cannot be read.
+pub fn check_pressure(spheres: Spheres, pressure: f64) -> Result<(), CaseError> {
+    let short = |value: f64| number(rounded(value, 3));
+    let [least, most] = Bed::new(spheres, pressure)?.pressures();
+    allow("pressure", pressure, (least..=most).contains(&pressure), || {
+        format!("{} to {} Pa, which the law of spheres knows of these", short(least), short(most))
+    })
+}
+
+/// Refuses a porosity that the law does not know under this stress \[Pa\].
+///
+/// # Errors
+/// As for [`check_pressure`].
+pub fn check_porosity(spheres: Spheres, pressure: f64, porosity: f64) -> Result<(), CaseError> {
+    let known = Bed::new(spheres, pressure)?.porosities();
+    let inside = known.is_some_and(|[least, most]| (least..=most).contains(&porosity));
+    allow("porosity", porosity, inside, || match known {
+        Some([least, most]) => format!(
+            "{least} to {most}, those of the packings that the law of spheres was trained with, under {} Pa",
+            number(pressure)
+        ),
+        None => "none under this pressure: take another".to_string(),
+    })
 }
 
 impl Scene {
@@ -80,11 +112,10 @@ impl Scene {
         self.spheres.check()?;
         self.check_mesh()?;
         self.check_heat()?;
-        self.check_start()?;
+        check_pressure(self.spheres, self.pressure)?;
+        check_porosity(self.spheres, self.pressure, self.porosity)?;
         self.check_mechanics()?;
-        allow("end time", self.end_time, (1e-9..=1e12).contains(&self.end_time), || {
-            "1e-9 to 1e12 s".to_string()
-        })?;
+        ranges::end_time(self.end_time)?;
         if let Some(value) = self.tolerance {
             allow("tolerance", value, (1e-12..=1e6).contains(&value), || "1e-12 to 1e6 K".to_string())?;
         }
@@ -92,21 +123,10 @@ impl Scene {
     }
 
     fn check_mesh(&self) -> Result<(), CaseError> {
-        let least = 8.0 * self.spheres.radius();
         for (key, length) in self.shape.lengths() {
-            // A cylinder's radius is half of its width.
-            let least = if key.starts_with("radius") { 0.5 * least } else { least };
-            allow(key, length, length >= least && length <= 1e6, || {
-                format!(
-                    "{} to 1e6 m, since a bed has at least four spheres side by side",
-                    number(rounded(least, 3))
-                )
-            })?;
+            ranges::length(key, length, self.spheres.radius(), BED_HAS)?;
         }
-        let cells = self.cells.iter().fold(1_usize, |product, &count| product.saturating_mul(count));
-        allow("cells", cells as f64, (1..=MOST_CELLS).contains(&cells), || {
-            format!("1 to {MOST_CELLS} in all")
-        })?;
+        ranges::cells(&self.cells)?;
         match self.probes.iter().find(|probe| !self.shape.holds(probe)) {
             Some(probe) => {
                 let value = probe.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
@@ -118,24 +138,11 @@ impl Scene {
 
     fn check_heat(&self) -> Result<(), CaseError> {
         let gas = self.gas.name;
-        let [low, high] = gas.range();
-        let high = high.min(1e5);
-        let walls = self.shape.walls().iter().zip(&self.walls);
-        let walls =
-            walls.flat_map(|(name, wall)| wall.temperatures().into_iter().map(|value| (*name, value)));
-        for (key, value) in [("initial temperature", self.initial_temperature)].into_iter().chain(walls) {
-            allow(key, value, (low..=high).contains(&value), || {
-                let gas = gas.as_str();
-                format!(
-                    "{} to {} K, for which {gas} is known; temperatures are in Kelvin",
-                    number(low),
-                    number(high)
-                )
-            })?;
+        ranges::temperature_with(gas, "initial temperature", self.initial_temperature)?;
+        for (name, wall) in self.shape.walls().iter().zip(&self.walls) {
+            ranges::wall(wall, |value| ranges::temperature_with(gas, name, value))?;
         }
-        allow("gas pressure", self.gas.pressure, (1e-3..=1e9).contains(&self.gas.pressure), || {
-            "1e-3 to 1e9 Pa".to_string()
-        })?;
+        ranges::gas_pressure(self.gas.pressure)?;
         for temperature in self.temperatures() {
             let Some(between) = gas.at(temperature, self.gas.pressure, 1.0) else { continue };
             let (solid, least) =
@@ -149,34 +156,11 @@ impl Scene {
                 )
             })?;
         }
-        if let Some(value) = self.heat_source {
-            allow("heat source", value, value.abs() <= 1e15, || "-1e15 to 1e15 W/m3".to_string())?;
-        }
-        Ok(())
-    }
-
-    fn check_start(&self) -> Result<(), CaseError> {
-        let bed = self.bed()?;
-        let short = |value: f64| number(rounded(value, 3));
-        let [least, most] = bed.pressures();
-        allow("pressure", self.pressure, (least..=most).contains(&self.pressure), || {
-            format!("{} to {} Pa, which the law of spheres knows of these", short(least), short(most))
-        })?;
-        let known = bed.porosities();
-        let inside = known.is_some_and(|[least, most]| (least..=most).contains(&self.porosity));
-        allow("porosity", self.porosity, inside, || match known {
-            Some([least, most]) => format!(
-                "{least} to {most}, those of the packings that the law of spheres was trained with, under {} Pa",
-                number(self.pressure)
-            ),
-            None => "none under this pressure: take another".to_string(),
-        })
+        self.heat_source.map_or(Ok(()), ranges::heat_source)
     }
 
     fn check_mechanics(&self) -> Result<(), CaseError> {
-        allow("gravity", self.gravity, (0.0..=1e3).contains(&self.gravity), || {
-            "0 to 1000 m/s2 downwards".to_string()
-        })?;
+        ranges::gravity(self.gravity)?;
         allow("give", self.give, (0.0..=1000.0).contains(&self.give), || {
             "0 to 1000 diameters of a sphere".to_string()
         })?;

@@ -1,7 +1,11 @@
 //! Questions on the terminal, one line each; an empty answer takes the proposal.
 
 use crate::error::CliError;
+use msdd_case::CaseError;
 use std::io::{self, BufRead};
+
+/// What an answer means; else what is allowed.
+type Read<T> = Result<T, String>;
 
 /// Gets values from the user, or takes the proposals.
 pub struct Asker {
@@ -21,7 +25,7 @@ impl Asker {
         help: &str,
         question: &str,
         proposal: &str,
-        read: impl Fn(&str) -> Result<T, String>,
+        read: impl Fn(&str) -> Read<T>,
     ) -> Result<T, CliError> {
         if let Some(value) = given {
             return Ok(value);
@@ -42,9 +46,28 @@ impl Asker {
                 return Err(CliError::Message(message));
             }
             let answer = line.trim();
-            match read(if answer.is_empty() { proposal } else { answer }) {
+            let answer = if answer.is_empty() { proposal } else { answer };
+            match read(answer) {
                 Ok(value) => return Ok(value),
-                Err(allowed) => outln!("    '{answer}' is not understood, allowed: {allowed}"),
+                Err(allowed) => outln!("    '{answer}' cannot be taken, allowed: {allowed}"),
+            }
+        }
+    }
+
+    /// Reads by `read`, and an answer also by `check`, so that one out of range is asked again at once. Options and proposals are
+    /// checked when all values are known.
+    pub fn within<T>(
+        &self,
+        read: impl Fn(&str) -> Read<T>,
+        check: impl Fn(&T) -> Result<(), CaseError>,
+    ) -> impl Fn(&str) -> Read<T> {
+        let asks = self.interactive;
+        move |text| {
+            let value = read(text)?;
+            match check(&value) {
+                Err(CaseError::Parameter { allowed, .. }) if asks => Err(allowed),
+                Err(other) if asks => Err(other.to_string()),
+                _ => Ok(value),
             }
         }
     }
@@ -54,8 +77,8 @@ fn wrong(question: &str, value: &str, allowed: &str) -> CliError {
     CliError::Message(format!("{question} = {value}, allowed: {allowed}"))
 }
 
-/// Parses a finite number. Ranges are checked later, when all values are known.
-pub fn number(text: &str) -> Result<f64, String> {
+/// Parses a finite number; its range is that of [`Asker::within`].
+pub fn number(text: &str) -> Read<f64> {
     text.parse()
         .ok()
         .filter(|value: &f64| value.is_finite())

@@ -3,7 +3,7 @@
 use super::ask::{Asker, number};
 use crate::error::CliError;
 use clap::Args;
-use msdd_case::grains::{Grains, Preset, preset};
+use msdd_case::grains::{Grains, Preset, check_value, preset};
 use msdd_case::numbers::plain;
 
 #[derive(Args)]
@@ -110,9 +110,12 @@ impl GrainWishes {
                 "Mean radius [m]",
             ),
         ];
-        let mut values = from.named().map(|(_, value, _)| value);
-        for ((value, given), (help, question)) in values.iter_mut().zip(given).zip(questions) {
-            *value = asker.value(given, help, question, &plain(*value), number)?;
+        let names = from.named();
+        let mut values = names.map(|(_, value, _)| value);
+        for (k, (given, (help, question))) in given.into_iter().zip(questions).enumerate() {
+            let (key, proposal, unit) = names[k];
+            let read = asker.within(number, |&value| check_value((key, value, unit)));
+            values[k] = asker.value(given, help, question, &plain(proposal), read)?;
         }
         let [density, young_modulus, thermal_conductivity, heat_capacity, thermal_expansion, mean_radius] =
             values;

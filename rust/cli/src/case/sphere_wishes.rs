@@ -6,9 +6,10 @@ use crate::error::CliError;
 use clap::{Args, ValueEnum};
 use msdd_beds::named_gases::GasName;
 use msdd_case::numbers::{plain, rounded};
+use msdd_case::ranges;
 use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
 use msdd_case::spheres::material::{MATERIALS, Spheres, presets};
-use msdd_case::spheres::scene::{Lid, Scene, Shell};
+use msdd_case::spheres::scene::{BED_HAS, Lid, Scene, Shell, check_porosity, check_pressure};
 use msdd_case::spheres::shape::Shape;
 use msdd_case::spheres::start::Gas;
 use msdd_case::values::describe;
@@ -17,6 +18,8 @@ use msdd_case::walls::WallOverTime;
 /// Proposed porosity, of beds that were poured with a friction of 0.3, and pressure on the top [Pa].
 const POROSITY: f64 = 0.4;
 const PRESSURE: f64 = 2e4;
+/// Proposed pressure of the gas \[Pa\].
+const GAS_PRESSURE: f64 = 101_300.0;
 /// By how many diameters spheres give way at plates that stay: about the mean of the poured beds, see `msdd bed give`.
 const GIVE: f64 = 1.0;
 /// Proposed lengths of a bed in diameters of a sphere: width, depth and height of a box, radius and height of a cylinder.
@@ -119,10 +122,13 @@ impl SphereWishes {
         let (material, spheres, usual) = self.ask_spheres(common, asker)?;
         let shape = self.ask_shape(common, asker, 2.0 * spheres.radius())?;
         let given = self.given_walls(common, &shape)?;
-        let initial_temperature = common.ask_initial(asker, coldest(&given).unwrap_or(usual))?;
-        let walls = ask_walls(asker, &shape, given, initial_temperature)?;
+        // Before the temperatures, whose range is that of the gas
         let gas = self.ask_gas(asker)?;
-        let (porosity, pressure) = ask_start(common, asker)?;
+        let known = |name: &str, value: f64| ranges::temperature_with(gas.name, name, value);
+        let initial_temperature = common.ask_initial(asker, coldest(&given).unwrap_or(usual), known)?;
+        let read = asker.within(parse_wall, |wall| ranges::wall(wall, |value| known("wall", value)));
+        let walls = ask_walls(asker, &shape, given, initial_temperature, read)?;
+        let (porosity, pressure) = ask_start(common, asker, spheres)?;
         let mechanics = common.ask_mechanics(asker)?;
         let (lid, gravity) = self.ask_load(asker, mechanics)?;
         let stays = lid == Lid::Stays && mechanics == Mechanics::Equilibrium;
@@ -190,6 +196,10 @@ impl SphereWishes {
             choice::<ShapeName>,
         )?;
         let proposed = |diameters: f64| plain(rounded(diameters * diameter, 2));
+        let long_enough = |shape: Shape| {
+            let mut lengths = shape.lengths().into_iter();
+            lengths.try_for_each(|(name, length)| ranges::length(name, length, 0.5 * diameter, BED_HAS))
+        };
         match kind {
             ShapeName::Box => {
                 if round {
@@ -202,7 +212,10 @@ impl SphereWishes {
                     "Width, depth and height of the box, along x, y and z. One cell is enough along directions in which nothing changes.",
                     "Width x depth x height [m]",
                     &BOX.map(proposed).join("x"),
-                    |text| parse_sides(text)?.exactly("box", allowed).map_err(|_| allowed.to_string()),
+                    asker.within(
+                        |text| parse_sides(text)?.exactly("box", allowed).map_err(|_| allowed.to_string()),
+                        |&sides| long_enough(Shape::Box(sides)),
+                    ),
                 )?;
                 Ok(Shape::Box(sides))
             }
@@ -216,9 +229,13 @@ impl SphereWishes {
                 }
                 let [radius, height] = CYLINDER.map(proposed);
                 let help = "The radius of the cylinder, inside of its wall.";
-                let radius = asker.value(self.radius, help, "Radius of the cylinder [m]", &radius, number)?;
+                let read =
+                    asker.within(number, |&radius| long_enough(Shape::Cylinder { radius, height: 1e6 }));
+                let radius = asker.value(self.radius, help, "Radius of the cylinder [m]", &radius, read)?;
                 let help = "The height of the bed.";
-                let height = asker.value(self.height, help, "Height of the cylinder [m]", &height, number)?;
+                let read =
+                    asker.within(number, |&height| long_enough(Shape::Cylinder { radius: 1e6, height }));
+                let height = asker.value(self.height, help, "Height of the cylinder [m]", &height, read)?;
                 Ok(Shape::Cylinder { radius, height })
             }
         }
@@ -259,8 +276,8 @@ impl SphereWishes {
             self.gas_pressure,
             "The pressure of the gas. A thin gas conducts less.",
             "Pressure of the gas [Pa]",
-            "101300",
-            number,
+            &plain(GAS_PRESSURE),
+            asker.within(number, |&value| ranges::gas_pressure(value)),
         )?;
         Ok(Gas { name, pressure })
     }
@@ -284,7 +301,8 @@ impl SphereWishes {
             choice::<LidName>,
         )?;
         let help = "Gravity points downwards; 0 leaves the weight of the bed out.";
-        let gravity = asker.value(self.gravity, help, "Gravity [m/s2]", "0", number)?;
+        let read = asker.within(number, |&value| ranges::gravity(value));
+        let gravity = asker.value(self.gravity, help, "Gravity [m/s2]", "0", read)?;
         let lid = match lid {
             LidName::Presses => Lid::Presses,
             LidName::Stays => Lid::Stays,
@@ -300,6 +318,7 @@ fn ask_walls(
     shape: &Shape,
     given: Vec<Option<WallOverTime>>,
     initial: f64,
+    read: impl Fn(&str) -> Result<WallOverTime, String>,
 ) -> Result<Vec<WallOverTime>, CliError> {
     let any = given.iter().any(Option::is_some);
     let walls = shape.walls().iter().zip(given).enumerate().map(|(k, (name, given))| {
@@ -308,25 +327,26 @@ fn ask_walls(
             1 if !any && shape.name() == "box" => plain(initial),
             _ => "insulated".to_string(),
         };
-        asker.value(given, WALL_HELP, &format!("Wall '{name}'"), &proposal, parse_wall)
+        asker.value(given, WALL_HELP, &format!("Wall '{name}'"), &proposal, &read)
     });
     walls.collect()
 }
 
-fn ask_start(common: &Wishes, asker: &Asker) -> Result<(f64, f64), CliError> {
-    let porosity = asker.value(
-        common.porosity,
-        "The porosity at the start: 1 - volume of the spheres over the volume. Beds that were poured have 0.38 to 0.42.",
-        "Porosity",
-        &plain(POROSITY),
-        number,
-    )?;
+/// Porosity and pressure on the top \[Pa\]. The pressure comes first, because the range of the porosity depends on it.
+fn ask_start(common: &Wishes, asker: &Asker, spheres: Spheres) -> Result<(f64, f64), CliError> {
     let pressure = asker.value(
         common.pressure,
         "The pressure on the top of the bed at the start; contacts conduct as its cube root.",
         "Pressure on the top [Pa]",
         &plain(PRESSURE),
-        number,
+        asker.within(number, |&value| check_pressure(spheres, value)),
+    )?;
+    let porosity = asker.value(
+        common.porosity,
+        "The porosity at the start: 1 - volume of the spheres over the volume. Beds that were poured have 0.38 to 0.42.",
+        "Porosity",
+        &plain(POROSITY),
+        asker.within(number, |&value| check_porosity(spheres, pressure, value)),
     )?;
     Ok((porosity, pressure))
 }
@@ -342,10 +362,12 @@ fn ask_cells(common: &Wishes, asker: &Asker, scene: &Scene) -> Result<Vec<usize>
     let proposal = proposed.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
     let help = "The bed is divided into cells, which should not be smaller than a sphere. More cells resolve more and take longer.";
     let allowed = || format!("{} numbers with an x between, such as {proposal}", lengths.len());
-    asker.value(given, help, "Cells along each direction", &proposal, |text| {
+    let read = |text: &str| {
         let cells: Option<Vec<usize>> = text.split('x').map(|part| part.trim().parse().ok()).collect();
         cells.filter(|cells| cells.len() == lengths.len()).ok_or_else(allowed)
-    })
+    };
+    let read = asker.within(read, |cells: &Vec<usize>| ranges::cells(cells));
+    asker.value(given, help, "Cells along each direction", &proposal, read)
 }
 
 fn wrong(key: &str, value: &str, allowed: &str) -> CliError {

@@ -4,12 +4,14 @@ use super::ask::{Asker, number};
 use super::grain_wishes::GrainWishes;
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
-use msdd_case::grains::{PRESETS, Preset};
+use msdd_case::CaseError;
+use msdd_case::grains::{Grains, PRESETS, Preset};
 use msdd_case::numbers::{plain, rounded};
-use msdd_case::packing::{POROSITIES, Start};
+use msdd_case::packing::{self, POROSITIES, Start};
+use msdd_case::ranges;
 use msdd_case::scene::{
-    Mechanics, Numbers, Scene, cells_of, parse_point, parse_sides, parse_wall, proposed_cells,
-    proposed_probes,
+    BOX_HAS, Mechanics, Numbers, SIDES, Scene, cells_of, parse_point, parse_sides, parse_wall,
+    proposed_cells, proposed_probes,
 };
 use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
@@ -103,10 +105,11 @@ impl Wishes {
         let presets: Vec<&'static Preset> = PRESETS.iter().collect();
         let (base, material, grains) = self.grains.ask(asker, &presets)?;
         let (size, cells) = self.ask_box(asker, grains.mean_radius)?;
-        let initial_temperature =
-            self.ask_initial(asker, coldest(self.given_walls()).unwrap_or(base.temperature))?;
+        let proposal = coldest(self.given_walls()).unwrap_or(base.temperature);
+        let initial_temperature = self.ask_initial(asker, proposal, ranges::temperature)?;
         let walls = self.ask_walls(asker, initial_temperature)?;
-        let start = self.ask_start(asker)?;
+        let compression = self.ask_compression(asker)?;
+        let start = self.ask_start(asker, &grains, compression)?;
         let mut scene = Scene {
             size,
             cells,
@@ -115,7 +118,7 @@ impl Wishes {
             material,
             grains,
             start,
-            compression: self.ask_compression(asker)?,
+            compression,
             mechanics: self.ask_mechanics(asker)?,
             heat_source: self.ask_heat(asker)?.filter(|&value| value != 0.0),
             end_time: 1.0,
@@ -128,15 +131,23 @@ impl Wishes {
         Ok(scene)
     }
 
-    pub(super) fn ask_initial(&self, asker: &Asker, proposal: f64) -> Result<f64, CliError> {
+    /// `check` refuses a temperature with a name.
+    pub(super) fn ask_initial(
+        &self,
+        asker: &Asker,
+        proposal: f64,
+        check: impl Fn(&str, f64) -> Result<(), CaseError>,
+    ) -> Result<f64, CliError> {
         let help = "The whole bed has one temperature at the start. Temperatures are in Kelvin.";
-        asker.value(self.initial_temperature, help, "Temperature at the start [K]", &plain(proposal), number)
+        let read = asker.within(number, |&value| check("initial temperature", value));
+        asker.value(self.initial_temperature, help, "Temperature at the start [K]", &plain(proposal), read)
     }
 
     pub(super) fn ask_end(&self, asker: &Asker, proposal: f64) -> Result<f64, CliError> {
         let help = "Heat spreads over a length L in a time of about L^2/D (D: thermal diffusivity of the bed). The proposal is that \
                     time for this bed: most of the change has happened by then.";
-        asker.value(self.end_time, help, "End of the simulation [s]", &plain(proposal), number)
+        let read = asker.within(number, |&value| ranges::end_time(value));
+        asker.value(self.end_time, help, "End of the simulation [s]", &plain(proposal), read)
     }
 
     /// The cells that options give, of a bed with these sides [m].
@@ -165,6 +176,10 @@ impl Wishes {
         let allowed = "two lengths, as 0.6x0.2; three belong to --spheres";
         let given = self.size.as_ref().map(|sides| sides.exactly("box", allowed)).transpose()?;
         let pair = |text: &str| parse_sides(text)?.exactly("box", allowed).map_err(|_| allowed.to_string());
+        let pair = asker.within(pair, |sides: &[f64; 2]| {
+            let mut named = SIDES.into_iter().zip(sides);
+            named.try_for_each(|(name, &side)| ranges::length(name, side, mean_radius, BOX_HAS))
+        });
         let size = asker.value(
             given,
             &format!(
@@ -176,13 +191,16 @@ impl Wishes {
             pair,
         )?;
         let [nx, ny] = proposed_cells(size, mean_radius);
+        let pair = |text: &str| {
+            parse_sides(text)?.exactly("cells", "").map_err(|_| "two numbers, as 30x10".to_string())
+        };
         let cells = asker.value(
             self.given_cells(size)?,
             "The box is divided into cells; each stands for the grains in it, which should be four or more. More cells resolve \
              more and take longer.",
             "Cells along x and y",
             &format!("{nx}x{ny}"),
-            |text| parse_sides(text)?.exactly("cells", "").map_err(|_| "two numbers, as 30x10".to_string()),
+            asker.within(pair, |cells: &[usize; 2]| ranges::cells(cells)),
         )?;
         Ok((size, cells))
     }
@@ -196,7 +214,9 @@ impl Wishes {
         let given = self.given_walls().into_iter().any(Option::is_some);
         let or_insulated = |value: f64| if given { "insulated".to_string() } else { plain(value) };
         let (hot, cold) = (or_insulated(initial + HOTTER), or_insulated(initial));
-        let left = asker.value(self.left.clone(), WALL_HELP, "Left wall", &hot, parse_wall)?;
+        let read =
+            asker.within(parse_wall, |wall| ranges::wall(wall, |value| ranges::temperature("wall", value)));
+        let left = asker.value(self.left.clone(), WALL_HELP, "Left wall", &hot, &read)?;
         let others = [
             (&self.right, "Right wall", cold.as_str()),
             (&self.bottom, "Bottom", "insulated"),
@@ -204,18 +224,12 @@ impl Wishes {
         ];
         let mut walls = vec![left];
         for (given, name, proposal) in others {
-            walls.push(asker.value(
-                given.clone(),
-                "Values as for the left wall.",
-                name,
-                proposal,
-                parse_wall,
-            )?);
+            walls.push(asker.value(given.clone(), "Values as for the left wall.", name, proposal, &read)?);
         }
         walls.try_into().map_err(|_| CliError::Message("four walls".to_string()))
     }
 
-    fn ask_start(&self, asker: &Asker) -> Result<Start, CliError> {
+    fn ask_start(&self, asker: &Asker, grains: &Grains, compression: Compression) -> Result<Start, CliError> {
         let given = match (self.porosity, self.pressure) {
             (Some(_), Some(_)) => {
                 let message =
@@ -235,7 +249,7 @@ impl Wishes {
             ),
             "Porosity, or pressure in Pa",
             "0.125",
-            parse_start,
+            asker.within(parse_start, |&start| packing::check(grains, start, compression)),
         )
     }
 
@@ -271,7 +285,8 @@ impl Wishes {
 
     pub(super) fn ask_heat(&self, asker: &Asker) -> Result<Option<f64>, CliError> {
         let help = "Heat may be released inside of the bed, as by radiation or a reaction [W per m3 of bed].";
-        asker.value(self.heat_source, help, "Heat released inside [W/m3]", "0", number).map(Some)
+        let read = asker.within(number, |&value| ranges::heat_source(value));
+        asker.value(self.heat_source, help, "Heat released inside [W/m3]", "0", read).map(Some)
     }
 }
 
