@@ -272,13 +272,16 @@ impl SphereWishes {
             "air",
             parse_gas,
         )?;
-        let pressure = asker.value(
-            self.gas_pressure,
-            "The pressure of the gas. A thin gas conducts less.",
-            "Pressure of the gas [Pa]",
-            &plain(GAS_PRESSURE),
-            asker.within(number, |&value| ranges::gas_pressure(value)),
-        )?;
+        let pressure = match (name, self.gas_pressure) {
+            (GasName::Vacuum, None) => GAS_PRESSURE,
+            (_, given) => asker.value(
+                given,
+                "The pressure of the gas. A thin gas conducts less.",
+                "Pressure of the gas [Pa]",
+                &plain(GAS_PRESSURE),
+                asker.within(number, |&value| ranges::gas_pressure(value)),
+            )?,
+        };
         Ok(Gas { name, pressure })
     }
 
