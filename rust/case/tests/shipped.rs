@@ -192,6 +192,13 @@ fn what_is_doubtful_or_missing_is_said() {
             "error: constant/granularProperties: equilibriumCoeffs/walls = nothing against motion along (1 0 0)",
         ),
         ("open", "system/fvSolution", "msddFoam {", "error: system/fvSolution: "),
+        (
+            "linear",
+            "system/fvSolution",
+            "solvers { T { solver PBiCGStab; preconditioner DILU; } }",
+            "error: system/fvSolution: solvers/T/preconditioner = DILU, allowed: DIC, FDIC, diagonal, none",
+        ),
+        ("schemes", "system/fvSchemes", "gradSchemes 1;", "error: system/fvSchemes: gradSchemes = missing"),
     ] {
         let found = found_in(name, file, text);
         println!("{name}: {found:#?}");
@@ -243,7 +250,8 @@ fn what_the_solver_takes_is_not_refused() {
     changed(&work, "system/controlDict", "endTime 6;");
     fs::rename(work.join("0"), work.join("5")).unwrap();
     let later = lines(&check(&work));
-    fs::write(work.join("5/T"), "dimensions [m];").unwrap();
+    let header = "FoamFile { version 2.0; format ascii; class volScalarField; object T; }";
+    fs::write(work.join("5/T"), format!("{header} dimensions [m];")).unwrap();
     let wrong = lines(&check(&work));
     fs::remove_dir_all(&work).unwrap();
     assert_eq!(later, Vec::<String>::new());

@@ -3,7 +3,7 @@
 use super::finding::Findings;
 use super::keys;
 use super::libraries::{self, BEDS};
-use crate::dictionary::Dictionary;
+use crate::dictionary::{Dictionary, Entry};
 use msdd_rve::message::number;
 
 /// Path in the case folder.
@@ -152,7 +152,7 @@ fn check_writes(control: &Dictionary, times: Times, found: &mut Findings) {
 
 /// Checks `system/fvSolution`; returns the time scheme.
 fn check_solution(solution: &Dictionary, found: &mut Findings) -> String {
-    let solves = matches!(solution.dictionary_at("solvers"), Ok(solvers) if solvers.matching("T").is_some());
+    let solves = matches!(solution.dictionary_at("solvers"), Ok(solvers) if matches!(solvers.matching("T"), Some(Entry::Dictionary(_))));
     if !solves {
         let allowed = "a dictionary with the linear solver of T, such as { solver PCG; preconditioner DIC; tolerance 1e-10; relTol 0; }";
         found.error([SOLUTION, "solvers/T"], "missing", allowed, "");

@@ -12,6 +12,7 @@
 //! | `gas` | the conductivity of spheres beside that of their gas |
 //! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
+//! | `linear` | the linear solver of T, and the schemes |
 //! | `libraries` | libraries and code that a case brings along |
 //! | `start` | the time at which a run begins |
 //! | [`mesh`] | the mesh |
@@ -46,6 +47,7 @@ pub mod gravity;
 mod held;
 pub mod keys;
 mod libraries;
+mod linear;
 mod made;
 pub mod mesh;
 mod probes;
@@ -69,7 +71,7 @@ use std::path::Path;
 /// Files that are read through `foamDictionary`, and whether the solver needs them.
 const FILES: [(&str, bool); 12] = [
     (control::SOLUTION, true),
-    ("system/fvSchemes", true),
+    (linear::SCHEMES, true),
     (domain::BLOCKS, false),
     (grains::FILE, true),
     (gravity::FILE, false),
@@ -112,6 +114,13 @@ pub fn check(folder: &Path) -> Findings {
     let mesh = mesh::check(&folder.join("constant"), file(domain::BLOCKS), is_plane, &mut found);
     let times =
         control.and_then(|control| control::check(control, file(control::SOLUTION), start.time, &mut found));
+    // A library of somebody else may add solvers
+    let closed =
+        !found.0.iter().any(|finding| [finding.file.as_str(), &finding.key] == [control::CONTROL, "libs"]);
+    if let Some(solution) = file(control::SOLUTION).filter(|_| closed) {
+        linear::check_solver(solution, &mut found);
+    }
+    file(linear::SCHEMES).into_iter().for_each(|schemes| linear::check_schemes(schemes, &mesh, &mut found));
     files.extend(own);
     bed::check([folder, Path::new("")], &files, &mesh, (times, &start), &mut found);
     for finding in &mut found.0 {
