@@ -199,6 +199,12 @@ fn what_is_doubtful_or_missing_is_said() {
             "error: system/fvSolution: solvers/T/preconditioner = DILU, allowed: DIC, FDIC, diagonal, none",
         ),
         ("schemes", "system/fvSchemes", "gradSchemes 1;", "error: system/fvSchemes: gradSchemes = missing"),
+        (
+            "class",
+            "0/porosity",
+            "FoamFile { class volVectorField; }",
+            "error: 0/porosity: FoamFile/class = volVectorField, allowed: volScalarField",
+        ),
     ] {
         let found = found_in(name, file, text);
         println!("{name}: {found:#?}");

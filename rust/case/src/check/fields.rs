@@ -41,6 +41,13 @@ pub const FIELDS: [Expected; 5] = [
     },
 ];
 
+impl Expected {
+    /// The class in its head.
+    pub fn class(&self) -> &'static str {
+        if self.components == 1 { "volScalarField" } else { "volSymmTensorField" }
+    }
+}
+
 const fn expected(
     file: &'static str,
     required: bool,

@@ -1,6 +1,7 @@
 //! The files of a case that are read for a check.
 
 use super::finding::Findings;
+use super::header;
 use crate::dictionary::Dictionary;
 use rayon::prelude::*;
 use std::path::Path;
@@ -32,7 +33,10 @@ pub fn read(
     let mut files = Vec::new();
     for (name, required, result) in results {
         match result {
-            Some(Ok(dictionary)) => files.push((name, dictionary)),
+            Some(Ok(dictionary)) => {
+                header::check(name, &dictionary, found);
+                files.push((name, dictionary));
+            }
             Some(Err(error)) => found.refused(name, error, ""),
             None if required => {
                 let advice = "The solver needs this file; 'msdd case new' writes a case with all of them";

@@ -5,6 +5,7 @@
 //! | [`bed`] | a bed: a whole case, or a region of one |
 //! | `files` | the files that are read |
 //! | [`regions`] | cases of several regions |
+//! | `header` | the heads of files |
 //! | [`finding`] | the findings |
 //! | [`keys`] | the keys of the solver's dictionaries and what they may hold |
 //! | `dimensions` | dimensions in brackets |
@@ -44,6 +45,7 @@ pub mod finding;
 mod gas;
 pub mod grains;
 pub mod gravity;
+mod header;
 mod held;
 pub mod keys;
 mod libraries;
