@@ -205,6 +205,12 @@ fn what_is_doubtful_or_missing_is_said() {
             "FoamFile { class volVectorField; }",
             "error: 0/porosity: FoamFile/class = volVectorField, allowed: volScalarField",
         ),
+        (
+            "flux",
+            "system/controlDict",
+            "functions { one { type wallHeatFlux; libs (fieldFunctionObjects); } }",
+            "error: system/controlDict: functions/one/type = wallHeatFlux",
+        ),
     ] {
         let found = found_in(name, file, text);
         println!("{name}: {found:#?}");

@@ -14,6 +14,7 @@
 //! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
 //! | [`control`] | `system/controlDict`, `system/fvSolution` |
 //! | `linear` | the linear solver of T, and the schemes |
+//! | `functions` | function objects that need a flow or a thermo |
 //! | `libraries` | libraries and code that a case brings along |
 //! | `start` | the time at which a run begins |
 //! | [`mesh`] | the mesh |
@@ -42,6 +43,7 @@ mod domain;
 pub mod fields;
 mod files;
 pub mod finding;
+mod functions;
 mod gas;
 pub mod grains;
 pub mod gravity;
@@ -116,6 +118,7 @@ pub fn check(folder: &Path) -> Findings {
     let mesh = mesh::check(&folder.join("constant"), file(domain::BLOCKS), is_plane, &mut found);
     let times =
         control.and_then(|control| control::check(control, file(control::SOLUTION), start.time, &mut found));
+    control.into_iter().for_each(|control| functions::check(control, &mut found));
     // A library of somebody else may add solvers
     let closed =
         !found.0.iter().any(|finding| [finding.file.as_str(), &finding.key] == [control::CONTROL, "libs"]);
