@@ -156,6 +156,13 @@ impl BedMaterial {
         libm::log(self.radius / gas.least_distance(self.radius, self.solid.conductivity))
     }
 
+    /// Whether the law knows the gas between these spheres. `range`: of the number of a gas, which is that of the law of pairs, which
+    /// poor conductors do not have.
+    pub fn knows(&self, gas: &Gas, [low, high]: [f64; 2]) -> bool {
+        let inside = (low..=high).contains(&self.gas_number(gas)) || self.share_of_pairs(gas) == 0.0;
+        inside && !is_rarefied(gas, self.ratio(gas), self.radius)
+    }
+
     /// κ \[-\].
     pub fn ratio(&self, gas: &Gas) -> f64 {
         self.solid.conductivity / gas.conductivity

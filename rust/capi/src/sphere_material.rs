@@ -5,7 +5,7 @@ use crate::status::{Failure, utf8};
 use ::msdd_surrogate::spheres::model::Answers;
 use ::msdd_surrogate::spheres::readout::GAS_RANGE;
 use ::msdd_surrogate::spheres::tensor::Tensor;
-use msdd_beds::effective::{BedMaterial, BedState, LEAST_NUMBER, LEAST_RATIO, is_rarefied};
+use msdd_beds::effective::{BedMaterial, BedState, LEAST_NUMBER, LEAST_RATIO};
 use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::solid::{Roughness, Solid};
@@ -123,14 +123,9 @@ impl Material {
                 format!("at least that of the gas, which is {:.4} at {temperature} K", gas.conductivity);
             return Err(Failure::number("material.conductivity", self.bed.solid.conductivity, least));
         }
-        let (number, [low, high]) = (self.bed.gas_number(&gas), GAS_RANGE);
-        // The number is that of the law of pairs, which poor conductors do not have.
-        let ratio = self.bed.ratio(&gas);
+        let number = self.bed.gas_number(&gas);
         let [coldest, hottest] = self.bed.gas.range();
-        let outside = (number < low || number > high) && self.bed.share_of_pairs(&gas) > 0.0
-            || is_rarefied(&gas, ratio, self.bed.radius)
-            || temperature < coldest
-            || temperature > hottest;
+        let outside = !self.bed.knows(&gas, GAS_RANGE) || temperature < coldest || temperature > hottest;
         Ok(GasThere { number, outside, gas: Some(gas) })
     }
 

@@ -211,6 +211,12 @@ fn what_is_doubtful_or_missing_is_said() {
             "functions { one { type wallHeatFlux; libs (fieldFunctionObjects); } }",
             "error: system/controlDict: functions/one/type = wallHeatFlux",
         ),
+        (
+            "conductor",
+            properties,
+            "thermalConductivity 1e13;",
+            "doubt: constant/granularProperties: thermalConductivity = 10000000000000",
+        ),
     ] {
         let found = found_in(name, file, text);
         println!("{name}: {found:#?}");

@@ -7,8 +7,8 @@ use super::finding::Findings;
 use super::start::Start;
 use super::temperatures::{self, Temperatures};
 use super::{
-    conditions, control, domain, gas, grains, gravity, held, keys, probes, scales, sources, spheres, state,
-    tables, walls, weight, zones,
+    conditions, control, domain, gas, grains, gravity, held, keys, probes, scales, sizes, sources, spheres,
+    state, tables, walls, weight, zones,
 };
 use crate::dictionary::Dictionary;
 use crate::grains::Grains;
@@ -73,6 +73,12 @@ pub fn check(
         zones::check(control::CONTROL, control, mesh, found);
         probes::check(control, file(domain::BLOCKS), mesh, found);
     }
+    if let Some(properties) = properties {
+        sizes::check(properties, found);
+        if let Some(sources) = sources::of(files) {
+            sizes::check_sources(sources, properties, mesh, times.map(|times| times.end), found);
+        }
+    }
     let sources = sources::of(files).map(|(_, sources)| sources);
     let scene = scales::Scene::new(file("0/T"), temperature.as_ref(), sources, mesh, times);
     scene.check_walls(found);
@@ -82,6 +88,7 @@ pub fn check(
         temperatures::check(properties, &temperatures, found);
         gas::check(properties, &temperatures, found);
         gas::check_range(properties, &temperatures, scene.walls(), found);
+        gas::check_pressure(properties, &temperatures, found);
     }
     if restarted {
         return;

@@ -7,9 +7,12 @@ use super::temperatures::Temperatures;
 use super::{keys, tables};
 use crate::dictionary::Dictionary;
 use crate::numbers::rounded;
-use msdd_beds::effective::LEAST_RATIO;
+use crate::spheres::start::ACCOMMODATION;
+use msdd_beds::effective::{BedMaterial, LEAST_RATIO};
 use msdd_beds::named_gases::GasName;
+use msdd_beds::solid::Solid;
 use msdd_rve::message::number;
+use msdd_surrogate::spheres::readout::GAS_RANGE;
 
 /// `properties` with the surrogate type spheres; nothing is done for others.
 pub fn check(properties: &Dictionary, temperatures: &Temperatures, found: &mut Findings) {
@@ -54,6 +57,47 @@ pub fn check_range(
     }
 }
 
+/// Doubts a pressure of the gas at which the law does not know it between spheres of this size, at the start.
+pub fn check_pressure(properties: &Dictionary, temperatures: &Temperatures, found: &mut Findings) {
+    let (Some(gas), Ok(surrogate)) = (gas_of(properties), properties.dictionary_at("surrogate")) else {
+        return;
+    };
+    let Ok(own) = surrogate.dictionary_at("spheresCoeffs") else { return };
+    let [low, high] = gas.range();
+    let Some(temperature) = temperatures.at_start().next().filter(|t| (low..=high).contains(t)) else {
+        return;
+    };
+    let (Some(radius), Some(solid)) = (
+        keys::size(properties, "meanRadius"),
+        keys::size(properties, KEY).or_else(|| tables::at(properties, KEY, temperature)),
+    ) else {
+        return;
+    };
+    // Neither stiffness nor roughness counts for the gas
+    let solid = Solid { conductivity: solid, effective_modulus: 1.0, roughness: None };
+    let accommodation = keys::number(own, "accommodation", "").unwrap_or(ACCOMMODATION);
+    let knows = |gas_pressure: f64| {
+        let bed = BedMaterial { radius, solid, gas, gas_pressure, accommodation };
+        bed.gas_at(temperature).is_none_or(|gas| bed.knows(&gas, GAS_RANGE))
+    };
+    let given = keys::number(own, "gasPressure", "").unwrap_or(USUAL_PRESSURE);
+    if knows(given) {
+        return;
+    }
+    let tried = || TRIED.map(|k| 10f64.powf(f64::from(k) / 10.0)).filter(|&pressure| knows(pressure));
+    let allowed = match (tried().next(), tried().next_back()) {
+        (Some(least), Some(most)) => {
+            let [least, most] = [least, most].map(|pressure| number(rounded(pressure, 2)));
+            format!("about {least} to {most} Pa between these spheres")
+        }
+        _ => "none between these spheres".to_string(),
+    };
+    let advice = "Beyond, the law of spheres does not know the gas: the solver answers as well as it can, and marks all cells by \
+                  inRegion = 0. Is meanRadius in metres?";
+    let value = format!("{} Pa", number(given));
+    found.doubt([FILE, &own.path_of("gasPressure")], &value, &allowed, advice);
+}
+
 /// The first of these temperatures at which the spheres conduct less than the gas, and both conductivities.
 fn below(properties: &Dictionary, gas: GasName, mut all: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
     let number = keys::size(properties, KEY);
@@ -65,6 +109,10 @@ fn below(properties: &Dictionary, gas: GasName, mut all: impl Iterator<Item = f6
 }
 
 const KEY: &str = "thermalConductivity";
+/// The solver's default \[Pa\].
+const USUAL_PRESSURE: f64 = 101_300.0;
+/// Tenths of powers of ten of the pressures that are tried to find those that the law knows.
+const TRIED: std::ops::RangeInclusive<i32> = -30..=90;
 
 /// The gas of the law of spheres, if there is one.
 fn gas_of(properties: &Dictionary) -> Option<GasName> {
@@ -122,6 +170,25 @@ mod tests {
         }
         let named = "k [1 1 -3 -1 0 0 0] 0.2";
         assert!(lines(named, helium, 673.15, &[], false)[0].starts_with("error"));
+    }
+
+    #[test]
+    fn a_gas_too_thin_for_the_spheres_is_doubted() {
+        let lines = |radius: &str, pressure: &str| {
+            let text = format!(
+                "thermalConductivity 1; meanRadius {radius}; surrogate {{ type spheres; spheresCoeffs {{ gas air; gasPressure {pressure}; }} }}"
+            );
+            let properties = Dictionary::parse(Path::new(FILE), &text).unwrap();
+            let start = Values { numbers: vec![vec![293.0]], uniform: true };
+            let temperatures = Temperatures { start: Some(&start), walls: vec![], heated: false };
+            let mut found = Findings::default();
+            check_pressure(&properties, &temperatures, &mut found);
+            found.0.iter().map(ToString::to_string).collect::<Vec<_>>()
+        };
+        assert_eq!(lines("2e-3", "1e5"), Vec::<String>::new());
+        let found = lines("1e-5", "10");
+        let wanted = "doubt: constant/granularProperties: surrogate/spheresCoeffs/gasPressure = 10 Pa, allowed: about ";
+        assert!(found.len() == 1 && found[0].starts_with(wanted), "{found:?}");
     }
 
     #[test]

@@ -16,6 +16,7 @@
 //! | `linear` | the linear solver of T, and the schemes |
 //! | `functions` | function objects that need a flow or a thermo |
 //! | `libraries` | libraries and code that a case brings along |
+//! | `sizes` | values that no bed has |
 //! | `start` | the time at which a run begins |
 //! | [`mesh`] | the mesh |
 //! | `domain` | what is known of a mesh |
@@ -57,6 +58,7 @@ pub mod mesh;
 mod probes;
 pub mod regions;
 pub mod scales;
+mod sizes;
 mod sources;
 mod spheres;
 mod start;

@@ -4,7 +4,7 @@ use super::domain::{Kind, Mesh};
 use super::fields::Values;
 use super::finding::Findings;
 use super::{gravity, keys};
-use crate::dictionary::Dictionary;
+use crate::dictionary::{Dictionary, Entry};
 use crate::numbers::rounded;
 use msdd_rve::message::number;
 
@@ -12,6 +12,8 @@ use msdd_rve::message::number;
 const LEAST: f64 = 0.01;
 /// Share of gravity that may point to where nothing moves, as in the solver.
 const ROUND_OFF: f64 = 1e-9;
+/// The same of what is inclined beyond doubt.
+const INCLINED: f64 = 1e-3;
 
 /// Checks beds whose grains move; others do not know gravity. `fields`: porosity and stress at the start.
 pub fn check(
@@ -24,6 +26,7 @@ pub fn check(
     let moves = properties.text("mechanics").is_ok_and(|kind| kind == "equilibrium");
     let Some(g) = vector(gravity).filter(|g| moves && length(g) > 0.0) else { return };
     check_direction(&g, mesh, found);
+    check_upright(&g, properties, mesh, found);
     let elastic = properties
         .dictionary_at("equilibriumCoeffs")
         .is_ok_and(|own| own.text("law").is_ok_and(|law| law == "elastic"));
@@ -70,6 +73,35 @@ fn check_direction(g: &[f64; 3], mesh: &Mesh, found: &mut Findings) {
     }
 }
 
+/// Doubts gravity across the walls of a bed that stands upright, and away from its floor.
+fn check_upright(g: &[f64; 3], properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
+    let mut doubt = |allowed: &str, advice: &str| {
+        let value = format!("({})", g.map(number).join(" "));
+        found.doubt([gravity::FILE, "value"], &value, allowed, advice);
+    };
+    let share = |k: usize| g[k].abs() / length(g);
+    // A slope without ends may be inclined
+    let endless = mesh.patches.iter().any(|[_, kind]| kind.starts_with("cyclic"));
+    if !endless && (0..3).filter(|&k| share(k) > INCLINED).count() > 1 {
+        doubt("along one axis of the mesh", "It presses the bed sideways onto its walls, too");
+        return;
+    }
+    let walls = properties.dictionary_at("equilibriumCoeffs").and_then(|own| own.dictionary_at("walls"));
+    let is_lid = |patch: &str| {
+        let wall = walls.as_ref().ok().and_then(|walls| walls.matching(patch));
+        matches!(wall, Some(Entry::Dictionary(wall)) if wall.text("type").is_ok_and(|kind| kind == "pressure"))
+    };
+    let lids = mesh.sides.iter().flatten().filter(|side| side.patch.as_deref().is_some_and(is_lid));
+    if let [lid] = lids.collect::<Vec<_>>()[..] {
+        let along = (0..3).map(|k| g[k] * lid.normal[k]).sum::<f64>() / length(g);
+        if along > -INCLINED {
+            let patch = lid.patch.as_deref().unwrap_or_default();
+            let allowed = format!("away from patch {patch}, which presses on the bed");
+            doubt(&allowed, "The wall that presses is taken as the top of the bed");
+        }
+    }
+}
+
 fn vector(file: &Dictionary) -> Option<[f64; 3]> {
     let tokens = file.value("value").ok()?;
     let numbers: Vec<f64> = tokens.iter().filter_map(|token| token.text.parse().ok()).collect();
@@ -82,6 +114,7 @@ fn length(v: &[f64; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::domain::Side;
     use super::*;
     use std::path::Path;
 
@@ -92,7 +125,8 @@ mod tests {
         let gravity = read(gravity::FILE, &format!("dimensions [0 1 -2 0 0 0 0]; value {g};"));
         let patches = [["floor", "wall"], ["side", side]].map(|pair| pair.map(str::to_string)).to_vec();
         let extent = Some([[0.0; 3], [1.0, 2.0, 0.01]]);
-        let mesh = Mesh { patches, extent, axis: Some([1, 2]), ..Mesh::default() };
+        let sides = Some(vec![Side { patch: Some("floor".to_string()), normal: [0.0, 1.0, 0.0] }]);
+        let mesh = Mesh { patches, extent, axis: Some([1, 2]), sides, ..Mesh::default() };
         let values = |numbers: Vec<f64>| Values { numbers: vec![numbers], uniform: true };
         let (porosity, stress) = (values(vec![0.4]), values(vec![stress, 0.0, 0.0, stress, 0.0, stress]));
         let mut found = Findings::default();
@@ -113,6 +147,20 @@ mod tests {
         assert!(lines("none", "(0 -9.81 0)", "empty", -30.0).is_empty());
         let elastic = "equilibrium; equilibriumCoeffs { law elastic; } more 1";
         assert!(lines(elastic, "(0 -9.81 0)", "empty", -30.0).is_empty());
+    }
+
+    #[test]
+    fn gravity_across_a_bed_that_stands_upright_is_doubted() {
+        let inclined = lines("equilibrium", "(-5 -8 0)", "empty", -3e4);
+        let wanted = "doubt: constant/g: value = (-5 -8 0), allowed: along one axis of the mesh. It presses the bed sideways";
+        assert!(inclined.len() == 1 && inclined[0].starts_with(wanted), "{inclined:?}");
+        assert!(lines("equilibrium", "(-5 -8 0)", "cyclic", -3e4).is_empty());
+        let lid = "equilibrium; equilibriumCoeffs { walls { floor { type pressure; pressure 1; } } } more 1";
+        assert!(lines(lid, "(0 -9.81 0)", "wall", -3e4).is_empty());
+        for wrong in ["(0 9.81 0)", "(-9.81 0 0)"] {
+            let found = lines(lid, wrong, "wall", -3e4);
+            assert!(found.len() == 1 && found[0].contains("away from patch floor"), "{found:?}");
+        }
     }
 
     #[test]
