@@ -46,9 +46,6 @@ static const scalar safety = 0.9;
 static const scalar largestGrowth = 3;
 static const scalar largestCut = 0.1;
 
-//- Shares of a step or an interval that are rounding errors
-static const scalar rounding = 1e-9;
-
 //- Defaults: the tolerance of T is toleranceShare of the range of T seen so
 //- far, but at least noiseShare of the largest T, which is above the error of
 //- the linear solver; the smallest step is smallestShare of the end time. None
@@ -125,6 +122,7 @@ Foam::timeSchemes::secondOrder::secondOrder
             time_.controlDict(), "maxDeltaT", GREAT, minDeltaT_, GREAT
         )
     ),
+    due_(time_, grains.record().startTime),
     loads_(grains.record().startTime, time_.endTime().value()),
     stage_(T.size(), Zero),
     rate_(T.size(), Zero),
@@ -293,59 +291,16 @@ Foam::scalar Foam::timeSchemes::secondOrder::tolerance() const
 }
 
 
-Foam::scalar Foam::timeSchemes::secondOrder::left() const
-{
-    const scalar now = time_.value();
-    const word control
-    (
-        time_.controlDict().lookupOrDefault<word>("writeControl", "timeStep")
-    );
-    scalar left = time_.endTime().value() - now;
-
-    if
-    (
-        control == "runTime"
-     || control == "adjustableRunTime"
-     || control == "adjustable"
-    )
-    {
-        const scalar interval =
-            time_.controlDict().get<scalar>("writeInterval");
-        // Write times are counted from the start of the first run, if this run
-        // writes at the same times: then a restart has exactly the same times
-        scalar begin = grains_.record().startTime;
-        const scalar since = (time_.startTime().value() - begin)/interval;
-        if (mag(since - std::round(since)) > 1e-6)
-        {
-            begin = time_.startTime().value();
-        }
-        const scalar next = std::floor((now - begin)/interval + rounding) + 1;
-        left = min(left, begin + next*interval - now);
-    }
-    return left;
-}
-
-
-Foam::scalar Foam::timeSchemes::secondOrder::landing(const scalar deltaT) const
-{
-    // At the end of the run what is left may be a rounding error, not zero
-    const scalar all = left();
-    const scalar share = all/deltaT - rounding;
-    return share > 0 ? all/std::ceil(share) : deltaT;
-}
-
-
 Foam::scalar Foam::timeSchemes::secondOrder::fitted(const scalar deltaT) const
 {
-    const scalar whole = landing(deltaT);
-    const scalar part =
+    const scalar all = due_.next(deltaT);
+    const scalar whole = dueTimes::part(all, deltaT);
+    const scalar followed =
         max(minDeltaT_, loads_.follow(time_.value(), whole));
-    // OpenFOAM takes a step that ends within half of its size before a write
-    // time for that which ends there
     return
-        part >= whole ? whole
-      : left() - part > part ? part
-      : landing(part);
+        followed >= whole ? whole
+      : all - followed > followed ? followed
+      : dueTimes::part(all, followed);
 }
 
 
@@ -553,7 +508,7 @@ void Foam::timeSchemes::secondOrder::step()
         const scalar factor = safety/std::sqrt(max(error, SMALL));
         record.nextDeltaT = deltaT*min(largestGrowth, factor);
         // Time::run() stops within half of this size of the end time
-        time_.setDeltaT(landing(min(maxDeltaT_, record.nextDeltaT)), false);
+        time_.setDeltaT(due_.landing(min(maxDeltaT_, record.nextDeltaT)), false);
     }
 }
 

@@ -7,6 +7,7 @@
 //! | [`settings`] | one combination of choices |
 //! | [`quantity`] | what runs are compared in |
 //! | [`series`] | values at points and times, and how far two runs are apart |
+//! | [`average`] | initial fields on other meshes of a box |
 //! | [`trial`] | the case folder of a combination, and its run |
 //! | [`bed`] | the bed as far as the bands need to know it |
 //! | [`bands`] | how far the discs of a real bed may lie from a run |
@@ -19,6 +20,7 @@
 //! | [`record`] | what was tried, chosen and estimated, for people and for programs |
 #![forbid(unsafe_code)]
 
+mod average;
 pub mod bands;
 pub mod bed;
 pub mod calibrate;

@@ -176,7 +176,7 @@ fn triples(tokens: &[Token]) -> Vec<[f64; 3]> {
 }
 
 /// The corners of a rectangular block with cells of one size, numbered as usual.
-fn corners(mesh: &Dictionary) -> Option<Vec<[f64; 3]>> {
+pub fn corners(mesh: &Dictionary) -> Option<Vec<[f64; 3]>> {
     let all = triples(mesh.value("vertices").ok()?);
     let block = texts(mesh.value("blocks").ok()?);
     let block: Vec<&str> = block.iter().map(String::as_str).filter(|word| !"()".contains(word)).collect();

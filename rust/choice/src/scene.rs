@@ -1,8 +1,9 @@
 //! What of the user's case can be chosen.
 
 use crate::ChoiceError;
+use crate::average::Averages;
 use crate::bed::{Bed, Grains};
-use crate::mirror::{Files, Mirror};
+use crate::mirror::{Files, Mirror, corners};
 use crate::settings::{Level, Settings};
 use msdd_case::CaseError;
 use msdd_case::dictionary::{Dictionary, Entry, Token, joined};
@@ -10,6 +11,7 @@ use msdd_case::path;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 /// Points along each direction at which runs are compared.
 const POINTS: [usize; 3] = [7, 5, 3];
@@ -61,7 +63,8 @@ impl Blocks {
         self.counts.iter().flat_map(|count| direction.iter().map(|&k| count[k])).min().unwrap_or(1)
     }
 
-    fn counts_at(&self, settings: &Settings) -> Vec<[usize; 3]> {
+    /// Numbers of cells of each block of a combination.
+    pub fn counts_at(&self, settings: &Settings) -> Vec<[usize; 3]> {
         let mut all = self.counts.clone();
         for (number, (direction, level)) in self.directions().iter().zip(&settings.levels).enumerate() {
             for count in &mut all {
@@ -119,6 +122,9 @@ pub struct Scene {
     pub model: Option<String>,
     /// What is known of a box that is its own mirror image.
     pub mirror: Option<Mirror>,
+    /// Cells of the mesh along x, y and z, if it is a rectangular box with cells of one size.
+    pub box_cells: Option<[usize; 3]>,
+    averages: OnceLock<Option<Averages>>,
     /// Lowest and highest coordinates of the mesh \[m\].
     pub bounds: [[f64; 3]; 2],
     /// Whether the mesh extends along z.
@@ -198,6 +204,9 @@ impl Scene {
             .map_err(str::to_string);
         let model = model(&grains);
         let single = blocks.as_ref().ok().and_then(|blocks| <[_; 1]>::try_from(blocks.counts.clone()).ok());
+        let box_cells = single
+            .map(|[count]| count)
+            .filter(|_| block_mesh.as_ref().is_some_and(|dictionary| corners(dictionary).is_some()));
         let mirror = match (single, &model, &block_mesh) {
             (Some([count]), Some(_), Some(mesh)) => {
                 Mirror::read(&folder, &start, count, &Files { mesh, control: &control, grains: &grains })
@@ -220,6 +229,8 @@ impl Scene {
             conductivity_factor,
             model,
             mirror,
+            box_cells,
+            averages: OnceLock::new(),
             bounds: mesh.bounds,
             in_space: mesh.directions[2],
             folder,
@@ -254,6 +265,12 @@ impl Scene {
             }
         }
         halves
+    }
+
+    /// The initial fields for means over other cells; none if OpenFOAM has to map them.
+    pub fn averages(&self) -> Option<&Averages> {
+        let read = || Averages::read(&self.folder.join(&self.start), self.box_cells?);
+        self.averages.get_or_init(read).as_ref()
     }
 
     /// Interval of the times at which runs are compared \[s\]: a part of the user's own interval, so that the times of the chosen

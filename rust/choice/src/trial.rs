@@ -72,8 +72,8 @@ pub fn make(
         return link_mesh(scene, folder);
     }
     foam(folder, &mut Command::new("blockMesh"))?;
-    if halved {
-        // Only boxes with uniform fields mirror.
+    // Only boxes with uniform fields mirror.
+    if halved || scene.averages().is_some() {
         return Ok(());
     }
     let fields = list(&folder.join(&scene.start))?;
@@ -296,37 +296,53 @@ fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Pu
             Err(_) => String::new(),
         },
         field if field.starts_with(&format!("{}/", scene.start)) => match scene.halves(settings) {
-            [false, false] => String::new(),
+            [false, false] => averaged(scene, settings, &field[scene.start.len() + 1..]),
             halved => Mirror::field(halved),
         },
         _ => String::new(),
     }
 }
 
+/// Entry of an initial field on the mesh of a combination; none on the user's mesh, or where OpenFOAM maps the fields.
+fn averaged(scene: &Scene, settings: &Settings, field: &str) -> String {
+    let Ok(blocks) = &scene.blocks else { return String::new() };
+    let cells = blocks.counts_at(settings)[0];
+    match scene.averages().filter(|_| scene.box_cells != Some(cells)) {
+        Some(averages) => averages.entry(field, cells),
+        None => String::new(),
+    }
+}
+
 fn control(scene: &Scene, settings: &Settings, purpose: Purpose) -> String {
     let displacement = if settings.moves { " D" } else { "" };
-    let first = scene.first_step.min((scene.end - scene.start_time) / 1000.0);
+    let span = scene.end - scene.start_time;
+    let first = scene.first_step.min(span / 1000.0);
     let halved = scene.halves(settings);
     let points = scene.points.iter().map(|&point| mirror::inside(point, halved, scene.bounds));
     let points: Vec<String> = points.map(|[x, y, z]| format!("({x} {y} {z})")).collect();
+    let watched = match purpose {
+        Purpose::Trial => format!("writeControl adjustableRunTime; writeInterval {:e};", scene.interval()),
+        Purpose::Chosen => "writeControl writeTime;".to_string(),
+    };
     let watch = format!(
         "functions\n{{\n    {WATCH}\n    {{\n        type probes; libs (\"libsampling.so\"); interpolationScheme cellPoint;\n\
          \x20       fields (T pressure conductivity thermalStrain{displacement});\n\
-         \x20       writeControl writeTime; probeLocations ({});\n    }}\n\
+         \x20       {watched} probeLocations ({});\n    }}\n\
          \x20   {WATCH}Start\n    {{\n        type probes; libs (\"libsampling.so\"); interpolationScheme cellPoint;\n\
          \x20       fields (pressure); probeLocations $..{WATCH}.probeLocations;\n\
          \x20       writeControl timeStep; timeEnd {:e};\n    }}\n\
          \x20   {WATCH}Range\n    {{\n        type fieldMinMax; libs (\"libfieldFunctionObjects.so\"); fields (T); location no;\n\
-         \x20       writeControl writeTime;\n    }}\n}}\n",
+         \x20       {watched}\n    }}\n}}\n",
         points.join(" "),
         scene.start_time + 1.5 * first
     );
     let mut keys = "adjustTimeStep yes;\nwriteControl adjustableRunTime;\n".to_string();
     let _ = writeln!(keys, "deltaT {first:e};");
     match purpose {
+        // Only what is watched is written
         Purpose::Trial => {
-            let _ = writeln!(keys, "startFrom firstTime;\nwriteInterval {:e};", scene.interval());
-            keys + "writeFormat binary;\npurgeWrite 2;\n#remove functions\n" + &watch
+            let _ = writeln!(keys, "startFrom firstTime;\nwriteInterval {:e};", 2.0 * span);
+            keys + "#remove functions\n" + &watch
         }
         Purpose::Chosen => {
             let _ = writeln!(keys, "startFrom latestTime;\nwriteInterval {:e};", scene.write_interval);

@@ -48,6 +48,24 @@ write_times() { # steps that are repeated, because a wall jumps, must not make t
     check "adaptive: all write times are met, none but these:$late" test -z "${late// /}"
 }
 
+function_times() { # function objects may ask for times, too; a write time just after one of them is met as before
+    local late interval
+    for interval in 0.25 0.51; do
+        adaptive "functions-$interval" 0.1
+        controls "writeInterval $interval; functions
+{
+    p { type probes; libs (\"libsampling.so\"); fields (T); probeLocations ((0.01 0.01 0.005)); writeControl adjustableRunTime; writeInterval 0.0625; }
+    off { \$p; enabled no; writeInterval 0.003; }
+}"
+        logged msddFoam
+    done
+    check "adaptive: a function object that is off asks for no times" test "$(grep -c '^Time' log)" -lt 100
+    check "adaptive: write times just after those of a function object are met" test -e 0.51/T -a ! -e 0.5
+    late=$(awk '!/^#/ { d = $1/0.0625 - int($1/0.0625 + 0.5); n++; if (d*d > 1e-16) print $1 } END { if (n != 16) print n " of 16 times" }' \
+        ../functions-0.25/postProcessing/p/0/T | tr '\n' ' ')
+    check "adaptive: all times of a function object are met, none but these: $late" test -z "${late// /}" -a -e ../functions-0.25/0.75/T
+}
+
 last_step() { # the sum of these steps is below the end by a rounding error, which must not become a step of its own
     adaptive rounded 0.1
     controls 'endTime 0.11; writeInterval 0.0055;'
@@ -122,6 +140,7 @@ check "adaptive: a step too large is repeated" \
 rm -rf "$work"/{halves,two,second-half}
 adaptive_restart
 write_times
+function_times
 last_step
 stopped_now
 tolerance_counts
