@@ -234,7 +234,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
     );
 
     r_ = start_ - inner + friction_ + weight_;
-    walls_.addShells(nodeField(u_ + du), r_);
+    walls_.addShells(mesh_.time().value(), nodeField(u_ + du), r_);
     if (share_ < 1)
     {
         r_ -= (1 - share_)*outset_;

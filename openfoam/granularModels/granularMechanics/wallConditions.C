@@ -75,7 +75,8 @@ Foam::wallConditions::wallConditions
     const granularModel& model,
     const elementMesh& mesh,
     const scalar radius,
-    const bool elastic
+    const bool elastic,
+    const scalar yielding
 )
 :
     mesh_(mesh),
@@ -89,6 +90,11 @@ Foam::wallConditions::wallConditions
     {
         walls_.set(patchi, new wall);
         read(dict, model, patchi);
+        wall& w = walls_[patchi];
+        if ((w.type == kind::rigid || w.type == kind::frictionless) && w.give == 0)
+        {
+            w.stiffness = yielding;
+        }
     }
     findNormals();
     findHeld();
@@ -304,13 +310,37 @@ void Foam::wallConditions::findNormals()
 }
 
 
-void Foam::wallConditions::findHeld()
+void Foam::wallConditions::axes
+(
+    const scalar* diagonal,
+    const scalar* other,
+    scalarField& vectors,
+    scalarField& values
+)
+{
+    const label dim = values.size();
+    vectors = 0;
+    for (label k = 0; k < dim; ++k)
+    {
+        vectors[dim*k + k] = diagonal[k];
+    }
+    vectors[1] = vectors[dim] = other[0];
+    if (dim == 3)
+    {
+        vectors[5] = vectors[7] = other[1];
+        vectors[2] = vectors[6] = other[2];
+    }
+    symmetricEigen(vectors, values);    // rows: vectors; values ascend
+}
+
+
+Foam::wallConditions::across
+Foam::wallConditions::findAcross(const bool all) const
 {
     // Sum of the dyads n n of the walls of all processes: a process may have a
     // node of a wall without having a face of that wall
     const label dim = mesh_.dim(), size = mesh_.size();
     scalarField diagonal(3*size, Zero), other(3*size, Zero);
-    scalarField pressed(size, Zero);
 
     forAll(walls_, patchi)
     {
@@ -322,18 +352,14 @@ void Foam::wallConditions::findHeld()
             for (label j = faces.start[i]; j < faces.start[i + 1]; ++j)
             {
                 const label node = faces.nodes[j];
-                if (w.type == kind::pressure)
-                {
-                    pressed[node] = 1;
-                }
-                else if (w.fixes())
+                if (w.fixes())
                 {
                     for (label k = 0; k < dim; ++k)
                     {
                         diagonal[3*node + k] += 1;
                     }
                 }
-                else if (w.holds())
+                else if (w.holds() || (all && w.yields()))
                 {
                     for (label k = 0; k < dim; ++k)
                     {
@@ -350,7 +376,6 @@ void Foam::wallConditions::findHeld()
     }
     mesh_.sum(diagonal, 3);
     mesh_.sum(other, 3);
-    mesh_.sum(pressed, 1);
 
     // The axis of a body of revolution stays where it is
     const label r = mesh_.radial();
@@ -365,27 +390,16 @@ void Foam::wallConditions::findHeld()
 
     DynamicList<label> held, directions;
     DynamicList<scalar> basis, squares;
+    scalarField M(dim*dim), values(dim);
     for (label node = 0; node < size; ++node)
     {
-        balanced_[node] = pressed[node] > 0 ? 0 : 1;
         const scalar* d = diagonal.cdata() + 3*node;
         const scalar* o = other.cdata() + 3*node;
         if (!(d[0] + d[1] + d[2] > 0))
         {
             continue;
         }
-        scalarField M(dim*dim), values(dim);
-        for (label k = 0; k < dim; ++k)
-        {
-            M[dim*k + k] = d[k];
-        }
-        M[1] = M[dim] = o[0];
-        if (dim == 3)
-        {
-            M[5] = M[7] = o[1];
-            M[2] = M[6] = o[2];
-        }
-        symmetricEigen(M, values);      // rows of M: vectors; values ascend
+        axes(d, o, M, values);
         label count = 0;
         for (label k = dim - 1; k >= 0; --k)
         {
@@ -399,10 +413,38 @@ void Foam::wallConditions::findHeld()
         held.append(node);
         directions.append(count);
     }
-    held_ = held;
-    directions_ = directions;
-    basis_ = scalarField(basis);
-    squares_ = scalarField(squares);
+    return
+    {
+        labelList(held), labelList(directions), scalarField(basis),
+        scalarField(squares)
+    };
+}
+
+
+void Foam::wallConditions::findHeld()
+{
+    across held(findAcross(false));
+    held_.transfer(held.nodes);
+    directions_.transfer(held.directions);
+    basis_.transfer(held.basis);
+    squares_.transfer(held.squares);
+
+    scalarField pressed(mesh_.size(), Zero);
+    forAll(walls_, patchi)
+    {
+        if (walls_[patchi].type == kind::pressure)
+        {
+            for (const label node : mesh_.wall(patchi).nodes)
+            {
+                pressed[node] = 1;
+            }
+        }
+    }
+    mesh_.sum(pressed, 1);
+    forAll(balanced_, node)
+    {
+        balanced_[node] = pressed[node] > 0 ? 0 : 1;
+    }
 }
 
 
@@ -430,15 +472,16 @@ void Foam::wallConditions::findRubbing()
 
     DynamicList<label> rubbing;
     DynamicList<scalar> along, half, number;
-    forAll(held_, i)
+    const across beside(findAcross(true));
+    forAll(beside.nodes, i)
     {
-        const label node = held_[i];
-        if (count[node] > 0 && mesh_.dim() == 2 && directions_[i] == 1)
+        const label node = beside.nodes[i];
+        if (count[node] > 0 && mesh_.dim() == 2 && beside.directions[i] == 1)
         {
             rubs_[node] = rubbing.size();
             rubbing.append(node);
-            along.append(basis_[4*i + 2]);
-            along.append(basis_[4*i + 3]);
+            along.append(beside.basis[4*i + 2]);
+            along.append(beside.basis[4*i + 3]);
             half.append(slip[node]/count[node]);
             number.append(count[node]);
         }

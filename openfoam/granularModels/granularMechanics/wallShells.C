@@ -98,6 +98,8 @@ void Foam::wallConditions::findSupports()
             }
         }
     }
+    firstYielding_ = supports.size();
+    findYielding(supports, normal, support);
     supports_ = supports;
     normal_ = scalarField(normal);
     support_ = scalarField(support);
@@ -133,10 +135,12 @@ Foam::scalarField Foam::wallConditions::borneByShells
 
 void Foam::wallConditions::addShells
 (
+    const scalar time,
     const scalarField& u,
     scalarField& force
 ) const
 {
+    addYielding(time, u, force);
     const label dim = mesh_.dim();
     scalarField weights;
     forAll(walls_, patchi)

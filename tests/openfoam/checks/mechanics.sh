@@ -19,7 +19,8 @@ state_of() { # folder of a case at rest: the columns of the state
     for name in $("$work/law" | sed 's/_\(.\)/\U\1/g'); do field "$work/$1/0.05/$name" | head -1; done
 }
 strained() { "$work/law" $(state_of "$1"); } # folder of a case at rest: reads strains, prints stress and tangent, see law.c
-equilibrium() { grains "mechanics equilibrium; equilibriumCoeffs { $* }"; }
+# The closed forms are those of walls that discs do not press into, unless the entries say so
+equilibrium() { grains "mechanics equilibrium; equilibriumCoeffs { wallCompliance 0; $* }"; }
 fabric_is() { sed -i "s/^#include.*fabricIndex.*/&\ninternalField uniform $1;/" 0/fabricIndex; }
 skewed_mesh() { # the unit square in four blocks that meet outside of its centre, so that no cell is a rectangle
     local vertices='' z

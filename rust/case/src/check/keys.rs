@@ -170,6 +170,7 @@ pub const EQUILIBRIUM: &[Key] = &[
     may("maxIterations", Kind::Range(1.0, 1000.0, "")),
     may("maxResidual", Kind::Any),
     may("walls", Kind::Dictionary),
+    may("wallCompliance", Kind::Range(0.0, 1000.0, "mean radii")),
 ];
 
 /// `elasticCoeffs` of `equilibriumCoeffs`.

@@ -155,7 +155,7 @@ fn rows(
 }
 
 /// Fits the bands to the scenes for calibration and writes their numbers; prints how they do, and writes that into the folder `table`.
-pub fn calibrate(all: &[Done], numbers: &Path, table: Option<&Path>) -> Result<(), CliError> {
+pub fn calibrate(all: &[Done], numbers: &Path, table: Option<&Path>) -> Result<Law, CliError> {
     outln!("error bands: the solver in {} scenes, with two conductivities", all.len());
     let mut found = Found::new();
     for (number, (scene, packings)) in all.iter().enumerate() {
@@ -168,7 +168,8 @@ pub fn calibrate(all: &[Done], numbers: &Path, table: Option<&Path>) -> Result<(
     }
     let law = fit_law(&found, &GROUPS)?;
     write_law(&law, numbers)?;
-    print_coverage(&found, &law, &GROUPS, table)
+    print_coverage(&found, &law, &GROUPS, table)?;
+    Ok(law)
 }
 
 /// Rows of the scenes with a purpose, of these quantities.

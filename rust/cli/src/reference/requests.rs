@@ -96,8 +96,8 @@ impl Discs {
     }
 }
 
-/// Asks for [`ASKED`] in each scene, for its first packing, and writes what came of it.
-pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
+/// Asks for [`ASKED`] in each scene, for its first packing, with these bands, and writes what came of it.
+pub fn judge(all: &[Done], law: &Law, file: &Path) -> Result<(), CliError> {
     let failed = |error: ChoiceError| CliError::Message(error.to_string());
     outln!("requests: {ASKED:?} % in {} scenes", all.len());
     let mut csv = COLUMNS.join(",") + "\n";
@@ -139,7 +139,7 @@ pub fn judge(all: &[Done], file: &Path) -> Result<(), CliError> {
                 moves: None,
                 constant: scene.model.is_some(),
                 bed: scene.bed.clone(),
-                law: Law::shipped(scene.bed.kind),
+                law: law.clone(),
             };
             let mut search_seconds = 0.0;
             let found = find(&wishes, &mut |settings: &Settings, _| {

@@ -7,6 +7,8 @@ use crate::error::CliError;
 use crate::rve::{read_state, write_state};
 use clap::Args;
 use msdd_case::folder;
+use msdd_choice::bands::Law;
+use msdd_choice::bed::Grains;
 use msdd_files::write;
 use msdd_reference::scenes::discs::{packed, packing_of, simulate};
 use msdd_reference::scenes::table::{Row, row};
@@ -80,11 +82,12 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     if arguments.solver || arguments.bands.is_some() || arguments.requests.is_some() {
         print_table(&all, &checkout)?;
     }
-    if let Some(file) = &arguments.bands {
-        bands::calibrate(&all, file, arguments.tables.as_deref())?;
-    }
+    let law = match &arguments.bands {
+        Some(file) => bands::calibrate(&all, file, arguments.tables.as_deref())?,
+        None => Law::shipped(Grains::Discs),
+    };
     match &arguments.requests {
-        Some(file) => requests::judge(&all, file),
+        Some(file) => requests::judge(&all, &law, file),
         None => Ok(()),
     }
 }

@@ -35,6 +35,26 @@ prescribed_walls() {
     check "prescribed displacement: stress and displacement against the model $e <= 1e-6" below "$e" 1e-6
 }
 
+# Discs press into all four walls, of which one is pushed by 5 mm. The stress is that of the model for the strain between the nodes
+# at the walls, and these are off the walls by 1.4 mean radii times the change of the force on the wall, per length at the start, over
+# E r/l
+pressed_into_walls() {
+    local e
+    set -- $(echo 0 0 0 0 0 | strained before)
+    local xx=$1 yy=$2
+    uniaxial yielding 'type frictionless; displacement constant (-0.005 0 0); } } wallCompliance 1.4; walls { right {'
+    set -- $(field 0.05/nodeDisplacement | awk 'NR == 1 { l = $1; b = $2 } NR == 13 { r = $1 } NR == 79 { t = $2 } END { print l, r, b, t }')
+    e=$(awk -v l="$1" -v r="$2" -v b="$3" -v t="$4" \
+            'BEGIN { printf "0 %.17g %.17g 0 0\n", (r - l)/(2.15 + (r - l)/2), (t - b)/(0.645 + (t - b)/2) }' | strained before \
+        | awk -v l="$1" -v r="$2" -v b="$3" -v t="$4" -v xx="$xx" -v yy="$yy" '
+        { x = 1.4e-7*($1*(1 + (t - b)/0.645) - xx); y = 1.4e-7*($2*(1 + (r - l)/2.15) - yy); split(l + x " " r + 0.005 - x " " b + y " " t - y, e, " ")
+          for (k = 1; k <= 4; k++) { if (e[k] < 0) e[k] = -e[k]; if (!(e[k] <= w)) w = e[k] } print w/x }')
+    check "discs press into walls: by what the stress of the model presses, to $e <= 1e-6" below "$e" 1e-6
+    e=$(field 0.05/stress | awk 'NR == 1 { x = $1; y = $4 } { e = ($1 - x)/x; f = ($4 - y)/y
+        for (k = 0; k < 2; k++) { h = k ? e : f; if (h < 0) h = -h; if (!(h <= w)) w = h } } END { print (NR == 72 ? w + 0 : "nan") }')
+    check "discs press into walls: stress is uniform to $e <= 1e-7" below "$e" 1e-7
+}
+
 shell_beside_grains() { # a shell that its temperature moves by 5 mm, and that gives way by 1e-5 m/Pa
     local d e sxx
     sxx=$(echo 0 0 0 0 0 | strained before | awk '{ print $1 }')
@@ -152,6 +172,7 @@ energy() { # shape
 }
 
 prescribed_walls
+pressed_into_walls
 shell_beside_grains
 symmetric_quarter
 one_dimension
