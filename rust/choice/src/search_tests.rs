@@ -1,7 +1,7 @@
 //! The search on scenes whose errors are known.
 
 use super::*;
-use crate::bands::Law;
+use crate::bands::{Law, Numbers};
 use crate::bed::{Bed, Grains};
 use crate::found::Values;
 use crate::quantity::Quantity;
@@ -224,7 +224,11 @@ fn with_pressure(accuracy: f64, pressure: f64, error: f64) -> Result<Found, Choi
         moves: Some(true),
         constant: false,
         bed,
-        law: Law::shipped(kind),
+        // What is open of p does not follow a new fit of the bands
+        law: Law {
+            pressure: Numbers { model: 0.055, packing: vec![0.046], factor: 1.75 },
+            ..Law::shipped(kind)
+        },
     };
     let run = &mut |settings: &Settings, _| {
         let more = settings.conductivity - 1.0;
