@@ -20,7 +20,7 @@
 //! | [`record`] | what was tried, chosen and estimated, for people and for programs |
 #![forbid(unsafe_code)]
 
-mod average;
+pub mod average;
 pub mod bands;
 pub mod bed;
 pub mod calibrate;

@@ -124,7 +124,8 @@ pub struct Scene {
     pub mirror: Option<Mirror>,
     /// Cells of the mesh along x, y and z, if it is a rectangular box with cells of one size.
     pub box_cells: Option<[usize; 3]>,
-    averages: OnceLock<Option<Averages>>,
+    /// What [`Scene::averages`] has read.
+    pub averages: OnceLock<Option<Averages>>,
     /// Lowest and highest coordinates of the mesh \[m\].
     pub bounds: [[f64; 3]; 2],
     /// Whether the mesh extends along z.

@@ -190,6 +190,8 @@ mod tests {
             conductivity_factor: 1.0,
             model: Some("own.json".to_string()),
             mirror: None,
+            box_cells: None,
+            averages: Default::default(),
             bounds: [[0.0; 3], [1.0; 3]],
             in_space: false,
             bed: Bed {
