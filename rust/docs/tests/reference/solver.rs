@@ -26,12 +26,14 @@ const CONTACT: &str = "openfoam/granularThermo/granularContact/granularContactFv
 const SECOND: &str = "openfoam/msddFoam/timeScheme/secondOrderScheme.C";
 
 /// Texts that are looked up in the solver and are no keys of a user.
-pub const NO_KEYS: [(&str, &str); 6] = [
+pub const NO_KEYS: [(&str, &str); 8] = [
     ("accept", "option of the command line, in the table of msddFoam"),
     ("solvers", "dictionary of every fvSolution"),
     ("equilibrium", "heading of the table solvers.equilibrium"),
     ("solid", "kind of region in every regionProperties"),
     ("PIMPLE", "dictionary of OpenFOAM's regions"),
+    ("timeStart", "of function objects, in their table"),
+    ("timeEnd", "of function objects, in their table"),
     ("kappa", "of conditions of OpenFOAM, which is refused with other values than K"),
 ];
 
@@ -44,11 +46,13 @@ const OF_TIME: [(&str, &str); 4] = [
 ];
 
 /// Keys of function objects that their base classes read.
-const OF_FUNCTION_OBJECTS: [(&str, &str); 6] = [
+const OF_FUNCTION_OBJECTS: [(&str, &str); 8] = [
     ("type", "functionObject::New"),
     ("libs", "functionObjectList"),
     ("writeControl", "timeControl"),
     ("writeInterval", "timeControl"),
+    ("timeStart", "timeControl"),
+    ("timeEnd", "timeControl"),
     ("writePrecision", "writeFile"),
     ("enabled", "functionObjects::timeControl"),
 ];
