@@ -22,10 +22,6 @@ use serde::{Deserialize, Serialize};
 
 /// Share of the discs' values that lie inside the bands.
 pub const LEVEL: f64 = 0.9;
-/// Probability with which a request at the limit of what is refused is met. Of all requests that are not refused more are met, since most
-/// are not at the limit: of those for 5, 2 and 1 % in the scenes that judge, 96 to 98 %. With 0.9 it is as many, and a quarter of what
-/// could have been done is refused in place of a tenth.
-pub const MET: f64 = 0.8;
 /// Grains of a bed and of a window for which the numbers of the packing stand.
 const BED: f64 = 1000.0;
 const WINDOW: f64 = 100.0;
@@ -65,7 +61,7 @@ pub struct Law {
     /// `None` of spheres, of which no discrete elements tell it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub displacement: Option<Numbers>,
-    /// For T and p: the root of the mean square of the error over bed and run stays with this probability ([`MET`]) below this factor times
+    /// For T and p: the root of the mean square of the error over bed and run stays with this probability ([`LEVEL`]) below this factor times
     /// that of the bands' halves.
     pub request: [f64; 2],
 }
@@ -111,7 +107,7 @@ impl Law {
         }
     }
 
-    /// What the model (0) or the packing (1) leaves open, root of the mean square over bed and run, with probability [`MET`]
+    /// What the model (0) or the packing (1) leaves open, root of the mean square over bed and run, with probability [`LEVEL`]
     /// [the unit of the quantity]; 0 for what the run does not give.
     pub fn doubt(&self, quantity: Quantity, part: usize, lengths: &Lengths) -> f64 {
         let factor = self.request[usize::from(quantity != Quantity::Temperature)];

@@ -4,7 +4,7 @@ use crate::case::{attempt, beside};
 use crate::error::CliError;
 use msdd_case::numbers::plain;
 use msdd_choice::ChoiceError;
-use msdd_choice::bands::{CONDUCTIVITY, Law, Lengths, MET, Numbers, Units, sensitivity};
+use msdd_choice::bands::{CONDUCTIVITY, LEVEL, Law, Lengths, Numbers, Units, sensitivity};
 use msdd_choice::calibrate::{Coverage, Row, coverage, fit, quantile};
 use msdd_choice::quantity::Quantity;
 use msdd_choice::scene::Scene;
@@ -238,7 +238,7 @@ pub fn print_coverage(
     Ok(())
 }
 
-/// Factor of the bands' halves below which the error of a whole run stays with probability [`MET`]: both as roots of the mean
+/// Factor of the bands' halves below which the error of a whole run stays with probability [`LEVEL`]: both as roots of the mean
 /// squares over windows and times.
 fn request(rows: &[Row], numbers: &Numbers) -> f64 {
     let mut runs: BTreeMap<(usize, u64), (f64, f64)> = BTreeMap::new();
@@ -247,5 +247,5 @@ fn request(rows: &[Row], numbers: &Numbers) -> f64 {
         let sums = runs.entry((row.scene, row.packing)).or_default();
         *sums = (sums.0 + row.error.powi(2), sums.1 + model.powi(2) + packing.powi(2));
     }
-    quantile(runs.values().map(|(error, half)| ((error / half).sqrt(), 1.0)).collect(), MET)
+    quantile(runs.values().map(|(error, half)| ((error / half).sqrt(), 1.0)).collect(), LEVEL)
 }
