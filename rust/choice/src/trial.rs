@@ -313,6 +313,11 @@ fn averaged(scene: &Scene, settings: &Settings, field: &str) -> String {
     }
 }
 
+/// When function objects of a trial run write what is compared; fields are not written.
+pub fn watched(scene: &Scene) -> String {
+    format!("writeControl adjustableRunTime; writeInterval {:e};", scene.interval())
+}
+
 fn control(scene: &Scene, settings: &Settings, purpose: Purpose) -> String {
     let displacement = if settings.moves { " D" } else { "" };
     let span = scene.end - scene.start_time;
@@ -320,19 +325,19 @@ fn control(scene: &Scene, settings: &Settings, purpose: Purpose) -> String {
     let halved = scene.halves(settings);
     let points = scene.points.iter().map(|&point| mirror::inside(point, halved, scene.bounds));
     let points: Vec<String> = points.map(|[x, y, z]| format!("({x} {y} {z})")).collect();
-    let watched = match purpose {
-        Purpose::Trial => format!("writeControl adjustableRunTime; writeInterval {:e};", scene.interval()),
+    let when = match purpose {
+        Purpose::Trial => watched(scene),
         Purpose::Chosen => "writeControl writeTime;".to_string(),
     };
     let watch = format!(
         "functions\n{{\n    {WATCH}\n    {{\n        type probes; libs (\"libsampling.so\"); interpolationScheme cellPoint;\n\
          \x20       fields (T pressure conductivity thermalStrain{displacement});\n\
-         \x20       {watched} probeLocations ({});\n    }}\n\
+         \x20       {when} probeLocations ({});\n    }}\n\
          \x20   {WATCH}Start\n    {{\n        type probes; libs (\"libsampling.so\"); interpolationScheme cellPoint;\n\
          \x20       fields (pressure); probeLocations $..{WATCH}.probeLocations;\n\
          \x20       writeControl timeStep; timeEnd {:e};\n    }}\n\
          \x20   {WATCH}Range\n    {{\n        type fieldMinMax; libs (\"libfieldFunctionObjects.so\"); fields (T); location no;\n\
-         \x20       {watched}\n    }}\n}}\n",
+         \x20       {when}\n    }}\n}}\n",
         points.join(" "),
         scene.start_time + 1.5 * first
     );

@@ -171,13 +171,14 @@ fn watch(scene: &Scene, run: &CaseRun) -> String {
     let probes = |name: &str, fields: &str, at: &str| {
         format!(
             "    {WATCH}{name} {{ type probes; libs (\"libsampling.so\"); fields ({fields}); interpolationScheme cellPoint; \
-             writeControl writeTime; probeLocations ({at}); }}\n"
+             {} probeLocations ({at}); }}\n",
+            trial::watched(scene)
         )
     };
     let Some([corner, size]) = run.discs else {
         return format!("functions\n{{\n{}}}\n", probes("", "pressure D", &at));
     };
-    let own = "libs (\"libgranularFunctionObjects.so\"); writeControl writeTime;";
+    let own = format!("libs (\"libgranularFunctionObjects.so\"); {}", trial::watched(scene));
     let z = scene.points.first().map_or(0.0, |point| point[2]);
     let [nx, ny] = SUB_REGIONS;
     let centre = |k: usize| {
