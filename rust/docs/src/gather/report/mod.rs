@@ -210,13 +210,11 @@ fn sensitivity(section: &mut Section, report: &Json) -> Result<(), DocsError> {
     }
     let cell = |what: &str, case: &str| {
         let found = list.iter().find(|e| e.says("/what", what) && e.says("/case", case));
-        let number =
-            |name: &str| or_none(found.and_then(|e| e.maybe(name)), |value| decimals(value.abs(), 1));
-        format!("{}; {}", number("/temperature"), number("/pressure"))
+        or_none(found.and_then(|e| e.maybe("/temperature")), |value| decimals(value.abs(), 1))
     };
     let row = |what: &String| [vec![what.clone()], CASES.map(|case| cell(what, case)).to_vec()].concat();
     let rows = changes.iter().map(row).collect();
-    let meaning = "largest error of T over 20 s at three points [% of the range]; of the pressure off the walls [% of the paper's range]; first packing, grains move, one setting changed";
+    let meaning = "largest error of T over 20 s at three points [% of the range], first packing, grains move, one setting changed";
     section.add_table("sensitivity", meaning, FILE, &["", "H", "C", "HC"], rows);
     Ok(())
 }
