@@ -91,7 +91,8 @@ Foam::wallConditions::wallConditions
         walls_.set(patchi, new wall);
         read(dict, model, patchi);
         wall& w = walls_[patchi];
-        if ((w.type == kind::rigid || w.type == kind::frictionless) && w.give == 0)
+        const bool keeps = w.type == kind::rigid || w.type == kind::frictionless;
+        if (keeps && w.give == 0)
         {
             w.stiffness = yielding;
         }
