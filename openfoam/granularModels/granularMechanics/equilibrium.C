@@ -76,7 +76,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         nodes_,
         properties.meanRadius().value(),
         law_->elastic() || grains.model().spatial(),
-        yielding(properties)
+        springs(properties)
     ),
     nodeDisplacement_
     (
@@ -210,7 +210,7 @@ Foam::IOobject Foam::granularMechanicsModels::equilibrium::io
 }
 
 
-Foam::scalar Foam::granularMechanicsModels::equilibrium::yielding
+Foam::scalar Foam::granularMechanicsModels::equilibrium::springs
 (
     const granularProperties& properties
 ) const

@@ -76,7 +76,7 @@ Foam::wallConditions::wallConditions
     const elementMesh& mesh,
     const scalar radius,
     const bool elastic,
-    const scalar yielding
+    const scalar springs
 )
 :
     mesh_(mesh),
@@ -94,7 +94,7 @@ Foam::wallConditions::wallConditions
         const bool keeps = w.type == kind::rigid || w.type == kind::frictionless;
         if (keeps && w.give == 0)
         {
-            w.stiffness = yielding;
+            w.stiffness = springs;
         }
     }
     findNormals();
@@ -360,7 +360,7 @@ Foam::wallConditions::findAcross(const bool all) const
                         diagonal[3*node + k] += 1;
                     }
                 }
-                else if (w.holds() || (all && w.yields()))
+                else if (w.holds() || (all && w.springs()))
                 {
                     for (label k = 0; k < dim; ++k)
                     {

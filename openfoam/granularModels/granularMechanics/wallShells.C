@@ -98,8 +98,8 @@ void Foam::wallConditions::findSupports()
             }
         }
     }
-    firstYielding_ = supports.size();
-    findYielding(supports, normal, support);
+    firstSpring_ = supports.size();
+    findSprings(supports, normal, support);
     supports_ = supports;
     normal_ = scalarField(normal);
     support_ = scalarField(support);
@@ -140,7 +140,7 @@ void Foam::wallConditions::addShells
     scalarField& force
 ) const
 {
-    addYielding(time, u, force);
+    addSprings(time, u, force);
     const label dim = mesh_.dim();
     scalarField weights;
     forAll(walls_, patchi)

@@ -307,10 +307,10 @@ fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Pu
 fn averaged(scene: &Scene, settings: &Settings, field: &str) -> String {
     let Ok(blocks) = &scene.blocks else { return String::new() };
     let cells = blocks.counts_at(settings)[0];
-    match scene.averages().filter(|_| scene.box_cells != Some(cells)) {
-        Some(averages) => averages.entry(field, cells),
-        None => String::new(),
+    if scene.box_cells == Some(cells) {
+        return String::new();
     }
+    scene.averages().map_or(String::new(), |averages| averages.entry(field, cells))
 }
 
 /// When function objects of a trial run write what is compared; fields are not written.

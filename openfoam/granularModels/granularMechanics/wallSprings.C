@@ -29,7 +29,7 @@ static const scalar leastSupport = 1e-9;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::wallConditions::findYielding
+void Foam::wallConditions::findSprings
 (
     DynamicList<label>& supports,
     DynamicList<scalar>& normal,
@@ -44,7 +44,7 @@ void Foam::wallConditions::findYielding
     {
         const wall& w = walls_[patchi];
         const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        for (label i = 0; w.yields() && i < faces.size(); ++i)
+        for (label i = 0; w.springs() && i < faces.size(); ++i)
         {
             const label start = faces.start[i];
             const label count = faces.start[i + 1] - start;
@@ -95,7 +95,7 @@ void Foam::wallConditions::findYielding
 }
 
 
-void Foam::wallConditions::addYielding
+void Foam::wallConditions::addSprings
 (
     const scalar time,
     const scalarField& u,
@@ -103,7 +103,7 @@ void Foam::wallConditions::addYielding
 ) const
 {
     const label dim = mesh_.dim();
-    for (label i = firstYielding_; i < supports_.size(); ++i)
+    for (label i = firstSpring_; i < supports_.size(); ++i)
     {
         const scalar* n = normal_.cdata() + dim*i;
         const label first = dim*supports_[i];
@@ -124,7 +124,7 @@ void Foam::wallConditions::addYielding
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
-        if (!w.yields() || !w.displacement.valid())
+        if (!w.springs() || !w.displacement.valid())
         {
             continue;
         }
