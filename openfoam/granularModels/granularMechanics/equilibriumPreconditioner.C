@@ -380,7 +380,7 @@ void Foam::equilibriumSolver::precondition
     const label rows = parts == 1 ? 0 : label(mesh_.owned().count());
     toField(from, in_);
     in_ *= scaling_;
-    walls_.release(in_);
+    walls_.loosen(in_);
 
     double* x;
     if (parts == 1)
@@ -428,8 +428,9 @@ void Foam::equilibriumSolver::precondition
         }
         toField(all.cdata(), in_);
     }
-    walls_.release(in_);
+    walls_.loosen(in_);
     in_ *= scaling_;
+    walls_.join(in_);
     toVector(in_, to);
 }
 

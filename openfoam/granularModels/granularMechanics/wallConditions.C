@@ -63,6 +63,7 @@ Foam::wallConditions::kindNames
     { kind::symmetry, "symmetry" },
     { kind::displacement, "displacement" },
     { kind::pressure, "pressure" },
+    { kind::piston, "piston" },
     { kind::shell, "shell" }
 });
 
@@ -99,6 +100,7 @@ Foam::wallConditions::wallConditions
     }
     findNormals();
     findHeld();
+    findPistons();
     findRubbing();
     findSupports();
     findFloating();
@@ -144,7 +146,7 @@ void Foam::wallConditions::checkNames(const dictionary& dict) const
             << "No rule in 'walls' of equilibriumCoeffs for the patches "
             << granularProperties::listed(missing).c_str() << ", allowed"
             << " types: rigid, frictionless, symmetry, displacement, pressure,"
-            << " shell"
+            << " piston, shell"
             << exit(FatalIOError);
     }
 }
@@ -241,7 +243,7 @@ void Foam::wallConditions::read
     {
         readShell(dict, w);
     }
-    else if (w.type == kind::pressure)
+    else if (w.presses())
     {
         w.pressure = Function1<scalar>::New("pressure", dict);
     }
@@ -433,7 +435,7 @@ void Foam::wallConditions::findHeld()
     scalarField pressed(mesh_.size(), Zero);
     forAll(walls_, patchi)
     {
-        if (walls_[patchi].type == kind::pressure)
+        if (walls_[patchi].presses())
         {
             for (const label node : mesh_.wall(patchi).nodes)
             {
@@ -533,7 +535,7 @@ void Foam::wallConditions::findFloating() const
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::wallConditions::release(scalarField& values) const
+void Foam::wallConditions::loosen(scalarField& values) const
 {
     const label dim = mesh_.dim();
     forAll(held_, i)
@@ -556,10 +558,17 @@ void Foam::wallConditions::release(scalarField& values) const
 }
 
 
+void Foam::wallConditions::release(scalarField& values) const
+{
+    loosen(values);
+    join(values);
+}
+
+
 void Foam::wallConditions::restrict(scalarField& values) const
 {
     scalarField free(values);
-    release(free);
+    loosen(free);
     values -= free;
 }
 

@@ -171,7 +171,7 @@ void Foam::wallConditions::addPressure
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
-        if (w.type != kind::pressure)
+        if (!w.presses())
         {
             continue;
         }

@@ -1,5 +1,5 @@
-# Mechanics on meshes of any shape, with law elastic: patch test, thick-walled cylinder under pressure and heat and within a shell
-# against closed forms, bending of a body that is nearly incompressible, three processes, restart on another number of them, and meshes and walls
+# Mechanics on meshes of any shape, with law elastic: patch test, thick-walled cylinder under pressure and heat and within a shell,
+# piston, against closed forms, bending of a body that is nearly incompressible, three processes, restart on another number of them, and meshes and walls
 # that cannot work.
 
 solid() { # folder, entries of equilibriumCoeffs: a case with an elastic body and steady heat
@@ -146,6 +146,43 @@ shells() {
     check "shell around a cylinder, cut into three processes: displacement differs by $e <= 1e-8" below "$e" 1e-8
 }
 
+# A cube that is hot at low x and cold at high x, between smooth walls, under a piston on top, which does not tilt: with T from 1 to 0, its
+# mean m and M = lambda + 2 G, all of it is strained along z by (beta m - p)/M and along x by beta (T - m)/M, so that the top presses
+# most where the cube is hot. Under a pressure the top would lean. (Thermal strains of 1e-6 count to the second order.)
+piston_walls='residual 1e-6; walls { ".*" { type frictionless; } top { type piston; pressure constant 10; } }'
+hot_low() { sed -i 's/^    "\.\*" { type zeroG/    low { type fixedValue; value uniform 1; } high { type fixedValue; value uniform 0; }\n&/' 0/T; }
+against_piston() { # largest errors of the displacement along z and of the stress on the piston
+    paste -d ' ' <(field 4e+09/D) <(field 4e+09/stress) <(field 0/C) | awk '
+        BEGIN { nu = 0.3; E = 1e7; G = E/2/(1 + nu); lambda = 2*G*nu/(1 - 2*nu); M = lambda + 2*G; beta = (3*lambda + 2*G)*1e-6; e = (beta*0.5 - 10)/M }
+        { x = $10; z = $12; T = 1 - x; u = e*z - $3; s = M*e + lambda*beta*(T - 0.5)/M - beta*T - $9
+          if (u < 0) u = -u; if (s < 0) s = -s; if (!(u <= wu)) wu = u; if (!(s <= ws)) ws = s }
+        END { print (NR > 3 ? wu/(e < 0 ? -e : e) " " ws/10 : "nan nan") }'
+}
+pistons() {
+    local e
+    solid piston "$piston_walls"
+    hot_low
+    cube 6
+    cell_geometry
+    logged msddFoam
+    e=$(against_piston)
+    check "piston on a cube with one hot side: displacement differs by ${e% *} <= 1e-5 of the top's" below "${e% *}" 1e-5
+    check "and the stress by ${e#* } <= 1e-5 of the piston's pressure" below "${e#* }" 1e-5
+    solid piston-processes "$piston_walls"
+    hot_low
+    cube 6
+    cat > system/decomposeParDict <<-'END'
+	FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }
+	numberOfSubdomains 3; method hierarchical; hierarchicalCoeffs { n (3 1 1); delta 0.001; order xyz; }
+	END
+    logged decomposePar
+    side_by_side 3
+    logged reconstructPar
+    e=$(paste -d ' ' <(field 4e+09/D) <(field ../piston/4e+09/D) | awk '{ for (i = 1; i < 4; i++) { e = $i - $(i + 3); if (e < 0) e = -e
+        if (!(e <= w)) w = e; if ($i > m) m = $i } } END { print (NR > 3 && m > 0 ? w/m : "nan") }')
+    check "the same, cut across the piston into three processes: displacement differs by $e <= 1e-8" below "$e" 1e-8
+}
+
 # A beam of thickness 1 and length 8, held at its left end, is bent by two equal pressures p at the other end: from above between 6
 # and 7, from below between 7 and 8. From 1.5 to 4.5 the moment is p, and the lower side must be a parabola of the curvature
 # 12 (1 - nu^2) p/E, since nothing is strained along z.
@@ -263,6 +300,12 @@ refusals() {
         outer { type frictionless; } }'
     ring_mesh 4
     check "refused: a shell that expands, without the temperature of its start" refused 'temperature'
+    solid piston-that-is-round 'walls { inner { type frictionless; } outer { type piston; pressure constant 1; } }'
+    ring_mesh 4
+    check "refused: a piston that is not flat" refused 'is a piston but not flat'
+    solid piston-that-is-held 'walls { ".*" { type frictionless; } top { type piston; pressure constant 1; } high { type displacement; displacement constant (0 0 0); } }'
+    cube 2
+    check "refused: a piston that a wall beside it holds" refused 'is a piston, and a wall beside it keeps'
     solid inside-out-cell 'walls { ".*" { type frictionless; } }'
     cube 2
     awk '/^\(/ && NF == 3 && match($0, /^\(.*\)$/) && ++n == 14 { print "(1.7 1.7 1.7)"; next } { print }' constant/polyMesh/points > points.new
@@ -273,6 +316,7 @@ refusals() {
 patch_tests
 cylinders
 shells
+pistons
 bending
 processes_and_restarts
 refusals

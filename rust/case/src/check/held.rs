@@ -172,7 +172,7 @@ fn hold_of(wall: &Dictionary, elastic: bool) -> Hold {
     let usual = if elastic { Some(0.0) } else { None };
     let friction = if wall.get("friction").is_some() { keys::number(wall, "friction", "") } else { usual };
     match kind.as_str() {
-        "pressure" => Hold::Nothing,
+        "pressure" | "piston" => Hold::Nothing,
         "frictionless" | "symmetry" | "shell" => Hold::Normal,
         "rigid" if friction == Some(0.0) => Hold::Normal,
         _ => Hold::All,

@@ -44,6 +44,7 @@ fn a_bed_that_nothing_holds_is_found() {
         format!("{PRESSED} bottom {{ type displacement; displacement (0 0 0); }}"),
         format!("{PRESSED} bottom {{ type symmetry; }} left {{ type shell; }}"),
         "left { type pressure; }".to_string(),
+        "left { type piston; }".to_string(),
     ] {
         assert_eq!(lines(BOX, &good), Vec::<String>::new(), "{good}");
     }
@@ -79,7 +80,7 @@ fn of_several_blocks_the_sides_between_them_do_not_count() {
         boundary (floor { type wall; faces ((0 3 2 1)); } lid { type wall; faces ((8 9 10 11)); }
             sides { type wall; faces ((0 1 5 4) (1 2 6 5) (2 3 7 6) (3 0 4 7) (4 5 9 8) (5 6 10 9) (6 7 11 10) (7 4 8 11)); });";
     assert_eq!(mesh_of(two).sides.map(|sides| sides.len()), Some(10));
-    let walls = "sides { type frictionless; } lid { type pressure; }";
+    let walls = "sides { type frictionless; } lid { type piston; }";
     along(two, &format!("{walls} floor {{ type pressure; }}"), "0 0 1");
     assert_eq!(lines(two, &format!("{walls} floor {{ type frictionless; }}")), Vec::<String>::new());
 }

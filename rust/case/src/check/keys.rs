@@ -190,7 +190,10 @@ pub const LINEAR: &[Key] = &[
 
 /// The dictionary of a wall in `walls` of `equilibriumCoeffs`.
 pub const WALL: &[Key] = &[
-    may("type", Kind::Word(&["rigid", "frictionless", "symmetry", "displacement", "pressure", "shell"])),
+    may(
+        "type",
+        Kind::Word(&["rigid", "frictionless", "symmetry", "displacement", "pressure", "piston", "shell"]),
+    ),
     may("friction", Kind::Range(0.0, 10.0, "")),
     may("slip", Kind::Any),
     may("layer", Kind::Any),

@@ -65,7 +65,7 @@ pub fn check_pressures(properties: &Dictionary, times: Option<Times>, found: &mu
     let times = times.map(|times| [times.start, times.start + times.end]);
     for key in walls.keys() {
         let Some(Entry::Dictionary(wall)) = walls.get_any(&key.text) else { continue };
-        if !wall.text("type").is_ok_and(|kind| kind == "pressure") {
+        if !wall.text("type").is_ok_and(|kind| ["pressure", "piston"].contains(&kind.as_str())) {
             continue;
         }
         let values = tables::values(wall, "pressure", times).unwrap_or_default();
@@ -178,18 +178,20 @@ mod tests {
 
     #[test]
     fn walls_that_pull_are_doubted() {
-        let lines = |pressure: &str| {
+        let lines = |kind: &str, pressure: &str| {
             let text = format!(
-                "equilibriumCoeffs {{ walls {{ \"t.*\" {{ type pressure; pressure {pressure}; }} }} }}"
+                "equilibriumCoeffs {{ walls {{ \"t.*\" {{ type {kind}; pressure {pressure}; }} }} }}"
             );
             let mut found = Findings::default();
             check_pressures(&Dictionary::parse(Path::new(FILE), &text).unwrap(), None, &mut found);
             found.0.iter().map(ToString::to_string).collect::<Vec<_>>()
         };
-        assert_eq!(lines("constant 0"), Vec::<String>::new());
-        for pulls in ["constant -5", "table ((0 100) (10 -5))"] {
+        assert_eq!(lines("pressure", "constant 0"), Vec::<String>::new());
+        for (kind, pulls) in
+            [("pressure", "constant -5"), ("pressure", "table ((0 100) (10 -5))"), ("piston", "constant -5")]
+        {
             assert_eq!(
-                lines(pulls),
+                lines(kind, pulls),
                 [
                     "doubt: constant/granularProperties: equilibriumCoeffs/walls/t.*/pressure = -5 Pa, allowed: 0 Pa and more. A wall \
                      that pulls: grains bear no tension"

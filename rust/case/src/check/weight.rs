@@ -89,7 +89,7 @@ fn check_upright(g: &[f64; 3], properties: &Dictionary, mesh: &Mesh, found: &mut
     let walls = properties.dictionary_at("equilibriumCoeffs").and_then(|own| own.dictionary_at("walls"));
     let is_lid = |patch: &str| {
         let wall = walls.as_ref().ok().and_then(|walls| walls.matching(patch));
-        matches!(wall, Some(Entry::Dictionary(wall)) if wall.text("type").is_ok_and(|kind| kind == "pressure"))
+        matches!(wall, Some(Entry::Dictionary(wall)) if wall.text("type").is_ok_and(|kind| ["pressure", "piston"].contains(&kind.as_str())))
     };
     let lids = mesh.sides.iter().flatten().filter(|side| side.patch.as_deref().is_some_and(is_lid));
     if let [lid] = lids.collect::<Vec<_>>()[..] {
@@ -155,11 +155,15 @@ mod tests {
         let wanted = "doubt: constant/g: value = (-5 -8 0), allowed: along one axis of the mesh. It presses the bed sideways";
         assert!(inclined.len() == 1 && inclined[0].starts_with(wanted), "{inclined:?}");
         assert!(lines("equilibrium", "(-5 -8 0)", "cyclic", -3e4).is_empty());
-        let lid = "equilibrium; equilibriumCoeffs { walls { floor { type pressure; pressure 1; } } } more 1";
-        assert!(lines(lid, "(0 -9.81 0)", "wall", -3e4).is_empty());
-        for wrong in ["(0 9.81 0)", "(-9.81 0 0)"] {
-            let found = lines(lid, wrong, "wall", -3e4);
-            assert!(found.len() == 1 && found[0].contains("away from patch floor"), "{found:?}");
+        for kind in ["pressure", "piston"] {
+            let lid = format!(
+                "equilibrium; equilibriumCoeffs {{ walls {{ floor {{ type {kind}; pressure 1; }} }} }} more 1"
+            );
+            assert!(lines(&lid, "(0 -9.81 0)", "wall", -3e4).is_empty());
+            for wrong in ["(0 9.81 0)", "(-9.81 0 0)"] {
+                let found = lines(&lid, wrong, "wall", -3e4);
+                assert!(found.len() == 1 && found[0].contains("away from patch floor"), "{found:?}");
+            }
         }
     }
 

@@ -208,7 +208,7 @@ fn bed_values(scene: &Scene, start: &Start) -> Values {
 fn held(scene: &Scene) -> String {
     let top = match (scene.mechanics, scene.lid) {
         (Mechanics::None, _) => return "nothing moves".to_string(),
-        (_, Lid::Presses) => "the top goes on pressing",
+        (_, Lid::Presses) => "the top goes on pressing as a stiff plate",
         (_, Lid::Stays) => "the top stays",
     };
     let side = if scene.shell.is_some() { "gives way" } else { "stays" };
@@ -230,7 +230,7 @@ fn rest(scene: &Scene) -> String {
     };
     let wall = |name: &str| match name {
         "top" if scene.lid == Lid::Presses => {
-            format!("type pressure; pressure constant {};", plain(scene.pressure))
+            format!("type piston; pressure constant {};", plain(scene.pressure))
         }
         "top" | "bottom" => format!("type frictionless;{give}"),
         "side" => side(scene),
@@ -243,8 +243,8 @@ fn rest(scene: &Scene) -> String {
     let names = scene.shape.walls().iter().copied().chain(inner);
     let walls: String = names.map(|name| format!("        {name:8} {{ {} }}\n", wall(name))).collect();
     let mut text = format!(
-        "\n// Walls: frictionless ones stay, and spheres slide along them; pressure gives way and goes on pressing; shell is a thin\n\
-         // vessel that gives way and expands with its own temperature. give: by how many diameters of bed spheres give way at a smooth wall\n\
+        "\n// Walls: frictionless ones stay, and spheres slide along them; piston is a stiff plate under a load (pressure where air\n\
+         // would press); shell is a thin vessel that gives way and expands with its own temperature. give: by how many diameters of bed spheres give way at a smooth wall\n\
          equilibriumCoeffs\n{{\n    walls\n    {{\n{walls}    }}\n}}\n"
     );
     if scene.gravity > 0.0 {

@@ -208,7 +208,7 @@ fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
         }
         (None, Some(pressing)) => {
             let pressure = table(pressing, |pressure| plain(pressure * geometry.widening.powi(2)));
-            format!("type pressure; pressure {pressure};")
+            format!("type piston; pressure {pressure};")
         }
         (None, None) => format!("type frictionless; {GIVE}"),
     };

@@ -62,7 +62,7 @@ pub struct SphereWishes {
     /// Pressure of the gas [Pa]. Default: 1.013e5.
     #[arg(long, value_name = "PA", requires = "spheres")]
     gas_pressure: Option<f64>,
-    /// Whether the top goes on pressing with the pressure of the start and gives way, or stays where it is. Default: presses.
+    /// Whether the top goes on pressing with the pressure of the start, as a stiff plate that gives way, or stays where it is. Default: presses.
     #[arg(long, value_enum, requires = "spheres")]
     lid: Option<LidName>,
     /// The side of the cylinder as a thin vessel that gives way: Young's modulus [Pa], thickness [m] and linear thermal expansion
