@@ -127,6 +127,8 @@ pub struct BedState {
 pub struct Conduction {
     /// K by the gas \[W/(m K)\].
     pub gas: f64,
+    /// The part of it that goes from sphere to sphere, and so mostly where contacts point \[W/(m K)\].
+    pub gas_of_pairs: f64,
     /// What there is of k_s κ_c, the conduction by smooth contacts that add to the gas \[-\].
     pub contacts: f64,
 }
@@ -176,15 +178,17 @@ impl BedMaterial {
     /// Conduction with this gas, or in a vacuum.
     pub fn conduction(&self, gas: Option<&Gas>, bed: &BedState) -> Conduction {
         let rough = self.roughness_factor(bed.pressure, bed.solid_fraction, bed.coordination);
-        let Some(gas) = gas else { return Conduction { gas: 0.0, contacts: rough } };
+        let Some(gas) = gas else { return Conduction { gas: 0.0, gas_of_pairs: 0.0, contacts: rough } };
         let (pairs, ratio) = (self.share_of_pairs(gas), self.ratio(gas));
         let of_pairs = bed.gas * beyond_law(bed.solid_fraction, self.gas_number(gas));
         if pairs >= 1.0 {
-            return Conduction { gas: gas.conductivity * of_pairs, contacts: rough };
+            let of_gas = gas.conductivity * of_pairs;
+            return Conduction { gas: of_gas, gas_of_pairs: of_gas, contacts: rough };
         }
         let poor = poor_gas(bed.solid_fraction, ratio, gas.jump_length(), self.radius);
         Conduction {
             gas: gas.conductivity * (pairs * of_pairs + (1.0 - pairs) * poor),
+            gas_of_pairs: gas.conductivity * pairs * of_pairs,
             contacts: rough * contact_factor(ratio, rough * self.mean_contact(bed) / self.radius),
         }
     }

@@ -143,7 +143,10 @@ impl Material {
         );
         let solid = self.bed.solid.conductivity * conduction.contacts;
         let normal = |k: usize| if k < 3 { conduction.gas } else { 0.0 };
-        let tensor = std::array::from_fn(|k| solid * answers.contact[k][cell] + normal(k));
+        let tensor = std::array::from_fn(|k| {
+            let of_gas = normal(k) + conduction.gas_of_pairs * answers.gas_deviator[k][cell];
+            solid * answers.contact[k][cell] + of_gas
+        });
         Conductivity { tensor, gas: conduction.gas }
     }
 }

@@ -19,7 +19,7 @@ const NAME: &str = "poured";
 const WEIGHT: f64 = 5.0;
 /// Columns of the strains, and of the state.
 const STRAIN: [&str; 4] = ["thermal_strain", "strain_1", "strain_2", "strain_3"];
-const STATE: [&str; 9] = [
+const STATE: [&str; 10] = [
     "porosity",
     "stress_1",
     "stress_2",
@@ -29,6 +29,7 @@ const STATE: [&str; 9] = [
     "fabric_2",
     "fabric_3",
     "K_contacts",
+    "K_gas",
 ];
 
 /// The paths of all packings of the beds below a folder, and the text of their files. Packings are numbered on from `first`, by their
@@ -66,9 +67,9 @@ pub fn tracks(root: &Path, first: i64, material: &mut Known) -> Result<(Vec<Trac
 
 fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) -> Result<Track, CliError> {
     let grains = &scene.grains;
-    if grains.roughness.is_some() || scene.container.radius.is_some() {
+    if grains.roughness.is_some() {
         return Err(CliError::Message(format!(
-            "{}: a cylinder, or spheres that are rough, allowed for a training: a base, and no roughness",
+            "{}: spheres that are rough, allowed for a training: no roughness",
             folder.join(FILE).display()
         )));
     }
@@ -90,8 +91,10 @@ fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) ->
     let temperatures = values(&"T_mean")?;
     let modulus = effective_modulus(grains.young_modulus, grains.poisson_ratio);
     let mobilised = Start::read(file)?.mobilised;
+    let gas_at =
+        |temperature: f64| scene.gas.name.at(temperature, scene.gas.pressure, scene.gas.accommodation);
     let point = |k: usize| {
-        let [porosity, a, b, c, coordination, x, y, z, conductivity] =
+        let [porosity, a, b, c, coordination, x, y, z, conductivity, by_gas] =
             std::array::from_fn(|column| states[column][k]);
         let along = conductivity / grains.conductivity.at(temperatures[k]);
         Point {
@@ -99,6 +102,11 @@ fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) ->
             stress: diagonal([a, b, c].map(|stress| stress / modulus)),
             contact: diagonal([f64::NAN, f64::NAN, along]),
             gas: [f64::NAN; 3],
+            gas_along: gas_at(temperatures[k]).map_or([f64::NAN; 2], |gas| {
+                let distance =
+                    gas.least_distance(0.5 * grains.diameter, grains.conductivity.at(temperatures[k]));
+                [(0.5 * grains.diameter / distance).ln(), by_gas / gas.conductivity]
+            }),
             coordination,
             fabric: diagonal([x, y, z]),
             mobilised,
@@ -113,7 +121,8 @@ fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) ->
     });
     // Spheres in the region of the averages.
     let [low, high] = scene.record.heights;
-    let volume = scene.vessel().area() * (high - low) * point(0).solid;
+    let area = scene.record.radius.map_or(scene.vessel().area(), |radius| PI * radius * radius);
+    let volume = area * (high - low) * point(0).solid;
     Ok(Track {
         packing,
         name: NAME.to_string(),

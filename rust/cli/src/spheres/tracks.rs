@@ -28,6 +28,7 @@ fn point(record: &SphereRecord) -> Option<Point> {
             record.contact_conductivity_yz?,
         ],
         gas: [record.gas_conductivity_3_5?, record.gas_conductivity_6_0?, record.gas_conductivity_8_5?],
+        gas_along: [f64::NAN; 2],
         coordination: record.coordination?,
         fabric: [
             record.fabric_xx?,

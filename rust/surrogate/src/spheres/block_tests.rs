@@ -30,7 +30,14 @@ fn answers_do_not_depend_on_the_instruction_set_nor_on_the_other_cells() {
         }
         let bits = |answer: &Answer| {
             let mut numbers = answer.state.to_vec();
-            numbers.extend(answer.stress.iter().chain(&answer.contact).chain(answer.tangent.as_flattened()));
+            numbers.extend(
+                answer
+                    .stress
+                    .iter()
+                    .chain(&answer.contact)
+                    .chain(&answer.gas_deviator)
+                    .chain(answer.tangent.as_flattened()),
+            );
             numbers.extend([answer.gas, answer.solid, answer.coordination, f64::from(answer.outside)]);
             numbers.into_iter().map(f64::to_bits).collect::<Vec<u64>>()
         };

@@ -81,7 +81,7 @@ pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
         for k in 0..=track.steps.len() {
             let point = track.point(k);
             if mean(point.stress) >= LEAST_PRESSURE {
-                all.push((point.state(law), point, track.weight.sqrt()));
+                all.push((point.state(law), point, track.weight));
             }
         }
     }
@@ -96,7 +96,7 @@ pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
         // What is known of the conductivity, over the same of its mean.
         let known = point.compared(&point.contact) / point.compared(&relative(&direction, state));
         let size = known / libm::cbrt(mean(point.stress));
-        (size > 0.0).then(|| (contact_row(state).map(|x| x / size), 1.0, *weight))
+        (size > 0.0).then(|| (contact_row(state, &law.contacts).map(|x| x / size), 1.0, *weight))
     });
     let contact = least_squares::fit(contact);
     let gas = |number: usize| {
@@ -105,5 +105,13 @@ pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
             known.map(move |(state, point, _)| (gas_row(state).map(|x| x / point.gas[number]), 1.0, 1.0)),
         )
     };
-    Readout { contact, direction, gas: [gas(0), gas(1), gas(2)] }
+    let mut readout = Readout { contact, direction, gas: [gas(0), gas(1), gas(2)], gas_direction: 0.0 };
+    let along = all.iter().filter(|(_, point, _)| point.gas_along[1] > 0.0).map(|(state, point, _)| {
+        let missing = -point.gas_error(&readout, state);
+        // Over what is known, as the error is.
+        let mean = readout.gas(state, point.gas_along[0]) / point.gas_along[1];
+        ([mean * state.ratios[FABRIC][2]], missing, 1.0)
+    });
+    [readout.gas_direction] = least_squares::fit(along);
+    readout
 }

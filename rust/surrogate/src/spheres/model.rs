@@ -14,7 +14,7 @@ use crate::options::TrainingOptions;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
-pub const SCHEMA: &str = "msdd-spheres-model-8";
+pub const SCHEMA: &str = "msdd-spheres-model-9";
 
 /// Number of state columns of a cell, and of those before the stress ratios.
 pub const COLUMNS: usize = SCALARS + 5 * ELEMENTS;
@@ -105,9 +105,10 @@ pub struct Answer {
     pub stress: Tensor,
     /// −dσ/de for e_xx, e_yy, e_zz, 2 e_xy, 2 e_xz, 2 e_yz, row by row; asked for or zero.
     pub tangent: [Tensor; 6],
-    /// κ_c and κ_g.
+    /// κ_c, the mean of κ_g, and its deviator over that.
     pub contact: Tensor,
     pub gas: f64,
+    pub gas_deviator: Tensor,
     /// φ.
     pub solid: f64,
     /// z.
@@ -207,6 +208,7 @@ pub struct Answers {
     pub tangent: [[Lanes; 6]; 6],
     pub contact: [Lanes; 6],
     pub gas: Lanes,
+    pub gas_deviator: [Lanes; 6],
     pub solid: Lanes,
     pub coordination: Lanes,
     pub outside: Lanes,
@@ -221,6 +223,7 @@ impl Default for Answers {
             tangent: [[zero; 6]; 6],
             contact: [zero; 6],
             gas: zero,
+            gas_deviator: [zero; 6],
             solid: zero,
             coordination: zero,
             outside: zero,
@@ -243,6 +246,7 @@ impl Answers {
             tangent: self.tangent.map(|row| row.map(|column| column[cell])),
             contact: self.contact.map(|column| column[cell]),
             gas: self.gas[cell],
+            gas_deviator: self.gas_deviator.map(|column| column[cell]),
             solid: self.solid[cell],
             coordination: self.coordination[cell],
             outside: self.outside_at(cell),
@@ -289,8 +293,8 @@ impl SphereModel {
         let file: File =
             serde_json::from_str(text).map_err(|error| SurrogateError::Damaged(error.to_string()))?;
         file.law.check()?;
-        let Readout { contact, direction, gas } = &file.readout;
-        let all = contact.iter().chain(direction).chain(gas.as_flattened());
+        let Readout { contact, direction, gas, gas_direction } = &file.readout;
+        let all = contact.iter().chain(direction).chain(gas.as_flattened()).chain([gas_direction]);
         if let Some(value) = all.into_iter().find(|value| value.is_nan() || value.abs() > 1e9) {
             return field("readout (a coefficient)", value, "-1e9 to 1e9");
         }
@@ -404,10 +408,14 @@ impl SphereModel {
         for (column, value) in answers.stress.iter_mut().zip(&stress) {
             value.write(&mut column[first..]);
         }
-        for (column, value) in answers.contact.iter_mut().zip(&readout.contact(&next, &stress)) {
+        for (column, value) in answers.contact.iter_mut().zip(&readout.contact(&law.contacts, &next, &stress))
+        {
             value.write(&mut column[first..]);
         }
         readout.gas(&next, V::read(&block.gas_number[first..])).write(&mut answers.gas[first..]);
+        for (column, value) in answers.gas_deviator.iter_mut().zip(&readout.gas_deviator(&next)) {
+            value.write(&mut column[first..]);
+        }
         next.solid().write(&mut answers.solid[first..]);
         next.coordination.write(&mut answers.coordination[first..]);
         outside.write(&mut answers.outside[first..]);

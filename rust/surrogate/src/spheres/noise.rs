@@ -79,6 +79,7 @@ mod tests {
             stress,
             contact,
             gas: [gas; 3],
+            gas_along: [f64::NAN; 2],
             coordination,
             fabric: [fabric, fabric, fabric, 0.0, 0.0, 0.0],
             mobilised: 1.0,

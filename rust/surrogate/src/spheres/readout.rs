@@ -2,9 +2,10 @@
 //!
 //! K = k_s κ_c + k_g κ_g. By contacts, κ_c = C (p/E*)^(1/3) in the mean, which is the conductance 2 a k of Hertz's contacts
 //! (Batchelor and O'Brien, 1977, Proc. R. Soc. A 355:313), with more of it along the larger stress and along more contacts. C grows
-//! with the number of contacts. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
+//! with the number of contacts, less those of grains that rest on others and bear no load. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
 
 use super::components::{six, three};
+use super::contacts::Contacts;
 use super::number::Number;
 use super::state::{FABRIC, State};
 use super::tensor::{Tensor, contraction, mean, scaled};
@@ -15,22 +16,24 @@ pub const GAS_NUMBERS: [f64; 3] = [3.5, 6.0, 8.5];
 /// Numbers of gas for which κ_g may be asked: parabolas through the three known ones.
 pub const GAS_RANGE: [f64; 2] = [2.5, 9.5];
 
-/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r = |η|, n = z − 5.5 with the contacts per sphere z, and the part g of the
-/// friction that is not mobilised.
+/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r = |η|, n = z − 5.5 with the contacts per sphere z, i = z − z_b those that bear no
+/// load ([`super::contacts::Usual::bearing`]), and the part g of the friction that is not mobilised.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
-    /// C: coefficients of 1, n, n², s, v, n s, x, r, g, g n.
-    pub contact: [f64; 10],
+    /// C: coefficients of 1, n, n², s, v, n s, x, r, g, g n, i.
+    pub contact: [f64; 11],
     /// Deviator of κ_c over its mean: coefficients of η without the fabric's part, and of that.
     pub direction: [f64; 2],
-    /// κ_g at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s.
+    /// κ_g in the mean at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s.
     pub gas: [[f64; 8]; 3],
+    /// Deviator of κ_g over its mean: coefficient of the fabric's part of η, because near pairs point where contacts do.
+    pub gas_direction: f64,
 }
 
 /// Least and largest κ_g: those of grains that do not touch, and far above all packings.
 const GAS: [f64; 2] = [1.0, 100.0];
-/// Largest length of the deviator of κ_c over its mean, so that the conductivity is positive in every direction.
+/// Largest length of the deviator of κ_c and κ_g over their means, so that the conductivity is positive in every direction.
 const MOST_DEVIATOR: f64 = 0.7;
 
 /// Largest compression, least and largest numbers of contacts, and solid fractions less 0.6, of the training, roughly.
@@ -46,11 +49,13 @@ fn common<N: Number>(state: &State<N>) -> [N; 3] {
     [v.root(), v, contacts.plus(-USUAL_CONTACTS)]
 }
 
+/// `contacts` are those of the law whose state this is.
 #[inline(always)]
-pub fn contact_row<N: Number>(state: &State<N>) -> [N; 10] {
+pub fn contact_row<N: Number>(state: &State<N>, contacts: &Contacts) -> [N; 11] {
     let ([s, v, n], ratio, free) = (common(state), state.ratio(), state.free());
     let length = contraction(&ratio, &ratio).root();
-    [N::constant(1.0), n, n * n, s, v, n * s, state.density(), length, free, free * n]
+    let idle = state.coordination - contacts.usual(state).bearing(state.coordination);
+    [N::constant(1.0), n, n * n, s, v, n * s, state.density(), length, free, free * n, idle]
 }
 
 /// η without the fabric's part, and that.
@@ -91,11 +96,11 @@ fn product<N: Number, const M: usize>(row: &[N; M], coefficients: &[f64; M]) -> 
 }
 
 impl Readout {
-    /// κ_c of a state with this stress over E*; 0 without load.
+    /// κ_c of a state of a law with these contacts, with this stress over E*; 0 without load.
     #[inline(always)]
-    pub fn contact<N: Number>(&self, state: &State<N>, stress: &Tensor<N>) -> Tensor<N> {
+    pub fn contact<N: Number>(&self, contacts: &Contacts, state: &State<N>, stress: &Tensor<N>) -> Tensor<N> {
         let (pressure, zero) = (mean(*stress), N::constant(0.0));
-        let per_root = product(&contact_row(state), &self.contact).not_below(LEAST_CONTACT);
+        let per_root = product(&contact_row(state, contacts), &self.contact).not_below(LEAST_CONTACT);
         let size = per_root * pressure.not_below(LEAST_PRESSURE).power(1.0 / 3.0);
         let size = pressure.where_above(zero, size, zero);
         let [xx, yy, zz, xy, xz, yz] = scaled(&relative(&self.direction, state), size);
@@ -110,7 +115,16 @@ impl Readout {
         three!(k => product(&row, &self.gas[k]).not_below(GAS[0]).not_above(GAS[1]))
     }
 
-    /// κ_g at a number of the gas.
+    /// The deviator of κ_g over its mean.
+    #[inline(always)]
+    pub fn gas_deviator<N: Number>(&self, state: &State<N>) -> Tensor<N> {
+        let fabric = scaled(&state.ratios[FABRIC], N::constant(self.gas_direction));
+        let length = contraction(&fabric, &fabric).root();
+        let limit = length.not_below(MOST_DEVIATOR).inverse().times(MOST_DEVIATOR);
+        scaled(&fabric, limit)
+    }
+
+    /// κ_g in the mean at a number of the gas.
     #[inline(always)]
     pub fn gas<N: Number>(&self, state: &State<N>, number: N) -> N {
         let [a, b, c] = GAS_NUMBERS;

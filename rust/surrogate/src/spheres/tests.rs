@@ -229,6 +229,7 @@ fn tracks(law: &Law, packings: i64) -> Vec<Track> {
                     stress,
                     contact,
                     gas: [5.0, 8.0, 12.0].map(|k| k * state.solid()),
+                    gas_along: [f64::NAN; 2],
                     coordination: state.coordination,
                     fabric: state.ratios[FABRIC].map(|part| part / law.fabric[0]),
                     mobilised: state.mobilised,
@@ -302,7 +303,7 @@ fn conductivities_that_are_known_along_z_alone_teach_the_same() {
     let part = readout(&law, &some);
     for track in &all {
         let (state, stress) = (track.packed.state(&law), track.packed.stress);
-        let [a, b] = [&whole, &part].map(|readout| readout.contact(&state, &stress));
+        let [a, b] = [&whole, &part].map(|readout| readout.contact(&law.contacts, &state, &stress));
         assert!(
             a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.02 * mean(track.packed.contact)),
             "{a:?} {b:?}"
@@ -316,7 +317,7 @@ fn conductivities_that_are_known_along_z_alone_teach_the_same() {
 fn files_that_no_training_wrote_are_refused() {
     let text = model().to_json();
     let message = |text: &str| SphereModel::read(text).expect_err("unsound").to_string();
-    assert!(message(&text.replace("spheres-model-8", "spheres-model-7")).contains("spheres-model-7"));
+    assert!(message(&text.replace("spheres-model-9", "spheres-model-8")).contains("spheres-model-8"));
     assert!(message(&text[..text.len() / 2]).contains("damaged"));
     let mut file = model().file;
     file.law.bulk[0] = -1.0;

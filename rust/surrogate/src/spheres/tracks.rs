@@ -1,6 +1,7 @@
 //! Paths of strain of boxes of spheres, and the law along them.
 
 use super::law::{Law, Strain};
+use super::readout::Readout;
 use super::state::{Known, State};
 use super::tensor::{Tensor, contraction, mean, rotation};
 
@@ -12,8 +13,10 @@ pub struct Point {
     pub stress: Tensor,
     /// Conductivity by contacts over that of the solid; NaN across z where it is known along z alone.
     pub contact: Tensor,
-    /// Conductivity by gas over that of the gas, at [`super::readout::GAS_NUMBERS`]; NaN where it is not known.
+    /// Conductivity by gas over that of the gas in the mean, at [`super::readout::GAS_NUMBERS`]; NaN where it is not known.
     pub gas: [f64; 3],
+    /// Where it is known along z alone: the number of the gas, and the conductivity by gas along z over that of the gas; else NaN.
+    pub gas_along: [f64; 2],
     /// Contacts per sphere, all spheres counted.
     pub coordination: f64,
     /// Mean of n n over the contacts, with the normals n.
@@ -36,6 +39,16 @@ impl Point {
     /// What of a conductivity by contacts is compared with this state's: its mean, or the part along z where no other is known.
     pub fn compared(&self, contact: &Tensor) -> f64 {
         if self.contact[0].is_finite() { mean(*contact) } else { contact[2] }
+    }
+
+    /// Relative error of the conductivity by gas of a state: of its mean at the largest of the numbers, or of the part along z where no
+    /// other is known; NaN where neither is.
+    pub fn gas_error(&self, readout: &Readout, state: &State) -> f64 {
+        let [number, along] = self.gas_along;
+        match along.is_finite() {
+            true => readout.gas(state, number) * (1.0 + readout.gas_deviator(state)[2]) / along - 1.0,
+            false => readout.gases(state)[2] / self.gas[2] - 1.0,
+        }
     }
 
     /// The law's state of this packing.
@@ -77,8 +90,8 @@ pub struct Track {
     pub is_isotropic: bool,
     /// Number of spheres.
     pub spheres: usize,
-    /// Factor of its errors of stress and fabric in the training, and weight of the squares of those of the number of contacts. Of
-    /// those of conductivities by contacts its root is the weight, so that boxes are met beside the beds that have large weights.
+    /// Factor of its errors of stress and fabric in the training, and weight of the squares of those of the number of contacts and of
+    /// conductivities by contacts.
     pub weight: f64,
     pub packed: Point,
     pub steps: Vec<Step>,
