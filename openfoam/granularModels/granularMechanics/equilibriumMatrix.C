@@ -361,16 +361,16 @@ void Foam::granularMechanicsModels::equilibrium::multiplyGrains
     {
         return;
     }
-    // Walls rub in two dimensions only
-    typedef cellTangent<2, Ring> tangent;
-    const tangent& C = tangents.flat;
     const label r = nodes_.radial();
     nodeField change(d.size(), Zero);
-    walls_.addGrip
-    (
-        [&](const label celli)
+    const auto grip = [&](auto size)
+    {
+        constexpr label dim = decltype(size)::value;
+        typedef cellTangent<dim, Ring> tangent;
+        const tangent& C = tangents.of(size);
+        const auto stress = [&](const label celli, scalar* values)
         {
-            scalar g[2][2] = {}, ring = 0;
+            scalar g[dim][dim] = {}, ring = 0;
             for
             (
                 label i = nodes_.cellStarts()[celli];
@@ -378,21 +378,26 @@ void Foam::granularMechanicsModels::equilibrium::multiplyGrains
                 ++i
             )
             {
-                const scalar* v = d.cdata() + 2*nodes_.cellNodes()[i];
-                const scalar* B = shapes_.gradient.cdata() + 2*i;
-                for (label k = 0; k < 2; ++k)
+                const scalar* v = d.cdata() + dim*nodes_.cellNodes()[i];
+                const scalar* B = shapes_.gradient.cdata() + dim*i;
+                for (label k = 0; k < dim; ++k)
                 {
-                    g[k][0] += v[k]*B[0];
-                    g[k][1] += v[k]*B[1];
+                    for (label j = 0; j < dim; ++j)
+                    {
+                        g[k][j] += v[k]*B[j];
+                    }
                 }
                 ring += Ring ? v[r]*shapes_.hoop[i] : 0;
             }
             typename tangent::vector all;
             C.stress(celli, g, ring, all);
-            return FixedList<scalar, 3>({all[0], all[1], all[2]});
-        },
-        change
-    );
+            std::copy(all, all + tangent::count, values);
+        };
+        walls_.addGrip(stress, change);
+    };
+    nodes_.dim() == 2
+  ? grip(std::integral_constant<label, 2>())
+  : grip(std::integral_constant<label, 3>());
     result -= change;
 }
 

@@ -208,13 +208,6 @@ void Foam::wallConditions::read
             elastic_ ? !dict.found("friction") : model.wallFriction(limit, slip);
         w.friction =
             granularProperties::ranged(dict, "friction", limit, 0, 10);
-        if (w.friction > 0 && mesh_.dim() == 3)
-        {
-            FatalIOErrorInFunction(walls)
-                << "Patch " << patch.name() << " has friction " << w.friction
-                << ", allowed in meshes of three dimensions: 0"
-                << exit(FatalIOError);
-        }
         if (!known && !(dict.found("friction") && dict.found("slip")))
         {
             FatalIOErrorInFunction(walls)
@@ -451,55 +444,6 @@ void Foam::wallConditions::findHeld()
 }
 
 
-void Foam::wallConditions::findRubbing()
-{
-    const label size = mesh_.size();
-    scalarField slip(size, Zero), count(size, Zero);
-    rubs_ = labelList(size, -1);
-
-    forAll(walls_, patchi)
-    {
-        const wall& w = walls_[patchi];
-        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        if (w.friction > 0)
-        {
-            for (const label node : faces.nodes)
-            {
-                slip[node] += w.slip;
-                count[node] += 1;
-            }
-        }
-    }
-    mesh_.sum(slip, 1);
-    mesh_.sum(count, 1);
-
-    DynamicList<label> rubbing;
-    DynamicList<scalar> along, half, number;
-    const across beside(findAcross(true));
-    forAll(beside.nodes, i)
-    {
-        const label node = beside.nodes[i];
-        if (count[node] > 0 && mesh_.dim() == 2 && beside.directions[i] == 1)
-        {
-            rubs_[node] = rubbing.size();
-            rubbing.append(node);
-            along.append(beside.basis[4*i + 2]);
-            along.append(beside.basis[4*i + 3]);
-            half.append(slip[node]/count[node]);
-            number.append(count[node]);
-        }
-    }
-    rubbing_ = rubbing;
-    along_ = scalarField(along);
-    slip_ = scalarField(half);
-    faces_ = scalarField(number);
-    limit_.resize(rubbing_.size(), Zero);
-    length_ = limit_;
-    stiffness_ = limit_;
-    grip_ = limit_;
-}
-
-
 void Foam::wallConditions::findFloating() const
 {
     const regionSplit regions(mesh_.mesh());
@@ -516,7 +460,10 @@ void Foam::wallConditions::findFloating() const
     }
     forAll(rubbing_, i)
     {
-        motion.hold(rubbing_[i], along_.cdata() + 2*i);
+        for (label j = (dim - 1)*i; j < (dim - 1)*i + ways_[i]; ++j)
+        {
+            motion.hold(rubbing_[i], along_.cdata() + dim*j);
+        }
     }
     forAll(supports_, i)
     {

@@ -1,0 +1,466 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "wallConditions.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Share of the largest friction that counts as all of it: after a slip of 999
+//- times that for half of it
+static const scalar allMobilised = 0.999;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::wallConditions::findRubbing()
+{
+    const label dim = mesh_.dim(), size = mesh_.size();
+    scalarField slip(size, Zero), count(size, Zero);
+    rubs_ = labelList(size, -1);
+
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        if (w.friction > 0)
+        {
+            for (const label node : faces.nodes)
+            {
+                slip[node] += w.slip;
+                count[node] += 1;
+            }
+        }
+    }
+    mesh_.sum(slip, 1);
+    mesh_.sum(count, 1);
+
+    DynamicList<label> rubbing, ways;
+    DynamicList<scalar> along, half, number;
+    const across beside(findAcross(true));
+    forAll(beside.nodes, i)
+    {
+        const label node = beside.nodes[i], held = beside.directions[i];
+        if (!(count[node] > 0 && held < dim))
+        {
+            continue;
+        }
+        rubs_[node] = rubbing.size();
+        rubbing.append(node);
+        ways.append(dim - held);
+        for (label k = held; k < held + dim - 1; ++k)
+        {
+            for (label j = 0; j < dim; ++j)
+            {
+                along.append(k < dim ? beside.basis[dim*(dim*i + k) + j] : 0);
+            }
+        }
+        half.append(slip[node]/count[node]);
+        number.append(count[node]);
+    }
+    rubbing_ = rubbing;
+    ways_ = ways;
+    along_ = scalarField(along);
+    slip_ = scalarField(half);
+    faces_ = scalarField(number);
+    limit_.resize(rubbing_.size(), Zero);
+    length_ = limit_;
+    principal_ = along_;
+    stiffness_.resize((dim - 1)*rubbing_.size(), Zero);
+    grip_.resize(dim*rubbing_.size(), Zero);
+}
+
+
+void Foam::wallConditions::sumRubbing
+(
+    scalarField& values,
+    const label each
+) const
+{
+    if (!Pstream::parRun())
+    {
+        return;
+    }
+    scalarField all(each*mesh_.size(), Zero);
+    forAll(rubbing_, i)
+    {
+        for (label k = 0; k < each; ++k)
+        {
+            all[each*rubbing_[i] + k] = values[each*i + k];
+        }
+    }
+    mesh_.sum(all, each);
+    forAll(rubbing_, i)
+    {
+        for (label k = 0; k < each; ++k)
+        {
+            values[each*i + k] = all[each*rubbing_[i] + k];
+        }
+    }
+}
+
+
+void Foam::wallConditions::findLimits
+(
+    const List<scalarField>& stress,
+    const scalarField& at
+)
+{
+    const label dim = mesh_.dim();
+    limit_ = 0;
+    length_ = 0;
+    pressed_.clear();
+    contacts_.clear();
+    bool any = false;
+    scalarField weights;
+
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        if (w.friction <= 0)
+        {
+            continue;
+        }
+        any = true;
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        for (label i = 0; i < faces.size(); ++i)
+        {
+            const scalar* n = normals_[patchi].cdata() + dim*i;
+            const label celli = faces.cells[i];
+            scalar s[6];
+            for (label k = 0; k < 3*(dim - 1); ++k)
+            {
+                s[k] = stress[k][celli];
+            }
+            const scalar normal = pressureAcross(n, s);
+            const label start = faces.start[i];
+            const label count = faces.start[i + 1] - start;
+            const label* nodes = faces.nodes.cdata() + start;
+            weights.resize(max(weights.size(), 3*count));
+            mesh_.faceWeights(at, nodes, count, weights.data());
+            for (label a = 0; a < count; ++a)
+            {
+                const label index = rubs_[nodes[a]];
+                if (index < 0)
+                {
+                    continue;
+                }
+                const scalar part = mag(component(weights, a, n));
+                length_[index] += part;
+                if (normal > 0)
+                {
+                    limit_[index] += w.friction*normal*part;
+                    contacts_.append({index, w.friction*part});
+                }
+            }
+            if (normal > 0)
+            {
+                pressed_.append
+                (
+                    {
+                        celli, contacts_.size(),
+                        {n[0], n[1], dim == 3 ? n[2] : 0}
+                    }
+                );
+            }
+        }
+    }
+    if (any)
+    {
+        sumRubbing(limit_, 1);
+        sumRubbing(length_, 1);
+    }
+}
+
+
+Foam::scalar Foam::wallConditions::mobilised
+(
+    const scalar before,
+    const scalar slip,
+    const scalar half,
+    scalar& slope,
+    scalar& memory
+)
+{
+    scalar m = max(-allMobilised, min(allMobilised, before));
+    scalar rest = slip;
+    slope = 1;
+    memory = 1;
+    if (m*slip < 0)
+    {
+        const scalar back = min(mag(slip), mag(m)*half)*sign(slip);
+        m += back/half;
+        rest = slip - back;
+    }
+    if (rest != 0 || slip == 0)
+    {
+        memory = rest == slip ? 1/sqr(1 - mag(m)) : 1;
+        const scalar virgin = half*mag(m)/(1 - mag(m)) + mag(rest);
+        const scalar direction = rest != 0 ? sign(rest) : sign(m);
+        m = direction*virgin/(virgin + half);
+        slope = sqr(1 - mag(m));
+        memory *= slope;
+    }
+    return m;
+}
+
+
+Foam::vector Foam::wallConditions::mobilised
+(
+    const vector& before,
+    const vector& slip,
+    const scalar half,
+    vector& ahead,
+    scalar& slope,
+    scalar& turn,
+    vector& memory
+)
+{
+    const vector m = before*min(scalar(1), allMobilised/max(mag(before), VSMALL));
+    const vector tried(m + slip/half);
+    const scalar size = mag(tried);
+    ahead = size > 0 ? tried/size : vector(Zero);
+    slope = turn = 1;
+    memory = mag(before) < allMobilised ? m : vector(Zero);
+    if (!(size > 0) || ((m & slip) < 0 && (tried & slip) <= 0))
+    {
+        return tried;
+    }
+
+    // The share was the least where its way was at right angles to the slip
+    const vector along(slip/max(mag(slip), VSMALL));
+    const scalar least = mag(m - min(m & along, scalar(0))*along);
+    scalar kept;
+    const scalar share =
+        mobilised(least, max(size - least, scalar(0))*half, half, slope, kept);
+    turn = share/size;
+    if (mag(before) < allMobilised)
+    {
+        const scalar with = m & ahead;
+        memory =
+            turn*(m - with*ahead)
+          + (slope*with + (kept - slope)*least)*ahead;
+    }
+    return share*ahead;
+}
+
+
+void Foam::wallConditions::rubAlong
+(
+    const label i,
+    const scalarField& slip,
+    const scalarField& oldTraction,
+    scalar* share
+)
+{
+    const label dim = mesh_.dim(), node = rubbing_[i];
+    const scalar* t = along_.cdata() + dim*(dim - 1)*i;
+    const scalar before =
+        -component(oldTraction, node, t)*length_[i]/limit_[i];
+    scalar slope, memory;
+    const scalar m =
+        mobilised(before, component(slip, node, t), slip_[i], slope, memory);
+    const scalar grip = (mag(before) < allMobilised ? memory*before : 0) - m;
+    for (label k = 0; k < dim; ++k)
+    {
+        share[k] = m*t[k];
+        grip_[dim*i + k] = grip*t[k];
+    }
+    stiffness_[(dim - 1)*i] = slope*limit_[i]/slip_[i];
+}
+
+
+void Foam::wallConditions::rubAcross
+(
+    const label i,
+    const scalarField& slip,
+    const scalarField& oldTraction,
+    scalar* share
+)
+{
+    const label node = rubbing_[i];
+    const scalar* t = along_.cdata() + 6*i;
+    const vector a(t[0], t[1], t[2]), b(t[3], t[4], t[5]);
+    const auto within = [&](const scalarField& values)
+    {
+        return component(values, node, t)*a + component(values, node, t + 3)*b;
+    };
+    vector ahead, memory;
+    scalar slope, turn;
+    const vector m
+    (
+        mobilised
+        (
+            -within(oldTraction)*length_[i]/limit_[i], within(slip), slip_[i],
+            ahead, slope, turn, memory
+        )
+    );
+    ahead = mag(ahead) > 0 ? ahead : a;
+    const vector beside((ahead & a)*b - (ahead & b)*a);
+    for (label k = 0; k < 3; ++k)
+    {
+        share[k] = m[k];
+        grip_[3*i + k] = memory[k] - m[k];
+        principal_[6*i + k] = ahead[k];
+        principal_[6*i + 3 + k] = beside[k];
+    }
+    stiffness_[2*i] = slope*limit_[i]/slip_[i];
+    stiffness_[2*i + 1] = turn*limit_[i]/slip_[i];
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalarField Foam::wallConditions::slide
+(
+    const scalar before,
+    const scalar time
+) const
+{
+    const label dim = mesh_.dim();
+    scalarField result(dim*mesh_.size(), Zero);
+    scalarField motion((dim - 1)*rubbing_.size(), Zero);
+    bool moving = false;
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        if (w.friction > 0 && w.displacement.valid())
+        {
+            moving = true;
+            const vector d
+            (
+                w.displacement().value(time) - w.displacement().value(before)
+            );
+            for (const label node : mesh_.wall(patchi).nodes)
+            {
+                const label i = rubs_[node];
+                for (label j = 0; i >= 0 && j < ways_[i]; ++j)
+                {
+                    const label way = (dim - 1)*i + j;
+                    for (label k = 0; k < dim; ++k)
+                    {
+                        motion[way] += along_[dim*way + k]*d[k];
+                    }
+                }
+            }
+        }
+    }
+    if (moving)
+    {
+        sumRubbing(motion, dim - 1);
+        forAll(rubbing_, i)
+        {
+            for (label way = (dim - 1)*i; way < (dim - 1)*i + ways_[i]; ++way)
+            {
+                for (label k = 0; k < dim; ++k)
+                {
+                    result[dim*rubbing_[i] + k] +=
+                        motion[way]/faces_[i]*along_[dim*way + k];
+                }
+            }
+        }
+    }
+    return result;
+}
+
+
+void Foam::wallConditions::friction
+(
+    const List<scalarField>& stress,
+    const scalarField& at,
+    const scalarField& slip,
+    const scalarField& oldTraction,
+    scalarField& force,
+    scalarField& traction
+)
+{
+    findLimits(stress, at);
+    force = 0;
+    traction = 0;
+    principal_ = along_;
+    stiffness_ = 0;
+    grip_ = 0;
+    const label dim = mesh_.dim();
+
+    forAll(rubbing_, i)
+    {
+        if (limit_[i] <= VSMALL)
+        {
+            continue;
+        }
+        scalar share[3];
+        if (ways_[i] == 1)
+        {
+            rubAlong(i, slip, oldTraction, share);
+        }
+        else
+        {
+            rubAcross(i, slip, oldTraction, share);
+        }
+        for (label k = 0; k < dim; ++k)
+        {
+            const label to = dim*rubbing_[i] + k;
+            force[to] = -share[k]*limit_[i];
+            traction[to] = force[to]/length_[i];
+        }
+    }
+}
+
+
+void Foam::wallConditions::setStiffness(const scalar pressure)
+{
+    const label dim = mesh_.dim();
+    principal_ = along_;
+    stiffness_ = 0;
+    scalarField weights;
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        for (label i = 0; i < faces.size() && w.friction > 0; ++i)
+        {
+            const label start = faces.start[i];
+            const label count = faces.start[i + 1] - start;
+            const label* nodes = faces.nodes.cdata() + start;
+            weights.resize(max(weights.size(), 3*count));
+            mesh_.faceWeights(mesh_.points(), nodes, count, weights.data());
+            for (label a = 0; a < count; ++a)
+            {
+                scalar square = 0;
+                for (label k = 0; k < dim; ++k)
+                {
+                    square += sqr(weights[dim*a + k]);
+                }
+                const label index = rubs_[nodes[a]];
+                for (label j = 0; index >= 0 && j < ways_[index]; ++j)
+                {
+                    stiffness_[(dim - 1)*index + j] +=
+                        w.friction*pressure/w.slip*std::sqrt(square);
+                }
+            }
+        }
+    }
+    sumRubbing(stiffness_, dim - 1);
+}
+
+
+// ************************************************************************* //
