@@ -393,7 +393,7 @@ void Foam::granularMechanicsModels::equilibrium::multiplyGrains
             C.stress(celli, g, ring, all);
             std::copy(all, all + tangent::count, values);
         };
-        walls_.addGrip(stress, change);
+        walls_.addGrip(stress, d, change);
     };
     nodes_.dim() == 2
   ? grip(std::integral_constant<label, 2>())

@@ -15,20 +15,9 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "wallConditions.H"
+#include "coulombFriction.H"
 
 #include <cmath>
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-//- Share of the largest friction that counts as all of it: after a slip of 999
-//- times that for half of it
-static const scalar allMobilised = 0.999;
-
-} // End namespace Foam
-
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -192,79 +181,7 @@ void Foam::wallConditions::findLimits
 }
 
 
-Foam::scalar Foam::wallConditions::mobilised
-(
-    const scalar before,
-    const scalar slip,
-    const scalar half,
-    scalar& slope,
-    scalar& memory
-)
-{
-    scalar m = max(-allMobilised, min(allMobilised, before));
-    scalar rest = slip;
-    slope = 1;
-    memory = 1;
-    if (m*slip < 0)
-    {
-        const scalar back = min(mag(slip), mag(m)*half)*sign(slip);
-        m += back/half;
-        rest = slip - back;
-    }
-    if (rest != 0 || slip == 0)
-    {
-        memory = rest == slip ? 1/sqr(1 - mag(m)) : 1;
-        const scalar virgin = half*mag(m)/(1 - mag(m)) + mag(rest);
-        const scalar direction = rest != 0 ? sign(rest) : sign(m);
-        m = direction*virgin/(virgin + half);
-        slope = sqr(1 - mag(m));
-        memory *= slope;
-    }
-    return m;
-}
-
-
-Foam::vector Foam::wallConditions::mobilised
-(
-    const vector& before,
-    const vector& slip,
-    const scalar half,
-    vector& ahead,
-    scalar& slope,
-    scalar& turn,
-    vector& memory
-)
-{
-    const vector m = before*min(scalar(1), allMobilised/max(mag(before), VSMALL));
-    const vector tried(m + slip/half);
-    const scalar size = mag(tried);
-    ahead = size > 0 ? tried/size : vector(Zero);
-    slope = turn = 1;
-    memory = mag(before) < allMobilised ? m : vector(Zero);
-    if (!(size > 0) || ((m & slip) < 0 && (tried & slip) <= 0))
-    {
-        return tried;
-    }
-
-    // The share was the least where its way was at right angles to the slip
-    const vector along(slip/max(mag(slip), VSMALL));
-    const scalar least = mag(m - min(m & along, scalar(0))*along);
-    scalar kept;
-    const scalar share =
-        mobilised(least, max(size - least, scalar(0))*half, half, slope, kept);
-    turn = share/size;
-    if (mag(before) < allMobilised)
-    {
-        const scalar with = m & ahead;
-        memory =
-            turn*(m - with*ahead)
-          + (slope*with + (kept - slope)*least)*ahead;
-    }
-    return share*ahead;
-}
-
-
-void Foam::wallConditions::rubAlong
+void Foam::wallConditions::rubOneWay
 (
     const label i,
     const scalarField& slip,
@@ -276,20 +193,22 @@ void Foam::wallConditions::rubAlong
     const scalar* t = along_.cdata() + dim*(dim - 1)*i;
     const scalar before =
         -component(oldTraction, node, t)*length_[i]/limit_[i];
-    scalar slope, memory;
-    const scalar m =
-        mobilised(before, component(slip, node, t), slip_[i], slope, memory);
-    const scalar grip = (mag(before) < allMobilised ? memory*before : 0) - m;
+    const coulombFriction::line m
+    (
+        coulombFriction::along(before, component(slip, node, t), slip_[i])
+    );
+    const scalar grip =
+        (mag(before) < coulombFriction::all ? m.memory*before : 0) - m.share;
     for (label k = 0; k < dim; ++k)
     {
-        share[k] = m*t[k];
+        share[k] = m.share*t[k];
         grip_[dim*i + k] = grip*t[k];
     }
-    stiffness_[(dim - 1)*i] = slope*limit_[i]/slip_[i];
+    stiffness_[(dim - 1)*i] = m.slope*limit_[i]/slip_[i];
 }
 
 
-void Foam::wallConditions::rubAcross
+void Foam::wallConditions::rubTwoWays
 (
     const label i,
     const scalarField& slip,
@@ -304,27 +223,29 @@ void Foam::wallConditions::rubAcross
     {
         return component(values, node, t)*a + component(values, node, t + 3)*b;
     };
-    vector ahead, memory;
-    scalar slope, turn;
-    const vector m
+    const coulombFriction::plane m
     (
-        mobilised
+        coulombFriction::along
         (
-            -within(oldTraction)*length_[i]/limit_[i], within(slip), slip_[i],
-            ahead, slope, turn, memory
+            -within(oldTraction)*length_[i]/limit_[i], within(slip), slip_[i]
         )
     );
-    ahead = mag(ahead) > 0 ? ahead : a;
+    const scalar initial = limit_[i]/slip_[i];
+    const vector ahead(mag(m.ahead) > 0 ? m.ahead : a);
     const vector beside((ahead & a)*b - (ahead & b)*a);
     for (label k = 0; k < 3; ++k)
     {
-        share[k] = m[k];
-        grip_[3*i + k] = memory[k] - m[k];
+        share[k] = m.share[k];
+        grip_[3*i + k] = m.memory[k] - m.share[k];
         principal_[6*i + k] = ahead[k];
         principal_[6*i + 3 + k] = beside[k];
     }
-    stiffness_[2*i] = slope*limit_[i]/slip_[i];
-    stiffness_[2*i + 1] = turn*limit_[i]/slip_[i];
+    stiffness_[2*i] = m.slope*initial;
+    stiffness_[2*i + 1] = m.turn*initial;
+    if (mag(m.back) > 0 && mesh_.owned().test(node))
+    {
+        returns_.append({node, initial*ahead, m.back});
+    }
 }
 
 
@@ -398,6 +319,7 @@ void Foam::wallConditions::friction
     traction = 0;
     principal_ = along_;
     stiffness_ = 0;
+    returns_.clear();
     grip_ = 0;
     const label dim = mesh_.dim();
 
@@ -410,11 +332,11 @@ void Foam::wallConditions::friction
         scalar share[3];
         if (ways_[i] == 1)
         {
-            rubAlong(i, slip, oldTraction, share);
+            rubOneWay(i, slip, oldTraction, share);
         }
         else
         {
-            rubAcross(i, slip, oldTraction, share);
+            rubTwoWays(i, slip, oldTraction, share);
         }
         for (label k = 0; k < dim; ++k)
         {

@@ -2,32 +2,6 @@
 # piston, against closed forms, bending of a body that is nearly incompressible, three processes, restart on another number of them, and meshes and walls
 # that cannot work.
 
-solid() { # folder, entries of equilibriumCoeffs: a case with an elastic body and steady heat
-    rm -rf "${work:?}/$1"
-    mkdir -p "$work/$1/0" "$work/$1/constant" "$work/$1/system"
-    cd "$work/$1"
-    start_field T '[0 0 0 1 0 0 0]' 0
-    start_field porosity '[0 0 0 0 0 0 0]' 0.16
-    start_field fabricIndex '[0 0 0 0 0 0 0]' 0
-    cat > constant/granularProperties <<-END
-	FoamFile { version 2.0; format ascii; class dictionary; object granularProperties; }
-	surrogate { type constant; constantCoeffs { conductivity (1 0 0 1 0 1); stress (0 0 0 0 0 0); } }
-	density 3000; youngModulus 1e7; thermalConductivity 1; heatCapacity 1; thermalExpansion 1e-6; meanRadius 5e-3;
-	mechanics equilibrium;
-	equilibriumCoeffs { law elastic; elasticCoeffs { youngModulus 1e7; poissonRatio 0.3; } $2 }
-	END
-    cat > system/controlDict <<-'END'
-	FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
-	endTime 4e9; deltaT 1e9; writeInterval 4; writeFormat ascii; writePrecision 17; timePrecision 6;
-	END
-    cp "$here/small/system/fvSchemes" system
-    cat > system/fvSolution <<-'END'
-	FoamFile { version 2.0; format ascii; class dictionary; object fvSolution; }
-	solvers { T { solver PCG; preconditioner DIC; tolerance 1e-14; relTol 0; } }
-	msddFoam { nNonOrthogonalCorrectors 20; }
-	END
-}
-
 stretched_walls() { # strains along x, y, z: walls that move so that all cells must have these strains
     echo "residual 1e-5; walls { \".*\" { type frictionless; } high { type frictionless; displacement constant ($1 0 0); }
         back { type frictionless; displacement constant (0 $2 0); } top { type frictionless; displacement constant (0 0 $3); } }"
@@ -288,11 +262,6 @@ refusals() {
     cube 2
     sed -i 's/law elastic;/law grains;/' constant/granularProperties
     check "refused: discs in three dimensions" refused 'has three dimensions: discs that move are known in the plane alone'
-    solid friction-in-space 'walls { ".*" { type rigid; friction 0.3; slip 1e-3; } }'
-    cube 2
-    check "refused: friction in three dimensions" refused 'allowed in meshes of three dimensions: 0'
-    sed -i 's/ slip 1e-3;//' constant/granularProperties
-    check "refused: the same, whether or not the way of slip is given" refused 'allowed in meshes of three dimensions: 0'
     solid shell-without-thickness 'walls { inner { type shell; youngModulus 1e11; radius 1; } "outer|low|left" { type frictionless; } }'
     ring_mesh 4
     check "refused: a shell without thickness" refused 'thickness'
