@@ -1,6 +1,6 @@
 //! Checks what the law of spheres needs of a case, before the solver refuses it or answers as well as it can.
 
-use super::domain::{Kind, Mesh};
+use super::domain::Mesh;
 use super::fields::Values;
 use super::finding::Findings;
 use super::grains::FILE;
@@ -139,15 +139,9 @@ fn check_walls(properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
             continue;
         };
         let rigid = wall.text("type").map_or(true, |kind| kind == "rigid");
-        let solid = mesh.kind() == Kind::Solid;
-        // Friction in space is refused elsewhere
-        let refused = solid && keys::number(wall, "friction", "").is_some_and(|friction| friction > 0.0);
-        if rigid && !refused && wall.get("friction").is_some() && wall.get("slip").is_none() {
-            let allowed = if solid {
-                "neither friction nor slip in meshes of three dimensions"
-            } else {
-                "both friction and slip in a wall of type rigid, or neither: then it has no friction"
-            };
+        if rigid && wall.get("friction").is_some() && wall.get("slip").is_none() {
+            let allowed =
+                "both friction and slip in a wall of type rigid, or neither: then it has no friction";
             let advice = "Spheres know no slip at walls by themselves";
             found.error([FILE, &format!("{place}/slip")], "missing", allowed, advice);
         }

@@ -47,7 +47,7 @@ pub fn check(properties: &Dictionary, mesh: &Mesh, found: &mut Findings) {
         let place = format!("equilibriumCoeffs/walls/{patch}");
         match walls.and_then(|walls| walls.matching(patch)) {
             Some(Entry::Dictionary(wall)) => {
-                check_friction(wall, elastic, mesh.kind() == Kind::Solid, found);
+                check_friction(wall, elastic, found);
             }
             None if elastic => {
                 let allowed = "a dictionary with the wall's type";
@@ -81,7 +81,7 @@ fn name(axis: usize) -> &'static str {
     ["x", "y", "z"][axis]
 }
 
-fn check_friction(wall: &Dictionary, elastic: bool, solid: bool, found: &mut Findings) {
+fn check_friction(wall: &Dictionary, elastic: bool, found: &mut Findings) {
     let kind = wall.text("type").unwrap_or_else(|_| "rigid".to_string());
     if kind != "rigid" {
         for key in FRICTION.iter().filter(|key| wall.get(key).is_some()) {
@@ -91,18 +91,9 @@ fn check_friction(wall: &Dictionary, elastic: bool, solid: bool, found: &mut Fin
         }
         return;
     }
-    let friction = keys::number(wall, "friction", "");
-    let place = wall.path_of("friction");
-    let allowed = "0 in meshes of three dimensions";
-    if let Some(friction) = friction.filter(|&friction| solid && friction > 0.0) {
-        if !found.0.iter().any(|finding| finding.key == place && finding.allowed == allowed) {
-            found.error([FILE, &place], &friction.to_string(), allowed, "");
-        }
-        return;
-    }
     let place = wall.path_of("slip");
     if elastic
-        && friction.is_some()
+        && keys::number(wall, "friction", "").is_some()
         && wall.get("slip").is_none()
         && !found.0.iter().any(|finding| finding.key == place)
     {
@@ -135,13 +126,9 @@ mod tests {
     #[test]
     fn friction_that_the_solver_ignores_or_refuses_is_found() {
         let rigid = "walls { \".*\" { friction 0.3; slip 1e-6; } }";
-        assert_eq!(lines(rigid, "empty", None), Vec::<String>::new());
-        assert_eq!(
-            lines(rigid, "wall", None),
-            [
-                "error: constant/granularProperties: equilibriumCoeffs/walls/.*/friction = 0.3, allowed: 0 in meshes of three dimensions"
-            ]
-        );
+        for sides in ["empty", "wall"] {
+            assert_eq!(lines(rigid, sides, None), Vec::<String>::new());
+        }
         assert_eq!(
             lines("walls { \"l.*|right\" { type frictionless; friction 0.3; } }", "empty", None),
             [
@@ -155,15 +142,13 @@ mod tests {
     }
 
     #[test]
-    fn friction_in_space_is_one_error_whether_or_not_slip_is_given() {
-        let wanted = "error: constant/granularProperties: equilibriumCoeffs/walls/.*/friction = 0.3, allowed: 0 in meshes";
-        for slip in ["", "slip 1e-6;"] {
-            let found =
-                lines(&format!("law elastic; walls {{ \".*\" {{ friction 0.3; {slip} }} }}"), "wall", None);
-            assert!(found.len() == 1 && found[0].starts_with(wanted), "{found:?}");
+    fn friction_without_slip_is_one_error_in_the_plane_and_in_space() {
+        for (sides, friction) in [("empty", "0.3"), ("wall", "0.3"), ("wall", "0")] {
+            let walls = |slip| format!("law elastic; walls {{ \".*\" {{ friction {friction}; {slip} }} }}");
+            let found = lines(&walls(""), sides, None);
+            assert!(found.len() == 1 && found[0].contains("slip = missing"), "{found:?}");
+            assert_eq!(lines(&walls("slip 1e-6;"), sides, None), Vec::<String>::new());
         }
-        let still = lines("law elastic; walls { \".*\" { friction 0; } }", "wall", None);
-        assert!(still.len() == 1 && still[0].contains("slip = missing"), "{still:?}");
     }
 
     #[test]

@@ -243,8 +243,8 @@ fn rest(scene: &Scene) -> String {
     let names = scene.shape.walls().iter().copied().chain(inner);
     let walls: String = names.map(|name| format!("        {name:8} {{ {} }}\n", wall(name))).collect();
     let mut text = format!(
-        "\n// Walls: frictionless ones stay, and spheres slide along them; piston is a stiff plate under a load (pressure where air\n\
-         // would press); shell is a thin vessel that gives way and expands with its own temperature. give: by how many diameters of bed spheres give way at a smooth wall\n\
+        "\n// Walls: frictionless ones stay, and spheres slide along them; rigid ones with friction and slip [m] are rough; piston is a stiff\n\
+         // plate under a load (pressure where air would press); shell is a thin vessel that gives way and expands with its own temperature. give: by how many diameters of bed spheres give way at a smooth wall\n\
          equilibriumCoeffs\n{{\n    walls\n    {{\n{walls}    }}\n}}\n"
     );
     if scene.gravity > 0.0 {

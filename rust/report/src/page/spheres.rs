@@ -20,7 +20,7 @@ const LIMITS: [&str; 8] = [
     "Spheres are equal. Contacts are elastic: where Hertz's peak stress passes 1.6 times the yield stress, a run says so.",
     "The law is fitted to periodic boxes of 1000 spheres with a friction of 0.3, p/E* from 1e-8 to 1e-3 and one cycle and a half of strain: a bed that is \
      cycled ten times goes on to settle and gets stiffer, which the law does not.",
-    "Walls in space are smooth: friction of walls is for the plane.",
+    "Friction at walls is not part of the law: a case gives it for each wall, and a wall without it is smooth.",
     "Layers of spheres that are ordered along walls conduct less than the bed behind them; the solver has one law for both.",
     "Where spheres conduct less than 60 times as well as the gas, a closure takes the place of the law of pairs, with an error of 1 to 10 %.",
     "Radiation is left out by the solver and by msdd bed run; only the prediction for Zehner's beds has it. In steel of 6 mm it is 4 % at 300 K.",
