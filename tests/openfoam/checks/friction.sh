@@ -1,5 +1,5 @@
 # Friction of walls in space, where it is a vector along the wall: a plate that slides under a body, along lines, around a corner and in
-# a circle; a column between rough walls in space beside the same in the plane; Janssen's equation in a square silo; a silo that is
+# a circle; a column between rough walls in space beside the same in the plane; Janssen's equation in a square silo; a hollow cylinder beside a wedge; a silo that is
 # turned about its axis; three processes, restart, and what is refused.
 
 # A stiff body, pressed by some 10 kPa onto a plate that slides under it; its own motion along the plate, some 1e-7 m, is small beside
@@ -125,6 +125,41 @@ turned_silo() {
         check "a silo of tetrahedra, turned by 30 degrees: $name differs by $e <= 1e-5 of its largest" below "$e" 1e-5
     done
 }
+# A hollow cylinder with a rough wall outside, pressed along its axis, as a wedge and as a quarter in space: mean stress along the axis
+# and friction on the wall, of each layer
+pressed_cylinder() { # folder, mesh, patch that is pressed
+    spheres_bed "$1" 'residual 1e-2; walls { ".*" { type frictionless; } outer { type rigid; friction 0.4; slip 1e-5; } end { type pressure; pressure constant 20000; } }'
+    "$2" 8
+    logged blockMesh
+    cell_geometry
+    controls 'endTime 1;'
+    logged msddFoam
+}
+long_wedge() {
+    wedge_mesh "$1"
+    sed -i "s/(4 $1 1)/(8 $1 1)/; s/ends { type symmetry; faces ((0 4 7 3) (1 2 6 5)); }/start { type wall; faces ((0 4 7 3)); } end { type wall; faces ((1 2 6 5)); }/" \
+        system/blockMeshDict
+}
+high_ring() {
+    ring_mesh "$1"
+    sed -i "s/ 0\.1)/ 1)/g; s/ ($1 $(($1*3/2)) 1) / ($1 $(($1*3/2)) 8) /
+        s/frontAndBack { type empty; faces ((0 3 2 1) (4 5 6 7)); }/start { type wall; faces ((0 3 2 1)); } end { type wall; faces ((4 5 6 7)); }/" system/blockMeshDict
+}
+wedge_and_cylinder() {
+    local e
+    pressed_cylinder friction-wedge long_wedge
+    paste -d ' ' <(field 0/C) <(field 0/V) <(field 1/stress) | awk '{ i = int(8*$1); V[i] += $4; s[i] += $4*$5 } END { for (i = 0; i < 8; i++) print s[i]/V[i] }' > rows
+    paste -d ' ' <(list_points) <(field 1/wallTraction) | awk '$2 > 1.9 { i = int(8*$1 + 0.5); n[i]++; t[i] += $4 } END { for (i = 0; i < 9; i++) print t[i]/n[i] }' >> rows
+    pressed_cylinder friction-cylinder high_ring
+    paste -d ' ' <(field 0/C) <(field 0/V) <(field 1/stress) | awk '{ i = int(8*$3); V[i] += $4; s[i] += $4*$10 } END { for (i = 0; i < 8; i++) print s[i]/V[i] }' > rows
+    paste -d ' ' <(list_points) <(field 1/wallTraction) | awk '$1*$1 + $2*$2 > 3.9 { i = int(8*$3 + 0.5); n[i]++; t[i] += $6 } END { for (i = 0; i < 9; i++) print t[i]/n[i] }' >> rows
+    e=$(paste -d ' ' rows ../friction-wedge/rows | awk '{ e = ($1 - $2)/20000; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR == 17 ? w : "nan") }')
+    check "a pressed hollow cylinder with a rough wall as a wedge and as a quarter in space: stress and friction differ by $e <= 4e-3 of the pressure" below "$e" 4e-3
+    e=$(awk 'NR == 1 { print -$1/20000 }' rows)
+    check "of which $e comes to its other end, at most 0.9" below "$e" 0.9
+}
+list_points() { sed '1,/^($/d; /^)$/,$d' constant/polyMesh/points | tr -d '()'; }
+
 same_friction() {
     local name
     for name in T porosity stress elasticCompression nodeDisplacement wallTraction; do
@@ -170,5 +205,6 @@ plane_and_space
 janssen 1
 janssen 2
 turned_silo
+wedge_and_cylinder
 again_and_in_parts_with_friction
 refused_friction
