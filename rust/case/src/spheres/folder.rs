@@ -244,7 +244,8 @@ fn rest(scene: &Scene) -> String {
     let walls: String = names.map(|name| format!("        {name:8} {{ {} }}\n", wall(name))).collect();
     let mut text = format!(
         "\n// Walls: frictionless ones stay, and spheres slide along them; rigid ones with friction and slip [m] are rough; piston is a stiff\n\
-         // plate under a load (pressure where air would press); shell is a thin vessel that gives way and expands with its own temperature. give: by how many diameters of bed spheres give way at a smooth wall\n\
+         // plate under a load (pressure where air would press); shell is a thin vessel that gives way and expands with its own temperature.\n\
+         // give: by how many diameters of bed spheres give way at a smooth wall\n\
          equilibriumCoeffs\n{{\n    walls\n    {{\n{walls}    }}\n}}\n"
     );
     if scene.gravity > 0.0 {
