@@ -130,16 +130,17 @@ mod tests {
     use crate::spheres::material::MATERIALS;
 
     /// The discrete elements of cases/column (steel in air, 24 kPa, porosity 0.4037) have 4.70 contacts per sphere at the start and
-    /// conduct 0.233 W/(m K) through contacts and 0.415 through the gas.
+    /// conduct 0.233 W/(m K) through contacts and 0.415 through the gas, along z. More of the contacts point there (fabric 0.3527), for
+    /// which the law has 1.08 and 1.027 times the means over all directions.
     #[test]
     fn a_poured_bed_is_that_of_discrete_elements() {
         let bed = Bed::new(MATERIALS[0].spheres(), 24e3).unwrap();
         let air = Gas { name: GasName::Air, pressure: 101_325.0 };
         let start = bed.start(0.4037, &air, 293.15);
         assert!((start.coordination / 4.70 - 1.0).abs() < 0.03, "{start:?}");
-        assert!((start.by_gas / 0.415 - 1.0).abs() < 0.03, "{start:?}");
+        assert!((1.027 * start.by_gas / 0.415 - 1.0).abs() < 0.03, "{start:?}");
         let vacuum = bed.start(0.4037, &Gas { name: GasName::Vacuum, pressure: 1.0 }, 293.15);
-        assert!(vacuum.by_gas == 0.0 && (vacuum.conductivity / 0.233 - 1.0).abs() < 0.05, "{vacuum:?}");
+        assert!(vacuum.by_gas == 0.0 && (1.08 * vacuum.conductivity / 0.233 - 1.0).abs() < 0.03, "{vacuum:?}");
     }
 
     #[test]
