@@ -408,8 +408,7 @@ impl SphereModel {
         for (column, value) in answers.stress.iter_mut().zip(&stress) {
             value.write(&mut column[first..]);
         }
-        for (column, value) in answers.contact.iter_mut().zip(&readout.contact(&law.contacts, &next, &stress))
-        {
+        for (column, value) in answers.contact.iter_mut().zip(&readout.contact(&next, &stress)) {
             value.write(&mut column[first..]);
         }
         readout.gas(&next, V::read(&block.gas_number[first..])).write(&mut answers.gas[first..]);

@@ -2,10 +2,9 @@
 //!
 //! K = k_s κ_c + k_g κ_g. By contacts, κ_c = C (p/E*)^(1/3) in the mean, which is the conductance 2 a k of Hertz's contacts
 //! (Batchelor and O'Brien, 1977, Proc. R. Soc. A 355:313), with more of it along the larger stress and along more contacts. C grows
-//! with the number of contacts, less those of grains that rest on others and bear no load. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
+//! with the number of contacts. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
 
 use super::components::{six, three};
-use super::contacts::Contacts;
 use super::number::Number;
 use super::state::{FABRIC, State};
 use super::tensor::{Tensor, contraction, mean, scaled};
@@ -16,13 +15,13 @@ pub const GAS_NUMBERS: [f64; 3] = [3.5, 6.0, 8.5];
 /// Numbers of gas for which κ_g may be asked: parabolas through the three known ones.
 pub const GAS_RANGE: [f64; 2] = [2.5, 9.5];
 
-/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r = |η|, n = z − 5.5 with the contacts per sphere z, i = z − z_b those that bear no
-/// load ([`super::contacts::Usual::bearing`]), and the part g of the friction that is not mobilised.
+/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r = |η|, n = z − 5.5 with the contacts per sphere z, and the part g of the
+/// friction that is not mobilised.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
-    /// C: coefficients of 1, n, n², s, v, n s, x, r, g, g n, i.
-    pub contact: [f64; 11],
+    /// C: coefficients of 1, n, n², s, v, n s, x, r, g, g n.
+    pub contact: [f64; 10],
     /// Deviator of κ_c over its mean: coefficients of η without the fabric's part, and of that.
     pub direction: [f64; 2],
     /// κ_g in the mean at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s.
@@ -49,13 +48,11 @@ fn common<N: Number>(state: &State<N>) -> [N; 3] {
     [v.root(), v, contacts.plus(-USUAL_CONTACTS)]
 }
 
-/// `contacts` are those of the law whose state this is.
 #[inline(always)]
-pub fn contact_row<N: Number>(state: &State<N>, contacts: &Contacts) -> [N; 11] {
+pub fn contact_row<N: Number>(state: &State<N>) -> [N; 10] {
     let ([s, v, n], ratio, free) = (common(state), state.ratio(), state.free());
     let length = contraction(&ratio, &ratio).root();
-    let idle = state.coordination - contacts.usual(state).bearing(state.coordination);
-    [N::constant(1.0), n, n * n, s, v, n * s, state.density(), length, free, free * n, idle]
+    [N::constant(1.0), n, n * n, s, v, n * s, state.density(), length, free, free * n]
 }
 
 /// η without the fabric's part, and that.
@@ -96,11 +93,11 @@ fn product<N: Number, const M: usize>(row: &[N; M], coefficients: &[f64; M]) -> 
 }
 
 impl Readout {
-    /// κ_c of a state of a law with these contacts, with this stress over E*; 0 without load.
+    /// κ_c of a state with this stress over E*; 0 without load.
     #[inline(always)]
-    pub fn contact<N: Number>(&self, contacts: &Contacts, state: &State<N>, stress: &Tensor<N>) -> Tensor<N> {
+    pub fn contact<N: Number>(&self, state: &State<N>, stress: &Tensor<N>) -> Tensor<N> {
         let (pressure, zero) = (mean(*stress), N::constant(0.0));
-        let per_root = product(&contact_row(state, contacts), &self.contact).not_below(LEAST_CONTACT);
+        let per_root = product(&contact_row(state), &self.contact).not_below(LEAST_CONTACT);
         let size = per_root * pressure.not_below(LEAST_PRESSURE).power(1.0 / 3.0);
         let size = pressure.where_above(zero, size, zero);
         let [xx, yy, zz, xy, xz, yz] = scaled(&relative(&self.direction, state), size);

@@ -303,7 +303,7 @@ fn conductivities_that_are_known_along_z_alone_teach_the_same() {
     let part = readout(&law, &some);
     for track in &all {
         let (state, stress) = (track.packed.state(&law), track.packed.stress);
-        let [a, b] = [&whole, &part].map(|readout| readout.contact(&law.contacts, &state, &stress));
+        let [a, b] = [&whole, &part].map(|readout| readout.contact(&state, &stress));
         assert!(
             a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.02 * mean(track.packed.contact)),
             "{a:?} {b:?}"

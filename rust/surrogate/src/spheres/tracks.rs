@@ -90,8 +90,8 @@ pub struct Track {
     pub is_isotropic: bool,
     /// Number of spheres.
     pub spheres: usize,
-    /// Factor of its errors of stress and fabric in the training, and weight of the squares of those of the number of contacts and of
-    /// conductivities by contacts.
+    /// Factor of its errors of stress and fabric in the training, and weight of the squares of those of the number of contacts. Of
+    /// those of conductivities by contacts its root is the weight, so that boxes are met beside the beds that have large weights.
     pub weight: f64,
     pub packed: Point,
     pub steps: Vec<Step>,
