@@ -141,7 +141,7 @@ mod tests {
         assert!((1.027 * start.by_gas / 0.415 - 1.0).abs() < 0.03, "{start:?}");
         let vacuum = bed.start(0.4037, &Gas { name: GasName::Vacuum, pressure: 1.0 }, 293.15);
         assert!(
-            vacuum.by_gas == 0.0 && (1.08 * vacuum.conductivity / 0.233 - 1.0).abs() < 0.03,
+            vacuum.by_gas == 0.0 && (1.08 * vacuum.conductivity / 0.233 - 1.0).abs() < 0.05,
             "{vacuum:?}"
         );
     }
