@@ -122,9 +122,10 @@ void Foam::wallConditions::findPistons()
         {
             FatalErrorInFunction
                 << "Patch " << name << " is a piston, and a wall beside it keeps"
-                << " it from moving. Allowed: walls at right angles to it, that"
-                << " is along its motion; see 'walls' of equilibriumCoeffs"
-                << exit(FatalError);
+                << " it from moving, or another piston that shares points with"
+                << " it. Allowed beside it: walls and pistons at right angles to"
+                << " it, that is along its motion; a lid of one patch; see"
+                << " 'walls' of equilibriumCoeffs" << exit(FatalError);
         }
         pistons_.append(one);
     }

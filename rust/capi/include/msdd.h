@@ -229,7 +229,8 @@ typedef struct msdd_sphere_batch {
     double *const *tangent;        /**< 36 columns [Pa], row by row: -d sigma_i/d strain_j at the end of the step. It is the
                                         derivative of exactly the stress that is answered, and not symmetric */
     double *const *conductivity;   /**< six columns after the step [W/(m K)], contacts and gas together */
-    double *gas_conductivity;      /**< the part of it by the gas [W/(m K)], in every direction alike */
+    double *gas_conductivity;      /**< the part of it by the gas [W/(m K)], its mean over directions: there is more of it
+                                        where contacts point */
     double *solid_fraction;        /**< volume of the spheres over the volume [-] */
     uint8_t *outside;              /**< what is outside of the training, as a sum: 1 the jamming fraction, 2 the pressure, 4 the
                                         stress ratio after the step; 8 the gas: its number, or where it is so thin that its

@@ -88,7 +88,7 @@ class SphereStep:
     conductivity: Array
     """K [W/(m K)], of contacts and gas together"""
     gas_conductivity: Array
-    """the part of it by the gas [W/(m K)], in every direction alike"""
+    """the part of it by the gas [W/(m K)], its mean over directions: there is more of it where contacts point"""
     solid_fraction: Array
     """volume of the spheres over the volume [-]"""
     outside: NDArray[np.bool_]

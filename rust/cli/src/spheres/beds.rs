@@ -4,8 +4,10 @@
 use super::same::Known;
 use crate::bed::start::{Start, packings};
 use crate::error::CliError;
+use msdd_beds::effective::BedMaterial;
 use msdd_beds::packings::column;
 use msdd_beds::scene::{FILE, Scene};
+use msdd_beds::solid::Solid;
 use msdd_files::{list, read_text};
 use msdd_spheres::law::effective_modulus;
 use msdd_surrogate::spheres::tensor::Tensor;
@@ -15,7 +17,7 @@ use std::path::Path;
 
 /// Kind of path of a bed.
 const NAME: &str = "poured";
-/// [`Track::weight`]: there are twenty beds beside some three hundred and sixty boxes, and beds are what the law is for.
+/// [`Track::weight`]: there are thirty beds beside some three hundred and sixty boxes, and beds are what the law is for.
 const WEIGHT: f64 = 5.0;
 /// Columns of the strains, and of the state.
 const STRAIN: [&str; 4] = ["thermal_strain", "strain_1", "strain_2", "strain_3"];
@@ -91,8 +93,23 @@ fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) ->
     let temperatures = values(&"T_mean")?;
     let modulus = effective_modulus(grains.young_modulus, grains.poisson_ratio);
     let mobilised = Start::read(file)?.mobilised;
-    let gas_at =
-        |temperature: f64| scene.gas.name.at(temperature, scene.gas.pressure, scene.gas.accommodation);
+    let gas_along = |temperature: f64, conductivity: f64| {
+        let solid = Solid {
+            conductivity: grains.conductivity.at(temperature),
+            effective_modulus: modulus,
+            roughness: None,
+        };
+        let bed = BedMaterial {
+            radius: 0.5 * grains.diameter,
+            solid,
+            gas: scene.gas.name,
+            gas_pressure: scene.gas.pressure,
+            accommodation: scene.gas.accommodation,
+        };
+        let known =
+            bed.gas_at(temperature).map(|gas| [bed.gas_number(&gas), conductivity / gas.conductivity]);
+        known.unwrap_or([f64::NAN; 2])
+    };
     let point = |k: usize| {
         let [porosity, a, b, c, coordination, x, y, z, conductivity, by_gas] =
             std::array::from_fn(|column| states[column][k]);
@@ -102,11 +119,7 @@ fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) ->
             stress: diagonal([a, b, c].map(|stress| stress / modulus)),
             contact: diagonal([f64::NAN, f64::NAN, along]),
             gas: [f64::NAN; 3],
-            gas_along: gas_at(temperatures[k]).map_or([f64::NAN; 2], |gas| {
-                let distance =
-                    gas.least_distance(0.5 * grains.diameter, grains.conductivity.at(temperatures[k]));
-                [(0.5 * grains.diameter / distance).ln(), by_gas / gas.conductivity]
-            }),
+            gas_along: gas_along(temperatures[k], by_gas),
             coordination,
             fabric: diagonal([x, y, z]),
             mobilised,
