@@ -3,8 +3,8 @@
 //!
 //! Time goes on in intervals. In each, heat first flows through the network of the contacts as they are at its start; then grains and
 //! walls move to where the end of the interval wants them, in half of a number of steps of the discrete elements or as many more as they
-//! need to stay near rest, and come to rest in as many. The motion is not that of the real time: a bed at rest knows none, and how far
-//! from rest it is is recorded.
+//! need to stay near rest, and come to rest in as many. An interval that needs too many is hurried, and counted. The motion is not that
+//! of the real time: a bed at rest knows none, and how far from rest it is is recorded.
 
 use crate::BedError;
 use crate::give::{BLOCK, Hold, Moving, drag, steered, wall_area};
@@ -28,12 +28,17 @@ const FIRST_STEP: f64 = 0.1;
 /// that moves lags by its drag and inertia: where a lid was off by a tenth of its pressure, contacts slid that would not slide in a
 /// bed at rest, and the pressure was 3 to 5 % off.
 const MOST_LAG: f64 = 0.02;
-/// The same below which they change by twice as much at a time, at most by an even part of the interval.
+/// The same below which a bed is near rest, and they change by twice as much at a time, at most by an even part of the interval.
 const LITTLE_LAG: f64 = 0.005;
 /// The same below which a bed is at rest, which ends an interval.
 const AT_REST: f64 = 1e-3;
-/// Times the steps of an interval after which it goes on although the bed lags.
-const LONGEST: u64 = 20;
+/// The least share of an interval by which they change at a time is an even part of it over this.
+const PARTS: u64 = 20;
+/// Times the steps of the motion after which what is left of it is hurried although the bed lags. Contacts slide then that would not
+/// slide in a bed at rest: one that needs 90 times its steps, and was hurried after 20 times, bore a fifth too little across its load.
+const LONGEST: u64 = 400;
+/// Times the steps of the rest after which an interval ends although the bed is not at rest: some creep for long.
+const LONGEST_REST: u64 = 100;
 
 /// A bed at rest under its lid.
 #[derive(Clone, Debug)]
@@ -89,6 +94,10 @@ pub struct Run {
     /// Steps of heat, and of the discrete elements.
     pub heat_steps: u64,
     pub steps: u64,
+    /// Intervals, those of them whose motion had to be hurried, and those that ended with more out of balance than beds near rest have.
+    pub intervals: u64,
+    pub hurried: u64,
+    pub restless: u64,
 }
 
 /// Pours, presses the lid on, and hardens. `watch` is told the stage, and how far it has come, from 0 to 1.
@@ -200,7 +209,16 @@ impl<'a> Coupled<'a> {
             shell: scene.shell.as_ref().map(|_| Moving::new(number("side"), Hold::Place { moved: 0.0 })),
             depth_at_start: 0.0,
             part: 0.0,
-            run: Run { rows: Vec::new(), stored: 0.0, residual: 0.0, heat_steps: 0, steps: simulation.steps },
+            run: Run {
+                rows: Vec::new(),
+                stored: 0.0,
+                residual: 0.0,
+                heat_steps: 0,
+                steps: simulation.steps,
+                intervals: 0,
+                hurried: 0,
+                restless: 0,
+            },
             simulation,
         };
         bed.depth_at_start = bed.depth();
@@ -251,19 +269,19 @@ impl<'a> Coupled<'a> {
             .map(|(radius, temperature)| radius * (1.0 + expansion * (temperature - start)))
             .collect();
         let least = self.scene.time.steps.div_ceil(2 * BLOCK);
-        let most = 2 * LONGEST * least;
         let longest = 1.0 / least as f64;
-        let (mut blocks, mut share) = (0, 0.0);
+        let (mut blocks, mut share, mut hurried) = (0, 0.0, false);
         let mut radii = before.clone();
         while share < 1.0 {
-            let (lag, late) = (self.lag(), blocks >= most / 2);
+            let (lag, late) = (self.lag(), blocks >= LONGEST * least);
             self.part = match lag {
                 lag if lag > MOST_LAG => 0.5 * self.part,
                 lag if lag < LITTLE_LAG => 2.0 * self.part,
                 _ => self.part,
             };
-            self.part = self.part.clamp(longest / LONGEST as f64, longest);
+            self.part = self.part.clamp(longest / PARTS as f64, longest);
             if lag <= MOST_LAG || late {
+                hurried |= late;
                 share = f64::min(share + if late { longest } else { self.part }, 1.0);
                 for ((radius, a), b) in radii.iter_mut().zip(&before).zip(&after) {
                     *radius = a + share * (b - a);
@@ -275,11 +293,13 @@ impl<'a> Coupled<'a> {
             blocks += 1;
         }
         let mut rested = 0;
-        while rested < least || (self.lag() > AT_REST && blocks < most) {
+        while rested < least || (self.lag() > AT_REST && rested < LONGEST_REST * least) {
             self.block()?;
-            blocks += 1;
             rested += 1;
         }
+        self.run.intervals += 1;
+        self.run.hurried += u64::from(hurried);
+        self.run.restless += u64::from(self.lag() > LITTLE_LAG);
         self.simulation.drag = 0.0;
         self.lid.stop(&mut self.simulation);
         if let Some(shell) = &mut self.shell {

@@ -142,6 +142,14 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     found.rows.iter().step_by(shown).for_each(|row| line(&mut text, row));
     let worst = found.rows.iter().map(|row| row.unbalanced).fold(0.0, f64::max);
     let _ = writeln!(text, "largest force out of balance: {:.2} % of that on the lid", 100.0 * worst);
+    if found.hurried + found.restless > 0 {
+        let _ = writeln!(
+            text,
+            "Warning: of {} intervals {} were hurried and {} ended before the bed was near rest: contacts slid that would not slide at rest, and \
+             stresses may be off by tens of percent. Take shorter intervals, or more 'steps' in each.",
+            found.intervals, found.hurried, found.restless
+        );
+    }
     if let Some(row) = found.rows.first() {
         text += &start(scene, row.mobilisation, row.fabric);
     }
