@@ -145,6 +145,7 @@ fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) ->
         weight: WEIGHT,
         packed: point(0),
         steps: steps.collect(),
+        loses_load: false,
     })
 }
 

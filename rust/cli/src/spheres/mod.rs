@@ -124,10 +124,12 @@ fn print_scores(
     let seed = model.file.training.seed;
     let is_unseen = |track: &&Track| !is_trained_on_it || is_held_out(track.packing, seed);
     let unseen: Vec<Track> = tracks.iter().filter(is_unseen).cloned().collect();
-    let noise = score(model, tracks);
+    let over_all = score(model, tracks);
     let mut found = score(model, &unseen);
     for errors in &mut found {
-        errors.noise = noise.iter().find(|all| all.name == errors.name).and_then(|all| all.noise);
+        let all = over_all.iter().find(|all| all.name == errors.name);
+        errors.noise = all.and_then(|all| all.noise);
+        errors.beside_noise = all.and_then(|all| all.beside_noise);
     }
     print_along(&found, is_trained_on_it);
     print_of_state(&found);
@@ -137,17 +139,24 @@ fn print_scores(
 /// Errors along paths, beside the scatter.
 fn print_along(found: &[PathErrors], is_trained_on_it: bool) {
     let of = if is_trained_on_it { "packings that were held out" } else { "all packings" };
-    outln!("errors along the paths of {of}, % (scatter between packings that were made and strained alike)");
+    outln!(
+        "errors along the paths of {of}, % (scatter between packings that were made and strained alike; errors of the model along their paths)"
+    );
     let columns = ["pressure", "deviator", "K by contacts", "K by gas"];
     out!("{:<11} {:>5} {:>6}", "path", "paths", "states");
-    columns.iter().for_each(|column| out!(" {column:>13}"));
+    columns.iter().for_each(|column| out!(" {column:>18}"));
     outln!();
     for errors in found {
         out!("{:<11} {:>5} {:>6}", errors.name, errors.paths, errors.states);
-        let scatter = errors.noise.as_ref().map(numbers);
+        let of = |errors: &Option<Errors>| errors.as_ref().map_or([f64::NAN; 4], numbers).map(percent);
+        let (scatter, beside) = (of(&errors.noise), of(&errors.beside_noise));
         for (k, error) in numbers(&errors.along).into_iter().enumerate() {
-            let scatter = percent(scatter.map_or(f64::NAN, |scatter| scatter[k]));
-            out!(" {:>13}", format!("{} ({scatter})", percent(error)));
+            let pair = if errors.noise.is_some() {
+                format!("{}; {}", scatter[k], beside[k])
+            } else {
+                "–".to_string()
+            };
+            out!(" {:>18}", format!("{} ({pair})", percent(error)));
         }
         outln!();
     }

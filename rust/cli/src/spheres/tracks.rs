@@ -76,6 +76,7 @@ pub fn tracks(records: &[SphereRecord]) -> Vec<Track> {
         rows.sort_by_key(|row| row.stop);
         let first = rows.first()?;
         let steps: Vec<Step> = rows.iter().map_while(|row| step(row)).collect();
+        let loses_load = rows.get(steps.len()).is_some_and(|row| row.outcome == "unjammed");
         let recipe = format!(
             "{:?} {} {:?} {} {}",
             first.compression, first.packing_friction, first.shaking, first.packing_pressure, first.spheres
@@ -93,6 +94,7 @@ pub fn tracks(records: &[SphereRecord]) -> Vec<Track> {
             weight,
             packed,
             steps,
+            loses_load,
         })
     });
     tracks.collect()

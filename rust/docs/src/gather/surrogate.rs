@@ -186,6 +186,26 @@ fn along_paths(scores: &Json) -> Result<Vec<Vec<String>>, DocsError> {
     Ok(rows)
 }
 
+/// Rows of a table of errors along the paths of packings with which others were made and strained alike; scatter in brackets.
+fn along_alike(scores: &Json) -> Result<Vec<Vec<String>>, DocsError> {
+    let mut rows = Vec::new();
+    for kind in scores.list("/0")? {
+        let percent = |name: String| kind.maybe(&name).map(|value| decimals(100.0 * value, 1));
+        let cell = |error: &&str| {
+            Some(format!(
+                "{} ({})",
+                percent(format!("/beside_noise/{error}"))?,
+                percent(format!("/noise/{error}"))?
+            ))
+        };
+        let cells: Vec<String> = ALONG.iter().filter_map(cell).collect();
+        if cells.len() == ALONG.len() {
+            rows.push([vec![format!("`{}`", kind.text("/name")?)], cells].concat());
+        }
+    }
+    Ok(rows)
+}
+
 /// The law of spheres along paths, beside the scatter between packings that were made and strained alike; and of known states.
 fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
     let mut known = Vec::new();
@@ -205,6 +225,10 @@ fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
     let meaning = "rms errors of the law of spheres along paths of strain of packings that its training never saw; in brackets the \
                    scatter between packings that were made and strained alike";
     section.add_table("spheres-law", meaning, "msdd score", &ALONG_COLUMNS, along_paths(scores)?);
+    let columns = ["path", "pressure [%]", "deviator [%]", "K by contacts [%]", "K by gas [%]"];
+    let meaning = "rms errors of the law of spheres along the paths of all packings with which others were made and strained alike; in \
+                   brackets the scatter between those";
+    section.add_table("spheres-law-alike", meaning, "msdd score", &columns, along_alike(scores)?);
     let columns = [
         "path",
         "K by contacts of the state [%]",

@@ -1,8 +1,10 @@
 //! Scatter between packings of the same recipe at the same strain: what no law of the recipe could be better than.
 //!
-//! It is measured as the errors of the law are: as half of the mean square of the differences of all pairs, of which the deviator's is
-//! the length of the difference of two tensors. Where packings have no directions of their own, their axes are named so that their
-//! strains agree.
+//! It is measured as the errors of the law are, over the same states: each packing of a pair is judged as if the other were a law that
+//! foretells it. Since both scatter, half of the mean square counts. The deviator's difference is the length of the difference of two
+//! tensors. Where packings have no directions of their own, their axes are named so that their strains agree. Where one of them has
+//! just lost its load, it has no stress and conducts nothing by contacts; what it would do later is not known, and not counted. Stresses
+//! count over the mean of both packings' scales, since one of them may be about to lose its load.
 
 use super::errors::{Errors, LEAST_PRESSURE, Sums};
 use super::fit::scales;
@@ -18,26 +20,41 @@ type Axes = ([usize; 3], [f64; 3]);
 /// Scatter between the pairs of these tracks; `None` without pairs.
 pub fn noise(tracks: &[&Track]) -> Option<Errors> {
     let mut sums = Sums::default();
-    for (k, one) in tracks.iter().enumerate() {
-        for other in &tracks[k + 1..] {
-            let Some(axes) = common_axes(one, other) else { continue };
-            let scales = scales(one).into_iter().zip(scales(other));
-            for ((a, b), (first, second)) in one.steps.iter().zip(&other.steps).zip(scales) {
-                let (a, b, scale) = (&a.to, &b.to, 0.5 * (first + second));
-                let named = renamed(&b.stress, axes);
-                let wrong = deviator(std::array::from_fn(|k| (a.stress[k] - named[k]) / scale));
-                let pressure = (mean(a.stress) - mean(b.stress)) / scale;
-                sums.add_stress([0.5 * pressure * pressure, 0.5 * contraction(&wrong, &wrong)]);
-                let least = mean(a.stress).min(mean(b.stress));
-                if least >= LEAST_PRESSURE && mean(a.contact) > 0.0 && mean(b.contact) > 0.0 {
-                    let contact = mean(a.contact) / mean(b.contact) - 1.0;
-                    let gas = a.gas[2] / b.gas[2] - 1.0;
-                    sums.add_conductivity([0.5 * contact * contact, 0.5 * gas * gas]);
-                }
+    for one in tracks {
+        for other in tracks {
+            if let Some(axes) = common_axes(one, other) {
+                add(&mut sums, one, other, axes);
             }
         }
     }
     sums.errors()
+}
+
+/// The tracks that have another one to which they are compared: those over which the scatter is.
+pub fn with_others<'a>(tracks: &[&'a Track]) -> Vec<&'a Track> {
+    let has_other = |one: &&&Track| tracks.iter().any(|other| common_axes(one, other).is_some());
+    tracks.iter().filter(has_other).copied().collect()
+}
+
+/// Adds the differences of another track at the states of this one, as far as both bear load, and where the other one loses it.
+fn add(sums: &mut Sums, one: &Track, other: &Track, axes: Axes) {
+    let known = other.steps.len() + usize::from(other.loses_load);
+    let of_other = scales(other);
+    for (k, (step, scale)) in one.steps.iter().zip(scales(one)).take(known).enumerate() {
+        let a = &step.to;
+        let scale = of_other.get(k).map_or(scale, |other| 0.5 * (scale + other));
+        let (stress, contact, gas) = match other.steps.get(k) {
+            Some(b) => (renamed(&b.to.stress, axes), mean(b.to.contact), b.to.gas[2]),
+            None => ([0.0; 6], 0.0, f64::NAN),
+        };
+        let wrong = deviator(std::array::from_fn(|k| (a.stress[k] - stress[k]) / scale));
+        let pressure = (mean(a.stress) - mean(stress)) / scale;
+        sums.add_stress([0.5 * pressure * pressure, 0.5 * contraction(&wrong, &wrong)]);
+        if mean(a.stress) >= LEAST_PRESSURE && mean(a.contact) > 0.0 {
+            let [contact, gas] = [contact / mean(a.contact) - 1.0, gas / a.gas[2] - 1.0];
+            sums.add_conductivity([0.5 * contact * contact, 0.5 * gas * gas]);
+        }
+    }
 }
 
 /// T of axes i, j is that of the axes `order`_i, `order`_j, with the senses.
@@ -93,6 +110,7 @@ mod tests {
             weight: 1.0,
             packed: point,
             steps: vec![Step { from: 0, thermal: 0.0, stretch, gives_way: None, to: point }],
+            loses_load: false,
         }
     }
 
@@ -113,6 +131,18 @@ mod tests {
         let found = noise(&[&along_x, &other]).expect("a pair");
         let length = (2.0 * p * p).sqrt() / scales(&other)[0];
         assert!((found.deviator - length / 2f64.sqrt()).abs() < 1e-9, "{found:?}");
+        // One that loses its load foretells nought where it has lost it.
+        let longer = Track {
+            packing: 7,
+            steps: [along_x.steps.clone(), along_x.steps.clone()].concat(),
+            ..along_x.clone()
+        };
+        let shorter = Track { packing: 8, loses_load: true, ..along_x.clone() };
+        let found = noise(&[&longer, &shorter]).expect("a pair");
+        // Of three states two are met, and at the third the other one has no load.
+        assert!((found.contact - (0.5f64 / 3.0).sqrt()).abs() < 1e-9, "{found:?}");
+        assert!(found.gas < 1e-12, "{found:?}");
+        assert!(noise(&[&longer, &along_x]).expect("a pair").contact < 1e-12);
         // Packings with a direction of their own keep it.
         let pressed = |track: &Track| Track { is_isotropic: false, ..track.clone() };
         assert_eq!(noise(&[&pressed(&along_x), &pressed(&along_z)]), None);

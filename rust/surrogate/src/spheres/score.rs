@@ -3,7 +3,7 @@
 use super::errors::{Errors, LEAST_PRESSURE, Sums};
 use super::fit::scales;
 use super::model::SphereModel;
-use super::noise::noise;
+use super::noise::{noise, with_others};
 use super::state::{Known, State};
 use super::tensor::{contraction, deviator, mean};
 use super::tracks::{Track, follow, follow_from};
@@ -30,6 +30,8 @@ pub struct PathErrors {
     pub gas_of_state: f64,
     /// Scatter between packings that were made and strained alike; absent when there are none.
     pub noise: Option<Errors>,
+    /// Errors along the paths of those packings.
+    pub beside_noise: Option<Errors>,
 }
 
 /// Errors by kind of path, in the order of the names.
@@ -69,6 +71,10 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
             of_state[2] += gas * gas;
         }
     }
+    let mut beside = Sums::default();
+    for track in with_others(tracks) {
+        add(&mut beside, model, track, &follow(law, track));
+    }
     let [contact_of_state, direction, gas_of_state] =
         of_state.map(|sum| (sum / all.conducting().max(1) as f64).sqrt());
     PathErrors {
@@ -82,6 +88,7 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
         direction,
         gas_of_state,
         noise: noise(tracks),
+        beside_noise: beside.errors(),
     }
 }
 

@@ -95,6 +95,8 @@ pub struct Track {
     pub weight: f64,
     pub packed: Point,
     pub steps: Vec<Step>,
+    /// Whether the path goes on after these steps, and the packing bears no load after the next one.
+    pub loses_load: bool,
 }
 
 impl Track {
