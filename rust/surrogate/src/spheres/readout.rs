@@ -20,8 +20,8 @@ pub const GAS_RANGE: [f64; 2] = [2.5, 9.5];
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
-    /// C: coefficients of 1, n, n², s, v, n s, x, r, g, g n, g s.
-    pub contact: [f64; 11],
+    /// C: coefficients of 1, n, n², s, v, n s, x, r, g, g n.
+    pub contact: [f64; 10],
     /// Deviator of κ_c over its mean: coefficients of η without the fabric's part, and of that.
     pub direction: [f64; 2],
     /// κ_g in the mean at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s.
@@ -49,10 +49,10 @@ fn common<N: Number>(state: &State<N>) -> [N; 3] {
 }
 
 #[inline(always)]
-pub fn contact_row<N: Number>(state: &State<N>) -> [N; 11] {
+pub fn contact_row<N: Number>(state: &State<N>) -> [N; 10] {
     let ([s, v, n], ratio, free) = (common(state), state.ratio(), state.free());
     let length = contraction(&ratio, &ratio).root();
-    [N::constant(1.0), n, n * n, s, v, n * s, state.density(), length, free, free * n, free * s]
+    [N::constant(1.0), n, n * n, s, v, n * s, state.density(), length, free, free * n]
 }
 
 /// η without the fabric's part, and that.
