@@ -120,19 +120,26 @@ what_changes_it() {
 }
 contacts() {
     local few many
-    steel spheres-few
-    coefficient gas vacuum
-    coefficient coordination 4
-    logged msddFoam
-    few=$(component 100/conductivity 6)
-    steel spheres-many
-    coefficient gas vacuum
-    coefficient coordination 6
-    logged msddFoam
-    many=$(component 100/conductivity 6)
+    conducts() { # contacts, mobilised friction
+        steel "spheres-$1-$2" > /dev/null
+        coefficient gas vacuum
+        coefficient coordination "$1; mobilised $2"
+        logged msddFoam > /dev/null
+        component 100/conductivity 6
+    }
+    few=$(conducts 4 0)
+    many=$(conducts 6 0)
     # C grows by about a fifth with a contact per sphere.
     check "six contacts per sphere conduct $many, four $few W/(m K)" \
         is_within "$(awk "BEGIN { print $many/$few }")" 1.3 1.8
+    few=$(conducts 4 0.9)
+    many=$(conducts 6 0.9)
+    check "where friction is mobilised some of the six only rest on others, and they conduct $many, four $few" \
+        is_within "$(awk "BEGIN { print $many/$few }")" 1.1 1.3
+    few=$(conducts 4 0.85)
+    steel spheres-many
+    coefficient gas vacuum
+    coefficient coordination 6
     sed 's/object *porosity;/object coordination;/; s/^internalField .*/internalField uniform 4;/' 0/porosity > 0/coordination
     rm -rf 50 100
     logged msddFoam

@@ -26,8 +26,9 @@ const GIVE: &str = "give 1; giveBack 0.1;";
   bed/Allrun                                     the same bed by the solver: a second
 
 The solver's bed starts from what the discrete elements are at the start: porosity, stress, contacts per sphere, mobilised friction
-and fabric. A bed between plates becomes a column of cells, a cylinder a wedge. The mesh ends where the centres of the first layers
-are, because a heated wall of the discrete elements holds these.")]
+and fabric. A bed between plates becomes a column of cells, a cylinder a wedge. The mesh ends where the centres of the first layer
+are, because a heated wall of the discrete elements holds these, and a sixth of a diameter further in at a heated floor; where heat
+goes along the axis to a plate that is not heated, an eighth of a diameter before that.")]
 pub struct Arguments {
     /// Folder with elements.toml.
     case: PathBuf,
@@ -247,11 +248,10 @@ fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
 /// Where temperatures are recorded.
 pub fn probes(scene: &Scene, geometry: &Geometry) -> Vec<[f64; 3]> {
     let record = &scene.record;
-    let depth = geometry.levels[3] + geometry.levels[0];
     let middle = 0.5 * (record.heights[0] + record.heights[1]);
     let at = |&distance: &f64| match record.wall.as_str() {
         "side" => geometry.point(middle, scene.container.radius.unwrap_or(0.0) - distance),
-        "lid" => geometry.point(depth - distance, 0.5 * record.radius.unwrap_or(0.0)),
+        "lid" => geometry.point(geometry.plates - distance, 0.5 * record.radius.unwrap_or(0.0)),
         _ => geometry.point(distance, 0.5 * record.radius.unwrap_or(0.0)),
     };
     record.distances.iter().map(at).collect()

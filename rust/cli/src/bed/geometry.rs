@@ -13,10 +13,20 @@ const HALF_ANGLE: f64 = 2.5 * std::f64::consts::PI / 180.0;
 /// Where the mesh of a cylinder ends before the axis, over its radius, and the width of the column of a box, in diameters.
 const INNER: f64 = 0.008;
 const WIDTH: f64 = 3.0;
+/// Where the mesh ends before a plate, in diameters. A plate that is heated holds the first layer of grains at its temperature: the mesh
+/// ends at their centres. On a floor, where these lie flat and the next layer lies in their hollows, the temperatures of the grains
+/// reach that of the floor a little higher. Before the other plate, if it is not heated, the mesh ends where a bed without the wider pores
+/// beside plates would hold all grains, and so their heat.
+const HELD: f64 = 0.5;
+const HELD_BY_FLOOR: f64 = 0.66;
+const INSULATED: f64 = 0.125;
+
 /// The bed as the solver's mesh has it: lengths in metres.
 pub struct Geometry {
     /// Levels along the axis: floor, the two heights of the averages, lid.
     pub levels: [f64; 4],
+    /// Of the lid above the floor.
+    pub plates: f64,
     /// In a cylinder: where the mesh begins, the radius of the averages, where it ends.
     pub radii: Option<[f64; 3]>,
     /// Of the cylinder over that of the mesh.
@@ -43,23 +53,25 @@ impl Geometry {
                 "floor, lid, and the side of a cylinder, where the solver's case is a column of cells",
             ));
         }
-        let half = 0.5 * scene.grains.diameter;
+        let diameter = scene.grains.diameter;
+        let half = HELD * diameter;
+        let flows_along = heated("floor") || heated("lid");
+        let insulated = if flows_along { INSULATED } else { HELD };
+        let first = diameter * if heated("floor") { HELD_BY_FLOOR } else { insulated };
+        let last = depth - diameter * if heated("lid") { HELD } else { insulated };
         let [low, high] = scene.record.heights;
-        if low <= half || high >= depth - half {
-            let allowed = format!(
-                "{} to {} m, between the centres of the first layers",
-                plain(half),
-                plain(depth - half)
-            );
+        if low <= first || high >= last {
+            let allowed =
+                format!("{} to {} m, between the ends of the solver's mesh", plain(first), plain(last));
             return Err(wrong("record.heights", format!("{low} to {high}"), &allowed));
         }
-        let levels = [half, low, high, depth - half];
+        let levels = [first, low, high, last];
         let share = |lengths: &[f64], all: f64| -> Vec<usize> {
             let whole: f64 = lengths.iter().sum();
             lengths.iter().map(|length| ((all * length / whole).round() as usize).max(1)).collect()
         };
         let along = [1, 2, 3].map(|k| levels[k] - levels[k - 1]);
-        let axial = if heated("floor") || heated("lid") { share(&along, CELLS) } else { vec![1; 3] };
+        let axial = if flows_along { share(&along, CELLS) } else { vec![1; 3] };
         let radii = match (scene.container.radius, scene.record.radius) {
             (Some(radius), Some(inner)) if inner < radius - half => {
                 Some([INNER * radius, inner, radius - half])
@@ -74,7 +86,7 @@ impl Geometry {
             .map_or(vec![1; 2], |[a, b, c]| share(&[b - a, c - b], if heated("side") { 20.0 } else { 4.0 }));
         let widening = scene.container.radius.map_or(1.0, |radius| radius / (radius - half));
         let cells = ([axial[0], axial[1], axial[2]], [radial[0], radial[1]]);
-        Ok(Self { levels, radii, widening, cells, diameter: scene.grains.diameter })
+        Ok(Self { levels, radii, widening, cells, diameter, plates: depth })
     }
 
     /// Of the mesh along the axis [m].

@@ -28,7 +28,7 @@ type LeftOut = (Option<&'static str>, &'static [(usize, f64)]);
 /// ln of the least strength that a file may have.
 const NONE: f64 = -13.8;
 
-const LINES: [LeftOut; 15] = [
+const LINES: [LeftOut; 16] = [
     (None, &[]),
     (
         Some("mobilised friction"),
@@ -89,6 +89,7 @@ const LINES: [LeftOut; 15] = [
         ],
     ),
     (Some("powers of the pressure other than Hertz's"), &[(3, 0.0), (4, 0.0), (5, 0.0)]),
+    (Some("less stiffness of little friction that hardly bears"), &[(52, 0.0)]),
     (Some("strengths that depend on the load"), &[(29, 0.0), (35, 0.0), (41, 0.0), (47, 0.0)]),
     (Some("another power while it opens"), &[(19, 0.0)]),
     (Some("dilatancy by sliding"), &[(9, 0.0), (10, 0.0), (11, 0.0), (12, 0.0), (13, 0.0), (51, 0.0)]),

@@ -13,7 +13,7 @@ impl Law {
     /// # Errors
     /// [`SurrogateError::Field`] with key, value and what is allowed.
     pub fn check(&self) -> Result<(), SurrogateError> {
-        let [b0, b1, b2, b3, b4, b5] = self.bulk;
+        let [b0, b1, b2, b3, b4, b5, b6] = self.bulk;
         let [of_density, shear_power, of_free] = self.shear;
         let [c0, c1, c2, c3] = self.collapse;
         let [s0, s1, s2, s3] = self.settling;
@@ -27,6 +27,7 @@ impl Law {
             ("bulk[3]", b3, (-1.0..=2.0).contains(&b3), "-1 to 2"),
             ("bulk[4]", b4, (-1.0..=2.0).contains(&b4), "-1 to 2"),
             ("bulk[5]", b5, b5.abs() <= 20.0, "-20 to 20"),
+            ("bulk[6]", b6, (-10.0..=1.0).contains(&b6), "-10 to 1"),
             ("shear[0]", of_density, of_density.abs() <= LARGE, "-1e4 to 1e4"),
             ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
             ("shear[2]", of_free, of_free.abs() <= 5.0, "-5 to 5"),

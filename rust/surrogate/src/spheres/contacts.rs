@@ -43,9 +43,11 @@ const LEAST_FREE: f64 = 1e-3;
 /// Largest exponent with which shear makes ζ forgotten in one part of a strain.
 const MOST_EXPONENT: f64 = 8.0;
 /// Compression below which packings have fewer contacts the less they are compressed.
-const HARDLY: f64 = 1.5e-4;
+pub(super) const HARDLY: f64 = 1.5e-4;
 /// Largest S.
 pub(super) const MOST_SURPLUS: f64 = 10.0;
+/// Most contacts per sphere of grains that only rest on others: as many as beds that were poured with little friction have.
+const MOST_RESTING: f64 = 0.6;
 /// Bounds of z: none has more than equal spheres of the densest packings.
 const CONTACTS: [f64; 2] = [0.0, 12.0];
 /// Added to squares of lengths before their root is taken, so that its derivative exists.
@@ -87,11 +89,17 @@ pub struct Usual<N> {
 }
 
 impl<N: Number> Usual<N> {
-    /// Those of the contacts z by which the fabric turns: z̄ + F ζ. Where nearly all friction is mobilised, what a bed has more are
-    /// grains that rest on others and bear no load.
+    /// Of the contacts z those of grains that only rest on others: where nearly all friction is mobilised, what a packing has beyond z̄.
+    #[inline(always)]
+    pub fn resting(&self, coordination: N) -> N {
+        let kept = self.forgets.times(-1.0).plus(1.0) * (coordination - self.contacts);
+        kept.not_below(0.0).not_above(MOST_RESTING)
+    }
+
+    /// The others, which bear load, and by which the fabric turns.
     #[inline(always)]
     pub fn bearing(&self, coordination: N) -> N {
-        self.contacts + self.forgets * (coordination - self.contacts)
+        coordination - self.resting(coordination)
     }
 }
 

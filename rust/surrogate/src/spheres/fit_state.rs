@@ -96,7 +96,7 @@ pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
         // What is known of the conductivity, over the same of its mean.
         let known = point.compared(&point.contact) / point.compared(&relative(&direction, state));
         let size = known / libm::cbrt(mean(point.stress));
-        (size > 0.0).then(|| (contact_row(state).map(|x| x / size), 1.0, *weight))
+        (size > 0.0).then(|| (contact_row(&law.contacts, state).map(|x| x / size), 1.0, *weight))
     });
     let contact = least_squares::fit(contact);
     let gas = |number: usize| {

@@ -1,7 +1,7 @@
 //! The law of a packing of spheres, as in [`super`].
 
 use super::components::six;
-use super::contacts::{Contacts, Usual};
+use super::contacts::{Contacts, HARDLY, Usual};
 use super::number::Number;
 use super::state::{ELEMENTS, FABRIC, LEAST_COMPRESSION, State};
 use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
@@ -17,8 +17,9 @@ const FIRST: usize = 1;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Law {
-    /// A = b₀ e^(b₁ x + b₂ g) v^(3/2) (1 + √u)^(b₃ + b₄ g + b₅ x), with the part g of the friction that is not mobilised.
-    pub bulk: [f64; 6],
+    /// A = b₀ e^(b₁ x + b₂ g + b₆ g o) v^(3/2) (1 + √u)^(b₃ + b₄ g + b₅ x), with the part g of the friction that is not mobilised
+    /// and o = 1/(1 + v/1.5e-4).
+    pub bulk: [f64; 7],
     /// Stiffnesses of the elements of friction go with e^(`shear`₀ x + `shear`₂ g) u^`shear`₁.
     pub shear: [f64; 3],
     /// z₀: contacts per sphere of a packing whose fabric does not turn.
@@ -113,9 +114,12 @@ impl Law {
     #[inline(always)]
     pub fn pressure<N: Number>(&self, compression: N, x: N, free: N) -> N {
         let (v, u) = Self::compressions(compression);
-        let [b0, b1, b2, b3, b4, b5] = self.bulk;
+        let [b0, b1, b2, b3, b4, b5, b6] = self.bulk;
+        let hardly = v.times(1.0 / HARDLY).plus(1.0).inverse();
         let contacts = u.root().plus(1.0).ln();
-        let exponent = x.times(b1) + free.times(b2) + contacts * (free.times(b4) + x.times(b5)).plus(b3);
+        let exponent = x.times(b1)
+            + free * hardly.times(b6).plus(b2)
+            + contacts * (free.times(b4) + x.times(b5)).plus(b3);
         (exponent.exp() * v * v.root()).times(b0)
     }
 

@@ -14,7 +14,7 @@ use crate::options::TrainingOptions;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
-pub const SCHEMA: &str = "msdd-spheres-model-9";
+pub const SCHEMA: &str = "msdd-spheres-model-10";
 
 /// Number of state columns of a cell, and of those before the stress ratios.
 pub const COLUMNS: usize = SCALARS + 5 * ELEMENTS;
@@ -408,7 +408,9 @@ impl SphereModel {
         for (column, value) in answers.stress.iter_mut().zip(&stress) {
             value.write(&mut column[first..]);
         }
-        for (column, value) in answers.contact.iter_mut().zip(&readout.contact(&next, &stress)) {
+        for (column, value) in
+            answers.contact.iter_mut().zip(&readout.contact(&self.file.law.contacts, &next, &stress))
+        {
             value.write(&mut column[first..]);
         }
         readout.gas(&next, V::read(&block.gas_number[first..])).write(&mut answers.gas[first..]);

@@ -25,7 +25,7 @@ const OF_FABRIC: [f64; 2] = [1e-6, 20.0];
 const POWER: [f64; 2] = [-2.0, 1.0];
 
 /// Number of parameters.
-pub const PARAMETERS: usize = 52;
+pub const PARAMETERS: usize = 53;
 
 /// Coefficients of x are divided by 10.
 const TABLE: [(Place, Scale); PARAMETERS] = [
@@ -81,6 +81,7 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.least_contacts, Over(1.0, [0.0, 6.0])),
     (|law| &mut law.forgetting, Over(1.0, [0.0, 1.0])),
     (|law| &mut law.climbing, Over(0.1, [0.0, 5.0])),
+    (|law| &mut law.bulk[6], Over(1.0, [-10.0, 1.0])),
 ];
 
 /// The law's numbers as parameters.
@@ -116,7 +117,7 @@ pub fn beginning() -> Law {
         power,
     };
     Law {
-        bulk: [0.0819, 11.4, -0.199, 0.191, 0.281, -5.79],
+        bulk: [0.0784, 8.99, 0.0334, 0.216, 0.122, -3.81, -0.856],
         shear: [5.95, 0.16, 0.159],
         least_contacts: 4.12,
         forgetting: 0.249,

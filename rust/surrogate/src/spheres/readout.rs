@@ -5,6 +5,7 @@
 //! with the number of contacts. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
 
 use super::components::{six, three};
+use super::contacts::Contacts;
 use super::number::Number;
 use super::state::{FABRIC, State};
 use super::tensor::{Tensor, contraction, mean, scaled};
@@ -15,13 +16,17 @@ pub const GAS_NUMBERS: [f64; 3] = [3.5, 6.0, 8.5];
 /// Numbers of gas for which κ_g may be asked: parabolas through the three known ones.
 pub const GAS_RANGE: [f64; 2] = [2.5, 9.5];
 
-/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, r = |η|, n = z − 5.5 with the contacts per sphere z, and the part g of the
-/// friction that is not mobilised.
+/// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, n = z − 5.5 with the contacts per sphere z, and
+///
+/// m = z_b + z_r v/(v + 0.001) − 5.5, with the contacts z_b that bear load and those z_r of grains that only rest on others, which come
+/// to bear as the packing is pressed, see [`super::contacts::Usual`];
+///
+/// q = r²/(r² + 0.003), with the length r of the stress ratio that friction bears: forces of a packing that was sheared are less even.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
-    /// C: coefficients of 1, n, n², s, v, n s, x, r, g, g n.
-    pub contact: [f64; 10],
+    /// C: coefficients of 1, m, s, x, q.
+    pub contact: [f64; 5],
     /// Deviator of κ_c over its mean: coefficients of η without the fabric's part, and of that.
     pub direction: [f64; 2],
     /// κ_g in the mean at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s.
@@ -49,10 +54,14 @@ fn common<N: Number>(state: &State<N>) -> [N; 3] {
 }
 
 #[inline(always)]
-pub fn contact_row<N: Number>(state: &State<N>) -> [N; 10] {
-    let ([s, v, n], ratio, free) = (common(state), state.ratio(), state.free());
-    let length = contraction(&ratio, &ratio).root();
-    [N::constant(1.0), n, n * n, s, v, n * s, state.density(), length, free, free * n]
+pub fn contact_row<N: Number>(contacts: &Contacts, state: &State<N>) -> [N; 5] {
+    let ([s, v, _], [borne, _]) = (common(state), directions(state));
+    let square = contraction(&borne, &borne);
+    let sheared = square * square.plus(SHEARED).inverse();
+    let resting = contacts.usual(state).resting(state.coordination);
+    let still = v.times(1.0 / PRESSED).plus(1.0).inverse();
+    let conducting = (state.coordination - resting * still).not_below(CONTACTS[0]).not_above(CONTACTS[1]);
+    [N::constant(1.0), conducting.plus(-USUAL_CONTACTS), s, state.density(), sheared]
 }
 
 /// η without the fabric's part, and that.
@@ -80,7 +89,11 @@ pub fn gas_row<N: Number>(state: &State<N>) -> [N; 8] {
     [N::constant(1.0), y, y * y, s, v, s * y, n, n * s]
 }
 
-/// Contacts per sphere from which n is counted.
+/// Compression at which grains that only rest on others conduct half as well as those that bear.
+const PRESSED: f64 = 1e-3;
+/// Square of the stress ratio that friction bears at which half of what shear does to C is done.
+const SHEARED: f64 = 0.003;
+/// Contacts per sphere from which n and m are counted.
 const USUAL_CONTACTS: f64 = 5.5;
 
 #[inline(always)]
@@ -95,9 +108,9 @@ fn product<N: Number, const M: usize>(row: &[N; M], coefficients: &[f64; M]) -> 
 impl Readout {
     /// κ_c of a state with this stress over E*; 0 without load.
     #[inline(always)]
-    pub fn contact<N: Number>(&self, state: &State<N>, stress: &Tensor<N>) -> Tensor<N> {
+    pub fn contact<N: Number>(&self, contacts: &Contacts, state: &State<N>, stress: &Tensor<N>) -> Tensor<N> {
         let (pressure, zero) = (mean(*stress), N::constant(0.0));
-        let per_root = product(&contact_row(state), &self.contact).not_below(LEAST_CONTACT);
+        let per_root = product(&contact_row(contacts, state), &self.contact).not_below(LEAST_CONTACT);
         let size = per_root * pressure.not_below(LEAST_PRESSURE).power(1.0 / 3.0);
         let size = pressure.where_above(zero, size, zero);
         let [xx, yy, zz, xy, xz, yz] = scaled(&relative(&self.direction, state), size);

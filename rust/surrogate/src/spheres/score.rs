@@ -63,7 +63,7 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
                 continue;
             }
             let known = to.state(law);
-            let found = readout.contact(&known, &to.stress);
+            let found = readout.contact(&law.contacts, &known, &to.stress);
             let wrong = deviator(std::array::from_fn(|k| found[k] / mean(found) - to.contact[k] / contact));
             let gas = to.gas_error(readout, &known);
             of_state[0] += (to.compared(&found) / contact - 1.0).powi(2);
@@ -102,7 +102,7 @@ fn add(sums: &mut Sums, model: &SphereModel, track: &Track, states: &[State]) {
         sums.add_stress([pressure * pressure, contraction(&wrong, &wrong)]);
         let known = step.to.compared(&step.to.contact);
         if mean(data) >= LEAST_PRESSURE && known > 0.0 {
-            let contact = step.to.compared(&readout.contact(state, &stress)) / known - 1.0;
+            let contact = step.to.compared(&readout.contact(&law.contacts, state, &stress)) / known - 1.0;
             let gas = step.to.gas_error(readout, state);
             sums.add_conductivity([contact * contact, gas * gas]);
         }
