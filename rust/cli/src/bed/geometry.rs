@@ -65,6 +65,17 @@ impl Geometry {
                 format!("{} to {} m, between the ends of the solver's mesh", plain(first), plain(last));
             return Err(wrong("record.heights", format!("{low} to {high}"), &allowed));
         }
+        let (least, most) = match scene.record.wall.as_str() {
+            "side" => (half, (1.0 - INNER) * scene.container.radius.unwrap_or(0.0)),
+            "lid" => (depth - last, depth - first),
+            _ => (first, last),
+        };
+        if let Some(distance) =
+            scene.record.distances.iter().find(|&&distance| distance < least || distance > most)
+        {
+            let allowed = format!("{} to {} m, within the solver's mesh", plain(least), plain(most));
+            return Err(wrong("record.distances", distance.to_string(), &allowed));
+        }
         let levels = [first, low, high, last];
         let share = |lengths: &[f64], all: f64| -> Vec<usize> {
             let whole: f64 = lengths.iter().sum();
