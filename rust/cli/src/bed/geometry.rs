@@ -40,7 +40,7 @@ impl Geometry {
     /// Of a bed of this depth [m].
     ///
     /// # Errors
-    /// What the solver's mesh cannot have: sides of a box that are heated, averages beyond the centres of the first layers.
+    /// What the solver's mesh cannot have: sides of a box that are heated, averages and temperatures beyond its ends.
     pub fn new(file: &Path, scene: &Scene, depth: f64) -> Result<Self, CliError> {
         let wrong = |key: &str, value: String, allowed: &str| {
             CliError::Message(format!("{}: {key} = {value}, allowed: {allowed}", file.display()))
