@@ -3,8 +3,8 @@
 //! It is measured as the errors of the law are, over the same states: each packing of a pair is judged as if the other were a law that
 //! foretells it. Since both scatter, half of the mean square counts. The deviator's difference is the length of the difference of two
 //! tensors. Where packings have no directions of their own, their axes are named so that their strains agree. Where one of them has
-//! just lost its load, it has no stress and conducts nothing by contacts; what it would do later is not known, and not counted. Stresses
-//! count over the mean of both packings' scales, since one of them may be about to lose its load.
+//! just lost its load, it has no stress and conducts nothing by contacts; what it would do later is not known, and neither that nor the
+//! law's error there is counted. Stresses count over the mean of both packings' scales, since one of them may be about to lose its load.
 
 use super::errors::{Errors, LEAST_PRESSURE, Sums};
 use super::fit::scales;
@@ -17,42 +17,52 @@ const SENSES: [[f64; 3]; 4] = [[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.
 
 type Axes = ([usize; 3], [f64; 3]);
 
-/// Scatter between the pairs of these tracks; `None` without pairs.
-pub fn noise(tracks: &[&Track]) -> Option<Errors> {
+/// A track, another one to which it is compared, and the axes of the second with which it is strained as the first.
+pub struct Pair<'a> {
+    pub one: &'a Track,
+    other: &'a Track,
+    axes: Axes,
+}
+
+/// Each track with each other one to which it is compared.
+pub fn pairs<'a>(tracks: &[&'a Track]) -> Vec<Pair<'a>> {
+    let others = |one: &'a Track| {
+        tracks.iter().filter_map(move |other| common_axes(one, other).map(|axes| Pair { one, other, axes }))
+    };
+    tracks.iter().flat_map(|one| others(one)).collect()
+}
+
+/// Scatter between these pairs; `None` without any.
+pub fn noise(pairs: &[Pair]) -> Option<Errors> {
     let mut sums = Sums::default();
-    for one in tracks {
-        for other in tracks {
-            if let Some(axes) = common_axes(one, other) {
-                add(&mut sums, one, other, axes);
-            }
-        }
-    }
+    pairs.iter().for_each(|pair| pair.add(&mut sums));
     sums.errors()
 }
 
-/// The tracks that have another one to which they are compared: those over which the scatter is.
-pub fn with_others<'a>(tracks: &[&'a Track]) -> Vec<&'a Track> {
-    let has_other = |one: &&&Track| tracks.iter().any(|other| common_axes(one, other).is_some());
-    tracks.iter().filter(has_other).copied().collect()
-}
+impl Pair<'_> {
+    /// How many states of the track are compared: as far as both bear load, and where the other one loses it.
+    pub fn states(&self) -> usize {
+        self.one.steps.len().min(self.other.steps.len() + usize::from(self.other.loses_load))
+    }
 
-/// Adds the differences of another track at the states of this one, as far as both bear load, and where the other one loses it.
-fn add(sums: &mut Sums, one: &Track, other: &Track, axes: Axes) {
-    let known = other.steps.len() + usize::from(other.loses_load);
-    let of_other = scales(other);
-    for (k, (step, scale)) in one.steps.iter().zip(scales(one)).take(known).enumerate() {
-        let a = &step.to;
-        let scale = of_other.get(k).map_or(scale, |other| 0.5 * (scale + other));
-        let (stress, contact, gas) = match other.steps.get(k) {
-            Some(b) => (renamed(&b.to.stress, axes), mean(b.to.contact), b.to.gas[2]),
-            None => ([0.0; 6], 0.0, f64::NAN),
-        };
-        let wrong = deviator(std::array::from_fn(|k| (a.stress[k] - stress[k]) / scale));
-        let pressure = (mean(a.stress) - mean(stress)) / scale;
-        sums.add_stress([0.5 * pressure * pressure, 0.5 * contraction(&wrong, &wrong)]);
-        if mean(a.stress) >= LEAST_PRESSURE && mean(a.contact) > 0.0 {
-            let [contact, gas] = [contact / mean(a.contact) - 1.0, gas / a.gas[2] - 1.0];
-            sums.add_conductivity([0.5 * contact * contact, 0.5 * gas * gas]);
+    /// Adds the differences of the other track at the states of the one.
+    fn add(&self, sums: &mut Sums) {
+        let Self { one, other, axes } = self;
+        let of_other = scales(other);
+        for (k, (step, scale)) in one.steps.iter().zip(scales(one)).take(self.states()).enumerate() {
+            let a = &step.to;
+            let scale = of_other.get(k).map_or(scale, |other| 0.5 * (scale + other));
+            let (stress, contact, gas) = match other.steps.get(k) {
+                Some(b) => (renamed(&b.to.stress, *axes), mean(b.to.contact), b.to.gas[2]),
+                None => ([0.0; 6], 0.0, f64::NAN),
+            };
+            let wrong = deviator(std::array::from_fn(|k| (a.stress[k] - stress[k]) / scale));
+            let pressure = (mean(a.stress) - mean(stress)) / scale;
+            sums.add_stress([0.5 * pressure * pressure, 0.5 * contraction(&wrong, &wrong)]);
+            if mean(a.stress) >= LEAST_PRESSURE && mean(a.contact) > 0.0 {
+                let [contact, gas] = [contact / mean(a.contact) - 1.0, gas / a.gas[2] - 1.0];
+                sums.add_conductivity([0.5 * contact * contact, 0.5 * gas * gas]);
+            }
         }
     }
 }
@@ -119,16 +129,16 @@ mod tests {
         let p = 1e-5;
         let along_x = track(0, [-1e-3, 0.0, 0.0, 0.0, 0.0, 0.0], [2.0 * p, p, p, 0.0, 0.0, 0.0]);
         let along_z = track(1, [0.0, 0.0, -1e-3, 0.0, 0.0, 0.0], [p, p, 2.0 * p, 0.0, 0.0, 0.0]);
-        let same = noise(&[&along_x, &along_z]).expect("a pair");
+        let same = noise(&pairs(&[&along_x, &along_z])).expect("a pair");
         assert!(same.pressure < 1e-12 && same.deviator < 1e-12, "{same:?}");
         let sheared = |number, sense: f64| {
             track(number, [0.0, 0.0, 0.0, sense * 1e-3, 0.0, 0.0], [p, p, p, -sense * 0.3 * p, 0.0, 0.0])
         };
-        let same = noise(&[&sheared(2, 1.0), &sheared(3, -1.0)]).expect("a pair");
+        let same = noise(&pairs(&[&sheared(2, 1.0), &sheared(3, -1.0)])).expect("a pair");
         assert!(same.deviator < 1e-12, "{same:?}");
         // A deviator of the same length in another direction is another one.
         let other = track(4, [0.0, 0.0, -1e-3, 0.0, 0.0, 0.0], [p, 2.0 * p, p, 0.0, 0.0, 0.0]);
-        let found = noise(&[&along_x, &other]).expect("a pair");
+        let found = noise(&pairs(&[&along_x, &other])).expect("a pair");
         let length = (2.0 * p * p).sqrt() / scales(&other)[0];
         assert!((found.deviator - length / 2f64.sqrt()).abs() < 1e-9, "{found:?}");
         // One that loses its load foretells nought where it has lost it.
@@ -138,14 +148,18 @@ mod tests {
             ..along_x.clone()
         };
         let shorter = Track { packing: 8, loses_load: true, ..along_x.clone() };
-        let found = noise(&[&longer, &shorter]).expect("a pair");
+        let found = noise(&pairs(&[&longer, &shorter])).expect("a pair");
         // Of three states two are met, and at the third the other one has no load.
         assert!((found.contact - (0.5f64 / 3.0).sqrt()).abs() < 1e-9, "{found:?}");
         assert!(found.gas < 1e-12, "{found:?}");
-        assert!(noise(&[&longer, &along_x]).expect("a pair").contact < 1e-12);
+        assert!(noise(&pairs(&[&longer, &along_x])).expect("a pair").contact < 1e-12);
+        // Its states are compared as long as the other one is known.
+        let much_longer = Track { packing: 9, steps: vec![along_x.steps[0]; 5], ..along_x.clone() };
+        let compared: Vec<usize> = pairs(&[&much_longer, &shorter]).iter().map(Pair::states).collect();
+        assert_eq!(compared, [2, 1]);
         // Packings with a direction of their own keep it.
         let pressed = |track: &Track| Track { is_isotropic: false, ..track.clone() };
-        assert_eq!(noise(&[&pressed(&along_x), &pressed(&along_z)]), None);
-        assert_eq!(noise(&[&along_x, &sheared(5, 1.0)]), None);
+        assert_eq!(noise(&pairs(&[&pressed(&along_x), &pressed(&along_z)])), None);
+        assert_eq!(noise(&pairs(&[&along_x, &sheared(5, 1.0)])), None);
     }
 }

@@ -3,7 +3,7 @@
 use super::errors::{Errors, LEAST_PRESSURE, Sums};
 use super::fit::scales;
 use super::model::SphereModel;
-use super::noise::{noise, with_others};
+use super::noise::{noise, pairs};
 use super::state::{Known, State};
 use super::tensor::{contraction, deviator, mean};
 use super::tracks::{Track, follow, follow_from};
@@ -30,7 +30,7 @@ pub struct PathErrors {
     pub gas_of_state: f64,
     /// Scatter between packings that were made and strained alike; absent when there are none.
     pub noise: Option<Errors>,
-    /// Errors along the paths of those packings.
+    /// Errors along the paths of those packings, over the same states.
     pub beside_noise: Option<Errors>,
 }
 
@@ -72,8 +72,9 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
         }
     }
     let mut beside = Sums::default();
-    for track in with_others(tracks) {
-        add(&mut beside, model, track, &follow(law, track));
+    let pairs = pairs(tracks);
+    for pair in &pairs {
+        add(&mut beside, model, pair.one, &follow(law, pair.one)[..=pair.states()]);
     }
     let [contact_of_state, direction, gas_of_state] =
         of_state.map(|sum| (sum / all.conducting().max(1) as f64).sqrt());
@@ -87,7 +88,7 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
         contact_of_state,
         direction,
         gas_of_state,
-        noise: noise(tracks),
+        noise: noise(&pairs),
         beside_noise: beside.errors(),
     }
 }
