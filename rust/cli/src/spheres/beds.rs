@@ -144,6 +144,7 @@ fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) ->
         spheres: (volume / (PI / 6.0 * grains.diameter.powi(3))) as usize,
         weight: WEIGHT,
         packed: point(0),
+        aside: 0.0,
         steps: steps.collect(),
         loses_load: false,
     })

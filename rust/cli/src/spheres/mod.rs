@@ -12,7 +12,7 @@ use msdd_surrogate::spheres::ablation::{ablation, nanoseconds};
 use msdd_surrogate::spheres::errors::Errors;
 use msdd_surrogate::spheres::model::SphereModel;
 use msdd_surrogate::spheres::score::{PathErrors, score};
-use msdd_surrogate::spheres::tracks::Track;
+use msdd_surrogate::spheres::tracks::{Track, set_aside};
 use msdd_surrogate::spheres::training::{USUAL_EPOCHS, is_held_out, train};
 use msdd_surrogate::{DatabaseProvenance, TrainingOptions};
 use same::Known;
@@ -51,6 +51,7 @@ fn read(files: &[PathBuf]) -> Result<(Vec<Track>, DatabaseProvenance), CliError>
     }
     provenance.plan_hash = if files.len() > 1 { hash(&plans) } else { plans };
     provenance.rows_hash = Some(hash(&rows));
+    set_aside(&mut all);
     Ok((all, provenance))
 }
 

@@ -78,8 +78,13 @@ pub fn tracks(records: &[SphereRecord]) -> Vec<Track> {
         let steps: Vec<Step> = rows.iter().map_while(|row| step(row)).collect();
         let loses_load = rows.get(steps.len()).is_some_and(|row| row.outcome == "unjammed");
         let recipe = format!(
-            "{:?} {} {:?} {} {}",
-            first.compression, first.packing_friction, first.shaking, first.packing_pressure, first.spheres
+            "{:?} {} {} {:?} {} {}",
+            first.compression,
+            first.packing_friction,
+            first.friction,
+            first.shaking,
+            first.packing_pressure,
+            first.spheres
         );
         let is_isotropic = first.compression == SphereCompression::Isotropic;
         let (name, spheres) = (path.as_str().to_string(), first.spheres as usize);
@@ -93,6 +98,7 @@ pub fn tracks(records: &[SphereRecord]) -> Vec<Track> {
             spheres,
             weight,
             packed,
+            aside: 0.0,
             steps,
             loses_load,
         })

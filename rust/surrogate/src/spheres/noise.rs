@@ -95,7 +95,7 @@ fn common_axes(a: &Track, b: &Track) -> Option<Axes> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spheres::tracks::{Point, Step};
+    use crate::spheres::tracks::{Point, Step, set_aside};
 
     /// A packing that was sheared, or closed along an axis.
     fn track(packing: i64, stretch: Tensor, stress: Tensor) -> Track {
@@ -119,8 +119,31 @@ mod tests {
             spheres: 1000,
             weight: 1.0,
             packed: point,
+            aside: 0.0,
             steps: vec![Step { from: 0, thermal: 0.0, stretch, gives_way: None, to: point }],
             loses_load: false,
+        }
+    }
+
+    #[test]
+    fn a_packing_starts_from_the_solid_fraction_of_its_recipe_and_tells_its_own() {
+        let law = crate::spheres::parameters::beginning();
+        let p = 1e-5;
+        let made = |number, recipe: &str, solid| {
+            let mut track = track(number, [1e-4, 0.0, 0.0, 0.0, 0.0, 0.0], [p, p, p, 0.0, 0.0, 0.0]);
+            track.packed.solid = solid;
+            Track { recipe: recipe.to_string(), ..track }
+        };
+        // A packing counts once, however many paths it has.
+        let mut tracks =
+            [made(0, "a", 0.60), made(0, "a", 0.60), made(1, "a", 0.62), made(2, "b", 0.64)].to_vec();
+        set_aside(&mut tracks);
+        for (track, solid) in tracks.iter().zip([0.61, 0.61, 0.61, 0.64]) {
+            let start = track.start(&law);
+            assert!((start.solid() - solid).abs() < 1e-12, "{} for {solid}", start.solid());
+            assert!((mean(law.stress(&start)) / p - 1.0).abs() < 1e-6);
+            let own = track.of_packing(&start).solid();
+            assert!((own - track.packed.solid).abs() < 1e-4, "{own} for {}", track.packed.solid);
         }
     }
 

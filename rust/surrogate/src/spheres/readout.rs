@@ -5,7 +5,7 @@
 //! with the number of contacts. By gas, κ_g depends on the solid fraction, the number of contacts, and one number of the gas, ln(R/h).
 
 use super::components::{six, three};
-use super::contacts::Contacts;
+use super::contacts::{Contacts, HARDLY};
 use super::number::Number;
 use super::state::{FABRIC, State};
 use super::tensor::{Tensor, contraction, mean, scaled};
@@ -29,8 +29,8 @@ pub struct Readout {
     pub contact: [f64; 5],
     /// Deviator of κ_c over its mean: coefficients of η without the fabric's part, and of that.
     pub direction: [f64; 2],
-    /// κ_g in the mean at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s.
-    pub gas: [[f64; 8]; 3],
+    /// κ_g in the mean at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s, o with o = 1/(1 + v/1.5e-4).
+    pub gas: [[f64; 9]; 3],
     /// Deviator of κ_g over its mean: coefficient of the fabric's part of η, because near pairs point where contacts do.
     pub gas_direction: f64,
 }
@@ -83,10 +83,11 @@ pub fn relative<N: Number>([of_elastic, of_fabric]: &[f64; 2], state: &State<N>)
 }
 
 #[inline(always)]
-pub fn gas_row<N: Number>(state: &State<N>) -> [N; 8] {
+pub fn gas_row<N: Number>(state: &State<N>) -> [N; 9] {
     let [s, v, n] = common(state);
     let y = state.solid().plus(-0.6).not_below(SOLID[0]).not_above(SOLID[1]);
-    [N::constant(1.0), y, y * y, s, v, s * y, n, n * s]
+    let hardly = v.times(1.0 / HARDLY).plus(1.0).inverse();
+    [N::constant(1.0), y, y * y, s, v, s * y, n, n * s, hardly]
 }
 
 /// Compression at which grains that only rest on others conduct half as well as those that bear.

@@ -50,7 +50,7 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
     for track in tracks {
         add(&mut all, model, track, &follow(law, track));
         let packed = law.start(
-            track.packed.solid,
+            track.packed.solid - track.aside,
             track.packed.stress,
             &Known { mobilised: Some(track.packed.mobilised), ..Known::default() },
         );
@@ -104,7 +104,7 @@ fn add(sums: &mut Sums, model: &SphereModel, track: &Track, states: &[State]) {
         let known = step.to.compared(&step.to.contact);
         if mean(data) >= LEAST_PRESSURE && known > 0.0 {
             let contact = step.to.compared(&readout.contact(&law.contacts, state, &stress)) / known - 1.0;
-            let gas = step.to.gas_error(readout, state);
+            let gas = step.to.gas_error(readout, &track.of_packing(state));
             sums.add_conductivity([contact * contact, gas * gas]);
         }
     }

@@ -244,6 +244,7 @@ fn tracks(law: &Law, packings: i64) -> Vec<Track> {
                 spheres: 1000,
                 weight: 1.0,
                 packed,
+                aside: 0.0,
                 steps: Vec::new(),
                 loses_load: false,
             };
@@ -318,7 +319,7 @@ fn conductivities_that_are_known_along_z_alone_teach_the_same() {
 fn files_that_no_training_wrote_are_refused() {
     let text = model().to_json();
     let message = |text: &str| SphereModel::read(text).expect_err("unsound").to_string();
-    assert!(message(&text.replace("spheres-model-10", "spheres-model-9")).contains("spheres-model-9"));
+    assert!(message(&text.replace("spheres-model-11", "spheres-model-10")).contains("spheres-model-10"));
     assert!(message(&text[..text.len() / 2]).contains("damaged"));
     let mut file = model().file;
     file.law.bulk[0] = -1.0;
