@@ -95,7 +95,7 @@ pub struct Track {
     /// those of conductivities by contacts its root is the weight, so that boxes are met beside the beds that have large weights.
     pub weight: f64,
     pub packed: Point,
-    /// The solid fraction of the packing less the mean of its recipe, see [`set_aside`].
+    /// The solid fraction of the packing less the mean of its recipe \[-\], see [`set_aside`].
     pub aside: f64,
     pub steps: Vec<Step>,
     /// Whether the path goes on after these steps, and the packing bears no load after the next one.
