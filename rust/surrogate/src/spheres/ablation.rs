@@ -28,7 +28,7 @@ type LeftOut = (Option<&'static str>, &'static [(usize, f64)]);
 /// ln of the least strength that a file may have.
 const NONE: f64 = -13.8;
 
-const LINES: [LeftOut; 16] = [
+const LINES: [LeftOut; 17] = [
     (None, &[]),
     (
         Some("mobilised friction"),
@@ -95,6 +95,7 @@ const LINES: [LeftOut; 16] = [
     (Some("dilatancy by sliding"), &[(9, 0.0), (10, 0.0), (11, 0.0), (12, 0.0), (13, 0.0), (51, 0.0)]),
     (Some("climbing by the contacts that a packing has more"), &[(51, 0.0)]),
     (Some("the fabric in the dilatancy by sliding"), &[(12, 0.0), (13, 0.0)]),
+    (Some("a deviator that depends on its direction"), &[(53, 0.0)]),
 ];
 
 /// One packing in so many is used, of those that a training sees.

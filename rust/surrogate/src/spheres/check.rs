@@ -44,6 +44,7 @@ impl Law {
             ("settling[1]", s1, (1e-9..=1.0).contains(&s1), "1e-9 to 1"),
             ("settling[2]", s2, s2.abs() <= LARGE, "-1e4 to 1e4"),
             ("settling[3]", s3, (0.0..=0.5).contains(&s3), "0 to 0.5"),
+            ("lode", self.lode, (0.0..=0.8).contains(&self.lode), "0 to 0.8"),
             ("fabric[0]", per_anisotropy, (0.0..=100.0).contains(&per_anisotropy), "0 to 100"),
             ("fabric[1]", usual, (0.0..=1.0).contains(&usual), "0 to 1"),
         ];

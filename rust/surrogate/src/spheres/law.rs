@@ -46,6 +46,8 @@ pub struct Law {
     /// Stress ratio of the fabric over the deviator of the fabric, and its usual part of the stress ratio, for packings whose
     /// fabric is not known.
     pub fabric: [f64; 2],
+    /// Λ: the deviator of the stress over A is η + Λ dev(η η), with the stress ratio η = Σ η_k.
+    pub lode: f64,
     pub contacts: Contacts,
 }
 
@@ -171,8 +173,19 @@ impl Law {
         let pressure = self.pressure(state.compression, x, free);
         let pressure = state.compression.where_above(least, pressure, zero);
         // The sums with zero make it 0, and not −0, where there is no pressure.
-        let [xx, yy, zz, xy, xz, yz] = scaled(&state.ratio(), pressure);
+        let [xx, yy, zz, xy, xz, yz] = scaled(&self.deviator(&state.ratio()), pressure);
         [xx + pressure, yy + pressure, zz + pressure, xy + zero, xz + zero, yz + zero]
+    }
+
+    /// Deviator of the stress over A, of the stress ratio η: η + Λ dev(η η). The strengths of the elements are lengths of tensors, the
+    /// same in all directions; by the second term a packing bears a larger deviator where one axis is compressed than where two are, and
+    /// where one is compressed as another is extended the third bears less than the mean. So it is in soils (Lade, 1977, Int. J. Solids
+    /// Struct. 13:1019) and in boxes of spheres (Thornton, 2000, Géotechnique 50:43). Named after the angle of Lode, which tells these
+    /// directions apart.
+    #[inline(always)]
+    pub fn deviator<N: Number>(&self, ratio: &Tensor<N>) -> Tensor<N> {
+        let second = deviator(square(ratio));
+        six!(k => ratio[k] + second[k].times(self.lode))
     }
 
     /// State after a strain, in `parts`. `half` is half of the cell's rotation.

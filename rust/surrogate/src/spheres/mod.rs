@@ -12,7 +12,8 @@
 //!
 //! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths, and stiffnesses of friction,
 //! depend on φ_J, since dense packings bear a larger deviator, on v, and on the friction that is mobilised. The stress is
-//! σ = A (1 + Σ η_k). While a packing opens, the powers of the elements of friction are larger by [`law::Law::reopening`]; one that
+//! σ = A (1 + η + Λ dev(η η)) with η = Σ η_k, so that packings bear more along one axis that is compressed than along two, see
+//! [`law::Law::deviator`]. While a packing opens, the powers of the elements of friction are larger by [`law::Law::reopening`]; one that
 //! starts with more than all strengths has larger ones for good ([`state::State::strength`]).
 //!
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,

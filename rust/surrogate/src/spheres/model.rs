@@ -14,7 +14,7 @@ use crate::options::TrainingOptions;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
-pub const SCHEMA: &str = "msdd-spheres-model-11";
+pub const SCHEMA: &str = "msdd-spheres-model-12";
 
 /// Number of state columns of a cell, and of those before the stress ratios.
 pub const COLUMNS: usize = SCALARS + 5 * ELEMENTS;
@@ -390,7 +390,7 @@ impl SphereModel {
             next = State::where_greater([moved, V::zero()], &reached, &from);
         }
         let stress = law.stress(&next);
-        let ratio = next.ratio();
+        let ratio = law.deviator(&next.ratio());
         let Ranges { jamming_fraction, pressure, stress_ratio } = self.file.ranges;
         let zero = V::zero();
         let [density, pressed, sheared] = OUTSIDE.map(f64::from);

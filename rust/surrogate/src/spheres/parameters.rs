@@ -25,7 +25,7 @@ const OF_FABRIC: [f64; 2] = [1e-6, 20.0];
 const POWER: [f64; 2] = [-2.0, 1.0];
 
 /// Number of parameters.
-pub const PARAMETERS: usize = 53;
+pub const PARAMETERS: usize = 54;
 
 /// Coefficients of x are divided by 10.
 const TABLE: [(Place, Scale); PARAMETERS] = [
@@ -82,6 +82,7 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.forgetting, Over(1.0, [0.0, 1.0])),
     (|law| &mut law.climbing, Over(0.1, [0.0, 5.0])),
     (|law| &mut law.bulk[6], Over(1.0, [-10.0, 1.0])),
+    (|law| &mut law.lode, Over(1.0, [0.0, 0.8])),
 ];
 
 /// The law's numbers as parameters.
@@ -134,6 +135,7 @@ pub fn beginning() -> Law {
         reopening: 0.178,
         settling: [0.0406, 0.00029, 153.0, 0.0306],
         fabric: [5.75, 0.642],
+        lode: 0.45,
         contacts: Contacts {
             sheared: [4.17, 10.1, -5.26, 5.61, 48.7, -0.0919],
             surplus: 1.82,

@@ -29,7 +29,8 @@ pub struct Readout {
     pub contact: [f64; 5],
     /// Deviator of κ_c over its mean: coefficients of η without the fabric's part, and of that.
     pub direction: [f64; 2],
-    /// κ_g in the mean at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², s, v, s y, n, n s, o with o = 1/(1 + v/1.5e-4).
+    /// κ_g in the mean at each of [`GAS_NUMBERS`]: coefficients of 1, y, y², v, s y, n, n s, o, g with o = 1/(1 + v/1.5e-4) and the
+    /// part g of the friction that is not mobilised.
     pub gas: [[f64; 9]; 3],
     /// Deviator of κ_g over its mean: coefficient of the fabric's part of η, because near pairs point where contacts do.
     pub gas_direction: f64,
@@ -87,7 +88,7 @@ pub fn gas_row<N: Number>(state: &State<N>) -> [N; 9] {
     let [s, v, n] = common(state);
     let y = state.solid().plus(-0.6).not_below(SOLID[0]).not_above(SOLID[1]);
     let hardly = v.times(1.0 / HARDLY).plus(1.0).inverse();
-    [N::constant(1.0), y, y * y, s, v, s * y, n, n * s, hardly]
+    [N::constant(1.0), y, y * y, v, s * y, n, n * s, hardly, state.free()]
 }
 
 /// Compression at which grains that only rest on others conduct half as well as those that bear.

@@ -2,11 +2,19 @@
 
 use super::law::{Law, MOST_COMPRESSION, MOST_OF_FRICTION, MOST_STRENGTH, within};
 use super::state::{ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, POURED, State};
-use super::tensor::{Tensor, contraction, deviator, mean};
+use super::tensor::{Tensor, contraction, deviator, mean, square};
 
 /// Halvings of an interval, after which its ends are neighbouring numbers; and the ratio of the compressions that are looked at before.
 const HALVINGS: usize = 52;
 const START_RATIO: f64 = 0.7;
+/// Largest deviator over A for which a stress ratio is looked for: no packing bears as much.
+const MOST_DEVIATOR: f64 = 3.0;
+/// Shares of it that are looked at; iterations for each, the error at which they end, and the least determinant of their
+/// equations.
+const SHARES: u32 = 20;
+const NEWTONS: u32 = 20;
+const NEAR: f64 = 1e-14;
+const LEAST_DETERMINANT: f64 = 0.05;
 
 /// What tells the part of the deviator that the fabric bears.
 enum Borne {
@@ -60,6 +68,24 @@ impl Law {
         at(high)
     }
 
+    /// The stress ratio of which [`Law::deviator`] is this, or the largest share of this of which there is one.
+    pub(super) fn ratio_of(&self, deviatoric: &Tensor) -> Tensor {
+        let length = contraction(deviatoric, deviatoric).sqrt();
+        if self.lode <= 0.0 || length <= 0.0 {
+            return *deviatoric;
+        }
+        let unit = deviatoric.map(|part| part / length);
+        let second = deviator(square(&unit));
+        // A third of the trace of the cube, which is the determinant.
+        let third = contraction(&unit, &second) / 3.0;
+        let most = length.min(MOST_DEVIATOR);
+        let shares = (0..SHARES).map(|k| f64::from(SHARES - k) / f64::from(SHARES) * most);
+        let found = shares.map(|length| (length, coefficients(self.lode * length, third)));
+        let found = found.filter_map(|(length, found)| found.map(|[a, b]| [a * length, b * length])).next();
+        let [of_unit, of_second] = found.unwrap_or_default();
+        std::array::from_fn(|k| of_unit * unit[k] + of_second * second[k])
+    }
+
     fn bearing(&self, solid: f64, compression: f64, load: &Tensor, fabric: &Borne, mobilised: f64) -> State {
         let mut state = State {
             jamming: solid / (1.0 + compression),
@@ -75,7 +101,7 @@ impl Law {
         if compression <= LEAST_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
             return state;
         }
-        let ratio = load.map(|part| part * over);
+        let ratio = self.ratio_of(&load.map(|part| part * over));
         let [per_anisotropy, usual] = self.fabric;
         let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, free, loaded));
         let strength = strengths.iter().sum::<f64>();
@@ -109,6 +135,30 @@ impl Law {
         }
         state
     }
+}
+
+/// a and b of the tensor r = a u + b dev(u u) of which r + Λ dev(r r) is u, a deviator of the length 1 with this determinant; `None` if
+/// there is none, or hardly one. By the theorem of Cayley and Hamilton,
+/// dev(r r) = (a b/3 + b² det u) u + (a² − b²/6) dev(u u).
+fn coefficients(lode: f64, third: f64) -> Option<[f64; 2]> {
+    let (mut a, mut b) = (1.0, -lode);
+    for _ in 0..NEWTONS {
+        let misses = [a + lode * (a * b / 3.0 + b * b * third) - 1.0, b + lode * (a * a - b * b / 6.0)];
+        let [[aa, ab], [ba, bb]] = [
+            [1.0 + lode * b / 3.0, lode * (a / 3.0 + 2.0 * b * third)],
+            [2.0 * lode * a, 1.0 - lode * b / 3.0],
+        ];
+        let determinant = aa * bb - ab * ba;
+        if determinant < LEAST_DETERMINANT {
+            return None;
+        }
+        if misses[0].abs().max(misses[1].abs()) < NEAR {
+            return Some([a, b]);
+        }
+        a -= (bb * misses[0] - ab * misses[1]) / determinant;
+        b -= (aa * misses[1] - ba * misses[0]) / determinant;
+    }
+    None
 }
 
 /// The shear strain over v that all elements have which do not slide, when together they bear a deviator of this size.

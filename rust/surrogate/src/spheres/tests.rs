@@ -319,7 +319,7 @@ fn conductivities_that_are_known_along_z_alone_teach_the_same() {
 fn files_that_no_training_wrote_are_refused() {
     let text = model().to_json();
     let message = |text: &str| SphereModel::read(text).expect_err("unsound").to_string();
-    assert!(message(&text.replace("spheres-model-11", "spheres-model-10")).contains("spheres-model-10"));
+    assert!(message(&text.replace("spheres-model-12", "spheres-model-11")).contains("spheres-model-11"));
     assert!(message(&text[..text.len() / 2]).contains("damaged"));
     let mut file = model().file;
     file.law.bulk[0] = -1.0;
@@ -334,6 +334,53 @@ fn packings_that_bear_a_large_deviator_start_with_it() {
     let start = law.start(0.575, stress, &Known::default());
     let part = deviator(law.stress(&start));
     assert!(worst(&part, &deviator(stress)) < 1e-10, "{start:?}");
+}
+
+/// Where one axis is compressed packings bear more than where two are, and of three axes the one that is not strained bears less than
+/// the mean.
+#[test]
+fn the_deviator_depends_on_the_direction_of_the_strain() {
+    let law = model().file.law;
+    assert!(law.lode > 0.2, "{}", law.lode);
+    let stress = [1e-5, 1e-5, 1e-5, 0.0, 0.0, 0.0];
+    let known = Known { mobilised: Some(0.0), ..Known::default() };
+    let after = |stretch: Tensor| {
+        let mut state = law.start(0.635, stress, &known);
+        for _ in 0..20 {
+            state = advanced(&law, &state, 0.0, stretch.map(|part| 2e-4 * part));
+        }
+        let stress = law.stress(&state);
+        deviator(stress).map(|part| part / mean(stress))
+    };
+    let length = |ratio: &Tensor| contraction(ratio, ratio).sqrt();
+    let [one, two] = [after([-1.0, 0.5, 0.5, 0.0, 0.0, 0.0]), after([1.0, -0.5, -0.5, 0.0, 0.0, 0.0])];
+    assert!(length(&one) > 1.2 * length(&two), "{one:?} {two:?}");
+    let plane = after([-0.8, 0.8, 0.0, 0.0, 0.0, 0.0]);
+    assert!(plane[2] < -0.1 * length(&plane), "{plane:?}");
+}
+
+/// Where no stress ratio makes a deviator, the largest share of which one does is borne.
+#[test]
+fn any_deviator_has_a_start() {
+    let mut law = model().file.law;
+    let mut generator = ChaCha8Rng::seed_from_u64(9);
+    let (mut whole, mut all) = (0, 0);
+    for lode in [0.0, 0.3, 0.8] {
+        law.lode = lode;
+        for _ in 0..300 {
+            let size = 2.0 * random(&mut generator).abs();
+            let direction = deviator(tensor(&mut generator, 1.0));
+            let given = direction.map(|part| size * part / contraction(&direction, &direction).sqrt());
+            let found = law.deviator(&law.ratio_of(&given));
+            let share = contraction(&found, &given) / contraction(&given, &given);
+            let kept = given.map(|part| share * part);
+            assert!(worst(&found, &kept) < 1e-12 && share <= 1.0 + 1e-12, "{given:?} {found:?}");
+            assert!(share * size > 0.6 || share > 1.0 - 1e-12, "{size} {share}");
+            whole += i32::from(share > 1.0 - 1e-12);
+            all += 1;
+        }
+    }
+    assert!(2 * whole > all && whole < all, "{whole} of {all}");
 }
 
 #[test]
