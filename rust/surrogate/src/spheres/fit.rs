@@ -23,10 +23,9 @@ const USUAL_SPHERES: f64 = 1000.0;
 /// each cycle is far off after ten.
 const TURNS: usize = 7;
 const OF_CYCLES: f64 = 1.7;
-/// Factors of the residuals of paths of shear, and of those of compression alone: by these the law errs near to, or beyond, one and a
-/// half times what packings that were made alike differ.
-const OF_SHEAR: f64 = 2.5;
-const WITHOUT_SHEAR: f64 = 2.5;
+/// Factor of the residuals of paths of shear alone, and of compression alone: by these the law errs by nearly one and a half times what
+/// packings that were made alike differ.
+const OF_ONE_KIND: f64 = 2.5;
 
 /// A stress counts over the largest of these: the pressure, that of the packing, a share of the largest on the path so far, and
 /// the pressure that a share of the largest strain so far would build up. So an error of strain that is small beside the strain counts
@@ -88,8 +87,7 @@ impl PathFit<'_> {
         for track in self.tracks {
             let of_cycles = if track.turns() > TURNS { OF_CYCLES } else { 1.0 };
             let of_kind = match track.name.as_str() {
-                "shear" => OF_SHEAR,
-                "thermal" | "isotropic" => WITHOUT_SHEAR,
+                "shear" | "thermal" | "isotropic" => OF_ONE_KIND,
                 _ => 1.0,
             };
             let weight = of_cycles * of_kind * track.weight * (track.spheres as f64 / USUAL_SPHERES).sqrt();
