@@ -79,9 +79,10 @@ impl Law {
         // A third of the trace of the cube, which is the determinant.
         let third = contraction(&unit, &second) / 3.0;
         let most = length.min(MOST_DEVIATOR);
-        let shares = (0..SHARES).map(|k| f64::from(SHARES - k) / f64::from(SHARES) * most);
-        let found = shares.map(|length| (length, coefficients(self.lode * length, third)));
-        let found = found.filter_map(|(length, found)| found.map(|[a, b]| [a * length, b * length])).next();
+        let mut shares = (0..SHARES).map(|k| f64::from(SHARES - k) / f64::from(SHARES) * most);
+        let found = shares.find_map(|share| {
+            coefficients(self.lode * share, third).map(|found| found.map(|coefficient| share * coefficient))
+        });
         let [of_unit, of_second] = found.unwrap_or_default();
         std::array::from_fn(|k| of_unit * unit[k] + of_second * second[k])
     }
