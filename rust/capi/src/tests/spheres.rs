@@ -300,7 +300,7 @@ fn what_cannot_be_is_refused() {
         assert_eq!(msdd_spheres_load(c"/nowhere.json".as_ptr(), &mut out), MSDD_IO);
         let discs = concat!(env!("CARGO_MANIFEST_DIR"), "/../surrogate/models/increment.json\0");
         assert_eq!(msdd_spheres_load(discs.as_ptr().cast(), &mut out), MSDD_MODEL);
-        assert!(last_error().contains("msdd-spheres-model-12"), "{}", last_error());
+        assert!(last_error().contains("msdd-spheres-model-13"), "{}", last_error());
     }
     assert!(out.is_null());
 }

@@ -329,8 +329,8 @@ mod tests {
             found.0.iter().map(ToString::to_string).collect::<Vec<_>>()
         };
         assert_eq!(lines(&[0.38, 0.4]), Vec::<String>::new());
-        finds(&lines(&[0.38, 0.55]), "doubt: 0/porosity: internalField = 0.55, allowed: about 0.3 to 0.42");
-        finds(&lines(&[0.22, 0.4]), "doubt: 0/porosity: internalField = 0.22, allowed: about 0.3 to 0.42");
+        finds(&lines(&[0.38, 0.55]), "doubt: 0/porosity: internalField = 0.55, allowed: about 0.26 to 0.42");
+        finds(&lines(&[0.22, 0.4]), "doubt: 0/porosity: internalField = 0.22, allowed: about 0.26 to 0.42");
         finds(
             &lines(&[0.4, 0.9]),
             "error: 0/porosity: internalField = 0.9, allowed: 0.2 to 0.7 with spheres",

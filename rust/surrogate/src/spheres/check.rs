@@ -34,8 +34,6 @@ impl Law {
             ("least_contacts", z0, (0.0..=6.0).contains(&z0), "0 to 6"),
             ("forgetting", self.forgetting, (0.0..=1.0).contains(&self.forgetting), "0 to 1"),
             ("mobilising", self.mobilising, (0.0..=100.0).contains(&self.mobilising), "0 to 100"),
-            ("reopening", self.reopening, (0.0..=2.0).contains(&self.reopening), "0 to 2"),
-            ("climbing", self.climbing, (0.0..=5.0).contains(&self.climbing), "0 to 5"),
             ("collapse[0]", c0, (0.0..=10.0).contains(&c0), "0 to 10"),
             ("collapse[1]", c1, c1.abs() <= LARGE, "-1e4 to 1e4"),
             ("collapse[2]", c2, (0.0..=3.0).contains(&c2), "0 to 3"),

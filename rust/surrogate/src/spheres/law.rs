@@ -31,15 +31,11 @@ pub struct Law {
     /// direction n of sliding; negative where grains climb over each other. Beside it the fabric changes the compression without
     /// sliding, see [`super`].
     pub dilatancy: [f64; 5],
-    /// What each contact per sphere beyond z̄ takes from that loss, times g: packings that were made with little friction climb at first.
-    pub climbing: f64,
     /// Loss of compression by a unit of that sliding beside it, of packings whose friction is mobilised and that hardly bear load:
     /// (1 − g)^c₃ c₀ e^(−c₁ x) u^(−c₂).
     pub collapse: [f64; 4],
     /// Growth of the mobilised friction by sliding: dg = −m g ds/(v + 5e-5).
     pub mobilising: f64,
-    /// Added to the [`Element::power`] of the elements of friction while the packing opens.
-    pub reopening: f64,
     /// Loss of compression by a unit of opening: s₀/(1 + (v/v₀)²) + s₃ (1 − g), v₀ = s₁ e^(−s₂ x). The first is that of packings
     /// that are about to lose their load, the second that of all whose friction is mobilised.
     pub settling: [f64; 4],
@@ -231,21 +227,14 @@ impl Law {
     /// Loss of compression by a unit of sliding of the second element, see [`Law::dilatancy`], along a tensor of this length; `loaded` is
     /// ln u where it is reached.
     #[inline(always)]
-    fn lost<N: Number>(
-        &self,
-        state: &State<N>,
-        usual: &Usual<N>,
-        loaded: N,
-        (along, length): (&Tensor<N>, N),
-    ) -> N {
+    fn lost<N: Number>(&self, state: &State<N>, loaded: N, (along, length): (&Tensor<N>, N)) -> N {
         let (x, free) = (state.density(), state.free());
         let [c0, c1, c2, c3] = self.collapse;
         let bound = free.times(-1.0).plus(1.0).not_below(LEAST_MOBILISED);
         let dense = x.times(-c1).not_below(-MOST_EXPONENT).not_above(MOST_EXPONENT);
         let collapse = (dense - loaded.times(c2) + bound.ln().times(c3)).exp().times(c0);
         let [d0, d1, d2, d3, d4] = self.dilatancy;
-        let surplus = (state.coordination - usual.contacts) * free;
-        let always = (x.times(d1) + free.times(d2) - surplus.times(self.climbing)).plus(d0) + collapse;
+        let always = (x.times(d1) + free.times(d2)).plus(d0) + collapse;
         let climbs = scaled(&state.ratios[FABRIC], x.times(d4).plus(d3));
         always - contraction(&climbs, along) * length.inverse()
     }
@@ -289,10 +278,7 @@ impl Law {
             }
             let stiffness = stiffening.times(self.elements[k].stiffness);
             let power = self.elements[k].power;
-            let faded =
-                before.where_above(tried, opened.times(power + self.reopening), opened.times(power)).exp();
-            let faded = scaled(ratio, faded);
-            let faded = within(&faded, most).0;
+            let faded = within(&scaled(ratio, opened.times(power).exp()), most).0;
             let added = scaled(&distortion, stiffness * over);
             let elastic: Tensor<N> = six!(c => faded[c] - added[c]);
             let (kept, excess, length) = within(&elastic, most);
@@ -301,7 +287,7 @@ impl Law {
             sliding = sliding + slid;
             work = work + slid * most;
             if k == FIRST {
-                loss = slid * self.lost(state, usual, loaded, (&elastic, length));
+                loss = slid * self.lost(state, loaded, (&elastic, length));
             }
         }
         loss = loss.not_below_number(work.times(-MOST_CLIMBING));

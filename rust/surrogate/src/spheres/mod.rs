@@ -13,8 +13,7 @@
 //! with stiffnesses c_k, powers m_k and strengths M_k: where |η_k| would exceed M_k, the element slides. Strengths, and stiffnesses of friction,
 //! depend on φ_J, since dense packings bear a larger deviator, on v, and on the friction that is mobilised. The stress is
 //! σ = A (1 + η + Λ dev(η η)) with η = Σ η_k, so that packings bear more along one axis that is compressed than along two, see
-//! [`law::Law::deviator`]. While a packing opens, the powers of the elements of friction are larger by [`law::Law::reopening`]; one that
-//! starts with more than all strengths has larger ones for good ([`state::State::strength`]).
+//! [`law::Law::deviator`]. One that starts with more than all strengths has larger ones for good ([`state::State::strength`]).
 //!
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
 //! isotropic compression loads that axis more. It does not slide but turns with the strain, dη_f = c_f |de|/v (t − (α + (1 − α) f²)
@@ -36,7 +35,7 @@
 //! **Dilatancy.** What the stress of the fabric does by a shear strain is stored in the compression: dv = −η_f:de, without a fitted
 //! number. So a packing whose contacts point along the axis that is compressed is loaded by shear, and one that is sheared back loses
 //! its load until its contacts have turned. Beside it, sliding of the second element, by s, changes v by
-//! −(d₀ + d₁ x + d₂ g − d₅ g ζ − (d₃ + d₄ x) η_f·n) s with x = φ_J − 0.6 and the direction n of sliding (Rowe, 1962, Proc. R. Soc. A 269:500; with the fabric, Li and Dafalias, 2012, J. Eng.
+//! −(d₀ + d₁ x + d₂ g − (d₃ + d₄ x) η_f·n) s with x = φ_J − 0.6 and the direction n of sliding (Rowe, 1962, Proc. R. Soc. A 269:500; with the fabric, Li and Dafalias, 2012, J. Eng.
 //! Mech. 138:263), and mobilised packings that hardly bear load give way beside it ([`law::Law::collapse`]). Together these make φ_J grow
 //! where a loose packing is sheared, and fall in dense ones that are sheared far. Where grains climb, they take at most nine tenths
 //! of the work of friction.

@@ -14,7 +14,7 @@ use crate::options::TrainingOptions;
 use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
-pub const SCHEMA: &str = "msdd-spheres-model-12";
+pub const SCHEMA: &str = "msdd-spheres-model-13";
 
 /// Number of state columns of a cell, and of those before the stress ratios.
 pub const COLUMNS: usize = SCALARS + 5 * ELEMENTS;

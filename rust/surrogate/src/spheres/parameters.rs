@@ -25,7 +25,7 @@ const OF_FABRIC: [f64; 2] = [1e-6, 20.0];
 const POWER: [f64; 2] = [-2.0, 1.0];
 
 /// Number of parameters.
-pub const PARAMETERS: usize = 54;
+pub const PARAMETERS: usize = 52;
 
 /// Coefficients of x are divided by 10.
 const TABLE: [(Place, Scale); PARAMETERS] = [
@@ -48,7 +48,6 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.collapse[2], Over(1.0, [0.0, 3.0])),
     (|law| &mut law.collapse[3], Over(1.0, [0.05, 20.0])),
     (|law| &mut law.mobilising, Over(0.1, [0.0, 100.0])),
-    (|law| &mut law.reopening, Over(1.0, [0.0, 2.0])),
     (|law| &mut law.settling[0], Over(1.0, [0.0, 10.0])),
     (|law| &mut law.settling[1], Logarithm([1e-9, 1.0])),
     (|law| &mut law.settling[2], Over(10.0, FREE)),
@@ -80,7 +79,6 @@ const TABLE: [(Place, Scale); PARAMETERS] = [
     (|law| &mut law.elements[FABRIC].power, Over(1.0, POWER)),
     (|law| &mut law.least_contacts, Over(1.0, [0.0, 6.0])),
     (|law| &mut law.forgetting, Over(1.0, [0.0, 1.0])),
-    (|law| &mut law.climbing, Over(0.1, [0.0, 5.0])),
     (|law| &mut law.bulk[6], Over(1.0, [-10.0, 1.0])),
     (|law| &mut law.lode, Over(1.0, [0.0, 0.8])),
 ];
@@ -129,10 +127,8 @@ pub fn beginning() -> Law {
             element([0.0908, 0.526, 7.64, -0.738, 0.187, -0.202]),
         ],
         dilatancy: [0.01, 0.395, -0.0185, -0.287, 4.62],
-        climbing: 0.0557,
         collapse: [0.105, 62.9, 0.154, 1.65],
         mobilising: 0.0317,
-        reopening: 0.178,
         settling: [0.0406, 0.00029, 153.0, 0.0306],
         fabric: [5.75, 0.642],
         lode: 0.45,

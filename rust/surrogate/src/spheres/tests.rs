@@ -319,7 +319,7 @@ fn conductivities_that_are_known_along_z_alone_teach_the_same() {
 fn files_that_no_training_wrote_are_refused() {
     let text = model().to_json();
     let message = |text: &str| SphereModel::read(text).expect_err("unsound").to_string();
-    assert!(message(&text.replace("spheres-model-12", "spheres-model-11")).contains("spheres-model-11"));
+    assert!(message(&text.replace("spheres-model-13", "spheres-model-12")).contains("spheres-model-12"));
     assert!(message(&text[..text.len() / 2]).contains("damaged"));
     let mut file = model().file;
     file.law.bulk[0] = -1.0;
