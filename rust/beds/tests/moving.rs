@@ -118,6 +118,24 @@ fn a_bed_at_rest_stays_at_rest() {
     assert_eq!(first.depth, last.depth);
 }
 
+/// What spheres press each other with as they harden leaves through the lid, although the wall around them is rough: the floor bears
+/// the lid and the weight.
+#[test]
+fn rough_walls_hold_no_stress_of_the_hardening() {
+    let heated = "[[heated]]\nwall = \"floor\"\ntemperature = 293.15";
+    let record = COLUMN.to_string() + "\nradius = 0.012";
+    let rough =
+        text(["radius = 0.02", "", heated, &record]).replace("wall_friction = 0", "wall_friction = 0.4");
+    let scene = read(&rough).unwrap();
+    let prepared = prepare(&scene, 1, |_, _| ()).unwrap();
+    assert_eq!(prepared.simulation.material.wall_friction, 0.4);
+    let found = run(&scene, &prepared, |_| ()).unwrap();
+    let [floor, _, lid] = found.rows[0].walls[..] else { panic!("{:?}", found.rows[0]) };
+    let weight = 250.0 * 7800.0 * 9.81 * std::f64::consts::PI / 6.0 * 6.4e-3f64.powi(3);
+    let expected = lid + weight / (std::f64::consts::PI * 0.02 * 0.02);
+    assert!((floor / expected - 1.0).abs() < 0.01, "{floor} {expected}");
+}
+
 /// The shell stands where its stiffness and the pressure on it say, and a warm one beyond that; the lid keeps its pressure.
 #[test]
 fn a_shell_gives_way() {

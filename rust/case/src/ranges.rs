@@ -64,6 +64,11 @@ pub fn gravity(value: f64) -> Result<(), CaseError> {
     allow("gravity", value, (0.0..=1e3).contains(&value), || "0 to 1000 m/s2 downwards".to_string())
 }
 
+/// A coefficient of friction.
+pub fn wall_friction(value: f64) -> Result<(), CaseError> {
+    allow("wall friction", value, (0.0..=10.0).contains(&value), || "0 to 10".to_string())
+}
+
 /// \[W/m³\]
 pub fn heat_source(value: f64) -> Result<(), CaseError> {
     allow("heat source", value, value.abs() <= 1e15, || "-1e15 to 1e15 W/m3".to_string())

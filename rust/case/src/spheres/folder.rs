@@ -3,6 +3,7 @@
 use super::scene::{Lid, Scene};
 use super::shape::{HALF_ANGLE, INNER, Shape};
 use super::start::{ACCOMMODATION, FABRIC, LATERAL, Start};
+use super::wall;
 use crate::CaseError;
 use crate::fields::{FieldKind, head, uniform};
 use crate::folder::{File, programs};
@@ -77,7 +78,7 @@ fn initial_fields(scene: &Scene) -> Vec<File> {
         ),
         field("0/fabricIndex", FieldKind::Ratio, "Not used with spheres", "0"),
     ];
-    if scene.gravity == 0.0 {
+    if !rests(scene) {
         let note = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM: the vertical one is the \
                     pressure on the top";
         let horizontal = rounded(-LATERAL * scene.pressure, 6);
@@ -181,6 +182,7 @@ fn bed_values(scene: &Scene, start: &Start) -> Values {
         ("coordination", short(start.coordination)),
         ("fabric", scene.shape.tensor(along, up)),
         ("held", held(scene)),
+        ("rough", rough(scene).to_string()),
         ("lateral", plain(LATERAL)),
         ("conductivity", short(start.conductivity)),
         ("byGas", short(start.by_gas)),
@@ -189,7 +191,7 @@ fn bed_values(scene: &Scene, start: &Start) -> Values {
         ("pressure", plain(scene.pressure)),
         (
             "pressureFile",
-            match scene.gravity > 0.0 {
+            match rests(scene) {
                 true => "`constant/granularProperties`".to_string(),
                 false => "`0/stress`".to_string(),
             },
@@ -211,12 +213,27 @@ fn held(scene: &Scene) -> String {
         (_, Lid::Presses) => "the top goes on pressing as a stiff plate",
         (_, Lid::Stays) => "the top stays",
     };
-    let side = if scene.shell.is_some() { "gives way" } else { "stays" };
+    let side = match (scene.shell, scene.wall_friction) {
+        (Some(_), _) => "gives way".to_string(),
+        (None, 0.0) => "stays".to_string(),
+        (None, friction) => format!("stays and has a friction of {}", plain(friction)),
+    };
     let give = match scene.give > 0.0 {
         true => format!("; spheres give way by {} diameters at top and bottom", plain(scene.give)),
         false => String::new(),
     };
     format!("{top}, the side {side}{give}")
+}
+
+/// What is left out of the friction of walls, for README.md.
+fn rough(scene: &Scene) -> &'static str {
+    match (scene.wall_friction > 0.0, scene.shell.is_some()) {
+        (true, true) => "A side that gives way is smooth. ",
+        (true, false) => "",
+        (false, _) => {
+            "Walls are smooth: friction, which bears much of the weight of a tall bed and keeps it from rising, has to be given\n             (`--wall-friction` of `msdd case new`). "
+        }
+    }
 }
 
 /// What `constant/granularProperties` says of walls and of the stress at the start.
@@ -228,27 +245,30 @@ fn rest(scene: &Scene) -> String {
         true => format!(" give {}; giveBack 0.1;", plain(scene.give)),
         false => String::new(),
     };
-    let wall = |name: &str| match name {
+    let rigid = wall::entry(scene.wall_friction, 2.0 * scene.spheres.radius());
+    let entry = |name: &str| match name {
         "top" if scene.lid == Lid::Presses => {
             format!("type piston; pressure constant {};", plain(scene.pressure))
         }
-        "top" | "bottom" => format!("type frictionless;{give}"),
-        "side" => side(scene),
-        _ => "type frictionless;".to_string(),
+        "top" | "bottom" => rigid.clone() + &give,
+        "side" => side(scene).unwrap_or_else(|| rigid.clone()),
+        "inner" => "type frictionless;".to_string(),
+        _ => rigid.clone(),
     };
     let inner = match scene.shape {
         Shape::Box(_) => None,
         Shape::Cylinder { .. } => Some("inner"),
     };
     let names = scene.shape.walls().iter().copied().chain(inner);
-    let walls: String = names.map(|name| format!("        {name:8} {{ {} }}\n", wall(name))).collect();
+    let walls: String = names.map(|name| format!("        {name:8} {{ {} }}\n", entry(name))).collect();
     let mut text = format!(
-        "\n// Walls: frictionless ones stay, and spheres slide along them; rigid ones with friction and slip [m] are rough; piston is a stiff\n\
+        "\n// Walls: frictionless ones stay, and spheres slide along them; rigid ones with friction and slip [m] are rough: tangential\n\
+         // over normal stress, less than the coefficient of a sphere, and the slip at half of it; piston is a stiff\n\
          // plate under a load (pressure where air would press); shell is a thin vessel that gives way and expands with its own temperature.\n\
          // give: by how many diameters of bed spheres give way at a smooth wall\n\
          equilibriumCoeffs\n{{\n    walls\n    {{\n{walls}    }}\n}}\n"
     );
-    if scene.gravity > 0.0 {
+    if rests(scene) {
         text += &format!(
             "\n// The stress at the start: under the weight of what lies above and the pressure on the top; lateral: the horizontal one over\n\
              // the vertical one\nrestStress\n{{\n    lateral         {};\n    surface         {};\n}}\n",
@@ -259,18 +279,25 @@ fn rest(scene: &Scene) -> String {
     text
 }
 
-fn side(scene: &Scene) -> String {
+/// The side of a cylinder as a shell.
+fn side(scene: &Scene) -> Option<String> {
     match (scene.shell, scene.shape) {
-        (Some(shell), Shape::Cylinder { radius, .. }) => format!(
+        (Some(shell), Shape::Cylinder { radius, .. }) => Some(format!(
             "type shell; youngModulus {}; thickness {}; radius {}; thermalExpansion {}; temperature {};",
             plain(shell.young_modulus),
             plain(shell.thickness),
             plain(radius),
             plain(shell.thermal_expansion),
             plain(scene.initial_temperature)
-        ),
-        _ => "type frictionless;".to_string(),
+        )),
+        _ => None,
     }
+}
+
+/// Whether the bed begins at rest under its weight, unless walls bear a part of it. Then it begins with the stress on its top
+/// everywhere, and the first step brings the weight on.
+fn rests(scene: &Scene) -> bool {
+    scene.gravity > 0.0 && (scene.wall_friction == 0.0 || scene.shell.is_some())
 }
 
 #[cfg(test)]

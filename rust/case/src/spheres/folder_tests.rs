@@ -27,6 +27,7 @@ fn scene(shape: Shape) -> Scene {
         lid: Lid::Presses,
         shell: None,
         give: 0.0,
+        wall_friction: 0.0,
         gravity: 0.0,
         heat_source: Some(3000.0),
         end_time: 1e4,
@@ -100,6 +101,19 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
     assert_eq!(wall(&vessel, "side").text("thermalExpansion").unwrap(), "1.2e-5");
     assert_eq!(read(&vessel, "constant/g").text("value").unwrap(), "( -9.81 0 0 )");
     assert!(vessel.iter().all(|file| file.path != "0/stress"));
+    let rough = Scene { wall_friction: 0.3, gravity: 9.81, lid: Lid::Stays, give: 1.0, ..scene(ROUND) };
+    let rough = made(&rough);
+    for name in ["side", "bottom", "top"] {
+        assert_eq!(wall(&rough, name).text("friction").unwrap(), "0.154", "{name}");
+    }
+    assert_eq!(wall(&rough, "bottom").text("give").unwrap(), "1");
+    assert_eq!(wall(&rough, "inner").text("type").unwrap(), "frictionless");
+    // Walls bear a part of the weight, so the bed does not begin at rest.
+    assert!(read(&rough, "constant/granularProperties").get("restStress").is_none());
+    assert!(
+        rough.iter().any(|file| file.path == "0/stress")
+            && rough.iter().any(|file| file.path == "constant/g")
+    );
     let still = made(&Scene { mechanics: Mechanics::None, ..scene(ROUND) });
     assert!(read(&still, "constant/granularProperties").get("equilibriumCoeffs").is_none());
 }

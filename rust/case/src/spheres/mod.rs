@@ -6,6 +6,7 @@
 //! | [`shape`] | boxes and cylinders, their walls, cells and points |
 //! | [`scene`] | the parameters of a new case |
 //! | [`start`] | what the law of spheres says of the bed at the start |
+//! | [`wall`] | the friction of walls |
 //! | [`folder`] | the files of a new case |
 
 pub mod folder;
@@ -13,3 +14,4 @@ pub mod material;
 pub mod scene;
 pub mod shape;
 pub mod start;
+pub mod wall;

@@ -56,6 +56,8 @@ pub struct Scene {
     pub shell: Option<Shell>,
     /// By how much spheres give way at bottom and top where these stay \[mean diameters\].
     pub give: f64,
+    /// Coefficient of friction of spheres and the walls that stay; 0: smooth.
+    pub wall_friction: f64,
     /// Acceleration downwards \[m/s²\].
     pub gravity: f64,
     /// Heat released in the bed \[W/m³\], negative for a sink.
@@ -164,7 +166,15 @@ impl Scene {
         allow("give", self.give, (0.0..=1000.0).contains(&self.give), || {
             "0 to 1000 diameters of a sphere".to_string()
         })?;
+        ranges::wall_friction(self.wall_friction)?;
         let still = self.mechanics == Mechanics::None;
+        if still && self.wall_friction > 0.0 {
+            return refuse(
+                "wall friction",
+                &number(self.wall_friction),
+                "0 with mechanics none, where spheres stay where they are",
+            );
+        }
         if still && self.gravity > 0.0 {
             return refuse(
                 "gravity",
@@ -232,12 +242,16 @@ impl Scene {
         self.walls.iter().map(|wall| !wall.temperatures().is_empty()).collect()
     }
 
-    /// Directions of the shape along which the bed is not alike: where walls have a temperature, and upwards under gravity.
+    /// Directions of the shape along which the bed is not alike: where walls have a temperature, upwards under gravity, and all of them
+    /// between rough walls.
     pub fn varies(&self) -> Vec<bool> {
         let mut varies: Vec<bool> =
             self.shape.heat_ways(&self.warm()).into_iter().map(f64::is_finite).collect();
         if let Some(up) = varies.last_mut() {
             *up |= self.gravity > 0.0;
+        }
+        if self.wall_friction > 0.0 {
+            varies.fill(true);
         }
         varies
     }
@@ -300,7 +314,16 @@ impl Scene {
                 plain(rounded(weight, 2))
             )
         });
-        weight.into_iter().collect()
+        let smooth = self.mechanics == Mechanics::Equilibrium
+            && self.wall_friction == 0.0
+            && self.shell.is_none()
+            && self.shape.height() > self.shape.breadth();
+        let smooth = smooth.then(|| {
+            "the sides are smooth; friction at sides keeps a bed that is taller than wide from rising as it is heated, and raises its \
+             pressure: --wall-friction 0.3 adds it"
+                .to_string()
+        });
+        weight.into_iter().chain(smooth).collect()
     }
 }
 

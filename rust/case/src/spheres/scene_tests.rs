@@ -20,6 +20,7 @@ fn scene() -> Scene {
         lid: Lid::Presses,
         shell: None,
         give: 0.0,
+        wall_friction: 0.0,
         gravity: 0.0,
         heat_source: None,
         end_time: 1e4,
@@ -32,7 +33,7 @@ fn scene() -> Scene {
 fn each_wish_out_of_range_is_refused_with_key_value_and_range() {
     scene().check().unwrap();
     type Change = fn(&mut Scene);
-    let wrong: [(Change, &str); 17] = [
+    let wrong: [(Change, &str); 19] = [
         (|s| s.shape = Shape::Box([0.3, 0.01, 0.3]), "depth of the box = 0.01, allowed: 0.0256 to 1e6 m"),
         (
             |s| s.shape = Shape::Cylinder { radius: 3e-3, height: 1.0 },
@@ -57,6 +58,14 @@ fn each_wish_out_of_range_is_refused_with_key_value_and_range() {
         (|s| s.porosity = 0.25, "porosity = 0.25, allowed: 0.35"),
         (|s| s.porosity = 40.0, "porosity = 40, allowed: 0.35"),
         (|s| s.gravity = -9.81, "gravity = -9.81, allowed: 0 to 1000 m/s2 downwards"),
+        (|s| s.wall_friction = -0.1, "wall friction = -0.1, allowed: 0 to 10"),
+        (
+            |s| {
+                s.mechanics = Mechanics::None;
+                s.wall_friction = 0.3;
+            },
+            "wall friction = 0.3, allowed: 0 with mechanics none",
+        ),
         (|s| s.give = -1.0, "give = -1, allowed: 0 to 1000 diameters"),
         (
             |s| s.shell = Some(Shell { young_modulus: 2e11, thickness: 0.0, thermal_expansion: 0.0 }),
@@ -94,8 +103,13 @@ fn proposals_follow_spheres_walls_and_diffusion() {
     assert!(first > 0.0 && first <= 0.01 * scene.end_time, "{first}");
     // 7800 0.6 9.81 0.4 Pa are not small beside 20 kPa
     assert!(scene.notes()[0].contains("up to 18000 Pa at the bottom"));
+    assert!(scene.notes()[1].starts_with("the sides are smooth"));
     scene.gravity = 9.81;
+    scene.wall_friction = 0.3;
     assert!(scene.notes().is_empty());
+    scene.wall_friction = 0.0;
     scene.walls = vec![parse_wall("insulated").unwrap(); 3];
     assert_eq!((scene.varies(), scene.heat_way()), (vec![false, true], 0.4));
+    scene.wall_friction = 0.3;
+    assert_eq!(scene.varies(), [true, true]);
 }

@@ -62,6 +62,14 @@ impl Shape {
         }
     }
 
+    /// The least distance of two opposite sides \[m\].
+    pub fn breadth(&self) -> f64 {
+        match *self {
+            Self::Box([x, y, _]) => x.min(y),
+            Self::Cylinder { radius, .. } => 2.0 * radius,
+        }
+    }
+
     /// \[m³\]
     pub fn volume(&self) -> f64 {
         match *self {

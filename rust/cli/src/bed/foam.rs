@@ -11,6 +11,7 @@ use msdd_beds::schedule::Schedule;
 use msdd_case::fields::{FieldKind, head, uniform};
 use msdd_case::folder::{self, File, check_folder};
 use msdd_case::numbers::plain;
+use msdd_case::spheres::wall;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -64,9 +65,9 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 
 /// What the solver's case leaves out.
 fn notes(scene: &Scene) -> Vec<String> {
-    let friction = (scene.grains.wall_friction > 0.0).then(|| {
+    let friction = (scene.grains.wall_friction > 0.0 && scene.shell.is_some()).then(|| {
         format!(
-            "walls have a friction of {}; those of the solver's case have none",
+            "walls have a friction of {}; a side that gives way has none in the solver's case",
             scene.grains.wall_friction
         )
     });
@@ -202,16 +203,17 @@ fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
         plain(grains.thermal_expansion.unwrap_or(0.0)),
         plain(0.5 * grains.diameter),
     );
+    let rigid = wall::entry(grains.wall_friction, grains.diameter);
     let lid = match (&scene.lid.strain, &scene.lid.pressing) {
         (Some(strain), _) => {
             let moved = table(strain, |strain| geometry.along(-strain * geometry.depth()));
-            format!("type frictionless; {GIVE} displacement {moved};")
+            format!("{rigid} {GIVE} displacement {moved};")
         }
         (None, Some(pressing)) => {
             let pressure = table(pressing, |pressure| plain(pressure * geometry.widening.powi(2)));
             format!("type piston; pressure {pressure};")
         }
-        (None, None) => format!("type frictionless; {GIVE}"),
+        (None, None) => format!("{rigid} {GIVE}"),
     };
     // Under a lid that goes on pressing it changes no stress.
     let floor = if scene.lid.pressing.is_some() { "" } else { GIVE };
@@ -233,14 +235,14 @@ fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
                 plain(radius)
             )
         }
-        None => "type frictionless;".to_string(),
+        None => rigid.clone(),
     };
     if geometry.radii.is_some() {
         text += "        inner { type frictionless; }\n";
     }
     let _ = write!(
         text,
-        "        floor {{ type frictionless; {floor} }}\n        lid {{ {lid} }}\n        side {{ {side} }}\n    }}\n}}\n"
+        "        floor {{ {rigid} {floor} }}\n        lid {{ {lid} }}\n        side {{ {side} }}\n    }}\n}}\n"
     );
     text
 }

@@ -72,6 +72,9 @@ pub struct SphereWishes {
     /// By how many diameters of bed spheres give way at a bottom and top that stay. Default: 1; 0 under a top that presses.
     #[arg(long, value_name = "D", requires = "spheres")]
     give: Option<f64>,
+    /// Coefficient of friction of the spheres and the walls that stay. Default: 0, smooth walls.
+    #[arg(long, value_name = "MU", requires = "spheres")]
+    wall_friction: Option<f64>,
     /// Gravity [m/s2], downwards. Default: 0.
     #[arg(long, value_name = "M/S2", requires = "spheres")]
     gravity: Option<f64>,
@@ -130,7 +133,7 @@ impl SphereWishes {
         let walls = ask_walls(asker, &shape, given, initial_temperature, read)?;
         let (porosity, pressure) = ask_start(common, asker, spheres)?;
         let mechanics = common.ask_mechanics(asker)?;
-        let (lid, gravity) = self.ask_load(asker, mechanics)?;
+        let (lid, wall_friction, gravity) = self.ask_load(asker, mechanics)?;
         let stays = lid == Lid::Stays && mechanics == Mechanics::Equilibrium;
         let mut scene = Scene {
             shape,
@@ -146,6 +149,7 @@ impl SphereWishes {
             lid,
             shell: self.shell,
             give: self.give.unwrap_or(if stays { GIVE } else { 0.0 }),
+            wall_friction,
             gravity,
             heat_source: common.ask_heat(asker)?.filter(|&value| value != 0.0),
             end_time: 1.0,
@@ -285,15 +289,18 @@ impl SphereWishes {
         Ok(Gas { name, pressure })
     }
 
-    /// What the top does, and gravity, where spheres move.
-    fn ask_load(&self, asker: &Asker, mechanics: Mechanics) -> Result<(Lid, f64), CliError> {
+    /// What the top does, the friction of walls, and gravity, where spheres move.
+    fn ask_load(&self, asker: &Asker, mechanics: Mechanics) -> Result<(Lid, f64, f64), CliError> {
         if mechanics == Mechanics::None {
-            for (option, given) in [("--lid", self.lid.is_some()), ("--give", self.give.is_some())] {
-                if given {
-                    return Err(wrong(option, "given", "with --mechanics equilibrium, where spheres move"));
-                }
+            let options = [
+                ("--lid", self.lid.is_some()),
+                ("--give", self.give.is_some()),
+                ("--wall-friction", self.wall_friction.is_some()),
+            ];
+            if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
+                return Err(wrong(option, "given", "with --mechanics equilibrium, where spheres move"));
             }
-            return Ok((Lid::default(), self.gravity.unwrap_or(0.0)));
+            return Ok((Lid::default(), 0.0, self.gravity.unwrap_or(0.0)));
         }
         let lid = asker.value(
             self.lid,
@@ -303,6 +310,11 @@ impl SphereWishes {
             "presses",
             choice::<LidName>,
         )?;
+        let help = "The coefficient of friction of the spheres and the walls that stay; 0: smooth walls. Friction at the side of a tall \
+                    bed keeps it from rising as it is heated.";
+        let read = asker.within(number, |&value| ranges::wall_friction(value));
+        let question = "Friction of the walls";
+        let wall_friction = asker.value(self.wall_friction, help, question, "0", read)?;
         let help = "Gravity points downwards; 0 leaves the weight of the bed out.";
         let read = asker.within(number, |&value| ranges::gravity(value));
         let gravity = asker.value(self.gravity, help, "Gravity [m/s2]", "0", read)?;
@@ -310,7 +322,7 @@ impl SphereWishes {
             LidName::Presses => Lid::Presses,
             LidName::Stays => Lid::Stays,
         };
-        Ok((lid, gravity))
+        Ok((lid, wall_friction, gravity))
     }
 }
 

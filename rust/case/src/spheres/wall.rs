@@ -1,0 +1,47 @@
+//! The friction of a flat wall for a bed of spheres.
+
+use crate::numbers::{plain, rounded};
+
+/// Most friction that a flat wall has for a bed, however rough it is.
+const MOST: f64 = 0.18;
+/// Slip at which half of it is reached \[diameters of a sphere\].
+const SLIP: f64 = 1e-3;
+
+/// Tangential over normal stress at a flat wall along which a bed slips, of spheres that slide on it with this coefficient of friction:
+/// less, because spheres also roll along it. The form is a fit to beds of discrete elements in cylinders, heated and cooled: 0.08, 0.14
+/// and 0.16 where the coefficient is 0.1, 0.2 and 0.3.
+pub fn of_bed(friction: f64) -> f64 {
+    friction / (friction / MOST).hypot(1.0)
+}
+
+/// A wall that stays, as an entry of `walls` in `constant/granularProperties`; `diameter` of the spheres \[m\].
+pub fn entry(friction: f64, diameter: f64) -> String {
+    match friction > 0.0 {
+        true => {
+            let [friction, slip] = [of_bed(friction), SLIP * diameter].map(|value| plain(rounded(value, 3)));
+            format!("type rigid; friction {friction}; slip {slip};")
+        }
+        false => "type frictionless;".to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn friction_of_a_bed_is_that_of_its_spheres_where_small_and_has_a_limit() {
+        assert_eq!(of_bed(0.0), 0.0);
+        assert!((of_bed(1e-3) / 1e-3 - 1.0).abs() < 1e-4);
+        for (coefficient, counted) in [(0.1, 0.083), (0.2, 0.137), (0.3, 0.157)] {
+            assert!((of_bed(coefficient) - counted).abs() < 0.005, "{}", of_bed(coefficient));
+        }
+        assert!(of_bed(10.0) < MOST && of_bed(10.0) > 0.99 * MOST);
+    }
+
+    #[test]
+    fn a_smooth_wall_is_frictionless() {
+        assert_eq!(entry(0.0, 0.01), "type frictionless;");
+        assert_eq!(entry(0.3, 0.01), "type rigid; friction 0.154; slip 1e-5;");
+    }
+}
