@@ -21,6 +21,7 @@ use crate::transient::Transient;
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::space::length;
 use msdd_spheres::{Material, Partner, Simulation, Stiffness};
+use std::f64::consts::PI;
 
 /// First time step of heat \[s\].
 const FIRST_STEP: f64 = 0.1;
@@ -82,6 +83,18 @@ pub struct Row {
     /// Contacts that yield, over all; largest of Hertz's peak stresses over the one at which yielding begins. NaN without a yield stress.
     pub yielding: f64,
     pub peak: f64,
+}
+
+/// Tangential over normal force of the side of a cylinder on the grains, above 0 where it holds the bed down: what the floor bears
+/// more than lid and weight comes from the side. `None` without a side.
+pub fn side_friction(scene: &Scene, row: &Row) -> Option<f64> {
+    let [floor, side, lid] =
+        ["floor", "side", "lid"].map(|name| scene.wall(name).map(|wall| row.walls[wall]));
+    let (grains, area) = (&scene.grains, PI * row.radius * row.radius);
+    let weight =
+        grains.number as f64 * grains.density * PI / 6.0 * grains.diameter.powi(3) * scene.container.gravity;
+    let normal = side? * 2.0 * PI * row.radius * row.depth;
+    Some(((floor? - lid?) * area - weight) / normal)
 }
 
 /// A bed over time.

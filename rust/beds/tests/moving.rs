@@ -1,7 +1,7 @@
 //! Beds whose walls move while heat flows, at small size: balances of heat and force, the path of the lid, the stiffness of the shell,
 //! nothing moves without a reason; bad descriptions.
 
-use msdd_beds::coupled::{Prepared, Run, prepare, run};
+use msdd_beds::coupled::{Prepared, Run, prepare, run, side_friction};
 use msdd_beds::effective::poor_spheres;
 use msdd_beds::scene::{FILE, Scene};
 use std::path::PathBuf;
@@ -130,10 +130,15 @@ fn rough_walls_hold_no_stress_of_the_hardening() {
     let prepared = prepare(&scene, 1, |_, _| ()).unwrap();
     assert_eq!(prepared.simulation.material.wall_friction, 0.4);
     let found = run(&scene, &prepared, |_| ()).unwrap();
-    let [floor, _, lid] = found.rows[0].walls[..] else { panic!("{:?}", found.rows[0]) };
+    let [floor, side, lid] = found.rows[0].walls[..] else { panic!("{:?}", found.rows[0]) };
     let weight = 250.0 * 7800.0 * 9.81 * std::f64::consts::PI / 6.0 * 6.4e-3f64.powi(3);
     let expected = lid + weight / (std::f64::consts::PI * 0.02 * 0.02);
     assert!((floor / expected - 1.0).abs() < 0.01, "{floor} {expected}");
+    let friction = side_friction(&scene, &found.rows[0]).unwrap();
+    assert!(
+        (friction - (floor - expected) * 0.5 * 0.02 / (found.rows[0].depth * side)).abs() < 1e-3,
+        "{friction}"
+    );
 }
 
 /// The shell stands where its stiffness and the pressure on it say, and a warm one beyond that; the lid keeps its pressure.

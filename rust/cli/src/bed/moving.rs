@@ -2,7 +2,7 @@
 
 use crate::error::CliError;
 use crate::progress::Progress;
-use msdd_beds::coupled::{Prepared, Row, Run, prepare, run};
+use msdd_beds::coupled::{Prepared, Row, Run, prepare, run, side_friction};
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::{at_start, join};
 use msdd_beds::rows::elements;
@@ -152,6 +152,16 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     }
     if let Some(row) = found.rows.first() {
         text += &start(scene, row.mobilisation, row.fabric);
+    }
+    if scene.grains.wall_friction > 0.0 {
+        let known = || found.rows.iter().filter_map(|row| side_friction(scene, row));
+        let (most, least) = (known().fold(f64::NAN, f64::max), known().fold(f64::NAN, f64::min));
+        if most.is_finite() {
+            let _ = writeln!(
+                text,
+                "friction of the side over its normal force: {least:.3} to {most:.3} (above 0: it holds the bed down)"
+            );
+        }
     }
     let peak = found.rows.iter().map(|row| row.peak).fold(f64::NAN, f64::max);
     let yielding = found.rows.iter().map(|row| row.yielding).fold(0.0, f64::max);
