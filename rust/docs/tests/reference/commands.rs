@@ -150,8 +150,7 @@ fn scripts() -> Set {
 fn script_options() -> Set {
     let mut names = Vec::new();
     for (path, text) in files("scripts", &[""]).into_iter().chain(files("cases/common", &[""])) {
-        let runs = ["cases/common/run", "cases/common/run-regions"];
-        let script = if runs.contains(&path.as_str()) { "cases/<name>/Allrun" } else { &path };
+        let script = if path == "cases/common/run" { "cases/<name>/Allrun" } else { &path };
         for option in firsts(r"(?m)(?:^|[\s|])(-{1,2}[a-z]{3,}[\w-]*)\)", &text) {
             names.push(format!("{script} {option}"));
         }
