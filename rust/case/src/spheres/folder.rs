@@ -42,7 +42,7 @@ pub fn files(scene: &Scene, name: &str, checkout: &Path) -> Result<Vec<File>, Ca
         foam("system/decomposeParDict", "dictionary", template!("decomposeParDict")),
         foam("0/T", "volScalarField", template!("T")),
     ]);
-    files.extend(initial_fields(scene));
+    files.extend(initial_fields(scene)?);
     if scene.heat_source.is_some() {
         files.push(foam("constant/fvOptions", "dictionary", template!("fvOptions")));
     }
@@ -64,7 +64,7 @@ fn tolerance(scene: &Scene) -> f64 {
 }
 
 /// Porosity, fabric index, and the stress unless it follows from the weight, with the same value in all cells.
-fn initial_fields(scene: &Scene) -> Vec<File> {
+fn initial_fields(scene: &Scene) -> Result<Vec<File>, CaseError> {
     let field = |path: &'static str, kind: FieldKind, note: &str, value: &str| {
         let name = path.trim_start_matches("0/");
         File { path, text: uniform(name, kind, note, value), program: false }
@@ -80,16 +80,12 @@ fn initial_fields(scene: &Scene) -> Vec<File> {
     ];
     if !rests(scene) {
         let note = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM: the vertical one is the \
-                    pressure on the top";
-        let horizontal = rounded(-LATERAL * scene.pressure, 6);
-        fields.push(field(
-            "0/stress",
-            FieldKind::Stress,
-            note,
-            &scene.shape.tensor(horizontal, -scene.pressure),
-        ));
+                    pressure on the top, or between rough walls the least stress that they leave of it (Janssen)";
+        let vertical = scene.stress_at_start()?;
+        let horizontal = rounded(-LATERAL * vertical, 6);
+        fields.push(field("0/stress", FieldKind::Stress, note, &scene.shape.tensor(horizontal, -vertical)));
     }
-    fields
+    Ok(fields)
 }
 
 fn values(scene: &Scene, name: &str, checkout: &Path) -> Result<Values, CaseError> {
@@ -102,6 +98,10 @@ fn values(scene: &Scene, name: &str, checkout: &Path) -> Result<Values, CaseErro
         ("mechanics", mechanics_name(scene.mechanics).to_string()),
         ("probes", scene.probes.iter().map(probe).collect::<Vec<_>>().join("\n")),
         ("probesNote", String::new()),
+        (
+            "probeColumns",
+            scene.probes.iter().map(|probe| scene.shape.place(probe)).collect::<Vec<_>>().join("; "),
+        ),
         ("spaceProbes", String::new()),
         ("initialTemperature", plain(scene.initial_temperature)),
         ("walls", walls(named()) + inner(&scene.shape)),
@@ -116,7 +116,7 @@ fn values(scene: &Scene, name: &str, checkout: &Path) -> Result<Values, CaseErro
     values.extend(scene.spheres.grains.named().map(|(key, value, _)| (key, plain(value))));
     values.extend(scene.spheres.named().map(|(key, value, _)| (key, plain(value))));
     values.extend(mesh_values(scene));
-    values.extend(bed_values(scene, &start));
+    values.extend(bed_values(scene, &start)?);
     Ok(values)
 }
 
@@ -133,8 +133,9 @@ fn wedge(shape: &Shape) -> &'static str {
     match shape {
         Shape::Box(_) => "",
         Shape::Cylinder { .. } => {
-            "- **The mesh is a wedge of 5 degrees**: heat and sources in J and W, in the log and in the tables, are 1/72 of those of the whole bed.\n  \
-             x is the height and y the radius: probes have (height radius 0), and `conductivity_xx` is the vertical conductivity.\n"
+            "- **The mesh is a wedge of 5 degrees, x is the height and y the radius**: points in the files are (height radius 0), and\n  \
+             `conductivity_xx` is the vertical conductivity. Heat and sources in J and W, in the log and in the tables, are 1/72 of those of\n  \
+             the whole bed.\n"
         }
     }
 }
@@ -171,10 +172,22 @@ fn mesh_values(scene: &Scene) -> Values {
     values
 }
 
-fn bed_values(scene: &Scene, start: &Start) -> Values {
+/// The stress at the start, for README.md.
+fn stress_row(scene: &Scene) -> Result<String, CaseError> {
+    Ok(match rests(scene) {
+        true => "at rest under weight and pressure on the top | `constant/granularProperties`".to_string(),
+        false => {
+            let vertical = plain(scene.stress_at_start()?);
+            let first = if scene.gravity > 0.0 { "; the first step adds the weight" } else { "" };
+            format!("{vertical} Pa everywhere{first} | `0/stress`")
+        }
+    })
+}
+
+fn bed_values(scene: &Scene, start: &Start) -> Result<Values, CaseError> {
     let short = |value: f64| plain(rounded(value, 3));
     let [along, up] = FABRIC;
-    vec![
+    Ok(vec![
         ("rest", rest(scene)),
         ("gas", scene.gas.name.as_str().to_string()),
         ("gasPressure", plain(scene.gas.pressure)),
@@ -182,20 +195,15 @@ fn bed_values(scene: &Scene, start: &Start) -> Values {
         ("coordination", short(start.coordination)),
         ("fabric", scene.shape.tensor(along, up)),
         ("held", held(scene)),
-        ("rough", rough(scene).to_string()),
+        ("leftOut", left_out(scene)),
         ("lateral", plain(LATERAL)),
         ("conductivity", short(start.conductivity)),
         ("byGas", short(start.by_gas)),
+        ("byContacts", short(start.conductivity - start.by_gas)),
         ("number", plain(rounded(scene.number(), 2))),
         ("porosity", plain(scene.porosity)),
         ("pressure", plain(scene.pressure)),
-        (
-            "pressureFile",
-            match rests(scene) {
-                true => "`constant/granularProperties`".to_string(),
-                false => "`0/stress`".to_string(),
-            },
-        ),
+        ("stressRow", stress_row(scene)?),
         (
             "gravity",
             match scene.gravity > 0.0 {
@@ -203,37 +211,34 @@ fn bed_values(scene: &Scene, start: &Start) -> Values {
                 false => "none (no such file)".to_string(),
             },
         ),
-    ]
+    ])
 }
 
 /// How top and side hold the spheres, for README.md.
 fn held(scene: &Scene) -> String {
     let top = match (scene.mechanics, scene.lid) {
         (Mechanics::None, _) => return "nothing moves".to_string(),
-        (_, Lid::Presses) => "the top goes on pressing as a stiff plate",
-        (_, Lid::Stays) => "the top stays",
+        (_, Lid::Presses) => "the top is a stiff plate under a constant load",
+        (_, Lid::Stays) => "the top is fixed",
     };
-    let side = match (scene.shell, scene.wall_friction) {
-        (Some(_), _) => "gives way".to_string(),
-        (None, 0.0) => "stays".to_string(),
-        (None, friction) => format!("stays and has a friction of {}", plain(friction)),
+    let side = match scene.shell {
+        Some(_) => "a thin elastic shell",
+        None => "fixed",
+    };
+    let friction = match scene.wall_friction {
+        0.0 => "rigid walls are smooth".to_string(),
+        friction => format!("rigid walls: {}", wall::sentence(friction)),
     };
     let give = match scene.give > 0.0 {
         true => format!("; spheres give way by {} diameters at top and bottom", plain(scene.give)),
         false => String::new(),
     };
-    format!("{top}, the side {side}{give}")
+    format!("{top}, the side is {side}; {friction}{give}")
 }
 
-/// What is left out of the friction of walls, for README.md.
-fn rough(scene: &Scene) -> &'static str {
-    match (scene.wall_friction > 0.0, scene.shell.is_some()) {
-        (true, true) => "A side that gives way is smooth. ",
-        (true, false) => "",
-        (false, _) => {
-            "Walls are smooth: friction, which bears much of the weight of a tall bed and keeps it from rising, has to be given\n             (`--wall-friction` of `msdd case new`). "
-        }
-    }
+/// What is left out of this bed, for README.md.
+fn left_out(scene: &Scene) -> String {
+    scene.notes().iter().map(|note| format!("- {note}\n")).collect()
 }
 
 /// What `constant/granularProperties` says of walls and of the stress at the start.
@@ -294,8 +299,8 @@ fn side(scene: &Scene) -> Option<String> {
     }
 }
 
-/// Whether the bed begins at rest under its weight, unless walls bear a part of it. Then it begins with the stress on its top
-/// everywhere, and the first step brings the weight on.
+/// Whether the bed begins at rest under its weight. Rough walls carry a part of it; the bed then begins with
+/// [`Scene::stress_at_start`] everywhere, and the first step adds the weight.
 fn rests(scene: &Scene) -> bool {
     scene.gravity > 0.0 && (scene.wall_friction == 0.0 || scene.shell.is_some())
 }

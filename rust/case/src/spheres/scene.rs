@@ -2,7 +2,8 @@
 
 use super::material::Spheres;
 use super::shape::Shape;
-use super::start::{Bed, Gas, Start};
+use super::start::{Bed, Gas, LATERAL, Start};
+use super::wall;
 use crate::CaseError;
 use crate::numbers::{plain, rounded};
 use crate::ranges::{self, allow};
@@ -70,6 +71,8 @@ pub struct Scene {
     pub probes: Vec<Vec<f64>>,
 }
 
+/// Gravity on earth \[m/s²\].
+pub const GRAVITY: f64 = 9.81;
 /// What a bed has, for messages.
 pub const BED_HAS: &str = "bed has at least four spheres";
 
@@ -226,9 +229,26 @@ impl Scene {
         self.shape.volume() * (1.0 - self.porosity) / (4.0 / 3.0 * PI * radius * radius * radius)
     }
 
-    /// What the weight of the bed, under 9.81 m/s², adds to the vertical stress at the bottom \[Pa\].
+    /// Vertical stress with which the bed begins everywhere, unless it begins at rest under its weight \[Pa\]: the pressure on the
+    /// top. Under gravity between rough walls it is the least stress of Janssen's equation, if that is less: the first step then
+    /// loads the bed, which mobilises the friction.
+    ///
+    /// # Errors
+    /// As for [`Scene::start`].
+    pub fn stress_at_start(&self) -> Result<f64, CaseError> {
+        if self.gravity == 0.0 || self.wall_friction == 0.0 || self.lid == Lid::Stays {
+            return Ok(self.pressure);
+        }
+        let length = self.shape.hydraulic_length() / (wall::of_bed(self.wall_friction) * LATERAL);
+        let deep = self.spheres.grains.density * (1.0 - self.porosity) * self.gravity * length;
+        let bottom = deep + (self.pressure - deep) * (-self.shape.height() / length).exp();
+        let [least, _] = self.bed()?.pressures();
+        Ok(rounded(bottom.max(least), 3).min(self.pressure))
+    }
+
+    /// What the weight of the bed adds to the vertical stress at the bottom on earth \[Pa\].
     pub fn weight(&self) -> f64 {
-        self.spheres.grains.density * (1.0 - self.porosity) * 9.81 * self.shape.height()
+        self.spheres.grains.density * (1.0 - self.porosity) * GRAVITY * self.shape.height()
     }
 
     /// Least and largest temperature of the initial state and of the walls at any time \[K\].
@@ -305,25 +325,33 @@ impl Scene {
 
     /// What the case leaves out that may matter, in sentences.
     pub fn notes(&self) -> Vec<String> {
-        let weight = self.weight();
-        let light =
-            self.gravity == 0.0 && self.mechanics == Mechanics::Equilibrium && weight > 0.2 * self.pressure;
+        if self.mechanics == Mechanics::None {
+            return Vec::new();
+        }
+        let (weight, slenderness) = (self.weight(), self.shape.height() / self.shape.breadth());
+        let light = self.gravity == 0.0 && weight > 0.2 * self.pressure;
         let weight = light.then(|| {
             format!(
-                "the weight of the bed, up to {} Pa at the bottom, is left out; --gravity 9.81 adds it",
+                "the weight of the bed, up to {} Pa at the bottom, is left out; --gravity {GRAVITY} adds it",
                 plain(rounded(weight, 2))
             )
         });
-        let smooth = self.mechanics == Mechanics::Equilibrium
-            && self.wall_friction == 0.0
-            && self.shell.is_none()
-            && self.shape.height() > self.shape.breadth();
-        let smooth = smooth.then(|| {
-            "the sides are smooth; friction at sides keeps a bed that is taller than wide from rising as it is heated, and raises its \
-             pressure: --wall-friction 0.3 adds it"
-                .to_string()
+        let rigid = self.shell.is_none();
+        let smooth = (rigid && self.wall_friction == 0.0 && slenderness > 1.0).then(|| {
+            format!(
+                "the sides are smooth; friction at sides keeps a bed that is taller than wide from rising as it is heated, and \
+                 raises its pressure: --wall-friction {} adds it",
+                wall::OF_SPHERE
+            )
         });
-        weight.into_iter().chain(smooth).collect()
+        let shell = (!rigid && self.gravity > 0.0).then(|| {
+            format!(
+                "the shell is smooth: friction is not modelled there; in a bed {} vessel diameters high friction would carry a \
+                 part of the weight: the log of the run has Janssen's estimate",
+                plain(rounded(slenderness, 2))
+            )
+        });
+        [weight, smooth, shell].into_iter().flatten().collect()
     }
 }
 

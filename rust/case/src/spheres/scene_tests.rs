@@ -42,7 +42,7 @@ fn each_wish_out_of_range_is_refused_with_key_value_and_range() {
         (|s| s.cells[1] = 0, "cells = 0, allowed: 1 to 4000000"),
         (
             |s| s.probes.push(vec![0.2, 0.1]),
-            "probe = 0.2,0.1, allowed: distance from the axis, height: 0.001,0 to 0.0999,0.4 m",
+            "probe = 0.2,0.1, allowed: radius,height: distance from the axis and height, 0,0 to 0.0999,0.4 m",
         ),
         (
             |s| s.walls[0] = parse_wall("2000").unwrap(),
@@ -104,9 +104,20 @@ fn proposals_follow_spheres_walls_and_diffusion() {
     // 7800 0.6 9.81 0.4 Pa are not small beside 20 kPa
     assert!(scene.notes()[0].contains("up to 18000 Pa at the bottom"));
     assert!(scene.notes()[1].starts_with("the sides are smooth"));
-    scene.gravity = 9.81;
-    scene.wall_friction = 0.3;
+    scene.gravity = GRAVITY;
+    scene.wall_friction = wall::OF_SPHERE;
     assert!(scene.notes().is_empty());
+    scene.shell = Some(Shell { young_modulus: 2e11, thickness: 1e-3, thermal_expansion: 0.0 });
+    let notes = scene.notes();
+    assert!(notes.len() == 1 && notes[0].contains("in a bed 2 vessel diameters high"), "{notes:?}");
+    scene.shell = None;
+    // Janssen's stress at the bottom: less than the pressure on the top, if that is more than the walls leave of the weight
+    let length = 0.05 / (wall::of_bed(wall::OF_SPHERE) * LATERAL);
+    let deep = 7800.0 * 0.6 * GRAVITY * length;
+    let bottom = deep + (2e4 - deep) * f64::exp(-0.4 / length);
+    assert!(bottom < 2e4 && (scene.stress_at_start().unwrap() / bottom - 1.0).abs() < 0.01, "{bottom}");
+    assert_eq!(Scene { pressure: 1e3, ..scene.clone() }.stress_at_start().unwrap(), 1e3);
+    assert_eq!(Scene { lid: Lid::Stays, ..scene.clone() }.stress_at_start().unwrap(), 2e4);
     scene.wall_friction = 0.0;
     scene.walls = vec![parse_wall("insulated").unwrap(); 3];
     assert_eq!((scene.varies(), scene.heat_way()), (vec![false, true], 0.4));

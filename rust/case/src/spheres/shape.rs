@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 
 /// Half of the angle of the wedge of a cylinder \[rad\].
 pub const HALF_ANGLE: f64 = 2.5 * PI / 180.0;
-/// Where the mesh of a cylinder begins and where points may be, over its radius: a narrow hole stands for the axis, and the side is
-/// flat within the wedge.
+/// Where the mesh of a cylinder begins over its radius: a narrow hole stands for the axis.
 pub const INNER: f64 = 0.008;
+/// Where points of the mesh can be, over the radius of a cylinder: beside the hole, and within its side, which is flat in the wedge.
 const PROBED: [f64; 2] = [0.01, 0.999];
 /// Least side of a proposed cell in diameters of a sphere.
 const CELL: f64 = 1.5;
@@ -70,6 +70,14 @@ impl Shape {
         }
     }
 
+    /// Area of a horizontal section over its circumference \[m\].
+    pub fn hydraulic_length(&self) -> f64 {
+        match *self {
+            Self::Box([x, y, _]) => 0.5 * x * y / (x + y),
+            Self::Cylinder { radius, .. } => 0.5 * radius,
+        }
+    }
+
     /// \[m³\]
     pub fn volume(&self) -> f64 {
         match *self {
@@ -121,7 +129,7 @@ impl Shape {
                 [x, y, z].into_iter().zip(lengths).all(|(x, length)| (0.0..=length).contains(&x))
             }
             (Self::Cylinder { radius, height }, &[r, z]) => {
-                (PROBED[0] * radius..=PROBED[1] * radius).contains(&r) && (0.0..=height).contains(&z)
+                (0.0..=PROBED[1] * radius).contains(&r) && (0.0..=height).contains(&z)
             }
             _ => false,
         }
@@ -130,21 +138,38 @@ impl Shape {
     /// What [`Self::holds`] takes, as text.
     pub fn points_allowed(&self) -> String {
         match *self {
-            Self::Box([x, y, z]) => format!("x,y,z inside of the box, 0,0,0 to {x},{y},{z} m"),
+            Self::Box(lengths) => {
+                let [x, y, z] = lengths.map(plain);
+                format!("x,y,z inside of the box, 0,0,0 to {x},{y},{z} m")
+            }
             Self::Cylinder { radius, height } => {
-                let [low, high] = PROBED.map(|share| plain(rounded(share * radius, 4)));
-                format!("distance from the axis, height: {low},0 to {high},{height} m")
+                let most = plain(rounded(PROBED[1] * radius, 4));
+                format!("radius,height: distance from the axis and height, 0,0 to {most},{} m", plain(height))
             }
         }
     }
 
-    /// A point in the coordinates of the mesh: the axis of a cylinder is x there, and its radius y.
+    /// A point in the coordinates of the mesh: the axis of a cylinder is x there, and its radius y. A point on the axis stands beside
+    /// the hole.
     pub fn point(&self, point: &[f64]) -> String {
-        let (mesh, last): (Vec<f64>, &str) = match self {
-            Self::Box(_) => (point.to_vec(), ""),
-            Self::Cylinder { .. } => (point.iter().rev().copied().collect(), " 0"),
+        let mesh = match (*self, point) {
+            (Self::Cylinder { radius, .. }, &[r, z]) => {
+                vec![z, r.max(rounded(PROBED[0] * radius, 6)), 0.0]
+            }
+            _ => point.to_vec(),
         };
-        format!("({}{last})", mesh.into_iter().map(plain).collect::<Vec<_>>().join(" "))
+        format!("({})", mesh.into_iter().map(plain).collect::<Vec<_>>().join(" "))
+    }
+
+    /// A point in words.
+    pub fn place(&self, point: &[f64]) -> String {
+        let names = match self {
+            Self::Box(_) => ["x", "y", "z"].as_slice(),
+            Self::Cylinder { .. } => &["radius", "height"],
+        };
+        let parts: Vec<String> =
+            names.iter().zip(point).map(|(name, value)| format!("{name} {} m", plain(*value))).collect();
+        parts.join(", ")
     }
 
     /// A vector upwards.
@@ -193,9 +218,11 @@ mod tests {
         assert_eq!(round.heat_ways(&[true, false, true]), [0.1, 0.4]);
         assert_eq!(round.proposed_cells(&[true, true], 6.4e-3), [10, 24]);
         assert_eq!(round.point(&[0.05, 0.3]), "(0.3 0.05 0)");
+        assert_eq!(round.point(&[0.0, 0.3]), "(0.3 0.001 0)");
+        assert_eq!(round.place(&[0.0, 0.3]), "radius 0 m, height 0.3 m");
         assert_eq!(round.parts(&[10, 24]), "$..numberOfSubdomains 1 1");
         assert_eq!(round.tensor(1.0, 2.0), "(2 0 0 1 0 1)");
-        assert!(round.holds(&[0.05, 0.4]) && !round.holds(&[0.0, 0.4]) && !round.holds(&[0.05, 0.4, 0.0]));
+        assert!(round.holds(&[0.0, 0.4]) && !round.holds(&[0.1, 0.4]) && !round.holds(&[0.05, 0.4, 0.0]));
         assert!(plates.holds(&[0.3, 0.0, 0.2]) && !plates.holds(&[0.3, 0.0]));
     }
 }

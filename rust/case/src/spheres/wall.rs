@@ -2,6 +2,9 @@
 
 use crate::numbers::{plain, rounded};
 
+/// Usual coefficient of friction of a sphere on a wall: that between spheres, for which their law is valid.
+pub const OF_SPHERE: f64 = 0.3;
+
 /// Most friction that a flat wall has for a bed, however rough it is.
 const MOST: f64 = 0.18;
 /// Slip at which half of it is reached \[diameters of a sphere\].
@@ -14,11 +17,20 @@ pub fn of_bed(friction: f64) -> f64 {
     friction / (friction / MOST).hypot(1.0)
 }
 
+/// What a coefficient of friction of a sphere means for a bed, as text.
+pub fn sentence(friction: f64) -> String {
+    format!("a friction of {} of a sphere acts on the bed as {}", plain(friction), short(of_bed(friction)))
+}
+
+fn short(value: f64) -> String {
+    plain(rounded(value, 3))
+}
+
 /// A wall that stays, as an entry of `walls` in `constant/granularProperties`; `diameter` of the spheres \[m\].
 pub fn entry(friction: f64, diameter: f64) -> String {
     match friction > 0.0 {
         true => {
-            let [friction, slip] = [of_bed(friction), SLIP * diameter].map(|value| plain(rounded(value, 3)));
+            let [friction, slip] = [of_bed(friction), SLIP * diameter].map(short);
             format!("type rigid; friction {friction}; slip {slip};")
         }
         false => "type frictionless;".to_string(),
@@ -43,5 +55,6 @@ mod tests {
     fn a_smooth_wall_is_frictionless() {
         assert_eq!(entry(0.0, 0.01), "type frictionless;");
         assert_eq!(entry(0.3, 0.01), "type rigid; friction 0.154; slip 1e-5;");
+        assert_eq!(sentence(0.3), "a friction of 0.3 of a sphere acts on the bed as 0.154");
     }
 }

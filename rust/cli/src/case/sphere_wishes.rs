@@ -9,9 +9,10 @@ use msdd_case::numbers::{plain, rounded};
 use msdd_case::ranges;
 use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
 use msdd_case::spheres::material::{MATERIALS, Spheres, presets};
-use msdd_case::spheres::scene::{BED_HAS, Lid, Scene, Shell, check_porosity, check_pressure};
+use msdd_case::spheres::scene::{BED_HAS, GRAVITY, Lid, Scene, Shell, check_porosity, check_pressure};
 use msdd_case::spheres::shape::Shape;
 use msdd_case::spheres::start::Gas;
+use msdd_case::spheres::wall;
 use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
 
@@ -72,10 +73,10 @@ pub struct SphereWishes {
     /// By how many diameters of bed spheres give way at a bottom and top that stay. Default: 1; 0 under a top that presses.
     #[arg(long, value_name = "D", requires = "spheres")]
     give: Option<f64>,
-    /// Coefficient of friction of the spheres and the walls that stay. Default: 0, smooth walls.
+    /// Coefficient of friction of a sphere on the rigid walls; 0: smooth walls. Default: 0.3, as between the spheres.
     #[arg(long, value_name = "MU", requires = "spheres")]
     wall_friction: Option<f64>,
-    /// Gravity [m/s2], downwards. Default: 0.
+    /// Gravity [m/s2], downwards; 0: a bed without weight. Default: 9.81; 0 with --mechanics none.
     #[arg(long, value_name = "M/S2", requires = "spheres")]
     gravity: Option<f64>,
 }
@@ -310,14 +311,14 @@ impl SphereWishes {
             "presses",
             choice::<LidName>,
         )?;
-        let help = "The coefficient of friction of the spheres and the walls that stay; 0: smooth walls. Friction at the side of a tall \
-                    bed keeps it from rising as it is heated.";
+        let help = "The coefficient of friction of a sphere on the rigid walls; 0: smooth walls. Friction at the side of a tall bed \
+                    carries much of its weight and keeps it from rising as it is heated.";
         let read = asker.within(number, |&value| ranges::wall_friction(value));
         let question = "Friction of the walls";
-        let wall_friction = asker.value(self.wall_friction, help, question, "0", read)?;
+        let wall_friction = asker.value(self.wall_friction, help, question, &plain(wall::OF_SPHERE), read)?;
         let help = "Gravity points downwards; 0 leaves the weight of the bed out.";
         let read = asker.within(number, |&value| ranges::gravity(value));
-        let gravity = asker.value(self.gravity, help, "Gravity [m/s2]", "0", read)?;
+        let gravity = asker.value(self.gravity, help, "Gravity [m/s2]", &plain(GRAVITY), read)?;
         let lid = match lid {
             LidName::Presses => Lid::Presses,
             LidName::Stays => Lid::Stays,
@@ -400,9 +401,14 @@ pub fn summary(scene: &Scene) -> Result<String, CliError> {
     let walls: Vec<String> = walls.map(|(name, wall)| format!("{name} {}", describe(wall))).collect();
     let start = scene.start()?;
     let short = |value: f64| plain(rounded(value, 3));
+    let friction = match scene.wall_friction > 0.0 {
+        true => format!("\nrigid walls: {}", wall::sentence(scene.wall_friction)),
+        false => String::new(),
+    };
     Ok(format!(
         "{} {} m, {} cells, about {} spheres; {}; {} K at the start; {} s\n\
-         at the start the bed conducts {} W/(m K), {} of it through the gas ({}), with {} contacts per sphere",
+         at the start the bed conducts {} W/(m K), {} across gas gaps ({}) and {} across contacts, with {} contacts per \
+         sphere{friction}",
         scene.shape.name(),
         lengths.join(" x "),
         cells.join(" x "),
@@ -413,6 +419,7 @@ pub fn summary(scene: &Scene) -> Result<String, CliError> {
         short(start.conductivity),
         short(start.by_gas),
         scene.gas.name.as_str(),
+        short(start.conductivity - start.by_gas),
         short(start.coordination),
     ))
 }

@@ -79,7 +79,7 @@ pub struct Wishes {
     #[arg(long, value_name = "K", help_heading = "Computation")]
     pub(super) tolerance: Option<f64>,
     /// Point where the temperature is recorded [m], such as 0.1,0.05; may be given several times. Three numbers in a box of spheres;
-    /// distance from the axis and height in a cylinder. Default: three points along the middle.
+    /// radius,height in a cylinder, where radius 0 is the axis. Default: three points along the middle.
     #[arg(long = "probe", value_name = "X,Y", value_parser = parse_point, help_heading = "Computation")]
     pub(super) probes: Vec<Numbers<f64>>,
 }
