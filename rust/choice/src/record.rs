@@ -5,6 +5,7 @@ use crate::found::{Differences, Found, Share};
 use crate::interval::{self, MeanBand};
 use crate::scene::Scene;
 use crate::settings::{Level, Settings};
+use msdd_case::numbers::plain;
 use msdd_files::{read_text, write};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
@@ -22,6 +23,9 @@ pub struct Record {
     pub accuracy: f64,
     /// Wanted accuracy of p [% of its range], if it was asked for.
     pub pressure_accuracy: Option<f64>,
+    /// What was run instead of an accuracy that cannot be had, and why.
+    #[serde(default)]
+    pub warning: Option<String>,
     /// Checksum of the case and its mesh.
     pub checksum: String,
     pub found: Found,
@@ -51,12 +55,29 @@ impl Record {
         same.then_some((read, seen))
     }
 
-    /// Writes the record into the folder of the chosen run.
+    /// Writes the record into the folder of the chosen run, for programs and as its README.md for people.
     ///
     /// # Errors
     /// [`ChoiceError::File`].
-    pub fn write(&self, folder: &Path) -> Result<(), ChoiceError> {
-        write_json(&folder.join(FILE), self, true)
+    pub fn write(&self, scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+        write_json(&folder.join(FILE), self, true)?;
+        Ok(write(&folder.join("README.md"), self.readme(scene, folder).as_bytes())?)
+    }
+
+    fn readme(&self, scene: &Scene, folder: &Path) -> String {
+        let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let chosen = name(folder);
+        format!(
+            "# Case {chosen}\n\nMade by `msdd case solve` from the case `{}`, with a mesh and steps for an error of T of at most {} % \
+             of its range. The next `msdd case solve` for another accuracy replaces this folder: rename it to keep it.\n\n\
+             - **Results**: fields in the time folders (open `{chosen}.foam` in ParaView), tables in `postProcessing`, 90 % bands \
+             in `{}`.\n\
+             - **Run again**: `./Allrun`, if the case has it, else `msddFoam`.\n\n```text\n{}```\n",
+            name(&scene.folder),
+            plain(self.accuracy),
+            interval::FILE,
+            self.text(scene)
+        )
     }
 
     /// Adds the record to the summary that the solver wrote, under the key `choice`.
@@ -76,11 +97,18 @@ impl Record {
     /// The choice and the estimates in sentences and a table.
     pub fn text(&self, scene: &Scene) -> String {
         let mut text = format!("Chosen: {}.\n", sentence(&self.found.settings, scene, self.found.range));
+        if let Some(warning) = &self.warning {
+            let _ = writeln!(text, "Warning: {warning}.");
+        }
+        if let Some(profiles) = profiles(&self.found.settings, scene) {
+            let _ = writeln!(text, "{profiles}");
+        }
         let _ = writeln!(text, "\n       %  estimated error of T, share of its range, by source");
         for share in self.found.shares.iter().chain(&self.found.open) {
             let _ = writeln!(text, "{:8.3}  {}: {}", share.percent, share.source, share.how);
         }
-        let _ = writeln!(text, "{:8.3}  all together, {} % asked for", self.found.total(), self.accuracy);
+        let asked = plain(self.accuracy);
+        let _ = writeln!(text, "{:8.3}  all together, {asked} % asked for", self.found.total());
         if let Some(wanted) = self.pressure_accuracy {
             let _ = writeln!(
                 text,
@@ -119,6 +147,19 @@ fn write_json(file: &Path, value: &impl Serialize, pretty: bool) -> Result<(), C
     let text =
         text.map_err(|error| ChoiceError::Read { file: file.to_path_buf(), problem: error.to_string() })?;
     Ok(write(file, format!("{text}\n").as_bytes())?)
+}
+
+/// What a coarser mesh than that of the case means for profiles.
+fn profiles(settings: &Settings, scene: &Scene) -> Option<String> {
+    let coarser = scene.blocks.as_ref().ok()?.coarser(settings);
+    let along: Vec<String> =
+        coarser.iter().map(|(name, cells, own)| format!("{cells} along {name} instead of {own}")).collect();
+    (!along.is_empty()).then(|| {
+        format!(
+            "Profiles of T, p and K have as many points as the mesh has cells: {}. For finer ones run the case itself.",
+            along.join(", ")
+        )
+    })
 }
 
 /// Settings as a sentence. `range`: of T \[K\].

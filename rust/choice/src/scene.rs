@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
+/// Least and largest accuracy that can be asked for [% of a range].
+pub const ACCURACIES: [f64; 2] = [1e-3, 100.0];
 /// Points along each direction at which runs are compared.
 const POINTS: [usize; 3] = [7, 5, 3];
 /// Grains of the window over which a value with a band is a mean.
@@ -79,6 +81,17 @@ impl Blocks {
     /// Number of cells of the mesh.
     pub fn total(&self, settings: &Settings) -> usize {
         self.counts_at(settings).iter().map(|count| count.iter().product::<usize>()).sum()
+    }
+
+    /// Directions of a single block along which a combination has fewer cells than the case: name, its cells, those of the case.
+    pub fn coarser(&self, settings: &Settings) -> Vec<(&'static str, usize, usize)> {
+        let &[counts] = self.counts.as_slice() else { return Vec::new() };
+        let all =
+            self.directions().into_iter().zip(&settings.levels).enumerate().map(|(number, (k, level))| {
+                let own = settings.own_cells(number, counts[k[0]]);
+                (["x", "y", "z"][k[0]], level.cells(own), own)
+            });
+        all.filter(|(_, cells, own)| cells < own).collect()
     }
 
     /// The entry `blocks` of blockMeshDict.
@@ -172,7 +185,10 @@ impl Scene {
         let write_interval = positive("writeInterval")? * if steps { first_step } else { 1.0 };
         let wanted = |key: &str| match solution.get("msddFoam") {
             Some(Entry::Dictionary(own)) if own.get(key).is_some() => {
-                let value = own.number(key, |value| (0.0..=100.0).contains(&value), "0 to 100 %")?;
+                let [least, most] = ACCURACIES;
+                let allowed = format!("0 (not asked for), or {least} to {most} %");
+                let known = |value: f64| value == 0.0 || (least..=most).contains(&value);
+                let value = own.number(key, known, &allowed)?;
                 Ok::<_, CaseError>(Some(value).filter(|&value| value > 0.0))
             }
             _ => Ok(None),
@@ -500,6 +516,7 @@ mod tests {
             "( hex ( 0 1 2 3 4 5 6 7 ) zone ( 25 1 1 ) simpleGrading ( 1 1 1 ) )"
         );
         assert_eq!(one.total(&at(&[Level::Halved(1), Level::Halved(1)])), 50 * 15);
+        assert_eq!(one.coarser(&at(&[Level::Halved(0), Level::Halved(1)])), [("y", 15, 30)]);
         let half = Settings { halved: vec![false, true], ..at(&[Level::Halved(1), Level::Halved(0)]) };
         assert_eq!(one.total(&half), 50 * 15);
     }

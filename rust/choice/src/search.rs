@@ -35,7 +35,7 @@ const OFFERED: f64 = 0.8;
 const ABOVE: f64 = 1.001;
 
 /// Keys of the accuracies of T and p.
-const KEYS: [&str; 2] = ["accuracy", "pressureAccuracy"];
+pub const KEYS: [&str; 2] = ["accuracy", "pressureAccuracy"];
 
 /// The power of the time step's tolerance with which the error of T is taken to fall. Steps grow with the square root of the
 /// tolerance, so the power is 1 at best; in case HC it was 0.7 to 0.9, and with moving grains 0.5 to 0.8. A smaller one counts

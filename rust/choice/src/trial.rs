@@ -67,6 +67,9 @@ pub fn make(
     folder: &Path,
 ) -> Result<(), ChoiceError> {
     copy(scene, folder, &|name| overrides(scene, settings, range, purpose, name))?;
+    if purpose == Purpose::Chosen {
+        accompany(scene, folder)?;
+    }
     let halved = scene.halves(settings).contains(&true);
     if !halved && settings.levels.iter().all(|&level| level == Level::Halved(0)) {
         return link_mesh(scene, folder);
@@ -93,6 +96,18 @@ pub fn make(
     let arguments = ["-consistent", "-mapMethod", "cellVolumeWeight", "-sourceTime", &scene.start];
     foam(folder, Command::new("mapFieldsPar").arg(&scene.folder).args(arguments))?;
     Ok(())
+}
+
+/// Scripts of the user's case, and the file that ParaView opens.
+fn accompany(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+    for name in ["Allrun", "Allclean"] {
+        let (own, copy) = (scene.folder.join(name), folder.join(name));
+        if own.is_file() {
+            std::fs::copy(&own, &copy).map_err(|error| unreadable(&own, &error))?;
+        }
+    }
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    Ok(write(&folder.join(format!("{name}.foam")), b"")?)
 }
 
 /// Makes a copy of the user's case as it is in `folder`, which stands beside it; its mesh is linked.

@@ -2,18 +2,19 @@
 
 use crate::error::CliError;
 use clap::Args;
-use msdd_choice::ChoiceError;
+use msdd_case::numbers::{plain, rounded};
 use msdd_choice::bands::Law;
 use msdd_choice::cells::ORDER;
-use msdd_choice::found::{Differences, Share, Values, difference};
+use msdd_choice::found::{Differences, Found, Share, Values, difference};
 use msdd_choice::interval;
 use msdd_choice::quantity::Quantity;
 use msdd_choice::record::{self, Record, sentence};
 use msdd_choice::runs::Wishes;
-use msdd_choice::scene::Scene;
-use msdd_choice::search::find;
+use msdd_choice::scene::{ACCURACIES, Scene};
+use msdd_choice::search::{KEYS, find};
 use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Outcome, Purpose};
+use msdd_choice::{ChoiceError, Missed};
 use msdd_files::Lock;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -30,8 +31,9 @@ own; its file choice.json and the key 'choice' of its summary.json hold what was
 holds 90 % bands of T, pressure, conductivity and displacement at points and times. A second call takes the choice without a
 search, and goes on with a run that was killed.
 
-The case needs its mesh (blockMesh). If constant/granularProperties names 'mechanics', it stays as named, and a
-request that grains which stay would miss is refused; --choose-mechanics leaves it open.
+The case needs its mesh (blockMesh). If constant/granularProperties names 'mechanics', it stays as named;
+--choose-mechanics leaves it open. If the wanted accuracy cannot be reached, the best that can be reached is run, and a
+warning says which it is and why.
 
 Example: msdd case solve cases/HC --accuracy 1 --choose-mechanics")]
 pub struct Arguments {
@@ -56,8 +58,9 @@ pub struct Arguments {
 
 /// A wanted accuracy [%].
 fn percent(text: &str) -> Result<f64, String> {
-    let value = text.parse().ok().filter(|value: &f64| *value > 0.0 && *value <= 100.0);
-    value.ok_or_else(|| "allowed: more than 0, at most 100 %".to_string())
+    let [least, most] = ACCURACIES;
+    let value = text.parse().ok().filter(|value: &f64| (least..=most).contains(value));
+    value.ok_or_else(|| format!("allowed: {least} to {most} %"))
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
@@ -69,8 +72,10 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let Some(accuracy) = arguments.accuracy.or(scene.accuracy) else {
         let file = scene.folder.join("system/fvSolution");
         return Err(CliError::Message(format!(
-            "{}: msddFoam/accuracy = missing, allowed: more than 0, at most 100 [% of the range of T]; or give --accuracy",
-            file.display()
+            "{}: msddFoam/accuracy = missing, allowed: {} to {} [% of the range of T]; or give --accuracy",
+            file.display(),
+            ACCURACIES[0],
+            ACCURACIES[1]
         )));
     };
     let wanted = Wanted { accuracy, pressure: arguments.pressure_accuracy.or(scene.pressure_accuracy) };
@@ -112,7 +117,7 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
             let range = Some(record.found.range).filter(|&range| range > 0.0);
             trial::make(scene, &record.found.settings, range, Purpose::Chosen, &chosen)?;
             record::write_seen(&seen, &chosen)?;
-            record.write(&chosen)?;
+            record.write(scene, &chosen)?;
             (record, seen)
         }
     };
@@ -140,7 +145,7 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
     interval::write_table(scene, &bands, &chosen)?;
     record.bands = interval::means(&bands);
     record.run_seconds = Some(outcome.seconds);
-    record.write(&chosen)?;
+    record.write(scene, &chosen)?;
     record.add_to_summary(&chosen)?;
     outln!("Done in {:.1} s, after {:.1} s of search.", outcome.seconds, record.search_seconds);
     if let Some(share) = &record.checked {
@@ -154,14 +159,65 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
     Ok(())
 }
 
+/// How often a search is repeated with the best accuracy that the one before has offered.
+const REPEATS: usize = 2;
+
+/// Searches for the wanted accuracy, or else for the best that can be had.
 fn search(
     scene: &Scene,
     wanted: Wanted,
     checksum: String,
     lock: &Lock,
 ) -> Result<(Record, Differences), ChoiceError> {
-    let Wanted { accuracy, pressure } = wanted;
     let began = Instant::now();
+    let (mut within, mut warning) = (wanted, None);
+    let mut found = search_once(scene, within, lock);
+    for _ in 0..REPEATS {
+        let Err(ChoiceError::OutOfReach { missed, reason }) = &found else { break };
+        within = within.at_best(missed);
+        let best: Vec<String> = missed.iter().map(|one| wanted.instead(one)).collect();
+        let text = format!("{}: {reason}", best.join("; "));
+        outln!("{text}.");
+        warning = Some(text);
+        found = search_once(scene, within, lock);
+    }
+    let (found, seen) = found?;
+    let record = Record {
+        accuracy: wanted.accuracy,
+        pressure_accuracy: wanted.pressure,
+        warning,
+        checksum,
+        found,
+        search_seconds: began.elapsed().as_secs_f64(),
+        run_seconds: None,
+        checked: None,
+        bands: Vec::new(),
+    };
+    Ok((record, seen))
+}
+
+impl Wanted {
+    /// What was wanted, with the best of what cannot be had.
+    fn at_best(self, missed: &[Missed]) -> Self {
+        let best = |key: &str| missed.iter().find(|one| one.key == key).map(|one| one.best);
+        Self { accuracy: best(KEYS[0]).unwrap_or(self.accuracy), pressure: best(KEYS[1]).or(self.pressure) }
+    }
+
+    /// What is run instead of an accuracy that cannot be had.
+    fn instead(self, missed: &Missed) -> String {
+        let (asked, name) = match missed.key == KEYS[0] {
+            true => (self.accuracy, "T"),
+            false => (self.pressure.unwrap_or(missed.asked), "p"),
+        };
+        format!(
+            "{asked} % of the range of {name} was asked; {:.2} % is the best that can be had",
+            missed.best
+        )
+    }
+}
+
+fn search_once(scene: &Scene, wanted: Wanted, lock: &Lock) -> Result<(Found, Differences), ChoiceError> {
+    let Wanted { accuracy, pressure } = wanted;
     let (bed, law) = (scene.bed.clone(), Law::shipped(scene.bed.kind));
     let wishes = Wishes {
         accuracy,
@@ -174,8 +230,12 @@ fn search(
         law,
     };
     let folder = beside(scene, "trial");
-    let also = pressure.map_or(String::new(), |percent| format!(", and of p of at most {percent} %"));
-    outln!("Looking for the cheapest run with an error of T of at most {accuracy} % of its range{also}:");
+    let also =
+        pressure.map_or(String::new(), |percent| format!(", and of p of at most {} %", short(percent)));
+    outln!(
+        "Looking for the cheapest run with an error of T of at most {} % of its range{also}:",
+        short(accuracy)
+    );
     let found = find(&wishes, &mut |settings: &Settings, range| {
         let outcome = attempt(scene, settings, range, &folder, lock);
         match &outcome {
@@ -187,19 +247,11 @@ fn search(
         outcome
     });
     trial::clear(&folder)?;
-    let search_seconds = began.elapsed().as_secs_f64();
-    let (found, seen) = found?;
-    let record = Record {
-        accuracy,
-        pressure_accuracy: pressure,
-        checksum,
-        found,
-        search_seconds,
-        run_seconds: None,
-        checked: None,
-        bands: Vec::new(),
-    };
-    Ok((record, seen))
+    found
+}
+
+fn short(value: f64) -> String {
+    plain(rounded(value, 3))
 }
 
 /// Makes the case of a combination in a folder, and runs it.

@@ -241,7 +241,8 @@ fn choice_of(work: &Work, accuracy: f64) -> (Choice, Option<Rung>) {
         return (choice(why, None, None), None);
     };
     let found = &read.found;
-    let what = sentence(&found.settings, work.scene, found.range);
+    let warning = read.warning.as_ref().map_or(String::new(), |text| format!(" ({text})"));
+    let what = sentence(&found.settings, work.scene, found.range) + &warning;
     // The chart's windows are those of the whole box.
     let mut settings = found.settings.clone();
     settings.halved.clear();
