@@ -4,6 +4,7 @@ use crate::error::CliError;
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::at_start;
 use msdd_files::{list, read_text};
+use msdd_rve::message::number;
 use std::path::{Path, PathBuf};
 
 /// The first row of an `elements.csv`. SI units, compression positive; vectors along x, y, z, in a cylinder along the radius,
@@ -22,6 +23,9 @@ pub struct Start {
     pub porosity_outside: Option<f64>,
 }
 
+/// Depths \[m\] and stresses \[Pa\] of any bed.
+const DEPTH: [f64; 2] = [1e-12, 1e6];
+const STRESS: [f64; 2] = [0.0, 1e15];
 /// Porosities that the solver takes with spheres.
 const POROSITY: [f64; 2] = [0.2, 0.7];
 /// By how much the trace of a fabric may differ from 1: it is written rounded.
@@ -44,8 +48,11 @@ impl Start {
             match (low..=high).contains(&value) {
                 true => Ok(value),
                 false => Err(CliError::Message(format!(
-                    "{}: {name} = {value} in the first row, allowed: {low} to {high}",
-                    file.display()
+                    "{}: {name} = {} in the first row, allowed: {} to {}",
+                    file.display(),
+                    number(value),
+                    number(low),
+                    number(high)
                 ))),
             }
         };
@@ -57,14 +64,15 @@ impl Start {
         let trace: f64 = fabric.iter().sum();
         if (trace - 1.0).abs() > UNIT_TRACE {
             return Err(CliError::Message(format!(
-                "{}: fabric_1 + fabric_2 + fabric_3 = {trace} in the first row, allowed: 1",
-                file.display()
+                "{}: fabric_1 + fabric_2 + fabric_3 = {} in the first row, allowed: 1",
+                file.display(),
+                number(trace)
             )));
         }
         Ok(Self {
             file: file.to_path_buf(),
-            depth: within("depth", [f64::MIN_POSITIVE, f64::MAX])?,
-            stress: three("stress", [0.0, f64::MAX])?,
+            depth: within("depth", DEPTH)?,
+            stress: three("stress", STRESS)?,
             coordination: within("coordination", [0.0, 12.0])?,
             mobilised: mobilised(within("mobilisation", [0.0, 1.0])?),
             fabric,
