@@ -7,6 +7,7 @@ use crate::error::CliError;
 use crate::rows::training_data;
 use crate::spheres;
 use clap::Args;
+use msdd_case::numbers::{plain, rounded};
 use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
@@ -16,6 +17,7 @@ use msdd_surrogate::score::{OneStep, Score, ramps, score};
 use msdd_surrogate::surrogate::Surrogate;
 use msdd_surrogate::tracks::PathErrors;
 use msdd_surrogate::training_data::TrainingData;
+use msdd_surrogate::wall_friction::WallFriction;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -99,11 +101,40 @@ pub fn print_training(
     data: &TrainingData,
     plan_hash: &str,
 ) -> Result<(), SurrogateError> {
-    print(&score(model, &ramps(model, data, plan_hash)?));
+    let found = score(model, &ramps(model, data, plan_hash)?);
+    outln!("{}", verdict(&found));
     if let Some(friction) = model.wall_friction() {
-        outln!("wall friction: {friction:?}");
+        outln!("{}", friction_of_walls(friction));
     }
+    outln!();
+    print(&found);
     Ok(())
+}
+
+/// How good a model is, in a sentence.
+fn verdict(score: &Score) -> String {
+    let many = || score.composed.iter().filter(|errors| errors.increments == MANY);
+    let largest = |error: fn(&Composed) -> f64| 100.0 * many().map(error).fold(0.0, f64::max);
+    let strain = 100.0 * many().map(|errors| errors.strain.abs()).fold(0.0, f64::max);
+    let packings = if score.held_out { "packings that were held out of the training" } else { "packings" };
+    format!(
+        "Largest error on {} {packings}: {:.1} % of K, {:.1} % of the stress (rms, strains up to {strain:.0} % in {MANY} increments). \
+         Tables below, or by 'msdd score'.",
+        score.unseen.packings,
+        largest(|errors| errors.conductivity),
+        largest(|errors| errors.stress),
+    )
+}
+
+fn friction_of_walls(friction: &WallFriction) -> String {
+    let short = |value: f64| plain(rounded(value, 3));
+    format!(
+        "Friction of walls: {} at most, half of it at a slip of {} mean radii (scatter {}, {} measured values).",
+        short(friction.limit),
+        short(friction.slip),
+        short(friction.scatter),
+        friction.samples
+    )
 }
 
 fn print(score: &Score) {
