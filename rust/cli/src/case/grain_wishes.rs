@@ -30,9 +30,32 @@ pub struct GrainWishes {
     /// Mean radius of the grains [m]. The radii of discs are uniformly distributed between 0.6 and 1.4 times this value; spheres are equal.
     #[arg(long, value_name = "M", help_heading = "Grains")]
     mean_radius: Option<f64>,
+    /// Mean diameter of the grains [m], instead of the radius.
+    #[arg(long, value_name = "M", conflicts_with = "mean_radius", help_heading = "Grains")]
+    diameter: Option<f64>,
+    /// Only to say where it belongs.
+    #[arg(long, value_name = "MU", hide = true)]
+    friction: Option<String>,
 }
 
 impl GrainWishes {
+    /// Refuses options that are no properties of the grains of a case, and says where they belong.
+    ///
+    /// # Errors
+    /// [`CliError::Message`].
+    pub fn refuse_foreign(&self) -> Result<(), CliError> {
+        let Some(value) = &self.friction else { return Ok(()) };
+        Err(CliError::Message(format!(
+            "--friction = {value}, allowed: none. The friction of the grains belongs to the model: 0.3 for spheres, tan(0.5 rad) \
+             for discs, or that of a model of discs that 'msdd train' made (--model FILE); the friction of walls is --wall-friction"
+        )))
+    }
+
+    /// \[m\]
+    fn given_radius(&self) -> Option<f64> {
+        self.mean_radius.or(self.diameter.map(|diameter| 0.5 * diameter))
+    }
+
     /// The named material of `presets` that was chosen first, the name of the material as changed by the user, and the grains.
     pub fn ask(
         &self,
@@ -56,7 +79,7 @@ impl GrainWishes {
             thermal_conductivity: self.thermal_conductivity.unwrap_or(base.grains.thermal_conductivity),
             heat_capacity: self.heat_capacity.unwrap_or(base.grains.heat_capacity),
             thermal_expansion: self.thermal_expansion.unwrap_or(base.grains.thermal_expansion),
-            mean_radius: self.mean_radius.unwrap_or(base.grains.mean_radius),
+            mean_radius: self.given_radius().unwrap_or(base.grains.mean_radius),
         };
         let change = asker.interactive
             && asker.value(
@@ -90,7 +113,7 @@ impl GrainWishes {
             self.thermal_conductivity,
             self.heat_capacity,
             self.thermal_expansion,
-            self.mean_radius,
+            self.given_radius(),
         ];
         let questions = [
             ("The density of a grain, not that of the bed.", "Density [kg/m3]"),

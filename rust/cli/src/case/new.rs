@@ -27,11 +27,11 @@ const PACKINGS: u32 = 16;
 takes the proposal. Without a terminal, or with --yes, all proposals are taken.
 
 Examples:
-  msdd case new bed                                   asks
-  msdd case new bed --yes                             the paper's grains, hot on the left
+  msdd case new ~/beds/bed                            asks
+  msdd case new store --yes --spheres --radius 0.1 --height 0.4 --side 400 --bottom 293 --gas helium
+  msdd case new bed --yes                             discs: the model material of the paper, hot on the left
   msdd case new bed --yes --material glass --box 0.05x0.02 --left 350 --pressure 2e6
   msdd case new bed --yes --box 0.5x0.2 --left insulated --right insulated --top 50 --bottom 50 --heat-source 3000
-  msdd case new store --yes --spheres --radius 0.1 --height 0.4 --side 400 --bottom 293 --gas helium
 
 Then: bed/Allrun. The folder needs no files of other cases, so it may stand anywhere and be copied."
 )]
@@ -51,7 +51,7 @@ pub struct Arguments {
     /// List the materials that can be named by --material, with their values and sources.
     #[arg(long)]
     list_materials: bool,
-    /// A bed of equal spheres with gas between them, in space or in a cylinder, instead of discs in the plane.
+    /// A bed of equal spheres with gas between them, in a box or in a cylinder, with gravity and rough walls; else discs in the plane.
     #[arg(long)]
     spheres: bool,
     /// Number of threads; the results do not depend on it. Default: all processor cores.
@@ -81,6 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         list_materials();
         return Ok(());
     };
+    arguments.wishes.grains.refuse_foreign()?;
     let whole = check_folder(folder, arguments.force)?;
     let checkout = checkout(arguments.checkout.as_deref())?;
     let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
@@ -93,18 +94,28 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     folder::write(folder, &made)?;
     outln!("written: {}", folder.display());
     super::check::report(folder)?;
-    outln!("Run it with {}/Allrun; {0}/README.md says what is where.", folder.display());
+    outln!("{}", next_steps(folder, &name));
     Ok(())
 }
 
+/// What to do with a new case.
+fn next_steps(folder: &Path, name: &str) -> String {
+    let folder = folder.display();
+    format!(
+        "Next:\n    {folder}/Allrun    makes the mesh and runs msddFoam; its log ends with what to know about the run\n    \
+         results: {folder}/postProcessing (probes/0/T, wallPressure, msddFoam/summary.json) and the time folders\n    \
+         see them: open {folder}/{name}.foam in ParaView; {folder}/README.md says what is where"
+    )
+}
+
 fn asks_for_spheres(arguments: &Arguments, asker: &Asker) -> Result<bool, CliError> {
-    let help = "The bed is of discs in the plane, as the paper's, or of equal spheres with gas between them.";
-    asker.value(arguments.spheres.then_some(true), help, "Grains (discs or spheres)", "discs", |text| {
-        match text {
-            "spheres" => Ok(true),
-            "discs" => Ok(false),
-            _ => Err("discs, spheres".to_string()),
-        }
+    let help = "The bed is of equal spheres with gas between them, in space; or of discs in the plane, the model material of the paper.";
+    // Scripts that do not say what they want get discs, as ever.
+    let proposal = if asker.interactive { "spheres" } else { "discs" };
+    asker.value(arguments.spheres.then_some(true), help, "Grains (spheres or discs)", proposal, |text| match text {
+        "spheres" => Ok(true),
+        "discs" => Ok(false),
+        _ => Err("spheres, discs".to_string()),
     })
 }
 
@@ -195,7 +206,7 @@ fn list_materials() {
     for preset in &PRESETS {
         list(preset, &[]);
     }
-    outln!("\nSpheres (--spheres); the law of spheres knows a friction of 0.3");
+    outln!("\nSpheres (--spheres); their law is valid for a friction of 0.3");
     for material in &MATERIALS {
         list(&material.preset, &material.spheres().named());
     }
