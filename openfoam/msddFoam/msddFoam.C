@@ -60,6 +60,7 @@ Usage
 #include "equilibriumSolver.H"
 
 #include "runSummary.H"
+#include "sceneWarnings.H"
 #include "version.H"
 
 #include <iostream>
@@ -241,6 +242,7 @@ int main(int argc, char *argv[])
     );
     const runSummary summary(T, grains, mechanics(), wallClock);
     grains.record().findFiles();
+    sceneWarnings(granular, T, grains, mechanics()).print();
 
     stepWatch watch(scheme->waitLimit());
 

@@ -15,25 +15,16 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "runSummary.H"
+#include "briefNumber.H"
 #include "Time.H"
 
 #include <map>
-#include <sstream>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 //- Difference of the heat received and held, over the heat exchanged, that is
 //- no rounding and no tolerance of the linear solver
 static const double muchHeat = 0.01;
-
-//- Text of a number with three digits, whatever the case's writePrecision
-static std::string brief(const double value)
-{
-    std::ostringstream text;
-    text.precision(3);
-    text<< value;
-    return text.str();
-}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
