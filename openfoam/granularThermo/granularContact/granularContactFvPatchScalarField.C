@@ -51,7 +51,13 @@ Foam::granularContactFvPatchScalarField::granularContactFvPatchScalarField
     {
         refuse("is of type " + p.type() + ", allowed: mappedWall");
     }
-    fvPatchScalarField::operator=(scalarField("value", dict, p.size()));
+    // Without a value the wall begins at the temperature of its cells
+    fvPatchScalarField::operator=
+    (
+        dict.found("value")
+      ? scalarField("value", dict, p.size())
+      : patchInternalField()()
+    );
     if (dict.found("refValue"))
     {
         refValue() = scalarField("refValue", dict, p.size());
