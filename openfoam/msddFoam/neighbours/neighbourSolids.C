@@ -87,7 +87,7 @@ Foam::neighbourSolids::neighbourSolids(const Time& runTime)
     for
     (
         const fileName library :
-        {"libturbulentFluidThermoModels.so", "libgranularThermo.so"}
+        {"libcompressibleTurbulenceModels.so", "libgranularThermo.so"}
     )
     {
         const_cast<Time&>(runTime).libs().open(library);

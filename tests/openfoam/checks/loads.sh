@@ -38,7 +38,7 @@ one_tolerance() { # T goes beyond its first range, on one of two processes first
 }
 flux_walls() {
     local heat
-    adaptive_wall flux '(0 50) (1 50)' 'libs ("libturbulentFluidThermoModels.so"); endTime 20; deltaT 0.01; writeInterval 20;'
+    adaptive_wall flux '(0 50) (1 50)' 'libs ("libcompressibleTurbulenceModels.so"); endTime 20; deltaT 0.01; writeInterval 20;'
     flux() { foamDictionary -entry boundaryField.left -set "{ type externalWallHeatFluxTemperature; mode flux; q uniform 4000; kappaMethod lookup; kappa $1; value uniform 50; }" 0/T > /dev/null; }
     flux conductivity
     ! msddFoam > log.refused 2>&1
