@@ -28,6 +28,8 @@ Description
     media with thermal expansion), in its order.
 
 Usage
+    msddFoam -dry-run checks the case and writes nothing: see dryRun.H.
+
     msddFoam -accept '(name ...)' goes on from a time that was computed with
     other settings: a restart with another model, material or mechanics is
     refused with both values, and the names to accept.
@@ -52,7 +54,8 @@ Usage
 \*---------------------------------------------------------------------------*/
 
 #include "fvCFD.H"
-#include "timeScheme.H"
+#include "chooseSettings.H"
+#include "dryRun.H"
 #include "restartTime.H"
 #include "stepWatch.H"
 #include "caseChecks.H"
@@ -86,46 +89,6 @@ static void checkPaths(const int argc, char* argv[])
             << " cannot work with\n";
         std::exit(1);
     }
-}
-
-
-//- If system/fvSolution names an accuracy, let the program msdd find out what
-//- the scene needs for it, and run that
-static void chooseSettings(const Time& runTime, caseLock& lock)
-{
-    const IOdictionary solution
-    (
-        IOobject
-        (
-            "fvSolution", runTime.system(), runTime,
-            IOobject::MUST_READ, IOobject::NO_WRITE, false
-        )
-    );
-    const dictionary own(solution.subOrEmptyDict("msddFoam"));
-    const scalar accuracy =
-        granularProperties::ranged(own, "accuracy", 0, 0, 100);
-    if (accuracy <= 0)
-    {
-        return;
-    }
-    if (Pstream::parRun())
-    {
-        FatalIOErrorInFunction(own)
-            << "Entry 'accuracy' is " << accuracy << ", allowed on several"
-            << " processes: none. Run msddFoam once on one process; then"
-            << " decompose and run the case that it has made, "
-            << runTime.globalPath().name() << ".chosen" << exit(FatalIOError);
-    }
-    const string path(runTime.path());
-    lock.release();
-    ::execlp
-    (
-        "msdd", "msdd", "case", "solve", path.c_str(), static_cast<char*>(0)
-    );
-    FatalIOErrorInFunction(own)
-        << "Entry 'accuracy' is " << accuracy << ", and the program msdd, which"
-        << " finds the settings for it, is not in the path: . scripts/foam-env,"
-        << " after cargo build --release" << exit(FatalIOError);
 }
 
 
@@ -170,6 +133,14 @@ int main(int argc, char *argv[])
         " with missing or changed files"
     );
 
+    argList::addBoolOption
+    (
+        "dry-run",
+        "Make all that a run needs, from the files and the mesh of the case,"
+        " and list every error and warning; nothing is written. The exit status"
+        " is 1 with errors, else 0"
+    );
+
     const clockTime wallClock;
 
     for (int i = 1; i < argc; i++)
@@ -184,24 +155,26 @@ int main(int argc, char *argv[])
 
     checkPaths(argc, argv);
 
-    #include "addCheckCaseOptions.H"
     #include "setRootCaseLists.H"
 
     runRecord::accepted = wordHashSet(args.getList<word>("accept", false));
     // Before all that uses PETSc, so that it ends after it
     const petscSession petsc;
+    Info<< "msddFoam " << msddVersion << nl << endl;
+    if (args.found("dry-run"))
+    {
+        return dryRun::main(args);
+    }
     // Static, so that its file is removed after an error, too. Before the first
     // that changes the case: an incomplete time may be one that another solver
     // is writing
     static caseLock lock(args.rootPath()/args.globalCaseName());
-    const restartTime restart(args);
-
-    Info<< "msddFoam " << msddVersion << nl << endl;
+    const restartTime restart(args, false);
 
     checkWriteInterval(args.rootPath()/args.globalCaseName()/"system/controlDict");
     #include "createTime.H"
 
-    restart.setValue(runTime);
+    restart.apply(runTime);
     chooseSettings(runTime, lock);
     // Every run writes, at least its summary
     checkWritable(runTime.path());
@@ -213,44 +186,23 @@ int main(int argc, char *argv[])
     // Six digits in the log, whatever the writePrecision of the fields
     Sout.precision(6);
 
-    #include "createMesh.H"
-
-    const granularProperties granular(runTime);
-    neighbourSolids neighbours(runTime);
-
-    checkPlane(mesh, granular.surrogateDict());
-
-    Info<< "Reading field T\n" << endl;
-    volScalarField T
-    (
-        IOobject
-        (
-            "T", runTime.timeName(), mesh,
-            IOobject::MUST_READ, IOobject::AUTO_WRITE
-        ),
-        mesh
-    );
-
-    granularState grains(granular, T);
-    autoPtr<granularMechanics> mechanics
-    (
-        granularMechanics::New(granular, grains)
-    );
-    autoPtr<timeScheme> scheme
-    (
-        timeScheme::New(T, grains, mechanics(), neighbours, granular)
-    );
-    const runSummary summary(T, grains, mechanics(), wallClock);
+    solverObjects made(runTime);
+    made.makeAll();
+    volScalarField& T = made.T();
+    granularState& grains = made.grains();
+    granularMechanics& mechanics = made.mechanics();
+    timeScheme& scheme = made.scheme();
+    const runSummary summary(T, grains, mechanics, wallClock);
     grains.record().findFiles();
-    sceneWarnings(granular, T, grains, mechanics()).print();
+    sceneWarnings(made.properties(), T, grains, mechanics).print();
 
-    stepWatch watch(scheme->waitLimit());
+    stepWatch watch(scheme.waitLimit());
 
     Info<< "\nStarting time loop\n" << endl;
 
     while (runTime.run())
     {
-        scheme->step();
+        scheme.step();
         grains.finishStep();
         if (runTime.writeTime())
         {
@@ -268,9 +220,9 @@ int main(int argc, char *argv[])
 
     grains.refresh();
     grains.writeReport();
-    mechanics->writeReport();
-    neighbours.report();
-    summary.write(scheme->rejected());
+    mechanics.writeReport();
+    made.neighbours->report();
+    summary.write(scheme.rejected());
 
     Info<< "End\n" << endl;
 

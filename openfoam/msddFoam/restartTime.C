@@ -40,9 +40,10 @@ struct lastStep
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::restartTime::restartTime(const argList& args)
+Foam::restartTime::restartTime(const argList& args, const bool dryRun)
 :
-    path_(args.path())
+    path_(args.path()),
+    dryRun_(dryRun)
 {
     if (fileHandler().type() != "uncollated")
     {
@@ -224,7 +225,7 @@ void Foam::restartTime::setAside(const word& name) const
 }
 
 
-void Foam::restartTime::takeLatest() const
+void Foam::restartTime::takeLatest()
 {
     const wordList times(names());
     DynamicList<word> skipped;
@@ -237,7 +238,11 @@ void Foam::restartTime::takeLatest() const
         {
             for (const word& newer : skipped)
             {
-                setAside(newer);
+                taken_ = name;
+                if (!dryRun_)
+                {
+                    setAside(newer);
+                }
             }
             // Wait until all processes have renamed their folders
             returnReduce(true, andOp<bool>());
@@ -253,7 +258,8 @@ void Foam::restartTime::takeLatest() const
                 << " by initial values" << exit(FatalError);
         }
         Info<< "Time " << name << " is skipped: " << reason.c_str()
-            << ". It is renamed to " << name << ".incomplete" << nl << endl;
+            << ". It " << (dryRun_ ? "would be" : "is") << " renamed to "
+            << name << ".incomplete" << nl << endl;
         skipped.append(name);
     }
     if (times.size())
@@ -289,6 +295,19 @@ void Foam::restartTime::checkStart(const scalar startTime) const
             << " which takes the newest complete time; or msddFoam -accept"
             << " files, to take it as it is" << exit(FatalError);
     }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::restartTime::apply(Time& runTime) const
+{
+    if (dryRun_ && !taken_.empty())
+    {
+        // Time has taken the newest, which a run would have renamed before
+        runTime.setTime(instant(readScalar(taken_), taken_), 0);
+    }
+    setValue(runTime);
 }
 
 

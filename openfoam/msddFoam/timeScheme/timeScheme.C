@@ -69,39 +69,26 @@ Foam::timeScheme::timeScheme
 
 // * * * * * * * * * * * * * * * * Selectors * * * * * * * * * * * * * * * * //
 
-Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
-(
-    volScalarField& T,
-    granularState& grains,
-    granularMechanics& mechanics,
-    neighbourSolids& neighbours,
-    const granularProperties& properties
-)
+Foam::word Foam::timeScheme::typeOf(const fvMesh& mesh)
 {
-    const dictionary& solution = T.mesh().solutionDict();
+    const dictionary& solution = mesh.solutionDict();
     const dictionary& dict = solution.optionalSubDict("msddFoam");
-    const word type
-    (
-        &dict == &solution
-      ? word("paper")
-      : dict.lookupOrDefault<word>("timeScheme", "paper")
-    );
-
-    if (&dict != &solution)
+    if (&dict == &solution)
     {
-        granularProperties::checkKeys
-        (
-            dict,
-            {
-                "accuracy", "pressureAccuracy", "grains", "timeScheme",
-                "nNonOrthogonalCorrectors",
-                "temperatureTolerance", "stateTolerance", "logInterval",
-                "waitLimit"
-            }
-        );
+        return "paper";
     }
-    const auto constructor = dictionaryConstructorTablePtr_->cfind(type);
-    if (!constructor.found())
+    granularProperties::checkKeys
+    (
+        dict,
+        {
+            "accuracy", "pressureAccuracy", "grains", "timeScheme",
+            "nNonOrthogonalCorrectors",
+            "temperatureTolerance", "stateTolerance", "logInterval",
+            "waitLimit"
+        }
+    );
+    const word type(dict.lookupOrDefault<word>("timeScheme", "paper"));
+    if (!dictionaryConstructorTablePtr_->found(type))
     {
         FatalIOErrorInFunction(dict)
             << "Entry 'timeScheme' is '" << type << "', allowed: "
@@ -111,6 +98,20 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
                ).c_str()
             << exit(FatalIOError);
     }
+    return type;
+}
+
+
+Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
+(
+    volScalarField& T,
+    granularState& grains,
+    granularMechanics& mechanics,
+    neighbourSolids& neighbours,
+    const granularProperties& properties
+)
+{
+    const word type(typeOf(T.mesh()));
     Info<< "Selecting timeScheme " << type << endl;
     runRecord& record = grains.record();
     if (!record.scheme.empty() && record.scheme != type)
@@ -119,7 +120,12 @@ Foam::autoPtr<Foam::timeScheme> Foam::timeScheme::New
             << " timeScheme " << record.scheme << nl;
     }
     record.scheme = type;
-    return (*constructor)(dict, T, grains, mechanics, neighbours, properties);
+    return
+        (*dictionaryConstructorTablePtr_->cfind(type))
+        (
+            T.mesh().solutionDict().optionalSubDict("msddFoam"),
+            T, grains, mechanics, neighbours, properties
+        );
 }
 
 
@@ -169,6 +175,20 @@ Foam::scalar Foam::timeScheme::ofNeighbours(const scalarList& heat) const
         sum += isA<mappedPatchBase>(patch) ? heat[patchi] : 0;
     }
     return sum;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::timeScheme::tryHeat()
+{
+    neighbours_.begin();
+    heat_.solve
+    (
+        heat_.equivalent(T_.primitiveField())(),
+        time_.deltaTValue(),
+        mechanics_.pulledBack(grains_.conductivityOfCells())
+    );
 }
 
 

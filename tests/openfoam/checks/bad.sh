@@ -14,6 +14,7 @@ bad_dictionaries() {
         cat good "$file" > "$target"
         answered() { refused "$wanted" && grep -q "$target" log.bad; }
         check "refused: ${file##*/}" answered
+        check "dry run: ${file##*/}" foreseen "$wanted"
         cp good "$target"
     done
 }
@@ -27,6 +28,7 @@ bad_fields() {
         sed -i "$4" "$where"
         answered() { refused "$message" && grep -q "$where" log.bad; }
         check "refused: $1" answered
+        check "dry run: $1" foreseen "${message#FOAM FATAL}"
         cp good.0/* 0/
     }
     bad_field "porosity in percent" porosity 'allowed: between 0 and 1' 's/^#include.*common.porosity.*/&\ninternalField uniform 12.5;/'
@@ -42,6 +44,7 @@ bad_fields() {
         rm "0/$name"
         answered() { refused "FATAL" && grep -q "0/$name" log.bad; }
         check "refused: field $name missing" answered
+        check "dry run: field $name missing" foreseen "0/$name"
         cp good.0/* 0/
     done
 }
@@ -61,6 +64,7 @@ three_dimensional() {
 	END
     mesh_is '3 2 2'
     check "refused: three-dimensional mesh" refused 'is three-dimensional, allowed: two-dimensional in x and y'
+    check "dry run: three-dimensional mesh" foreseen 'is three-dimensional, allowed: two-dimensional in x and y'
 }
 
 inside_out() {
@@ -68,6 +72,7 @@ inside_out() {
     mesh_is '12 6 1'
     logged transformPoints -scale '(-1 1 1)'
     check "refused: mesh turned inside out" refused 'constant/polyMesh has 72 cells of 72 with a volume of zero or below'
+    check "dry run: mesh turned inside out" foreseen 'constant/polyMesh has 72 cells of 72 with a volume of zero or below'
 }
 
 # A heat sink, and a wall, that cool cells below 0 K

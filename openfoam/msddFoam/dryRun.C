@@ -1,0 +1,515 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "dryRun.H"
+#include "restartTime.H"
+#include "caseChecks.H"
+#include "sceneWarnings.H"
+#include "chooseSettings.H"
+#include "timeControlFunctionObject.H"
+#include "equilibriumSolver.H"
+#include "fvOptions.H"
+#include "OSspecific.H"
+
+#include <unistd.h>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- How long a process with an error waits for the others [s], and how often it
+//- looks for them [microseconds]
+static const scalar patience = 5;
+static const unsigned pause = 1000;
+
+//- Title of OpenFOAM's warnings
+static const std::string warningTitle("--> FOAM Warning : ");
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * Private Classes * * * * * * * * * * * * * * //
+
+Foam::dryRun::copyOfOutput::copyOfOutput(std::ostream& stream)
+:
+    stream_(stream),
+    to_(stream.rdbuf())
+{
+    stream_.rdbuf(this);
+}
+
+
+Foam::dryRun::copyOfOutput::~copyOfOutput()
+{
+    stream_.rdbuf(to_);
+}
+
+
+int Foam::dryRun::copyOfOutput::overflow(int c)
+{
+    if (c != EOF)
+    {
+        text_ += char(c);
+        return to_->sputc(char(c));
+    }
+    return 0;
+}
+
+
+int Foam::dryRun::copyOfOutput::sync()
+{
+    return to_->pubsync();
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::dryRun::dryRun(const argList& args)
+:
+    args_(args),
+    output_(std::cout),
+    communicator_
+    (
+        UPstream::allocateCommunicator
+        (
+            UPstream::worldComm, identity(UPstream::nProcs())
+        )
+    ),
+    broken_(false)
+{
+    FatalError.throwExceptions();
+    FatalIOError.throwExceptions();
+    // Some function objects make their files when they are made. The prefix is
+    // below the case folder
+    label id = pid();
+    Pstream::scatter(id);
+    scratch_ = "/tmp/msddFoam-dry-run-" + Foam::name(id);
+    string up;
+    for (label i = args.globalPath().components().size(); i > 0; --i)
+    {
+        up += "../";
+    }
+    functionObject::outputPrefix = word(up + scratch_.substr(1), false);
+}
+
+
+Foam::dryRun::~dryRun()
+{
+    functions_.clear();
+    made_.clear();
+    runTime_.clear();
+    if (Pstream::master())
+    {
+        rmDir(scratch_, true);
+    }
+    UPstream::freeCommunicator(communicator_);
+    FatalError.dontThrowExceptions();
+    FatalIOError.dontThrowExceptions();
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+bool Foam::dryRun::attempt(const std::function<void()>& make)
+{
+    string place, message;
+    if (broken_)
+    {
+        return false;
+    }
+    try
+    {
+        make();
+    }
+    catch (const IOerror& err)
+    {
+        place = placeOf(err);
+        message = tidy(err.message());
+    }
+    catch (const error& err)
+    {
+        message = tidy(err.message());
+    }
+    catch (const std::exception& err)
+    {
+        message = tidy(string(err.what()));
+    }
+    meet(place + message);
+    return gather(place, message);
+}
+
+
+bool Foam::dryRun::gather(const string& place, const string& message)
+{
+    const auto gathered = [this](const string& mine)
+    {
+        stringList all(Pstream::nProcs());
+        all[Pstream::myProcNo()] = mine;
+        Pstream::gatherList(all, Pstream::msgType(), communicator_);
+        Pstream::scatterList(all, Pstream::msgType(), communicator_);
+        return all;
+    };
+    const stringList places(gathered(place)), messages(gathered(message));
+    label failed = 0;
+    forAll(messages, i)
+    {
+        failed += !messages[i].empty();
+        // Processes have their own files, and copies without names
+        if (messages.find(messages[i]) == i)
+        {
+            add(errors_, places[i] + messages[i]);
+        }
+    }
+    broken_ = failed && failed < messages.size();
+    return !failed;
+}
+
+
+void Foam::dryRun::meet(const string& mine)
+{
+    if (!Pstream::parRun())
+    {
+        return;
+    }
+    // The usual communicator may be in use by processes that wait for this one
+    scalar arrived = 1;
+    const label before = UPstream::nRequests();
+    label request = -1;
+    reduce
+    (
+        arrived, sumOp<scalar>(), Pstream::msgType(), communicator_, request
+    );
+    scalar waited = 0;
+    while (request >= 0 && !UPstream::finishedRequest(request))
+    {
+        ::usleep(pause);
+        waited += 1e-6*pause;
+        if (!mine.empty() && waited > patience)
+        {
+            add(errors_, mine);
+            add
+            (
+                warnings_,
+                "Only process " + Foam::name(Pstream::myProcNo()) + " has"
+                " this error, and others wait for it: the rest of the case is"
+                " not checked"
+            );
+            print();
+            Pstream::exit(1);
+        }
+    }
+    UPstream::resetRequests(before);
+}
+
+
+Foam::string Foam::dryRun::tidy(const string& text) const
+{
+    string line(text);
+    line.replaceAll(args_.globalPath() + "/", "");
+    for (label i = 0; Pstream::parRun() && i < Pstream::nProcs(); ++i)
+    {
+        line.replaceAll("processor" + Foam::name(i) + "/../", "");
+    }
+    string words;
+    std::istringstream all(line);
+    for (std::string each; all >> each; )
+    {
+        words += (words.empty() ? "" : " ") + each;
+    }
+    return words;
+}
+
+
+Foam::string Foam::dryRun::placeOf(const IOerror& err) const
+{
+    const string file(tidy(err.ioFileName()));
+    const label line = err.ioStartLineNumber();
+    return
+        file.empty() ? file
+      : string(file + (line > 0 ? ", line " + Foam::name(line) : word()) + ": ");
+}
+
+
+void Foam::dryRun::add(DynamicList<string>& list, const string& text)
+{
+    if (!text.empty() && !list.found(text))
+    {
+        list.append(text);
+    }
+}
+
+
+bool Foam::dryRun::makeTime()
+{
+    autoPtr<restartTime> restart;
+    attempt([&]() { restart.reset(new restartTime(args_, true)); });
+    attempt
+    (
+        [&]()
+        {
+            checkWriteInterval
+            (
+                args_.globalPath()/"system"/Time::controlDictName
+            );
+        }
+    );
+    if
+    (
+        !attempt
+        (
+            [&]() { runTime_.reset(new Time(Time::controlDictName, args_)); }
+        )
+    )
+    {
+        return false;
+    }
+    Sout.precision(6);
+    if (restart.valid())
+    {
+        attempt([&]() { restart->apply(runTime_()); });
+    }
+    attempt([&]() { checkWritable(runTime_->path()); });
+    attempt([&]() { accuracyWanted(runTime_()); });
+    return true;
+}
+
+
+void Foam::dryRun::makeObjects()
+{
+    made_.reset(new solverObjects(runTime_()));
+    solverObjects& made = made_();
+    const bool hasMesh = attempt([&]() { made.makeMesh(); });
+    const bool hasProperties = attempt([&]() { made.makeProperties(); });
+    const bool hasNeighbours = attempt([&]() { made.makeNeighbours(); });
+    if (!hasMesh)
+    {
+        return;
+    }
+    const bool fits =
+        hasProperties && attempt([&]() { made.checkMesh(); });
+    const bool hasT = attempt([&]() { made.makeT(); });
+    const bool hasGrains =
+        hasT && hasProperties && attempt([&]() { made.makeGrains(); });
+    attempt([&]() { fv::options::New(made.mesh()); });
+    attempt([&]() { timeScheme::typeOf(made.mesh()); });
+    attempt([&]() { made.mesh->solverDict("T"); });
+    if (!hasGrains)
+    {
+        lookAlone();
+        return;
+    }
+    if
+    (
+        fits && hasNeighbours
+     && attempt([&]() { made.makeMechanics(); })
+     && attempt([&]() { made.makeScheme(); })
+    )
+    {
+        attempt
+        (
+            [&]()
+            {
+                const sceneWarnings warnings
+                (
+                    made.properties(), made.T(), made.grains(), made.mechanics()
+                );
+                warnings_.append(warnings.all());
+            }
+        );
+        attempt([&]() { made.scheme->tryHeat(); });
+    }
+}
+
+
+void Foam::dryRun::lookAlone()
+{
+    const fvMesh& mesh = made_->mesh();
+    for (const word name : {"porosity", "fabricIndex"})
+    {
+        attempt
+        (
+            [&]()
+            {
+                const volScalarField field
+                (
+                    IOobject
+                    (
+                        name, runTime_->timeName(), mesh,
+                        IOobject::MUST_READ, IOobject::NO_WRITE, false
+                    ),
+                    mesh
+                );
+            }
+        );
+    }
+    attempt([&]() { checkVolumes(mesh); });
+    attempt([&]() { checkTimeStep(runTime_()); });
+    if (made_->properties.valid())
+    {
+        attempt([&]() { granularModel::New(made_->properties(), mesh); });
+    }
+}
+
+
+void Foam::dryRun::makeFunctions()
+{
+    const entry* all = runTime_->controlDict().findEntry("functions");
+    if (!all || !made_->mesh.valid())
+    {
+        return;
+    }
+    if (!all->isDict())
+    {
+        add(errors_, "system/controlDict: Entry 'functions' is no dictionary");
+        return;
+    }
+    runTime_->libs().open(all->dict(), "libs");
+    for (const entry& each : all->dict())
+    {
+        if (!each.isDict() || !each.dict().getOrDefault("enabled", true))
+        {
+            continue;
+        }
+        const auto make = [&]()
+        {
+            const dictionary& dict = each.dict();
+            functions_.append
+            (
+                functionObjects::timeControl::entriesPresent(dict)
+              ? autoPtr<functionObject>
+                (
+                    new functionObjects::timeControl
+                    (
+                        each.keyword(), runTime_(), dict
+                    )
+                )
+              : functionObject::New(each.keyword(), runTime_(), dict)
+            );
+        };
+        const label before = errors_.size();
+        attempt(make);
+        for (label i = before; i < errors_.size(); ++i)
+        {
+            if (errors_[i].find(each.keyword()) == string::npos)
+            {
+                errors_[i] =
+                    "system/controlDict.functions." + each.keyword() + ": "
+                  + errors_[i];
+            }
+        }
+    }
+}
+
+
+void Foam::dryRun::findWarnings()
+{
+    std::istringstream lines(output_.text());
+    std::string line, warning;
+    bool inside = false;
+    while (std::getline(lines, line))
+    {
+        const bool begins = line.compare(0, warningTitle.size(), warningTitle) == 0;
+        if (inside && (begins || line.empty() || line[0] != ' '))
+        {
+            add(warnings_, tidy(warning));
+            inside = false;
+        }
+        if (begins)
+        {
+            inside = true;
+            warning = line.substr(warningTitle.size());
+        }
+        else if
+        (
+            inside
+         && line.compare(0, 17, "    From function") != 0
+         && line.compare(0, 11, "    in file") != 0
+        )
+        {
+            warning += ' ' + line;
+        }
+    }
+    if (inside)
+    {
+        add(warnings_, tidy(warning));
+    }
+}
+
+
+void Foam::dryRun::print() const
+{
+    const auto many = [](const label n, const char* what)
+    {
+        return Foam::name(n) + " " + what + (n == 1 ? "" : "s");
+    };
+    Sout<< nl << "Dry run: " << many(errors_.size(), "error").c_str() << ", "
+        << many(warnings_.size(), "warning").c_str() << nl;
+    forAll(errors_, i)
+    {
+        Sout<< "Error " << i + 1 << ": " << errors_[i].c_str() << nl;
+    }
+    forAll(warnings_, i)
+    {
+        Sout<< "Warning " << i + 1 << ": " << warnings_[i].c_str() << nl;
+    }
+    Sout<< endl;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+int Foam::dryRun::run()
+{
+    if (makeTime())
+    {
+        makeObjects();
+        makeFunctions();
+    }
+    if (broken_)
+    {
+        add
+        (
+            warnings_,
+            "Only some processes have the last error: the rest of the case is"
+            " not checked"
+        );
+    }
+    if (Pstream::master())
+    {
+        findWarnings();
+        print();
+    }
+    // The first process that ends with an error ends all
+    returnReduce(true, andOp<bool>(), Pstream::msgType(), communicator_);
+    return errors_.empty() ? 0 : 1;
+}
+
+
+int Foam::dryRun::main(const argList& args)
+{
+    const int status = dryRun(args).run();
+    if (status)
+    {
+        // The end of argList would make the status 0
+        equilibriumSolver::endPetsc();
+        Pstream::exit(status);
+    }
+    return status;
+}
+
+
+// ************************************************************************* //

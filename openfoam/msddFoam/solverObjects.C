@@ -1,0 +1,137 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "solverObjects.H"
+#include "caseChecks.H"
+#include "OSspecific.H"
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::solverObjects::solverObjects(Time& runTime)
+:
+    runTime_(runTime)
+{}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::solverObjects::makeMesh()
+{
+    Info<< "Create mesh for time = " << runTime_.timeName() << nl << endl;
+    const fileName folder
+    (
+        runTime_.findInstance
+        (
+            polyMesh::meshSubDir, "faces", IOobject::READ_IF_PRESENT
+        )
+       /polyMesh::meshSubDir
+    );
+    if (!isFile(runTime_.path()/folder/"faces"))
+    {
+        FatalErrorInFunction
+            << "There is no mesh in " << (runTime_.path()/folder).c_str()
+            << ": run blockMesh, or what makes the mesh of this case"
+            << (Pstream::parRun() ? ", then decomposePar" : "")
+            << exit(FatalError);
+    }
+    mesh.reset
+    (
+        new fvMesh
+        (
+            IOobject
+            (
+                fvMesh::defaultRegion,
+                runTime_.timeName(),
+                runTime_,
+                IOobject::MUST_READ
+            )
+        )
+    );
+}
+
+
+void Foam::solverObjects::makeProperties()
+{
+    properties.reset(new granularProperties(runTime_));
+}
+
+
+void Foam::solverObjects::makeNeighbours()
+{
+    neighbours.reset(new neighbourSolids(runTime_));
+}
+
+
+void Foam::solverObjects::checkMesh() const
+{
+    checkPlane(mesh(), properties->surrogateDict());
+}
+
+
+void Foam::solverObjects::makeT()
+{
+    Info<< "Reading field T\n" << endl;
+    T.reset
+    (
+        new volScalarField
+        (
+            IOobject
+            (
+                "T", runTime_.timeName(), mesh(),
+                IOobject::MUST_READ, IOobject::AUTO_WRITE
+            ),
+            mesh()
+        )
+    );
+}
+
+
+void Foam::solverObjects::makeGrains()
+{
+    grains.reset(new granularState(properties(), T()));
+}
+
+
+void Foam::solverObjects::makeMechanics()
+{
+    mechanics = granularMechanics::New(properties(), grains());
+}
+
+
+void Foam::solverObjects::makeScheme()
+{
+    scheme =
+        timeScheme::New
+        (
+            T(), grains(), mechanics(), neighbours(), properties()
+        );
+}
+
+
+void Foam::solverObjects::makeAll()
+{
+    makeMesh();
+    makeProperties();
+    makeNeighbours();
+    checkMesh();
+    makeT();
+    makeGrains();
+    makeMechanics();
+    makeScheme();
+}
+
+
+// ************************************************************************* //
