@@ -15,13 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "dryRun.H"
-#include "restartTime.H"
-#include "caseChecks.H"
-#include "sceneWarnings.H"
-#include "chooseSettings.H"
-#include "timeControlFunctionObject.H"
 #include "equilibriumSolver.H"
-#include "fvOptions.H"
 #include "OSspecific.H"
 
 #include <unistd.h>
@@ -36,44 +30,7 @@ namespace Foam
 static const scalar patience = 5;
 static const unsigned pause = 1000;
 
-//- Title of OpenFOAM's warnings
-static const std::string warningTitle("--> FOAM Warning : ");
-
 } // End namespace Foam
-
-
-// * * * * * * * * * * * * * * * Private Classes * * * * * * * * * * * * * * //
-
-Foam::dryRun::copyOfOutput::copyOfOutput(std::ostream& stream)
-:
-    stream_(stream),
-    to_(stream.rdbuf())
-{
-    stream_.rdbuf(this);
-}
-
-
-Foam::dryRun::copyOfOutput::~copyOfOutput()
-{
-    stream_.rdbuf(to_);
-}
-
-
-int Foam::dryRun::copyOfOutput::overflow(int c)
-{
-    if (c != EOF)
-    {
-        text_ += char(c);
-        return to_->sputc(char(c));
-    }
-    return 0;
-}
-
-
-int Foam::dryRun::copyOfOutput::sync()
-{
-    return to_->pubsync();
-}
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -209,6 +166,7 @@ void Foam::dryRun::meet(const string& mine)
                 " not checked"
             );
             print();
+            rmDir(scratch_, true);
             Pstream::exit(1);
         }
     }
@@ -253,203 +211,6 @@ void Foam::dryRun::add(DynamicList<string>& list, const string& text)
 }
 
 
-bool Foam::dryRun::makeTime()
-{
-    autoPtr<restartTime> restart;
-    attempt([&]() { restart.reset(new restartTime(args_, true)); });
-    attempt
-    (
-        [&]()
-        {
-            checkWriteInterval
-            (
-                args_.globalPath()/"system"/Time::controlDictName
-            );
-        }
-    );
-    if
-    (
-        !attempt
-        (
-            [&]() { runTime_.reset(new Time(Time::controlDictName, args_)); }
-        )
-    )
-    {
-        return false;
-    }
-    Sout.precision(6);
-    if (restart.valid())
-    {
-        attempt([&]() { restart->apply(runTime_()); });
-    }
-    attempt([&]() { checkWritable(runTime_->path()); });
-    attempt([&]() { accuracyWanted(runTime_()); });
-    return true;
-}
-
-
-void Foam::dryRun::makeObjects()
-{
-    made_.reset(new solverObjects(runTime_()));
-    solverObjects& made = made_();
-    const bool hasMesh = attempt([&]() { made.makeMesh(); });
-    const bool hasProperties = attempt([&]() { made.makeProperties(); });
-    const bool hasNeighbours = attempt([&]() { made.makeNeighbours(); });
-    if (!hasMesh)
-    {
-        return;
-    }
-    const bool fits =
-        hasProperties && attempt([&]() { made.checkMesh(); });
-    const bool hasT = attempt([&]() { made.makeT(); });
-    const bool hasGrains =
-        hasT && hasProperties && attempt([&]() { made.makeGrains(); });
-    attempt([&]() { fv::options::New(made.mesh()); });
-    attempt([&]() { timeScheme::typeOf(made.mesh()); });
-    attempt([&]() { made.mesh->solverDict("T"); });
-    if (!hasGrains)
-    {
-        lookAlone();
-        return;
-    }
-    if
-    (
-        fits && hasNeighbours
-     && attempt([&]() { made.makeMechanics(); })
-     && attempt([&]() { made.makeScheme(); })
-    )
-    {
-        attempt
-        (
-            [&]()
-            {
-                const sceneWarnings warnings
-                (
-                    made.properties(), made.T(), made.grains(), made.mechanics()
-                );
-                warnings_.append(warnings.all());
-            }
-        );
-        attempt([&]() { made.scheme->tryHeat(); });
-    }
-}
-
-
-void Foam::dryRun::lookAlone()
-{
-    const fvMesh& mesh = made_->mesh();
-    for (const word name : {"porosity", "fabricIndex"})
-    {
-        attempt
-        (
-            [&]()
-            {
-                const volScalarField field
-                (
-                    IOobject
-                    (
-                        name, runTime_->timeName(), mesh,
-                        IOobject::MUST_READ, IOobject::NO_WRITE, false
-                    ),
-                    mesh
-                );
-            }
-        );
-    }
-    attempt([&]() { checkVolumes(mesh); });
-    attempt([&]() { checkTimeStep(runTime_()); });
-    if (made_->properties.valid())
-    {
-        attempt([&]() { granularModel::New(made_->properties(), mesh); });
-    }
-}
-
-
-void Foam::dryRun::makeFunctions()
-{
-    const entry* all = runTime_->controlDict().findEntry("functions");
-    if (!all || !made_->mesh.valid())
-    {
-        return;
-    }
-    if (!all->isDict())
-    {
-        add(errors_, "system/controlDict: Entry 'functions' is no dictionary");
-        return;
-    }
-    runTime_->libs().open(all->dict(), "libs");
-    for (const entry& each : all->dict())
-    {
-        if (!each.isDict() || !each.dict().getOrDefault("enabled", true))
-        {
-            continue;
-        }
-        const auto make = [&]()
-        {
-            const dictionary& dict = each.dict();
-            functions_.append
-            (
-                functionObjects::timeControl::entriesPresent(dict)
-              ? autoPtr<functionObject>
-                (
-                    new functionObjects::timeControl
-                    (
-                        each.keyword(), runTime_(), dict
-                    )
-                )
-              : functionObject::New(each.keyword(), runTime_(), dict)
-            );
-        };
-        const label before = errors_.size();
-        attempt(make);
-        for (label i = before; i < errors_.size(); ++i)
-        {
-            if (errors_[i].find(each.keyword()) == string::npos)
-            {
-                errors_[i] =
-                    "system/controlDict.functions." + each.keyword() + ": "
-                  + errors_[i];
-            }
-        }
-    }
-}
-
-
-void Foam::dryRun::findWarnings()
-{
-    std::istringstream lines(output_.text());
-    std::string line, warning;
-    bool inside = false;
-    while (std::getline(lines, line))
-    {
-        const bool begins = line.compare(0, warningTitle.size(), warningTitle) == 0;
-        if (inside && (begins || line.empty() || line[0] != ' '))
-        {
-            add(warnings_, tidy(warning));
-            inside = false;
-        }
-        if (begins)
-        {
-            inside = true;
-            warning = line.substr(warningTitle.size());
-        }
-        else if
-        (
-            inside
-         && line.compare(0, 17, "    From function") != 0
-         && line.compare(0, 11, "    in file") != 0
-        )
-        {
-            warning += ' ' + line;
-        }
-    }
-    if (inside)
-    {
-        add(warnings_, tidy(warning));
-    }
-}
-
-
 void Foam::dryRun::print() const
 {
     const auto many = [](const label n, const char* what)
@@ -490,7 +251,10 @@ int Foam::dryRun::run()
     }
     if (Pstream::master())
     {
-        findWarnings();
+        for (const string& text : output_.found())
+        {
+            add(warnings_, tidy(text));
+        }
         print();
     }
     // The first process that ends with an error ends all

@@ -1,0 +1,189 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "dryRun.H"
+#include "restartTime.H"
+#include "caseChecks.H"
+#include "sceneWarnings.H"
+#include "chooseSettings.H"
+#include "timeControlFunctionObject.H"
+#include "fvOptions.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+bool Foam::dryRun::makeTime()
+{
+    autoPtr<restartTime> restart;
+    attempt([&]() { restart.reset(new restartTime(args_, true)); });
+    attempt
+    (
+        [&]()
+        {
+            checkWriteInterval
+            (
+                args_.globalPath()/"system"/Time::controlDictName
+            );
+        }
+    );
+    if
+    (
+        !attempt
+        (
+            [&]() { runTime_.reset(new Time(Time::controlDictName, args_)); }
+        )
+    )
+    {
+        return false;
+    }
+    Sout.precision(6);
+    if (restart.valid())
+    {
+        attempt([&]() { restart->apply(runTime_()); });
+    }
+    attempt([&]() { checkWritable(runTime_->path()); });
+    attempt([&]() { accuracyWanted(runTime_()); });
+    return true;
+}
+
+
+void Foam::dryRun::makeObjects()
+{
+    made_.reset(new solverObjects(runTime_()));
+    solverObjects& made = made_();
+    const bool hasMesh = attempt([&]() { made.makeMesh(); });
+    const bool hasProperties = attempt([&]() { made.makeProperties(); });
+    const bool hasNeighbours = attempt([&]() { made.makeNeighbours(); });
+    if (!hasMesh)
+    {
+        return;
+    }
+    const bool fits =
+        hasProperties && attempt([&]() { made.checkMesh(); });
+    const bool hasT = attempt([&]() { made.makeT(); });
+    const bool hasGrains =
+        hasT && hasProperties && attempt([&]() { made.makeGrains(); });
+    attempt([&]() { fv::options::New(made.mesh()); });
+    attempt([&]() { timeScheme::typeOf(made.mesh()); });
+    attempt([&]() { made.mesh->solverDict("T"); });
+    if (!hasGrains)
+    {
+        lookAlone();
+        return;
+    }
+    if
+    (
+        fits && hasNeighbours
+     && attempt([&]() { made.makeMechanics(); })
+     && attempt([&]() { made.makeScheme(); })
+    )
+    {
+        attempt
+        (
+            [&]()
+            {
+                const sceneWarnings warnings
+                (
+                    made.properties(), made.T(), made.grains(), made.mechanics()
+                );
+                warnings_.append(warnings.all());
+            }
+        );
+        attempt([&]() { made.scheme->tryHeat(); });
+    }
+}
+
+
+void Foam::dryRun::lookAlone()
+{
+    const fvMesh& mesh = made_->mesh();
+    for (const word name : {"porosity", "fabricIndex"})
+    {
+        attempt
+        (
+            [&]()
+            {
+                const volScalarField field
+                (
+                    IOobject
+                    (
+                        name, runTime_->timeName(), mesh,
+                        IOobject::MUST_READ, IOobject::NO_WRITE, false
+                    ),
+                    mesh
+                );
+            }
+        );
+    }
+    attempt([&]() { checkVolumes(mesh); });
+    attempt([&]() { checkTimeStep(runTime_()); });
+    if (made_->properties.valid())
+    {
+        attempt([&]() { granularModel::New(made_->properties(), mesh); });
+    }
+}
+
+
+void Foam::dryRun::makeFunctions()
+{
+    const entry* all = runTime_->controlDict().findEntry("functions");
+    if (!all || !made_->mesh.valid())
+    {
+        return;
+    }
+    if (!all->isDict())
+    {
+        add(errors_, "system/controlDict: Entry 'functions' is no dictionary");
+        return;
+    }
+    runTime_->libs().open(all->dict(), "libs");
+    for (const entry& each : all->dict())
+    {
+        if (!each.isDict() || !each.dict().getOrDefault("enabled", true))
+        {
+            continue;
+        }
+        const auto make = [&]()
+        {
+            const dictionary& dict = each.dict();
+            functions_.append
+            (
+                functionObjects::timeControl::entriesPresent(dict)
+              ? autoPtr<functionObject>
+                (
+                    new functionObjects::timeControl
+                    (
+                        each.keyword(), runTime_(), dict
+                    )
+                )
+              : functionObject::New(each.keyword(), runTime_(), dict)
+            );
+        };
+        const label before = errors_.size();
+        attempt(make);
+        for (label i = before; i < errors_.size(); ++i)
+        {
+            if (errors_[i].find(each.keyword()) == string::npos)
+            {
+                errors_[i] =
+                    "system/controlDict.functions." + each.keyword() + ": "
+                  + errors_[i];
+            }
+        }
+    }
+}
+
+
+// ************************************************************************* //
