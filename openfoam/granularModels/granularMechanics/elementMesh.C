@@ -346,6 +346,29 @@ void Foam::elementMesh::sum(scalarField& values, const label each) const
 }
 
 
+void Foam::elementMesh::gather(List<List<vector>>& lists) const
+{
+    if (!Pstream::parRun())
+    {
+        return;
+    }
+    List<List<vector>> all(UIndirectList<List<vector>>(lists, shared_));
+    syncTools::syncPointList
+    (
+        mesh_,
+        sharedPoints_,
+        all,
+        [](List<vector>& to, const List<vector>& from) { to.append(from); },
+        List<vector>(),
+        mapDistribute::transform()
+    );
+    forAll(all, i)
+    {
+        lists[shared_[i]] = all[i];
+    }
+}
+
+
 Foam::scalar Foam::elementMesh::dot
 (
     const scalarField& a,

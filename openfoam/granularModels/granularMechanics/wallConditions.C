@@ -24,6 +24,7 @@ License
 #include "patchDistMethod.H"
 #include "regionSplit.H"
 #include "rigidMotion.H"
+#include "nodeDyads.H"
 
 #include <cmath>
 
@@ -37,14 +38,6 @@ static const scalar usualLayer = 13;
 
 //- Largest deviator over pressure of grains far from walls
 static const scalar usualRatio = 0.3;
-
-//- Faces around a node that meet at 45 degrees or more hold it along two
-//- directions: the square of the tangent of half of this angle
-static const scalar sharpEdge = 0.1716;
-
-//- Sine of the angle to an axis below which a face counts as aligned with it:
-//- mesh points are given with about ten digits
-static const scalar alignedSine = 1e-9;
 
 //- Share of the largest resistance to a rigid motion below which a piece of the
 //- mesh counts as free
@@ -104,6 +97,7 @@ Foam::wallConditions::wallConditions
     findRubbing();
     findSupports();
     findFloating();
+    compareShells();
 }
 
 
@@ -200,6 +194,7 @@ void Foam::wallConditions::read
         }
     );
     w.type = kindNames.getOrDefault("type", dict, kind::rigid);
+    checkKeysOfType(dict, patch.name(), w.type);
 
     if (w.type == kind::rigid)
     {
@@ -244,7 +239,53 @@ void Foam::wallConditions::read
     {
         w.displacement = Function1<vector>::New("displacement", dict);
     }
-    readGive(dict, patch.name(), w);
+    readGive(dict, w);
+}
+
+
+void Foam::wallConditions::checkKeysOfType
+(
+    const dictionary& dict,
+    const word& name,
+    const kind type
+) const
+{
+    struct rule { wordList keys; List<kind> types; };
+    const List<rule> rules
+    ({
+        {{"friction", "slip", "layer", "layerStrength"}, {kind::rigid}},
+        {{"give", "giveBack"}, {kind::rigid, kind::frictionless}},
+        {
+            {"displacement", "displacementCoeffs"},
+            {kind::rigid, kind::frictionless, kind::displacement}
+        },
+        {{"pressure", "pressureCoeffs"}, {kind::pressure, kind::piston}},
+        {
+            {
+                "youngModulus", "thickness", "radius", "thermalExpansion",
+                "temperature"
+            },
+            {kind::shell}
+        }
+    });
+    for (const rule& each : rules)
+    {
+        string types;
+        for (const kind one : each.types)
+        {
+            types += (types.empty() ? "" : " or ") + kindNames[one];
+        }
+        for (const word& key : each.keys)
+        {
+            if (dict.found(key) && !each.types.found(type))
+            {
+                FatalIOErrorInFunction(dict)
+                    << "Patch " << name << " has entry '" << key << "' and type "
+                    << kindNames[type] << ", allowed: in walls of type "
+                    << types.c_str() << exit(FatalIOError);
+            }
+        }
+    }
 }
 
 
@@ -297,121 +338,77 @@ void Foam::wallConditions::findNormals()
             }
             for (label k = 0; k < dim; ++k)
             {
-                scalar& n = normals[dim*i + k];
-                n /= max(std::sqrt(square), VSMALL);
-                n = mag(n) < alignedSine ? 0 : n;
+                normals[dim*i + k] /= max(std::sqrt(square), VSMALL);
             }
+            smoothWalls::align(normals.data() + dim*i, dim);
         }
     }
 }
 
 
-void Foam::wallConditions::axes
+Foam::boolList Foam::wallConditions::chosen
 (
-    const scalar* diagonal,
-    const scalar* other,
-    scalarField& vectors,
-    scalarField& values
-)
+    std::function<bool(const wall&)> choose
+) const
 {
-    const label dim = values.size();
-    vectors = 0;
-    for (label k = 0; k < dim; ++k)
+    boolList result(walls_.size());
+    forAll(result, patchi)
     {
-        vectors[dim*k + k] = diagonal[k];
+        result[patchi] = choose(walls_[patchi]);
     }
-    vectors[1] = vectors[dim] = other[0];
-    if (dim == 3)
-    {
-        vectors[5] = vectors[7] = other[1];
-        vectors[2] = vectors[6] = other[2];
-    }
-    symmetricEigen(vectors, values);    // rows: vectors; values ascend
+    return result;
 }
 
 
 Foam::wallConditions::across
-Foam::wallConditions::findAcross(const bool all) const
+Foam::wallConditions::findAcross(const smoothWalls& walls) const
 {
-    // Sum of the dyads n n of the walls of all processes: a process may have a
-    // node of a wall without having a face of that wall
     const label dim = mesh_.dim(), size = mesh_.size();
-    scalarField diagonal(3*size, Zero), other(3*size, Zero);
+    nodeDyads directions(mesh_);
 
-    forAll(walls_, patchi)
+    // A plane of symmetry is no part of the wall that meets its image there
+    const smoothWalls planes
+    (
+        mesh_,
+        chosen([](const wall& w) { return w.type == kind::symmetry; })
+    );
+    for (const smoothWalls* each : {&walls, &planes})
     {
-        const wall& w = walls_[patchi];
-        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        for (label i = 0; i < faces.size(); ++i)
+        for (label i = 0; i < each->size(); ++i)
         {
-            const scalar* n = normals_[patchi].cdata() + dim*i;
-            for (label j = faces.start[i]; j < faces.start[i + 1]; ++j)
-            {
-                const label node = faces.nodes[j];
-                if (w.fixes())
-                {
-                    for (label k = 0; k < dim; ++k)
-                    {
-                        diagonal[3*node + k] += 1;
-                    }
-                }
-                else if (w.holds() || (all && w.springs()))
-                {
-                    for (label k = 0; k < dim; ++k)
-                    {
-                        const label next = (k + 1) % dim;
-                        diagonal[3*node + k] += sqr(n[k]);
-                        if (k < next || dim == 3)
-                        {
-                            other[3*node + k] += n[k]*n[next];
-                        }
-                    }
-                }
-            }
+            directions.add(each->node(i), each->normal(i), 1);
         }
     }
-    mesh_.sum(diagonal, 3);
-    mesh_.sum(other, 3);
-
     // The axis of a body of revolution stays where it is
     const label r = mesh_.radial();
-    if (r >= 0)
+    const scalar tiny = r < 0 ? 0 : 1e-9*max(mesh_.points());
+    for (label node = 0; node < size; ++node)
     {
-        const scalar tiny = 1e-9*max(mesh_.points());
-        for (label node = 0; node < size; ++node)
+        for (label k = 0; k < dim; ++k)
         {
-            diagonal[3*node + r] += mesh_.points()[2*node + r] < tiny;
+            const scalar axis[3] = {scalar(k == 0), scalar(k == 1), scalar(k == 2)};
+            const bool onAxis = k == r && mesh_.points()[2*node + r] < tiny;
+            directions.add(node, axis, (fixing_[node] > 0) + onAxis);
         }
     }
 
-    DynamicList<label> held, directions;
+    DynamicList<label> nodes, counts;
     DynamicList<scalar> basis, squares;
-    scalarField M(dim*dim), values(dim);
+    scalarField vectors, values;
     for (label node = 0; node < size; ++node)
     {
-        const scalar* d = diagonal.cdata() + 3*node;
-        const scalar* o = other.cdata() + 3*node;
-        if (!(d[0] + d[1] + d[2] > 0))
+        const label count = directions.axes(node, vectors, values);
+        if (count)
         {
-            continue;
+            nodes.append(node);
+            counts.append(count);
+            basis.append(vectors);
+            squares.append(values);
         }
-        axes(d, o, M, values);
-        label count = 0;
-        for (label k = dim - 1; k >= 0; --k)
-        {
-            count += values[k] > sharpEdge*values[dim - 1];
-            for (label j = 0; j < dim; ++j)
-            {
-                basis.append(M[dim*k + j]);
-            }
-            squares.append(values[k]);
-        }
-        held.append(node);
-        directions.append(count);
     }
     return
     {
-        labelList(held), labelList(directions), scalarField(basis),
+        labelList(nodes), labelList(counts), scalarField(basis),
         scalarField(squares)
     };
 }
@@ -419,7 +416,23 @@ Foam::wallConditions::findAcross(const bool all) const
 
 void Foam::wallConditions::findHeld()
 {
-    across held(findAcross(false));
+    fixing_.resize(mesh_.size(), Zero);
+    forAll(walls_, patchi)
+    {
+        for (const label node : mesh_.wall(patchi).nodes)
+        {
+            fixing_[node] += walls_[patchi].fixes();
+        }
+    }
+    mesh_.sum(fixing_, 1);
+    holding_.reset
+    (
+        new smoothWalls
+        (
+            mesh_, chosen([](const wall& w) { return w.holdsAcross(); })
+        )
+    );
+    across held(findAcross(holding_()));
     held_.transfer(held.nodes);
     directions_.transfer(held.directions);
     basis_.transfer(held.basis);

@@ -33,21 +33,15 @@ Foam::scalarField Foam::wallConditions::positions(const scalar time) const
         }
         moving = true;
         const vector p(w.displacement().value(time));
-        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        for (label i = 0; i < faces.size(); ++i)
+        holding_->each(patchi, [&](label, const label i, const scalar share)
         {
-            const scalar* n = normals_[patchi].cdata() + dim*i;
-            scalar along = 0;
-            for (label k = 0; k < dim; ++k)
+            holding_->add(i, share*holding_->along(i, p.cdata()), sum);
+        });
+        for (const label node : mesh_.wall(patchi).nodes)
+        {
+            for (label k = 0; w.fixes() && k < dim; ++k)
             {
-                along += n[k]*p[k];
-            }
-            for (label j = faces.start[i]; j < faces.start[i + 1]; ++j)
-            {
-                for (label k = 0; k < dim; ++k)
-                {
-                    sum[dim*faces.nodes[j] + k] += w.fixes() ? p[k] : along*n[k];
-                }
+                sum[dim*node + k] += p[k]/fixing_[node];
             }
         }
     }

@@ -45,7 +45,20 @@ void Foam::wallConditions::findRubbing()
 
     DynamicList<label> rubbing, ways;
     DynamicList<scalar> along, half, number;
-    const across beside(findAcross(true));
+    const across beside
+    (
+        findAcross
+        (
+            smoothWalls
+            (
+                mesh_,
+                chosen
+                (
+                    [](const wall& w) { return w.holdsAcross() || w.springs(); }
+                )
+            )
+        )
+    );
     forAll(beside.nodes, i)
     {
         const label node = beside.nodes[i], held = beside.directions[i];

@@ -34,21 +34,9 @@ static const scalar usualGiveBack = 0.1;
 void Foam::wallConditions::readGive
 (
     const dictionary& dict,
-    const word& name,
     wall& w
 ) const
 {
-    const bool can = w.type == kind::rigid || w.type == kind::frictionless;
-    for (const word key : {"give", "giveBack"})
-    {
-        if (dict.found(key) && !can)
-        {
-            FatalIOErrorInFunction(dict)
-                << "Patch " << name << " has entry '" << key << "', allowed:"
-                << " in walls of type rigid or frictionless"
-                << exit(FatalIOError);
-        }
-    }
     w.give = 2*radius_*granularProperties::ranged(dict, "give", 0, 0, 1000);
     w.giveBack =
         granularProperties::ranged(dict, "giveBack", usualGiveBack, 0, 1);
@@ -83,6 +71,7 @@ Foam::scalarField Foam::wallConditions::give
     {
         const wall& w = walls_[patchi];
         const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        scalarField ways(faces.size(), Zero);
         for (label i = 0; w.give > 0 && i < faces.size(); ++i)
         {
             const label celli = faces.cells[i];
@@ -107,14 +96,18 @@ Foam::scalarField Foam::wallConditions::give
             }
 
             // Grains that are pressed let the bed end farther out
-            const scalar way = -strain*w.give*(strain < 0 ? 1 : w.giveBack);
-            for (label j = faces.start[i]; j < faces.start[i + 1]; ++j)
-            {
-                for (label k = 0; k < dim; ++k)
+            ways[i] = -strain*w.give*(strain < 0 ? 1 : w.giveBack);
+        }
+        if (w.give > 0)
+        {
+            holding_->each
+            (
+                patchi,
+                [&](const label face, const label i, const scalar share)
                 {
-                    sum[dim*faces.nodes[j] + k] += way*n[k];
+                    holding_->add(i, share*ways[face], sum);
                 }
-            }
+            );
         }
     }
     return mean(sum);

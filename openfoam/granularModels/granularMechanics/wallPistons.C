@@ -59,7 +59,9 @@ void Foam::wallConditions::findPistons()
         }
         reduce(one.normal, sumOp<vector>());
         one.normal /= max(mag(one.normal), VSMALL);
-        bool flat = true, upright = true;
+        // The side of a body of revolution is round
+        const label r = mesh_.radial();
+        bool flat = r < 0 || mag(one.normal[r]) < parallel, upright = true;
         for (label i = 0; i < faces.size(); ++i)
         {
             flat = flat && mag(normal(i) - one.normal) < parallel;

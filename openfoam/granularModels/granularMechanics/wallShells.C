@@ -16,8 +16,24 @@ License
 
 #include "wallConditions.H"
 #include "granularProperties.H"
+#include "nodeDyads.H"
+#include "OStringStream.H"
 
-#include <cmath>
+
+// * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Spread of the normals (root mean square) below which faces count as flat
+static const scalar flat = 1e-3;
+
+//- Difference of the radius of a shell from that of its faces, over the first,
+//- above which there is a warning
+static const scalar unlike = 0.25;
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -30,13 +46,13 @@ void Foam::wallConditions::readShell(const dictionary& dict, wall& w) const
             dict, key, dict.get<scalar>(key), SMALL, GREAT
         );
     };
-    const scalar radius = positive("radius");
-    w.stiffness = positive("youngModulus")*positive("thickness")/sqr(radius);
+    w.radius = positive("radius");
+    w.stiffness = positive("youngModulus")*positive("thickness")/sqr(w.radius);
 
     // A wall that grows by half of its size is no shell
     const scalar expansion =
         granularProperties::ranged(dict, "thermalExpansion", 0, 0, 1e-2);
-    w.growth = expansion*radius;
+    w.growth = expansion*w.radius;
     if (expansion > 0)
     {
         w.temperature = dict.get<scalar>("temperature");
@@ -44,14 +60,84 @@ void Foam::wallConditions::readShell(const dictionary& dict, wall& w) const
 }
 
 
+Foam::scalar Foam::wallConditions::radiusOf(const label patchi) const
+{
+    // Places x and normals n of a round wall follow x = centre + radius n: sums
+    // of n, x and x.n over its area. Around the axis of a wedge the radial parts
+    // of the first two vanish
+    const label r = mesh_.radial();
+    const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+    vector sumN(Zero), sumX(Zero);
+    scalar area = 0, products = 0;
+    scalarField weights;
+    for (label i = 0; i < faces.size(); ++i)
+    {
+        const label start = faces.start[i];
+        const label count = faces.start[i + 1] - start;
+        const label* nodes = faces.nodes.cdata() + start;
+        weights.resize(max(weights.size(), 3*count));
+        mesh_.faceWeights(mesh_.points(), nodes, count, weights.data());
+        const vector n(mesh_.vectorAt(normals_[patchi], i));
+        vector x(Zero);
+        scalar A = 0;
+        for (label a = 0; a < count; ++a)
+        {
+            x += mesh_.vectorAt(mesh_.points(), nodes[a])/count;
+            A += mesh_.vectorAt(weights, a) & n;
+        }
+        area += A;
+        sumN += A*n;
+        sumX += A*x;
+        products += A*(x & n);
+    }
+    reduce(area, sumOp<scalar>());
+    reduce(sumN, sumOp<vector>());
+    reduce(sumX, sumOp<vector>());
+    reduce(products, sumOp<scalar>());
+    area = max(area, VSMALL);
+    if (r >= 0)
+    {
+        sumN[r] = sumX[r] = 0;
+    }
+    const scalar spread = 1 - magSqr(sumN/area);
+    return
+        spread > sqr(flat)
+      ? (products/area - (sumX/area & sumN/area))/spread
+      : 0;
+}
+
+
+void Foam::wallConditions::compareShells() const
+{
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        const scalar radius =
+            w.type == kind::shell ? mag(radiusOf(patchi)) : w.radius;
+        if (mag(radius - w.radius) <= unlike*w.radius)
+        {
+            continue;
+        }
+        OStringStream found;
+        found<< "its faces have a radius of " << radius << " m";
+        WarningInFunction
+            << "Patch " << mesh_.mesh().boundaryMesh()[patchi].name()
+            << " is a shell with radius " << w.radius << " m, but "
+            << (radius > 0 ? found.str() : string("is flat in the mesh")).c_str()
+            << ". A shell moves by the pressure times radius^2 over"
+            << " youngModulus and thickness, because it is round; see 'walls' of"
+            << " equilibriumCoeffs" << nl << endl;
+    }
+}
+
+
 void Foam::wallConditions::findSupports()
 {
-    // A node has one normal for each shell, so that a shell of plane faces does
-    // not resist when it turns about its axis
+    // A node has one normal for each smooth wall of a shell, so that a shell of
+    // plane faces does not resist when it turns about its axis
     const label dim = mesh_.dim();
     DynamicList<label> supports;
     DynamicList<scalar> normal, support;
-    scalarField weights;
     forAll(walls_, patchi)
     {
         wall& w = walls_[patchi];
@@ -59,42 +145,17 @@ void Foam::wallConditions::findSupports()
         {
             continue;
         }
-        scalarField area(dim*mesh_.size(), Zero);
-        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        for (label i = 0; i < faces.size(); ++i)
+        boolList only(walls_.size(), false);
+        only[patchi] = true;
+        w.shell.reset(new smoothWalls(mesh_, only));
+        w.firstSupport = supports.size();
+        for (label i = 0; i < w.shell->size(); ++i)
         {
-            const label start = faces.start[i];
-            const label count = faces.start[i + 1] - start;
-            const label* nodes = faces.nodes.cdata() + start;
-            weights.resize(max(weights.size(), 3*count));
-            mesh_.faceWeights(mesh_.points(), nodes, count, weights.data());
-            for (label a = 0; a < count; ++a)
-            {
-                for (label k = 0; k < dim; ++k)
-                {
-                    area[dim*nodes[a] + k] += weights[dim*a + k];
-                }
-            }
-        }
-        mesh_.sum(area);
-        for (label node = 0; node < mesh_.size(); ++node)
-        {
-            scalar square = 0;
+            supports.append(w.shell->node(i));
+            support.append(w.stiffness*w.shell->area(i));
             for (label k = 0; k < dim; ++k)
             {
-                square += sqr(area[dim*node + k]);
-            }
-            if (!(square > 0))
-            {
-                continue;
-            }
-            const scalar size = std::sqrt(square);
-            w.supports.insert(node, supports.size());
-            supports.append(node);
-            support.append(w.stiffness*size);
-            for (label k = 0; k < dim; ++k)
-            {
-                normal.append(area[dim*node + k]/size);
+                normal.append(w.shell->normal(i)[k]);
             }
         }
     }
@@ -114,22 +175,26 @@ Foam::scalarField Foam::wallConditions::borneByShells
 ) const
 {
     const label dim = mesh_.dim();
-    scalarField rest(force);
+    nodeDyads directions(mesh_);
     forAll(supports_, i)
     {
-        const scalar* n = normal_.cdata() + dim*i;
-        scalar* f = rest.data() + dim*supports_[i];
-        scalar along = 0;
-        for (label k = 0; k < dim; ++k)
+        directions.add(supports_[i], normal_.cdata() + dim*i, 1);
+    }
+    scalarField borne(force.size(), Zero), vectors, values;
+    for (label node = 0; node < mesh_.size(); ++node)
+    {
+        const label count = directions.axes(node, vectors, values);
+        for (label j = 0; j < count; ++j)
         {
-            along += n[k]*f[k];
-        }
-        for (label k = 0; k < dim; ++k)
-        {
-            f[k] -= along*n[k];
+            const scalar* n = vectors.cdata() + dim*j;
+            const scalar along = component(force, node, n);
+            for (label k = 0; k < dim; ++k)
+            {
+                borne[dim*node + k] += along*n[k];
+            }
         }
     }
-    return force - rest;
+    return borne;
 }
 
 
@@ -141,8 +206,6 @@ void Foam::wallConditions::addShells
 ) const
 {
     addSprings(time, u, force);
-    const label dim = mesh_.dim();
-    scalarField weights;
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
@@ -150,49 +213,31 @@ void Foam::wallConditions::addShells
         {
             continue;
         }
-
-        // Displacement of the shell if nothing pressed on it, times support_
-        scalarField grown(mesh_.size(), Zero);
+        const smoothWalls& shell = w.shell();
+        const label dim = mesh_.dim();
         if (w.growth > 0)
         {
+            // Where the shell would be if nothing pressed on it
             const scalarField& T =
                 mesh_.mesh().lookupObject<volScalarField>("T")
                .boundaryField()[patchi];
-            const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-            for (label i = 0; i < faces.size(); ++i)
-            {
-                const label start = faces.start[i];
-                const label count = faces.start[i + 1] - start;
-                const label* nodes = faces.nodes.cdata() + start;
-                weights.resize(max(weights.size(), 3*count));
-                mesh_.faceWeights(mesh_.points(), nodes, count, weights.data());
-                for (label a = 0; a < count; ++a)
+            scalarField grown(force.size(), Zero);
+            shell.each
+            (
+                patchi,
+                [&](const label face, const label i, const scalar share)
                 {
-                    const auto support = w.supports.cfind(nodes[a]);
-                    scalar size = 0;
-                    for (label k = 0; support.good() && k < dim; ++k)
-                    {
-                        size += weights[dim*a + k]*normal_[dim*(*support) + k];
-                    }
-                    grown[nodes[a]] +=
-                        w.stiffness*size*w.growth*(T[i] - w.temperature);
+                    const scalar way = w.growth*(T[face] - w.temperature);
+                    shell.add(i, support_[w.firstSupport + i]*share*way, grown);
                 }
-            }
-            mesh_.sum(grown, 1);
+            );
+            mesh_.sum(grown);
+            force += grown;
         }
-        forAllConstIters(w.supports, iter)
+        for (label i = 0; i < shell.size(); ++i)
         {
-            const label node = iter.key(), index = iter.val();
-            const scalar* n = normal_.cdata() + dim*index;
-            scalar f = grown[node];
-            for (label k = 0; k < dim; ++k)
-            {
-                f -= support_[index]*n[k]*u[dim*node + k];
-            }
-            for (label k = 0; k < dim; ++k)
-            {
-                force[dim*node + k] += f*n[k];
-            }
+            const scalar along = shell.along(i, u.cdata() + dim*shell.node(i));
+            shell.add(i, -support_[w.firstSupport + i]*along, force);
         }
     }
 }

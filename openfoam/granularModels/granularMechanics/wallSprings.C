@@ -15,17 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "wallConditions.H"
-
-// * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-//- Share of the largest support of a node below which a direction has none
-static const scalar leastSupport = 1e-9;
-
-} // End namespace Foam
-
+#include "nodeDyads.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -34,61 +24,42 @@ void Foam::wallConditions::findSprings
     DynamicList<label>& supports,
     DynamicList<scalar>& normal,
     DynamicList<scalar>& support
-) const
+)
 {
-    // A node in a corner has a direction for each wall; where walls are curved,
-    // those of its faces are nearly one
+    // A node in a corner has a direction for each wall
     const label dim = mesh_.dim();
-    scalarField diagonal(3*mesh_.size(), Zero), other(diagonal), weights;
+    springs_.reset
+    (
+        new smoothWalls
+        (
+            mesh_, chosen([](const wall& w) { return w.springs(); })
+        )
+    );
+    nodeDyads stiffness(mesh_);
     forAll(walls_, patchi)
     {
-        const wall& w = walls_[patchi];
-        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        for (label i = 0; w.springs() && i < faces.size(); ++i)
+        const scalar k = walls_[patchi].stiffness;
+        springs_->each(patchi, [&](label, const label i, const scalar share)
         {
-            const label start = faces.start[i];
-            const label count = faces.start[i + 1] - start;
-            const label* nodes = faces.nodes.cdata() + start;
-            const scalar* n = normals_[patchi].cdata() + dim*i;
-            weights.resize(max(weights.size(), 3*count));
-            mesh_.faceWeights(mesh_.points(), nodes, count, weights.data());
-            for (label a = 0; a < count; ++a)
-            {
-                scalar area = 0;
-                for (label k = 0; k < dim; ++k)
-                {
-                    area += weights[dim*a + k]*n[k];
-                }
-                for (label k = 0; k < dim; ++k)
-                {
-                    const label next = (k + 1) % dim;
-                    const scalar part = w.stiffness*area*n[k];
-                    diagonal[3*nodes[a] + k] += part*n[k];
-                    if (k < next || dim == 3)
-                    {
-                        other[3*nodes[a] + k] += part*n[next];
-                    }
-                }
-            }
-        }
+            stiffness.add
+            (
+                springs_->node(i), springs_->normal(i), k*share*springs_->area(i)
+            );
+        });
     }
-    mesh_.sum(diagonal, 3);
-    mesh_.sum(other, 3);
+    stiffness.sum();
 
-    scalarField M(dim*dim), values(dim);
+    scalarField vectors, values;
     for (label node = 0; node < mesh_.size(); ++node)
     {
-        axes(diagonal.cdata() + 3*node, other.cdata() + 3*node, M, values);
-        for (label k = dim - 1; k >= 0; --k)
+        const label count = stiffness.axes(node, vectors, values);
+        for (label k = 0; k < count; ++k)
         {
-            if (values[k] > max(leastSupport*values[dim - 1], VSMALL))
+            supports.append(node);
+            support.append(values[k]);
+            for (label j = 0; j < dim; ++j)
             {
-                supports.append(node);
-                support.append(values[k]);
-                for (label j = 0; j < dim; ++j)
-                {
-                    normal.append(M[dim*k + j]);
-                }
+                normal.append(vectors[dim*k + j]);
             }
         }
     }
@@ -119,7 +90,7 @@ void Foam::wallConditions::addSprings
     }
 
     // What moves takes its support with it
-    scalarField moved(force.size(), Zero), weights;
+    scalarField moved(force.size(), Zero);
     bool moving = false;
     forAll(walls_, patchi)
     {
@@ -130,29 +101,11 @@ void Foam::wallConditions::addSprings
         }
         moving = true;
         const vector p(w.displacement().value(time));
-        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        for (label i = 0; i < faces.size(); ++i)
+        springs_->each(patchi, [&](label, const label i, const scalar share)
         {
-            const label start = faces.start[i];
-            const label count = faces.start[i + 1] - start;
-            const label* nodes = faces.nodes.cdata() + start;
-            const scalar* n = normals_[patchi].cdata() + dim*i;
-            weights.resize(max(weights.size(), 3*count));
-            mesh_.faceWeights(mesh_.points(), nodes, count, weights.data());
-            scalar along = 0;
-            for (label k = 0; k < dim; ++k)
-            {
-                along += n[k]*p[k];
-            }
-            for (label a = 0; a < count; ++a)
-            {
-                for (label k = 0; k < dim; ++k)
-                {
-                    moved[dim*nodes[a] + k] +=
-                        w.stiffness*along*weights[dim*a + k];
-                }
-            }
-        }
+            const scalar along = springs_->along(i, p.cdata());
+            springs_->add(i, w.stiffness*share*springs_->area(i)*along, moved);
+        });
     }
     if (moving)
     {
