@@ -106,6 +106,20 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
     const word name(dict.lookupOrDefault<word>("law", "grains"));
     if (name == "elastic")
     {
+        const dictionary& surrogate = properties.surrogateDict();
+        const word& type = grains.model().type();
+        if
+        (
+            type != "constant"
+         || !surrogate.optionalSubDict("constantCoeffs").found("conductivity")
+        )
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry 'law' is elastic with surrogate type " << type
+                << ", allowed: type constant with the entry 'conductivity',"
+                << " because no other conductivity is known of a solid that has"
+                << " no grains" << exit(FatalIOError);
+        }
         return autoPtr<stressLaw>
         (
             new elasticLaw(dict.subDict("elasticCoeffs"), grains, mesh)

@@ -101,6 +101,13 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
         }
         gravity_ = g.value();
     }
+    if (found("restStress") && surrogateDict().getOrDefault<word>("type", "") == "constant")
+    {
+        FatalIOErrorInFunction(*this)
+            << "Entry 'restStress' is given with surrogate type constant, whose"
+            << " stress does not depend on it, allowed: with the other types"
+            << exit(FatalIOError);
+    }
     if (found("restStress") && mag(gravity_) <= VSMALL)
     {
         FatalIOErrorInFunction(*this)

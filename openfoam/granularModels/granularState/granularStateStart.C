@@ -57,6 +57,41 @@ static void checkField
     }
 }
 
+
+//- Shear out of the plane over the pressure above which there is a warning
+static const scalar muchShear = 1e-3;
+
+
+//- Warn of a stress that cannot be that of a mesh of one layer
+static void compareWithPlane(const fvMesh& mesh, const symmTensorField& stress)
+{
+    scalar shear = 0, pressure = 0;
+    forAll(stress, celli)
+    {
+        const symmTensor& s = stress[celli];
+        const scalar here = mag(s.xz()) + mag(s.yz());
+        if (here > shear)
+        {
+            shear = here;
+            pressure = -tr(s)/3;
+        }
+    }
+    const vector worst
+    (
+        returnReduce(vector(shear, pressure, 0), maxOp<vector>())
+    );
+    if (mesh.geometricD()[vector::Z] == -1 && worst.x() > muchShear*worst.y())
+    {
+        WarningInFunction
+            << "Field stress in "
+            << (mesh.time().path()/mesh.time().timeName()).c_str()
+            << " has a shear out of the plane of the mesh (xz, yz) of up to "
+            << worst.x() << " Pa, where the pressure is " << worst.y()
+            << " Pa. Both sides of this plane are equal, so that this shear is"
+            << " 0; it weakens the packing as one that it bore" << nl << endl;
+    }
+}
+
 } // End namespace Foam
 
 
@@ -307,6 +342,7 @@ void Foam::granularState::readState()
                 known.stressZZ = zz.cdata();
                 known.stressXZ = xz.cdata();
                 known.stressYZ = yz.cdata();
+                compareWithPlane(mesh_, stress());
             }
         }
         if (conductivity.valid() && missing)

@@ -64,6 +64,15 @@ Foam::granularModels::onlineRve::onlineRve
             }
         );
     }
+    if (coeffs_.found("strainTolerance") && !shared_)
+    {
+        refuse
+        (
+            "rvePer",
+            "cell (the default), which has no strainTolerance",
+            "history with strainTolerance, or cell without it"
+        );
+    }
     file_ = file();
 }
 

@@ -35,6 +35,10 @@ static const scalar notable = 1e-3;
 //- By how much the trace of a fabric may differ from 1: it is given rounded
 static const scalar unitTrace = 0.01;
 
+//- Contacts per sphere between which packings under load are: without rattlers
+//- spheres with friction need four, and dense random packings have seven
+static const scalar leastContacts = 2, mostContacts = 9;
+
 //- Spheres at a wall along which they were poured, on the square of a diameter
 static const scalar usualSpheres = 0.87;
 
@@ -258,6 +262,17 @@ void Foam::granularModels::spheres::initialState
         return result;
     };
     const scalarField contacts(given("coordination", 12));
+    if
+    (
+        contacts.size()
+     && (contacts[0] < leastContacts || contacts[0] > mostContacts)
+    )
+    {
+        WarningInFunction
+            << "Entry 'coordination' of spheresCoeffs is " << contacts[0]
+            << ": random packings under load have from " << leastContacts
+            << " to " << mostContacts << " contacts per sphere" << nl << endl;
+    }
     // The stress of a packing depends on it, so a field cannot just replace the
     // column afterwards
     scalarField mobilised(given("mobilised", 1));
