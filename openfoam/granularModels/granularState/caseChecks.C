@@ -155,7 +155,8 @@ void Foam::checkPlane(const fvMesh& mesh, const dictionary& surrogate)
     )
     {
         FatalErrorInFunction
-            << "The mesh " << mesh.objectRegistry::objectPath()
+            << "The mesh in "
+            << (mesh.time().constant()/mesh.meshDir()).c_str()
             << " is three-dimensional, allowed: two-dimensional in x and y,"
             << " with empty patches in z. This model is made from discs and"
             << " knows no third direction; the surrogate types spheres and"
