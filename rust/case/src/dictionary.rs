@@ -1,13 +1,9 @@
 //! Reads OpenFOAM dictionaries as `foamDictionary -expand` prints them. OpenFOAM itself resolves includes, macros and entries
 //! that replace others, so only keys, values and nested dictionaries are left to be read.
 
-use crate::CaseError;
+use crate::{CaseError, openfoam};
 use regex::Regex;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-
-/// The folder with `etc/` in Debian's package; OpenFOAM's programs have to be told where it is.
-const DEBIAN_PROJECT_DIR: &str = "/usr/share/openfoam";
 
 /// One word, string or bracket.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,20 +41,13 @@ impl Dictionary {
             return Self::parse(file, &text);
         }
         let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
-        let mut command = Command::new("foamDictionary");
+        let mut command = openfoam::command(Path::new("foamDictionary"));
         command.arg("-expand");
         if let Some(case) = case_of(file) {
             // Else $FOAM_CASE and <case> in the file stand for the folder of this process
             command.arg("-case").arg(case);
         }
         command.arg(file);
-        // A PWD that is missing, or is not the folder of this process, makes OpenFOAM print a warning amid its output.
-        if let Ok(folder) = std::env::current_dir() {
-            command.env("PWD", folder);
-        }
-        if std::env::var_os("WM_PROJECT_DIR").is_none() {
-            command.env("WM_PROJECT_DIR", DEBIAN_PROJECT_DIR);
-        }
         let output = command
             .output()
             .map_err(|error| failed(format!("foamDictionary: {error} (scripts/setup installs OpenFOAM)")))?;

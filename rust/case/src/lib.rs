@@ -28,6 +28,7 @@ pub mod folder;
 pub mod grains;
 pub mod mesh;
 pub mod numbers;
+mod openfoam;
 pub mod packing;
 pub mod path;
 pub mod ranges;

@@ -17,7 +17,7 @@ pub enum Severity {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     pub severity: Severity,
-    /// Path below the case folder.
+    /// Path below the case folder; may be empty in a message of the solver, which is the advice alone.
     pub file: String,
     /// The key with those of its enclosing dictionaries; empty when the whole file is meant.
     pub key: String,
@@ -31,6 +31,9 @@ impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let severity = if self.severity == Severity::Error { "error" } else { "doubt" };
         write!(f, "{severity}: {}", self.file)?;
+        if [&self.key, &self.value, &self.allowed].iter().all(|text| text.is_empty()) {
+            return write!(f, "{}{}", if self.file.is_empty() { "" } else { ": " }, self.advice);
+        }
         if !self.key.is_empty() {
             write!(f, ": {}", self.key)?;
         }

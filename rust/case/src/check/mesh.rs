@@ -23,7 +23,8 @@ pub fn check(constant: &Path, blocks: Option<&Dictionary>, is_plane: bool, found
         made::check(&folder, found);
         let extent = made::extent(&folder);
         if extent.is_none() || !mesh.extent.is_some_and(|wanted| is_near(extent, wanted)) {
-            // It may have been turned after blockMesh
+            // It is another mesh, or was turned after blockMesh
+            mesh.bounds = None;
             mesh.axis = None;
             mesh.sides = None;
         }

@@ -17,6 +17,7 @@
 //! | `functions` | function objects that need a flow or a thermo |
 //! | `libraries` | libraries and code that a case brings along |
 //! | `sizes` | values that no bed has |
+//! | `solver` | what the solver finds: `msddFoam -dry-run` |
 //! | `start` | the time at which a run begins |
 //! | [`mesh`] | the mesh |
 //! | `domain` | what is known of a mesh |
@@ -59,6 +60,7 @@ mod probes;
 pub mod regions;
 pub mod scales;
 mod sizes;
+mod solver;
 mod sources;
 mod spheres;
 mod start;
@@ -71,6 +73,7 @@ mod zones;
 
 pub use finding::{Finding, Findings, Severity};
 
+use crate::dictionary::Dictionary;
 use crate::path;
 use std::path::Path;
 
@@ -90,6 +93,40 @@ const FILES: [(&str, bool); 12] = [
     ("0/stress", false),
 ];
 
+/// What a check does not look at, in a sentence; empty if it looks at everything.
+pub type Omission = &'static str;
+
+/// Checks a case folder as [`check`] does, and lets the solver make all that it needs for a run of it.
+pub fn check_with_solver(folder: &Path) -> (Findings, Omission) {
+    let mut found = check(folder);
+    // Else there is nothing more to say
+    if !folder.canonicalize().is_ok_and(|whole| whole.is_dir() && path::check(&whole).is_ok()) {
+        return (found, "");
+    }
+    if has_regions_alone(folder) {
+        return (
+            found,
+            "chtMultiRegionFoam is not started by this check: thermo, boundary conditions and function objects of its regions \
+             are read, not made",
+        );
+    }
+    let Some(program) = solver::program() else {
+        return (
+            found,
+            "msddFoam is not in the path, and was not asked to make the case: . scripts/foam-env",
+        );
+    };
+    let control = Dictionary::expanded(&folder.join(control::CONTROL)).ok();
+    let start = start::Start::find(folder, control.as_ref());
+    solver::check(&program, folder, &start, &mut found);
+    (found, "")
+}
+
+/// Whether a case is one of `chtMultiRegionFoam`: with a bed outside of the regions it is one of `msddFoam`, with solids.
+fn has_regions_alone(folder: &Path) -> bool {
+    folder.join(regions::FILE).exists() && !folder.join(grains::FILE).exists()
+}
+
 /// Checks a case folder, of `msddFoam` or of several regions. Needs OpenFOAM's `foamDictionary`.
 pub fn check(folder: &Path) -> Findings {
     let mut found = Findings::default();
@@ -106,8 +143,7 @@ pub fn check(folder: &Path) -> Findings {
         // OpenFOAM would not find any of the files
         return found;
     }
-    // With a bed outside of the regions it is a case of msddFoam, with solids beside
-    if folder.join(regions::FILE).exists() && !folder.join(grains::FILE).exists() {
+    if has_regions_alone(folder) {
         regions::check(folder, &mut found);
         return found;
     }
@@ -138,7 +174,11 @@ pub fn check(folder: &Path) -> Findings {
 
 /// Refuses paths that OpenFOAM cannot work with; returns whether it can work with this one.
 fn check_path(folder: &Path, found: &mut Findings) -> bool {
-    let whole = folder.canonicalize().unwrap_or_default();
+    let Ok(whole) = folder.canonicalize() else {
+        let advice = "The current folder was deleted: go to another";
+        found.error(["folder", ""], &folder.display().to_string(), "a folder that is there", advice);
+        return false;
+    };
     let good = path::check(&whole).is_ok();
     if !good {
         found.error(["folder", ""], &whole.display().to_string(), path::ALLOWED, "move the case");

@@ -2,13 +2,14 @@
 
 use crate::error::CliError;
 use clap::Args;
-use msdd_case::check::check;
+use msdd_case::check::check_with_solver;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 #[command(
     after_help = "Each line is an error (the solver refuses the case) or a doubt (the solver runs it, but the result may be wrong), with file, key,
-value, what is allowed, and what to do. The exit status is 1 with errors, 0 without. Nothing is simulated and nothing is written;
+value, what is allowed, and what to do. The exit status is 1 with errors, 0 without. If msddFoam is installed, 'msddFoam -dry-run' makes
+all that a run needs, on the mesh of the case, and its messages are listed. No step is computed and the case is left as it is;
 OpenFOAM must be installed, because its program foamDictionary reads the files.
 
 Example: msdd case check cases/H"
@@ -27,9 +28,12 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 /// # Errors
 /// [`CliError::Message`] with the number of errors.
 pub fn report(folder: &Path) -> Result<(), CliError> {
-    let found = check(folder);
+    let (found, omission) = check_with_solver(folder);
     for finding in &found.0 {
         outln!("{finding}");
+    }
+    if !omission.is_empty() {
+        outln!("{omission}");
     }
     let [errors, doubts] = found.counts();
     let many =
