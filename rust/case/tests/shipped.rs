@@ -336,6 +336,7 @@ fn beds_of_several_regions_are_checked_with_their_paths() {
             "error: constant/bed/granularProperties: meanRadius = -1",
         ),
         ("no-p", "0/bed/p", "", "error: 0/bed/p: missing"),
+        ("no-g", "constant/g", "", "error: constant/g: missing"),
         (
             "percent",
             "0/bed/porosity",

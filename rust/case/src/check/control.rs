@@ -10,6 +10,8 @@ use msdd_rve::message::number;
 pub const CONTROL: &str = "system/controlDict";
 /// Path in the case folder.
 pub const SOLUTION: &str = "system/fvSolution";
+/// Path in the case folder.
+pub const DECOMPOSITION: &str = "system/decomposeParDict";
 
 /// Keys of controlDict that OpenFOAM looks for, to find mistyped ones.
 const OPENFOAM: [&str; 31] = [
@@ -95,15 +97,27 @@ pub fn check_of_regions(control: &Dictionary, start: f64, found: &mut Findings) 
     times(control, start, is_adaptive(control), found)
 }
 
+/// Methods of other libraries are there by name alone in Debian's OpenFOAM, and end decomposePar.
+pub fn check_decomposition(dictionary: &Dictionary, found: &mut Findings) {
+    let Ok(method) = dictionary.text("method") else { return };
+    if ["scotch", "ptscotch", "metis", "kahip"].contains(&method.as_str()) {
+        let advice =
+            "Debian's OpenFOAM is built without this method, and its decomposePar ends with an error";
+        found.doubt([DECOMPOSITION, "method"], &method, "simple, hierarchical, manual", advice);
+    }
+}
+
 fn is_adaptive(control: &Dictionary) -> bool {
     matches!(control.text("adjustTimeStep").as_deref(), Ok("yes" | "on" | "true"))
 }
 
 fn check_keys(control: &Dictionary, found: &mut Findings) {
-    for key in keys::CONTROL {
+    let is = |key: &str, word: &str| control.text(key).is_ok_and(|text| text == word);
+    // Only with startFrom startTime is it read
+    let is_read = |key: &&keys::Key| key.name != "startTime" || is("startFrom", "startTime");
+    for key in keys::CONTROL.iter().filter(is_read) {
         keys::value(control, CONTROL, key, found);
     }
-    let is = |key: &str, word: &str| control.text(key).is_ok_and(|text| text == word);
     for (key, needed) in [("endTime", stops_at_end(control)), ("startTime", is("startFrom", "startTime"))] {
         if needed && control.get(key).is_none() {
             found.error([CONTROL, key], "missing", "a time [s]", "The solver needs it; add it");
@@ -180,6 +194,17 @@ mod tests {
     }
 
     #[test]
+    fn methods_that_debian_lacks_are_doubtful() {
+        for (method, count) in [("scotch", 1), ("simple", 0)] {
+            let text = format!("numberOfSubdomains 2; method {method};");
+            let mut found = Findings::default();
+            let dictionary = Dictionary::parse(Path::new(DECOMPOSITION), &text).unwrap();
+            check_decomposition(&dictionary, &mut found);
+            assert_eq!(found.counts(), [0, count], "{method}");
+        }
+    }
+
+    #[test]
     fn times_are_those_of_the_start_and_the_end_that_is_meant() {
         let good = "startFrom latestTime; startTime 10; endTime 2; deltaT 0.5;";
         assert_eq!(lines(good, 0.0), Vec::<String>::new());
@@ -188,6 +213,9 @@ mod tests {
             Vec::<String>::new()
         );
         assert_eq!(lines("stopAt writeNow; deltaT 0.5;", 0.0), Vec::<String>::new());
+        let infinite = "startTime inf; endTime 2; deltaT 0.5;";
+        assert_eq!(lines(&format!("startFrom latestTime; {infinite}"), 0.0), Vec::<String>::new());
+        assert!(lines(&format!("startFrom startTime; {infinite}"), 0.0)[0].contains("startTime = inf"));
         assert!(lines("stopAt endTime; deltaT 0.5;", 0.0)[0].contains("endTime = missing"));
         assert!(lines("startFrom startTime; endTime 2; deltaT 0.5;", 0.0)[0].contains("startTime = missing"));
         assert_eq!(

@@ -119,6 +119,8 @@ fn read(field: &Expected, tokens: &[Token], mesh: &Mesh, found: &mut Findings) -
     let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
     let (numbers, uniform) = match words.as_slice() {
         ["uniform", rest @ ..] => (numbers_in(rest, field.components), true),
+        // OpenFOAM v1912 takes it as uniform
+        rest @ [_] if field.components == 1 => (numbers_in(rest, 1), true),
         ["nonuniform", list @ ..] => {
             // The kind of the list and its length may be missing in front of it
             let list =
@@ -242,6 +244,10 @@ mod tests {
         assert_eq!(lines(1, good), Vec::<String>::new());
         // As OpenFOAM prints a list of equal values.
         assert_eq!(lines(1, &good.replace("3 ( 0.1 0.2 0.1 )", "3{0.1}")), Vec::<String>::new());
+        assert_eq!(
+            lines(1, &good.replace("nonuniform List<scalar> 3 ( 0.1 0.2 0.1 )", "0.1")),
+            Vec::<String>::new()
+        );
         let grouped = good.replace("\".*\"", "hot");
         assert_eq!(lines(1, &grouped), Vec::<String>::new());
         for bare in ["( 0.1 0.2 0.1 )", "3 ( 0.1 0.2 0.1 )"] {

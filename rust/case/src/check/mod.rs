@@ -78,7 +78,8 @@ use crate::path;
 use std::path::Path;
 
 /// Files that are read through `foamDictionary`, and whether the solver needs them.
-const FILES: [(&str, bool); 12] = [
+const FILES: [(&str, bool); 13] = [
+    (control::DECOMPOSITION, false),
     (control::SOLUTION, true),
     (linear::SCHEMES, true),
     (domain::BLOCKS, false),
@@ -157,6 +158,7 @@ pub fn check(folder: &Path) -> Findings {
     let times =
         control.and_then(|control| control::check(control, file(control::SOLUTION), start.time, &mut found));
     control.into_iter().for_each(|control| functions::check(control, &mut found));
+    file(control::DECOMPOSITION).into_iter().for_each(|own| control::check_decomposition(own, &mut found));
     // A library of somebody else may add solvers
     let closed =
         !found.0.iter().any(|finding| [finding.file.as_str(), &finding.key] == [control::CONTROL, "libs"]);

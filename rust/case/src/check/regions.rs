@@ -33,7 +33,13 @@ const FILES: [(&str, bool); 14] = [
 
 /// Checks the beds of the case.
 pub fn check(folder: &Path, found: &mut Findings) {
-    let own = files::read(folder, &[(FILE, true), (control::CONTROL, true)], str::to_string, found);
+    // chtMultiRegionFoam needs gravity without fluids, too
+    let needed =
+        [(FILE, true), (control::CONTROL, true), (gravity::FILE, true), (control::DECOMPOSITION, false)];
+    let own = files::read(folder, &needed, str::to_string, found);
+    files::file(&own, control::DECOMPOSITION)
+        .into_iter()
+        .for_each(|own| control::check_decomposition(own, found));
     let Some(listed) = files::file(&own, FILE) else { return };
     let names = |kind: &str| match listed.value("regions") {
         Ok(tokens) => regions_of(tokens, kind),
