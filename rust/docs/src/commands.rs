@@ -161,7 +161,12 @@ pub fn run(settings: &Settings, files: &[PathBuf], mut watch: impl FnMut(&Path))
 }
 
 fn run_page(settings: &Settings, file: &Path, script: &str) -> Result<Option<Finding>, DocsError> {
-    let copy = settings.work.join(file.with_extension("").to_string_lossy().replace('/', "-"));
+    // Beside the copy there is room for what a page puts outside of the checkout.
+    let own = settings.work.join(file.with_extension("").to_string_lossy().replace('/', "-"));
+    let copy = own.join("msdd");
+    if own.exists() {
+        fs::remove_dir_all(&own).map_err(|source| DocsError::Folder { folder: own.clone(), source })?;
+    }
     copy_checkout(&settings.root, &copy)?;
     let place = |name: &str| copy.join(".cache").join(name);
     let (begin, page, output, failed) =
@@ -187,7 +192,7 @@ fn run_page(settings: &Settings, file: &Path, script: &str) -> Result<Option<Fin
         .status()
         .map_err(broken)?;
     if status.success() {
-        fs::remove_dir_all(&copy).map_err(broken)?;
+        fs::remove_dir_all(&own).map_err(broken)?;
         return Ok(None);
     }
     let said = fs::read_to_string(&failed).unwrap_or_default();
@@ -210,9 +215,6 @@ fn run_page(settings: &Settings, file: &Path, script: &str) -> Result<Option<Fin
 /// A copy of what git keeps, with the programs that are built linked in.
 fn copy_checkout(root: &Path, copy: &Path) -> Result<(), DocsError> {
     let broken = |source| DocsError::Folder { folder: copy.to_path_buf(), source };
-    if copy.exists() {
-        fs::remove_dir_all(copy).map_err(broken)?;
-    }
     fs::create_dir_all(copy.join(".cache")).map_err(broken)?;
     let listed = Command::new("git").args(["ls-files", "-z"]).current_dir(root).output().map_err(broken)?;
     let listed = String::from_utf8_lossy(&listed.stdout).into_owned();
