@@ -112,10 +112,12 @@ fn asks_for_spheres(arguments: &Arguments, asker: &Asker) -> Result<bool, CliErr
     let help = "The bed is of equal spheres with gas between them, in space; or of discs in the plane, the model material of the paper.";
     // Scripts that do not say what they want get discs, as ever.
     let proposal = if asker.interactive { "spheres" } else { "discs" };
-    asker.value(arguments.spheres.then_some(true), help, "Grains (spheres or discs)", proposal, |text| match text {
-        "spheres" => Ok(true),
-        "discs" => Ok(false),
-        _ => Err("spheres, discs".to_string()),
+    asker.value(arguments.spheres.then_some(true), help, "Grains (spheres or discs)", proposal, |text| {
+        match text {
+            "spheres" => Ok(true),
+            "discs" => Ok(false),
+            _ => Err("spheres, discs".to_string()),
+        }
     })
 }
 
