@@ -125,10 +125,20 @@ void Foam::wallConditions::checkNames(const dictionary& dict) const
     wordList missing;
     for (const polyPatch& patch : mesh_.mesh().boundaryMesh())
     {
-        const bool ruled =
+        const bool planar =
             isA<emptyPolyPatch>(patch) || isA<wedgePolyPatch>(patch)
-         || isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch)
-         || patch.coupled() || dict.found(patch.name(), keyType::REGEX);
+         || isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch);
+        const dictionary* own =
+            planar ? dict.findDict(patch.name(), keyType::LITERAL) : nullptr;
+        if (own && own->getOrDefault<word>("type", "rigid") != "symmetry")
+        {
+            FatalIOErrorInFunction(*own)
+                << "Patch " << patch.name() << " has an entry in 'walls' and is"
+                << " of type " << patch.type() << " in the mesh, allowed there:"
+                << " no entry, or type symmetry" << exit(FatalIOError);
+        }
+        const bool ruled =
+            planar || patch.coupled() || dict.found(patch.name(), keyType::REGEX);
         if (elastic_ && !ruled)
         {
             missing.append(patch.name());

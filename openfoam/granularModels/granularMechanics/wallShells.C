@@ -119,6 +119,7 @@ void Foam::wallConditions::compareShells() const
             continue;
         }
         OStringStream found;
+        found.precision(3);
         found<< "its faces have a radius of " << radius << " m";
         WarningInFunction
             << "Patch " << mesh_.mesh().boundaryMesh()[patchi].name()
