@@ -46,8 +46,8 @@ Usage
             initialTemperature, thermalStrainIncrement, the rest of the model's
             state and uniform/msddFoam, the last file of a time: what the run
             was computed with, and the checksums of the other files;
-            postProcessing/msddFoam/summary.json, and offenders.json if cells
-            were outside the model's region
+            postProcessing/msddFoam/summary.json, tables.json (runTables), and
+            offenders.json if cells were outside the model's region
 
     The mesh is two-dimensional, in x and y. ddtSchemes are not used.
 
@@ -61,6 +61,7 @@ Usage
 #include "caseChecks.H"
 #include "caseLock.H"
 #include "equilibriumSolver.H"
+#include "runTables.H"
 
 #include "runSummary.H"
 #include "sceneWarnings.H"
@@ -197,11 +198,13 @@ int main(int argc, char *argv[])
     sceneWarnings(made.properties(), T, grains, mechanics).print();
 
     stepWatch watch(scheme.waitLimit());
+    runTables tables(runTime, !grains.record().continues);
 
     Info<< "\nStarting time loop\n" << endl;
 
     while (runTime.run())
     {
+        tables.update();
         scheme.step();
         grains.finishStep();
         if (runTime.writeTime())
@@ -217,6 +220,7 @@ int main(int argc, char *argv[])
         }
         watch.finished();
     }
+    tables.update();
 
     grains.refresh();
     grains.writeReport();

@@ -27,11 +27,57 @@ Foam::functionObjects::granularFunctionObject::granularFunctionObject
 )
 :
     fvMeshFunctionObject(name, runTime, dict),
-    writeFile(mesh_, name, file, dict)
+    writeFile(mesh_, name, file)
 {}
 
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
+
+void Foam::functionObjects::granularFunctionObject::begin
+(
+    const dictionary& dict
+)
+{
+    read(dict);
+    const runRecord* run = mesh_.findObject<runRecord>("msddFoam");
+    const word control(dict.lookupOrDefault<word>("writeControl", "timeStep"));
+    if
+    (
+        run && !run->continues && control != "none" && control != "onEnd"
+     && time_.value() >= dict.lookupOrDefault<scalar>("timeStart", -VGREAT)
+    )
+    {
+        write();
+    }
+}
+
+
+bool Foam::functionObjects::granularFunctionObject::lacks
+(
+    const wordList& fields
+) const
+{
+    for (const word& name : fields)
+    {
+        IOobject header
+        (
+            name, time_.timeName(), mesh_,
+            IOobject::MUST_READ, IOobject::NO_WRITE, false
+        );
+        if
+        (
+            !mesh_.foundObject<regIOobject>(name)
+         && !header.typeHeaderOk<volScalarField>(false, false, false)
+        )
+        {
+            Info<< type() << ' ' << this->name() << ": no row for the time "
+                << time_.timeName() << ", which has no field " << name << endl;
+            return true;
+        }
+    }
+    return false;
+}
+
 
 Foam::scalarField
 Foam::functionObjects::granularFunctionObject::cellsOf
@@ -80,10 +126,21 @@ void Foam::functionObjects::granularFunctionObject::refresh()
 }
 
 
+void Foam::functionObjects::granularFunctionObject::explain
+(
+    Ostream& os,
+    const char* text
+)
+{
+    os  << setw(1) << "#" << ' ' << text << nl;
+}
+
+
 Foam::Ostream& Foam::functionObjects::granularFunctionObject::line()
 {
     if (!writtenHeader_)
     {
+        resetFile(fileName_);
         writeHeader(file());
         file() << endl;
         writtenHeader_ = true;

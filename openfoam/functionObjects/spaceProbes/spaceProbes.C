@@ -42,7 +42,7 @@ Foam::functionObjects::spaceProbes::spaceProbes
     field_(dict.get<word>("field")),
     points_(dict.get<pointField>("probeLocations"))
 {
-    read(dict);
+    begin(dict);
 }
 
 
@@ -50,6 +50,12 @@ Foam::functionObjects::spaceProbes::spaceProbes
 
 void Foam::functionObjects::spaceProbes::writeHeader(Ostream& os) const
 {
+    explain
+    (
+        os,
+        "Values at points that are fixed in space [m], while the grains move; T"
+        " in K, stresses in Pa, compression positive"
+    );
     forAll(points_, i)
     {
         writeHeaderValue(os, "Probe " + Foam::name(i), points_[i]);
@@ -85,6 +91,10 @@ Type Foam::functionObjects::spaceProbes::at
 
 bool Foam::functionObjects::spaceProbes::write()
 {
+    if (lacks({field_}))
+    {
+        return true;
+    }
     refresh();
     const tmp<volScalarField> tfield(present<scalar>(field_));
     const interpolationCellPoint<scalar> field(tfield());

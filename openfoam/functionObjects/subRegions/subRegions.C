@@ -42,7 +42,6 @@ Foam::functionObjects::subRegions::subRegions
     windows_(dict.lookupOrDefault("windows", FixedList<label, 2>({10, 3}))),
     windowOf_(mesh_.nCells())
 {
-    read(dict);
     if (min(windows_[0], windows_[1]) < 1)
     {
         FatalIOErrorInFunction(dict)
@@ -60,6 +59,7 @@ Foam::functionObjects::subRegions::subRegions
         windowOf_[celli] =
             min(i, windows_[0] - 1) + windows_[0]*min(j, windows_[1] - 1);
     }
+    begin(dict);
 }
 
 
@@ -67,6 +67,13 @@ Foam::functionObjects::subRegions::subRegions
 
 void Foam::functionObjects::subRegions::writeHeader(Ostream& os) const
 {
+    explain
+    (
+        os,
+        "Means over the volume of a window, numbered from 0 along x and y: T"
+        " [K], conductivity [W/(m K)], stress and pressure [Pa], compression"
+        " positive"
+    );
     writeCommented(os, "Time");
     for
     (
@@ -87,6 +94,17 @@ void Foam::functionObjects::subRegions::writeHeader(Ostream& os) const
 
 bool Foam::functionObjects::subRegions::write()
 {
+    if
+    (
+        lacks
+        ({
+            "T", "porosity", "fabricIndex", "conductivity",
+            "stress", "pressure"
+        })
+    )
+    {
+        return true;
+    }
     refresh();
     const label count = windows_[0]*windows_[1];
     const tmp<volSymmTensorField> K(present<symmTensor>("conductivity"));

@@ -16,7 +16,6 @@ License
 
 #include "wallPressure.H"
 #include "addToRunTimeSelectionTable.H"
-#include "wallFvPatch.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -41,7 +40,14 @@ Foam::functionObjects::wallPressure::wallPressure
 :
     granularFunctionObject(name, typeName, runTime, dict)
 {
-    read(dict);
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        if (!polyPatch::constraintType(patch.patch().type()))
+        {
+            walls_.append(patch.index());
+        }
+    }
+    begin(dict);
 }
 
 
@@ -49,15 +55,28 @@ Foam::functionObjects::wallPressure::wallPressure
 
 void Foam::functionObjects::wallPressure::writeHeader(Ostream& os) const
 {
+    explain(os, "All stresses in Pa, compression positive");
+    explain(os, "domain: pressure, mean over the volume of the bed");
+    explain
+    (
+        os,
+        "<patch>_pressure: pressure in the cells at the patch, mean over its"
+        " area; pressure is the mean of xx and yy (discs) or of xx, yy and zz"
+        " (spheres)"
+    );
+    explain
+    (
+        os,
+        "<patch>_normal: stress across the patch, n.stress.n with its normal n,"
+        " in the same cells"
+    );
     writeCommented(os, "Time");
     writeTabbed(os, "domain");
-    for (const fvPatch& patch : mesh_.boundary())
+    for (const label patchi : walls_)
     {
-        if (isA<wallFvPatch>(patch))
-        {
-            writeTabbed(os, patch.name() + "_pressure");
-            writeTabbed(os, patch.name() + "_normal");
-        }
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        writeTabbed(os, patch.name() + "_pressure");
+        writeTabbed(os, patch.name() + "_normal");
     }
 }
 
@@ -66,6 +85,10 @@ void Foam::functionObjects::wallPressure::writeHeader(Ostream& os) const
 
 bool Foam::functionObjects::wallPressure::write()
 {
+    if (lacks({"pressure", "stress"}))
+    {
+        return true;
+    }
     refresh();
     const tmp<volScalarField> tpressure(present<scalar>("pressure"));
     const tmp<volSymmTensorField> tstress(present<symmTensor>("stress"));
@@ -74,12 +97,9 @@ bool Foam::functionObjects::wallPressure::write()
 
     // For each wall: area, pressure times area, normal stress times area
     List<vector> sums;
-    for (const fvPatch& patch : mesh_.boundary())
+    for (const label patchi : walls_)
     {
-        if (!isA<wallFvPatch>(patch))
-        {
-            continue;
-        }
+        const fvPatch& patch = mesh_.boundary()[patchi];
         const vectorField n(patch.nf());
         const labelUList& cells = patch.faceCells();
         vector sum(Zero);

@@ -74,6 +74,7 @@ Foam::granularSolidThermo::granularSolidThermo
     solidThermo(checked(mesh), phaseName),
     properties_(mesh),
     grains_(properties_, T_),
+    tables_(mesh.time(), false),
     Cp_
     (
         IOobject("Cp", mesh.time().timeName(), mesh),
@@ -118,6 +119,7 @@ Foam::granularSolidThermo::granularSolidThermo
 
 Foam::granularSolidThermo::~granularSolidThermo()
 {
+    tables_.update();
     Info<< nl << "Region " << he_.mesh().name() << nl;
     grains_.writeReport();
     if (axes_.error() > 0)
@@ -284,6 +286,7 @@ void Foam::granularSolidThermo::begin() const
 
 void Foam::granularSolidThermo::correct()
 {
+    tables_.update();
     if (updateT())
     {
         const scalar c = properties_.heatCapacity().value();

@@ -12,6 +12,7 @@
 //! | [`scene`] | the parameters of a new case |
 //! | [`packing`] | the initial packing of a new case |
 //! | [`folder`] | the files of a new case |
+//! | [`tables`] | tables of function objects, joined over the parts of a run |
 //! | [`spheres`] | new cases of beds of spheres |
 //! | [`path`] | paths that OpenFOAM can work with |
 //! | [`numbers`] | numbers as a person writes them |
@@ -34,6 +35,7 @@ pub mod path;
 pub mod ranges;
 pub mod scene;
 pub mod spheres;
+pub mod tables;
 pub mod values;
 pub mod walls;
 

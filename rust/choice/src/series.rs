@@ -1,7 +1,7 @@
 //! Values at points and times.
 
 use crate::ChoiceError;
-use msdd_files::read_text;
+use msdd_case::tables;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::path::Path;
 
@@ -26,14 +26,15 @@ fn with_gaps<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Vec<f64>>
 }
 
 impl Series {
-    /// Reads the file of OpenFOAM's function object `probes`.
+    /// Reads the table `file` of the function object `name` in a case.
     ///
     /// # Errors
-    /// [`ChoiceError::File`], [`ChoiceError::Read`].
-    pub fn read(file: &Path) -> Result<Self, ChoiceError> {
-        let wrong = |line: &str| ChoiceError::Read { file: file.to_path_buf(), problem: format!("'{line}'") };
+    /// [`ChoiceError::Case`], [`ChoiceError::Read`].
+    pub fn read(case: &Path, name: &str, file: &str) -> Result<Self, ChoiceError> {
+        let table = tables::read(case, name, Some(file))?;
+        let wrong = |line: &str| ChoiceError::Read { file: table.file.clone(), problem: format!("'{line}'") };
         let mut series = Self::default();
-        for line in read_text(file)?.lines().filter(|line| !line.trim_start().starts_with('#')) {
+        for line in &table.rows {
             let words = line.split(|c: char| c.is_whitespace() || "()".contains(c));
             let numbers: Result<Vec<f64>, _> =
                 words.filter(|word| !word.is_empty()).map(str::parse).collect();
@@ -47,12 +48,6 @@ impl Series {
             true => Ok(series),
             false => Err(wrong("no point inside the mesh")),
         }
-    }
-
-    /// Adds the rows of another part of the same run.
-    pub fn add(&mut self, other: Self) {
-        self.times.extend(other.times);
-        self.values.extend(other.values);
     }
 
     /// Largest minus smallest value.
@@ -126,6 +121,14 @@ impl Series {
 mod tests {
     use super::*;
 
+    fn read(name: &str, text: &str) -> Series {
+        let case = std::env::temp_dir().join(format!("msdd-choice-{name}-{}", std::process::id()));
+        msdd_files::write(&case.join("postProcessing/p/0/T"), text.as_bytes()).unwrap();
+        let read = Series::read(&case, "p", "T").unwrap();
+        std::fs::remove_dir_all(&case).unwrap();
+        read
+    }
+
     #[test]
     fn distance_is_the_mean_over_points_and_common_times() {
         let a = Series {
@@ -144,10 +147,7 @@ mod tests {
 
     #[test]
     fn points_outside_of_the_mesh_do_not_count_and_survive_json() {
-        let file = std::env::temp_dir().join(format!("msdd-choice-series-{}", std::process::id()));
-        std::fs::write(&file, "# Probe 0 (1 1 1)\n#  Time\n 0 -1e+300 3\n 1 -1e+300 4\n").unwrap();
-        let read = Series::read(&file).unwrap();
-        std::fs::remove_file(&file).unwrap();
+        let read = read("series", "# Probe 0 (1 1 1)\n#  Time\n 0 -1e+300 3\n 1 -1e+300 4\n");
         assert_eq!((read.range(), read.times.len()), (1.0, 2));
         assert_eq!(read.distance(&read), 0.0);
         let again: Series = serde_json::from_str(&serde_json::to_string(&read).unwrap()).unwrap();
@@ -157,10 +157,7 @@ mod tests {
 
     #[test]
     fn vectors_have_three_columns() {
-        let file = std::env::temp_dir().join(format!("msdd-choice-vectors-{}", std::process::id()));
-        std::fs::write(&file, "# Probe 0 (1 1 1)\n 0 (0 0 0) (1 2 3)\n").unwrap();
-        let read = Series::read(&file).unwrap();
-        std::fs::remove_file(&file).unwrap();
+        let read = read("vectors", "# Probe 0 (1 1 1)\n 0 (0 0 0) (1 2 3)\n");
         assert_eq!(read.values, [[0.0, 0.0, 0.0, 1.0, 2.0, 3.0]]);
         assert_eq!(read.component(2, 1).values, [[0.0, 2.0]]);
     }

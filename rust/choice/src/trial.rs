@@ -7,6 +7,7 @@ use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::series::Series;
 use crate::settings::{Level, Settings};
+use msdd_case::tables;
 use msdd_files::{Lock, list, read_text, write};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -240,31 +241,22 @@ const NOISE: f64 = 1e-9;
 /// # Errors
 /// [`ChoiceError::File`], [`ChoiceError::Read`] when its results cannot be read.
 pub fn read_outcome(folder: &Path, seconds: f64) -> Result<Outcome, ChoiceError> {
-    // A run that was killed and went on has one folder for each start.
-    let starts = |name: &str| list(&folder.join("postProcessing").join(name));
-    let read = |field: &str| {
-        let mut series = Series::default();
-        for start in starts(WATCH)? {
-            series.add(Series::read(&start.join(field))?);
-        }
-        Ok::<_, ChoiceError>(series)
-    };
+    let read = |field: &str| Series::read(folder, WATCH, field);
     let temperature = read("T")?;
     let points = temperature.values.first().map_or(0, Vec::len);
     let mut values = BTreeMap::new();
-    let moved = starts(WATCH)?.iter().any(|start| start.join("D").is_file());
+    let moved = tables::parts(folder, WATCH, Some("D")).is_ok();
     for quantity in Quantity::ALL.into_iter().filter(|quantity| moved || !quantity.needs_motion()) {
         let (field, component) = quantity.field();
         values.insert(quantity, read(field)?.component(points, component));
     }
     let strain = read("thermalStrain")?;
     // None if the first step is longer than the time in which it is watched, as with steps of one size.
-    let starts_watched = starts(&format!("{WATCH}Start"))?;
-    let first = starts_watched.iter().find_map(|start| Series::read(&start.join("pressure")).ok());
+    let first = Series::read(folder, &format!("{WATCH}Start"), "pressure").ok();
     let start_pressure = first.and_then(|series| series.values.into_iter().next()).unwrap_or_default();
     let mut range = values[&Quantity::Temperature].range();
-    for start in starts(&format!("{WATCH}Range"))? {
-        range = range.max(extremes(&start.join("fieldMinMax.dat"))?);
+    for (_, file) in tables::parts(folder, &format!("{WATCH}Range"), None)? {
+        range = range.max(extremes(&file)?);
     }
     // What is left of rounding and of the linear solver, where nothing heats or cools
     if range <= NOISE * values[&Quantity::Temperature].rms() {

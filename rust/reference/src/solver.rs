@@ -2,6 +2,7 @@
 //! objects that the jobs of `msdd report` have: `spaceProbes`, `wallPressure`, `subRegions`, `columns`.
 
 use crate::ReferenceError;
+use msdd_case::tables::{self, Table};
 use msdd_files::{list, read_text};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -68,11 +69,11 @@ pub fn read(folder: &Path, mesh: [usize; 2], end_time: f64) -> Result<Run, Refer
     Ok(Run {
         temperature: temperatures(folder)?,
         pressure: pressure_rows(folder)?,
-        sub_regions: last_windows(&post.join("subRegions"), 30)?,
-        columns: last_windows(&post.join("columns"), 10)?,
+        sub_regions: last_windows(folder, "subRegions", 30)?,
+        columns: last_windows(folder, "columns", 10)?,
         displacement: moved.as_ref().map(slices),
         moved: moved.as_ref().map(|values| means_in(values, mesh, [10, 3])),
-        watched: watched(&post)?,
+        watched: watched(folder)?,
         cells: count("cells"),
         steps: count("steps"),
         rejected_steps: count("rejected_steps"),
@@ -98,15 +99,16 @@ pub fn temperatures(folder: &Path) -> Result<Vec<[f64; 4]>, ReferenceError> {
 /// # Errors
 /// As [`read`].
 pub fn probe_points(folder: &Path) -> Result<Vec<[f64; 2]>, ReferenceError> {
-    let file = newest(&folder.join("postProcessing/spaceProbes"))?;
-    let text = read_text(&file)?;
+    let table = table(folder, "spaceProbes")?;
     let point = |line: &str| -> Option<[f64; 2]> {
         let mut numbers = line.split_once('(')?.1.trim_end_matches(')').split_whitespace().map(str::parse);
         Some([numbers.next()?.ok()?, numbers.next()?.ok()?])
     };
-    let heads = text.lines().filter(|line| line.starts_with("# Probe "));
-    let wrong =
-        |line: &str| ReferenceError::Read { file: file.clone(), problem: format!("'{line}' has no point") };
+    let heads = table.head.iter().filter(|line| line.starts_with("# Probe "));
+    let wrong = |line: &str| ReferenceError::Read {
+        file: table.file.clone(),
+        problem: format!("'{line}' has no point"),
+    };
     heads.map(|line| point(line.trim_end()).ok_or_else(|| wrong(line))).collect()
 }
 
@@ -115,7 +117,7 @@ pub fn probe_points(folder: &Path) -> Result<Vec<[f64; 2]>, ReferenceError> {
 /// # Errors
 /// As [`read`].
 pub fn probe_rows(folder: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
-    numbers(&newest(&folder.join("postProcessing/spaceProbes"))?)
+    Ok(table(folder, "spaceProbes")?.numbers()?)
 }
 
 /// Rows of time \[s\] and mean pressure \[Pa\], which `wallPressure` writes.
@@ -123,7 +125,7 @@ pub fn probe_rows(folder: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
 /// # Errors
 /// As [`read`].
 pub fn pressure_rows(folder: &Path) -> Result<Vec<[f64; 2]>, ReferenceError> {
-    let rows = numbers(&newest(&folder.join("postProcessing/wallPressure"))?)?;
+    let rows = table(folder, "wallPressure")?.numbers()?;
     Ok(rows.iter().filter_map(|row| row.get(..2)?.try_into().ok()).collect())
 }
 
@@ -132,40 +134,22 @@ fn read_summary(file: &Path) -> Result<Value, ReferenceError> {
         .map_err(|error| ReferenceError::Read { file: file.to_path_buf(), problem: error.to_string() })
 }
 
-/// The file that a function object has written: the only one in the folder of the first start time.
-fn newest(folder: &Path) -> Result<std::path::PathBuf, ReferenceError> {
-    let none = || ReferenceError::Read { file: folder.to_path_buf(), problem: "no file".to_string() };
-    let start = list(folder)?.into_iter().next().ok_or_else(none)?;
-    list(&start)?.into_iter().next().ok_or_else(none)
+/// The rows of the present run in the only table of a function object.
+fn table(case: &Path, name: &str) -> Result<Table, ReferenceError> {
+    Ok(tables::read(case, name, None)?)
 }
 
-/// The rows of numbers of a file, without brackets and without lines that begin with #.
-fn numbers(file: &Path) -> Result<Vec<Vec<f64>>, ReferenceError> {
-    let text = read_text(file)?;
-    let line = |line: &str| -> Result<Vec<f64>, ReferenceError> {
-        let parse = |word: &str| match word.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(ReferenceError::Read {
-                file: file.to_path_buf(),
-                problem: format!("'{word}' in '{line}'"),
-            }),
-        };
-        line.replace(['(', ')'], " ").split_whitespace().map(parse).collect()
-    };
-    text.lines().filter(|l| !l.starts_with('#') && !l.trim().is_empty()).map(line).collect()
-}
-
-/// The last rows of a file of sub-regions, without time and position.
-fn last_windows(folder: &Path, count: usize) -> Result<Vec<Vec<f64>>, ReferenceError> {
-    let file = newest(folder)?;
-    let rows = numbers(&file)?;
+/// The last rows of a table of sub-regions, without time and position.
+fn last_windows(case: &Path, name: &str, count: usize) -> Result<Vec<Vec<f64>>, ReferenceError> {
+    let table = table(case, name)?;
+    let rows = table.numbers()?;
     let first = rows.len().checked_sub(count);
     let rows =
         first.map(|first| &rows[first..]).filter(|rows| rows.iter().all(|r| r.len() == 3 + COLUMNS.len()));
     match rows {
         Some(rows) => Ok(rows.iter().map(|row| row[3..].to_vec()).collect()),
         None => Err(ReferenceError::Read {
-            file,
+            file: table.file,
             problem: format!("not {count} windows of {} columns", COLUMNS.len()),
         }),
     }
@@ -194,12 +178,13 @@ fn means_in(values: &[Vec<f64>], mesh: [usize; 2], parts: [usize; 2]) -> Vec<[f6
     sum.iter().zip(count).map(|(s, n)| s.map(|u| u / f64::max(n, 1.0))).collect()
 }
 
-fn watched(post: &Path) -> Result<BTreeMap<String, Vec<Vec<f64>>>, ReferenceError> {
+fn watched(case: &Path) -> Result<BTreeMap<String, Vec<Vec<f64>>>, ReferenceError> {
     let mut found = BTreeMap::new();
-    for folder in list(post)? {
+    for folder in list(&case.join("postProcessing"))? {
         let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if name.starts_with(WATCH) {
-            found.insert(name, numbers(&newest(&folder)?)?);
+            let rows = table(case, &name)?.numbers()?;
+            found.insert(name, rows);
         }
     }
     Ok(found)
@@ -224,17 +209,6 @@ pub fn nonuniform(text: &str) -> Result<Vec<Vec<f64>>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lines_of_a_series_are_read_and_others_refused() {
-        let folder = std::env::temp_dir().join(format!("msdd-reference-solver-{}", std::process::id()));
-        let file = folder.join("spaceProbes/0/T");
-        msdd_files::write(&file, b"# Time P1\n0.1 (1 2 3)\n0.2\t4\t5\t6\n").unwrap();
-        assert_eq!(numbers(&newest(&folder.join("spaceProbes")).unwrap()).unwrap()[1], [0.2, 4.0, 5.0, 6.0]);
-        msdd_files::write(&file, b"0.1 nan\n").unwrap();
-        assert!(numbers(&file).unwrap_err().to_string().contains("'nan'"));
-        std::fs::remove_dir_all(&folder).unwrap();
-    }
 
     #[test]
     fn displacement_by_parts_of_the_mesh() {

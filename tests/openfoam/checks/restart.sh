@@ -114,7 +114,7 @@ blocked() { # a file stands where the folder of summary.json must be
     mesh_is '12 6 1'
     mkdir -p postProcessing
     touch postProcessing/msddFoam
-    check "a file that cannot be written is named with the reason" refused 'msddFoam/summary.json": Not a directory'
+    check "a file that cannot be written is named with the reason" refused 'msddFoam/tables.json": Not a directory'
 }
 
 read_only() { # a folder in which nothing can be made is refused before the first step

@@ -6,6 +6,7 @@ mod grain_wishes;
 mod new;
 mod solve;
 mod sphere_wishes;
+mod table;
 mod wishes;
 
 use crate::error::CliError;
@@ -22,6 +23,8 @@ pub enum Command {
     Check(check::Arguments),
     /// Find the cheapest settings of the solver for a wanted accuracy of T, by short runs on the case itself, and run them.
     Solve(solve::Arguments),
+    /// Print a table that a function object has written, as one whole over all parts of the run.
+    Table(table::Arguments),
 }
 
 pub fn run(command: &Command) -> Result<(), CliError> {
@@ -29,5 +32,6 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::New(arguments) => new::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Solve(arguments) => solve::run(arguments),
+        Command::Table(arguments) => table::run(arguments),
     }
 }

@@ -1,6 +1,7 @@
 //! Reads the solver's results in one case folder.
 
 use crate::error::CliError;
+use msdd_case::tables;
 use msdd_files::read_text;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -95,10 +96,8 @@ pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
         .map_err(|text| CliError::Message(format!("{}: {text}", path.display())))?;
     // The points of OpenFOAM's own function object `probes` move with the mesh, that is with the grains; those of spaceProbes
     // stay where they are.
-    let [in_space, with_grains] =
-        ["spaceProbes.dat", "T"].map(|name| folder.join("postProcessing/probes/0").join(name));
-    let path = if in_space.exists() { in_space } else { with_grains };
-    let problem = |text: String| CliError::Message(format!("{}: {text}", path.display()));
+    let table = tables::read(folder, "probes", None)?;
+    let problem = |text: String| CliError::Message(format!("{}: {text}", table.file.display()));
     let result = CaseResult {
         wall_seconds: solver.wall_seconds,
         cpu_seconds: solver.cpu_seconds,
@@ -106,7 +105,7 @@ pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
         queries: solver.queries,
         clamped_queries: solver.clamped_queries,
         mechanics: solver.mechanics,
-        probes: probes(&read_text(&path)?).map_err(problem)?,
+        probes: probes(&table.rows).map_err(problem)?,
         end: solver.end,
     };
     Ok((result, solver.model))
@@ -128,11 +127,11 @@ fn solver_summary(text: &str) -> Result<SolverSummary, String> {
 /// OpenFOAM writes the finite number -VGREAT = -1e300 for a probe that lies in no cell; values below this limit are that.
 const OUTSIDE: f64 = -1e299;
 
-/// Rows of OpenFOAM's probes file: time, then one value a probe; comments start with #.
-fn probes(text: &str) -> Result<Probes, String> {
+/// Rows of OpenFOAM's probes: time, then one value a probe.
+fn probes(rows: &[String]) -> Result<Probes, String> {
     let mut columns = Probes::new();
-    for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with('#')) {
-        let at = || format!("line {}: '{}'", number + 1, line.trim());
+    for line in rows {
+        let at = || format!("'{}'", line.trim());
         let values: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
         let values = values
             .ok()
@@ -152,20 +151,25 @@ fn probes(text: &str) -> Result<Probes, String> {
 mod tests {
     use super::*;
 
+    fn rows(text: &str) -> Vec<String> {
+        text.lines().map(str::to_string).collect()
+    }
+
     #[test]
     fn probes_are_read_by_column() {
-        let table = probes("# Probe 0 (0 0 0)\n#  Time\n  0.1  50 51 52\n  0.2 60 61 62\n").unwrap();
+        let table = probes(&rows("  0.1  50 51 52\n  0.2 60 61 62\n")).unwrap();
         assert_eq!(table["P1"], [(0.1, 50.0), (0.2, 60.0)]);
         assert_eq!(table["P3"], [(0.1, 52.0), (0.2, 62.0)]);
     }
 
     #[test]
     fn bad_probes_are_refused_with_the_line() {
-        assert!(probes("# nothing\n").unwrap_err().contains("no values"));
-        assert!(probes("0.1 50 nan 52\n").unwrap_err().starts_with("line 1"));
-        assert!(probes("0.1 50 51 52\n0.2 60\n").unwrap_err().starts_with("line 2"));
-        assert!(probes("0.1 50 x 51 52\n").unwrap_err().contains("finite numbers"));
-        assert!(probes("0.1 50 -1e+300 52\n").unwrap_err().contains("outside the mesh"));
+        let refusal = |text: &str| probes(&rows(text)).unwrap_err();
+        assert!(refusal("").contains("no values"));
+        assert!(refusal("0.1 50 nan 52\n").starts_with("'0.1 50 nan 52'"));
+        assert!(refusal("0.1 50 51 52\n0.2 60\n").starts_with("'0.2 60'"));
+        assert!(refusal("0.1 50 x 51 52\n").contains("finite numbers"));
+        assert!(refusal("0.1 50 -1e+300 52\n").contains("outside the mesh"));
     }
 
     #[test]

@@ -13,6 +13,7 @@ const FOLDER: &str = "openfoam/granularModels/runRecord/timeFolder.C";
 const SETTINGS: &str = "openfoam/granularModels/granularState/granularStateSettings.C";
 const SUMMARY: &str = "openfoam/msddFoam/runSummary.C";
 const REGION: &str = "openfoam/granularModels/regionPolicy/regionPolicy.C";
+const TABLES: &str = "openfoam/granularModels/runRecord/runTables.C";
 const BOXES: &str = "openfoam/granularModels/onlineRveModel/onlineRveFile.C";
 const ONLINE: &str = "openfoam/granularModels/onlineRveModel/onlineRveModel.C";
 /// `msdd summary`.
@@ -42,6 +43,7 @@ pub fn sets() -> Vec<Set> {
         Set::new(PAGE, "settings", SETTINGS, names),
         Set::new(PAGE, "summary.json", SUMMARY, firsts(JSON_ENTRY, &source(SUMMARY))),
         Set::new(PAGE, "counters of models", ONLINE, firsts(r#"\{"(\w+)","#, &counters)),
+        Set::new(PAGE, "tables.json", TABLES, firsts(JSON_ENTRY, &source(TABLES))),
         Set::new(PAGE, "offenders.json", REGION, firsts(JSON_ENTRY, &source(REGION))),
         Set::new(PAGE, "offenders.json", "struct Offenders, which reads it", offenders),
         fields_of(PAGE, "results/summary.json", GATHERED, "Summary"),

@@ -46,8 +46,9 @@ pub fn read(settings: &Settings, records: &Records) -> Vec<Cycles> {
         let record = settings.record(records, &job(mechanics).into());
         if let Some(run) = record.and_then(|record| record.run.as_ref()) {
             let start = start(&settings.place.checkout).map(|pressure| [0.0, pressure]);
-            // The solver writes no value at the start: add it.
-            let series: Vec<[f64; 2]> = start.into_iter().chain(run.pressure.iter().copied()).collect();
+            // Runs of an older solver have no row at the start.
+            let rows = run.pressure.iter().copied().filter(|row| row[0] > 0.0);
+            let series: Vec<[f64; 2]> = start.into_iter().chain(rows).collect();
             let [xx, yy] = CONDUCTIVITY.map(|quantity| sub_regions(run, quantity).iter().sum::<f64>());
             list.push(Cycles::new(name, &series, xx / yy));
         }

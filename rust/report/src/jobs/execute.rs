@@ -3,6 +3,7 @@
 use super::{setup, spheres, user_case};
 use crate::jobs::job::{CaseJob, CaseProgram, Job, SolverJob, SpheresJob, ToolJob};
 use crate::{ReportError, read_text, write_text};
+use msdd_case::tables;
 use msdd_choice::ChoiceError;
 use msdd_files::Lock;
 use msdd_reference::solver;
@@ -222,7 +223,8 @@ fn run_spheres(place: &Place, job: &Job, asked: &SpheresJob, folder: &Path) -> R
         Ok(text) => {
             let mut record = record(place, job, &ended, Outcome::Done, warning(&log));
             record.printed = text;
-            record.file = Some(read_text(&folder.join(spheres::PROBES))?);
+            let probes = tables::read(folder, "probes", Some("T"))?;
+            record.file = Some([probes.head, probes.rows].concat().join("\n") + "\n");
             Ok(record)
         }
         Err(problem) => Ok(record(place, job, &ended, Outcome::Failed, short(&problem))),

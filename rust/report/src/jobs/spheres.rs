@@ -5,8 +5,6 @@ use crate::{ReportError, read_text, write_text};
 use std::path::Path;
 use std::process::Command;
 
-/// T at the probes, in the folder of a run.
-pub const PROBES: &str = "postProcessing/probes/0/T";
 const MESH: &str = "system/blockMeshDict";
 const ELEMENTS: &str = "elements.csv";
 

@@ -2,6 +2,7 @@
 
 use crate::jobs::job::{CaseDiscs, CaseJob, CaseProgram, CaseRun};
 use crate::{ReportError, read_text};
+use msdd_case::tables;
 use msdd_choice::quantity::Quantity;
 use msdd_choice::record;
 use msdd_choice::scene::Scene;
@@ -194,13 +195,14 @@ fn watch(scene: &Scene, run: &CaseRun) -> String {
 
 fn of_solver(copy: &Path, run: &CaseRun) -> Result<Measured, ReportError> {
     let outcome = read_outcome(copy, 0.0)?;
-    // The file of a function object, in the folder of the only start time; `None` if it wrote none, such as D where grains stay.
-    let file = |name: &str, field: &str| {
-        let starts = list(&copy.join("postProcessing").join(format!("{WATCH}{name}"))).ok()?;
-        starts.first().map(|start| start.join(field)).filter(|file| file.is_file())
+    // Without rows if the function object wrote none, such as D where grains stay.
+    let read = |name: &str, field: &str| {
+        let name = format!("{WATCH}{name}");
+        match tables::parts(copy, &name, Some(field)) {
+            Ok(_) => Series::read(copy, &name, field),
+            Err(_) => Ok(Series::default()),
+        }
     };
-    let read =
-        |name: &str, field: &str| file(name, field).map_or(Ok(Series::default()), |file| Series::read(&file));
     let (temperature, pressure, displacement) = match run.discs {
         None => (outcome.series(Quantity::Temperature).clone(), read("", "pressure")?, read("", "D")?),
         Some(_) => {
