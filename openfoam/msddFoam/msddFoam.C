@@ -226,7 +226,7 @@ int main(int argc, char *argv[])
     grains.writeReport();
     mechanics.writeReport();
     made.neighbours->report();
-    summary.write(scheme.rejected());
+    summary.write(scheme.rejected(), made.neighbours->doubt());
 
     Info<< "End\n" << endl;
 

@@ -20,13 +20,6 @@ License
 
 #include <map>
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-//- Difference of the heat received and held, over the heat exchanged, that is
-//- no rounding and no tolerance of the linear solver
-static const double muchHeat = 0.01;
-
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::runSummary::heatBalance Foam::runSummary::heat() const
@@ -118,7 +111,7 @@ Foam::string Foam::runSummary::balance(const heatBalance& heat) const
         return "Heat: none went into the bed or out of it.";
     }
     return
-        string(heat.difference() > muchHeat ? "Doubt: heat is lost or made. " : "")
+        string(heat.difference() > runRecord::muchHeat ? "Doubt: heat is lost or made. " : "")
       + "Heat: since the start " + brief(heat.patches) + " J came in"
         " through the boundary and " + brief(heat.sources) + " J from sources;"
         " the grains hold " + brief(heat.stored) + " J more. Heat received and"

@@ -47,7 +47,11 @@ Foam::fileName Foam::runSummary::path() const
 }
 
 
-void Foam::runSummary::write(const label rejected) const
+void Foam::runSummary::write
+(
+    const label rejected,
+    const string& solids
+) const
 {
     const fvMesh& mesh = grains_.mesh();
     const Time& time = mesh.time();
@@ -76,7 +80,10 @@ void Foam::runSummary::write(const label rejected) const
     for
     (
         const string& sentence :
-        {range(), doubt(), contact(), balance(heat), motion(), cost()}
+        {
+            range(), doubt(), contact(), balance(heat), solids, motion(),
+            cost()
+        }
     )
     {
         if (!sentence.empty())

@@ -39,9 +39,10 @@ Foam::functionObjects::heatAudit::heatAudit
 )
 :
     granularFunctionObject(name, typeName, runTime, dict),
-    tolerance_(dict.lookupOrDefault<scalar>("tolerance", VGREAT))
+    tolerance_(dict.lookupOrDefault<scalar>("tolerance", VGREAT)),
+    difference_(0)
 {
-    read(dict);
+    begin(dict);
 }
 
 
@@ -49,6 +50,13 @@ Foam::functionObjects::heatAudit::heatAudit
 
 void Foam::functionObjects::heatAudit::writeHeader(Ostream& os) const
 {
+    explain(os, "Heat since the start of the run [J], into the grains positive");
+    explain
+    (
+        os,
+        "relative_difference: |stored - patches - sources| over exchanged, the"
+        " sum of the absolute amounts of all steps"
+    );
     writeCommented(os, "Time");
     writeTabbed(os, "stored");
     writeTabbed(os, "patches");
@@ -62,6 +70,10 @@ void Foam::functionObjects::heatAudit::writeHeader(Ostream& os) const
 
 bool Foam::functionObjects::heatAudit::write()
 {
+    if (lacks({"T", "initialTemperature", "bulkDensity"}))
+    {
+        return true;
+    }
     const runRecord& known = record();
     const tmp<volScalarField> tT(present<scalar>("T"));
     const tmp<volScalarField> tT0(present<scalar>("initialTemperature"));
@@ -74,21 +86,34 @@ bool Foam::functionObjects::heatAudit::write()
     const scalar patches = returnReduce(sum(known.heat), sumOp<scalar>());
     const scalar sources = returnReduce(known.sourceHeat, sumOp<scalar>());
     const scalar exchanged = returnReduce(known.exchanged, sumOp<scalar>());
-    const scalar difference = mag(stored - patches - sources)
+    difference_ = mag(stored - patches - sources)
        /max(exchanged, runRecord::roundedHeat*content);
 
     if (Pstream::master())
     {
         line()
             << tab << stored << tab << patches << tab << sources
-            << tab << exchanged << tab << difference << endl;
+            << tab << exchanged << tab << difference_ << endl;
     }
-    if (difference > tolerance_)
+    if (difference_ > tolerance_)
     {
         FatalErrorInFunction
-            << "Heat stored differs from heat received by " << difference
+            << "Heat stored differs from heat received by " << difference_
             << " of the heat exchanged, allowed: " << tolerance_
             << exit(FatalError);
+    }
+    return true;
+}
+
+
+bool Foam::functionObjects::heatAudit::end()
+{
+    if (difference_ > runRecord::muchHeat)
+    {
+        WarningInFunction
+            << "Heat is lost or made: stored and received heat differ by "
+            << difference_ << " of the heat exchanged, expected: below "
+            << runRecord::muchHeat << endl;
     }
     return true;
 }

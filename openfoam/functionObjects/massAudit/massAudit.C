@@ -29,6 +29,12 @@ namespace functionObjects
 }
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+//- Relative change of the mass that is no rounding
+static const Foam::scalar muchMass = 1e-6;
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::functionObjects::massAudit::massAudit
@@ -38,9 +44,10 @@ Foam::functionObjects::massAudit::massAudit
     const dictionary& dict
 )
 :
-    granularFunctionObject(name, typeName, runTime, dict)
+    granularFunctionObject(name, typeName, runTime, dict),
+    change_(0)
 {
-    read(dict);
+    begin(dict);
 }
 
 
@@ -48,6 +55,24 @@ Foam::functionObjects::massAudit::massAudit
 
 void Foam::functionObjects::massAudit::writeHeader(Ostream& os) const
 {
+    explain
+    (
+        os,
+        "mass of the grains [kg]; relative_change: since the start, 0 if none is"
+        " lost"
+    );
+    explain
+    (
+        os,
+        "density_mismatch: largest relative difference of particleDensity*(1 -"
+        " porosity) and bulkDensity over the cells, 0 if they agree"
+    );
+    explain
+    (
+        os,
+        "density_ratio: mean of particleDensity over the density of the grains,"
+        " above 1 because porosity counts overlaps once"
+    );
     writeCommented(os, "Time");
     writeTabbed(os, "mass");
     writeTabbed(os, "relative_change");
@@ -60,6 +85,10 @@ void Foam::functionObjects::massAudit::writeHeader(Ostream& os) const
 
 bool Foam::functionObjects::massAudit::write()
 {
+    if (lacks({"bulkDensity", "particleDensity", "porosity", "thermalStrain"}))
+    {
+        return true;
+    }
     refresh();
     const tmp<volScalarField> tbulk(present<scalar>("bulkDensity"));
     const tmp<volScalarField> tparticle(present<scalar>("particleDensity"));
@@ -74,6 +103,7 @@ bool Foam::functionObjects::massAudit::write()
 
     const scalar mass = gSum(bulk*V);
     const scalar before = record().initialMass;
+    change_ = before > 0 ? mass/before - 1 : 0;
     const scalarField expanded(sqr(1 + tstrain().primitiveField()));
     const scalar mismatch =
         gMax
@@ -89,8 +119,21 @@ bool Foam::functionObjects::massAudit::write()
     if (Pstream::master())
     {
         line()
-            << tab << mass << tab << (before > 0 ? mass/before - 1 : 0)
+            << tab << mass << tab << change_
             << tab << mismatch << tab << density << endl;
+    }
+    return true;
+}
+
+
+bool Foam::functionObjects::massAudit::end()
+{
+    if (mag(change_) > muchMass)
+    {
+        WarningInFunction
+            << "Mass is lost or made: the mass of the grains changed by "
+            << change_ << " of that at the start, expected: below "
+            << muchMass << endl;
     }
     return true;
 }

@@ -18,7 +18,9 @@ License
 #include "neighbourSolids.H"
 #include "granularProperties.H"
 #include "IOdictionary.H"
+#include "OStringStream.H"
 #include "regionProperties.H"
+#include "runRecord.H"
 #include "mappedPatchBase.H"
 #include "fvmLaplacian.H"
 #include "fvmSup.H"
@@ -295,6 +297,17 @@ Foam::scalar Foam::neighbourSolids::storedHeat()
 }
 
 
+Foam::neighbourSolids::heatBalance Foam::neighbourSolids::balance()
+{
+    return
+    {
+        returnReduce(entered_, sumOp<scalar>()),
+        returnReduce(given_, sumOp<scalar>()),
+        storedHeat() - startHeat_
+    };
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::neighbourSolids::begin()
@@ -418,15 +431,11 @@ void Foam::neighbourSolids::report()
     {
         return;
     }
-    const scalar entered = returnReduce(entered_, sumOp<scalar>());
-    const scalar given = returnReduce(given_, sumOp<scalar>());
-    const scalar more = storedHeat() - startHeat_;
-    Info<< "Solids beside the bed: " << entered << " J came in from outside, "
-        << given << " J went to the bed, and they hold " << more
-        << " J more; the difference is "
-        << mag(entered - given - more)
-          /max(mag(entered) + mag(given) + mag(more), VSMALL)
-        << " of these. " << scalar(solutions_)/max(stages_, label(1))
+    const heatBalance heat(balance());
+    Info<< "Solids beside the bed: " << heat.entered
+        << " J came in from outside, " << heat.given
+        << " J went to the bed, and they hold " << heat.more
+        << " J more; the difference is " << heat.difference() << " of these. " << scalar(solutions_)/max(stages_, label(1))
         << " solutions a stage";
     if (unconverged_)
     {
@@ -434,6 +443,42 @@ void Foam::neighbourSolids::report()
             << " stages ended before bed and solids had met";
     }
     Info<< nl << endl;
+}
+
+
+Foam::string Foam::neighbourSolids::doubt()
+{
+    if (empty())
+    {
+        return string();
+    }
+    wordList names;
+    for (const solid& s : solids_)
+    {
+        names.append(s.mesh->name());
+    }
+    const string walls
+    (
+        "between the bed and " + granularProperties::listed(names)
+    );
+    const scalar difference = balance().difference();
+    OStringStream text;
+    text.precision(3);
+    if (difference > runRecord::muchHeat)
+    {
+        text<< "Doubt: heat is lost or made at the walls " << walls.c_str()
+            << ": what these solids received, gave to the bed and hold differs"
+            << " by " << difference << " of these amounts, expected: below "
+            << runRecord::muchHeat << ". Where the faces on both sides of a"
+            << " wall differ, use sampleMode nearestPatchFaceAMI. ";
+    }
+    if (unconverged_)
+    {
+        text<< "Doubt: in " << unconverged_ << " of " << stages_
+            << " stages the temperatures at the walls " << walls.c_str()
+            << " had not converged after " << mostSolutions << " solutions.";
+    }
+    return text.str();
 }
 
 

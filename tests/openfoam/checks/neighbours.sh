@@ -110,6 +110,32 @@ heat_over_all() {
         check "solid beside the bed, $name: heat of the bed $e <= 1e-9" below "$e" 1e-9
     done
 }
+unequal_faces() { # 24 faces of the bed meet 5 of the plate, hot below: nearestPatchFace loses heat, which must be said
+    local mode e
+    for mode in nearestPatchFace nearestPatchFaceAMI; do
+        layers_case neighbour-unequal-$mode 40 'endTime 10000; deltaT 500; writeInterval 20;' ''
+        sed -i "s/nearestPatchFace;/$mode;/; s/(40 3 1)/(40 24 1)/" system/blockMeshDict
+        sed -i "s/nearestPatchFace;/$mode;/; s/(40 3 1)/(40 5 1)/" system/plate/blockMeshDict
+        logged blockMesh
+        logged blockMesh -region plate
+        grains 'surrogate { type constant; constantCoeffs { conductivity (2 0 0 2 0 0); } }'
+        cells_are 0/T '0 0 0 1 0 0 0' 'uniform 300' "left { type fixedValue; value uniform 300; }
+            bottom { type fixedValue; value uniform 500; } $(coupling right lookup | sed 's/thicknessLayers.*//') }"
+        cells_are 0/plate/T '0 0 0 1 0 0 0' 'uniform 300' "right { type fixedValue; value uniform 300; }
+            $(coupling left solidThermo | sed 's/thicknessLayers.*//') }"
+        sed -i 's/kappa K;/kappa K; value uniform 300;/' 0/T 0/plate/T
+        logged msddFoam
+        e=$(heat_closes)
+        if [ $mode = nearestPatchFace ]; then
+            check "unequal faces, $mode: the loss of $e is a doubt with its remedy" grep -q \
+                'Doubt: heat is lost or made at the walls between the bed and plate: .*use sampleMode nearestPatchFaceAMI' log
+            check "unequal faces, $mode: it is in summary.json" grep -q 'Doubt: heat is lost or made at the walls' postProcessing/msddFoam/summary.json
+        else
+            check "unequal faces, $mode: heat closes to $e <= 1e-8" below "$e" 1e-8
+            check "unequal faces, $mode: no doubt about it" bash -c '! grep -q "heat is lost" log'
+        fi
+    done
+}
 on_processes() { # the coupled patches are cut along y
     local e name
     layers_case neighbour-processes 16 'endTime 20; deltaT 2; writeInterval 10;' 'timeScheme secondOrder;'
@@ -248,6 +274,7 @@ neighbours_that_cannot_be() {
 }
 orders
 heat_over_all
+unequal_faces
 on_processes
 restarted
 killed_with_a_solid

@@ -159,6 +159,28 @@ energy_of_regions() { # heat from within goes to the plate and to the walls; wit
     e=$(lines_differ whole/postProcessing/regionHeat/0/regionHeat.dat postProcessing/regionHeat/0.5/regionHeat.dat)
     check "the balance continues over a restart: its last line differs by $e <= 1e-12" below "$e" 1e-12
 }
+unequal_faces_of_regions() { # 25 faces of the bed, which is hot below, meet 2 of the plate
+    local mode warned
+    for mode in nearestPatchFace nearestPatchFaceAMI; do
+        regions unequal-$mode 'bed plate' 30
+        controls 'endTime 5000; deltaT 500; writeInterval 10;'
+        region bed '40 25' '0 0 0.4 0.1' 'right plate left'
+        region plate '40 2' '0.4 0 1 0.1' 'left bed right'
+        sed -i "s/nearestPatchFace;/$mode;/" system/*/blockMeshDict
+        logged blockMesh -region bed
+        logged blockMesh -region plate
+        bed bed 'bulkDensity paper; thermalExpansion 0; surrogate { type constant; constantCoeffs { conductivity (2 0 0 2 0 0); } }'
+        plate plate 5 3 800
+        temperature bed 'uniform 300' "left { type fixedValue; value uniform 300; } bottom { type fixedValue; value uniform 500; }
+            $(coupled right 0.01) top { type zeroGradient; }"
+        temperature plate 'uniform 300' "$(coupled left 0.01) right { type fixedValue; value uniform 300; } \".*\" { type zeroGradient; }"
+        region_heat
+        logged chtMultiRegionFoam
+        warned=$(tr -d '\n' < log | grep -c 'Heat is lost or made between the solid regions: .*nearestPatchFaceAMI' || true)
+        check "regions with unequal faces, $mode: $(balance 7) J are lost at the wall, which is said: $warned warnings" \
+            test "$warned" = "$([ $mode = nearestPatchFace ] && echo 1 || echo 0)"
+    done
+}
 same_bytes() { # name of the check, regions: the fields of time 1 in the folders whole and . are the same, byte by byte
     local what=$1 name differing=''
     shift
@@ -273,6 +295,7 @@ against_msdd_foam
 layers_in_time
 layers_at_rest
 energy_of_regions
+unequal_faces_of_regions
 restarted_regions
 region_parts
 region_refusals
