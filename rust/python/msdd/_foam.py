@@ -53,6 +53,9 @@ def open_file(path: Path) -> FoamFile:
 
 def numbers(file: FoamFile, text: bytes) -> NDArray[np.float64]:
     """All numbers of a text with or without brackets."""
+    if b"$" in text:
+        macro = text[text.find(b"$") :].split()[0].decode(errors="replace")
+        raise file.wrong(f"{macro} is a macro, allowed: numbers; 'foamDictionary -expand {file.path.name}' prints them")
     try:
         return np.array(text.translate(bytes.maketrans(b"()", b"  ")).split(), np.float64)
     except ValueError as error:
@@ -89,6 +92,9 @@ def read_list(file: FoamFile, kind: str, start: int = 0) -> tuple[NDArray[np.flo
 def read_internal_field(file: FoamFile) -> tuple[bool, NDArray[np.float64]]:
     """Whether the values in the cells are uniform, and the value, () or (components,), or values, (cells,) or
     (cells, components)."""
+    macro = re.search(rb"\binternalField\s+\$[^;]*", file.data)
+    if macro is not None:
+        numbers(file, macro.group(0))
     entry = re.search(rb"\binternalField\s+(uniform|nonuniform)\s*", file.data)
     if entry is None:
         raise file.wrong("no internalField (one that another file includes is not looked for)")

@@ -23,12 +23,15 @@ class Mesh(NamedTuple):
     """their volumes [m3], (cells,); of a two-dimensional case the area times the thickness of the mesh"""
 
 
-def read_mesh(case: Union[str, os.PathLike[str]]) -> Mesh:
-    """Centres and volumes of the cells of a case, from its constant/polyMesh (blockMesh writes it).
+def read_mesh(case: Union[str, os.PathLike[str]], region: Union[str, None] = None) -> Mesh:
+    """Centres and volumes of the cells of a case, from its constant/polyMesh (blockMesh writes it), or of one of its regions,
+    from constant/<region>/polyMesh.
 
     Raises CaseError when the mesh is missing or damaged.
     """
-    folder = Path(case) / "constant/polyMesh"
+    folder = mesh_folder(case, region)
+    if not folder.is_dir():
+        raise CaseError(f"{folder / 'points'}: no such file{listed_regions(case)}")
     points = read_whole(folder / "points", "vector")
     faces = read_faces(folder / "faces")
     owner = read_whole(folder / "owner", "label").astype(np.int64)
@@ -51,6 +54,20 @@ def read_mesh(case: Union[str, os.PathLike[str]]) -> Mesh:
     if np.any(volumes <= 0):
         raise CaseError(f"{folder}: cells without volume, the first is number {int(np.argmax(volumes <= 0))}")
     return Mesh(_sums(volume[:, None] * (0.75 * centres + 0.25 * middle[cells]), cells, count) / volumes[:, None], volumes)
+
+
+def mesh_folder(case: Union[str, os.PathLike[str]], region: Union[str, None]) -> Path:
+    """The folder of a mesh; CaseError for a region that the case does not have."""
+    folder = Path(case) / "constant" / (region or "") / "polyMesh"
+    if region is not None and not folder.is_dir():
+        raise CaseError(f"{folder}: no mesh of a region {region}{listed_regions(case)}")
+    return folder
+
+
+def listed_regions(case: Union[str, os.PathLike[str]]) -> str:
+    """For messages: "; regions of the case: bed, wall", or nothing."""
+    names = sorted(path.parent.name for path in (Path(case) / "constant").glob("*/polyMesh"))
+    return f"; regions of the case, to be named by region=: {', '.join(names)}" if names else ""
 
 
 def _sums(values: Array, groups: NDArray[np.int64], count: int) -> Array:

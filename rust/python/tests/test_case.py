@@ -1,6 +1,7 @@
 """Results of cases: files as OpenFOAM writes them, restarts, and files that are cut short or are something else."""
 
 import json
+import os
 import random
 import tempfile
 import unittest
@@ -148,7 +149,7 @@ class Outputs(WithCase):
         store(folder / "0/p", PROBES.encode())
         self.assertEqual(msdd.read_probes(self.case, "p").values.shape, (0, 2))
         store(folder / "1/U", (PROBES + "  1.5  1 4\n").encode())
-        self.refused("other probes than before", msdd.read_probes, self.case, "U")
+        self.refused("other points or columns", msdd.read_probes, self.case, "U")
         self.refused("no q in it", msdd.read_probes, self.case, "q")
         self.refused("no T in it", msdd.read_probes, self.case, "T", "others")
         for rows in ("0.5 1\n", "0.5 1 2\n1 2\n", "0.5 a 2\n"):
@@ -164,22 +165,84 @@ class Outputs(WithCase):
         np.testing.assert_array_equal(table["Time"], [0.05, 0.075])
         np.testing.assert_array_equal(table["mass"], [3.5, 4])
         store(file.parents[1] / "0.05/massAudit.dat", b"# Time other\n0.075\t4\n")
-        self.refused("other columns", msdd.read_table, self.case, "massAudit")
+        self.refused("other points or columns", msdd.read_table, self.case, "massAudit")
+        (file.parents[1] / "0.05/massAudit.dat").unlink()
         store(file, b"0.05 3.5\n")
         self.refused("names of columns", msdd.read_table, self.case, "massAudit")
 
     def test_tables_of_function_objects_with_a_name_of_their_own(self) -> None:
         folder = self.case / "postProcessing/sp"
-        self.refused("no sp.dat", msdd.read_table, self.case, "sp")
+        self.refused("no table in it", msdd.read_table, self.case, "sp")
         store(folder / "0/spaceProbes.dat", b"# Time T_0\n0.5\t300\n1\t301\n")
         store(folder / "0/spaceProbes_0.dat", b"# Time T_0\n0.5\t7\n")
         store(folder / "1/spaceProbes.dat", b"# Time T_0\n1.5\t302\n")
         table = msdd.read_table(self.case, "sp")
         self.assertEqual(list(table), ["Time", "T_0"])
-        np.testing.assert_array_equal(table["Time"], [0.5, 1, 1.5])
-        np.testing.assert_array_equal(table["T_0"], [300, 301, 302])
+        # Of the two files of the first start that which was written last.
+        np.testing.assert_array_equal(table["Time"], [0.5, 1.5])
+        np.testing.assert_array_equal(table["T_0"], [7, 302])
         store(folder / "0/other.dat", b"# Time T_0\n0.5\t300\n")
         self.refused("several tables: other.dat, spaceProbes.dat", msdd.read_table, self.case, "sp")
+
+
+    def test_the_list_of_the_solver_says_which_files_belong_to_the_run(self) -> None:
+        folder = self.case / "postProcessing/p"
+        store(folder / "0/p.dat", b"# Time a\n0 1\n1 1\n")
+        store(folder / "0/p_0.dat", b"# Time a\n0 5\n0.5 5\n0.6 5\n")
+        store(folder / "0.5/p.dat", b"# Time a\n0.6 7\n")
+        store(folder / "0.5/p_0.5.dat", b"# note\n# Time a\n0.6 8\n0.7 8\n")
+        store(folder / "1/p.dat", b"# Time a\n0.5 9\n")  # by postProcess
+        listed = self.case / "postProcessing/msddFoam/tables.json"
+        runs = [{"start": 0, "files": ["p/0/p_0.dat"]}, {"start": 0.5, "files": ["p/0.5/p_0.5.dat"]}]
+        store(listed, json.dumps({"schema": "msdd-tables-1", "runs": runs}).encode())
+        table = msdd.read_table(self.case, "p")
+        np.testing.assert_array_equal(table["Time"], [0, 0.5, 0.6, 0.7])
+        np.testing.assert_array_equal(table["a"], [5, 5, 8, 8])
+        store(self.case / "postProcessing/q/bed/0/T", (PROBES + "  0.5  1 2\n").encode())
+        np.testing.assert_array_equal(msdd.read_probes(self.case, "T", "q", region="bed").values, [[1, 2]])
+        store(self.case / "postProcessing/bed/r/0/r.dat", b"# Time a\n1 2\n")
+        np.testing.assert_array_equal(msdd.read_table(self.case, "r", region="bed")["a"], [2])
+        for text in (b"{", b'{"schema": "other", "runs": []}', b'{"schema": "msdd-tables-1", "runs": [{}]}'):
+            store(listed, text)
+            self.refused("tables.json", msdd.read_table, self.case, "p")
+
+    def test_without_a_list_the_newest_file_of_each_start_counts(self) -> None:
+        folder = self.case / "postProcessing/p"
+        store(folder / "10/p.dat", b"# Time a\n10 3\n11 3\n")
+        store(folder / "2/p_2.dat", b"# Time a\n2 1\n3 1\n12 1\n")
+        store(folder / "2/p.dat", b"# Time a\n2 0\n")
+        os.utime(folder / "2/p.dat", (0, 0))
+        np.testing.assert_array_equal(msdd.read_table(self.case, "p")["Time"], [2, 3, 10, 11])
+        np.testing.assert_array_equal(msdd.read_table(self.case, "p")["a"], [1, 1, 3, 3])
+
+
+class Regions(WithCase):
+    def test_fields_and_meshes_of_regions(self) -> None:
+        points, faces, owner, neighbour = two_cells()
+        write_mesh(self.case, points, faces, owner, neighbour)
+        (self.case / "constant/bed").mkdir()
+        (self.case / "constant/polyMesh").rename(self.case / "constant/bed/polyMesh")
+        p = self.case / "0/bed/p"
+        store(p, head(p, "volScalarField") + b"internalField   uniform 50;\n")
+        write_field(self.case / "0/bed/T", np.array([1.0, 2.0]))
+        for field, region in (("p", "bed"), ("bed/p", None)):
+            np.testing.assert_array_equal(msdd.read_field(self.case, "latest", field, region), [50, 50])
+        np.testing.assert_array_equal(msdd.read_field(self.case, region="bed"), [1, 2])
+        np.testing.assert_allclose(msdd.read_mesh(self.case, region="bed").volumes, [1, 1], rtol=1e-14)
+        for call in (lambda: msdd.read_field(self.case), lambda: msdd.read_mesh(self.case),
+                     lambda: msdd.read_field(self.case, region="wall"), lambda: msdd.read_mesh(self.case, "wall")):  # fmt: skip
+            self.refused("regions of the case, to be named by region=: bed", call)
+
+    def test_latest_passes_over_what_function_objects_left(self) -> None:
+        write_field(self.case / "8/T", np.array([3.0]))
+        store(self.case / "8.35/uniform/functionObjects/functionObjectProperties", b"")
+        np.testing.assert_array_equal(msdd.read_field(self.case), [3])
+
+    def test_a_macro_is_named(self) -> None:
+        T = self.case / "1/T"
+        for text in (b"internalField uniform $T0;", b"internalField $T0;", b"internalField nonuniform List<scalar> 2(1 $T0);"):
+            store(T, head(T, "volScalarField") + b"T0 300;\n" + text)
+            self.refused(r"1/T: \$T0.* is a macro.*foamDictionary -expand", msdd.read_field, self.case)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """What the solver has written, and a plug-in; tests/python/run makes both."""
 
+import json
 import os
 import re
 import unittest
@@ -47,7 +48,11 @@ class Solver(unittest.TestCase):
             nearest = np.argmin(np.linalg.norm(msdd.read_mesh(self.ascii).centres - where, axis=1))
             self.assertAlmostEqual(temperature[nearest], value, places=10)
         self.assertEqual(msdd.read_probes(self.ascii, "stress").values.shape, (len(probes.times), 2, 6))
+        files = ["massAudit/0/massAudit.dat", "probes/0/T", "probes/0/stress"]
+        listed = json.loads((self.ascii / "postProcessing/msddFoam/tables.json").read_text())
+        self.assertEqual(listed, {"schema": "msdd-tables-1", "runs": [{"start": 0, "files": files}]})
         audit = msdd.read_table(self.ascii, "massAudit")
+        np.testing.assert_allclose(audit["Time"], np.linspace(0, 0.5, 11), atol=1e-12)
         self.assertLess(np.abs(audit["relative_change"]).max(), 1e-12)
 
     def test_solver_and_package_ask_the_same_model(self) -> None:
