@@ -143,6 +143,23 @@ inline msdd_initial initial(std::size_t cells) noexcept
     return result;
 }
 
+/** Least and largest value of a quantity by which the model with this hash was compared with discrete elements, see msdd_compared.
+ *  Returns false and sets nothing if it was not. */
+inline bool compared(const std::string& hash, const std::string& quantity, double& least, double& most)
+{
+    const detail::MaskedTraps masked;
+    return msdd_compared(hash.c_str(), quantity.c_str(), &least, &most) == MSDD_OK;
+}
+
+/** Conductivity of a gas [W/(m K)] at a temperature [K], see msdd_gas_conductivity. Throws Error. */
+inline double gasConductivity(const std::string& gas, double temperature)
+{
+    const detail::MaskedTraps masked;
+    double conductivity = 0;
+    detail::check(msdd_gas_conductivity(gas.c_str(), temperature, &conductivity));
+    return conductivity;
+}
+
 /** A surrogate model: immutable, movable, not copyable. */
 class Surrogate
 {

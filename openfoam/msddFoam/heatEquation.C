@@ -121,7 +121,8 @@ Foam::heatEquation::heatEquation
     slanted_(false),
     constrained_(false),
     patchHeat_(mesh_.boundary().size(), Zero),
-    sourceHeat_(0)
+    sourceHeat_(0),
+    sourceDensity_(0)
 {
     checkSources();
     // Making the matrix has updated time-dependent walls to the start time and
@@ -146,6 +147,10 @@ Foam::heatEquation::heatEquation
     if (!aligned_)
     {
         reportAngle();
+    }
+    if (!sources_.optionList::empty())
+    {
+        presentSources();
     }
 }
 

@@ -123,6 +123,19 @@ Foam::tmp<Foam::scalarField> Foam::heatEquation::heatOf
 }
 
 
+Foam::tmp<Foam::scalarField> Foam::heatEquation::presentSources()
+{
+    tmp<scalarField> heat(heatOf(sources_(heatCapacity_, T_)()));
+    const scalarField& V = mesh_.V();
+    sourceDensity_ = 0;
+    forAll(V, celli)
+    {
+        sourceDensity_ = max(sourceDensity_, mag(heat()[celli])/V[celli]);
+    }
+    return heat;
+}
+
+
 Foam::scalar Foam::heatEquation::heatOfConstraints() const
 {
     if (!free_.valid())
@@ -152,7 +165,7 @@ bool Foam::heatEquation::finishSources(const tmp<fvScalarMatrix>& S)
     }
     // The heat that the solution has got, and the one at its temperature
     const scalarField got(heatOf(S()));
-    const scalarField due(heatOf(sources_(heatCapacity_, T_)()));
+    const scalarField due(presentSources());
     sourceHeat_ = sum(got) + heatOfConstraints();
     return gMax(mag(got - due)) <= settled*gMax(mag(due));
 }

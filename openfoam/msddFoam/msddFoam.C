@@ -193,9 +193,10 @@ int main(int argc, char *argv[])
     granularState& grains = made.grains();
     granularMechanics& mechanics = made.mechanics();
     timeScheme& scheme = made.scheme();
-    const runSummary summary(T, grains, mechanics, wallClock);
+    const runSummary summary(made.properties(), T, grains, mechanics, wallClock);
     grains.record().findFiles();
-    sceneWarnings(made.properties(), T, grains, mechanics).print();
+    const sceneWarnings warnings(made.properties(), T, grains, mechanics);
+    warnings.print();
 
     stepWatch watch(scheme.waitLimit());
     runTables tables(runTime, !grains.record().continues);
@@ -226,7 +227,10 @@ int main(int argc, char *argv[])
     grains.writeReport();
     mechanics.writeReport();
     made.neighbours->report();
-    summary.write(scheme.rejected(), made.neighbours->doubt());
+    summary.write
+    (
+        scheme.rejected(), warnings.all(), made.neighbours->doubt()
+    );
 
     Info<< "End\n" << endl;
 

@@ -43,7 +43,9 @@ Foam::string Foam::runSummary::range() const
     {
         return
             "Range: the model was never asked about a state outside the range"
-            " that it was made for.";
+            " that it was made for, "
+          + string(grains_.record().course.beyond().size() ? "but " : "and ")
+          + comparison() + ".";
     }
     const scalar share = 100*scalar(clamped)/max(scalar(grains_.asked()), 1.0);
     const label cells =
@@ -60,7 +62,8 @@ Foam::string Foam::runSummary::range() const
           ? " Such cells, at most 10000 of each process, are listed in"
             " postProcessing/msddFoam/offenders.json."
           : ""
-        );
+        )
+      + " Compared: " + comparison() + ".";
 }
 
 

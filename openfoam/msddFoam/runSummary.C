@@ -19,14 +19,37 @@ License
 #include "wholeFile.H"
 #include "Time.H"
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- A list of texts of a JSON file
+static void writeTexts(Ostream& os, const UList<string>& texts)
+{
+    os  << '[';
+    forAll(texts, i)
+    {
+        os  << (i ? ", " : "") << texts[i];
+    }
+    os  << ']';
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
 Foam::runSummary::runSummary
 (
+    const granularProperties& properties,
     const volScalarField& T,
     granularState& grains,
     const granularMechanics& mechanics,
     const clockTime& wallClock
 )
 :
+    properties_(properties),
     T_(T),
     grains_(grains),
     mechanics_(mechanics),
@@ -47,9 +70,38 @@ Foam::fileName Foam::runSummary::path() const
 }
 
 
+void Foam::runSummary::writeCourse
+(
+    Ostream& os,
+    const heatBalance& heat,
+    const UList<string>& warnings
+) const
+{
+    const runCourse& course = grains_.record().course;
+    const scalar since = course.beyondSince();
+    const scalar share = steadyShare(heat);
+    const auto orNull = [&os](const bool known, const scalar value)
+    {
+        known ? os << value : os << "null";
+    };
+    os  << "  \"compared\": {\"known\": "
+        << (course.compared() ? "true" : "false") << ", \"beyond\": ";
+    writeTexts(os, course.beyond());
+    os  << ", \"beyond_since\": ";
+    orNull(since < GREAT, since);
+    os  << "},\n  \"steady\": {\"rate\": " << course.rate()
+        << ", \"uptake\": " << course.uptake().heat << ", \"share\": ";
+    orNull(share > 0, share);
+    os  << "},\n  \"warnings\": ";
+    writeTexts(os, warnings);
+    os  << ",\n";
+}
+
+
 void Foam::runSummary::write
 (
     const label rejected,
+    const UList<string>& warnings,
     const string& solids
 ) const
 {
@@ -81,8 +133,8 @@ void Foam::runSummary::write
     (
         const string& sentence :
         {
-            range(), doubt(), contact(), balance(heat), solids, motion(),
-            cost()
+            range(), radiation(), contacts(), doubt(), contact(),
+            balance(heat), solids, steadiness(heat), motion(), cost()
         }
     )
     {
@@ -100,11 +152,6 @@ void Foam::runSummary::write
         Info<< "  - " << sentence.c_str() << nl;
     }
     Info<< endl;
-
-    if (!Pstream::master())
-    {
-        return;
-    }
 
     OStringStream os;
     os.precision(10);
@@ -137,8 +184,9 @@ void Foam::runSummary::write
         << ", \"sources\": " << heat.sources
         << ", \"stored\": " << heat.stored
         << ", \"exchanged\": " << heat.exchanged
-        << ", \"relative_difference\": " << heat.difference() << "},\n"
-        << "  \"what_to_know\": [";
+        << ", \"relative_difference\": " << heat.difference() << "},\n";
+    writeCourse(os, heat, warnings);
+    os  << "  \"what_to_know\": [";
     forAll(sentences, i)
     {
         os  << (i ? ",\n    " : "\n    ") << sentences[i];
@@ -167,7 +215,10 @@ void Foam::runSummary::write
     os  << "    \"stress_xx\": " << -meanStress.xx() << ",\n"
         << "    \"stress_yy\": " << -meanStress.yy() << ",\n"
         << "    \"pressure\": " << meanPressure << "\n  }\n}" << endl;
-    writeWhole(path(), [&](std::ostream& file) { file << os.str(); });
+    if (Pstream::master())
+    {
+        writeWhole(path(), [&](std::ostream& file) { file << os.str(); });
+    }
 }
 
 

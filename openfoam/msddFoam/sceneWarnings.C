@@ -52,6 +52,11 @@ Foam::sceneWarnings::sceneWarnings
 {
     checkSize();
     checkParts();
+    checkCompared();
+    checkSpheres();
+    checkCells();
+    checkSides();
+    checkFriction();
 }
 
 

@@ -594,9 +594,9 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
     // Printed if and only if the line of the linear solver of T is
     if (solverPerformance::debug)
     {
-        Info<< "Equilibrium: out of balance " << before_ << " Pa, after "
-            << iterations << " iterations (" << counters_.linear - at.linear
-            << " linear) " << left_ << " Pa"
+        Info<< "Equilibrium: out of balance before iteration " << before_
+            << " Pa, after " << iterations << " iterations ("
+            << counters_.linear - at.linear << " linear) " << left_ << " Pa"
             << (unconverged ? ", not converged" : "") << nl;
     }
     return true;

@@ -80,6 +80,76 @@ void Foam::granularState::findReaders()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::tmp<Foam::scalarField> Foam::granularState::presentPressure() const
+{
+    const bool spatial = model_->spatial();
+    tmp<scalarField> result(new scalarField(mesh_.nCells()));
+    scalarField& p = result.ref();
+    forAll(p, celli)
+    {
+        if (otherStress_.size())
+        {
+            const symmTensor& sigma = otherStress_[celli];
+            p[celli] = spatial ? -tr(sigma)/3 : -0.5*(sigma.xx() + sigma.yy());
+        }
+        else
+        {
+            p[celli] =
+                spatial
+              ? (sigma_[0][celli] + sigma_[1][celli] + sigma_[2][celli])/3
+              : 0.5*(sigma_[0][celli] + sigma_[1][celli]);
+        }
+    }
+    return result;
+}
+
+
+void Foam::granularState::see(const volScalarField& T, const scalar source)
+{
+    runCourse& course = record_.course;
+    const auto see = [&](const runCourse::quantity q, const scalarField& values)
+    {
+        if (values.size())
+        {
+            course.see(q, min(values), max(values));
+        }
+    };
+    const scalarField p(presentPressure());
+    const scalar mean =
+        returnReduce(sum(p*mesh_.V()), sumOp<scalar>())
+       /returnReduce(sum(mesh_.V().field()), sumOp<scalar>());
+    course.see(runCourse::pressure, mean, p.size() ? max(p) : mean);
+    see
+    (
+        runCourse::thermalStrain,
+        properties_.thermalExpansion().value()
+       *(T.primitiveField() - initialTemperature_.primitiveField())
+    );
+    see(runCourse::temperature, T.primitiveField());
+    for (const fvPatchScalarField& patch : T.boundaryField())
+    {
+        if (!patch.coupled())
+        {
+            see(runCourse::temperature, patch);
+        }
+    }
+    course.see(runCourse::source, 0, source);
+    const runCourse::range& now = course.own(runCourse::temperature);
+    if (model_->spatial() && !now.empty())
+    {
+        for (const scalar value : {now.least, now.most})
+        {
+            const scalar ratio = model_->conductivityRatio(value);
+            if (ratio > 0)
+            {
+                course.see(runCourse::ratio, ratio, ratio);
+            }
+        }
+    }
+    course.mark(T.time().value());
+}
+
+
 void Foam::granularState::refresh()
 {
     if (followers_)
@@ -88,7 +158,6 @@ void Foam::granularState::refresh()
     }
     symmTensorField& K = conductivity_.primitiveFieldRef();
     symmTensorField& sigma = stress_.primitiveFieldRef();
-    scalarField& p = pressure_.primitiveFieldRef();
     const label shear = shearColumn();
 
     forAll(K, celli)
@@ -104,7 +173,6 @@ void Foam::granularState::refresh()
         {
             sigma[celli] = otherStress_[celli];
         }
-        p[celli] = -0.5*(sigma[celli].xx() + sigma[celli].yy());
     }
     forAll(K_.zz, celli)
     {
@@ -117,12 +185,12 @@ void Foam::granularState::refresh()
             sigma[celli].xz() = 0 - sigma_[4][celli];
             sigma[celli].yz() = 0 - sigma_[5][celli];
         }
-        p[celli] = -tr(sigma[celli])/3;
     }
     forAll(K_.xy, celli)
     {
         K[celli].xy() = K_.xy[celli];
     }
+    pressure_.primitiveFieldRef() = presentPressure();
     // The mass of a cell is constant: if its area grows, the bulk density falls
     particleDensity_.primitiveFieldRef() =
         bulkDensity_.primitiveField()/(1 - porosity().primitiveField());
@@ -230,7 +298,11 @@ void Foam::granularState::writeReport() const
         << "Clamped cell-queries: " << clampedQueries() << nl;
     for (const auto& item : modelCounts())
     {
-        Info<< item.first.c_str() << ": " << item.second << nl;
+        // Parts of a number that is printed, too
+        if (item.second || item.first.find("_by_") == std::string::npos)
+        {
+            Info<< item.first.c_str() << ": " << item.second << nl;
+        }
     }
     if (bound_ > 0)
     {

@@ -17,6 +17,7 @@ License
 #include "granularState.H"
 #include "caseChecks.H"
 #include "givenField.H"
+#include "wallDistance.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 
 #include <cmath>
@@ -196,6 +197,7 @@ Foam::granularState::granularState
     outsideSeen_(false)
 {
     record_.compare(settings());
+    record_.course.compare(model_->hash(), model_->stressScale());
     checkField(T, dimTemperature, -GREAT, GREAT);
     checkField(initialTemperature_, dimTemperature, -GREAT, GREAT);
     checkInitialTemperature(T);
@@ -223,6 +225,12 @@ Foam::granularState::granularState
     findReaders();
     refresh();
     record_.refresh = [this]() { refresh(); };
+    const scalar across =
+        leastWallDistance(mesh_)/(2*properties_.meanRadius().value());
+    if (across > 0)
+    {
+        record_.course.see(runCourse::across, across, across);
+    }
 }
 
 

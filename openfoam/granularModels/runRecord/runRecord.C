@@ -72,6 +72,7 @@ void Foam::runRecord::read(const timeFolder& folder)
     dict.readIfPresent("startTime", startTime);
     dict.readIfPresent("leastT", leastT);
     dict.readIfPresent("mostT", mostT);
+    course.read(dict.subOrEmptyDict("course"));
     scheme = dict.lookupOrDefault<word>("timeScheme", word::null);
     settings_ = dict.subOrEmptyDict("settings");
 
@@ -171,6 +172,7 @@ void Foam::runRecord::writeLast()
     os.writeEntry("mostT", mostT);
     os.writeEntry("initialMass", initialMass);
     os.writeEntry("startHeat", startHeat);
+    course.written().writeEntry("course", os);
     os.writeEntry("sourceHeat", sourceHeat);
     os.writeEntry("exchanged", exchanged);
 

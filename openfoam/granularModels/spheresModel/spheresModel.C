@@ -82,8 +82,8 @@ Foam::granularModels::spheres::spheres
         coeffs_,
         {
             "model", "hash", "poissonRatio", "roughness", "hardness", "gas",
-            "gasPressure", "accommodation", "coordination", "mobilised",
-            "fabric", "wall"
+            "gasPressure", "accommodation", "emissivity", "coordination",
+            "mobilised", "fabric", "wall"
         }
     );
     checkHash(source_, law_.hash());
@@ -152,8 +152,8 @@ msdd_sphere_material Foam::granularModels::spheres::material() const
     if (result.roughness > 0)
     {
         coeffs_.get<scalar>("hardness");
-        result.hardness = ranged("hardness", 1, 1, 1e15);
     }
+    result.hardness = ranged("hardness", 1, 1, 1e15);
     const wordList gases({"air", "nitrogen", "helium", "argon", "vacuum"});
     if (!gases.found(gas_))
     {
@@ -162,6 +162,8 @@ msdd_sphere_material Foam::granularModels::spheres::material() const
     result.gas = gas_.c_str();
     result.gas_pressure = ranged("gasPressure", 1.013e5, 1e-3, 1e9);
     result.accommodation = ranged("accommodation", 0.9, 0.01, 1);
+    // Only for the estimate of radiation (see sphereEstimates)
+    ranged("emissivity", 1, 0.01, 1);
     return result;
 }
 
@@ -513,6 +515,14 @@ void Foam::granularModels::spheres::wallResistance
     {
         failed("a wall", error);
     }
+}
+
+
+Foam::scalar
+Foam::granularModels::spheres::conductivityRatio(const scalar T) const
+{
+    const scalar gas = msdd::gasConductivity(gas_, min(max(T, 1.0), 1e5));
+    return gas > 0 ? properties_.conductivityFunction().value(T)/gas : 0;
 }
 
 

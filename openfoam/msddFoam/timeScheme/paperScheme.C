@@ -93,6 +93,7 @@ void Foam::timeSchemes::paper::step()
     // Step 5: thermal strain
     grains_.strain(Told_, T_.primitiveField());
     grains_.commitStrain();
+    observe(deltaT);
 }
 
 

@@ -503,6 +503,7 @@ void Foam::timeSchemes::secondOrder::step()
     keepConductivity(deltaT);
 
     accountStages(deltaT);
+    observe(deltaT);
     if (adaptive_)
     {
         const scalar factor = safety/std::sqrt(max(error, SMALL));

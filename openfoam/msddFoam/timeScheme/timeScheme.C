@@ -21,6 +21,9 @@ License
 
 namespace Foam
 {
+    //- Steps between lines of least, mean and largest values
+    static const label reportInterval = 20;
+
     defineTypeNameAndDebug(timeScheme, 0);
     defineRunTimeSelectionTable(timeScheme, dictionary);
 }
@@ -64,7 +67,10 @@ Foam::timeScheme::timeScheme
         label(granularProperties::ranged(dict, "logInterval", 1, 1, 1e9))
     ),
     waitLimit_(granularProperties::ranged(dict, "waitLimit", 300, 0, 1e9))
-{}
+{
+    grains_.see(T_, heat_.sourceDensity());
+    grains_.record().course.begin(time_.value(), received());
+}
 
 
 // * * * * * * * * * * * * * * * * Selectors * * * * * * * * * * * * * * * * //
@@ -162,6 +168,63 @@ void Foam::timeScheme::account(const scalar interval)
     neighbours_.finish
     (
         interval*neighbours_.heat(), interval*ofNeighbours(heat)
+    );
+}
+
+
+void Foam::timeScheme::observe(const scalar deltaT)
+{
+    grains_.see(T_, heat_.sourceDensity());
+    scalar change = 0;
+    forAll(Told_, celli)
+    {
+        change = max(change, mag(T_[celli] - Told_[celli]));
+    }
+    grains_.record().course.step
+    (
+        deltaT, time_.endTime().value(), change, received()
+    );
+    if (time_.timeIndex() % max(reportInterval, logInterval_) == 0)
+    {
+        report();
+    }
+}
+
+
+Foam::scalar Foam::timeScheme::received() const
+{
+    const runRecord& record = grains_.record();
+    return sum(record.heat) + record.sourceHeat;
+}
+
+
+void Foam::timeScheme::report() const
+{
+    const scalarField& V = T_.mesh().V();
+    const scalar volume = returnReduce(sum(V), sumOp<scalar>());
+    const auto line = [&]
+    (
+        const char* name,
+        const scalarField& values,
+        const char* unit
+    )
+    {
+        const scalar mean =
+            returnReduce(sum(V*values), sumOp<scalar>())/volume;
+        Info<< "    " << name << ": least " << gMin(values) << ", mean " << mean
+            << ", largest " << gMax(values) << unit << nl;
+    };
+    const granularState::conductivityColumns& K = grains_.conductivityOfCells();
+    const bool spatial = K.zz.size() || grains_.model().spatial();
+    line("T", T_.primitiveField(), " K");
+    line("p", grains_.presentPressure()(), " Pa");
+    line
+    (
+        "K, mean of the axes",
+        spatial
+      ? scalarField((K.xx + K.yy + K.zz)/3)
+      : scalarField(0.5*(K.xx + K.yy)),
+        " W/(m K)"
     );
 }
 

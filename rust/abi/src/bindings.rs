@@ -821,4 +821,15 @@ unsafe extern "C" {
         rows: *mut u64,
     ) -> i32;
     pub fn msdd_plugin_v2_table() -> *const msdd_plugin_v2;
+    pub fn msdd_compared(
+        hash: *const ::core::ffi::c_char,
+        quantity: *const ::core::ffi::c_char,
+        least: *mut f64,
+        most: *mut f64,
+    ) -> i32;
+    pub fn msdd_gas_conductivity(
+        gas: *const ::core::ffi::c_char,
+        temperature: f64,
+        conductivity: *mut f64,
+    ) -> i32;
 }

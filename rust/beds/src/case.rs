@@ -488,7 +488,7 @@ impl Grains {
     }
 
     /// The least and the largest conductivity over that of the gas, between two temperatures \[K\].
-    fn ratios(&self, range: [f64; 2], keys: &GasKeys) -> [f64; 2] {
+    pub fn ratios(&self, range: [f64; 2], keys: &GasKeys) -> [f64; 2] {
         let ratio = |t: f64| {
             let gas = keys.name.at(t, keys.pressure, keys.accommodation);
             gas.map_or(f64::INFINITY, |gas| self.conductivity.at(t) / gas.conductivity)

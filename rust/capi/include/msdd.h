@@ -485,6 +485,23 @@ typedef struct msdd_plugin_v2 {
 /** Returns the plug-in's table. A plug-in defines this function; libmsdd does not. */
 MSDD_PLUGIN_EXPORT const msdd_plugin_v2 *msdd_plugin_v2_table(void);
 
+/* --------------------------------------------------------------------------------------------- what was compared */
+
+/** Least and largest value of a quantity in the scenes and beds by which a default model was compared with discrete elements.
+ *  Beyond them nothing is known of its error. `hash`: SHA-256 of the model (msdd_surrogate_hash, msdd_spheres_hash). `quantity`:
+ *  - "reduced_pressure": p over young_modulus x mean_radius / (1 m) of discs, over E/(2 - 2 nu^2) of spheres; the least is of means
+ *    over a bed;
+ *  - "thermal_strain": growth of the radii since the start;
+ *  - "temperature" [K] and "conductivity_ratio", conductivity of the grains over that of the gas: of spheres alone;
+ *  - "heat_source": heat from inside [W/m3];
+ *  - "grains_across": least distance between opposite walls over the mean diameter.
+ *  MSDD_INVALID_ARGUMENT if the model was not compared, or the model has no such quantity. */
+int32_t msdd_compared(const char *hash, const char *quantity, double *least, double *most);
+
+/** Conductivity [W/(m K)] of a gas ("air", "nitrogen", "helium", "argon"; "vacuum" or NULL: 0) at a temperature [K], 1 to 1e5, and
+ *  usual pressures. Beyond the temperatures at which it is known, that of the nearest. */
+int32_t msdd_gas_conductivity(const char *gas, double temperature, double *conductivity);
+
 #ifdef __cplusplus
 }
 #endif

@@ -81,7 +81,7 @@ impl Material {
         let gas = match given.gas.is_null() {
             true => GasName::Vacuum,
             // SAFETY: not null, a C string by this function's contract.
-            false => named(&utf8("material.gas", unsafe { CStr::from_ptr(given.gas) })?)?,
+            false => named("material.gas", &utf8("material.gas", unsafe { CStr::from_ptr(given.gas) })?)?,
         };
         let (mut gas_pressure, mut accommodation) = (1.0, 1.0);
         if gas != GasName::Vacuum {
@@ -151,7 +151,8 @@ impl Material {
     }
 }
 
-fn named(name: &str) -> Result<GasName, Failure> {
+/// The gas that a key called `key` names.
+pub(crate) fn named(key: &str, name: &str) -> Result<GasName, Failure> {
     let known = GasName::ALL.into_iter().find(|gas| gas.as_str() == name);
-    known.ok_or_else(|| Failure::argument("material.gas", name, GasName::ALL.map(GasName::as_str).join(", ")))
+    known.ok_or_else(|| Failure::argument(key, name, GasName::ALL.map(GasName::as_str).join(", ")))
 }

@@ -159,8 +159,8 @@ impl<'a> Lengths<'a> {
                 Units { model: change, packing: vec![all, self.bed.mean_radius * self.gradient[time]] }
             }
             Quantity::Pressure => {
-                let size = value.max(LEAST_PRESSURE * self.start(point)?);
-                self.relative(size, time, point)?
+                self.start(point)?;
+                self.relative(self.pressure_size(value, point), time, point)?
             }
             Quantity::ConductivityXx | Quantity::ConductivityYy | Quantity::ConductivityZz => {
                 match self.bed.kind {
@@ -176,6 +176,11 @@ impl<'a> Lengths<'a> {
             }
         };
         units.model.is_finite().then_some(units)
+    }
+
+    /// The pressure of whose size the band at a point is a share, for a value there.
+    pub fn pressure_size(&self, value: f64, point: usize) -> f64 {
+        self.start(point).map_or(value, |start| value.max(LEAST_PRESSURE * start))
     }
 
     fn start(&self, point: usize) -> Option<f64> {
@@ -232,6 +237,7 @@ mod tests {
             cells: 1,
             seconds: 0.0,
             processor: 0.0,
+            beyond: None,
         }
     }
 

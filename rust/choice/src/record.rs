@@ -5,6 +5,7 @@ use crate::found::{Differences, Found, Share};
 use crate::interval::{self, MeanBand};
 use crate::scene::Scene;
 use crate::settings::{Level, Settings};
+use crate::trial::Beyond;
 use msdd_case::numbers::plain;
 use msdd_files::{read_text, write};
 use serde::{Deserialize, Serialize};
@@ -37,6 +38,9 @@ pub struct Record {
     pub checked: Option<Share>,
     /// 90 % bands in the mean, once the chosen run is complete.
     pub bands: Vec<MeanBand>,
+    /// From when on there are none, and why.
+    #[serde(default)]
+    pub beyond: Option<Beyond>,
 }
 
 impl Record {
@@ -122,13 +126,9 @@ impl Record {
         for note in &self.found.notes {
             let _ = writeln!(text, "Note: {note}.");
         }
-        if !self.bands.is_empty() {
-            let _ = write!(
-                text,
-                "\n{}At each point and time: {}.\n",
-                interval::text(&self.bands),
-                interval::FILE
-            );
+        if self.run_seconds.is_some() {
+            let bands = interval::text(&self.bands, self.beyond.as_ref());
+            let _ = write!(text, "\n{bands}At each point and time: {}.\n", interval::FILE);
         }
         text
     }

@@ -75,6 +75,7 @@ impl Scene {
                 cells,
                 seconds: 1.0,
                 processor: 1.0,
+                beyond: None,
             })
         };
         Ok(find(&wishes, run)?.0)
@@ -256,6 +257,7 @@ fn with_pressure(accuracy: f64, pressure: f64, error: f64) -> Result<Found, Choi
             cells,
             seconds: 1.0,
             processor: 1.0,
+            beyond: None,
         })
     };
     Ok(find(&wishes, run)?.0)

@@ -9,6 +9,7 @@ use crate::series::Series;
 use crate::settings::{Level, Settings};
 use msdd_case::tables;
 use msdd_files::{Lock, list, read_text, write};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -43,6 +44,32 @@ pub struct Outcome {
     pub seconds: f64,
     /// Processor time of the solver alone \[s\].
     pub processor: f64,
+    /// What lies beyond the values by which the model was compared with discrete elements.
+    pub beyond: Option<Beyond>,
+}
+
+/// Beyond what was compared nothing is known of the model's error.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Beyond {
+    /// First time at which that was so \[s\].
+    pub since: f64,
+    /// Each quantity with its values.
+    pub what: Vec<String>,
+}
+
+impl Beyond {
+    /// As the solver's summary tells it.
+    fn read(summary: &serde_json::Value) -> Option<Self> {
+        let compared = &summary["compared"];
+        let what = compared["beyond"].as_array()?.iter().filter_map(|part| part.as_str().map(str::to_string));
+        Some(Self { since: compared["beyond_since"].as_f64()?, what: what.collect() })
+    }
+
+    /// In a cell of a table: the quantities with the value that is farthest beyond.
+    pub fn brief(&self) -> String {
+        let brief = |part: &String| part.split([',', '(']).next().unwrap_or_default().trim().to_string();
+        self.what.iter().map(brief).collect::<Vec<_>>().join("; ")
+    }
 }
 
 impl Outcome {
@@ -268,7 +295,8 @@ pub fn read_outcome(folder: &Path, seconds: f64) -> Result<Outcome, ChoiceError>
         .map_err(|error| ChoiceError::Read { file: summary, problem: error.to_string() })?;
     let cells = summary["cells"].as_u64().unwrap_or(0) as usize;
     let processor = summary["cpu_seconds"].as_f64().unwrap_or(0.0);
-    Ok(Outcome { values, strain, start_pressure, range, cells, seconds, processor })
+    let beyond = Beyond::read(&summary);
+    Ok(Outcome { values, strain, start_pressure, range, cells, seconds, processor, beyond })
 }
 
 /// Keys that are added at the end of a file of the case.

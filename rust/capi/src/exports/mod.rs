@@ -1,11 +1,13 @@
 //! Functions of `msdd.h`. Each turns pointers into references and calls safe code, and catches panics.
 
+mod compared;
 mod database;
 mod rve;
 mod sphere_wall;
 mod spheres;
 mod surrogate;
 
+pub use compared::*;
 pub use database::*;
 pub use rve::*;
 pub use sphere_wall::*;

@@ -229,3 +229,35 @@ fn strings_and_solid_fraction() {
     let status = unsafe { msdd_surrogate_solid_fraction(handle.0, 9, porosity.as_ptr(), solid.as_mut_ptr()) };
     assert!(status == MSDD_OK && solid.iter().all(|s| *s > 0.875 && *s < 0.95), "{solid:?}");
 }
+
+/// Least and largest value by the C interface, or the status.
+fn compared(hash: &CStr, quantity: &CStr) -> Result<[f64; 2], i32> {
+    let [mut least, mut most] = [f64::NAN; 2];
+    // SAFETY: C strings and writable numbers.
+    match unsafe { msdd_compared(hash.as_ptr(), quantity.as_ptr(), &mut least, &mut most) } {
+        MSDD_OK => Ok([least, most]),
+        status => Err(status),
+    }
+}
+
+#[test]
+fn the_ranges_that_were_compared_are_told_by_the_hash_of_the_model() {
+    let model = Handle::builtin();
+    // SAFETY: live, and owned by the model.
+    let hash = unsafe { CStr::from_ptr(msdd_surrogate_hash(model.0)) };
+    let [least, most] = compared(hash, c"reduced_pressure").expect("compared");
+    assert!(0.0 < least && least < 0.03 && most > 0.09, "{least} {most}");
+    assert_eq!(compared(hash, c"heat_source"), Ok([0.0, 0.0]));
+    assert_eq!(compared(hash, c"temperature"), Err(MSDD_INVALID_ARGUMENT));
+    assert!(last_error().contains("grains_across"), "{}", last_error());
+    assert_eq!(compared(c"0123", c"heat_source"), Err(MSDD_INVALID_ARGUMENT));
+    let mut found = f64::NAN;
+    // SAFETY: C strings or null, and a writable number.
+    let mut gas = |name: *const c_char, t| (unsafe { msdd_gas_conductivity(name, t, &mut found) }, found);
+    let (status, helium) = gas(c"helium".as_ptr(), 300.0);
+    assert!(status == MSDD_OK && (helium - 0.154).abs() < 0.003, "{helium}");
+    let least = gas(c"helium".as_ptr(), 273.0);
+    assert_eq!(gas(c"helium".as_ptr(), 20.0), least);
+    assert_eq!(gas(null(), 300.0), (MSDD_OK, 0.0));
+    assert_eq!(gas(c"neon".as_ptr(), 300.0).0, MSDD_INVALID_ARGUMENT);
+}

@@ -129,6 +129,7 @@ pub const SPHERES: &[Key] = &[
     may("gas", Kind::Word(&["air", "argon", "helium", "nitrogen", "vacuum"])),
     may("gasPressure", Kind::Range(1e-3, 1e9, "Pa")),
     may("accommodation", Kind::Range(0.01, 1.0, "")),
+    may("emissivity", Kind::Range(0.01, 1.0, "")),
     may("coordination", Kind::Range(0.0, 12.0, "")),
     may("mobilised", Kind::Range(0.0, 1.0, "")),
     may("fabric", Kind::Any),

@@ -142,8 +142,9 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
         record.checked = Some(Share { source: "cells, checked".to_string(), percent, how });
     }
     let bands = interval::bands(scene, &outcome, &seen, &space, &Law::shipped(scene.bed.kind));
-    interval::write_table(scene, &bands, &chosen)?;
+    interval::write_table(scene, &bands, outcome.beyond.as_ref(), &chosen)?;
     record.bands = interval::means(&bands);
+    record.beyond.clone_from(&outcome.beyond);
     record.run_seconds = Some(outcome.seconds);
     record.write(scene, &chosen)?;
     record.add_to_summary(&chosen)?;
@@ -153,7 +154,7 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
     }
     outln!(
         "\n{}At each point and time: {}.",
-        interval::text(&record.bands),
+        interval::text(&record.bands, record.beyond.as_ref()),
         chosen.join(interval::FILE).display()
     );
     Ok(())
@@ -192,6 +193,7 @@ fn search(
         run_seconds: None,
         checked: None,
         bands: Vec::new(),
+        beyond: None,
     };
     Ok((record, seen))
 }

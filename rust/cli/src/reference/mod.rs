@@ -3,6 +3,7 @@
 mod bands;
 mod beds;
 mod compare;
+mod ranges;
 mod requests;
 mod scenes;
 mod summary;
@@ -40,6 +41,8 @@ pub enum Command {
     Scenes(scenes::Arguments),
     /// Set the solver beside beds of spheres of a plan.
     Beds(beds::Arguments),
+    /// Find the ranges of the scenes and beds by which the default models are compared with discrete elements.
+    Ranges(ranges::Arguments),
 }
 
 /// How a box is closed.
@@ -139,6 +142,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Compare(arguments) => compare::run(arguments),
         Command::Scenes(arguments) => scenes::run(arguments),
         Command::Beds(arguments) => beds::run(arguments),
+        Command::Ranges(arguments) => ranges::run(arguments),
     }
 }
 

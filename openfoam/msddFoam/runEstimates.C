@@ -1,0 +1,133 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "runSummary.H"
+#include "briefNumber.H"
+#include "sphereEstimates.H"
+#include "Time.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Change of T in a time as long as the run, over the range of T, below which
+//- the bed is steady
+static const scalar steadyChange = 1e-3;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::string Foam::runSummary::comparison() const
+{
+    const runCourse& course = grains_.record().course;
+    if (!course.compared())
+    {
+        return "no comparison of it with discrete elements is known";
+    }
+    const stringList beyond(course.beyond());
+    if (beyond.empty())
+    {
+        return
+            "the run lies within what it was compared with by discrete elements";
+    }
+    string text
+    (
+        "the run lies beyond what it was compared with by discrete elements: "
+    );
+    forAll(beyond, i)
+    {
+        text += (i ? "; " : "") + beyond[i];
+    }
+    return text + ". Nothing is known of its error there";
+}
+
+
+Foam::string Foam::runSummary::radiation() const
+{
+    if (!grains_.model().spatial())
+    {
+        return string();
+    }
+    const scalar hottest =
+        grains_.record().course.values(runCourse::temperature).most;
+    const string text
+    (
+        sphereEstimates(properties_, grains_).radiation(hottest)
+    );
+    return text.empty() ? text : string("Doubt: " + text + ".");
+}
+
+
+Foam::string Foam::runSummary::contacts() const
+{
+    if (!grains_.model().spatial())
+    {
+        return string();
+    }
+    const scalar largest =
+        grains_.record().course.values(runCourse::pressure).most;
+    const sphereEstimates::contacts found
+    (
+        sphereEstimates(properties_, grains_).forces(largest)
+    );
+    return
+        found.text.empty()
+      ? string()
+      : string((found.beyond ? "Doubt: " : "Contacts: ") + found.text + ".");
+}
+
+
+Foam::scalar Foam::runSummary::steadyShare(const heatBalance& heat) const
+{
+    scalar remaining;
+    return
+        grains_.record().course.remaining(remaining)
+     && heat.stored*remaining > 0
+      ? heat.stored/(heat.stored + remaining)
+      : scalar(-1);
+}
+
+
+Foam::string Foam::runSummary::steadiness(const heatBalance& heat) const
+{
+    const runCourse& course = grains_.record().course;
+    const Time& time = grains_.mesh().time();
+    const runCourse::range T(course.values(runCourse::temperature));
+    const scalar rate = course.rate();
+    const scalar span = time.value() - grains_.record().startTime;
+    if (rate*span <= steadyChange*(T.most - T.least))
+    {
+        return
+            "Steady state: reached; at the end T changes by at most "
+          + brief(rate) + " K/s.";
+    }
+    const scalar share = steadyShare(heat);
+    return
+        "Steady state: not reached; at the end T changes by up to "
+      + brief(rate) + " K/s"
+      + (
+            share > 0
+          ? ". What the bed takes up falls exponentially: it holds "
+          + brief(100*share) + " % of the heat that it will hold when steady."
+          : string(", and the bed takes up " + brief(course.uptake().heat) + " W.")
+        );
+}
+
+
+// ************************************************************************* //

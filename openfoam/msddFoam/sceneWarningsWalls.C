@@ -1,0 +1,195 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "sceneWarnings.H"
+#include "briefNumber.H"
+#include "wallDistance.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Height over width from which on smooth sides are told
+static const scalar tallBed = 1.5;
+
+//- Friction of a bed of spheres along a wall with the usual coefficient 0.3:
+//- most spheres roll, or do not slide
+static const scalar usualFriction = 0.3;
+static const scalar frictionOfBed = 0.154;
+
+//- Cosine between a wall's normal and the load below which it is a side, and
+//- share of the sides that has to be smooth
+static const scalar sideCosine = 0.3;
+static const scalar mostlySmooth = 0.5;
+
+
+//- The rules of the walls of a case whose grains move
+static dictionary wallRules(const granularProperties& properties)
+{
+    return
+        properties.subOrEmptyDict("equilibriumCoeffs").subOrEmptyDict("walls");
+}
+
+
+static bool isSmooth(const dictionary& wall)
+{
+    const word type(wall.getOrDefault<word>("type", "rigid"));
+    const scalar friction = wall.getOrDefault<scalar>("friction", 0);
+    return type == "frictionless" || type == "shell"
+     || (type == "rigid" && wall.found("friction") && friction == 0);
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::sceneWarnings::checkSides()
+{
+    const scalar g = mag(properties_.gravity());
+    if (!grains_.model().spatial() || mechanics_.type() == "none")
+    {
+        return;
+    }
+    // The load acts along gravity, else along the normal of a piston
+    const dictionary rules(wallRules(properties_));
+    vector along(properties_.gravity());
+    // Patches between processes come last, and are not walls
+    const label patches = mesh_.boundaryMesh().nNonProcessor();
+    for (label patchi = 0; patchi < patches; ++patchi)
+    {
+        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        const word type
+        (
+            rules.subOrEmptyDict(patch.name()).getOrDefault<word>("type", "")
+        );
+        if (g <= VSMALL && (type == "piston" || type == "pressure"))
+        {
+            along = returnReduce(sum(patch.faceAreas()), sumOp<vector>());
+        }
+    }
+    if (mag(along) <= VSMALL)
+    {
+        return;
+    }
+    along /= mag(along);
+    scalar smooth = 0, sides = 0;
+    string names;
+    for (label patchi = 0; patchi < patches; ++patchi)
+    {
+        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        const dictionary rule(rules.subOrEmptyDict(patch.name()));
+        scalar area = 0;
+        for (const vector& face : patch.faceAreas())
+        {
+            area += mag(face & along) < sideCosine*mag(face) ? mag(face) : 0;
+        }
+        reduce(area, sumOp<scalar>());
+        if (!isWall(patch) || area <= 0)
+        {
+            continue;
+        }
+        sides += area;
+        smooth += isSmooth(rule) ? area : 0;
+        names += isSmooth(rule) ? (names.empty() ? "" : ", ") + patch.name() : "";
+    }
+    // Lengths along the load and across it
+    const vector distances(wallDistances(mesh_));
+    scalar height = 0, width = GREAT;
+    for (direction i = 0; i < vector::nComponents; ++i)
+    {
+        if (mag(along[i]) > 1 - sideCosine)
+        {
+            height = mesh_.bounds().span()[i];
+        }
+        else if (distances[i] > 0)
+        {
+            width = min(width, distances[i]);
+        }
+    }
+    if (!(smooth > mostlySmooth*sides && height > tallBed*width))
+    {
+        return;
+    }
+    // Janssen: the stress along the bed falls by 1/e over this depth
+    const scalarField& V = mesh_.V();
+    const symmTensor stress(gSum(V*grains_.stress().primitiveField())/gSum(V));
+    const scalar vertical = along & stress & along;
+    const scalar lateral =
+        mag(vertical) > VSMALL ? 0.5*(tr(stress)/vertical - 1) : scalar(0.5);
+    const scalar depth =
+        width/(4*frictionOfBed*max(min(lateral, scalar(1)), scalar(0.2)));
+    const scalar share = 1 - std::exp(-height/depth);
+    const scalar weight =
+        g*height*gSum(V*grains_.bulkDensity().primitiveField())/gSum(V);
+    string text
+    (
+        "The bed is " + brief(height/width) + " times as high as wide, and its"
+        " side is smooth (" + names + "). At a usual friction of "
+      + brief(usualFriction) + " the side would carry about "
+    );
+    if (weight > 0)
+    {
+        const scalar carried = 1 - share*depth/height;
+        text +=
+            brief(100*carried) + " % of the weight, so that it presses with "
+          + brief(1e-3*weight*(1 - carried)) + " kPa at the foot and not "
+          + brief(1e-3*weight) + " kPa, and ";
+    }
+    add
+    (
+        text + brief(100*share) + " % of a load on top (Janssen's estimate)."
+        " Rigid walls take a friction"
+    );
+}
+
+
+void Foam::sceneWarnings::checkFriction()
+{
+    if (mechanics_.type() == "none")
+    {
+        return;
+    }
+    const dictionary rules(wallRules(properties_));
+    for (const polyPatch& patch : mesh_.boundaryMesh())
+    {
+        const dictionary rule(rules.subOrEmptyDict(patch.name()));
+        const word type(rule.getOrDefault<word>("type", "rigid"));
+        wordList unread;
+        for (const word key : {"friction", "slip", "layer", "layerStrength"})
+        {
+            if (rule.found(key) && type != "rigid")
+            {
+                unread.append(key);
+            }
+        }
+        if (unread.size())
+        {
+            add
+            (
+                "Not read in the rule of the wall " + patch.name() + ": "
+              + granularProperties::listed(unread) + ". A wall of the type "
+              + type + " is smooth; only rigid walls have friction"
+            );
+        }
+    }
+}
+
+
+// ************************************************************************* //

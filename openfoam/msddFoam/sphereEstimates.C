@@ -1,0 +1,169 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "sphereEstimates.H"
+#include "briefNumber.H"
+#include "pascals.H"
+#include "constants.H"
+
+#include <cmath>
+
+using namespace Foam::constant;
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Share of the conductivity from which on radiation is told
+static const scalar muchRadiation = 0.05;
+
+//- Emissivity of a case that gives none
+static const scalar usualEmissivity = 0.9;
+
+//- Force that one contact in a hundred exceeds, over the mean: log(200)/1.5
+static const scalar largeForce = 3.5;
+
+//- Contacts of a sphere in a packing that bears load, at least
+static const scalar leastContacts = 2;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::sphereEstimates::sphereEstimates
+(
+    const granularProperties& properties,
+    const granularState& grains
+)
+:
+    properties_(properties),
+    grains_(grains),
+    coeffs_(properties.surrogateDict().subOrEmptyDict("spheresCoeffs")),
+    diameter_(2*properties.meanRadius().value())
+{}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::sphereEstimates::mean(const scalarField& values) const
+{
+    const scalarField& V = grains_.mesh().V();
+    return
+        returnReduce(sum(V*values), sumOp<scalar>())
+       /returnReduce(sum(V), sumOp<scalar>());
+}
+
+
+Foam::scalar Foam::sphereEstimates::contactForce(const scalar pressure) const
+{
+    const scalar solid = 1 - mean(grains_.porosity().primitiveField());
+    const scalar contacts = mean
+    (
+        grains_.mesh().lookupObject<volScalarField>("coordination")
+    );
+    return
+        mathematical::pi*sqr(diameter_)*pressure
+       /(solid*max(contacts, leastContacts));
+}
+
+
+Foam::scalar Foam::sphereEstimates::hertzPressure(const scalar force) const
+{
+    // E/(1 - nu^2)/2 of both spheres, and half of the radius
+    const scalar modulus = grains_.model().contactModulus();
+    return std::cbrt
+    (
+        6*force*sqr(modulus)/(pow3(mathematical::pi)*sqr(diameter_/4))
+    );
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::string Foam::sphereEstimates::radiation(const scalar temperature) const
+{
+    const scalar black =
+        4*physicoChemical::sigma.value()*pow3(temperature)*diameter_;
+    const scalar emissivity =
+        coeffs_.getOrDefault<scalar>("emissivity", usualEmissivity);
+    const scalar k =
+        properties_.conductivityFunction().value(temperature)
+       /max(black, VSMALL);
+    const scalar factor =
+        0.5756*emissivity*std::atan(1.5353*std::pow(k, 0.8011)/emissivity)
+      + 0.1843;
+    const scalar added = black*factor;
+    const scalar own =
+        mean(tr(grains_.conductivity().primitiveField())()/3);
+    if (!(added > muchRadiation*own))
+    {
+        return string();
+    }
+    return
+        "radiation would add about " + brief(added) + " W/(m K) at "
+      + Foam::name(std::round(temperature)) + " K to the " + brief(own)
+      + " W/(m K) of the bed (" + brief(100*added/max(own, VSMALL))
+      + " %), and is not in the model; emissivity " + brief(emissivity)
+      + (
+            coeffs_.found("emissivity")
+          ? ""
+          : ", assumed (key emissivity of spheresCoeffs)"
+        );
+}
+
+
+Foam::sphereEstimates::contacts
+Foam::sphereEstimates::forces(const scalar pressure) const
+{
+    if (!(pressure > 0))
+    {
+        return contacts({string(), false});
+    }
+    const scalar force = contactForce(pressure);
+    const scalar middle = hertzPressure(force);
+    const scalar large = hertzPressure(largeForce*force);
+    string text
+    (
+        "at a pressure of " + pascals(pressure) + " the mean force of contacts"
+        " is " + brief(force) + " N, with a Hertz pressure of "
+      + pascals(middle) + "; one contact in 100 bears more than "
+      + brief(largeForce*force) + " N (" + pascals(large) + ")"
+    );
+    scalar hardness = 0;
+    if (!coeffs_.readIfPresent("hardness", hardness))
+    {
+        return contacts
+        (
+            {text + "; the case gives no hardness to compare with", false}
+        );
+    }
+    text +=
+        large > hardness
+      ? string
+        (
+            string(middle > hardness ? ", above" : ", in part above")
+          + " the hardness of " + pascals(hardness) + ": "
+          + (middle > hardness ? "grains" : "some grains")
+          + " would yield or crush"
+        )
+      : string(", below the hardness of " + pascals(hardness));
+    return contacts({text, large > hardness});
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,106 @@
+# What a run is told beyond its model: values beyond those compared with discrete elements, radiation, forces of contacts, the approach
+# to a steady state, cells thinner than grains, smooth sides of tall beds, and friction that is not read.
+msdd=$(cd "$checkout" && realpath -m "${CARGO_TARGET_DIR:-target}")/release/msdd
+
+sphere_case() { # folder, options: a new case of spheres, meshed
+    local name=$1
+    shift
+    rm -rf "${work:?}/$name"
+    mkdir -p "$work"
+    cd "$work"
+    "$msdd" case new "$name" --yes --spheres --checkout "$checkout" "$@" > "$name.new" 2>&1 \
+        || { cat "$name.new" >&2; echo "tests/openfoam: msdd case new failed" >&2; exit 1; }
+    cd "$name"
+    logged blockMesh
+}
+said() { # what, pattern of a line of the end of the log
+    check "$1" bash -c "sed -n '/^What to know/,\$p' log | grep -qE -- \"\$1\"" - "$2"
+}
+warned() { # what, pattern of a warning of the start
+    check "$1" grep -qE -- "^Warning [0-9]*: $2" log
+}
+
+pebbles() { # lithium orthosilicate in helium, heated from inside between plates
+    sphere_case pebbles --material lithium-orthosilicate --mean-radius 0.0005 --gas helium --box 0.02x0.006x0.006 --cells 10x1x1 \
+        --left 673 --right 673 --heat-source 1e7 --lid stays --give 0
+    logged msddFoam
+    warned "heat from inside was never compared: at the start" \
+        'Beyond what the model was compared with: heat from inside of the bed up to 1e\+07 W/m3 \(compared: none\)'
+    warned "nor spheres that conduct 10 times as well as the gas" '.*k of the grains over that of the gas down to 8\.[0-9]* \(compared: 38\.2 to 22400\)'
+    said "the range is no clean bill" 'Range: the model was never asked .* made for, but the run lies beyond .*pressure up to [0-9.]+ MPa, 1[0-9][0-9] times the largest \(compared: 4\.32 kPa to 106 kPa\).*Nothing is known of its error there'
+    said "mean force and Hertz pressure of the contacts, beyond the hardness" \
+        'Doubt: at a pressure of [0-9.]+ MPa the mean force of contacts is [0-9.]+ N, with a Hertz pressure of [0-9.]+ GPa; .* above the hardness of 1 GPa: grains would yield or crush'
+    # Rumpf: pi d^2 p/(phi z), with the porosity and contacts of the end
+    check "which is Rumpf's force" bash -c "sed -n 's/.*Doubt: at a pressure of \([0-9.]*\) MPa the mean force of contacts is \([0-9.]*\) N.*/\1 \2/p' log \
+        | awk '{ f = 3.14159*1e-6*\$1*1e6/(0.6*5.5); exit !(\$2 > 0.8*f && \$2 < 1.25*f) }'"
+    said "the bed is not steady at the end" 'Steady state: not reached; at the end T changes by up to [0-9.e-]+ K/s. What the bed takes up falls exponentially: it holds 9[0-9.]* % of the heat'
+    check "for programs, too" grep -q '"compared": {"known": true, "beyond": \["thermal strain\|"compared": {"known": true, "beyond": \["pressure' postProcessing/msddFoam/summary.json
+    check "least, mean and largest values are printed now and then" grep -qE '^ *T: least [0-9.]+, mean [0-9.]+, largest [0-9.]+ K$' log
+    # The share that it holds, from the heat of a run five times as long
+    local held share long
+    held=$(sed -n 's/.*"stored": \([0-9.e+-]*\).*/\1/p' postProcessing/msddFoam/summary.json)
+    share=$(sed -n 's/.*"share": \([0-9.e+-]*\).*/\1/p' postProcessing/msddFoam/summary.json)
+    logged foamDictionary -entry endTime -set 2000 system/controlDict
+    logged msddFoam
+    long=$(sed -n 's/.*"stored": \([0-9.e+-]*\).*/\1/p' postProcessing/msddFoam/summary.json)
+    check "it held $share of the heat that it holds when steady" is_within "$(echo "$held $long $share" | awk '{ print $1/$2/$3 }')" 0.985 1.015
+    said "and is steady in the end" 'Steady state: reached; at the end T changes by at most'
+}
+hot_alumina() { # F of Singh and Kaviany at T with the emissivity 0.9, or another
+    local t added expected
+    for t in 873 1500; do
+        sphere_case "alumina-$t" --material alumina --mean-radius 0.01 --box 0.3x0.3x0.3 --cells 6x1x1 --left "$t" --right "$((t - 50))"
+        controls "stopAt nextWrite; writeInterval 10; deltaT 10;"
+        logged msddFoam
+        added=$(sed -n "s/^Warning [0-9]*: Radiation: radiation would add about \([0-9.]*\) W.(m K) at $t K to the .*/\1/p" log)
+        expected=$(awk -v T="$t" -v k="$(sed -n 's/^thermalConductivity *\([0-9.]*\);/\1/p' constant/granularProperties)" 'BEGIN {
+            b = 4*5.670374e-8*T^3*0.02; e = 0.9; x = 1.5353*(k/b)^0.8011/e; print b*(0.5756*e*atan2(x, 1) + 0.1843) }')
+        check "radiation would add $added W/(m K) at $t K, expected $expected" is_within "$(echo "$added $expected" | awk '{ print $1/$2 }')" 0.98 1.02
+        said "and at the end it is told, too" "Doubt: radiation would add about [0-9.]+ W/\\(m K\\) at $t K .* is not in the model; emissivity 0.9, assumed"
+    done
+    rm -rf [1-9]*
+    sed -i 's/^\( *\)accommodation .*/&\n\1emissivity 0.2;/' constant/granularProperties
+    logged msddFoam
+    said "another emissivity is taken from the case" 'emissivity 0.2\.$'
+}
+within() { # steel under 20 kPa, warmed by a few kelvin
+    sphere_case warm --material steel --mean-radius 0.0032 --box 0.15x0.15x0.15 --cells 4x1x1 --left 300 --right 293 --initial-temperature 293
+    controls "stopAt nextWrite; writeInterval 10; deltaT 10;"
+    logged msddFoam
+    said "a run like those that were compared" 'Range: the model was never asked .* made for, and the run lies within what it was compared with'
+    check "has no such warning" [ "$(grep -c 'Beyond what' log)" = 0 ]
+    said "forces of contacts are told all the same" 'Contacts: at a pressure of 1[0-9.]* kPa the mean force'
+    # Extremes of the time before a restart
+    sed -i 's/uniform 300/uniform 293/' 0/T
+    cp -r . ../warmer
+    cd ../warmer
+    rm -rf [1-9]* log
+    sed -i '/left/,/}/ s/uniform .*/uniform 420;/' 0/T
+    logged msddFoam
+    local first
+    first=$(ls -d [1-9]* | head -n 1)
+    sed -i '/left/,/}/ s/uniform .*/uniform 300;/' "$first/T"
+    controls "stopAt endTime; endTime $((first + 20)); startFrom latestTime;"
+    logged msddFoam -accept '(files)'
+    check "after a restart the hottest time is not forgotten" grep -q '"beyond": \[.*temperature up to 420 K (compared: 285 K to 354 K)' \
+        postProcessing/msddFoam/summary.json
+    check "nor when it was" grep -qE '"beyond_since": 0\}|"beyond_since": 10\}' postProcessing/msddFoam/summary.json
+}
+vessel() { # a tall glass bed in a thin vessel
+    sphere_case vessel --material glass --mean-radius 0.002 --radius 0.05 --height 0.33 --side 300 --initial-temperature 293 --gravity 9.81 \
+        --shell 200e9,0.002,1.2e-5 --cells 4x20
+    controls "stopAt nextWrite; writeInterval 1; deltaT 1;"
+    sed -i 's/type shell;/& friction 0.3;/' constant/granularProperties
+    logged msddFoam
+    warned "a smooth side of a tall bed, and what friction would carry" \
+        'The bed is 3\.3[0-9]* times as high as wide, and its side is smooth \(.*side.*\)\. .* would carry about [0-9]+\.?[0-9]* % of the weight, so that it presses with [0-9.]+ kPa'
+    warned "a friction that is not read" 'Not read in the rule of the wall side: friction\. A wall of the type shell is smooth'
+    sphere_case fine --material glass --mean-radius 0.002 --box 0.04x0.02x0.02 --cells 40x2x2 --left 300
+    controls "stopAt nextWrite; writeInterval 1; deltaT 1;"
+    logged msddFoam
+    warned "cells thinner than grains" '100 % of the cells are thinner than a grain, the thinnest 0\.25 diameters'
+}
+pebbles
+hot_alumina
+within
+vessel
