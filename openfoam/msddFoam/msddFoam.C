@@ -32,7 +32,8 @@ Usage
 
     msddFoam -accept '(name ...)' goes on from a time that was computed with
     other settings: a restart with another model, material or mechanics is
-    refused with both values, and the names to accept.
+    refused with both values, and the names to accept. The name mesh accepts
+    another mesh with as many cells, files a time with missing or changed files.
 
     Reads   T, porosity, fabricIndex; at the start also stress (tension
             positive) and conductivity, if there are such files;
@@ -131,7 +132,7 @@ int main(int argc, char *argv[])
         "names",
         "Continue from a time that was computed with other settings, for"
         " example '(model thermalExpansion)'; the name files accepts a time"
-        " with missing or changed files"
+        " with missing or changed files, mesh another mesh with as many cells"
     );
 
     argList::addBoolOption

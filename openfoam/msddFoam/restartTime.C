@@ -16,7 +16,6 @@ License
 
 #include "restartTime.H"
 #include "runRecord.H"
-#include "fileOperation.H"
 #include "IFstream.H"
 #include "OSspecific.H"
 #include "Time.H"
@@ -45,13 +44,6 @@ Foam::restartTime::restartTime(const argList& args, const bool dryRun)
     path_(args.path()),
     dryRun_(dryRun)
 {
-    if (fileHandler().type() != "uncollated")
-    {
-        FatalErrorInFunction
-            << "File handler is '" << fileHandler().type()
-            << "', allowed: uncollated. What belongs to a time is checked file"
-            << " by file" << exit(FatalError);
-    }
     const fileName control
     (
         args.rootPath()/args.globalCaseName()/"system"/Time::controlDictName
@@ -116,99 +108,6 @@ Foam::wordList Foam::restartTime::names() const
 }
 
 
-Foam::string Foam::restartTime::anyOf(const string& text)
-{
-    stringList all(Pstream::nProcs());
-    all[Pstream::myProcNo()] = text;
-    Pstream::gatherList(all);
-    Pstream::scatterList(all);
-    forAll(all, i)
-    {
-        if (!all[i].empty())
-        {
-            return
-                Pstream::parRun()
-              ? "processor" + Foam::name(i) + ": " + all[i]
-              : all[i];
-        }
-    }
-    return string();
-}
-
-
-Foam::restartTime::verdict Foam::restartTime::judge
-(
-    const word& name,
-    string& reason
-) const
-{
-    const timeFolder folder(path_/name);
-    const auto all = [](const bool mine)
-    {
-        return returnReduce(mine, andOp<bool>());
-    };
-    const auto any = [](const bool mine)
-    {
-        return returnReduce(mine, orOp<bool>());
-    };
-
-    if (all(folder.isStart()))
-    {
-        return verdict::good;
-    }
-    if (runRecord::accepted.found("files"))
-    {
-        return acceptAsItIs(name, folder, reason);
-    }
-    if (all(folder.hasRecord()) && any(!folder.hasList()))
-    {
-        reason = "it was written by a version that kept no list of files";
-        return verdict::refused;
-    }
-    const bool moved = any(folder.hasRecord() && folder.redistributed());
-    reason = anyOf(folder.missing());
-    if (!reason.empty())
-    {
-        return moved && all(folder.hasRecord()) ? verdict::refused : verdict::bad;
-    }
-    if (moved)
-    {
-        Info<< "Time " << name << " was written by another number of processes:"
-            << " all files are there, their checksums do not apply" << nl
-            << endl;
-        return verdict::good;
-    }
-    reason = anyOf(folder.changed());
-    return reason.empty() ? verdict::good : verdict::bad;
-}
-
-
-Foam::restartTime::verdict Foam::restartTime::acceptAsItIs
-(
-    const word& name,
-    const timeFolder& folder,
-    string& reason
-) const
-{
-    reason = anyOf(folder.holds("T") ? string() : string("T is missing"));
-    if (!reason.empty())
-    {
-        return verdict::bad;
-    }
-    string lost(anyOf(folder.missing()));
-    if (lost.empty())
-    {
-        lost = anyOf(folder.changed());
-    }
-    if (!lost.empty())
-    {
-        Info<< "Accepted: time " << name << " as it is. " << lost.c_str() << nl
-            << endl;
-    }
-    return verdict::good;
-}
-
-
 void Foam::restartTime::setAside(const word& name) const
 {
     const fileName from(path_/name);
@@ -233,8 +132,9 @@ void Foam::restartTime::takeLatest()
 
     for (const word& name : times)
     {
-        const verdict what = judge(name, reason);
-        if (what == verdict::good)
+        const timeVerdict verdict(path_/name);
+        reason = verdict.reason;
+        if (verdict.what == timeVerdict::good)
         {
             for (const word& newer : skipped)
             {
@@ -248,18 +148,20 @@ void Foam::restartTime::takeLatest()
             returnReduce(true, andOp<bool>());
             return;
         }
-        if (what == verdict::refused)
+        if (verdict.what == timeVerdict::refused)
         {
             FatalErrorInFunction
                 << "A run cannot continue from time " << name << " in " << path_
-                << ": " << reason.c_str()
-                << ". Allowed: another startTime; or msddFoam -accept files, to"
-                << " take it as it is; files that are missing are then replaced"
-                << " by initial values" << exit(FatalError);
+                << ": " << reason.c_str() << ". Allowed: "
+                << runRecord::toAccept("files").c_str() << ", to take it as it"
+                << " is now; files that are missing are then replaced by initial"
+                << " values; or another startTime" << exit(FatalError);
         }
-        Info<< "Time " << name << " is skipped: " << reason.c_str()
-            << ". It " << (dryRun_ ? "would be" : "is") << " renamed to "
-            << name << ".incomplete" << nl << endl;
+        runRecord::note
+        (
+            "Time " + name + " is skipped: " + reason + ". It "
+          + (dryRun_ ? "would be" : "is") + " renamed to " + name + ".incomplete."
+        );
         skipped.append(name);
     }
     if (times.size())
@@ -285,15 +187,21 @@ void Foam::restartTime::checkStart(const scalar startTime) const
     {
         return;     // reading the first missing field reports the error
     }
-    string reason;
-    if (judge(name, reason) != verdict::good)
+    const timeVerdict verdict(path_/name);
+    if (verdict.what != timeVerdict::good)
     {
         FatalErrorInFunction
             << "Time " << name << " in " << path_
-            << ", the startTime of controlDict, is not complete: "
-            << reason.c_str() << ". Allowed: an earlier startTime; latestTime,"
-            << " which takes the newest complete time; or msddFoam -accept"
-            << " files, to take it as it is" << exit(FatalError);
+            << ", the startTime of controlDict, "
+            << (
+                   verdict.what == timeVerdict::cutShort
+                 ? "is not complete: "
+                 : "cannot be taken: "
+               )
+            << verdict.reason.c_str() << ". Allowed: an earlier startTime;"
+            << " latestTime, which takes the newest complete time; or "
+            << runRecord::toAccept("files").c_str() << ", to take it as it is"
+            << exit(FatalError);
     }
 }
 

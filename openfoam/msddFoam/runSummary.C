@@ -128,7 +128,7 @@ void Foam::runSummary::write
         returnReduce(time.elapsedCpuTime(), sumOp<scalar>());
 
     const heatBalance heat(this->heat());
-    DynamicList<string> sentences;
+    DynamicList<string> sentences(runRecord::notes);
     for
     (
         const string& sentence :

@@ -77,6 +77,7 @@ void Foam::solverObjects::makeNeighbours()
 
 void Foam::solverObjects::checkMesh() const
 {
+    runRecord::checkMesh(mesh());
     checkPlane(mesh(), properties->surrogateDict());
 }
 

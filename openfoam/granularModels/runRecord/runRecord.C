@@ -16,7 +16,9 @@ License
 
 #include "runRecord.H"
 #include "timeFolder.H"
+#include "meshNumbers.H"
 #include "granularModel.H"
+#include "fileOperation.H"
 #include "OStringStream.H"
 #include "ListOps.H"
 
@@ -28,6 +30,8 @@ namespace Foam
 }
 
 Foam::wordHashSet Foam::runRecord::accepted;
+Foam::string Foam::runRecord::acceptedIn;
+Foam::DynamicList<Foam::string> Foam::runRecord::notes;
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -48,10 +52,11 @@ Foam::runRecord::runRecord(const fvMesh& mesh, const bool registered)
         )
     ),
     mesh_(mesh),
+    files_(1, fileName("uniform/time")),
     heat(mesh.boundary().size(), Zero),
     startTime(mesh.time().startTime().value())
 {
-    const timeFolder folder(mesh.time().timePath()/mesh.dbDir());
+    const timeFolder folder(mesh.time().timePath(), mesh.dbDir());
     if (returnReduce(folder.hasRecord(), andOp<bool>()))
     {
         read(folder);
@@ -95,7 +100,98 @@ void Foam::runRecord::read(const timeFolder& folder)
 }
 
 
+void Foam::runRecord::add(const fvMesh& mesh, const bool own)
+{
+    meshes_.add(mesh.name(), meshNumbers(mesh).dict());
+    for (const word& name : mesh.thisDb().sortedNames())
+    {
+        regIOobject& object = mesh.thisDb().lookupObjectRef<regIOobject>(name);
+        if
+        (
+            object.writeOpt() == IOobject::AUTO_WRITE
+         && object.instance() == mesh_.time().timeName()
+        )
+        {
+            files_.append(mesh.dbDir()/object.local()/name);
+            if (own)
+            {
+                object.writeOpt() = IOobject::NO_WRITE;
+                fields_.append(&object);
+            }
+        }
+    }
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::runRecord::note(const string& sentence)
+{
+    Info<< sentence.c_str() << nl << endl;
+    notes.append(sentence);
+}
+
+
+Foam::string Foam::runRecord::toAccept(const word& name)
+{
+    return
+        acceptedIn.empty()
+      ? string("msddFoam -accept " + name)
+      : string("the entry 'accept (" + name + ");' in " + acceptedIn);
+}
+
+
+void Foam::runRecord::checkMesh(const fvMesh& mesh, const fileName& region)
+{
+    if (fileHandler().type() != "uncollated")
+    {
+        FatalErrorInFunction
+            << "File handler is '" << fileHandler().type()
+            << "', allowed: uncollated. What belongs to a time is checked file"
+            << " by file" << exit(FatalError);
+    }
+    const timeFolder folder(mesh.time().timePath(), region);
+    const dictionary meshes(folder.record().subOrEmptyDict("meshes"));
+    if (!returnReduce(meshes.found(mesh.name()), andOp<bool>()))
+    {
+        return;
+    }
+    const meshNumbers before(meshes.subDict(mesh.name())), now(mesh);
+    const string difference
+    (
+        now.difference
+        (
+            before, returnReduce(folder.redistributed(), orOp<bool>())
+        )
+    );
+    const bool taken =
+        accepted.found("mesh") && now.cells() == before.cells();
+    if (difference.empty())
+    {
+        return;
+    }
+    if (!taken)
+    {
+        FatalErrorInFunction
+            << "The mesh in " << (mesh.time().constant()/mesh.meshDir()).c_str()
+            << " is not that on which time " << mesh.time().timeName() << " in "
+            << mesh.time().path() << " was computed: " << difference.c_str()
+            << ". Allowed: that mesh; the case's Allclean, to begin anew; or "
+            << (
+                   now.cells() == before.cells()
+                 ? toAccept("mesh") + ", to take the values cell by cell"
+                 : string("mapFields, to take fields to another mesh")
+               ).c_str()
+            << exit(FatalError);
+    }
+    note
+    (
+        "Accepted: another mesh in "
+      + string(mesh.time().constant()/mesh.meshDir()) + ": " + difference
+      + ". Its cells got the values of the cells with the same numbers."
+    );
+}
+
 
 void Foam::runRecord::compare(const dictionary& settings)
 {
@@ -119,37 +215,51 @@ void Foam::runRecord::compare(const dictionary& settings)
                 << "Setting '" << item.keyword() << "' is " << is.c_str()
                 << ", but time " << mesh_.time().timeName() << " in "
                 << mesh_.time().path() << " was computed with " << was.c_str()
-                << ". Allowed: the same; the case's Allclean, to begin anew; or"
-                << " msddFoam -accept " << item.keyword()
+                << ". Allowed: the same; the case's Allclean, to begin anew; or "
+                << toAccept(item.keyword()).c_str()
                 << ", to go on from this time with the new value"
                 << exit(FatalError);
         }
-        Info<< "Accepted: " << item.keyword() << " changes from " << was.c_str()
-            << " to " << is.c_str() << nl;
+        note
+        (
+            "Accepted: " + item.keyword() + " changes from " + was + " to " + is
+          + " at time " + mesh_.time().timeName() + "."
+        );
     }
 }
 
 
 void Foam::runRecord::findFiles()
 {
-    files_ = fileNameList(1, fileName("uniform/time"));
     for (const word& region : mesh_.time().sortedNames<fvMesh>())
     {
-        const fvMesh& mesh = mesh_.time().lookupObject<fvMesh>(region);
-        for (const word& name : mesh.thisDb().sortedNames())
-        {
-            const regIOobject& object =
-                mesh.thisDb().lookupObject<regIOobject>(name);
-            if
-            (
-                object.writeOpt() == IOobject::AUTO_WRITE
-             && object.instance() == mesh_.time().timeName()
-            )
-            {
-                files_.append(mesh.dbDir()/object.local()/name);
-            }
-        }
+        add(mesh_.time().lookupObject<fvMesh>(region), false);
     }
+}
+
+
+void Foam::runRecord::writeRegion()
+{
+    add(mesh_, true);
+    writeOpt() = IOobject::AUTO_WRITE;
+}
+
+
+bool Foam::runRecord::writeObject
+(
+    IOstream::streamFormat format,
+    IOstream::versionNumber version,
+    IOstream::compressionType compression,
+    const bool valid
+) const
+{
+    bool ok = true;
+    for (const regIOobject* field : fields_)
+    {
+        ok = field->writeObject(format, version, compression, valid) && ok;
+    }
+    const_cast<runRecord&>(*this).writeLast();
+    return ok;
 }
 
 
@@ -164,8 +274,12 @@ void Foam::runRecord::writeLast()
     os.writeEntry("startTime", startTime);
     os.writeEntry("processes", Pstream::parRun() ? Pstream::nProcs() : 1);
     os.writeEntry("process", Pstream::myProcNo());
-    os.writeEntry("timeScheme", scheme);
+    if (!scheme.empty())
+    {
+        os.writeEntry("timeScheme", scheme);
+    }
     settings_.writeEntry("settings", os);
+    meshes_.writeEntry("meshes", os);
     os.writeEntry("lastDeltaT", lastDeltaT);
     os.writeEntry("nextDeltaT", nextDeltaT);
     os.writeEntry("leastT", leastT);
@@ -203,7 +317,7 @@ void Foam::runRecord::writeLast()
 
     timeFolder::write
     (
-        mesh_.time().timePath()/mesh_.dbDir(), files_, os.str()
+        mesh_.time().timePath(), mesh_.dbDir(), files_, os.str()
     );
 }
 

@@ -16,13 +16,13 @@ License
 
 #include "timeFolder.H"
 #include "wholeFile.H"
+#include "IFstream.H"
 #include "IStringStream.H"
 #include "OSspecific.H"
 #include "Pstream.H"
 #include "SHA1.H"
 #include "error.H"
 
-#include <fstream>
 #include <iterator>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -30,26 +30,18 @@ License
 namespace Foam
 {
 
-static const char* const recordName = "uniform/msddFoam";
 static const std::string lastLine = "checksum \"";
 static const std::string lastEnd = "\";\n";
 
-//- Last characters of complete files written by OpenFOAM, and of JSON files
-static const std::string endOfFile = "* //\n";
-static const std::string endOfJson = "}\n";
-
+//- Text of a file, of a compressed one what it was compressed from; empty if
+//- there is none
 static std::string contents(const fileName& path)
 {
-    std::ifstream is(path, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(is), {});
-}
-
-
-static bool endsWith(const std::string& text, const std::string& end)
-{
+    IFstream is(path);
     return
-        text.size() >= end.size()
-     && text.compare(text.size() - end.size(), end.size(), end) == 0;
+        is.good()
+      ? std::string(std::istreambuf_iterator<char>(is.stdStream()), {})
+      : std::string();
 }
 
 static string listedNames(const fileNameList& names)
@@ -60,6 +52,12 @@ static string listedNames(const fileNameList& names)
         text += (text.empty() ? "" : ", ") + name;
     }
     return text;
+}
+
+
+static string checksum(const std::string& text)
+{
+    return SHA1(text).digest().str();
 }
 
 
@@ -75,16 +73,31 @@ static bool isOfOlderVersion(const std::string& record)
 }
 
 
-//- Whether a file that was just written is complete. Of a compressed file it
-//- is only known whether it exists.
-static bool isComplete(const fileName& file, const std::string& text)
+//- Whether a text has its end: the line with which OpenFOAM ends its files, or,
+//- of files written by others, a last bracket or semicolon with all brackets
+//- closed
+static bool isComplete(const std::string& text)
 {
-    return
-        !text.empty()
-     && (
-            file.ext() == "gz"
-         || endsWith(text, file.ext() == "json" ? endOfJson : endOfFile)
-        );
+    const size_t last = text.find_last_not_of(" \t\r\n");
+    if (last == std::string::npos)
+    {
+        return false;
+    }
+    if (last >= 3 && text.compare(last - 3, 4, "* //") == 0)
+    {
+        return true;
+    }
+    if (text[last] != '}' && text[last] != ';')
+    {
+        return false;
+    }
+    label open = 0;
+    for (const char c : text)
+    {
+        open += (c == '{' || c == '(' || c == '[');
+        open -= (c == '}' || c == ')' || c == ']');
+    }
+    return open == 0;
 }
 
 } // End namespace Foam
@@ -92,14 +105,16 @@ static bool isComplete(const fileName& file, const std::string& text)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::timeFolder::timeFolder(const fileName& path)
+Foam::timeFolder::timeFolder(const fileName& path, const fileName& region)
 :
-    path_(path)
+    path_(path),
+    region_(region),
+    recordName_(region_/"uniform/msddFoam")
 {
-    const fileName file(path_/recordName);
-    if (!isFile(file, false))
+    const fileName file(path_/recordName_);
+    if (!holds(recordName_))
     {
-        damage_ = string(recordName) + ", which is written last, is missing";
+        damage_ = recordName_ + ", which is written last, is missing";
         return;
     }
     const std::string text(contents(file));
@@ -108,15 +123,15 @@ Foam::timeFolder::timeFolder(const fileName& path)
     if (signedFile)
     {
         const std::string body(text, 0, last + 1);
-        if (text != body + lastLine + SHA1(body).digest().str() + lastEnd)
+        if (text != body + lastLine + checksum(body) + lastEnd)
         {
-            damage_ = string(recordName) + " is damaged";
+            damage_ = recordName_ + " is damaged";
             return;
         }
     }
     else if (!isOfOlderVersion(text))
     {
-        damage_ = string(recordName) + " is incomplete";
+        damage_ = recordName_ + " is incomplete";
         return;
     }
     IStringStream is(text);
@@ -141,39 +156,23 @@ Foam::timeFolder::listed() const
 }
 
 
-Foam::fileName Foam::timeFolder::file(const fileName& name) const
-{
-    const fileName plain(path_/name), compressed(plain + ".gz");
-    return
-        isFile(plain, false) ? plain
-      : isFile(compressed, false) ? compressed
-      : fileName();
-}
-
-
-Foam::string Foam::timeFolder::checksum(const fileName& path)
-{
-    return SHA1(contents(path)).digest().str();
-}
-
-
 // * * * * * * * * * * * * * Static Member Functions * * * * * * * * * * * * //
 
 void Foam::timeFolder::write
 (
     const fileName& path,
+    const fileName& region,
     const fileNameList& names,
     const std::string& record
 )
 {
-    const timeFolder folder(path);
+    const timeFolder folder(path, region);
     std::string text(record);
     text += "files\n(\n";
     for (const fileName& name : names)
     {
-        const fileName file(folder.file(name));
-        const std::string written(contents(file));
-        if (!isComplete(file, written))
+        const std::string written(contents(path/name));
+        if (!isComplete(written))
         {
             FatalErrorInFunction
                 << "Cannot write " << path/name << ": it is missing or ends"
@@ -181,12 +180,12 @@ void Foam::timeFolder::write
                 << " time that is complete" << exit(FatalError);
         }
         text +=
-            "    \"" + name + "\" \"" + SHA1(written).digest().str() + "\"\n";
+            "    \"" + name + "\" \"" + checksum(written) + "\"\n";
     }
     text += ");\n";
-    text += lastLine + SHA1(text).digest().str() + lastEnd;
+    text += lastLine + checksum(text) + lastEnd;
 
-    writeWhole(path/recordName, [&](std::ostream& os) { os << text; });
+    writeWhole(path/folder.recordName_, [&](std::ostream& os) { os << text; });
 }
 
 
@@ -198,11 +197,16 @@ bool Foam::timeFolder::exists() const
 }
 
 
+bool Foam::timeFolder::holds(const fileName& name) const
+{
+    return isFile(path_/name, true);    // or its compressed form
+}
+
+
 bool Foam::timeFolder::isStart() const
 {
     return
-        holds("T") && !holds("uniform/time")
-     && !isFile(path_/recordName, false);
+        holdsT() && !holds("uniform/time") && !holds(recordName_);
 }
 
 
@@ -221,19 +225,26 @@ Foam::string Foam::timeFolder::missing() const
     {
         return
             !exists() ? string("it is not there")
-          : !holds("uniform/time") && !holds("T")
-          ? string(path_.name() + "/T is missing")
+          : !holds("uniform/time") && !holdsT()
+          ? string(std::string(path_.name()/region_/"T") + " is missing")
           : damage_;
     }
-    fileNameList lost;
+    fileNameList lost, cut;
     for (const auto& item : listed())
     {
         if (!holds(item.first))
         {
             lost.append(item.first);
         }
+        else if (!isComplete(contents(path_/item.first)))
+        {
+            cut.append(item.first);
+        }
     }
-    return lost.empty() ? string() : "missing: " + listedNames(lost);
+    return
+        !lost.empty() ? "missing: " + listedNames(lost)
+      : !cut.empty() ? "without its end: " + listedNames(cut)
+      : string();
 }
 
 
@@ -242,7 +253,7 @@ Foam::string Foam::timeFolder::changed() const
     fileNameList other;
     for (const auto& item : listed())
     {
-        if (checksum(file(item.first)) != item.second)
+        if (checksum(contents(path_/item.first)) != item.second)
         {
             other.append(item.first);
         }

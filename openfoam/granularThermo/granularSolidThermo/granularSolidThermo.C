@@ -17,6 +17,7 @@ License
 #include "granularSolidThermo.H"
 #include "caseChecks.H"
 #include "refusals.H"
+#include "timeVerdict.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "gradientEnergyFvPatchScalarField.H"
 #include "mixedEnergyFvPatchScalarField.H"
@@ -34,9 +35,45 @@ namespace Foam
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
+void Foam::granularSolidThermo::checkTime(const fvMesh& mesh)
+{
+    const IOdictionary dict
+    (
+        IOobject
+        (
+            dictName, mesh.time().constant(), mesh,
+            IOobject::MUST_READ, IOobject::NO_WRITE, false
+        )
+    );
+    runRecord::accepted = wordHashSet
+    (
+        dict.lookupOrDefault<wordList>("accept", wordList())
+    );
+    runRecord::acceptedIn =
+        mesh.time().constant()/mesh.dbDir()/dictName;
+
+    const timeVerdict verdict(mesh.time().timePath(), mesh.dbDir());
+    if (verdict.what != timeVerdict::good)
+    {
+        FatalErrorInFunction
+            << "Region " << mesh.name() << " cannot begin with time "
+            << mesh.time().timeName() << " in " << mesh.time().path() << ": "
+            << verdict.reason.c_str() << ". Allowed: an earlier startTime, or,"
+            << " if the last run was stopped while it wrote, the removal of the"
+            << " folder " << mesh.time().timePath() << " (of all processes), to"
+            << " go on from the time before; or "
+            << runRecord::toAccept("files").c_str() << ", to take it as it is"
+            << " now; files that are missing are then replaced by initial"
+            << " values" << exit(FatalError);
+    }
+    runRecord::checkMesh(mesh, mesh.dbDir());
+}
+
+
 const Foam::fvMesh& Foam::granularSolidThermo::checked(const fvMesh& mesh)
 {
     checkOpenFOAM();
+    checkTime(mesh);
 
     const wordList needed({"T", "p", "porosity", "fabricIndex"});
     wordList missing;
@@ -114,6 +151,7 @@ Foam::granularSolidThermo::granularSolidThermo
     setGradients();
     grains_.holdStrain();
     setConductivity();
+    grains_.record().writeRegion();
 }
 
 
@@ -140,7 +178,7 @@ void Foam::granularSolidThermo::checkEntries() const
         *this,
         {
             "FoamFile", "thermoType", "coordinateSystem", "crossTolerance",
-            "updateT", "dpdt"
+            "accept", "updateT", "dpdt"
         }
     );
     const word mechanics

@@ -17,6 +17,7 @@ License
 
 #include "neighbourSolids.H"
 #include "granularProperties.H"
+#include "runRecord.H"
 #include "IOdictionary.H"
 #include "OStringStream.H"
 #include "regionProperties.H"
@@ -115,6 +116,7 @@ void Foam::neighbourSolids::read(const Time& runTime, const word& name)
             IOobject(name, runTime.timeName(), runTime, IOobject::MUST_READ)
         )
     );
+    runRecord::checkMesh(s.mesh());
     s.thermo = solidThermo::New(s.mesh());
     if (!s.thermo->isotropic())
     {

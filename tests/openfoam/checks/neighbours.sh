@@ -192,7 +192,7 @@ killed_with_a_solid() { # killed (-9) three times while it writes every step; a 
     check "solid beside the bed, killed three times: the last time has the same bytes" diff -rq -x functionObjects 20 "$work/neighbour-unkilled/20"
     truncate -s -40 20/plate/T
     logged msddFoam
-    check "solid beside the bed: a time whose file of the solid is damaged is skipped" grep -q 'Time 20 is skipped: not as written: plate/T' log
+    check "solid beside the bed: a time whose file of the solid is damaged is skipped" grep -q 'Time 20 is skipped: without its end: plate/T' log
     check "and computed again to the same bytes" diff -rq -x functionObjects 20 "$work/neighbour-unkilled/20"
 }
 by_temperature() { # folder, scheme, steps of 200 s in all: conductivity and heat capacity of the plate follow its temperature

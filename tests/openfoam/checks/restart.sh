@@ -1,5 +1,6 @@
-# A restart must continue from the newest complete time that was computed with the same settings. If files are missing or
-# changed, or were written by another number of processes, the log must say so; nothing may be replaced silently.
+# A restart must continue from the newest complete time that was computed with the same settings on the same mesh. If files are
+# missing or cut short, the time before is taken; if they were changed, the run is refused. What was written by another number of
+# processes is said; nothing may be replaced silently.
 
 halfway() { # folder: the case small, run to the time 0.5, which is written
     changed "$1"
@@ -16,6 +17,10 @@ flip() { # file: flips one bit in its middle
     printf "\\x$(printf %x $((byte ^ 1)))" | dd of="$1" bs=1 seek=$at conv=notrunc status=none
 }
 
+asks_for_consent() { # reason: the run must be refused with it and with the option that takes the time as it is
+    refused "A run cannot continue from time 0.5 in \"$PWD\": $1. Allowed: msddFoam -accept files" && [ ! -e 0.5.incomplete ]
+}
+
 every_file() { # name of the check: removes each file of the time 0.5 in turn, then flips one bit in each
     local what=$1 whole=$PWD/0.5.whole file files lost=0 changed=0 unharmed
     logged msddFoam
@@ -28,10 +33,13 @@ every_file() { # name of the check: removes each file of the time 0.5 in turn, t
         skipped "missing: $file" && lost=$((lost + 1)) || echo "        lost unnoticed: $file" >&2
         again
         flip "0.5/$file"
-        skipped "not as written: $file" && changed=$((changed + 1)) || echo "        changed unnoticed: $file" >&2
+        asks_for_consent "not as written: $file" && changed=$((changed + 1)) || echo "        changed unnoticed: $file" >&2
     done
     check "$what: the loss of each of ${#files[@]} files is said, the time before is taken: $lost" test $lost = ${#files[@]}
-    check "$what: one flipped bit in each of ${#files[@]} files: $changed" test $changed = ${#files[@]}
+    check "$what: one flipped bit in each of ${#files[@]} files, refused: $changed" test $changed = ${#files[@]}
+    again
+    truncate -s -3000 0.5/T
+    check "$what: a file without its end, the time before is taken" skipped 'without its end: T'
     again
     rm 0.5/uniform/msddFoam
     check "$what: no record, so the time is not whole" skipped 'uniform/msddFoam, which is written last, is missing'
@@ -71,6 +79,68 @@ other_settings() { # a restart with another setting must be refused with both va
     check "restart with another model: refused" refused "Setting 'model' is network "
     cp "$before" constant/granularProperties
     logged foamDictionary -entry endTime -set 0.5 system/controlDict
+}
+
+edited() { # a time that was changed on purpose, and one of which no number was changed
+    again
+    logged foamDictionary -entry boundaryField.left.value -set 'uniform 60' 0.5/T
+    check "a wall that was changed by hand: refused" asks_for_consent 'not as written: T'
+    controls 'endTime 0.55; writeInterval 1;'
+    logged msddFoam -accept files
+    check "a wall that was changed by hand: accepted by name, the run goes on from it and says so at its end" bash -c \
+        'grep -q "value *uniform 60" 0.55/T && sed -n "/What to know/,\$p" log | grep -q -- "- Accepted: time 0.5 as it is. not as written: T"'
+    again
+    rm -rf 0.55
+    logged msddFoam
+    mv 0.55 plain
+    again
+    find 0.5 -type f -exec gzip {} +
+    logged msddFoam
+    check "a time that was compressed: taken, same bytes at the end" bash -c 'diff -rq plain 0.55 && [ -e 0.5/T.gz ]'
+    find 0.5 -type f -exec gunzip {} +
+    rm -rf 0.55
+    logged msddFoam
+    check "and uncompressed again" diff -rq plain 0.55
+    rm -rf 0.55 plain
+    controls 'endTime 0.5; writeInterval 5;'
+}
+
+other_mesh() { # the mesh was changed after the time: refused with what differs; points that were only rounded are the same
+    local points=constant/polyMesh/points
+    changed other-mesh
+    controls 'endTime 0.1; writeInterval 1;'
+    mesh_is '12 6 1'
+    logged msddFoam
+    controls 'endTime 0.15;'
+    rm -rf "$work/mesh-before"
+    cp -r constant "$work/mesh-before"
+    before() { rm -rf constant 0.15; cp -r "$work/mesh-before" constant; }
+    on_other_mesh() { refused "is not that on which time 0.1 in \"$PWD\" was computed: $1"; }
+    logged renumberMesh -overwrite
+    check "restart over renumbered cells: refused" on_other_mesh 'its cells, faces or points have other numbers or places. Allowed: '
+    in_parts '2 1'
+    check "restart over renumbered cells on two processes: refused" bash -c \
+        '! mpirun --oversubscribe -np 2 msddFoam -parallel > log.bad 2>&1 && grep -q "have other numbers or places" log.bad'
+    rm -rf processor*
+    before
+    logged transformPoints -scale '(2 1 1)'
+    check "restart on a wider mesh: refused" on_other_mesh 'it reaches from (0 0 '
+    check "restart on a wider mesh: accepted by name" bash -c 'msddFoam -accept mesh > log.bad 2>&1 && grep -q -- "- Accepted: another mesh" log.bad'
+    before
+    sed -i 's/(12 6 1)/(6 12 1)/' system/blockMeshDict
+    logged blockMesh
+    check "restart on another mesh with as many cells: refused" on_other_mesh 'its cells, faces or points'
+    before
+    sed -i 's/(6 12 1)/(6 6 1)/' system/blockMeshDict
+    logged blockMesh
+    check "restart on another number of cells: refused" on_other_mesh 'it has 36 cells, the other 72. Allowed: '
+    check "and not accepted by name" bash -c '! msddFoam -accept mesh > log.bad 2>&1 && grep -q "it has 36 cells, the other 72" log.bad'
+    before
+    # Six digits, as foamFormatConvert may leave them
+    awk '/^\(-?[0-9.e+-]+ / { gsub(/[()]/, ""); printf "(%.6g %.6g %.6g)\n", $1, $2, $3; next } { print }' $points > points.new
+    mv points.new $points
+    check "restart on a mesh with points that were rounded to six digits: the same" bash -c 'msddFoam > log.bad 2>&1'
+    before
 }
 
 named_start() { # restarts with startTime instead of latestTime
@@ -177,7 +247,7 @@ binary_and_compressed() { # restarts with these formats must give the same bytes
         check "restart with $format has the same bytes" diff -rq whole 1
         rm -rf 1
         flip "$(ls 0.5/T 0.5/T.gz 2> /dev/null)"
-        check "flipped bit with $format: skipped" bash -c 'msddFoam > log.bad 2>&1; grep -q "Time 0.5 is skipped: not as written: T" log.bad'
+        check "flipped bit with $format: found" bash -c 'msddFoam > log.bad 2>&1; grep -q "time 0.5 .*: not as written: T\|Time 0.5 is skipped: without its end: T" log.bad'
     done
 }
 
@@ -239,6 +309,8 @@ whole=$PWD/0.5.whole
 again
 other_settings
 again
+edited
+again
 named_start
 older_version
 nothing_whole
@@ -257,6 +329,7 @@ full_disk
 blocked
 read_only
 one_solver
+other_mesh
 mapped
 for shape in $shapes; do other_processes "$shape"; done
 binary_and_compressed

@@ -69,6 +69,7 @@ pub const THERMO: &[Key] = &[
     must("thermoType", Kind::Word(&["granularSolidThermo"])),
     may("coordinateSystem", Kind::Dictionary),
     may("crossTolerance", Kind::Range(0.0, 1.0, "")),
+    may("accept", Kind::Any),
     may("updateT", Kind::Any),
     may("dpdt", Kind::Any),
 ];
