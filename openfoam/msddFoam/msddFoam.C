@@ -36,7 +36,8 @@ Usage
     another mesh with as many cells, files a time with missing or changed files.
 
     Reads   T, porosity, fabricIndex; at the start also stress (tension
-            positive) and conductivity, if there are such files;
+            positive), conductivity and initialTemperature, if there are such
+            files;
             constant/granularProperties (keys: cases/common);
             constant/fvOptions, if there is one: heat sources [W/m^3];
             system/fvSolution, msddFoam, if there is one (keys: timeScheme.H)

@@ -109,6 +109,7 @@ void Foam::solverObjects::makeGrains()
 void Foam::solverObjects::makeMechanics()
 {
     mechanics = granularMechanics::New(properties(), grains());
+    grains->warm(T(), [this]() { mechanics->solve(true); });
 }
 
 

@@ -78,33 +78,34 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         law_->elastic() || grains.model().spatial(),
         springs(properties)
     ),
+    read_(placesLost() ? IOobject::NO_READ : IOobject::READ_IF_PRESENT),
     nodeDisplacement_
     (
-        io("nodeDisplacement", IOobject::READ_IF_PRESENT),
+        io("nodeDisplacement", read_),
         pointMesh::New(mesh_),
         dimensionedVector(dimLength, Zero)
     ),
     nodeVelocity_
     (
-        io("nodeVelocity", IOobject::READ_IF_PRESENT),
+        io("nodeVelocity", read_),
         pointMesh::New(mesh_),
         dimensionedVector(dimVelocity, Zero)
     ),
     wallTraction_
     (
-        io("wallTraction", IOobject::READ_IF_PRESENT),
+        io("wallTraction", read_),
         pointMesh::New(mesh_),
         dimensionedVector(dimPressure, Zero)
     ),
     wallGive_
     (
-        io("wallGive", IOobject::READ_IF_PRESENT),
+        io("wallGive", read_),
         pointMesh::New(mesh_),
         dimensionedVector(dimLength, Zero)
     ),
     initialStress_
     (
-        io("initialStress", IOobject::READ_IF_PRESENT),
+        io("initialStress", read_),
         law_->initialStress()
     ),
     D_
@@ -161,6 +162,10 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
             << "A wall has entry 'give', allowed: 0 with law elastic, which has"
             << " no grains that give way" << exit(FatalIOError);
     }
+    if (read_ == IOobject::NO_READ && !law_->elastic())
+    {
+        grains_.beginWherePlaced();
+    }
     law_->begin(initialStress_);
     setResidual();
     if (!law_->elastic())
@@ -207,6 +212,28 @@ Foam::IOobject Foam::granularMechanicsModels::equilibrium::io
     (
         name, mesh_.time().timeName(), mesh_, read, IOobject::AUTO_WRITE
     );
+}
+
+
+bool Foam::granularMechanicsModels::equilibrium::placesLost() const
+{
+    const auto there = [this](const word& name, const word& type)
+    {
+        IOobject header(io(name, IOobject::MUST_READ));
+        return returnReduce
+        (
+            header.typeHeaderOk<volScalarField>(false)
+         && header.headerClassName() == type,
+            andOp<bool>()
+        );
+    };
+    // The stress at the start is that of grains that were not displaced
+    return
+        there("areaRatio", volScalarField::typeName)
+     && !(
+            there("nodeDisplacement", pointVectorField::typeName)
+         && there("initialStress", volSymmTensorField::typeName)
+        );
 }
 
 

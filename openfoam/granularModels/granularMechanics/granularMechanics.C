@@ -38,7 +38,9 @@ namespace granularMechanicsModels
         none(const granularProperties&, granularState& grains)
         :
             granularMechanics(grains)
-        {}
+        {
+            grains.beginWherePlaced();
+        }
     };
 
     defineTypeNameAndDebug(none, 0);

@@ -73,7 +73,7 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
             "FoamFile", "surrogate", "density", "youngModulus",
             "thermalConductivity", "heatCapacity", "thermalExpansion",
             "meanRadius", "conductivityFactor", "bulkDensity", "mechanics",
-            "equilibriumCoeffs", "restStress"
+            "equilibriumCoeffs", "restStress", "initialTemperature"
         }
     );
     if (!(thermalExpansion_.value() >= 0))

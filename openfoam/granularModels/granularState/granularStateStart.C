@@ -19,6 +19,7 @@ License
 #include "givenField.H"
 #include "wallDistance.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
+#include "OStringStream.H"
 
 #include <cmath>
 
@@ -26,6 +27,11 @@ License
 
 namespace Foam
 {
+
+//- Thermal strain of a part in which the grains grow at the start, and least
+//- number of parts: spheres under a small load are stiff
+static const scalar largestPart = 1e-3;
+static const label leastParts = 20;
 
 //- FatalError unless all values are numbers between the limits, which are
 //- themselves excluded
@@ -201,14 +207,18 @@ Foam::granularState::granularState
     checkField(T, dimTemperature, -GREAT, GREAT);
     checkField(initialTemperature_, dimTemperature, -GREAT, GREAT);
     checkInitialTemperature(T);
+    setInitialTemperature();
     checkInitialTemperature(initialTemperature_);
     checkVolumes(mesh_);
     checkTimeStep(mesh_.time());
+    temperature_ =
+        writtenByRun()
+      ? T.primitiveField()
+      : initialTemperature_.primitiveField();
     thermalStrain_.primitiveFieldRef() =
         properties_.thermalExpansion().value()
-       *(T.primitiveField() - initialTemperature_.primitiveField());
+       *(temperature_ - initialTemperature_.primitiveField());
     inRegion_.primitiveFieldRef() = 1;
-    temperature_ = T.primitiveField();
 
     readState();
     allocate();
@@ -490,6 +500,141 @@ void Foam::granularState::setInitialBulkDensity()
     density = properties_.density().value()*initialSolid();
     bulkDensity_.correctBoundaryConditions();
     record_.initialMass = gSum(density*mesh_.V());
+}
+
+
+bool Foam::granularState::writtenByRun() const
+{
+    if (record_.continues || mesh_.time().timeIndex() > 0)
+    {
+        return true;
+    }
+    const auto there = [this](const word& name)
+    {
+        IOobject header(io(name, IOobject::MUST_READ));
+        return returnReduce
+        (
+            header.typeHeaderOk<volScalarField>(true), andOp<bool>()
+        );
+    };
+    if (!there("thermalStrainIncrement"))
+    {
+        return false;
+    }
+    const bool temperature = there("initialTemperature");
+    if (temperature != there("bulkDensity"))
+    {
+        FatalErrorInFunction
+            << "Time " << mesh_.time().timeName() << " in "
+            << mesh_.time().path()/mesh_.dbDir() << " has the field"
+            << " thermalStrainIncrement and only one of initialTemperature and"
+            << " bulkDensity, allowed: both, to begin with the state of a run"
+            << " that has written them; or none, to begin at the temperature T"
+            << exit(FatalError);
+    }
+    return temperature;
+}
+
+
+void Foam::granularState::setInitialTemperature()
+{
+    const word key("initialTemperature");
+    if (record_.continues || !properties_.found(key))
+    {
+        return;
+    }
+    if (initialTemperature_.typeHeaderOk<volScalarField>(true))
+    {
+        FatalIOErrorInFunction(properties_)
+            << "Entry '" << key << "' stands beside the field of this name in "
+            << initialTemperature_.objectPath() << ", allowed: one of both"
+            << exit(FatalIOError);
+    }
+    initialTemperature_ == dimensionedScalar
+    (
+        key, dimTemperature,
+        granularProperties::ranged(properties_, key, 0, 0, 1e5)
+    );
+}
+
+
+void Foam::granularState::beginWherePlaced()
+{
+    const auto ratio(givenField<scalar>(mesh_, "areaRatio", dimless));
+    if (!ratio.valid())
+    {
+        return;
+    }
+    checkField(ratio(), dimless, 0, GREAT);
+    const volScalarField& T = mesh_.lookupObject<volScalarField>("T");
+    const scalar mass = gSum(this->mass()), heat = storedHeat(T);
+    bulkDensity_.primitiveFieldRef() /= ratio().primitiveField();
+    bulkDensity_.correctBoundaryConditions();
+    record_.initialMass = gSum(this->mass());
+    record_.startHeat += storedHeat(T) - heat;
+
+    OStringStream text;
+    text.precision(4);
+    text<< "The fields of time " << mesh_.time().timeName() << " are those of"
+        << " grains that have moved (areaRatio " << gMin(ratio().primitiveField())
+        << " to " << gMax(ratio().primitiveField()) << "), without what"
+        << " says from where, nodeDisplacement and initialStress. They begin"
+        << " anew where the mesh has them: with displacement 0, areaRatio 1, the"
+        << " stress of now as initialStress, no friction of walls yet, and the"
+        << " bulk density of now (mass " << record_.initialMass << " kg, before "
+        << mass << " kg).";
+    runRecord::note(text.str());
+}
+
+
+void Foam::granularState::warm
+(
+    const volScalarField& T,
+    const std::function<void()>& balance
+)
+{
+    const scalarField start(temperature_);
+    const scalarField way(T.primitiveField() - start);
+    if (!(gMax(mag(way)()) > 0))
+    {
+        return;
+    }
+    const scalar largest =
+        properties_.thermalExpansion().value()*gMax(mag(way)());
+    const label parts =
+        largest > 0
+      ? max(leastParts, label(std::ceil(largest/largestPart)))
+      : 1;
+    for (label part = 1; part <= parts; ++part)
+    {
+        const scalarField from(temperature_);
+        strain
+        (
+            from,
+            part == parts
+          ? T.primitiveField()
+          : scalarField(start + (scalar(part)/parts)*way)
+        );
+        commitStrain();
+        scalar error;
+        if (propose(false, false, error))
+        {
+            policy_.refuseCut();
+        }
+        commit();
+        balance();
+    }
+    refresh();
+
+    OStringStream text;
+    text.precision(4);
+    text<< "The bed has no thermal strain at initialTemperature, "
+        << gMin(start) << " to " << gMax(start) << " K. It was brought to T, "
+        << gMin(T.primitiveField()) << " to " << gMax(T.primitiveField())
+        << " K, by a thermal strain of up to " << largest << " in " << parts
+        << " parts: the mean pressure at the start is "
+        << pressure_.weightedAverage(mesh_.V()).value() << " Pa.";
+    runRecord::note(text.str());
 }
 
 

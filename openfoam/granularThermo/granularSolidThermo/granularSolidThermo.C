@@ -147,6 +147,7 @@ Foam::granularSolidThermo::granularSolidThermo
     mu_ == dimensionedScalar(mu_.dimensions(), Zero);
     psi_ == dimensionedScalar(psi_.dimensions(), Zero);
 
+    grains_.warm(T_, []() {});
     setEnergy();
     setGradients();
     grains_.holdStrain();

@@ -221,6 +221,20 @@ lost_files() { # a time of a region that lacks a file of the bed, or was compute
     logged renumberMesh -region bed -overwrite
     check "a region with cells renumbered: refused" what_is_lacking 'its cells, faces or points have other numbers or places'
 }
+region_warmed() { # initialTemperature in a region: as in msddFoam
+    local e
+    changed small-warmed
+    grains 'initialTemperature 30;'
+    mesh_is '24 12 1'
+    logged msddFoam
+    regions region-warmed bed 1
+    region bed '24 12' '0 0 2.15 0.645'
+    temperature bed 'uniform 50' "$walls"
+    bed bed 'initialTemperature 30;'
+    logged chtMultiRegionFoam
+    e=$(difference_of 100 "$work/small-warmed/1" 1/bed)
+    check "a region packed at another temperature, against msddFoam: difference $e <= 1e-6" below "$e" 1e-6
+}
 region_parts() { # the plane between the regions is cut, too
     local e name
     beside_plate parts-regions 5 '12 9'
@@ -323,5 +337,6 @@ energy_of_regions
 unequal_faces_of_regions
 restarted_regions
 lost_files
+region_warmed
 region_parts
 region_refusals

@@ -143,6 +143,83 @@ other_mesh() { # the mesh was changed after the time: refused with what differs;
     before
 }
 
+moved_fields() { # mapFields takes no fields at points: a bed that has moved begins anew from its stress, and says so
+    local source e
+    changed moved-from
+    grains 'mechanics equilibrium; equilibriumCoeffs { residual 1e-2; }'
+    mesh_is '12 6 1'
+    controls 'writeInterval 10; endTime 0.5;'
+    logged msddFoam
+    source=$PWD
+    rm -rf "$work/moved-to"
+    cp -r . "$work/moved-to"
+    cd "$work/moved-to"
+    rm -rf [1-9]* 0.[0-9]*
+    controls 'writeInterval 1; endTime 0.05; startFrom latestTime;'
+    logged mapFields "$source" -sourceTime 0.5 -consistent
+    logged msddFoam
+    check "fields of a bed that has moved, without its displacement: said in the log and at the end" \
+        test "$(grep -c 'The fields of time 0 are those of grains that have moved (areaRatio ' log)" = 2
+    (cd "$source" && controls 'writeInterval 1; endTime 0.55;' && logged msddFoam)
+    e=$(paste <(field "$source/0.55/pressure") <(field 0.05/pressure) | awk '{ e = $1 - $2; e = e < 0 ? -e : e; d = e > d ? e : d; m = $1 > m ? $1 : m } END { print (NR > 9 ? d/m : "nan") }')
+    check "the pressure is that of the run that goes on, within $e <= 0.02" below "$e" 0.02
+    e=$(paste -d ' ' <(field "$source/0.55/D") <(field "$source/0.5/D") <(field 0.05/D) | awk '{ d = 0; m = 0
+        for (k = 1; k <= 3; k++) { a = $k - $(3 + k); m += a*a; d += (a - $(6 + k))^2 }; if (m > most) most = m; if (d > worst) worst = d }
+        END { print (NR == 72 ? sqrt(worst/most) : "nan") }')
+    check "and grains move as in that run: the displacement in the step differs by $e <= 0.1 of the largest" below "$e" 0.1
+    e=$(sed -n 's/.*"relative_difference": \([^}]*\)}.*/\1/p' postProcessing/msddFoam/summary.json)
+    check "heat received and held differ by $e <= 1e-6" below "$e" 1e-6
+    rm -rf 0.05
+    rm 0/initialTemperature
+    check "a part of what a run wrote: refused" refused 'has the field thermalStrainIncrement and only one of initialTemperature and bulkDensity'
+}
+
+packed_at() { # folder, initialTemperature (field, key or none), entries: a bed at 90 K that was packed at 50 K
+    changed "$1"
+    sed -i 's/uniform [0-9]*/uniform 90/' 0/T
+    mesh_is '2 1 1'
+    controls 'endTime 0.05;'
+    [ "$2" = key ] && grains 'initialTemperature 50;' || [ "$2" = none ] \
+        || sed 's/object .*/object initialTemperature;/; s/uniform 90/uniform 50/' 0/T > 0/initialTemperature
+    grains "${3:-}"
+}
+mean_of() { # field of the time 0.05, and its folder
+    field "${2:-$work/warmed-field/0.05}/$1" | awk '{ s += $1; n++ } END { printf "%.6g", s/n }'
+}
+warmed() { # the grains grow from initialTemperature to T: as in a run that heats the bed from there, with the same increments
+    local name p
+    packed_at warmed-field field
+    logged msddFoam
+    p=$(mean_of pressure)
+    check "the log says that the bed was brought from its initialTemperature to T" \
+        grep -q 'brought to T, 90 to 90 K, by a thermal strain of up to 0.04 in 40 parts' log
+    packed_at warmed-slowly none
+    sed -i 's/uniform 90/uniform 50/; s/fixedValue/zeroGradient/' 0/T
+    # 1 K in each step; the state follows one step later
+    cat > constant/fvOptions <<-END
+	FoamFile { version 2.0; format ascii; class dictionary; object fvOptions; }
+	heat { type scalarSemiImplicitSource; selectionMode all; volumeMode specific;
+	    injectionRateSuSp { T ($(field "$work/warmed-field/0.05/bulkDensity" | awk 'NR == 1 { printf "%.17g", 20*$1 }') 0); } }
+	END
+    controls 'endTime 2.05; writeInterval 41;'
+    logged msddFoam
+    for name in pressure porosity conductivity; do
+        check "a bed packed at 50 K begins at 90 K: $name $(mean_of $name) as of one that is heated, $(mean_of $name "$PWD/2.05")" \
+            test "$(field "$work/warmed-field/0.05/$name" | head -n 1 | awk '{ printf "%.9g", $1 }')" = "$(field 2.05/$name | head -n 1 | awk '{ printf "%.9g", $1 }')"
+    done
+    packed_at warmed-key key
+    logged msddFoam
+    check "the same by a key" test "$(mean_of pressure 0.05)" = "$p"
+    controls 'endTime 0.1;'
+    logged msddFoam
+    check "a restart does not warm it again" test "$(field 0.1/pressure)" = "$(field 0.05/pressure)"
+    packed_at warmed-moving key 'mechanics equilibrium;'
+    logged msddFoam
+    check "grains that may move, heated alike: $(mean_of pressure 0.05) Pa, with none that move $p" is_within "$(awk "BEGIN { print $(mean_of pressure 0.05)/$p }")" 0.98 1.02
+    packed_at warmed-twice field 'initialTemperature 50;'
+    check "field and key: refused" refused "Entry 'initialTemperature' stands beside the field of this name"
+}
+
 named_start() { # restarts with startTime instead of latestTime
     controls 'startFrom startTime; startTime 0.5;'
     rm 0.5/porosity
@@ -331,5 +408,7 @@ read_only
 one_solver
 other_mesh
 mapped
+moved_fields
+warmed
 for shape in $shapes; do other_processes "$shape"; done
 binary_and_compressed

@@ -57,6 +57,7 @@ pub const GRAINS: &[Key] = &[
     may("mechanics", Kind::Word(&["equilibrium", "none"])),
     may("equilibriumCoeffs", Kind::Dictionary),
     may("restStress", Kind::Dictionary),
+    may("initialTemperature", Kind::Range(0.0, 1e5, "K")),
 ];
 
 /// `restStress`.
