@@ -48,6 +48,7 @@ dry_many() {
     sed -i 's/zeroGradient/zeroGradint/' processor1/0/T
     check "dry run: an error of one process alone ends in a list" foreseen 'zeroGradint' 3
     rm -r constant/polyMesh
+    check "dry run: -dry-run-write of OpenFOAM is not offered" bash -c '! msddFoam -dry-run-write > log.dry 2>&1 && grep -q "Invalid option" log.dry'
     check "dry run: without a mesh it says what makes one" foreseen 'There is no mesh in constant/polyMesh: run blockMesh'
 }
 

@@ -7,6 +7,7 @@ use super::domain::BLOCKS;
 use super::finding::{Finding, Findings, Severity};
 use super::start::Start;
 use crate::openfoam;
+use msdd_rve::message::shortened;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -39,9 +40,12 @@ pub fn check(program: &Path, folder: &Path, start: &Start, found: &mut Findings)
         .args(["-dry-run", "-case"])
         .arg(place)
         .output();
-    let findings = match output {
-        Ok(output) => findings(&output, place),
-        Err(error) => vec![finding(Severity::Error, &format!("{}: {error}", program.display()))],
+    let findings = match output.map_err(|error| error.to_string()).and_then(|output| findings(&output, place))
+    {
+        Ok(findings) => findings,
+        // What ends the solver early often ended foamDictionary, too
+        Err(_) if found.counts()[0] > 0 => return,
+        Err(problem) => return found.0.push(finding(Severity::Error, &problem)),
     };
     // The mesh itself was judged
     found.0.retain(|old| old.file != BLOCKS || old.severity == Severity::Doubt);
@@ -56,22 +60,23 @@ fn libraries(program: &Path) -> std::ffi::OsString {
     std::env::join_paths(own.into_iter().chain(std::env::split_paths(&others))).unwrap_or(others)
 }
 
-/// The findings in the list that the solver prints last, or that it ended before.
-fn findings(output: &Output, folder: &Path) -> Vec<Finding> {
+/// The findings in the list that the solver prints last; else how it ended.
+fn findings(output: &Output, folder: &Path) -> Result<Vec<Finding>, String> {
     let text = String::from_utf8_lossy(&output.stdout);
     if let Some((_, list)) = text.rsplit_once(LIST) {
-        return list.lines().filter_map(listed).collect();
+        return Ok(list.lines().filter_map(listed).collect());
     }
     let stderr = String::from_utf8_lossy(&output.stderr);
     let said = message(if stderr.trim().is_empty() { &text } else { &stderr }, folder);
-    vec![finding(Severity::Error, &format!("{PROGRAM} -dry-run ended with {}: {said}", output.status))]
+    Err(format!("{PROGRAM} -dry-run ended with {}: {said}", output.status))
 }
 
 /// The finding of a line "Error 1: text".
 fn listed(line: &str) -> Option<Finding> {
     let (head, text) = line.split_once(": ")?;
     match head.split_once(' ')?.0 {
-        "Error" => Some(finding(Severity::Error, text)),
+        // OpenFOAM lists a hundred types
+        "Error" => Some(finding(Severity::Error, &shortened(text))),
         "Warning" => Some(finding(Severity::Doubt, text)),
         _ => None,
     }
@@ -80,7 +85,9 @@ fn listed(line: &str) -> Option<Finding> {
 /// A finding of a text that may begin with a file.
 fn finding(severity: Severity, text: &str) -> Finding {
     let (file, advice) = match text.split_once(": ") {
-        Some((file, rest)) if file.contains('/') && !file.contains(". ") => (file, rest),
+        Some((file, rest)) if file.contains('/') && !file.replace(", line ", "").contains(' ') => {
+            (file, rest)
+        }
         _ => ("", text),
     };
     let [key, value, allowed] = [(); 3].map(|()| String::new());
@@ -94,14 +101,14 @@ fn is_same(old: &Finding, new: &Finding) -> bool {
     let key = old.key.rsplit('/').next().unwrap_or_default();
     [old.severity, new.severity] == [Severity::Error; 2]
         && whole.contains(&old.file)
-        && (key.is_empty() || words().any(|word| word == key))
+        && (["", "internalField"].contains(&key) || words().any(|word| word == key))
 }
 
 /// The end of what a program has printed, on one line.
 fn message(text: &str, folder: &Path) -> String {
     let text = text.rsplit_once("FATAL").map_or(text, |(_, rest)| rest);
     let words: Vec<&str> = text.split_whitespace().take(80).collect();
-    words.join(" ").replace(&format!("{}/", folder.display()), "")
+    shortened(&words.join(" ").replace(&format!("{}/", folder.display()), ""))
 }
 
 /// A copy of a case that is removed when this is dropped.
@@ -202,5 +209,9 @@ mod tests {
         assert!(is_same(&own("constant/granularProperties", "surrogate/modle"), &error));
         assert!(!is_same(&own("constant/granularProperties", "surrogate/model"), &error));
         assert!(!is_same(&own("0/T", "modle"), &error) && !is_same(&own("0/T", "modle"), &doubt));
+        let field =
+            listed("Error 2: Field porosity in 0/porosity is 12.5 in cell 0, allowed: between 0 and 1")
+                .unwrap();
+        assert!(field.file.is_empty() && is_same(&own("0/porosity", "internalField"), &field));
     }
 }
