@@ -79,6 +79,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         springs(properties)
     ),
     read_(placesLost() ? IOobject::NO_READ : IOobject::READ_IF_PRESENT),
+    written_(-1),
     nodeDisplacement_
     (
         io("nodeDisplacement", read_),

@@ -90,6 +90,22 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
     writeNodes(velocity_, nodeVelocity_);
     writeNodes(traction_, wallTraction_);
     writeNodes(give_, wallGive_);
+    if (mesh_.time().writeTime() && mesh_.time().timeIndex() != written_)
+    {
+        written_ = mesh_.time().timeIndex();
+        takeNodes();
+    }
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::takeNodes()
+{
+    readNodes(nodeDisplacement_, u_);
+    readNodes(nodeVelocity_, velocity_);
+    readNodes(wallTraction_, traction_);
+    readNodes(wallGive_, give_);
+    placed_ = false;
+    findMetric();
 }
 
 

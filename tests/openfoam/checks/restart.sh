@@ -359,6 +359,24 @@ one_solver() { # a second solver in a folder is refused while the first runs, al
     check "refused input leaves no lock file" bash -c '! msddFoam > log.bad 2>&1 && test ! -e msddFoam.lock'
 }
 
+wedge() { # in a wedge, too, a restart must give the same bytes: motion along the radius is rounded when it is written
+    local steps
+    for steps in fixed adaptive; do
+        spheres_bed "wedge-$steps" 'walls { "inner|outer" { type frictionless; } }'
+        wedge_mesh 4
+        sed -i '/"\.\*"/i inner { type fixedValue; value uniform 400; }' 0/T
+        controls 'endTime 800000; deltaT 80000; writeInterval 5;'
+        [ $steps = fixed ] || {
+            scheme 'timeScheme secondOrder; temperatureTolerance 1;'
+            controls 'adjustTimeStep yes; deltaT 8000; writeControl runTime; writeInterval 400000;'
+        }
+        logged msddFoam
+        mv 800000 whole
+        logged msddFoam
+        check "restart in a wedge, $steps steps, has the same bytes" diff -rq whole 800000
+    done
+}
+
 mapped() { # goes on from fields that OpenFOAM's mapFields took to finer cells: heat counts from there, also after a restart
     local source e
     halfway mapped-from
@@ -407,6 +425,7 @@ blocked
 read_only
 one_solver
 other_mesh
+wedge
 mapped
 moved_fields
 warmed
