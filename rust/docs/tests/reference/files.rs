@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 
 const PAGE: &str = "reference/fields.md";
 const RECORD: &str = "openfoam/granularModels/runRecord/runRecord.C";
+const MESH: &str = "openfoam/granularModels/runRecord/meshNumbers.C";
 const FOLDER: &str = "openfoam/granularModels/runRecord/timeFolder.C";
 const SETTINGS: &str = "openfoam/granularModels/granularState/granularStateSettings.C";
 const SUMMARY: &str = "openfoam/msddFoam/runSummary.C";
@@ -41,6 +42,7 @@ pub fn sets() -> Vec<Set> {
         Set::new(PAGE, "onlineRve.json", BOXES, firsts(JSON_ENTRY, &source(BOXES))),
         Set::new(PAGE, "uniform/msddFoam", RECORD, record),
         Set::new(PAGE, "settings", SETTINGS, names),
+        Set::new(PAGE, "meshes", MESH, firsts(r#"result\.add\("(\w+)""#, &source(MESH))),
         Set::new(PAGE, "summary.json", SUMMARY, firsts(JSON_ENTRY, &source(SUMMARY))),
         Set::new(PAGE, "counters of models", ONLINE, firsts(r#"\{"(\w+)","#, &counters)),
         Set::new(PAGE, "tables.json", TABLES, firsts(JSON_ENTRY, &source(TABLES))),
