@@ -194,6 +194,9 @@ killed_with_a_solid() { # killed (-9) three times while it writes every step; a 
     logged msddFoam
     check "solid beside the bed: a time whose file of the solid is damaged is skipped" grep -q 'Time 20 is skipped: without its end: plate/T' log
     check "and computed again to the same bytes" diff -rq -x functionObjects 20 "$work/neighbour-unkilled/20"
+    logged transformPoints -region plate -scale '(1 1.001 1)'
+    controls 'endTime 21;'
+    check "solid beside the bed: another mesh of the solid is refused" refused 'constant/plate/polyMesh is not that on which time 20'
 }
 by_temperature() { # folder, scheme, steps of 200 s in all: conductivity and heat capacity of the plate follow its temperature
     layers_case "$1" 24 "endTime ${4:-200}; deltaT $(awk "BEGIN { print ${4:-200}/$3 }"); writeInterval $3;" "timeScheme $2;"
