@@ -49,8 +49,9 @@ static const comparedQuantity comparedQuantities[] =
     {"grains_across", "grains between opposite walls", "", true, false}
 };
 
-//- Share by which values may differ from those compared by rounding
-static const scalar roundOff = 1e-6;
+//- Share by which values may lie beyond those compared, which are means over a
+//- hundred grains and not the extremes of cells
+static const scalar margin = 0.2;
 
 //- Factor from which on it is told
 static const scalar leastFactor = 1.5;
@@ -103,10 +104,10 @@ bool Foam::runCourse::within(const quantity q, const range& values) const
     return
         known.empty() || values.empty()
      || (
-            (q == across || values.most <= known.most + roundOff*mag(known.most))
+            (q == across || values.most <= known.most + margin*mag(known.most))
          && (
                 !comparedQuantities[q].below
-             || values.least >= known.least - roundOff*mag(known.least)
+             || values.least >= known.least - margin*mag(known.least)
             )
         );
 }

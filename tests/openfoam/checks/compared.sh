@@ -75,14 +75,14 @@ within() { # steel under 20 kPa, warmed by a few kelvin
     cp -r . ../warmer
     cd ../warmer
     rm -rf [1-9]* log
-    sed -i '/left/,/}/ s/uniform .*/uniform 420;/' 0/T
+    sed -i '/left/,/}/ s/uniform .*/uniform 500;/' 0/T
     logged msddFoam
     local first
     first=$(ls -d [1-9]* | head -n 1)
     sed -i '/left/,/}/ s/uniform .*/uniform 300;/' "$first/T"
     controls "stopAt endTime; endTime $((first + 20)); startFrom latestTime;"
     logged msddFoam -accept '(files)'
-    check "after a restart the hottest time is not forgotten" grep -q '"beyond": \[.*temperature up to 420 K (compared: 285 K to 354 K)' \
+    check "after a restart the hottest time is not forgotten" grep -q '"beyond": \[.*temperature up to 500 K (compared: 285 K to 354 K)' \
         postProcessing/msddFoam/summary.json
     check "nor when it was" grep -qE '"beyond_since": 0\}|"beyond_since": 10\}' postProcessing/msddFoam/summary.json
 }
