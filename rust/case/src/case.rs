@@ -2,6 +2,8 @@
 
 use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
+use crate::model::ModelGrains;
+use crate::numbers::{plain, rounded};
 use crate::walls::{WallOverTime, heat_of_walls};
 use msdd_dem::{Material, Thermal};
 use std::path::{Path, PathBuf};
@@ -18,11 +20,15 @@ pub struct Case {
     pub folder: PathBuf,
     /// Name of the folder.
     pub name: String,
-    /// Material with the density and E of the case; parameters that the solver does not have are those of the paper's Table 2.
+    /// Material with the density and E of the case; the other parameters are those of its surrogate, see [`ModelGrains`].
     pub material: Material,
     pub thermal: Thermal,
     /// r̄ of the grains \[m\].
     pub mean_radius: f64,
+    /// Smallest and largest radius over r̄ \[-\], likewise of the surrogate.
+    pub radii: [f64; 2],
+    /// The surrogate that says so.
+    pub source: String,
     /// Initial temperature of all grains \[K\].
     pub initial_temperature: f64,
     /// Thermal boundary conditions, in the order of `Side`.
@@ -44,20 +50,32 @@ impl Case {
         all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
     }
 
+    /// What the surrogate says of the grains, in words.
+    pub fn grains_of_surrogate(&self) -> String {
+        let [low, high] = self.radii.map(|ratio| plain(rounded(ratio, 3)));
+        format!(
+            "friction angle {} rad, stiffness ratio {}, radii from {low} to {high} of the mean, as in the {}",
+            plain(self.material.friction_angle),
+            plain(self.material.stiffness_ratio),
+            self.source
+        )
+    }
+
     /// Reads `0/T`, `constant/granularProperties`, `system/controlDict` and `system/blockMeshDict` of a folder.
     ///
     /// # Errors
     /// [`CaseError`] with file, key, value and what is allowed, for everything that this reader does not understand, and for
-    /// gravity and heat sources, which the discs do not know; nothing that could change the result is ignored.
+    /// gravity, heat sources and a surrogate whose grains are not known; nothing that could change the result is ignored.
     pub fn read(folder: &Path) -> Result<Self, CaseError> {
         let temperature = Dictionary::expanded(&folder.join("0/T"))?;
         let grains = Dictionary::expanded(&folder.join("constant/granularProperties"))?;
         let control = Dictionary::expanded(&folder.join("system/controlDict"))?;
+        let model = ModelGrains::of(folder, &grains)?;
         let mesh = Dictionary::expanded(&folder.join("system/blockMeshDict"))?;
         check_gravity(folder)?;
         check_sources(folder)?;
         let (low, high) = bounds(&mesh)?;
-        let (material, thermal, mean_radius) = read_grains(&grains)?;
+        let (material, thermal, mean_radius) = read_grains(&grains, &model)?;
         let name = folder.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_owned()));
         Ok(Self {
             folder: folder.to_path_buf(),
@@ -65,6 +83,8 @@ impl Case {
             material,
             thermal,
             mean_radius,
+            radii: model.radii,
+            source: model.source,
             initial_temperature: initial_temperature(&temperature)?,
             walls: heat_of_walls(&temperature)?,
             origin: low,
@@ -76,7 +96,10 @@ impl Case {
 }
 
 /// A file of a case, which may be packed; `None` if it is not there.
-fn optional(folder: &Path, name: &str) -> Result<Option<Dictionary>, CaseError> {
+///
+/// # Errors
+/// Those of [`Dictionary::expanded`].
+pub fn optional(folder: &Path, name: &str) -> Result<Option<Dictionary>, CaseError> {
     let is_there = folder.join(name).exists() || folder.join(format!("{name}.gz")).exists();
     is_there.then(|| Dictionary::expanded(&folder.join(name))).transpose()
 }
@@ -103,13 +126,13 @@ fn check_sources(folder: &Path) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn read_grains(file: &Dictionary) -> Result<(Material, Thermal, f64), CaseError> {
+fn read_grains(file: &Dictionary, model: &ModelGrains) -> Result<(Material, Thermal, f64), CaseError> {
     file.check_keys(&[&GRAIN_KEYS, &SOLVER_KEYS])?;
     let positive = |key| file.number(key, |v| v > 0.0 && v.is_finite(), "> 0");
     let material = Material {
         density: positive("density")?,
         young_modulus: positive("youngModulus")?,
-        ..Material::default()
+        ..model.material.clone()
     };
     let thermal = Thermal {
         conductivity: positive("thermalConductivity")?,
@@ -170,7 +193,7 @@ pub(crate) fn bounds(file: &Dictionary) -> Result<([f64; 2], [f64; 2]), CaseErro
 }
 
 /// All corners of the blocks [m], if they can be read.
-pub(crate) fn corners(file: &Dictionary) -> Option<Vec<[f64; 3]>> {
+pub fn corners(file: &Dictionary) -> Option<Vec<[f64; 3]>> {
     let key = if file.get("scale").is_some() { "scale" } else { "convertToMeters" };
     let scale = match file.get(key) {
         Some(_) => file.number(key, |v| v > 0.0 && v.is_finite(), "> 0").ok()?,
@@ -181,7 +204,7 @@ pub(crate) fn corners(file: &Dictionary) -> Option<Vec<[f64; 3]>> {
 }
 
 /// Reads `( ( x y z ) ... )`, also with the number of points in front.
-fn points(tokens: &[Token]) -> Option<Vec<[f64; 3]>> {
+pub fn points(tokens: &[Token]) -> Option<Vec<[f64; 3]>> {
     let inner = match tokens {
         [open, inner @ .., close] if open.text == "(" && close.text == ")" => inner,
         [_, open, inner @ .., close] if open.text == "(" && close.text == ")" => inner,

@@ -8,11 +8,13 @@ fn grains_need_every_key_and_no_other() {
         "density 3000; youngModulus 1e+07; thermalConductivity 100; heatCapacity 1; thermalExpansion 0;
                 meanRadius 0.005; bulkDensity paper;";
     let read = |text: &str| {
-        let file = Dictionary::parse(Path::new("constant/granularProperties"), text).unwrap();
-        read_grains(&file).map_err(|error| error.to_string())
+        let text = format!("{text} surrogate {{ type onlineRve; onlineRveCoeffs {{ frictionAngle 0.3; }} }}");
+        let file = Dictionary::parse(Path::new("constant/granularProperties"), &text).unwrap();
+        let model = ModelGrains::of(Path::new("."), &file).unwrap();
+        read_grains(&file, &model).map_err(|error| error.to_string())
     };
     let (material, thermal, mean_radius) = read(full).unwrap();
-    assert_eq!((material, mean_radius), (Material::default(), 0.005));
+    assert_eq!((material, mean_radius), (Material { friction_angle: 0.3, ..Material::default() }, 0.005));
     assert_eq!(thermal, Thermal { expansion: 0.0, ..Thermal::default() });
     let error = read(&full.replace("density 3000", "density -1")).unwrap_err();
     assert_eq!(error, "constant/granularProperties: density = -1, allowed: > 0");

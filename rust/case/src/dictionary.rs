@@ -156,17 +156,29 @@ impl Dictionary {
     /// # Errors
     /// [`CaseError::Key`] for anything else.
     pub fn mean(&self, key: &str) -> Result<f64, CaseError> {
+        self.means::<1>(key).map(|[mean]| mean)
+    }
+
+    /// The means over the cells of the components of a field.
+    ///
+    /// # Errors
+    /// As [`Self::mean`].
+    pub fn means<const N: usize>(&self, key: &str) -> Result<[f64; N], CaseError> {
         let tokens = self.value(key)?;
-        let numbers: Vec<f64> = match tokens {
+        let (values, most) = match tokens {
             // The kind of the list and its length stand before the values.
-            [word, _, _, rest @ ..] if word.text == "nonuniform" => {
-                rest.iter().filter_map(|token| token.text.parse().ok()).collect()
-            }
-            _ => return self.uniform(key),
+            [word, _, _, rest @ ..] if word.text == "nonuniform" => (rest, usize::MAX),
+            [word, rest @ ..] if word.text == "uniform" => (rest, N),
+            _ => return Err(self.refuse(key, &joined(tokens), "uniform <value>, or a list")),
         };
-        let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
-        match mean.is_finite() {
-            true => Ok(mean),
+        let numbers: Vec<f64> = values.iter().filter_map(|token| token.text.parse().ok()).collect();
+        let complete = (N..=most).contains(&numbers.len()) && numbers.len() % N == 0;
+        let mut means = [0.0; N];
+        for (k, number) in numbers.iter().enumerate() {
+            means[k % N] += number / (numbers.len() / N) as f64;
+        }
+        match complete && means.iter().all(|mean| mean.is_finite()) {
+            true => Ok(means),
             false => Err(self.refuse(key, &joined(tokens), "a list of finite numbers")),
         }
     }
@@ -366,6 +378,8 @@ mod tests {
         let mean = |key: &str| dictionary.as_ref().unwrap().mean(key);
         assert_eq!(["a", "b", "c"].map(|key| mean(key).unwrap()), [3.0, 1.5, 4.0]);
         assert!(mean("d").unwrap_err().to_string().contains("allowed: a list of finite numbers"));
+        let stress = parse("s nonuniform List<symmTensor> 2 ( ( 1 2 3 4 5 6 ) ( 3 2 3 4 5 8 ) );").unwrap();
+        assert_eq!(stress.means("s").unwrap(), [2.0, 2.0, 3.0, 4.0, 5.0, 7.0]);
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! | [`dictionary`] | OpenFOAM dictionaries as `foamDictionary -expand` prints them |
 //! | `binary` | files with lists in binary |
 //! | [`case`] | material, temperatures, box and times of a case folder |
+//! | [`model`] | the grains that the surrogate of a case was made for |
 //! | [`walls`] | thermal boundary conditions of the walls over time |
 //! | [`mesh`] | cell centres of a case's mesh |
 //! | [`fields`] | texts of initial fields |
@@ -28,6 +29,7 @@ pub mod fields;
 pub mod folder;
 pub mod grains;
 pub mod mesh;
+pub mod model;
 pub mod numbers;
 mod openfoam;
 pub mod packing;

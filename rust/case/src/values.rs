@@ -5,7 +5,7 @@ use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, RADIUS_RANGE, Spread};
 use crate::scene::{Mechanics, Scene, WALLS};
 use crate::walls::WallOverTime;
-use msdd_dem::WallHeat;
+use msdd_dem::{Material, WallHeat};
 use msdd_rve::Compression;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -16,8 +16,8 @@ const PROBE_LINES: f64 = 200.0;
 /// Least number of time steps of a run, so that curves of T are smooth.
 const STEPS: f64 = 100.0;
 
-/// To estimate the duration of a discrete element simulation: time step over sqrt(density radius / Young's modulus), and time
-/// for one grain and step on one core [s]. From 20 s of case H with 15 000 grains and steps of 1 ms, 131 core-seconds.
+/// To estimate the duration of a discrete element simulation: time step over [`contact_period`], and time for one grain and step
+/// on one core [s]. From 20 s of case H with 15 000 grains and steps of 1 ms, 131 core-seconds.
 const DISCS_STEP: f64 = 0.8;
 const DISCS_COST: f64 = 4e-7;
 
@@ -134,12 +134,23 @@ pub(crate) fn source(heat_source: Option<f64>) -> String {
     }
 }
 
+/// Time in which a grain oscillates on its contacts \[s\], about: √(ρ r̄ ℓ/E), ℓ = 1 m.
+pub fn contact_period(material: &Material, mean_radius: f64) -> f64 {
+    (material.density * mean_radius / material.young_modulus).sqrt()
+}
+
+/// Estimated time of one core \[s\] for discs that are simulated to `end` \[s\]; `period` \[s\]: [`contact_period`].
+pub fn discs_seconds(end: f64, period: f64, discs: f64) -> f64 {
+    end / (DISCS_STEP * period) * discs * DISCS_COST
+}
+
 /// Estimated duration of a discrete element simulation of the case, as text; from measurements with the paper's grains.
 fn discs_time(scene: &Scene, discs: f64) -> String {
-    let grains = &scene.grains;
-    // Time step, in proportion to the period in which a grain oscillates on its contacts: 1 ms of 1.2 ms in the paper.
-    let step = DISCS_STEP * (grains.density * grains.mean_radius / grains.young_modulus).sqrt();
-    let seconds = scene.end_time / step * discs * DISCS_COST;
+    let seconds = discs_seconds(
+        scene.end_time,
+        contact_period(&scene.grains.material(), scene.grains.mean_radius),
+        discs,
+    );
     match seconds {
         ..60.0 => "seconds".to_string(),
         ..3600.0 => format!("{:.0} minutes", seconds / 60.0),

@@ -9,6 +9,7 @@ mod ablation;
 mod bed;
 mod bench;
 mod case;
+mod confirm;
 mod database;
 mod draw;
 mod error;

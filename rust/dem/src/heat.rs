@@ -12,7 +12,8 @@ use crate::walls::Side;
 use serde::{Deserialize, Serialize};
 
 /// Thermal parameters of the grains (Table 2).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Thermal {
     /// k [W/(m K)].
     pub conductivity: f64,

@@ -3,9 +3,11 @@
 
 use crate::ReferenceError;
 use crate::packings::{GRAIN_CONDUCTIVITY, Reference, pressure_range, temperature_range};
-use crate::results::Results;
+use crate::results::{Properties, Results};
 use crate::series::{at, largest, root_mean_square, spread, statistics};
 use crate::solver::{COLUMNS, Run};
+use msdd_case::Case;
+use msdd_rve::message::number;
 use serde::Serialize;
 
 /// Differences over the sub-regions of all packings at the end.
@@ -108,6 +110,22 @@ pub fn check_points(points: &[[f64; 2]], discs: &Results) -> Result<(), Referenc
         value: words(points),
         allowed: format!("{}, the probes of the discs' result", words(&discs.probes)),
     })
+}
+
+/// Refuses to compare a case with discs that have other grains.
+///
+/// # Errors
+/// [`ReferenceError::Parameter`] with the first property that differs.
+pub fn check_grains(case: &Case, discs: &Results) -> Result<(), ReferenceError> {
+    let own = Properties::of(case).values();
+    match discs.properties().into_iter().zip(own).find(|(found, own)| (found.1 / own.1 - 1.0).abs() > 1e-9) {
+        None => Ok(()),
+        Some(((key, found), (_, own))) => Err(ReferenceError::Parameter {
+            key,
+            value: format!("{} in the discs' result", number(found)),
+            allowed: format!("{}, as in the case: run the discs again (msdd reference run)", number(own)),
+        }),
+    }
 }
 
 /// Errors of T at each probe of one run (rows of time and a temperature for each probe of the discs) against the means over
@@ -278,6 +296,29 @@ mod tests {
         assert!(error.contains("last time of the solver's run"), "{error}");
     }
     use std::path::Path;
+
+    #[test]
+    fn discs_of_other_grains_are_not_compared() {
+        let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let plan = crate::scenes::plan::Plan::read(&checkout.join("cases/scenes/plan.toml")).unwrap();
+        let case = plan.scenes.iter().find(|scene| scene.friction.is_none()).unwrap().case().unwrap();
+        let older = Results::read(&checkout.join("cases/reference/results/corner_seed11.json")).unwrap();
+        assert!(check_grains(&case, &older).is_ok());
+        let newer = Results { properties: Some(Properties::of(&case)), ..older.clone() };
+        assert!(check_grains(&case, &newer).is_ok());
+        let mut other = case.clone();
+        other.material.friction_angle = 0.3;
+        for discs in [&older, &newer] {
+            let error = check_grains(&other, discs).unwrap_err().to_string();
+            assert!(error.starts_with("friction_angle = 0.5 in the discs' result, allowed: 0.3,"), "{error}");
+        }
+        let mut other = case.clone();
+        other.thermal.expansion *= 2.0;
+        let error = check_grains(&other, &newer).unwrap_err().to_string();
+        assert!(error.starts_with("expansion = "), "{error}");
+        other.radii = [0.8, 1.2];
+        assert!(check_grains(&other, &older).unwrap_err().to_string().starts_with("smallest radius"));
+    }
 
     /// A run with the results of the reference, but `offset` warmer [K] and with the pressure times `factor`.
     fn echo(reference: &Reference, packing: usize, offset: f64, factor: f64) -> Run {

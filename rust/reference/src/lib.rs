@@ -4,6 +4,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`model`] | the packed initial model and its statistics |
+//! | [`start`] | the start of a case beside that packing |
 //! | [`mod@observe`] | what is recorded of a state: series, sub-regions, profiles |
 //! | [`run`](mod@run) | heat, expansion and motion to the end time |
 //! | [`checkpoint`] | files from which a killed run continues |
@@ -29,6 +30,7 @@ pub mod run;
 pub mod scenes;
 pub mod series;
 pub mod solver;
+pub mod start;
 
 pub use model::{Model, ModelSpec, Statistics};
 pub use msdd_case::Case;

@@ -9,7 +9,6 @@
 use crate::ReferenceError;
 use msdd_case::Case;
 pub use msdd_case::packing::PACKING_FRICTION;
-use msdd_case::packing::RADIUS_RANGE;
 use msdd_dem::{Disc, Material, Simulation, Walls};
 use msdd_rve::message::number;
 use msdd_rve::pack::free_drag;
@@ -60,14 +59,12 @@ pub struct Filling {
     pub isotropic: bool,
 }
 
-impl Default for Filling {
-    /// That of the paper's cases.
-    fn default() -> Self {
-        Self { porosity: SUM_POROSITY, radii: RADIUS_RANGE, isotropic: false }
-    }
-}
-
 impl Filling {
+    /// As full as the paper's cases, with the radii of this case.
+    pub fn of(case: &Case) -> Self {
+        Self { porosity: SUM_POROSITY, radii: case.radii, isotropic: false }
+    }
+
     /// Number of discs that fill the case's box; [`DISCS`], as in the paper, if that is right within 1 %.
     pub fn discs(&self, case: &Case) -> usize {
         let [low, high] = self.radii.map(|ratio| ratio * case.mean_radius);
@@ -150,7 +147,9 @@ pub fn pack(
     // other in memory.
     let discs = scatter(&mut random, radii, start_height, start_width, case.material.density)?;
     let discs = discs.into_iter().map(|disc| Disc { x: disc.y, y: disc.x, ..disc }).collect();
-    let slippery = Material { friction_angle: PACKING_FRICTION.atan(), ..case.material.clone() };
+    // No grain slides less easily while it is packed than afterwards.
+    let friction_angle = PACKING_FRICTION.atan().min(case.material.friction_angle);
+    let slippery = Material { friction_angle, ..case.material.clone() };
     let mut simulation = Simulation::new(slippery, discs, Walls::around(start_width, start_height));
     simulation.free_drag = free_drag(&simulation);
     simulation.set_threads(threads)?;
@@ -268,6 +267,13 @@ pub fn check_state(simulation: &Simulation, case: &Case) -> Result<(), Reference
     if (radius / wanted - 1.0).abs() > 0.1 {
         let allowed = format!("about {} m, {OTHER}", number(wanted));
         return refuse("mean radius", format!("{} m in the state", number(radius)), allowed);
+    }
+    let radii = || simulation.discs.iter().map(|disc| disc.radius);
+    let ratio = radii().fold(0.0, f64::max) / radii().fold(f64::INFINITY, f64::min);
+    let wanted = case.radii[1] / case.radii[0];
+    if (ratio / wanted - 1.0).abs() > 0.15 {
+        let allowed = format!("about {}, {OTHER}", number(wanted));
+        return refuse("largest over smallest radius", format!("{} in the state", number(ratio)), allowed);
     }
     let (width, height) = (simulation.walls.width(), simulation.walls.height());
     if ((width / height) / (case.size[0] / case.size[1]) - 1.0).abs() > 1e-9 {

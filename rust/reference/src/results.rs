@@ -2,6 +2,9 @@
 
 use crate::ReferenceError;
 use crate::model::Statistics;
+use msdd_case::Case;
+use msdd_case::packing::RADIUS_RANGE;
+use msdd_dem::{Material, Thermal};
 use msdd_files::read_text;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -57,6 +60,42 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.*e}", DIGITS - 1).parse::<f64>().map_or(value, |value| value + 0.0)
 }
 
+/// What the discs of a run are.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Properties {
+    pub material: Material,
+    pub thermal: Thermal,
+    /// \[m\]
+    pub mean_radius: f64,
+    /// Smallest and largest radius over the mean radius \[-\].
+    pub radii: [f64; 2],
+}
+
+impl Properties {
+    pub fn of(case: &Case) -> Self {
+        let Case { material, thermal, mean_radius, radii, .. } = case.clone();
+        Self { material, thermal, mean_radius, radii }
+    }
+
+    /// Names and values in SI units. The first are those that the surrogate of a case says.
+    pub fn values(&self) -> Vec<(&'static str, f64)> {
+        let (material, thermal) = (&self.material, &self.thermal);
+        vec![
+            ("friction_angle", material.friction_angle),
+            ("stiffness_ratio", material.stiffness_ratio),
+            ("smallest radius over the mean", self.radii[0]),
+            ("largest radius over the mean", self.radii[1]),
+            ("density", material.density),
+            ("young_modulus", material.young_modulus),
+            ("mean radius", self.mean_radius),
+            ("conductivity", thermal.conductivity),
+            ("heat_capacity", thermal.heat_capacity),
+            ("expansion", thermal.expansion),
+        ]
+    }
+}
+
 /// Parameters and results of a run. SI units, compression positive.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -65,6 +104,9 @@ pub struct Results {
     pub case: String,
     pub seed: u64,
     pub discs: usize,
+    /// Absent in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub properties: Option<Properties>,
     /// Width and height of the box \[m\].
     #[serde(rename = "box")]
     pub size: [f64; 2],
@@ -99,7 +141,24 @@ fn older_window() -> f64 {
     0.04
 }
 
+/// Number of the first of [`Properties::values`] that an older file has: all discs had the paper's then.
+const KNOWN_OF_OLDER: usize = 4;
+
 impl Results {
+    /// Names and values of the properties of the discs, as far as the file holds them.
+    pub fn properties(&self) -> Vec<(&'static str, f64)> {
+        let older = || Properties {
+            material: Material::default(),
+            thermal: Thermal::default(),
+            mean_radius: 0.0,
+            radii: RADIUS_RANGE,
+        };
+        match &self.properties {
+            Some(properties) => properties.values(),
+            None => older().values().into_iter().take(KNOWN_OF_OLDER).collect(),
+        }
+    }
+
     /// Reads a result file.
     ///
     /// # Errors

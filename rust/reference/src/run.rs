@@ -8,7 +8,7 @@ use crate::observe::{
     GRAINS_WINDOW, PROBE_WINDOW, add_network, add_profile, displacements, grains, network_table,
     profile_table, series_columns, series_row, sub_regions,
 };
-use crate::results::{Results, SCHEMA, Table};
+use crate::results::{Properties, Results, SCHEMA, Table};
 use msdd_case::Case;
 use msdd_dem::time_step::SAFETY;
 use msdd_dem::{Excess, Failure, Simulation, StepChoice, WallHeat};
@@ -135,6 +135,7 @@ pub fn run(
         case: case.name.clone(),
         seed: spec.seed,
         discs: start.discs.len(),
+        properties: Some(Properties::of(case)),
         size: [start.walls.width(), start.walls.height()],
         grains: probes.get(1).map(|&at| {
             grains(start, case.initial_temperature, &simulation, at, GRAINS_WINDOW * case.mean_radius)

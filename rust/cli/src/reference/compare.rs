@@ -3,11 +3,12 @@
 use crate::error::CliError;
 use clap::Args;
 use msdd_case::Case;
-use msdd_reference::compare::{check_points, temperature_errors};
+use msdd_reference::compare::{check_grains, check_points, temperature_errors};
 use msdd_reference::results::Results;
 use msdd_reference::solver::{probe_points, probe_rows};
+use msdd_reference::start::Start;
 use msdd_rve::message::number;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Args)]
 #[command(after_help = "Example, after cases/corner/Allrun:
@@ -32,24 +33,29 @@ fn range(text: &str) -> Result<f64, String> {
 }
 
 /// The range of temperatures of the case [K].
-fn range_of(case: &Path) -> Result<f64, CliError> {
-    let range = Case::read(case)?.temperature_range();
+fn range_of(case: &Case) -> Result<f64, CliError> {
+    let range = case.temperature_range();
     if range > 0.0 {
         return Ok(range);
     }
     let problem = "all walls and the start have one temperature; give the range by --range";
-    Err(CliError::Message(format!("{}: {problem}", case.display())))
+    Err(CliError::Message(format!("{}: {problem}", case.folder.display())))
 }
 
 /// Prints the largest difference over time at each probe, and the largest absolute value of all probes.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let discs = Results::read(&arguments.discs)?;
+    let case = Case::read(&arguments.case)?;
+    check_grains(&case, &discs)?;
     check_points(&probe_points(&arguments.case)?, &discs)?;
     let solver = probe_rows(&arguments.case)?;
     let range = match arguments.range {
         Some(range) => range,
-        None => range_of(&arguments.case)?,
+        None => range_of(&case)?,
     };
+    if let Some(difference) = Start::of(&case)?.and_then(|start| start.difference(&discs.model)) {
+        outln!("Warning: {difference}");
+    }
     let errors = temperature_errors(&solver, &discs, range)?;
     outln!(
         "T of the solver minus T of the discs, means in windows of {} mm, where they differ most",

@@ -8,17 +8,20 @@ mod requests;
 mod scenes;
 mod summary;
 
+use crate::confirm;
 use crate::error::CliError;
 use crate::progress::Progress;
 use crate::rve::{read_state, write_state};
 use clap::{Args, Subcommand, ValueEnum};
 use msdd_case::numbers::rounded;
 use msdd_case::packing::sum_porosity;
+use msdd_case::values::{contact_period, discs_seconds};
 use msdd_case::{Case, mesh};
 use msdd_dem::Simulation;
 use msdd_files::{check_target, write};
 use msdd_reference::model::{DISCS, Filling, ModelSpec, check_state, pack, statistics};
 use msdd_reference::run::Watch;
+use msdd_reference::start::Start;
 use msdd_reference::{ReferenceError, RunSpec, Statistics, fields, results::Results, run as run_case};
 use msdd_rve::message::number;
 use msdd_rve::vtk;
@@ -113,6 +116,9 @@ pub struct RunArguments {
     /// Least time between two checkpoints, from which a killed run continues [s of the clock].
     #[arg(long, default_value_t = 20.0)]
     checkpoint_every: f64,
+    /// Begin a run of more than an hour without asking.
+    #[arg(long)]
+    yes: bool,
     /// Folder for a ParaView series, with one state for each time at which profiles are recorded.
     #[arg(long, value_name = "DIR")]
     vtk: Option<PathBuf>,
@@ -128,6 +134,10 @@ pub struct FieldsArguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
+
+/// Shortest end of a run over the period of a contact \[-\] for which the discs were found to stay in equilibrium (book, Your own
+/// material).
+const SLOWEST: f64 = 2400.0;
 
 fn threads() -> u32 {
     std::thread::available_parallelism().map_or(1, |n| n.get().min(2) as u32)
@@ -147,15 +157,15 @@ pub fn run(command: &Command) -> Result<(), CliError> {
 }
 
 impl ModelArguments {
-    fn filling(&self) -> Result<Filling, CliError> {
-        let usual = Filling { isotropic: self.compression == Closing::Isotropic, ..Filling::default() };
+    fn filling(&self, case: &Case) -> Result<Filling, CliError> {
+        let usual = Filling { isotropic: self.compression == Closing::Isotropic, ..Filling::of(case) };
         let Some(porosity) = self.porosity else { return Ok(usual) };
         let porosity = sum_porosity(porosity).map_err(ReferenceError::from)?;
         Ok(Filling { porosity, ..usual })
     }
 
     fn discs(&self, case: &Case) -> Result<usize, CliError> {
-        Ok(self.discs.unwrap_or(self.filling()?.discs(case)))
+        Ok(self.discs.unwrap_or(self.filling(case)?.discs(case)))
     }
 
     fn path(&self, case: &Case) -> Result<PathBuf, CliError> {
@@ -190,7 +200,7 @@ impl ModelArguments {
         check_target(&path)?;
         let begin = Instant::now();
         let mut progress = Progress::new("packing, %", 100);
-        let spec = ModelSpec { discs: self.discs(case)?, seed: self.seed, filling: self.filling()? };
+        let spec = ModelSpec { discs: self.discs(case)?, seed: self.seed, filling: self.filling(case)? };
         let watch = |done: f64| progress.set((100.0 * done) as u64, 100, "");
         let model = pack(spec, case, self.threads as usize, watch)?;
         progress.finish();
@@ -213,8 +223,43 @@ fn pack_model(arguments: &PackArguments) -> Result<(), CliError> {
         arguments.model.pack(&case)?;
     }
     let simulation = arguments.model.load(&case)?;
-    print_statistics(&statistics(&simulation));
+    let packing = statistics(&simulation);
+    print_statistics(&packing);
+    print_grains(&case, &packing)
+}
+
+/// The grains that are simulated, and how the packing differs from the start of the case.
+fn print_grains(case: &Case, packing: &Statistics) -> Result<(), CliError> {
+    outln!("grains: {}", case.grains_of_surrogate());
+    let Some(start) = Start::of(case)? else { return Ok(()) };
+    if let Some(difference) = start.difference(packing) {
+        outln!(
+            "Warning: {difference}. Before a comparison, start the solver from this packing (msdd reference fields), or pack one like the \
+             case's (msdd reference pack --force --porosity {:.4} --state FILE)",
+            start.porosity
+        );
+    }
     Ok(())
+}
+
+/// Asks before a run that takes long. Grains that stay where they are conduct heat alone, which is quick.
+fn ask(arguments: &RunArguments, case: &Case, discs: usize, end: f64) -> Result<(), CliError> {
+    if case.thermal.expansion == 0.0 {
+        return Ok(());
+    }
+    let period = contact_period(&case.material, case.mean_radius);
+    let seconds = discs_seconds(end, period, discs as f64) / f64::from(arguments.model.threads);
+    let shorter = end / (SLOWEST * period);
+    let advice = if shorter > 1.0 {
+        format!(
+            "Grains this slow are in equilibrium all the time, so that only the ratio of time to heat capacity matters: with heatCapacity and \
+             all times of the case divided by one number, up to about {}, temperatures and stresses are the same (book, Your own material)",
+            number(rounded(shorter, 1))
+        )
+    } else {
+        "Fewer grains (--discs) or a shorter time (--end) take less".to_string()
+    };
+    confirm::long_run(seconds, &advice, arguments.yes)
 }
 
 fn print_statistics(s: &Statistics) {
@@ -235,9 +280,11 @@ fn print_statistics(s: &Statistics) {
 
 fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
     let case = Case::read(&arguments.model.case)?;
-    let start = arguments.model.load(&case)?;
-    let every = Duration::try_from_secs_f64(arguments.checkpoint_every);
     let end = arguments.end.unwrap_or(case.end_time);
+    let start = arguments.model.load(&case)?;
+    print_grains(&case, &statistics(&start))?;
+    ask(arguments, &case, start.discs.len(), end)?;
+    let every = Duration::try_from_secs_f64(arguments.checkpoint_every);
     let spec = RunSpec {
         seed: arguments.model.seed,
         end,

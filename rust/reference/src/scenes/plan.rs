@@ -253,6 +253,8 @@ impl PlannedScene {
                 expansion: self.thermal_expansion,
             },
             mean_radius: self.mean_radius,
+            radii: self.radii,
+            source: "plan".to_string(),
             initial_temperature: self.initial_temperature,
             walls: scene.walls,
             origin: [0.0; 2],

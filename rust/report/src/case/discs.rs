@@ -56,7 +56,7 @@ pub fn of(scene: &Scene, checksum: &str, quick: bool) -> Result<Discs, ReportErr
     let away = |compression| (fabric - usual_fabric(compression)).abs();
     let isotropic = away(Compression::Isotropic) < away(Compression::Horizontal);
     let filling =
-        Filling { porosity: sum_porosity(porosity).map_err(of_field)?, isotropic, ..Filling::default() };
+        Filling { porosity: sum_porosity(porosity).map_err(of_field)?, isotropic, ..Filling::of(&case) };
     let discs = filling.discs(&case);
     let refuse = |file: &str, key: &str, value: String, allowed: String| {
         Err(CaseError::Key { file: folder.join(file), key: key.to_string(), value, allowed }.into())
