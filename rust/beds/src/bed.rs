@@ -4,15 +4,15 @@ use crate::BedError;
 use crate::case::BedCase;
 use crate::experiment::Record;
 use crate::network::{Materials, Network, Plate, PlateLaw};
-use crate::pour::{Container, Pouring, pour};
+use crate::pour::{Container, pour};
 use crate::press::{close, press};
 use crate::profile::{Probe, Slab, Width, slab, solid_fraction};
-use crate::settle::{Rest, longest, progress, settle, turn};
+use crate::settle::{Rest, progress, settle, turn};
 use crate::solid::{PeakStress, Roughness};
 use crate::transient::Transient;
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::space::dot;
-use msdd_spheres::{Material, Partner, Simulation, Sphere, Stiffness, Surface, Wall};
+use msdd_spheres::{Partner, Simulation, Sphere, Surface, Wall};
 
 /// Time of turning \[s\], for grains of a diameter \[m\] under a gravity \[m/s²\]; it is in proportion to √(d/g).
 const TURNING: [f64; 3] = [0.2, 6.4e-3, 9.81];
@@ -73,29 +73,9 @@ pub fn prepare(
     mut watch: impl FnMut(&'static str, f64),
 ) -> Result<Bed, BedError> {
     let grains = &case.grains;
-    let stiffness = Stiffness::HertzMindlin {
-        young_modulus: grains.simulated_young_modulus,
-        poisson_ratio: grains.poisson_ratio,
-    };
     let (d, g) = (grains.diameter, case.container.gravity);
-    let container = case.vessel();
-    let allowed = longest(d, g, container.loose_height(grains.number, d).max(container.width()));
-    let pouring = Pouring {
-        spheres: grains.number,
-        seed: case.seed,
-        diameter: grains.diameter,
-        material: Material {
-            density: grains.density,
-            stiffness,
-            friction: grains.friction,
-            wall_friction: grains.wall_friction,
-            restitution: grains.restitution,
-        },
-        container,
-        gravity: case.container.gravity,
-        longest: allowed,
-        threads,
-    };
+    let pouring = grains.pouring(case.seed, case.vessel(), g, threads);
+    let allowed = pouring.longest;
     let names = case.wall_names();
     let number = |name: &str| names.iter().position(|known| *known == name).unwrap_or_default();
     let (mut simulation, rest) = pour(&pouring, |agitation| watch("pour", progress(agitation)))?;

@@ -2,11 +2,13 @@
 
 use crate::effective::{GOOD, LEAST_RATIO, closure_error};
 use crate::named_gases::GasName;
-use crate::pour::WIDEST;
+use crate::pour::{Container, Pouring, WIDEST};
 use crate::property::Property;
+use crate::settle::longest;
 use msdd_engine::message::number;
 use msdd_files::{FileError, read_text};
-use serde::Deserialize;
+use msdd_spheres::{Material, Stiffness};
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// A bed. SI units.
@@ -31,7 +33,7 @@ pub struct BedCase {
 }
 
 /// Equal spheres.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grains {
     pub number: usize,
@@ -55,7 +57,7 @@ pub struct Grains {
 }
 
 /// What the grains are poured into: `base` or `radius`.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vessel {
     pub base: Option<[f64; 2]>,
@@ -90,7 +92,7 @@ pub struct Turn {
     pub down: String,
 }
 
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GasKeys {
     pub name: GasName,
@@ -163,6 +165,8 @@ fn usual_tolerance() -> f64 {
     0.05
 }
 
+/// Most steps in which poured grains have to come to rest: those of cases/beds have some 500 000.
+const MOST_STEPS: f64 = 1e8;
 /// Name of the file in the folder of a case.
 pub const FILE: &str = "bed.toml";
 /// Parts of the temperatures of a run at which the conductivity of the grains is held against that of the gas.
@@ -296,7 +300,7 @@ impl BedCase {
             return Err((key.into(), "given".into(), allowed));
         }
         self.grains.check(range, &self.gas)?;
-        self.container.check()?;
+        self.container.check(&self.grains)?;
         if let Some(lid) = &self.lid
             && lid.pressure.is_some() == lid.porosity.is_some()
         {
@@ -337,7 +341,7 @@ impl BedCase {
     }
 
     /// The container.
-    pub fn vessel(&self) -> crate::pour::Container {
+    pub fn vessel(&self) -> Container {
         self.container.container()
     }
 
@@ -408,6 +412,30 @@ fn hardness(key: &str, roughness: Option<f64>, hardness: Option<f64>) -> Result<
 }
 
 impl Grains {
+    /// Pours the grains into a container under `gravity` \[m/s²\].
+    pub(crate) fn pouring(&self, seed: u64, container: Container, gravity: f64, threads: usize) -> Pouring {
+        let height = container.loose_height(self.number, self.diameter).max(container.width());
+        Pouring {
+            spheres: self.number,
+            seed,
+            diameter: self.diameter,
+            material: Material {
+                density: self.density,
+                stiffness: Stiffness::HertzMindlin {
+                    young_modulus: self.simulated_young_modulus,
+                    poisson_ratio: self.poisson_ratio,
+                },
+                friction: self.friction,
+                wall_friction: self.wall_friction,
+                restitution: self.restitution,
+            },
+            container,
+            gravity,
+            longest: longest(self.diameter, gravity, height),
+            threads,
+        }
+    }
+
     pub(crate) fn numbers(&self) -> Vec<Ranged> {
         let mut all = Vec::new();
         for (key, value) in [
@@ -517,21 +545,37 @@ impl GasKeys {
 }
 
 impl Vessel {
-    pub(crate) fn container(&self) -> crate::pour::Container {
+    pub(crate) fn container(&self) -> Container {
         match (self.base, self.radius) {
-            (Some(base), _) if self.endless => crate::pour::Container::Endless { base },
-            (Some(base), _) => crate::pour::Container::Box { base },
-            (None, radius) => crate::pour::Container::Cylinder { radius: radius.unwrap_or_default() },
+            (Some(base), _) if self.endless => Container::Endless { base },
+            (Some(base), _) => Container::Box { base },
+            (None, radius) => Container::Cylinder { radius: radius.unwrap_or_default() },
         }
     }
 
-    pub(crate) fn check(&self) -> Result<(), Wrong> {
+    pub(crate) fn check(&self, grains: &Grains) -> Result<(), Wrong> {
         let (value, allowed) = match (self.base, self.radius) {
             (None, Some(_)) if self.endless => ("endless with a radius", "endless with a base"),
-            (Some(_), None) | (None, Some(_)) => return Ok(()),
+            (Some(_), None) | (None, Some(_)) => return self.check_gravity(grains),
             _ => ("both or neither of base and radius", "one of base and radius"),
         };
         Err(("container".into(), value.into(), allowed.into()))
+    }
+
+    /// Refuses a gravity so low that the grains would take too many steps to come to rest.
+    fn check_gravity(&self, grains: &Grains) -> Result<(), Wrong> {
+        let pouring = grains.pouring(0, self.container(), self.gravity, 1);
+        let excess = pouring.longest / pouring.step() / MOST_STEPS;
+        if excess.is_nan() || excess <= 1.0 {
+            return Ok(());
+        }
+        // The time goes with g^(-1/2), and the time step at most with g^(-1/10).
+        let least = self.gravity * excess.powf(2.5);
+        let allowed = format!(
+            "about {least:.0e} m/s2 at least for these grains, which would take up to {:.0e} steps to come to rest; {MOST_STEPS:.0e} are allowed",
+            excess * MOST_STEPS
+        );
+        Err(("container.gravity".into(), number(self.gravity), allowed))
     }
 
     pub(crate) fn numbers(&self, grains: &Grains) -> Vec<Ranged> {

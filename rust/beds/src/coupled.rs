@@ -10,17 +10,17 @@ use crate::BedError;
 use crate::give::{BLOCK, Hold, Moving, drag, steered, wall_area};
 use crate::harden::harden;
 use crate::network::{Materials, Network, Plate, PlateLaw};
-use crate::pour::{Pouring, pour};
+use crate::pour::pour;
 use crate::press::press;
 use crate::profile::{Probe, Width, slab, solid_fraction};
 use crate::region::Region;
 use crate::scene::Scene;
-use crate::settle::{Rest, longest, progress};
+use crate::settle::{Rest, progress};
 use crate::solid::{PeakStress, Roughness};
 use crate::transient::Transient;
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::space::length;
-use msdd_spheres::{Material, Partner, Simulation, Stiffness};
+use msdd_spheres::{Partner, Simulation};
 use std::f64::consts::PI;
 
 /// First time step of heat \[s\].
@@ -40,6 +40,14 @@ const PARTS: u64 = 20;
 const LONGEST: u64 = 400;
 /// Times the steps of the rest after which an interval ends although the bed is not at rest: some creep for long.
 const LONGEST_REST: u64 = 100;
+
+/// Overlap of a contact over the radius above which Hertz's law is an extrapolation, and above which it has no meaning. It holds for
+/// contacts small beside the spheres (K. L. Johnson, Contact Mechanics, 1985, section 4.2): at these the contact's radius is 0.16 and 0.35
+/// of that of the spheres.
+pub const MOST_OVERLAP: f64 = 0.05;
+const ABSURD_OVERLAP: f64 = 0.25;
+/// A share of the friction above 1 by less than this is rounding and damping.
+const MOST_MOBILISED: f64 = 1.01;
 
 /// A bed at rest under its lid.
 #[derive(Clone, Debug)]
@@ -85,6 +93,27 @@ pub struct Row {
     pub peak: f64,
 }
 
+impl Row {
+    /// Refuses averages that no bed has, as of a region with hardly a contact.
+    fn check(&self) -> Result<(), BedError> {
+        let mobilisation = if self.mobilisation <= MOST_MOBILISED { self.mobilisation } else { f64::NAN };
+        let several = [
+            ("T", self.temperatures.as_slice()),
+            ("stress", self.stress.as_slice()),
+            ("strain", self.strain.as_slice()),
+            ("fabric", self.fabric.as_slice()),
+            ("porosity", &[self.porosity][..]),
+            ("coordination", &[self.coordination][..]),
+            ("mobilisation", &[mobilisation][..]),
+            ("K", &[self.contact_conductivity, self.gas_conductivity][..]),
+        ];
+        match several.into_iter().find(|(_, values)| values.iter().any(|value| !value.is_finite())) {
+            None => Ok(()),
+            Some((name, _)) => Err(BedError::Averages { name, time: self.time }),
+        }
+    }
+}
+
 /// Tangential over normal force of the side of a cylinder on the grains, above 0 where it holds the bed down: what the floor bears
 /// more than lid and weight comes from the side. `None` without a side.
 pub fn side_friction(scene: &Scene, row: &Row) -> Option<f64> {
@@ -104,6 +133,8 @@ pub struct Run {
     /// Heat that the grains stored which no wall holds, and the residual of its balance \[J\].
     pub stored: f64,
     pub residual: f64,
+    /// Largest overlap of a contact over the radius, at the times of the rows.
+    pub overlap: f64,
     /// Steps of heat, and of the discrete elements.
     pub heat_steps: u64,
     pub steps: u64,
@@ -123,27 +154,8 @@ pub fn prepare(
     mut watch: impl FnMut(&'static str, f64),
 ) -> Result<Prepared, BedError> {
     let (grains, container) = (&scene.grains, scene.vessel());
-    let (d, g) = (grains.diameter, scene.container.gravity);
-    let allowed = longest(d, g, container.loose_height(grains.number, d).max(container.width()));
-    let pouring = Pouring {
-        spheres: grains.number,
-        seed: scene.seed,
-        diameter: d,
-        material: Material {
-            density: grains.density,
-            stiffness: Stiffness::HertzMindlin {
-                young_modulus: grains.simulated_young_modulus,
-                poisson_ratio: grains.poisson_ratio,
-            },
-            friction: grains.friction,
-            wall_friction: grains.wall_friction,
-            restitution: grains.restitution,
-        },
-        container,
-        gravity: g,
-        longest: allowed,
-        threads,
-    };
+    let pouring = grains.pouring(scene.seed, container, scene.container.gravity, threads);
+    let allowed = pouring.longest;
     let rested = |stage: &'static str, rest: Rest| match rest.at_rest {
         true => Ok((stage, rest)),
         false => Err(BedError::Restless { stage, time: rest.time, kinetic: rest.kinetic }),
@@ -190,6 +202,10 @@ struct Coupled<'a> {
 /// A distance without grains; heat that does not converge; those of [`Simulation::run`].
 pub fn run(scene: &Scene, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Result<Run, BedError> {
     let mut bed = Coupled::new(scene, prepared.simulation.clone());
+    let (high, depth) = (scene.record.heights[1], bed.depth());
+    if high > depth {
+        return Err(BedError::Heights { high, depth });
+    }
     let time = &scene.time;
     bed.record(0.0)?;
     let outputs = (time.end / time.output_every - 1e-9).ceil() as u64;
@@ -231,6 +247,7 @@ impl<'a> Coupled<'a> {
                 rows: Vec::new(),
                 stored: 0.0,
                 residual: 0.0,
+                overlap: 0.0,
                 heat_steps: 0,
                 steps: simulation.steps,
                 intervals: 0,
@@ -390,6 +407,17 @@ impl<'a> Coupled<'a> {
         expansion * rise * self.scene.container.radius.unwrap_or(0.0)
     }
 
+    /// The largest overlap of a contact over the radius.
+    fn overlap(&self) -> f64 {
+        let mut largest = 0.0f64;
+        self.simulation.for_each_contact(|contact| {
+            let radius =
+                contact.spheres().map(|k| self.simulation.spheres[k].radius).fold(f64::INFINITY, f64::min);
+            largest = largest.max(contact.overlap / radius);
+        });
+        largest
+    }
+
     fn record(&mut self, time: f64) -> Result<(), BedError> {
         let (scene, simulation) = (self.scene, &self.simulation);
         let keys = &scene.record;
@@ -420,9 +448,13 @@ impl<'a> Coupled<'a> {
             let ring = Width::Ring([inner, radius - 0.5 * scene.grains.diameter]);
             1.0 - solid_fraction(simulation, &floor, keys.heights, ring)
         });
-        let peak = self.peak();
+        let (peak, overlap) = (self.peak(), self.overlap());
+        if overlap > ABSURD_OVERLAP {
+            return Err(BedError::Overlap { time, overlap, most: ABSURD_OVERLAP });
+        }
+        self.run.overlap = self.run.overlap.max(overlap);
         self.run.steps = simulation.steps;
-        self.run.rows.push(Row {
+        let row = Row {
             time,
             temperatures,
             mean_temperature,
@@ -443,7 +475,9 @@ impl<'a> Coupled<'a> {
             unbalanced: self.unbalanced(),
             yielding: peak.map_or(f64::NAN, |peak| peak.beyond as f64 / peak.contacts.max(1) as f64),
             peak: peak.map_or(f64::NAN, |peak| peak.largest / (crate::solid::YIELD_AT * peak.yield_stress)),
-        });
+        };
+        row.check()?;
+        self.run.rows.push(row);
         Ok(())
     }
 

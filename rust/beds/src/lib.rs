@@ -32,6 +32,7 @@
 //! | [`region`] | stresses in the inner part of a bed |
 //! | [`scene`] | the description of a bed whose walls move while heat flows |
 //! | [`coupled`] | such a bed: heat, growth of the grains, walls, averages over time |
+//! | [`cost`] | how long it takes, by an estimate |
 //! | [`rows`] | its averages as a file |
 //! | [`packings`] | mean and scatter of several packings of such a bed, from their files |
 //! | [`bed`] | a measured bed from pouring to temperatures |
@@ -46,6 +47,7 @@ pub mod bed;
 pub mod case;
 pub mod conductivity;
 pub mod correlation;
+pub mod cost;
 pub mod coupled;
 pub mod effective;
 pub mod experiment;
@@ -107,6 +109,17 @@ pub enum BedError {
     /// `key`: that of the distance \[m\].
     #[error("{key} = {distance}, allowed: distances from the wall at which there are grains")]
     NoGrains { key: &'static str, distance: f64 },
+    #[error("record.heights: up to {high} m, allowed: up to the depth of the poured bed, {depth:.4} m")]
+    Heights { high: f64, depth: f64 },
+    #[error(
+        "averages at {time} s: no {name} that a bed has, allowed: a region ('record') with more spheres that bear load, and a bed at rest"
+    )]
+    Averages { name: &'static str, time: f64 },
+    #[error(
+        "at {time} s spheres overlap by {:.0} % of their radius, allowed: up to {:.0} %, beyond which Hertz's law has no meaning: less \
+         expansion, strain or pressure", 100.0 * overlap, 100.0 * most
+    )]
+    Overlap { time: f64, overlap: f64, most: f64 },
     #[error(transparent)]
     NotConverged(#[from] transient::NotConverged),
     #[error("cannot start threads: {0}")]

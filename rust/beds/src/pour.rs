@@ -6,6 +6,7 @@
 use crate::BedError;
 use crate::scatter::Random;
 use crate::settle::{Rest, descent, settle};
+use msdd_spheres::time_step::SAFETY;
 use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Wall};
 use std::f64::consts::PI;
 
@@ -110,6 +111,20 @@ pub struct Pouring {
 }
 
 impl Pouring {
+    /// The time step of the spheres as they come down \[s\]; NaN for a material that there is not.
+    pub fn step(&self) -> f64 {
+        let mut sphere = Sphere::at_rest([0.0; 3], 0.5 * self.diameter, self.material.density);
+        sphere.velocity = [0.0, 0.0, -descent(self.diameter, self.gravity).0];
+        let floor = Wall::at_rest([0.0, 0.0, -self.diameter], [0.0, 0.0, 1.0]);
+        let one = Simulation::new(self.material.clone(), vec![sphere], Boundary::Walls(vec![floor]));
+        one.map_or(f64::NAN, |one| SAFETY * one.stable_step())
+    }
+
+    /// Time \[s\] in which the spheres come down, about.
+    pub(crate) fn fall(&self) -> f64 {
+        self.container.loose_height(self.spheres, self.diameter) / descent(self.diameter, self.gravity).0
+    }
+
     fn check(&self) -> Result<(), BedError> {
         self.material.check()?;
         let positive = |v: f64| v.is_finite() && v > 0.0;

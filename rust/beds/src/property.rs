@@ -1,14 +1,14 @@
 //! Properties of materials that may depend on temperature.
 
 use msdd_engine::message::number;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 fn positive(value: f64) -> bool {
     (1e-30..=1e30).contains(&value)
 }
 
 /// A property: one number, or a table of pairs (temperature \[K\], value), between which it is straight.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "a number, or a table of pairs [temperature, value]")]
 pub enum Property {
     Constant(f64),

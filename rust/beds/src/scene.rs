@@ -6,14 +6,22 @@ use crate::pour::Container;
 use crate::schedule::Schedule;
 use msdd_engine::message::number;
 use msdd_files::read_text;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 use std::path::Path;
 
 /// Name of the file in the folder of a case.
 pub const FILE: &str = "elements.toml";
 
+/// Least height of a region of averages in diameters, and least number of spheres in it. Layers beside a plate alternate every 0.82
+/// diameters; of 30 spheres, with some 70 contacts, a mean stress scatters by about 15 %, as forces scatter about as much as their mean.
+const MIN_HEIGHT: f64 = 2.0;
+const MIN_SPHERES: f64 = 30.0;
+/// Solid fraction by which they are counted.
+const USUAL_FRACTION: f64 = 0.6;
+
 /// A bed. SI units.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Seed of the packing.
@@ -31,7 +39,7 @@ pub struct Scene {
 }
 
 /// The lid: pressed on while the grains harden, and then moved.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LidKeys {
     pub pressure: f64,
@@ -42,7 +50,7 @@ pub struct LidKeys {
 }
 
 /// A wall of given temperature.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Heated {
     pub wall: String,
@@ -50,7 +58,7 @@ pub struct Heated {
 }
 
 /// The side of a cylinder, when it gives way.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shell {
     pub young_modulus: f64,
@@ -59,7 +67,7 @@ pub struct Shell {
     pub thermal_expansion: f64,
 }
 
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
     pub initial_temperature: f64,
@@ -73,7 +81,7 @@ pub struct Time {
     pub tolerance: f64,
 }
 
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordKeys {
     /// The wall from which distances are counted.
@@ -108,8 +116,27 @@ impl Scene {
             file: file.clone(),
             problem: error.to_string().trim().to_string(),
         })?;
-        scene.check().map_err(|(key, value, allowed)| CaseError::Value { file, key, value, allowed })?;
+        scene.checked(&file)?;
         Ok(scene)
+    }
+
+    /// Checks a description; `file` is for messages.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn checked(&self, file: &Path) -> Result<(), CaseError> {
+        let wrong =
+            |(key, value, allowed)| CaseError::Value { file: file.to_path_buf(), key, value, allowed };
+        self.check().map_err(wrong)
+    }
+
+    /// The text of a description.
+    ///
+    /// # Errors
+    /// A number that TOML does not have.
+    pub fn text(&self, file: &Path) -> Result<String, CaseError> {
+        let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
+        toml::to_string(self).map_err(|error| failed(error.to_string()))
     }
 
     pub fn vessel(&self) -> Container {
@@ -145,7 +172,7 @@ impl Scene {
         if let Some((key, value, allowed, _)) = numbers.into_iter().find(|number| !number.3) {
             return wrong(key, number(value), allowed);
         }
-        self.container.check()?;
+        self.container.check(&self.grains)?;
         for heated in &self.heated {
             let told = |(value, allowed)| ("heated.temperature".to_string(), value, allowed);
             heated.temperature.check([1.0, 5000.0]).map_err(told)?;
@@ -180,6 +207,42 @@ impl Scene {
         let [low, high] = self.record.heights;
         if !low.is_finite() || !high.is_finite() || low >= high {
             return wrong("record.heights", format!("{:?}", self.record.heights), "two rising heights");
+        }
+        self.check_region()
+    }
+
+    /// Refuses averages over fewer spheres than have a mean.
+    fn check_region(&self) -> Result<(), Wrong> {
+        let (d, [low, high]) = (self.grains.diameter, self.record.heights);
+        let short = |length: f64| number(libm::round(1e9 * length) / 1e9);
+        let wrong = |key: &str, value: String, allowed: String| Err((key.to_string(), value, allowed));
+        if low < 0.0 || high - low < MIN_HEIGHT * d {
+            let allowed = format!(
+                "two heights above the floor, {MIN_HEIGHT} diameters apart at least: {} m",
+                short(MIN_HEIGHT * d)
+            );
+            return wrong("record.heights", format!("{:?}", self.record.heights), allowed);
+        }
+        let area = match (self.record.radius, self.container.radius) {
+            (Some(inner), Some(radius)) if inner < d || inner > radius => {
+                let allowed = format!(
+                    "{} to {} m, from a diameter to the radius of the container",
+                    short(d),
+                    short(radius)
+                );
+                return wrong("record.radius", number(inner), allowed);
+            }
+            (Some(inner), _) => PI * inner * inner,
+            (None, _) => self.vessel().area(),
+        };
+        let spheres = USUAL_FRACTION * area * (high - low) / (PI / 6.0 * d * d * d);
+        if spheres < MIN_SPHERES {
+            let allowed = format!("a region of {MIN_SPHERES} spheres at least: more height, or a wider bed");
+            return wrong(
+                "record.heights",
+                format!("{:?}, about {spheres:.0} spheres", self.record.heights),
+                allowed,
+            );
         }
         Ok(())
     }

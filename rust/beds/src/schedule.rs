@@ -1,10 +1,10 @@
 //! A quantity that is given over time.
 
 use msdd_engine::message::number;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// One number, or a table of pairs (time \[s\], value), straight in between and constant before and after.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "a number, or a table of pairs [time, value]")]
 pub enum Schedule {
     Constant(f64),

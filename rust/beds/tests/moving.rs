@@ -237,6 +237,35 @@ fn grains_that_conduct_poorly_follow_the_closure() {
 }
 
 #[test]
+fn a_region_of_averages_lies_in_the_bed_and_in_the_container() {
+    let round = "radius = 0.02";
+    let error = |record: &str| read(&text([round, "", FLOOR, record])).unwrap_err();
+    let wide = error("wall = \"side\"\ndistances = [0.008]\nheights = [0.012, 0.04]\nradius = 0.021");
+    assert!(wide.contains("record.radius = 0.021, allowed: 0.0064 to 0.02 m"), "{wide}");
+    let high = "wall = \"floor\"\ndistances = [0.02]\nheights = [0.015, 0.2]";
+    let scene = read(&text([ENDLESS, "", FLOOR, high])).unwrap();
+    let error = run(&scene, &prepare(&scene, 1, |_, _| ()).unwrap(), |_| ()).unwrap_err().to_string();
+    assert!(
+        error.starts_with("record.heights: up to 0.2 m, allowed: up to the depth of the poured bed, 0.0"),
+        "{error}"
+    );
+}
+
+/// Spheres that grow by some per cent between plates that stay: the law of Hertz ends.
+#[test]
+fn overlaps_that_no_law_of_contacts_has_end_the_run() {
+    let hot = FLOOR.replace("323.15", "310");
+    let growing = |expansion: &str| {
+        let scene = read(&text([ENDLESS, "", &hot, COLUMN]).replace("1.2e-5", expansion)).unwrap();
+        run(&scene, &prepare(&scene, 1, |_, _| ()).unwrap(), |_| ())
+    };
+    let error = growing("1e-2").unwrap_err().to_string();
+    assert!(error.contains("spheres overlap by") && error.contains("allowed: up to 25 %"), "{error}");
+    let usual = growing("1.2e-5").unwrap();
+    assert!(usual.overlap > 1e-4 && usual.overlap < 0.01, "{}", usual.overlap);
+}
+
+#[test]
 fn bad_descriptions_are_refused_with_key_and_value() {
     let good = text([ENDLESS, "", FLOOR, COLUMN]);
     assert!(read(&good).is_ok());
@@ -271,6 +300,22 @@ fn bad_descriptions_are_refused_with_key_and_value() {
             "times that of the gas, allowed: grains that conduct 1 times as well as the gas, at least",
         ),
         ("heights = [0.015, 0.045]", "heights = [0.045, 0.015]", "record.heights = [0.045, 0.015], allowed:"),
+        (
+            "heights = [0.015, 0.045]",
+            "heights = [0.02, 0.0201]",
+            "record.heights = [0.02, 0.0201], allowed: two heights above the floor, 2 diameters apart at least: 0.0128 m",
+        ),
+        ("heights = [0.015, 0.045]", "heights = [-0.01, 0.045]", "record.heights = [-0.01, 0.045], allowed:"),
+        (
+            "diameter = 6.4e-3",
+            "diameter = 12e-3",
+            "about 20 spheres, allowed: a region of 30 spheres at least",
+        ),
+        (
+            "endless = true",
+            "endless = true\ngravity = 1e-12",
+            "container.gravity = 0.000000000001, allowed: about",
+        ),
         ("seed = 2", "seeds = 2", "unknown field `seeds`"),
     ] {
         assert!(good.contains(from), "{from}");

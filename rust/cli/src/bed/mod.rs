@@ -60,6 +60,9 @@ pub struct RunArguments {
     /// Compute it again with each value of the blocks [[vary]] of the case, one changed at a time.
     #[arg(long)]
     vary: bool,
+    /// Begin a run of more than an hour without asking; with an elements.toml.
+    #[arg(long)]
+    yes: bool,
     /// Number of threads; the results do not depend on it.
     #[arg(long, default_value_t = 2, value_parser = crate::threads::parser())]
     threads: u32,
@@ -125,10 +128,10 @@ fn run_moving(arguments: &RunArguments) -> Result<(), CliError> {
         return Err(CliError::Message("--vary, allowed: with a bed.toml".to_string()));
     }
     let out = results_folder(arguments);
-    let (case, threads) = (&arguments.case, arguments.threads as usize);
+    let effort = moving::Effort { threads: arguments.threads as usize, yes: arguments.yes };
     match arguments.packings {
-        Some(count) => moving::compute_packings(case, arguments.seed, count, threads, &out),
-        None => moving::compute(case, arguments.seed, threads, &out),
+        Some(count) => moving::compute_packings(&arguments.case, arguments.seed, count, effort, &out),
+        None => moving::compute(&arguments.case, arguments.seed, effort, &out),
     }
 }
 
@@ -149,7 +152,15 @@ mod tests {
     fn results_have_the_name_of_the_case_however_it_is_given() {
         let folder = |case: &str, out: Option<&str>| {
             let (case, out) = (case.into(), out.map(PathBuf::from));
-            results_folder(&RunArguments { case, out, seed: None, packings: None, vary: false, threads: 1 })
+            results_folder(&RunArguments {
+                case,
+                out,
+                seed: None,
+                packings: None,
+                vary: false,
+                yes: false,
+                threads: 1,
+            })
         };
         let here = std::env::current_dir().unwrap();
         let expected = Path::new("results/beds").join(here.file_name().unwrap());

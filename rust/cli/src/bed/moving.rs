@@ -1,8 +1,10 @@
 //! `msdd bed run` of a folder with `elements.toml`: a bed whose walls move while heat flows.
 
+use crate::confirm;
 use crate::error::CliError;
 use crate::progress::Progress;
-use msdd_beds::coupled::{Prepared, Row, Run, prepare, run, side_friction};
+use msdd_beds::cost::estimate;
+use msdd_beds::coupled::{MOST_OVERLAP, Prepared, Row, Run, prepare, run, side_friction};
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::{at_start, join};
 use msdd_beds::rows::elements;
@@ -20,12 +22,29 @@ const SCATTER: &str = "elements-scatter.csv";
 const STAGES: [(&str, u64, u64); 3] = [("pour", 0, 20), ("lid", 20, 5), ("harden", 25, 15)];
 const RUN: u64 = 40;
 
+/// Number of threads, and whether a long run begins without a question.
+#[derive(Clone, Copy)]
+pub struct Effort {
+    pub threads: usize,
+    pub yes: bool,
+}
+
+impl Effort {
+    /// Asks before packings of a bed that take long.
+    fn ask(self, scene: &Scene, packings: f64) -> Result<(), CliError> {
+        let advice = "Fewer spheres (grains.number, with a smaller base or radius), a softer simulated_young_modulus, or fewer intervals and \
+                      steps take less";
+        confirm::long_run(packings * estimate(scene, self.threads).seconds, advice, self.yes)
+    }
+}
+
 /// Computes a bed, writes [`RESULTS`] into `out`, and prints a summary.
-pub fn compute(folder: &Path, seed: Option<u64>, threads: usize, out: &Path) -> Result<(), CliError> {
+pub fn compute(folder: &Path, seed: Option<u64>, effort: Effort, out: &Path) -> Result<(), CliError> {
     let scene = scene(folder, seed)?;
+    effort.ask(&scene, 1.0)?;
     let target = out.join(RESULTS);
     check_writable(&target)?;
-    let text = simulate(folder, &scene, threads)?;
+    let text = simulate(folder, &scene, effort.threads)?;
     write(&target, text.as_bytes())?;
     outln!("results: {}", target.display());
     Ok(())
@@ -37,10 +56,11 @@ pub fn compute_packings(
     folder: &Path,
     seed: Option<u64>,
     count: u32,
-    threads: usize,
+    effort: Effort,
     out: &Path,
 ) -> Result<(), CliError> {
     let first = scene(folder, seed)?;
+    effort.ask(&first, f64::from(count))?;
     let last = first.seed.checked_add(u64::from(count) - 1).filter(|&last| i64::try_from(last).is_ok());
     let last = last.ok_or_else(|| {
         CliError::Message(format!("--packings {count}: seeds from {} on would be too large", first.seed))
@@ -61,7 +81,7 @@ pub fn compute_packings(
             continue;
         }
         outln!("packing {} of {count}, seed {seed}", number + 1);
-        let text = begin + &simulate(folder, &Scene { seed, ..first.clone() }, threads)?;
+        let text = begin + &simulate(folder, &Scene { seed, ..first.clone() }, effort.threads)?;
         write(&target, text.as_bytes())?;
         tables.push(text);
     }
@@ -142,6 +162,15 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     found.rows.iter().step_by(shown).for_each(|row| line(&mut text, row));
     let worst = found.rows.iter().map(|row| row.unbalanced).fold(0.0, f64::max);
     let _ = writeln!(text, "largest force out of balance: {:.2} % of that on the lid", 100.0 * worst);
+    if found.overlap > MOST_OVERLAP {
+        let _ = writeln!(
+            text,
+            "Warning: spheres overlap by up to {:.1} % of their radius; Hertz's law is an extrapolation above {:.0} %, and forces and \
+             stresses are too low",
+            100.0 * found.overlap,
+            100.0 * MOST_OVERLAP
+        );
+    }
     if found.hurried + found.restless > 0 {
         let _ = writeln!(
             text,

@@ -101,3 +101,22 @@ pub fn packings(folder: &Path) -> Result<Vec<(u64, PathBuf)>, CliError> {
         false => Ok(all),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_that_no_bed_has_are_refused_with_short_numbers() {
+        let file = std::env::temp_dir().join(format!("msdd-start-{}.csv", std::process::id()));
+        let text =
+            "time,fabric_1,fabric_2,fabric_3,depth,stress_1,stress_2,stress_3\n0,0.3,0.3,0.4,0.1,1,1,-2.8\n";
+        msdd_files::write(&file, text.as_bytes()).unwrap();
+        let error = Start::read(&file).err().unwrap().to_string();
+        std::fs::remove_file(&file).unwrap();
+        assert!(
+            error.ends_with("stress_3 = -2.8 in the first row, allowed: 0 to 1.7976931348623157e308"),
+            "{error}"
+        );
+    }
+}

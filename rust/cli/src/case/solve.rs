@@ -16,6 +16,7 @@ use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Outcome, Purpose};
 use msdd_choice::{ChoiceError, Missed};
 use msdd_files::Lock;
+use msdd_rve::message::number;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -108,7 +109,7 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
     trial::clear(&beside(scene, "trial"))?;
     let (mut record, seen) = match earlier {
         Some(earlier) => {
-            outln!("The choice for this case and {accuracy} % is known: no search.");
+            outln!("The choice for this case and {} % is known: no search.", number(accuracy));
             earlier
         }
         None => {
