@@ -26,6 +26,12 @@ fn short(value: f64) -> String {
     plain(rounded(value, 3))
 }
 
+/// The coefficient of friction of spheres and a wall along which a bed slips with this tangential over normal stress: the inverse of
+/// [`of_bed`]. `None` beyond the most that a flat wall has.
+pub fn of_spheres(friction: f64) -> Option<f64> {
+    (friction < MOST).then(|| friction / (1.0 - (friction / MOST).powi(2)).sqrt())
+}
+
 /// A wall that stays, as an entry of `walls` in `constant/granularProperties`; `diameter` of the spheres \[m\].
 pub fn entry(friction: f64, diameter: f64) -> String {
     match friction > 0.0 {
@@ -49,6 +55,7 @@ mod tests {
             assert!((of_bed(coefficient) - counted).abs() < 0.01, "{}", of_bed(coefficient));
         }
         assert!(of_bed(10.0) < MOST && of_bed(10.0) > 0.99 * MOST);
+        assert!((of_spheres(of_bed(0.3)).unwrap() - 0.3).abs() < 1e-12 && of_spheres(0.2).is_none());
     }
 
     #[test]

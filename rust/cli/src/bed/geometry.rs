@@ -4,6 +4,7 @@ use super::start::Start;
 use crate::error::CliError;
 use msdd_beds::scene::Scene;
 use msdd_case::numbers::plain;
+use msdd_rve::message::number;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -17,9 +18,9 @@ const WIDTH: f64 = 3.0;
 /// ends at their centres. On a floor, where these lie flat and the next layer lies in their hollows, the temperatures of the grains
 /// reach that of the floor a little higher. Before the other plate, if it is not heated, the mesh ends where a bed without the wider pores
 /// beside plates would hold all grains, and so their heat.
-const HELD: f64 = 0.5;
+pub(super) const HELD: f64 = 0.5;
 const HELD_BY_FLOOR: f64 = 0.66;
-const INSULATED: f64 = 0.125;
+pub(super) const INSULATED: f64 = 0.125;
 
 /// The bed as the solver's mesh has it: lengths in metres.
 pub struct Geometry {
@@ -62,8 +63,8 @@ impl Geometry {
         let [low, high] = scene.record.heights;
         if low <= first || high >= last {
             let allowed =
-                format!("{} to {} m, between the ends of the solver's mesh", plain(first), plain(last));
-            return Err(wrong("record.heights", format!("{low} to {high}"), &allowed));
+                format!("{} to {} m, between the ends of the solver's mesh", number(first), number(last));
+            return Err(wrong("record.heights", format!("{} to {}", number(low), number(high)), &allowed));
         }
         let (least, most) = match scene.record.wall.as_str() {
             "side" => (half, (1.0 - INNER) * scene.container.radius.unwrap_or(0.0)),
@@ -73,8 +74,8 @@ impl Geometry {
         if let Some(distance) =
             scene.record.distances.iter().find(|&&distance| distance < least || distance > most)
         {
-            let allowed = format!("{} to {} m, within the solver's mesh", plain(least), plain(most));
-            return Err(wrong("record.distances", distance.to_string(), &allowed));
+            let allowed = format!("{} to {} m, within the solver's mesh", number(least), number(most));
+            return Err(wrong("record.distances", number(*distance), &allowed));
         }
         let levels = [first, low, high, last];
         let share = |lengths: &[f64], all: f64| -> Vec<usize> {
@@ -88,8 +89,9 @@ impl Geometry {
                 Some([INNER * radius, inner, radius - half])
             }
             (Some(radius), Some(inner)) => {
-                let allowed = format!("less than {} m, the centres of the first layer", plain(radius - half));
-                return Err(wrong("record.radius", inner.to_string(), &allowed));
+                let allowed =
+                    format!("less than {} m, the centres of the first layer", number(radius - half));
+                return Err(wrong("record.radius", number(inner), &allowed));
             }
             _ => None,
         };

@@ -2,6 +2,7 @@
 
 mod files;
 pub(crate) mod foam;
+mod from_case;
 pub(crate) mod geometry;
 mod give;
 mod moving;
@@ -23,6 +24,8 @@ pub enum Command {
     Run(RunArguments),
     /// Write a case folder of the solver for the bed of an elements.toml.
     Case(foam::Arguments),
+    /// Write the elements.toml of a case of the solver with spheres, for 'msdd bed run'.
+    FromCase(from_case::Arguments),
     /// Find by how much the spheres beside plates give way, from results of 'msdd bed run'.
     Give(give::Arguments),
 }
@@ -72,6 +75,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Run(arguments) => run_case(arguments),
         Command::Case(arguments) => foam::run(arguments),
+        Command::FromCase(arguments) => from_case::run(arguments),
         Command::Give(arguments) => give::run(arguments),
     }
 }
