@@ -214,7 +214,9 @@ typedef struct msdd_sphere_batch {
     size_t struct_size;            /**< sizeof(msdd_sphere_batch) */
     size_t cells;                  /**< length of every column */
     /* in */
-    const double *const *state;    /**< msdd_spheres_state_size columns before the step */
+    const double *const *state;    /**< msdd_spheres_state_size columns before the step. Refused outside of: jamming_fraction 0.3 to
+                                        0.8, elastic_compression -0.9 to 0.5, strength 0.01 to 8, mobilised 0 to 1, coordination
+                                        0 to 12, stress ratios -2 to 2. Each state that is answered lies inside */
     const double *thermal_strain;  /**< relative growth of the radii in this step; above -0.2, to 0.2; NULL = 0 */
     const double *const *strain;   /**< six columns: strain of the cell in this step, above -0.2, to 0.2; NULL = 0 */
     const double *const *rotation; /**< three columns: vector of the angle by which the cell turns, half of the curl of the

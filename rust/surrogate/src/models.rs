@@ -1,8 +1,8 @@
 //! The kinds of models by name. To add a kind, write a file beside this one and a line in [`MODELS`].
 
-use crate::document::schema;
+use crate::document::{field, schema};
 use crate::options::TrainingOptions;
-use crate::surrogate::Surrogate;
+use crate::surrogate::{Known, Surrogate};
 use crate::training_data::TrainingData;
 use crate::{Model, SurrogateError, constant, increment, training};
 
@@ -99,15 +99,42 @@ pub fn builtin(name: &str) -> Trained {
 pub fn read(text: &str) -> Trained {
     let found = schema(text)?;
     match MODELS.iter().find(|kind| found.starts_with(kind.schema)) {
-        Some(kind) => (kind.read)(text),
+        Some(kind) => {
+            let model = (kind.read)(text)?;
+            check_answers(model.as_ref())?;
+            Ok(model)
+        }
         None => Err(SurrogateError::Schema { found, expected: "msdd-{constant-,,increment-}model-1" }),
     }
 }
 
+/// Refuses a model whose answers are far from those of any packing of discs, as of a file with a digit changed.
+fn check_answers(model: &dyn Surrogate) -> Result<(), SurrogateError> {
+    for porosity in TEST_POROSITIES {
+        let known = Known { porosity, ..Known::default() };
+        let answer = model.evaluate(&model.initial_state(&known), 1e-3);
+        let along = |columns: &[crate::kernel::Lanes; 3]| [columns[0][0], columns[1][0]];
+        for (key, values, [least, most], allowed) in [
+            ("K/k of a test packing", along(&answer.conductivity), TEST_CONDUCTIVITY, "0.01 to 3"),
+            ("reduced stress of a test packing", along(&answer.stress), TEST_STRESS, "0 to 3"),
+        ] {
+            if let Some(value) = values.into_iter().find(|value| !(least..=most).contains(value)) {
+                return field(key, value, allowed);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Porosities of test packings, and between what their conductivities and stresses lie: the shipped models' by factors of about 5 on
+/// either side.
+const TEST_POROSITIES: [f64; 3] = [0.08, 0.12, 0.16];
+const TEST_CONDUCTIVITY: [f64; 2] = [0.01, 3.0];
+const TEST_STRESS: [f64; 2] = [0.0, 3.0];
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surrogate::Known;
     use crate::synthetic;
 
     fn trained(name: &str) -> Box<dyn Surrogate> {
@@ -131,6 +158,16 @@ mod tests {
             assert_eq!(model.state_names()[..2], ["porosity", "fabric_index"]);
             assert_eq!(a[..2], [0.12, 0.02]);
         }
+    }
+
+    #[test]
+    fn absurd_answers_are_refused() {
+        let mut constant: serde_json::Value =
+            serde_json::from_str(&trained("constant").to_json()).expect("JSON");
+        constant["conductivity"] = 60.0.into();
+        let error = read(&constant.to_string()).err().expect("absurd").to_string();
+        assert!(error.contains("K/k of a test packing = 60") && error.contains("0.01 to 3"), "{error}");
+        SHIPPED.iter().for_each(|(name, text)| assert!(read(text).is_ok(), "{name}"));
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::sphere_material::Material;
 use crate::status::{Failure, status, value};
 use ::msdd_surrogate::kernel::{LANES, Lanes};
 use ::msdd_surrogate::models::BUILTIN;
-use ::msdd_surrogate::spheres::model::{Answers, Block, COLUMNS, NAMES, SphereModel};
+use ::msdd_surrogate::spheres::model::{Answers, Block, COLUMNS, NAMES, SphereModel, allowed};
 use ::msdd_surrogate::spheres::state::Known;
 use ::msdd_surrogate::spheres::tensor::Tensor;
 use std::ffi::c_char;
@@ -288,7 +288,11 @@ impl<'a> Columns<'a> {
     }
 
     fn check(&self) -> Result<(), Failure> {
-        self.state.iter().try_for_each(Input::check_finite)?;
+        for (k, column) in self.state.iter().enumerate() {
+            column.check_finite()?;
+            let ([least, most], range) = allowed(k);
+            column.check_range(least, most, range)?;
+        }
         for column in self.thermal.iter().chain(&self.strain).chain(&self.rotation) {
             column.check_finite()?;
             // The lower end does not belong to the range.

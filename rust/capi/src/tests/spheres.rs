@@ -3,7 +3,7 @@
 use super::*;
 use crate::abi::{msdd_sphere_batch, msdd_sphere_material, msdd_sphere_wall, msdd_spheres};
 use crate::sphere_material::Material;
-use ::msdd_surrogate::spheres::model::{Increment, SphereModel};
+use ::msdd_surrogate::spheres::model::{Increment, NAMES, SphereModel};
 use ::msdd_surrogate::spheres::state::Known;
 
 struct Law(*mut msdd_spheres);
@@ -283,6 +283,23 @@ fn what_cannot_be_is_refused() {
     batch(msdd_sphere_batch { solid_conductivity: cold.as_ptr(), ..good }, "solid_conductivity[1] = 0");
     let poor = [40.0, 0.01];
     batch(msdd_sphere_batch { solid_conductivity: poor.as_ptr(), ..good }, "material.conductivity = 0.01");
+    for (name, value, range) in [
+        ("jamming_fraction", 0.2, "0.3 to 0.8"),
+        ("elastic_compression", -5.0, "-0.9 to 0.5"),
+        ("strength", -1.0, "0.01 to 8"),
+        ("strength", 1e300, "0.01 to 8"),
+        ("mobilised", 7.0, "0 to 1"),
+        ("mobilised", -3.0, "0 to 1"),
+        ("coordination", 1e9, "0 to 12"),
+        ("coordination", -4.0, "0 to 12"),
+        ("stress_ratio_3_xz", 1e200, "-2 to 2"),
+    ] {
+        let mut state = state.clone();
+        state[NAMES.iter().position(|known| *known == name).unwrap()][1] = value;
+        let columns = pointers(&state);
+        let said = format!("{name}[1] = {}, allowed: {range}", ::msdd_rve::message::number(value));
+        batch(msdd_sphere_batch { state: columns.as_ptr(), ..good }, &said);
+    }
     let none = msdd_sphere_batch { thermal_strain: none.as_ptr(), ..good };
     refused(STEEL, none, MSDD_NON_FINITE, "thermal_strain[1]");
     let material = |material, said| refused(material, good, MSDD_INVALID_ARGUMENT, said);

@@ -136,6 +136,25 @@ const COORDINATION: [f64; 2] = [0.0, 12.0];
 const MOST_RATIO: f64 = 2.0;
 const MOST_STRAIN: f64 = 0.2;
 
+/// The states that the model takes, which are those that it answers: least and largest value of a column, and both as text. A packing of
+/// another state does not exist.
+pub fn allowed(column: usize) -> ([f64; 2], &'static str) {
+    match column {
+        0 => (JAMMING, "0.3 to 0.8"),
+        1 => (COMPRESSION, "-0.9 to 0.5"),
+        2 => (STRENGTH, "0.01 to 8"),
+        3 => (MOBILISED, "0 to 1"),
+        4 => (COORDINATION, "0 to 12"),
+        _ => ([-MOST_RATIO, MOST_RATIO], "-2 to 2"),
+    }
+}
+
+/// ln(R/h) of the gas of a test packing, and between what its answers lie: the shipped model's by factors of about 4 on either side.
+const TEST_GAS: f64 = 6.0;
+const TEST_PRESSURE: [f64; 2] = [0.3, 1e4];
+const TEST_CONTACT: [f64; 2] = [0.2, 5.0];
+const TEST_GAS_CONDUCTION: [f64; 2] = [3.0, 50.0];
+
 /// Numbers within an interval; its lower end for those that are none.
 #[inline(always)]
 fn between<V: Arithmetic>(value: V, [low, high]: [f64; 2]) -> V {
@@ -298,7 +317,33 @@ impl SphereModel {
         if let Some(value) = all.into_iter().find(|value| value.is_nan() || value.abs() > 1e9) {
             return field("readout (a coefficient)", value, "-1e9 to 1e9");
         }
-        Ok(Self { file, hash: hash(text) })
+        let model = Self { file, hash: hash(text) };
+        model.check_answers()?;
+        Ok(model)
+    }
+
+    /// Refuses a model whose answers are far from those of any packing of spheres, as of a file with a digit changed.
+    fn check_answers(&self) -> Result<(), SurrogateError> {
+        for (solid, pressure) in [(0.58, 1e-6), (0.58, 1e-4), (0.62, 1e-6), (0.62, 1e-4)] {
+            let state =
+                self.initial_state(solid, [pressure, pressure, pressure, 0.0, 0.0, 0.0], &Known::default());
+            for cell in [[0.0; 6], [-1e-4, -1e-4, -1e-4, 0.0, 0.0, 0.0], [0.0, 0.0, -1e-3, 0.0, 0.0, 0.0]] {
+                let strain = Increment { cell, ..Increment::default() };
+                let Answer { stress, contact, gas, .. } = self.advance(&state, &strain, TEST_GAS, false);
+                let borne = mean(stress);
+                let contact = mean(contact) / libm::cbrt(borne);
+                for (key, value, [least, most], allowed) in [
+                    ("pressure over that of the start", borne / pressure, TEST_PRESSURE, "0.3 to 1e4"),
+                    ("conduction by contacts over (p/E*)^(1/3)", contact, TEST_CONTACT, "0.2 to 5"),
+                    ("conductivity by gas over that of the gas", gas, TEST_GAS_CONDUCTION, "3 to 50"),
+                ] {
+                    if !(least..=most).contains(&value) {
+                        return field(&format!("{key} of a test packing"), value, allowed);
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Whether a text is the file of such a model.
@@ -325,7 +370,8 @@ impl SphereModel {
 
     /// The state of a cell with this solid fraction φ, stress over E*, and what else is known of it.
     pub fn initial_state(&self, solid: f64, stress: Tensor, known: &Known) -> [f64; COLUMNS] {
-        columns(&self.file.law.start(between(solid, JAMMING), stress, known))
+        // As it is read again from its columns.
+        columns(&state(&columns(&self.file.law.start(between(solid, JAMMING), stress, known))))
     }
 
     /// Strains a cell. Finite inputs give finite answers.

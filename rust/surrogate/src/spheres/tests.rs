@@ -325,6 +325,11 @@ fn files_that_no_training_wrote_are_refused() {
     file.law.bulk[0] = -1.0;
     let refused = message(&SphereModel::of(file).to_json());
     assert!(refused.contains("law.bulk[0]") && refused.contains("allowed: 1e-6 to 1e6"), "{refused}");
+    // A number within its range whose answers are those of no packing.
+    let mut file = model().file;
+    file.readout.contact[0] *= 100.0;
+    let refused = message(&SphereModel::of(file).to_json());
+    assert!(refused.contains("conduction by contacts") && refused.contains("allowed: 0.2 to 5"), "{refused}");
 }
 
 #[test]
