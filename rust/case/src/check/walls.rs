@@ -86,7 +86,7 @@ fn check_friction(wall: &Dictionary, elastic: bool, found: &mut Findings) {
     if kind != "rigid" {
         for key in FRICTION.iter().filter(|key| wall.get(key).is_some()) {
             let value = wall.value(key).map(joined).unwrap_or_default();
-            let advice = format!("The solver ignores it in a wall of type {kind}");
+            let advice = format!("The wall is of type {kind}");
             once([FILE, &wall.path_of(key)], &value, &advice, found);
         }
         return;
@@ -104,7 +104,7 @@ fn check_friction(wall: &Dictionary, elastic: bool, found: &mut Findings) {
 /// A pattern may stand for several patches, and is reported once.
 fn once(place: [&str; 2], value: &str, advice: &str, found: &mut Findings) {
     if !found.0.iter().any(|finding| finding.key == place[1] && finding.advice == advice) {
-        found.doubt(place, value, "in walls of type rigid", advice);
+        found.error(place, value, "in walls of type rigid", advice);
     }
 }
 
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn friction_that_the_solver_ignores_or_refuses_is_found() {
+    fn friction_that_the_solver_refuses_is_found() {
         let rigid = "walls { \".*\" { friction 0.3; slip 1e-6; } }";
         for sides in ["empty", "wall"] {
             assert_eq!(lines(rigid, sides, None), Vec::<String>::new());
@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(
             lines("walls { \"l.*|right\" { type frictionless; friction 0.3; } }", "empty", None),
             [
-                "doubt: constant/granularProperties: equilibriumCoeffs/walls/l.*|right/friction = 0.3, allowed: in walls of type rigid. The solver ignores it in a wall of type frictionless"
+                "error: constant/granularProperties: equilibriumCoeffs/walls/l.*|right/friction = 0.3, allowed: in walls of type rigid. The wall is of type frictionless"
             ]
         );
         let elastic = lines("law elastic; walls { left { friction 0.3; } }", "empty", None);
