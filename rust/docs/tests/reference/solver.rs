@@ -26,8 +26,9 @@ const CONTACT: &str = "openfoam/granularThermo/granularContact/granularContactFv
 const SECOND: &str = "openfoam/msddFoam/timeScheme/secondOrderScheme.C";
 
 /// Texts that are looked up in the solver and are no keys of a user.
-pub const NO_KEYS: [(&str, &str); 8] = [
+pub const NO_KEYS: [(&str, &str); 9] = [
     ("accept", "option of the command line, in the table of msddFoam"),
+    ("mesh", "name given with this option"),
     ("solvers", "dictionary of every fvSolution"),
     ("equilibrium", "heading of the table solvers.equilibrium"),
     ("solid", "kind of region in every regionProperties"),
