@@ -94,8 +94,9 @@ pub fn read(case: &Path, name: &str, file: Option<&str>) -> Result<Table, CaseEr
             return Err(CaseError::Read { file: path, problem });
         }
         let first = rows.first().map_or(f64::INFINITY, |row| time(row));
-        // Not the opposite comparisons: a row without a time stays, to be refused when its numbers are read.
-        table.rows.retain(|row| !(time(row) > start || time(row) >= first));
+        // A row without a time stays, to be refused when its numbers are read.
+        let replaced = |row: &str| time(row) > start || time(row) >= first;
+        table.rows.retain(|row| !replaced(row));
         table.rows.extend(rows.into_iter().map(str::to_string));
         table.head = head;
         table.file = path;
