@@ -32,6 +32,7 @@ pub const NO_KEYS: [(&str, &str); 9] = [
     ("solvers", "dictionary of every fvSolution"),
     ("equilibrium", "heading of the table solvers.equilibrium"),
     ("solid", "kind of region in every regionProperties"),
+    ("beyondSince", "entry of course in uniform/msddFoam, in the row of course"),
     ("PIMPLE", "dictionary of OpenFOAM's regions"),
     ("timeStart", "of function objects, in their table"),
     ("timeEnd", "of function objects, in their table"),
