@@ -1,6 +1,7 @@
 //! Makes the files of a new case. The folder is complete and includes no files of other cases, so it can stand anywhere.
 
 use crate::CaseError;
+use crate::disc_model;
 use crate::fields::{FieldKind, head, uniform};
 use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, Spread};
@@ -54,11 +55,8 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<PathBuf, CaseError> {
 }
 
 /// The files of the case. `checkout`: folder of MSDD in which the solver was built; `name`: name of the case folder.
-///
-/// # Errors
-/// [`CaseError::Model`].
-pub fn files(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> Result<Vec<File>, CaseError> {
-    let values = values(scene, packing, name, checkout)?;
+pub fn files(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> Vec<File> {
+    let values = values(scene, packing, name, checkout);
     let filled = |template: &str| fill(template, &values);
     let foam = |path: &'static str, class: &str, template: &str| {
         let object = path.rsplit('/').next().unwrap_or(path);
@@ -79,8 +77,11 @@ pub fn files(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> R
     if scene.heat_source.is_some() {
         files.push(foam("constant/fvOptions", "dictionary", template!("fvOptions")));
     }
+    if let Some(text) = scene.model.file() {
+        files.push(File { path: disc_model::FILE, text: text.to_string(), program: false });
+    }
     files.extend(initial_fields(packing));
-    Ok(files)
+    files
 }
 
 /// The files that hardly depend on the bed: what runs and removes, and numerical schemes. `tolerance`: error of T that a step may

@@ -3,6 +3,7 @@
 use super::*;
 use crate::Case;
 use crate::dictionary::Dictionary;
+use crate::disc_model::DiscModel;
 use crate::grains::PRESETS;
 use crate::packing::Start;
 use crate::scene::{Mechanics, parse_wall, proposed_cells, proposed_probes};
@@ -21,6 +22,7 @@ fn made(change: impl Fn(&mut Scene)) -> Vec<File> {
         initial_temperature: 293.15,
         material: "steel".to_string(),
         grains: PRESETS[1].grains,
+        model: DiscModel::shipped().unwrap(),
         start: Start::Porosity(0.125),
         compression: Compression::Horizontal,
         mechanics: Mechanics::Equilibrium,
@@ -40,7 +42,7 @@ fn made(change: impl Fn(&mut Scene)) -> Vec<File> {
         pressure: spread(1.01e7),
         conductivity: spread(0.3),
     };
-    files(&scene, &packing, "bed", Path::new("/checkout")).unwrap()
+    files(&scene, &packing, "bed", Path::new("/checkout"))
 }
 
 /// A text as OpenFOAM would expand it: without the line that includes the types of patches which are not walls.

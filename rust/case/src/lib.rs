@@ -8,6 +8,7 @@
 //! | [`model`] | the grains that the surrogate of a case was made for |
 //! | [`walls`] | thermal boundary conditions of the walls over time |
 //! | [`mesh`] | cell centres of a case's mesh |
+//! | [`disc_model`] | the model of discs of a new case |
 //! | [`fields`] | texts of initial fields |
 //! | [`grains`] | materials of new cases |
 //! | [`scene`] | the parameters of a new case |
@@ -25,6 +26,7 @@ mod binary;
 pub mod case;
 pub mod check;
 pub mod dictionary;
+pub mod disc_model;
 pub mod fields;
 pub mod folder;
 pub mod grains;

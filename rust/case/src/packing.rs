@@ -1,24 +1,20 @@
 //! The initial state of a new case: means over small periodic boxes of its grains, packed by discrete elements.
 
 use crate::CaseError;
+use crate::disc_model::DiscModel;
 use crate::grains::Grains;
 use crate::numbers;
 use msdd_rve::message::number;
 use msdd_rve::{
     Averages, Boundary, Compression, PackingSpec, Preparation, RegionKind, Relaxation, homogenise, pack_as,
 };
-use msdd_surrogate::Surrogate;
-use msdd_surrogate::surrogate::Known;
+use msdd_surrogate::surrogate::{Answer, Known};
 use rayon::prelude::*;
+
+pub use crate::disc_model::{PACKING_FRICTION, POROSITIES};
 
 /// Smallest and largest radius over the mean radius; in the paper 3, 7 and 5 mm.
 pub const RADIUS_RANGE: [f64; 2] = [0.6, 1.4];
-/// Friction coefficient tan φ while a box is packed, which the paper does not give. Friction raises the porosity η at which
-/// the grains jam, and the fabric index f: 0.3 leads to about η = 12.4 % and f = 0.036; with the material's own 0.546 the
-/// grains jam at 12.9–13.1 %.
-pub const PACKING_FRICTION: f64 = 0.42;
-/// Least and largest initial porosity that is allowed [-]: those of the packings that the shipped model was trained with.
-pub const POROSITIES: [f64; 2] = [0.06, 0.19];
 /// Number of grains in each box.
 const GRAINS: usize = 500;
 /// Largest relative difference between the pressure that was wanted and that of the packings.
@@ -35,6 +31,15 @@ pub enum Start {
     Porosity(f64),
     /// p \[Pa\], compression positive.
     Pressure(f64),
+}
+
+/// The discs that are packed.
+#[derive(Clone, Copy, Debug)]
+pub struct Discs<'a> {
+    pub grains: &'a Grains,
+    /// Their friction and their radii are those that it was trained with.
+    pub model: &'a DiscModel,
+    pub compression: Compression,
 }
 
 /// Mean over the boxes, and scatter between them.
@@ -82,19 +87,16 @@ pub struct Effort {
 /// [`CaseError::Parameter`] for a porosity or pressure that such grains do not have or the shipped model does not know;
 /// [`CaseError::Rve`] when a packing fails.
 pub fn pack(
-    grains: &Grains,
+    discs: Discs,
     start: Start,
-    compression: Compression,
     effort: Effort,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Packing, CaseError> {
-    grains.check()?;
-    check(grains, start, compression)?;
+    discs.grains.check()?;
+    check(discs, start)?;
     match start {
-        Start::Porosity(porosity) => {
-            boxes_of(grains, porosity, compression, effort, &|done| progress(done, effort.boxes))
-        }
-        Start::Pressure(pressure) => to_pressure(grains, pressure, compression, effort, progress),
+        Start::Porosity(porosity) => boxes_of(discs, porosity, effort, &|done| progress(done, effort.boxes)),
+        Start::Pressure(pressure) => to_pressure(discs, pressure, effort, progress),
     }
 }
 
@@ -102,8 +104,8 @@ pub fn pack(
 ///
 /// # Errors
 /// [`CaseError::Parameter`].
-pub fn check(grains: &Grains, start: Start, compression: Compression) -> Result<(), CaseError> {
-    let [least, most] = POROSITIES;
+pub fn check(discs: Discs, start: Start) -> Result<(), CaseError> {
+    let [least, most] = discs.model.porosities();
     match start {
         Start::Porosity(porosity) if !(least..=most).contains(&porosity) => Err(CaseError::Parameter {
             key: "porosity".to_string(),
@@ -114,7 +116,7 @@ pub fn check(grains: &Grains, start: Start, compression: Compression) -> Result<
             ),
         }),
         Start::Pressure(pressure) => {
-            let [low, high] = pressures(grains, compression)?;
+            let [low, high] = discs.pressures();
             if (low..=high).contains(&pressure) {
                 return Ok(());
             }
@@ -139,18 +141,36 @@ fn rounded(value: f64) -> String {
     numbers::plain(numbers::rounded(value, 3))
 }
 
-/// Pressures [Pa] of the loosest and of the densest packing that are allowed, by the shipped model.
-fn pressures(grains: &Grains, compression: Compression) -> Result<[f64; 2], CaseError> {
-    let model = msdd_surrogate::models::builtin(msdd_surrogate::models::BUILTIN)?;
-    let at = |porosity| grains.stress_scale() * expected(model.as_ref(), porosity, compression);
-    Ok([at(POROSITIES[1]), at(POROSITIES[0])])
-}
+impl Discs<'_> {
+    /// Pressures [Pa] of the loosest and of the densest packing that are allowed, by the model.
+    fn pressures(&self) -> [f64; 2] {
+        let [least, most] = self.model.porosities();
+        [most, least].map(|porosity| self.grains.stress_scale() * self.expected(porosity))
+    }
 
-/// Reduced pressure p̃ [-] of the mean packing of a porosity, by the model.
-fn expected(model: &dyn Surrogate, porosity: f64, compression: Compression) -> f64 {
-    let known = Known { porosity, fabric_index: usual_fabric(compression), ..Known::default() };
-    let answer = model.evaluate(&model.initial_state(&known), 0.0);
-    0.5 * (answer.stress[0][0] + answer.stress[1][0])
+    /// The mean packing of a porosity, by the model.
+    pub(crate) fn usual(&self, porosity: f64) -> Answer {
+        let law = self.model.law();
+        let known = Known { porosity, fabric_index: usual_fabric(self.compression), ..Known::default() };
+        law.evaluate(&law.initial_state(&known), 0.0)
+    }
+
+    /// Its reduced pressure p̃ [-].
+    fn expected(&self, porosity: f64) -> f64 {
+        let answer = self.usual(porosity);
+        0.5 * (answer.stress[0][0] + answer.stress[1][0])
+    }
+
+    /// Porosity at which the model's mean packing has this pressure \[Pa\].
+    pub(crate) fn porosity_at(&self, pressure: f64) -> f64 {
+        let reduced = pressure / self.grains.stress_scale();
+        let [mut dense, mut loose] = self.model.porosities();
+        for _ in 0..40 {
+            let middle = 0.5 * (dense + loose);
+            if self.expected(middle) > reduced { dense = middle } else { loose = middle }
+        }
+        0.5 * (dense + loose)
+    }
 }
 
 /// Approximate fabric index of packings that were compressed in this way [-].
@@ -181,23 +201,23 @@ pub fn sum_porosity(porosity: f64) -> Result<f64, CaseError> {
 /// Finds the porosity with a given pressure. The porosity is nearly linear in √p, so each round interpolates between the two
 /// packings whose √p is nearest to the wanted one.
 fn to_pressure(
-    grains: &Grains,
+    discs: Discs,
     pressure: f64,
-    compression: Compression,
     effort: Effort,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Packing, CaseError> {
-    let wanted = (pressure / grains.stress_scale()).sqrt();
-    let mut porosity = model_porosity(pressure / grains.stress_scale(), compression)?;
+    let scale = discs.grains.stress_scale();
+    let wanted = (pressure / scale).sqrt();
+    let mut porosity = discs.porosity_at(pressure);
     let mut known: Vec<[f64; 2]> = Vec::new();
     for round in 0..ROUNDS {
         let done = round * effort.boxes;
         let all = effort.boxes * (round + 1).max(2);
-        let packing = boxes_of(grains, porosity, compression, effort, &|here| progress(done + here, all))?;
+        let packing = boxes_of(discs, porosity, effort, &|here| progress(done + here, all))?;
         if (packing.pressure.mean / pressure - 1.0).abs() < PRESSURE_TOLERANCE {
             return Ok(packing);
         }
-        known.push([porosity, (packing.pressure.mean / grains.stress_scale()).max(0.0).sqrt()]);
+        known.push([porosity, (packing.pressure.mean / scale).max(0.0).sqrt()]);
         known.sort_by(|a, b| (a[1] - wanted).abs().total_cmp(&(b[1] - wanted).abs()));
         // Two packings of almost the same porosity may have rearranged: then their slope says nothing.
         let slope = match known.as_slice() {
@@ -206,8 +226,8 @@ fn to_pressure(
             }
             _ => USUAL_SLOPE,
         };
-        let [low, high] = [POROSITIES[0] - 0.01, POROSITIES[1] + 0.01];
-        porosity = (known[0][0] + slope * (wanted - known[0][1])).clamp(low, high);
+        let [least, most] = discs.model.porosities();
+        porosity = (known[0][0] + slope * (wanted - known[0][1])).clamp(least - 0.01, most + 0.01);
     }
     Err(CaseError::Parameter {
         key: "pressure".to_string(),
@@ -216,21 +236,9 @@ fn to_pressure(
     })
 }
 
-/// Porosity at which the model's mean packing has the reduced pressure p̃.
-pub(crate) fn model_porosity(pressure: f64, compression: Compression) -> Result<f64, CaseError> {
-    let model = msdd_surrogate::models::builtin(msdd_surrogate::models::BUILTIN)?;
-    let [mut dense, mut loose] = POROSITIES;
-    for _ in 0..40 {
-        let middle = 0.5 * (dense + loose);
-        if expected(model.as_ref(), middle, compression) > pressure { dense = middle } else { loose = middle }
-    }
-    Ok(0.5 * (dense + loose))
-}
-
 fn boxes_of(
-    grains: &Grains,
+    discs: Discs,
     porosity: f64,
-    compression: Compression,
     effort: Effort,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Packing, CaseError> {
@@ -238,36 +246,32 @@ fn boxes_of(
     let pool = pool.map_err(|error| CaseError::Threads(std::io::Error::other(error)))?;
     let done = std::sync::atomic::AtomicUsize::new(0);
     let one = |k: usize| {
-        let averages = packed(grains, porosity, compression, effort.seed + k as u64);
+        let averages = packed(discs, porosity, effort.seed + k as u64);
         progress(done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1);
         averages
     };
     let averages: Result<Vec<Averages>, CaseError> =
         pool.install(|| (0..effort.boxes.max(1)).into_par_iter().map(one).collect());
-    Ok(Packing::of(&averages?, compression))
+    Ok(Packing::of(&averages?, discs.compression))
 }
 
-fn packed(
-    grains: &Grains,
-    porosity: f64,
-    compression: Compression,
-    seed: u64,
-) -> Result<Averages, CaseError> {
-    let [radius_min, radius_max] = RADIUS_RANGE.map(|ratio| ratio * grains.mean_radius);
+fn packed(discs: Discs, porosity: f64, seed: u64) -> Result<Averages, CaseError> {
+    let [radius_min, radius_max] = discs.model.radii().map(|ratio| ratio * discs.grains.mean_radius);
     let boundary = Boundary::Periodic;
     let relaxation = Relaxation::Fire;
     let spec = PackingSpec {
         discs: GRAINS,
         seed,
         porosity,
-        compression,
+        compression: discs.compression,
         radius_min,
         radius_max,
         boundary,
         relaxation,
     };
-    let preparation = Preparation { friction_angle: Some(PACKING_FRICTION.atan()), ..Preparation::default() };
-    let packed = pack_as(&spec, &preparation, &grains.material())?;
+    let preparation =
+        Preparation { friction_angle: Some(discs.model.packing_angle()), ..Preparation::default() };
+    let packed = pack_as(&spec, &preparation, &discs.model.material(discs.grains))?;
     Ok(homogenise(&packed.simulation, RegionKind::Cell))
 }
 

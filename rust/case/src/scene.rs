@@ -1,15 +1,14 @@
 //! The parameters of a new case: box, walls, grains, initial state, end. Nothing is written or printed here.
 
 use crate::CaseError;
+use crate::disc_model::DiscModel;
 use crate::grains::Grains;
 use crate::numbers::rounded;
-use crate::packing::{self, Start, usual_fabric};
+use crate::packing::{self, Discs, Start};
 use crate::ranges::{self, allow};
 use crate::walls::WallOverTime;
 use msdd_dem::WallHeat;
 use msdd_rve::Compression;
-use msdd_surrogate::models;
-use msdd_surrogate::surrogate::Known;
 
 /// Proposed side of a cell over the mean radius: a square of this side holds nearly five grains, as in the paper's mesh.
 pub const CELL_RADII: f64 = 4.3;
@@ -44,6 +43,7 @@ pub struct Scene {
     /// Name of the material, for comments in the files.
     pub material: String,
     pub grains: Grains,
+    pub model: DiscModel,
     pub start: Start,
     pub compression: Compression,
     pub mechanics: Mechanics,
@@ -106,7 +106,22 @@ impl Scene {
                 allowed,
             });
         }
-        packing::check(&self.grains, self.start, self.compression)
+        if self.mechanics == Mechanics::Equilibrium && !self.model.law().has_tangent() {
+            return Err(CaseError::Parameter {
+                key: "mechanics".to_string(),
+                value: "equilibrium".to_string(),
+                allowed: format!(
+                    "none with the model {}, which has no mechanical tangent",
+                    self.model.law().name()
+                ),
+            });
+        }
+        packing::check(self.discs(), self.start)
+    }
+
+    /// What is packed.
+    pub fn discs(&self) -> Discs<'_> {
+        Discs { grains: &self.grains, model: &self.model, compression: self.compression }
     }
 
     /// Sides of a cell \[m\].
@@ -133,45 +148,32 @@ impl Scene {
         if way.is_finite() { way } else { self.size[0].max(self.size[1]) }
     }
 
-    /// Thermal diffusivity of the bed, K/(ρ c (1 − η)) [m²/s], and its mean conductivity K [W/(m K)], by the shipped model for
-    /// packings of about the initial porosity or pressure.
-    ///
-    /// # Errors
-    /// [`CaseError::Model`] when the shipped model cannot be read.
-    pub fn diffusivity(&self) -> Result<[f64; 2], CaseError> {
+    /// Thermal diffusivity of the bed, K/(ρ c (1 − η)) [m²/s], and its mean conductivity K [W/(m K)], by the model for packings of
+    /// about the initial porosity or pressure.
+    pub fn diffusivity(&self) -> [f64; 2] {
         let porosity = match self.start {
             Start::Porosity(porosity) => porosity,
-            Start::Pressure(pressure) => {
-                packing::model_porosity(pressure / self.grains.stress_scale(), self.compression)?
-            }
+            Start::Pressure(pressure) => self.discs().porosity_at(pressure),
         };
-        let model = models::builtin(models::BUILTIN)?;
-        let known = Known { porosity, fabric_index: usual_fabric(self.compression), ..Known::default() };
-        let answer = model.evaluate(&model.initial_state(&known), 0.0);
+        let answer = self.discs().usual(porosity);
         let share = 0.5 * (answer.conductivity[0][0] + answer.conductivity[1][0]);
         let conductivity = share * self.grains.thermal_conductivity;
-        let storage = self.grains.density * self.grains.heat_capacity * model.solid_fraction(porosity);
-        Ok([conductivity / storage, conductivity])
+        let solid = self.model.law().solid_fraction(porosity);
+        [conductivity / (self.grains.density * self.grains.heat_capacity * solid), conductivity]
     }
 
     /// Proposed end time L²/D \[s\], rounded to two digits: the time in which most of the heat has spread over the length
     /// L = [`Scene::heat_way`].
-    ///
-    /// # Errors
-    /// [`CaseError::Model`].
-    pub fn proposed_end(&self) -> Result<f64, CaseError> {
+    pub fn proposed_end(&self) -> f64 {
         let way = self.heat_way();
-        Ok(rounded(way * way / self.diffusivity()?[0], 2))
+        rounded(way * way / self.diffusivity()[0], 2)
     }
 
     /// The first time step \[s\], rounded to two digits: a twentieth of the time in which heat crosses a cell.
-    ///
-    /// # Errors
-    /// [`CaseError::Model`].
-    pub fn first_step(&self) -> Result<f64, CaseError> {
+    pub fn first_step(&self) -> f64 {
         let [x, y] = self.cell();
-        let crossed = x.min(y) * x.min(y) / self.diffusivity()?[0];
-        Ok(rounded((0.05 * crossed).min(0.01 * self.end_time), 2))
+        let crossed = x.min(y) * x.min(y) / self.diffusivity()[0];
+        rounded((0.05 * crossed).min(0.01 * self.end_time), 2)
     }
 }
 

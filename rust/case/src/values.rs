@@ -1,6 +1,5 @@
 //! Values in the files of a new case: numbers and names as text.
 
-use crate::CaseError;
 use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, RADIUS_RANGE, Spread};
 use crate::scene::{Mechanics, Scene, WALLS};
@@ -24,12 +23,7 @@ const DISCS_COST: f64 = 4e-7;
 pub(crate) type Values = Vec<(&'static str, String)>;
 
 /// The values that replace `@key@` in the templates.
-pub(crate) fn values(
-    scene: &Scene,
-    packing: &Packing,
-    name: &str,
-    checkout: &Path,
-) -> Result<Values, CaseError> {
+pub(crate) fn values(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> Values {
     let depth = scene.cell()[0].min(scene.cell()[1]);
     let mut values: Values = vec![
         (
@@ -57,11 +51,12 @@ pub(crate) fn values(
             },
         ),
     ];
-    values.extend(times(scene.end_time, scene.first_step()?));
+    values.extend(times(scene.end_time, scene.first_step()));
+    values.extend([("model", scene.model.entry()), ("modelAbout", scene.model.about())]);
     values.extend(scene.grains.named().map(|(key, value, _)| (key, plain(value))));
     values.extend(mesh_values(scene, packing));
     values.extend(readme_values(scene, packing));
-    Ok(values)
+    values
 }
 
 /// The times of `system/controlDict` \[s\], of a run with this end and first step.

@@ -130,6 +130,11 @@ impl Surrogate for ConstantModel {
     fn solid_fraction(&self, porosity: f64) -> f64 {
         self.file.solid_fraction.at(porosity)
     }
+
+    fn packed_porosities(&self) -> [f64; 2] {
+        let range = self.file.solid_fraction.porosity;
+        [range.min, range.max]
+    }
 }
 
 #[cfg(test)]

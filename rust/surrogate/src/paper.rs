@@ -68,6 +68,11 @@ impl Surrogate for Model {
     fn solid_fraction(&self, porosity: f64) -> f64 {
         Model::solid_fraction(self, porosity)
     }
+
+    fn packed_porosities(&self) -> [f64; 2] {
+        let range = self.solid_fraction.porosity;
+        [range.min, range.max]
+    }
 }
 
 #[cfg(test)]

@@ -155,6 +155,8 @@ pub trait Surrogate: Send + Sync {
     fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt>;
     /// Sum-of-areas solid fraction [-] of a packed state of this porosity.
     fn solid_fraction(&self, porosity: f64) -> f64;
+    /// Least and largest porosity [-] of the packed states of the training.
+    fn packed_porosities(&self) -> [f64; 2];
 
     /// The answer after a thermal strain of the cells.
     fn block(&self, state: &StateLanes, strain: &Lanes) -> Answer {

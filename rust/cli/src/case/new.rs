@@ -132,9 +132,10 @@ fn spheres_made(
         ("--packings", arguments.packings.is_some()),
         ("--seed", arguments.seed.is_some()),
         ("--compression", arguments.wishes.compression.is_some()),
+        ("--model", arguments.wishes.model.is_some()),
     ];
     if let Some((option, _)) = of_discs.iter().find(|(_, given)| *given) {
-        let message = format!("{option} cannot be used with --spheres: discs alone are packed");
+        let message = format!("{option} cannot be used with --spheres: it belongs to discs");
         return Err(CliError::Message(message));
     }
     let scene = arguments.sphere_wishes.scene(&arguments.wishes, asker)?;
@@ -162,7 +163,7 @@ fn discs_made(
     for [what, mean, deviation] in packing_rows(&packing) {
         outln!("    {what:55} {mean:>10} +- {deviation}");
     }
-    Ok(files(&scene, &packing, name, checkout)?)
+    Ok(files(&scene, &packing, name, checkout))
 }
 
 fn packed(scene: &Scene, arguments: &Arguments) -> Result<msdd_case::packing::Packing, CliError> {
@@ -174,7 +175,7 @@ fn packed(scene: &Scene, arguments: &Arguments) -> Result<msdd_case::packing::Pa
         }
     };
     let effort = Effort { boxes, seed: arguments.seed.unwrap_or(1), threads: arguments.threads as usize };
-    let packing = pack(&scene.grains, scene.start, scene.compression, effort, &watch)?;
+    let packing = pack(scene.discs(), scene.start, effort, &watch)?;
     if let Ok(progress) = progress.lock() {
         progress.finish();
     }

@@ -1,7 +1,7 @@
 //! The user's choices for a new case of a bed of spheres: options beside those of all beds, and questions.
 
 use super::ask::{Asker, number};
-use super::wishes::{HOTTER, WALL_HELP, Wishes, coldest};
+use super::wishes::{HOTTER, MechanicsName, WALL_HELP, Wishes, coldest};
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
 use msdd_beds::named_gases::GasName;
@@ -133,7 +133,7 @@ impl SphereWishes {
         let read = asker.within(parse_wall, |wall| ranges::wall(wall, |value| known("wall", value)));
         let walls = ask_walls(asker, &shape, given, initial_temperature, read)?;
         let (porosity, pressure) = ask_start(common, asker, spheres)?;
-        let mechanics = common.ask_mechanics(asker)?;
+        let mechanics = common.ask_mechanics(asker, MechanicsName::Equilibrium)?;
         let (lid, wall_friction, gravity) = self.ask_load(asker, mechanics)?;
         let stays = lid == Lid::Stays && mechanics == Mechanics::Equilibrium;
         let mut scene = Scene {

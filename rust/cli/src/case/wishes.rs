@@ -5,9 +5,10 @@ use super::grain_wishes::GrainWishes;
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
 use msdd_case::CaseError;
-use msdd_case::grains::{Grains, PRESETS, Preset};
+use msdd_case::disc_model::DiscModel;
+use msdd_case::grains::{PRESETS, Preset};
 use msdd_case::numbers::{plain, rounded};
-use msdd_case::packing::{self, POROSITIES, Start};
+use msdd_case::packing::{self, Discs, Start};
 use msdd_case::ranges;
 use msdd_case::scene::{
     BOX_HAS, Mechanics, Numbers, SIDES, Scene, cells_of, parse_point, parse_sides, parse_wall,
@@ -16,7 +17,10 @@ use msdd_case::scene::{
 use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
 use msdd_rve::Compression;
+use std::path::PathBuf;
 
+/// Proposed porosity of discs.
+const POROSITY: f64 = 0.125;
 /// Proposed difference between the hot wall's temperature and the initial one [K]; the paper's grains strain by 5 % then.
 pub(super) const HOTTER: f64 = 50.0;
 
@@ -65,6 +69,10 @@ pub struct Wishes {
     /// on the top, beside the porosity. Default with spheres: 20 kPa.
     #[arg(long, value_name = "PA", help_heading = "Packing at the start")]
     pub(super) pressure: Option<f64>,
+    /// Model file of 'msdd train', for discs of another friction. The case gets a copy, and the start is packed with the friction and
+    /// the spread of radii that it was trained with. Default: the model that is compiled in.
+    #[arg(long, value_name = "FILE", help_heading = "Packing at the start")]
+    pub(super) model: Option<PathBuf>,
     /// How the grains were compressed: equally from all sides, or along x alone, as `msdd reference` fills its box (then more
     /// contacts point along x, and the bed conducts better along x).
     #[arg(long, value_enum, help_heading = "Packing at the start")]
@@ -102,6 +110,7 @@ impl Wishes {
     /// # Errors
     /// The errors of [`Scene::check`], when no case can be made from the choices.
     pub fn scene(&self, asker: &Asker) -> Result<Scene, CliError> {
+        let model = self.model.as_deref().map_or_else(DiscModel::shipped, DiscModel::read)?;
         let presets: Vec<&'static Preset> = PRESETS.iter().collect();
         let (base, material, grains) = self.grains.ask(asker, &presets)?;
         let (size, cells) = self.ask_box(asker, grains.mean_radius)?;
@@ -109,7 +118,8 @@ impl Wishes {
         let initial_temperature = self.ask_initial(asker, proposal, ranges::temperature)?;
         let walls = self.ask_walls(asker, initial_temperature)?;
         let compression = self.ask_compression(asker)?;
-        let start = self.ask_start(asker, &grains, compression)?;
+        let start = self.ask_start(asker, Discs { grains: &grains, model: &model, compression })?;
+        let usual = if model.law().has_tangent() { MechanicsName::Equilibrium } else { MechanicsName::None };
         let mut scene = Scene {
             size,
             cells,
@@ -117,16 +127,17 @@ impl Wishes {
             initial_temperature,
             material,
             grains,
+            model,
             start,
             compression,
-            mechanics: self.ask_mechanics(asker)?,
+            mechanics: self.ask_mechanics(asker, usual)?,
             heat_source: self.ask_heat(asker)?.filter(|&value| value != 0.0),
             end_time: 1.0,
             tolerance: self.tolerance,
             probes: self.points(size)?,
         };
         scene.check()?;
-        scene.end_time = self.ask_end(asker, scene.proposed_end()?)?;
+        scene.end_time = self.ask_end(asker, scene.proposed_end())?;
         scene.check()?;
         Ok(scene)
     }
@@ -229,7 +240,7 @@ impl Wishes {
         walls.try_into().map_err(|_| CliError::Message("four walls".to_string()))
     }
 
-    fn ask_start(&self, asker: &Asker, grains: &Grains, compression: Compression) -> Result<Start, CliError> {
+    fn ask_start(&self, asker: &Asker, discs: Discs) -> Result<Start, CliError> {
         let given = match (self.porosity, self.pressure) {
             (Some(_), Some(_)) => {
                 let message =
@@ -240,7 +251,7 @@ impl Wishes {
             (None, Some(pressure)) => Some(Start::Pressure(pressure)),
             (None, None) => None,
         };
-        let [least, most] = POROSITIES;
+        let [least, most] = discs.model.porosities();
         asker.value(
             given,
             &format!(
@@ -248,8 +259,8 @@ impl Wishes {
                  to {most} (loose; discs in a plane pack denser than balls), or its pressure, such as '3000 Pa'."
             ),
             "Porosity, or pressure in Pa",
-            "0.125",
-            asker.within(parse_start, |&start| packing::check(grains, start, compression)),
+            &plain(POROSITY.clamp(least, most)),
+            asker.within(parse_start, |&start| packing::check(discs, start)),
         )
     }
 
@@ -268,13 +279,16 @@ impl Wishes {
         })
     }
 
-    pub(super) fn ask_mechanics(&self, asker: &Asker) -> Result<Mechanics, CliError> {
+    pub(super) fn ask_mechanics(&self, asker: &Asker, usual: MechanicsName) -> Result<Mechanics, CliError> {
         let name = asker.value(
             self.mechanics,
             "Grains that are heated push their neighbours away. With 'equilibrium' they move until all forces are in balance, \
              which agrees with discrete elements; with 'none' they stay where they are, as in the paper.",
             "Mechanics",
-            "equilibrium",
+            match usual {
+                MechanicsName::Equilibrium => "equilibrium",
+                MechanicsName::None => "none",
+            },
             |text| MechanicsName::from_str(text, true).map_err(|_| "equilibrium, none".to_string()),
         )?;
         Ok(match name {

@@ -164,7 +164,7 @@ fn write_case(
 ) -> Result<(), CliError> {
     let packing = packing_of(scene, start)?;
     let solver = scene.scene(packing.porosity.mean)?;
-    folder::write(folder, &folder::files(&solver, &packing, &scene.name, checkout)?)?;
+    folder::write(folder, &folder::files(&solver, &packing, &scene.name, checkout))?;
     let (cell, [nx, ny]) = (solver.cell(), solver.cells);
     let centre = |k: usize| [(k % nx) as f64 + 0.5, (k / nx) as f64 + 0.5];
     let centres: Vec<[f64; 2]> = (0..nx * ny)

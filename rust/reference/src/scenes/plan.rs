@@ -3,6 +3,7 @@
 use crate::ReferenceError;
 use crate::model::{Filling, ModelSpec, SUM_POROSITY};
 use msdd_case::Case;
+use msdd_case::disc_model::DiscModel;
 use msdd_case::grains::Grains;
 use msdd_case::packing::{POROSITIES, RADIUS_RANGE, Start};
 use msdd_case::scene::{Mechanics, Scene, parse_wall, proposed_cells};
@@ -221,6 +222,7 @@ impl PlannedScene {
                 thermal_expansion: self.thermal_expansion,
                 mean_radius: self.mean_radius,
             },
+            model: DiscModel::shipped()?,
             start: Start::Porosity(porosity.clamp(POROSITIES[0], POROSITIES[1])),
             compression: match self.compression {
                 Closing::Horizontal => Compression::Horizontal,
