@@ -172,7 +172,7 @@ impl Dictionary {
             _ => return Err(self.refuse(key, &joined(tokens), "uniform <value>, or a list")),
         };
         let numbers: Vec<f64> = values.iter().filter_map(|token| token.text.parse().ok()).collect();
-        let complete = (N..=most).contains(&numbers.len()) && numbers.len() % N == 0;
+        let complete = (N..=most).contains(&numbers.len()) && numbers.len().is_multiple_of(N);
         let mut means = [0.0; N];
         for (k, number) in numbers.iter().enumerate() {
             means[k % N] += number / (numbers.len() / N) as f64;

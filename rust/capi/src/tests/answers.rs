@@ -4,7 +4,7 @@ use super::{Cells, Handle, MATERIAL, MSDD_INVALID_ARGUMENT, MSDD_OK, last_error,
 use crate::abi::{self, msdd_initial};
 use crate::exports::*;
 use ::msdd_surrogate::surrogate::MAX_STATE;
-use std::ffi::CStr;
+use std::ffi::{CStr, c_char};
 use std::ptr::{null, null_mut};
 
 const MODELS: [&CStr; 2] = [c"builtin", c"builtin:paper"];
@@ -251,9 +251,11 @@ fn the_ranges_that_were_compared_are_told_by_the_hash_of_the_model() {
     assert_eq!(compared(hash, c"temperature"), Err(MSDD_INVALID_ARGUMENT));
     assert!(last_error().contains("grains_across"), "{}", last_error());
     assert_eq!(compared(c"0123", c"heat_source"), Err(MSDD_INVALID_ARGUMENT));
-    let mut found = f64::NAN;
-    // SAFETY: C strings or null, and a writable number.
-    let mut gas = |name: *const c_char, t| (unsafe { msdd_gas_conductivity(name, t, &mut found) }, found);
+    let gas = |name: *const c_char, t| {
+        let mut found = f64::NAN;
+        // SAFETY: C strings or null, and a writable number.
+        (unsafe { msdd_gas_conductivity(name, t, &mut found) }, found)
+    };
     let (status, helium) = gas(c"helium".as_ptr(), 300.0);
     assert!(status == MSDD_OK && (helium - 0.154).abs() < 0.003, "{helium}");
     let least = gas(c"helium".as_ptr(), 273.0);

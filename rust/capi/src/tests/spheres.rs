@@ -298,7 +298,8 @@ fn what_cannot_be_is_refused() {
         state[NAMES.iter().position(|known| *known == name).unwrap()][1] = value;
         let columns = pointers(&state);
         let said = format!("{name}[1] = {}, allowed: {range}", ::msdd_rve::message::number(value));
-        batch(msdd_sphere_batch { state: columns.as_ptr(), ..good }, &said);
+        let with = msdd_sphere_batch { state: columns.as_ptr(), ..good };
+        refused(STEEL, with, MSDD_INVALID_ARGUMENT, &said);
     }
     let none = msdd_sphere_batch { thermal_strain: none.as_ptr(), ..good };
     refused(STEEL, none, MSDD_NON_FINITE, "thermal_strain[1]");

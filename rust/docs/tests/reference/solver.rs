@@ -26,7 +26,7 @@ const CONTACT: &str = "openfoam/granularThermo/granularContact/granularContactFv
 const SECOND: &str = "openfoam/msddFoam/timeScheme/secondOrderScheme.C";
 
 /// Texts that are looked up in the solver and are no keys of a user.
-pub const NO_KEYS: [(&str, &str); 9] = [
+pub const NO_KEYS: [(&str, &str); 10] = [
     ("accept", "option of the command line, in the table of msddFoam"),
     ("mesh", "name given with this option"),
     ("solvers", "dictionary of every fvSolution"),
