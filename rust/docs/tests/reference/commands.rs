@@ -179,5 +179,9 @@ fn environment() -> Set {
             names.remove(name);
         });
     }
+    // Of the machine, not of this program.
+    for name in ["PATH", "LD_LIBRARY_PATH"] {
+        names.remove(name);
+    }
     Set::new(PAGE, "environment", "sources, scripts and cases", names)
 }
