@@ -67,7 +67,7 @@ spheres_in_space() {
     logged chtMultiRegionFoam
     controls 'endTime 40;'
     logged chtMultiRegionFoam
-    for name in whole/bed/*; do cmp -s "$name" "40/bed/${name##*/}" || differing+=" ${name##*/}"; done
+    for name in whole/bed/*; do [ -d "$name" ] || cmp -s "$name" "40/bed/${name##*/}" || differing+=" ${name##*/}"; done
     check "spheres as region, restarted in the middle: bit for bit${differing:+, differing:$differing}" test -z "$differing"
     # The same stresses along other axes
     block_region block-turned '-2.6e6 0 0.5e6 -2.6e6 0 -3.1e6'
