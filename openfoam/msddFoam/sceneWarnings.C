@@ -56,7 +56,6 @@ Foam::sceneWarnings::sceneWarnings
     checkSpheres();
     checkCells();
     checkSides();
-    checkFriction();
 }
 
 

@@ -38,6 +38,10 @@ static const scalar frictionOfBed = 0.154;
 static const scalar sideCosine = 0.3;
 static const scalar mostlySmooth = 0.5;
 
+//- Share of the smooth sides below which a patch is not named, such as the hole
+//- at the axis of a wedge
+static const scalar smallSide = 0.05;
+
 
 //- The rules of the walls of a case whose grains move
 static dictionary wallRules(const granularProperties& properties)
@@ -90,7 +94,8 @@ void Foam::sceneWarnings::checkSides()
     }
     along /= mag(along);
     scalar smooth = 0, sides = 0;
-    string names;
+    DynamicList<scalar> areas;
+    DynamicList<word> smoothNames;
     for (label patchi = 0; patchi < patches; ++patchi)
     {
         const polyPatch& patch = mesh_.boundaryMesh()[patchi];
@@ -106,8 +111,20 @@ void Foam::sceneWarnings::checkSides()
             continue;
         }
         sides += area;
-        smooth += isSmooth(rule) ? area : 0;
-        names += isSmooth(rule) ? (names.empty() ? "" : ", ") + patch.name() : "";
+        if (isSmooth(rule))
+        {
+            smooth += area;
+            areas.append(area);
+            smoothNames.append(patch.name());
+        }
+    }
+    string names;
+    forAll(areas, i)
+    {
+        if (areas[i] > smallSide*smooth)
+        {
+            names += (names.empty() ? "" : ", ") + smoothNames[i];
+        }
     }
     // Lengths along the load and across it
     const vector distances(wallDistances(mesh_));
@@ -155,40 +172,8 @@ void Foam::sceneWarnings::checkSides()
     add
     (
         text + brief(100*share) + " % of a load on top (Janssen's estimate)."
-        " Rigid walls take a friction"
+        " Rigid walls can have friction: see walls of equilibriumCoeffs"
     );
-}
-
-
-void Foam::sceneWarnings::checkFriction()
-{
-    if (mechanics_.type() == "none")
-    {
-        return;
-    }
-    const dictionary rules(wallRules(properties_));
-    for (const polyPatch& patch : mesh_.boundaryMesh())
-    {
-        const dictionary rule(rules.subOrEmptyDict(patch.name()));
-        const word type(rule.getOrDefault<word>("type", "rigid"));
-        wordList unread;
-        for (const word key : {"friction", "slip", "layer", "layerStrength"})
-        {
-            if (rule.found(key) && type != "rigid")
-            {
-                unread.append(key);
-            }
-        }
-        if (unread.size())
-        {
-            add
-            (
-                "Not read in the rule of the wall " + patch.name() + ": "
-              + granularProperties::listed(unread) + ". A wall of the type "
-              + type + " is smooth; only rigid walls have friction"
-            );
-        }
-    }
 }
 
 

@@ -231,7 +231,15 @@ fn pack_model(arguments: &PackArguments) -> Result<(), CliError> {
 /// The grains that are simulated, and how the packing differs from the start of the case.
 fn print_grains(case: &Case, packing: &Statistics) -> Result<(), CliError> {
     outln!("grains: {}", case.grains_of_surrogate());
-    let Some(start) = Start::of(case)? else { return Ok(()) };
+    let start = match Start::of(case) {
+        Ok(Some(start)) => start,
+        Ok(None) => return Ok(()),
+        // Such as fields that are made from this packing
+        Err(error) => {
+            outln!("Warning: the packing is not compared with the start of the case: {error}");
+            return Ok(());
+        }
+    };
     if let Some(difference) = start.difference(packing) {
         outln!(
             "Warning: {difference}. Before a comparison, start the solver from this packing (msdd reference fields), or pack one like the \
