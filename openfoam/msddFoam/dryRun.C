@@ -54,7 +54,12 @@ Foam::dryRun::dryRun(const argList& args)
     // below the case folder
     label id = pid();
     Pstream::scatter(id);
-    scratch_ = "/tmp/msddFoam-dry-run-" + Foam::name(id);
+    fileName folder(getEnv("TMPDIR"));
+    if (!(folder.isAbsolute() && isDir(folder)))
+    {
+        folder = "/tmp";
+    }
+    scratch_ = folder/("msddFoam-dry-run-" + Foam::name(id));
     string up;
     for (label i = args.globalPath().components().size(); i > 0; --i)
     {

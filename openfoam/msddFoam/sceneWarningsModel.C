@@ -47,7 +47,7 @@ void Foam::sceneWarnings::checkSpheres()
     );
     if (!radiation.empty())
     {
-        add("Radiation: " + radiation);
+        add(radiation);
     }
     const sphereEstimates::contacts contacts
     (

@@ -83,9 +83,29 @@ void Foam::sceneWarnings::checkSides()
         (
             rules.subOrEmptyDict(patch.name()).getOrDefault<word>("type", "")
         );
-        if (g <= VSMALL && (type == "piston" || type == "pressure"))
+        if (type != "piston" && type != "pressure")
         {
-            along = returnReduce(sum(patch.faceAreas()), sumOp<vector>());
+            continue;
+        }
+        const vector out
+        (
+            returnReduce(sum(patch.faceAreas()), sumOp<vector>())
+        );
+        const scalar below = out & along;
+        if (g <= VSMALL)
+        {
+            along = out;
+        }
+        else if (below > (1 - sideCosine)*mag(out)*g)
+        {
+            add
+            (
+                "Gravity points to wall '" + patch.name() + "', whose pressure"
+                " is given (type " + type + "): the pressure has to bear the"
+                " weight of the bed, "
+              + brief(1e-3*sqr(g)*gSum(grains_.mass())/below) + " kPa. Gravity"
+                " points away from a lid: see constant/g"
+            );
         }
     }
     if (mag(along) <= VSMALL)

@@ -115,7 +115,7 @@ Foam::string Foam::sphereEstimates::radiation(const scalar temperature) const
         return string();
     }
     return
-        "radiation would add about " + brief(added) + " W/(m K) at "
+        "Radiation would add about " + brief(added) + " W/(m K) at "
       + Foam::name(std::round(temperature)) + " K to the " + brief(own)
       + " W/(m K) of the bed (" + brief(100*added/max(own, VSMALL))
       + " %), and is not in the model; emissivity " + brief(emissivity)

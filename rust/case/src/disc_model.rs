@@ -3,6 +3,7 @@
 
 use crate::CaseError;
 use crate::grains::Grains;
+use crate::model::of_training;
 use crate::numbers::{plain, rounded};
 use msdd_dem::Material;
 use msdd_surrogate::{Surrogate, models};
@@ -48,7 +49,7 @@ impl DiscModel {
     /// # Errors
     /// [`CaseError::Model`]; a test checks that there are none.
     pub fn shipped() -> Result<Self, CaseError> {
-        Self::of(models::builtin(models::BUILTIN)?, None)
+        Self::of(models::builtin(models::BUILTIN)?, None).map_err(Self::refuse(models::BUILTIN.as_ref()))
     }
 
     /// A model file of discs.
@@ -56,31 +57,23 @@ impl DiscModel {
     /// # Errors
     /// [`CaseError::Parameter`] for a file that is none, or does not hold the grains that the model was trained with.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let refuse = |problem: String| CaseError::Parameter {
-            key: "model".to_string(),
-            value: path.display().to_string(),
-            allowed: format!("a model file of discs, as 'msdd train' writes it: {problem}"),
-        };
+        let refuse = Self::refuse(path);
         let text = msdd_files::read_text(path).map_err(|error| refuse(error.to_string()))?;
         let law = models::read(&text).map_err(|error| refuse(error.to_string()))?;
-        Self::of(law, Some(text)).map_err(|error| refuse(error.to_string()))
+        Self::of(law, Some(text)).map_err(refuse)
     }
 
-    fn of(law: Box<dyn Surrogate>, file: Option<String>) -> Result<Self, CaseError> {
-        let database = &law.training().database;
-        let missing = |what: &str| CaseError::Parameter {
-            key: what.to_string(),
-            value: "missing".to_string(),
-            allowed: "that of the grains of the training, in the model file".to_string(),
-        };
-        let material: Material =
-            serde_json::from_value(database.material.clone()).map_err(|_| missing("material"))?;
-        let [least, most] = [database.radius_min, database.radius_max];
-        if !(0.0 < least && least <= most && most.is_finite()) {
-            return Err(missing("radius_min"));
+    fn refuse(path: &Path) -> impl Fn(String) -> CaseError {
+        let value = path.display().to_string();
+        move |problem| CaseError::Parameter {
+            key: "model".to_string(),
+            value: value.clone(),
+            allowed: format!("a model file of discs, as 'msdd train' writes it: {problem}"),
         }
-        // Rounded, so that the radii of the shipped model are 0.6 and 1.4 of the mean to the last bit
-        let radii = [least, most].map(|radius| rounded(2.0 * radius / (least + most), 12));
+    }
+
+    fn of(law: Box<dyn Surrogate>, file: Option<String>) -> Result<Self, String> {
+        let (material, radii) = of_training(&law.training().database)?;
         Ok(Self { law: law.into(), file, material, radii })
     }
 
@@ -163,7 +156,7 @@ mod tests {
         assert!(own.about().contains("a friction angle of 0.3 rad"), "{}", own.about());
         write(&text.replace("\"stiffness_ratio\": 0.8,", ""));
         let error = DiscModel::read(&file).unwrap_err().to_string();
-        assert!(error.starts_with("model = ") && error.contains("material = missing"), "{error}");
+        assert!(error.starts_with("model = ") && error.contains("missing field `stiffness_ratio`"), "{error}");
         write("{}");
         let error = DiscModel::read(&file).unwrap_err().to_string();
         assert!(error.contains("allowed: a model file of discs"), "{error}");

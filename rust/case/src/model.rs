@@ -3,6 +3,7 @@
 
 use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry};
+use crate::numbers::rounded;
 use crate::packing::RADIUS_RANGE;
 use msdd_dem::Material;
 use msdd_surrogate::{DatabaseProvenance, models};
@@ -11,7 +12,7 @@ use std::path::Path;
 /// Discs with the friction, stiffness ratio, wall stiffness and damping of the surrogate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelGrains {
-    /// Density and Young's modulus are those of the paper's Table 2.
+    /// Density and Young's modulus are those of the training.
     pub material: Material,
     /// Smallest and largest radius over the mean radius [-].
     pub radii: [f64; 2],
@@ -62,26 +63,8 @@ impl ModelGrains {
             }
         };
         let model = read.map_err(|error| failed(error.to_string()))?;
-        Self::of_database(&model.training().database, format!("model {name}")).map_err(|missing| {
-            failed(format!(
-                "one that holds {missing} of the grains that it was trained with; 'msdd train' writes it"
-            ))
-        })
-    }
-
-    /// Of the grains of a database; the error is the quantity that is not in it.
-    fn of_database(database: &DatabaseProvenance, source: String) -> Result<Self, &'static str> {
-        let value = |key| database.material.get(key).and_then(|value| value.as_f64()).ok_or(key);
-        let material = Material {
-            friction_angle: value("friction_angle")?,
-            stiffness_ratio: value("stiffness_ratio")?,
-            wall_stiffness_factor: value("wall_stiffness_factor")?,
-            damping: value("damping")?,
-            ..Material::default()
-        };
-        let mean = 0.5 * (database.radius_min + database.radius_max);
-        let radii = [database.radius_min / mean, database.radius_max / mean];
-        if database.radius_min > 0.0 { Ok(Self { material, radii, source }) } else { Err("radius_min") }
+        let (material, radii) = of_training(&model.training().database).map_err(failed)?;
+        Ok(Self { material, radii, source: format!("model {name}") })
     }
 
     /// Of the boxes that the solver packs itself.
@@ -98,6 +81,22 @@ impl ModelGrains {
         };
         Ok(Self { material, radii: RADIUS_RANGE, source: "surrogate onlineRve".to_string() })
     }
+}
+
+/// Material, and smallest and largest radius over the mean one, of the discs that a model was trained with.
+///
+/// # Errors
+/// What the provenance does not hold.
+pub(crate) fn of_training(database: &DatabaseProvenance) -> Result<(Material, [f64; 2]), String> {
+    let missing = |what: &str| format!("one that holds the grains of its training, as 'msdd train' writes it ({what})");
+    let material =
+        serde_json::from_value(database.material.clone()).map_err(|error| missing(&error.to_string()))?;
+    let [least, most] = [database.radius_min, database.radius_max];
+    if !(0.0 < least && least <= most && most.is_finite()) {
+        return Err(missing("radius_min, radius_max"));
+    }
+    // Rounded, so that the radii of the shipped model are 0.6 and 1.4 of the mean to the last bit
+    Ok((material, [least, most].map(|radius| rounded(2.0 * radius / (least + most), 12))))
 }
 
 #[cfg(test)]
@@ -142,7 +141,7 @@ mod tests {
         let smooth = read(&smooth.replace("\"radius_max\": 0.007", "\"radius_max\": 0.006")).unwrap();
         assert_eq!((smooth.material.friction_angle, smooth.radii), (0.3, [0.8, 1.2]));
         let error = read(&shipped.replace("\"stiffness_ratio\": 0.8,", "")).unwrap_err();
-        assert!(error.contains("model = m.json") && error.contains("holds stiffness_ratio of"), "{error}");
+        assert!(error.contains("model = m.json") && error.contains("missing field `stiffness_ratio`"), "{error}");
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -43,6 +43,13 @@ impl Table {
         Some(self.rows.iter().map(|row| row[k]).collect())
     }
 
+    /// Multiplies the columns that a function chooses by their names.
+    fn multiply(&mut self, chosen: impl Fn(&str) -> bool, factor: f64) {
+        for (k, _) in self.columns.iter().enumerate().filter(|(_, name)| chosen(name)) {
+            self.rows.iter_mut().for_each(|row| row[k] = rounded(row[k] * factor));
+        }
+    }
+
     /// The table as CSV with a head line.
     pub fn to_csv(&self) -> String {
         let mut text = self.columns.join(",");
@@ -122,6 +129,9 @@ pub struct Results {
     pub thermal_substeps: u64,
     /// Largest mechanical time step that was given \[s\]; absent: that of the stability bound was used.
     pub time_step: Option<f64>,
+    /// By how much the run was sped up, see [`Self::of_sped_up`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_up: Option<f64>,
     pub series: Table,
     pub sub_regions_start: Table,
     pub sub_regions_end: Table,
@@ -159,6 +169,20 @@ impl Results {
         }
     }
 
+    /// Turns the results of [`Case::sped_up`] into those of the case itself: heat capacity, times, and the heat that passed the
+    /// walls are multiplied by the factor. Steps and the time step that was given stay those of the run.
+    #[must_use]
+    pub fn of_sped_up(mut self, factor: f64) -> Self {
+        if let Some(properties) = &mut self.properties {
+            properties.thermal.heat_capacity *= factor;
+        }
+        for table in [&mut self.series, &mut self.profiles, &mut self.network] {
+            table.multiply(|name| name == "time" || name.starts_with("heat_"), factor);
+        }
+        self.speed_up = Some(factor);
+        self
+    }
+
     /// Reads a result file.
     ///
     /// # Errors
@@ -191,5 +215,7 @@ mod tests {
         assert_eq!(table.column("b"), Some(vec![0.0]));
         let text = serde_json::to_string(&table).unwrap();
         assert_eq!(serde_json::from_str::<Table>(&text).unwrap(), table);
+        table.multiply(|name| name == "a", 3.0);
+        assert_eq!(table.rows, [[0.9999999, 0.0]]);
     }
 }

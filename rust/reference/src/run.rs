@@ -147,6 +147,7 @@ pub fn run(
         steps: simulation.steps,
         thermal_substeps: simulation.heat().map_or(0, |heat| heat.substeps),
         time_step: spec.time_step,
+        speed_up: None,
         series: records.series,
         sub_regions_start: records.sub_regions_start,
         sub_regions_end: sub_regions(&simulation),

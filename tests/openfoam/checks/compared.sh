@@ -52,11 +52,11 @@ hot_alumina() { # F of Singh and Kaviany at T with the emissivity 0.9, or anothe
         sphere_case "alumina-$t" --material alumina --mean-radius 0.01 --box 0.3x0.3x0.3 --cells 6x1x1 --left "$t" --right "$((t - 50))"
         controls "stopAt nextWrite; writeInterval 10; deltaT 10;"
         logged msddFoam
-        added=$(sed -n "s/^Warning [0-9]*: Radiation: radiation would add about \([0-9.]*\) W.(m K) at $t K to the .*/\1/p" log)
+        added=$(sed -n "s/^Warning [0-9]*: Radiation would add about \([0-9.]*\) W.(m K) at $t K to the .*/\1/p" log)
         expected=$(awk -v T="$t" -v k="$(sed -n 's/^thermalConductivity *\([0-9.]*\);/\1/p' constant/granularProperties)" 'BEGIN {
             b = 4*5.670374e-8*T^3*0.02; e = 0.9; x = 1.5353*(k/b)^0.8011/e; print b*(0.5756*e*atan2(x, 1) + 0.1843) }')
         check "radiation would add $added W/(m K) at $t K, expected $expected" is_within "$(echo "$added $expected" | awk '{ print $1/$2 }')" 0.98 1.02
-        said "and at the end it is told, too" "Doubt: radiation would add about [0-9.]+ W/\\(m K\\) at $t K .* is not in the model; emissivity 0.9, assumed"
+        said "and at the end it is told, too" "Doubt: Radiation would add about [0-9.]+ W/\\(m K\\) at $t K .* is not in the model; emissivity 0.9, assumed"
     done
     rm -rf [1-9]*
     sed -i 's/^\( *\)accommodation .*/&\n\1emissivity 0.2;/' constant/granularProperties
@@ -93,6 +93,10 @@ vessel() { # a tall glass bed in a thin vessel
     logged msddFoam
     warned "a smooth side of a tall bed, and what friction would carry" \
         'The bed is 3\.3[0-9]* times as high as wide, and its side is smooth \(.*side.*\)\. .* would carry about [0-9]+\.?[0-9]* % of the weight, so that it presses with [0-9.]+ kPa'
+    rm -rf [1-9]*
+    sed -i 's/^\(value.*\)-9.81/\19.81/' constant/g
+    logged msddFoam
+    warned "gravity that points to the lid" "Gravity points to wall 'top', whose pressure is given \(type piston\): .* weight of the bed, [0-9.]+ kPa"
     rm -rf [1-9]*
     sed -i 's/type shell;/& friction 0.3;/' constant/granularProperties
     check "a friction that would not be read is refused" refused "Patch side has entry 'friction' and type shell, allowed: in walls of type rigid"

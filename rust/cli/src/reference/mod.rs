@@ -116,6 +116,10 @@ pub struct RunArguments {
     /// Least time between two checkpoints, from which a killed run continues [s of the clock].
     #[arg(long, default_value_t = 20.0)]
     checkpoint_every: f64,
+    /// Divide heat capacity and all times of the case by this number, and multiply the times of the results by it. Grains that are in
+    /// equilibrium all the time have the same temperatures and stresses then.
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    speed_up: f64,
     /// Begin a run of more than an hour without asking.
     #[arg(long)]
     yes: bool,
@@ -250,19 +254,27 @@ fn print_grains(case: &Case, packing: &Statistics) -> Result<(), CliError> {
     Ok(())
 }
 
-/// Asks before a run that takes long. Grains that stay where they are conduct heat alone, which is quick.
+/// Asks before a run that takes long, and warns of one that is too short for the discs to stay in equilibrium. Grains that stay where
+/// they are conduct heat alone, which is quick. `end` \[s\]: of the run, which is sped up.
 fn ask(arguments: &RunArguments, case: &Case, discs: usize, end: f64) -> Result<(), CliError> {
     if case.thermal.expansion == 0.0 {
         return Ok(());
     }
     let period = contact_period(&case.material, case.mean_radius);
     let seconds = discs_seconds(end, period, discs as f64) / f64::from(arguments.model.threads);
-    let shorter = end / (SLOWEST * period);
-    let advice = if shorter > 1.0 {
+    let possible = end / (SLOWEST * period);
+    if arguments.speed_up > 1.0 && possible < 1.0 {
+        outln!(
+            "Warning: the run lasts {:.0} vibrations of a contact. With fewer than {SLOWEST} it was not tried whether the grains stay in \
+             equilibrium",
+            end / period
+        );
+    }
+    let advice = if possible > 1.0 {
         format!(
-            "Grains this slow are in equilibrium all the time, so that only the ratio of time to heat capacity matters: with heatCapacity and \
-             all times of the case divided by one number, up to about {}, temperatures and stresses are the same (book, Your own material)",
-            number(rounded(shorter, 1))
+            "Grains this slow are in equilibrium all the time: a --speed-up of up to {} gives the same temperatures and stresses (book, Your \
+             own material)",
+            number(rounded(arguments.speed_up * possible, 1))
         )
     } else {
         "Fewer grains (--discs) or a shorter time (--end) take less".to_string()
@@ -287,8 +299,12 @@ fn print_statistics(s: &Statistics) {
 }
 
 fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
-    let case = Case::read(&arguments.model.case)?;
-    let end = arguments.end.unwrap_or(case.end_time);
+    let factor = arguments.speed_up;
+    if !(factor >= 1.0 && factor.is_finite()) {
+        return Err(CliError::Message(format!("--speed-up = {factor}, allowed: 1 or more")));
+    }
+    let case = Case::read(&arguments.model.case)?.sped_up(factor);
+    let end = arguments.end.map_or(case.end_time, |end| end / factor);
     let start = arguments.model.load(&case)?;
     print_grains(&case, &statistics(&start))?;
     ask(arguments, &case, start.discs.len(), end)?;
@@ -296,7 +312,7 @@ fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
     let spec = RunSpec {
         seed: arguments.model.seed,
         end,
-        interval: arguments.interval.unwrap_or_else(|| rounded(end / 200.0, 2)),
+        interval: arguments.interval.unwrap_or_else(|| rounded(end * factor / 200.0, 2)) / factor,
         profiles: arguments.profiles,
         time_step: arguments.time_step,
         threads: arguments.model.threads as usize,
@@ -308,7 +324,10 @@ fn run_model(arguments: &RunArguments) -> Result<(), CliError> {
     // Files that cannot be written are refused now rather than at the end of a long run.
     [&checkpoint, &file("json"), &file("csv")].into_iter().try_for_each(|file| check_target(file))?;
     let begin = Instant::now();
-    let results = watched(&case, &start, &spec, &checkpoint, arguments.vtk.as_deref())?;
+    let mut results = watched(&case, &start, &spec, &checkpoint, arguments)?;
+    if factor > 1.0 {
+        results = results.of_sped_up(factor);
+    }
     let json = serde_json::to_string(&results).map_err(ReferenceError::from)?;
     write(&file("json"), json.as_bytes())?;
     write(&file("csv"), results.series.to_csv().as_bytes())?;
@@ -322,16 +341,19 @@ fn watched(
     start: &Simulation,
     spec: &RunSpec,
     checkpoint: &Path,
-    vtk: Option<&Path>,
+    arguments: &RunArguments,
 ) -> Result<Results, CliError> {
-    // Progress is counted in milliseconds of simulated time.
+    // Progress is counted in milliseconds of simulated time
     let total = (1e3 * spec.end).ceil() as u64;
     let mut progress = Progress::new("simulated ms", total);
     let io = |error: CliError| ReferenceError::Watch(error.to_string());
     let mut watch = Watch {
         progress: &mut |time| progress.set(((1e3 * time) as u64).min(total), total, ""),
-        profile: &mut |times, simulation| match vtk {
-            Some(folder) => write_vtk(folder, times, simulation).map_err(io),
+        profile: &mut |times, simulation| match &arguments.vtk {
+            Some(folder) => {
+                let times: Vec<f64> = times.iter().map(|time| time * arguments.speed_up).collect();
+                write_vtk(folder, &times, simulation).map_err(io)
+            }
             None => Ok(()),
         },
         save: &mut |text| Ok(write(checkpoint, text.as_bytes())?),
