@@ -3,10 +3,9 @@
 
 use crate::CaseError;
 use crate::grains::Grains;
-use crate::model::of_training;
 use crate::numbers::{plain, rounded};
 use msdd_dem::Material;
-use msdd_surrogate::{Surrogate, models};
+use msdd_surrogate::{DatabaseProvenance, Surrogate, models};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -128,6 +127,23 @@ impl DiscModel {
     }
 }
 
+/// Material, and smallest and largest radius over the mean one, of the discs that a model was trained with.
+///
+/// # Errors
+/// What the provenance does not hold.
+pub(crate) fn of_training(database: &DatabaseProvenance) -> Result<(Material, [f64; 2]), String> {
+    let missing =
+        |what: &str| format!("one that holds the grains of its training, as 'msdd train' writes it ({what})");
+    let material =
+        serde_json::from_value(database.material.clone()).map_err(|error| missing(&error.to_string()))?;
+    let [least, most] = [database.radius_min, database.radius_max];
+    if !(0.0 < least && least <= most && most.is_finite()) {
+        return Err(missing("radius_min, radius_max"));
+    }
+    // Rounded, so that the radii of the shipped model are 0.6 and 1.4 of the mean to the last bit
+    Ok((material, [least, most].map(|radius| rounded(2.0 * radius / (least + most), 12))))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,7 +172,10 @@ mod tests {
         assert!(own.about().contains("a friction angle of 0.3 rad"), "{}", own.about());
         write(&text.replace("\"stiffness_ratio\": 0.8,", ""));
         let error = DiscModel::read(&file).unwrap_err().to_string();
-        assert!(error.starts_with("model = ") && error.contains("missing field `stiffness_ratio`"), "{error}");
+        assert!(
+            error.starts_with("model = ") && error.contains("missing field `stiffness_ratio`"),
+            "{error}"
+        );
         write("{}");
         let error = DiscModel::read(&file).unwrap_err().to_string();
         assert!(error.contains("allowed: a model file of discs"), "{error}");

@@ -3,10 +3,10 @@
 
 use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry};
-use crate::numbers::rounded;
+use crate::disc_model::of_training;
 use crate::packing::RADIUS_RANGE;
 use msdd_dem::Material;
-use msdd_surrogate::{DatabaseProvenance, models};
+use msdd_surrogate::models;
 use std::path::Path;
 
 /// Discs with the friction, stiffness ratio, wall stiffness and damping of the surrogate.
@@ -83,22 +83,6 @@ impl ModelGrains {
     }
 }
 
-/// Material, and smallest and largest radius over the mean one, of the discs that a model was trained with.
-///
-/// # Errors
-/// What the provenance does not hold.
-pub(crate) fn of_training(database: &DatabaseProvenance) -> Result<(Material, [f64; 2]), String> {
-    let missing = |what: &str| format!("one that holds the grains of its training, as 'msdd train' writes it ({what})");
-    let material =
-        serde_json::from_value(database.material.clone()).map_err(|error| missing(&error.to_string()))?;
-    let [least, most] = [database.radius_min, database.radius_max];
-    if !(0.0 < least && least <= most && most.is_finite()) {
-        return Err(missing("radius_min, radius_max"));
-    }
-    // Rounded, so that the radii of the shipped model are 0.6 and 1.4 of the mean to the last bit
-    Ok((material, [least, most].map(|radius| rounded(2.0 * radius / (least + most), 12))))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,7 +125,10 @@ mod tests {
         let smooth = read(&smooth.replace("\"radius_max\": 0.007", "\"radius_max\": 0.006")).unwrap();
         assert_eq!((smooth.material.friction_angle, smooth.radii), (0.3, [0.8, 1.2]));
         let error = read(&shipped.replace("\"stiffness_ratio\": 0.8,", "")).unwrap_err();
-        assert!(error.contains("model = m.json") && error.contains("missing field `stiffness_ratio`"), "{error}");
+        assert!(
+            error.contains("model = m.json") && error.contains("missing field `stiffness_ratio`"),
+            "{error}"
+        );
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
