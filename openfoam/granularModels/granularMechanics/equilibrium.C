@@ -271,6 +271,7 @@ void Foam::granularMechanicsModels::equilibrium::setResidual()
     (
         dict_, "maxResidual", 20*tolerance_, tolerance_, 2e7*scale
     );
+    walls_.setPressing(law_->pressure());
 }
 
 

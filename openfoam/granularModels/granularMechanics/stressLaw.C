@@ -515,10 +515,16 @@ Foam::scalar Foam::grainLaw::residual() const
 }
 
 
-Foam::scalar Foam::sphereLaw::residual() const
+Foam::scalar Foam::sphereLaw::pressure() const
 {
     const granularState::stressColumns s(grains_.presentStress());
-    return sphereResidual*mean((s[0] + s[1] + s[2])/(-3));
+    return mean((s[0] + s[1] + s[2])/(-3));
+}
+
+
+Foam::scalar Foam::sphereLaw::residual() const
+{
+    return sphereResidual*pressure();
 }
 
 

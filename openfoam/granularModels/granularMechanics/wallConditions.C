@@ -96,6 +96,7 @@ Foam::wallConditions::wallConditions
     findPistons();
     findRubbing();
     findSupports();
+    findCurvature();
     findFloating();
     compareShells();
 }
@@ -491,6 +492,10 @@ void Foam::wallConditions::findFloating() const
     forAll(supports_, i)
     {
         motion.hold(supports_[i], normal_.cdata() + dim*i);
+    }
+    forAll(curved_, i)
+    {
+        motion.hold(curved_[i], tangent_.cdata() + dim*i);
     }
     const string what(motion.free(floating));
     if (!what.empty())

@@ -207,6 +207,7 @@ void Foam::wallConditions::addShells
 ) const
 {
     addSprings(time, u, force);
+    addCurvature(u, force);
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];

@@ -1,11 +1,11 @@
 //! `msdd bed give`: by how much the spheres beside plates give way.
 
-use super::start::packings;
+use super::law::{folders_of, results_of};
 use crate::error::CliError;
 use clap::Args;
 use msdd_beds::plates::{self, Give};
-use msdd_beds::scene::{FILE, Scene};
-use msdd_files::{check_target, list, read_text, write};
+use msdd_beds::scene::Scene;
+use msdd_files::{check_target, read_text, write};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -41,19 +41,8 @@ struct Bed {
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     arguments.json.iter().try_for_each(|json| check_target(json))?;
     let mut beds = Vec::new();
-    for folder in &arguments.folders {
-        let is_bed = |folder: &Path| folder.join(FILE).is_file();
-        let within = match is_bed(folder) {
-            true => vec![folder.clone()],
-            false => list(folder)?.into_iter().filter(|inner| is_bed(inner)).collect(),
-        };
-        if within.is_empty() {
-            let allowed = format!("a folder with {FILE}, or a folder of such folders");
-            return Err(CliError::Message(format!("{}: no {FILE}, allowed: {allowed}", folder.display())));
-        }
-        for folder in within {
-            beds.push(bed(&folder)?);
-        }
+    for folder in folders_of(&arguments.folders)? {
+        beds.push(bed(&folder)?);
     }
     outln!("bed                   packings  wall friction   give [d]  packings   back [d]  packings");
     for bed in &beds {
@@ -75,13 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 fn bed(folder: &Path) -> Result<Bed, CliError> {
     let scene = Scene::read(folder)?;
     let mut gives: Vec<Give> = Vec::new();
-    let mean = folder.join("elements.csv");
-    let files = match packings(folder) {
-        Ok(all) => all.into_iter().map(|(_, file)| file).collect(),
-        Err(_) if mean.is_file() => vec![mean],
-        Err(error) => return Err(error),
-    };
-    for file in files {
+    for (_, file) in results_of(folder)? {
         let give = plates::give(&read_text(&file)?, scene.grains.diameter);
         gives.push(give.ok_or_else(|| {
             CliError::Message(format!(

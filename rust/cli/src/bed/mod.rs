@@ -5,6 +5,7 @@ pub(crate) mod foam;
 mod from_case;
 pub(crate) mod geometry;
 mod give;
+mod law;
 mod moving;
 mod plot;
 mod results;
@@ -28,6 +29,8 @@ pub enum Command {
     FromCase(from_case::Arguments),
     /// Find by how much the spheres beside plates give way, from results of 'msdd bed run'.
     Give(give::Arguments),
+    /// Follow the law of spheres alone along the strain that 'msdd bed run' recorded, and compare its pressure with the spheres'.
+    Law(law::Arguments),
 }
 
 #[derive(Args)]
@@ -77,6 +80,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Case(arguments) => foam::run(arguments),
         Command::FromCase(arguments) => from_case::run(arguments),
         Command::Give(arguments) => give::run(arguments),
+        Command::Law(arguments) => law::run(arguments),
     }
 }
 

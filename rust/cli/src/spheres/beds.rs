@@ -54,6 +54,7 @@ pub fn tracks(root: &Path, first: i64, material: &mut Known) -> Result<(Vec<Trac
                 seeds.len() - 1
             });
             let text = read_text(&file)?;
+            check_conduction(&folder, &scene)?;
             all.push(track(&folder, &scene, &file, &text, first + known as i64)?);
             texts += &text;
         }
@@ -67,21 +68,27 @@ pub fn tracks(root: &Path, first: i64, material: &mut Known) -> Result<(Vec<Trac
     }
 }
 
-fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) -> Result<Track, CliError> {
-    let grains = &scene.grains;
-    if grains.roughness.is_some() {
-        return Err(CliError::Message(format!(
-            "{}: spheres that are rough, allowed for a training: no roughness",
-            folder.join(FILE).display()
-        )));
+/// Refuses beds whose spheres conduct in another way than those of the training.
+fn check_conduction(folder: &Path, scene: &Scene) -> Result<(), CliError> {
+    let refuse = |text: &str| Err(CliError::Message(format!("{}: {text}", folder.join(FILE).display())));
+    if scene.grains.roughness.is_some() {
+        return refuse("spheres that are rough, allowed for a training: no roughness");
     }
     if scene.closure().is_some() {
-        return Err(CliError::Message(format!(
-            "{}: spheres that conduct less than 60 times as well as the gas, allowed for a training: better ones, whose \
-             contacts conduct as in a vacuum",
-            folder.join(FILE).display()
-        )));
+        return refuse(
+            "spheres that conduct less than 60 times as well as the gas, allowed for a training: better ones, whose contacts conduct \
+             as in a vacuum",
+        );
     }
+    Ok(())
+}
+
+/// The path of one packing of a bed; `file` and its `text`: results of 'msdd bed run'.
+///
+/// # Errors
+/// Results without strains.
+pub fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) -> Result<Track, CliError> {
+    let grains = &scene.grains;
     let values = |name: &&str| {
         column(text, name).ok_or_else(|| {
             let allowed = "elements.csv of this version's 'msdd bed run'";

@@ -1,6 +1,6 @@
 //! `msdd train` and `msdd score` for the law of spheres.
 
-mod beds;
+pub mod beds;
 mod same;
 mod tracks;
 
