@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "regionPolicy.H"
+#include "functionObject.H"
 #include "wholeFile.H"
 #include "Time.H"
 
@@ -408,8 +409,8 @@ void Foam::regionPolicy::write() const
 Foam::fileName Foam::regionPolicy::path(const fvMesh& mesh)
 {
     return
-        mesh.time().globalPath()/"postProcessing/msddFoam"/mesh.dbDir()
-       /"offenders.json";
+        mesh.time().globalPath()/functionObject::outputPrefix/"msddFoam"
+       /mesh.dbDir()/"offenders.json";
 }
 
 

@@ -45,6 +45,14 @@ void Foam::granularSolidThermo::checkTime(const fvMesh& mesh)
             IOobject::MUST_READ, IOobject::NO_WRITE, false
         )
     );
+    granularProperties::checkKeys
+    (
+        dict,
+        {
+            "FoamFile", "thermoType", "coordinateSystem", "crossTolerance",
+            "accept", "updateT", "dpdt"
+        }
+    );
     runRecord::accepted = wordHashSet
     (
         dict.lookupOrDefault<wordList>("accept", wordList())
@@ -174,14 +182,6 @@ Foam::granularSolidThermo::~granularSolidThermo()
 
 void Foam::granularSolidThermo::checkEntries() const
 {
-    granularProperties::checkKeys
-    (
-        *this,
-        {
-            "FoamFile", "thermoType", "coordinateSystem", "crossTolerance",
-            "accept", "updateT", "dpdt"
-        }
-    );
     const word mechanics
     (
         properties_.lookupOrDefault<word>("mechanics", "none")
