@@ -115,6 +115,28 @@ bool Foam::dryRun::attempt(const std::function<void()>& make)
 }
 
 
+bool Foam::dryRun::attempt
+(
+    const std::function<void()>& make,
+    const string& place,
+    const stringList& names
+)
+{
+    const label before = errors_.size();
+    const bool made = attempt(make);
+    for (label i = before; i < errors_.size(); ++i)
+    {
+        bool named = false;
+        for (const string& name : names)
+        {
+            named = named || errors_[i].find(name) != string::npos;
+        }
+        errors_[i] = named ? errors_[i] : string(place + errors_[i]);
+    }
+    return made;
+}
+
+
 bool Foam::dryRun::gather(const string& place, const string& message)
 {
     const auto gathered = [this](const string& mine)
@@ -232,6 +254,11 @@ void Foam::dryRun::print() const
     {
         Sout<< "Warning " << i + 1 << ": " << warnings_[i].c_str() << nl;
     }
+    if (!left_.empty())
+    {
+        Sout<< "Not checked: turbulence and combustion models, and the equations"
+            << " of the fluid regions (" << left_.c_str() << ')' << nl;
+    }
     Sout<< endl;
 }
 
@@ -240,11 +267,20 @@ void Foam::dryRun::print() const
 
 int Foam::dryRun::run()
 {
-    if (makeTime())
+    if (makeTime() && (hasRegionsAlone() ? makeRegions() : makeObjects()))
     {
-        makeObjects();
         makeFunctions();
     }
+    // Beds say at their end what they did, in front of the list
+    functions_.clear();
+    for (regionObjects& region : regions_)
+    {
+        if (broken_)
+        {
+            region.forgetThermo();
+        }
+    }
+    regions_.clear();
     if (broken_)
     {
         add

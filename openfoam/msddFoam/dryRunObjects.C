@@ -24,10 +24,22 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+bool Foam::dryRun::hasRegionsAlone() const
+{
+    const fileName constant(args_.globalPath()/"constant");
+    return
+        isFile(constant/"regionProperties")
+     && !isFile(constant/"granularProperties");
+}
+
+
 bool Foam::dryRun::makeTime()
 {
     autoPtr<restartTime> restart;
-    attempt([&]() { restart.reset(new restartTime(args_, true)); });
+    if (!hasRegionsAlone())
+    {
+        attempt([&]() { restart.reset(new restartTime(args_, true)); });
+    }
     attempt
     (
         [&]()
@@ -59,7 +71,7 @@ bool Foam::dryRun::makeTime()
 }
 
 
-void Foam::dryRun::makeObjects()
+bool Foam::dryRun::makeObjects()
 {
     made_.reset(new solverObjects(runTime_()));
     solverObjects& made = made_();
@@ -68,7 +80,7 @@ void Foam::dryRun::makeObjects()
     const bool hasNeighbours = attempt([&]() { made.makeNeighbours(); });
     if (!hasMesh)
     {
-        return;
+        return false;
     }
     const bool fits =
         hasProperties && attempt([&]() { made.checkMesh(); });
@@ -81,7 +93,7 @@ void Foam::dryRun::makeObjects()
     if (!hasGrains)
     {
         lookAlone();
-        return;
+        return true;
     }
     if
     (
@@ -103,6 +115,7 @@ void Foam::dryRun::makeObjects()
         );
         attempt([&]() { made.scheme->tryHeat(); });
     }
+    return true;
 }
 
 
@@ -139,7 +152,7 @@ void Foam::dryRun::lookAlone()
 void Foam::dryRun::makeFunctions()
 {
     const entry* all = runTime_->controlDict().findEntry("functions");
-    if (!all || !made_->mesh.valid())
+    if (!all)
     {
         return;
     }
@@ -171,17 +184,12 @@ void Foam::dryRun::makeFunctions()
               : functionObject::New(each.keyword(), runTime_(), dict)
             );
         };
-        const label before = errors_.size();
-        attempt(make);
-        for (label i = before; i < errors_.size(); ++i)
-        {
-            if (errors_[i].find(each.keyword()) == string::npos)
-            {
-                errors_[i] =
-                    "system/controlDict.functions." + each.keyword() + ": "
-                  + errors_[i];
-            }
-        }
+        attempt
+        (
+            make,
+            "system/controlDict.functions." + each.keyword() + ": ",
+            {"functions." + each.keyword()}
+        );
     }
 }
 

@@ -16,7 +16,7 @@ License
 
 #include "solverObjects.H"
 #include "caseChecks.H"
-#include "OSspecific.H"
+#include "regionObjects.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -31,35 +31,7 @@ Foam::solverObjects::solverObjects(Time& runTime)
 void Foam::solverObjects::makeMesh()
 {
     Info<< "Create mesh for time = " << runTime_.timeName() << nl << endl;
-    const fileName folder
-    (
-        runTime_.findInstance
-        (
-            polyMesh::meshSubDir, "faces", IOobject::READ_IF_PRESENT
-        )
-       /polyMesh::meshSubDir
-    );
-    if (!isFile(runTime_.path()/folder/"faces"))
-    {
-        FatalErrorInFunction
-            << "There is no mesh in " << (runTime_.path()/folder).c_str()
-            << ": run blockMesh, or what makes the mesh of this case"
-            << (Pstream::parRun() ? ", then decomposePar" : "")
-            << exit(FatalError);
-    }
-    mesh.reset
-    (
-        new fvMesh
-        (
-            IOobject
-            (
-                fvMesh::defaultRegion,
-                runTime_.timeName(),
-                runTime_,
-                IOobject::MUST_READ
-            )
-        )
-    );
+    mesh = regionObjects::readMesh(runTime_, fvMesh::defaultRegion);
 }
 
 

@@ -17,7 +17,7 @@ License
 
 #include "neighbourSolids.H"
 #include "granularProperties.H"
-#include "runRecord.H"
+#include "regionObjects.H"
 #include "IOdictionary.H"
 #include "OStringStream.H"
 #include "regionProperties.H"
@@ -109,13 +109,7 @@ void Foam::neighbourSolids::read(const Time& runTime, const word& name)
     Info<< "Solid beside the bed: region " << name << nl;
     solids_.append(new solid);
     solid& s = solids_.last();
-    s.mesh.reset
-    (
-        new fvMesh
-        (
-            IOobject(name, runTime.timeName(), runTime, IOobject::MUST_READ)
-        )
-    );
+    s.mesh = regionObjects::readMesh(runTime, name);
     runRecord::checkMesh(s.mesh());
     s.thermo = solidThermo::New(s.mesh());
     if (!s.thermo->isotropic())

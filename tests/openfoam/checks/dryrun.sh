@@ -1,13 +1,6 @@
 # msddFoam -dry-run: good cases of each kind have no errors, several errors are listed at once, on one process and on three, and the
 # case stays as it is; warnings at the start of a run. The single errors are those of bad.sh.
 
-passes() { # arguments in front of msddFoam: no errors, and no file is new, changed or gone
-    local before
-    before=$(contents)
-    "$@" msddFoam ${1:+-parallel} -dry-run > log.dry 2>&1 && grep -q '^Dry run: 0 errors' log.dry && [ "$before" = "$(contents)" ]
-}
-on_three=(timeout 60 mpirun --oversubscribe -np 3)
-
 dry_discs() {
     changed dry-discs
     mesh_is '12 6 1'

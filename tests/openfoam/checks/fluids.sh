@@ -2,29 +2,6 @@
 # of air through which the bed radiates, against the closed form. The flow is given (frozenFlow), so that steps may be long.
 
 . "$here/region_cases"
-fluid() { # name, "nx ny", box, couplings, density, molar mass entries of thermophysicalProperties, U, boundary of T, kind of turbulence
-    local name=$1 field
-    region "$name" "$2" "$3" "$4"
-    foam_file "system/$name/fvSchemes" dictionary <<< 'ddtSchemes { default Euler; } gradSchemes { default Gauss linear; } divSchemes { default Gauss upwind; }
-        laplacianSchemes { default Gauss linear corrected; } interpolationSchemes { default linear; } snGradSchemes { default corrected; }'
-    foam_file "system/$name/fvSolution" dictionary <<< 'solvers { "(h|rho|U|Ii).*" { solver PBiCGStab; preconditioner DILU; tolerance 1e-15; relTol 0; }
-        "p_rgh.*" { solver PCG; preconditioner DIC; tolerance 1e-8; relTol 0; } } PIMPLE { frozenFlow yes; momentumPredictor no; nCorrectors 1; pRefCell 0; pRefValue 1e5; }'
-    foam_file "constant/$name/thermophysicalProperties" dictionary <<< "thermoType { type heRhoThermo; mixture pureMixture; transport const; thermo hConst;
-        equationOfState rhoConst; specie specie; energy sensibleEnthalpy; } mixture { specie { molWeight 18; } thermodynamics { Hf 0; Cp $6; }
-        transport { mu $7; Pr $8; } equationOfState { rho $5; } }"
-    foam_file "constant/$name/turbulenceProperties" dictionary <<< 'simulationType laminar;'
-    foam_file "constant/$name/radiationProperties" dictionary <<< 'radiation off; radiationModel none;'
-    cp constant/g "constant/$name/g"
-    foam_file "0/$name/U" volVectorField <<< "dimensions [0 1 -1 0 0 0 0]; internalField uniform ($9);
-        boundaryField { frontAndBack { type empty; } bottom { type fixedValue; value uniform ($9); } top { type zeroGradient; } \".*\" { type slip; } }"
-    for field in p p_rgh; do
-        start "$name" $field '1 -1 -2 0 0 0 0' 'uniform 1e5' "top { type fixedValue; value uniform 1e5; } \".*\" { type calculated; value uniform 1e5; }"
-    done
-    sed -i 's/type calculated; value/type fixedFluxPressure; value/' "0/$name/p_rgh"
-}
-of_fluid() { # patch, further entries
-    echo "$1 { type compressible::turbulentTemperatureRadCoupledMixed; Tnbr T; kappaMethod fluidThermo; value uniform 300; ${2:-} }"
-}
 water_past_a_plate() {
     local e given carried
     regions beside-water 'bed plate' 700 water

@@ -1,0 +1,456 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "regionObjects.H"
+#include "granularSolidThermo.H"
+#include "mappedPatchBase.H"
+#include "sceneWarnings.H"
+#include "fvmDdt.H"
+#include "fvmLaplacian.H"
+#include "zeroGradientFvPatchFields.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- The type of the thermo of beds. msddFoam is not linked to its library: a
+//- case has to name it in libs
+static const word bedThermo("granularSolidThermo");
+
+
+static string listedNames(const PtrList<regionObjects>& all)
+{
+    wordList names;
+    for (const regionObjects& region : all)
+    {
+        names.append(region.name());
+    }
+    return granularProperties::listed(names);
+}
+
+
+static const regionObjects* find
+(
+    const PtrList<regionObjects>& all,
+    const word& name
+)
+{
+    for (const regionObjects& region : all)
+    {
+        if (region.name() == name)
+        {
+            return &region;
+        }
+    }
+    return nullptr;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::regionObjects::regionObjects
+(
+    const Time& runTime,
+    const word& name,
+    const bool isFluid
+)
+:
+    runTime_(runTime),
+    name_(name),
+    isFluid_(isFluid)
+{}
+
+
+Foam::regionObjects::~regionObjects()
+{}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::IOobject Foam::regionObjects::io(const word& field) const
+{
+    return IOobject
+    (
+        field, runTime_.timeName(), *mesh_,
+        IOobject::MUST_READ, IOobject::NO_WRITE
+    );
+}
+
+
+const Foam::dictionary& Foam::regionObjects::pimple() const
+{
+    return mesh_->solutionDict().subDict("PIMPLE");
+}
+
+
+Foam::label Foam::regionObjects::number
+(
+    const word& key,
+    const label deflt
+) const
+{
+    return pimple().getOrDefault<label>(key, deflt);
+}
+
+
+// * * * * * * * * * * * * * Static Member Functions * * * * * * * * * * * * //
+
+Foam::autoPtr<Foam::fvMesh> Foam::regionObjects::readMesh
+(
+    const Time& runTime,
+    const word& name
+)
+{
+    const bool alone = name == fvMesh::defaultRegion;
+    const fileName local
+    (
+        alone ? fileName(polyMesh::meshSubDir) : name/polyMesh::meshSubDir
+    );
+    const fileName folder
+    (
+        runTime.findInstance(local, "faces", IOobject::READ_IF_PRESENT)/local
+    );
+    if (!isFile(runTime.path()/folder/"faces"))
+    {
+        const string of(alone ? string() : string(" -region " + name));
+        FatalErrorInFunction
+            << "There is no mesh in " << (runTime.path()/folder).c_str()
+            << ": run blockMesh" << of.c_str()
+            << ", or what makes the mesh of this case"
+            << (Pstream::parRun() ? ", then decomposePar" : "")
+            << (Pstream::parRun() ? of.c_str() : "") << exit(FatalError);
+    }
+    return autoPtr<fvMesh>
+    (
+        new fvMesh
+        (
+            IOobject(name, runTime.timeName(), runTime, IOobject::MUST_READ)
+        )
+    );
+}
+
+
+// * * * * * * * * * * * * * * * * * Access  * * * * * * * * * * * * * * * * //
+
+Foam::basicThermo& Foam::regionObjects::thermo()
+{
+    if (isFluid_)
+    {
+        return *fluid_;
+    }
+    return *solid_;
+}
+
+
+bool Foam::regionObjects::isBed() const
+{
+    const IOdictionary dict
+    (
+        IOobject
+        (
+            basicThermo::dictName, runTime_.constant(), name_, runTime_,
+            IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false
+        )
+    );
+    const entry* type = dict.findEntry("thermoType");
+    return type && type->isStream() && dict.get<word>("thermoType") == bedThermo;
+}
+
+
+bool Foam::regionObjects::hasField(const word& field) const
+{
+    return io(field).typeHeaderOk<IOdictionary>(false);
+}
+
+
+bool Foam::regionObjects::meetsUnmade(const PtrList<regionObjects>& all) const
+{
+    for (const polyPatch& patch : mesh_->boundaryMesh())
+    {
+        if (isA<mappedPatchBase>(patch))
+        {
+            const regionObjects* other =
+                find(all, refCast<const mappedPatchBase>(patch).sampleRegion());
+            if (!other || !other->hasThermo())
+            {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::regionObjects::makeMesh()
+{
+    Info<< "Create mesh of region " << name_ << endl;
+    mesh_ = readMesh(runTime_, name_);
+}
+
+
+void Foam::regionObjects::makeThermo()
+{
+    if (isFluid_)
+    {
+        fluid_ = rhoReactionThermo::New(*mesh_);
+        fluid_->validate("chtMultiRegionFoam", "h", "e");
+    }
+    else
+    {
+        solid_ = solidThermo::New(*mesh_);
+    }
+}
+
+
+void Foam::regionObjects::forgetThermo()
+{
+    // The end of a bed compares processes
+    fluid_.release();
+    solid_.release();
+}
+
+
+void Foam::regionObjects::readScalar(const word& field) const
+{
+    const volScalarField alone
+    (
+        IOobject
+        (
+            field, runTime_.timeName(), *mesh_,
+            IOobject::MUST_READ, IOobject::NO_WRITE, false
+        ),
+        *mesh_
+    );
+}
+
+
+void Foam::regionObjects::readGrains() const
+{
+    const granularProperties properties(*mesh_);
+    granularModel::New(properties, *mesh_);
+}
+
+
+void Foam::regionObjects::makeRadiation()
+{
+    // The model itself is not among the headers. Its source of heat makes it
+    dictionary dict;
+    dict.add("type", word("radiation"));
+    dict.add("active", true);
+    radiation_ = fv::option::New("radiation", dict, *mesh_);
+}
+
+
+void Foam::regionObjects::makeSources()
+{
+    fv::options::New(*mesh_);
+}
+
+
+void Foam::regionObjects::makeAxes()
+{
+    const bool given = hasField("betavSolid");
+    share_.reset
+    (
+        given
+      ? new volScalarField(io("betavSolid"), *mesh_)
+      : new volScalarField
+        (
+            IOobject("betavSolid", runTime_.timeName(), *mesh_),
+            *mesh_,
+            dimensionedScalar("one", dimless, 1)
+        )
+    );
+    if (solid_->isotropic())
+    {
+        return;
+    }
+    const autoPtr<coordinateSystem> axes
+    (
+        coordinateSystem::New(*mesh_, *solid_, coordinateSystem::typeName_())
+    );
+    const volVectorField along(solid_->Kappa()/solid_->Cp());
+    // The name under which boundary conditions find it
+    alongAxes_.reset
+    (
+        new volSymmTensorField
+        (
+            IOobject("Anialpha", runTime_.timeName(), *mesh_),
+            *mesh_,
+            dimensionedSymmTensor(along.dimensions(), Zero),
+            zeroGradientFvPatchSymmTensorField::typeName
+        )
+    );
+    alongAxes_->primitiveFieldRef() =
+        axes->transformPrincipal(mesh_->cellCentres(), along);
+    alongAxes_->correctBoundaryConditions();
+}
+
+
+Foam::wordList Foam::regionObjects::solved(const label solutions)
+{
+    wordList fields({hasThermo() ? thermo().he().name() : word("h")});
+    wordList names;
+    if (isFluid_ && !frozenFlow())
+    {
+        fields.append(word("rho"));
+        if (pimple().getOrDefault("momentumPredictor", true))
+        {
+            fields.append(word("U"));
+        }
+        const bool often =
+            solutions > 1
+         || number("nCorrectors", 1) > 1
+         || number("nNonOrthogonalCorrectors", 0) > 0;
+        names.append(word("p_rghFinal"));
+        if (often)
+        {
+            names.append(word("p_rgh"));
+        }
+    }
+    for (const word& field : fields)
+    {
+        names.append(word(field + "Final"));
+        if (solutions > 1)
+        {
+            names.append(field);
+        }
+    }
+    return names;
+}
+
+
+void Foam::regionObjects::checkWall
+(
+    const polyPatch& patch,
+    const PtrList<regionObjects>& all
+) const
+{
+    const mappedPatchBase& wall = refCast<const mappedPatchBase>(patch);
+    const regionObjects* other = find(all, wall.sampleRegion());
+    if (!other)
+    {
+        FatalErrorInFunction
+            << "Patch " << patch.name() << " has sampleRegion '"
+            << wall.sampleRegion() << "', allowed: regions of"
+            << " constant/regionProperties (" << listedNames(all).c_str()
+            << ')'
+            << exit(FatalError);
+    }
+    if
+    (
+        !other->hasMesh()
+     || wall.mode() == mappedPatchBase::NEARESTCELL
+     || wall.mode() == mappedPatchBase::NEARESTFACE
+    )
+    {
+        return;
+    }
+    const polyBoundaryMesh& patches = other->mesh_->boundaryMesh();
+    const label found = patches.findPatchID(wall.samplePatch());
+    if (found < 0)
+    {
+        wordList names(patches.names());
+        names.resize(patches.nNonProcessor());
+        FatalErrorInFunction
+            << "Patch " << patch.name() << " has samplePatch '"
+            << wall.samplePatch() << "', allowed: patches of region "
+            << other->name() << " (" << granularProperties::listed(names).c_str()
+            << ')' << exit(FatalError);
+    }
+    const mappedPatchBase* back = isA<mappedPatchBase>(patches[found]);
+    if
+    (
+        !back
+     || back->sampleRegion() != name_ || back->samplePatch() != patch.name()
+    )
+    {
+        FatalErrorInFunction
+            << "Patch " << patch.name() << " meets patch " << patches[found].name()
+            << " of region " << other->name() << ", which meets ";
+        if (back)
+        {
+            FatalError
+                << "patch " << back->samplePatch() << " of region "
+                << back->sampleRegion();
+        }
+        else
+        {
+            FatalError
+                << "no other patch (type " << patches[found].type() << ')';
+        }
+        FatalError
+            << ", allowed: type mappedWall; sampleRegion " << name_
+            << "; samplePatch " << patch.name() << ';' << exit(FatalError);
+    }
+}
+
+
+void Foam::regionObjects::trySolid()
+{
+    volScalarField& h = solid_->he();
+    const volScalarField rho(solid_->rho());
+    fv::options& sources = fv::options::New(*mesh_);
+    const word scheme("laplacian(alpha,h)");
+    fvScalarMatrix equation
+    (
+        fvm::ddt(share_()*rho, h)
+      - (
+            alongAxes_.valid()
+          ? fvm::laplacian(share_()*alongAxes_(), h, scheme)
+          : fvm::laplacian(share_()*solid_->alpha(), h, scheme)
+        )
+     ==
+        sources(rho, h)
+    );
+    equation.relax();
+    sources.constrain(equation);
+    dictionary settings(mesh_->solver(h.select(true)));
+    settings.set("maxIter", 1);
+    equation.solve(settings);
+}
+
+
+Foam::DynamicList<Foam::string> Foam::regionObjects::doubts()
+{
+    DynamicList<string> found;
+    if (!solid_.valid() || solid_->type() != bedThermo)
+    {
+        return found;
+    }
+    granularSolidThermo& bed = static_cast<granularSolidThermo&>(solid_());
+    const autoPtr<granularMechanics> mechanics
+    (
+        granularMechanics::New(bed.grainProperties(), bed.grains())
+    );
+    const sceneWarnings warnings
+    (
+        bed.grainProperties(), bed.T(), bed.grains(), mechanics()
+    );
+    for (const string& text : warnings.all())
+    {
+        found.append("Region " + name_ + ": " + text);
+    }
+    return found;
+}
+
+
+// ************************************************************************* //
