@@ -146,11 +146,10 @@ void Foam::dryRun::makeRegion(regionObjects& region, const label solutions)
     };
     const bool made =
         make(constant + basicThermo::dictName, &regionObjects::makeThermo);
-    if (made)
-    {
-        make(constant + "radiationProperties", &regionObjects::makeRadiation);
-    }
-    else
+    bool ready =
+        made
+     && make(constant + "radiationProperties", &regionObjects::makeRadiation);
+    if (!made)
     {
         region.forgetThermo();
         lookAlone(region);
@@ -176,9 +175,16 @@ void Foam::dryRun::makeRegion(regionObjects& region, const label solutions)
             );
         }
     }
-    else if (made)
+    else
     {
-        make(constant + basicThermo::dictName, &regionObjects::makeAxes);
+        ready =
+            made
+         && make(constant + basicThermo::dictName, &regionObjects::makeAxes)
+         && ready;
+    }
+    if (ready)
+    {
+        region.setReady();
     }
     wordList names;
     attemptIn
@@ -236,11 +242,7 @@ void Foam::dryRun::tryRegion(regionObjects& region)
             );
         }
     }
-    if
-    (
-        errors_.size() > before
-     || !region.hasThermo() || region.meetsUnmade(regions_)
-    )
+    if (errors_.size() > before || !region.isReady(regions_))
     {
         return;
     }

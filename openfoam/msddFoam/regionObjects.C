@@ -73,7 +73,8 @@ Foam::regionObjects::regionObjects
 :
     runTime_(runTime),
     name_(name),
-    isFluid_(isFluid)
+    isFluid_(isFluid),
+    isReady_(false)
 {}
 
 
@@ -179,21 +180,25 @@ bool Foam::regionObjects::hasField(const word& field) const
 }
 
 
-bool Foam::regionObjects::meetsUnmade(const PtrList<regionObjects>& all) const
+bool Foam::regionObjects::isReady(const PtrList<regionObjects>& all) const
 {
+    if (!isReady_)
+    {
+        return false;
+    }
     for (const polyPatch& patch : mesh_->boundaryMesh())
     {
         if (isA<mappedPatchBase>(patch))
         {
             const regionObjects* other =
                 find(all, refCast<const mappedPatchBase>(patch).sampleRegion());
-            if (!other || !other->hasThermo())
+            if (!other || !other->isReady_)
             {
-                return true;
+                return false;
             }
         }
     }
-    return false;
+    return true;
 }
 
 

@@ -72,6 +72,9 @@ dry_fluid() {
     start water T '0 0 0 1 0 0 0' 'uniform 300' "$(of_fluid left) bottom { type fixedValue; value uniform 300; } \".*\" { type zeroGradient; }"
     check "dry run of regions: water past a plate" passes
     check "dry run of regions: what is left out of a fluid is said" grep -q '^Not checked: turbulence .*(water)$' log.dry
+    sed -i 's/radiationModel none/radiationModel nothing/' constant/water/radiationProperties
+    check "dry run of regions: radiation" foreseen 'constant/water/radiationProperties, line'
+    sed -i 's/radiationModel nothing/radiationModel none/' constant/water/radiationProperties
     sed -i 's/divSchemes { default Gauss upwind/divSchemes { default none/' system/water/fvSchemes
     sed -i 's/"p_rgh.*" {/p_rgh {/; s/frozenFlow yes/frozenFlow no/' system/water/fvSolution
     rm constant/water/turbulenceProperties 0/water/U
