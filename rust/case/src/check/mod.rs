@@ -97,19 +97,16 @@ const FILES: [(&str, bool); 13] = [
 /// What a check does not look at, in a sentence; empty if it looks at everything.
 pub type Omission = &'static str;
 
+/// What the solver does not make of a case of `chtMultiRegionFoam`.
+const FLUIDS: Omission =
+    "of fluid regions, turbulence and combustion models and the equations are not checked";
+
 /// Checks a case folder as [`check`] does, and lets the solver make all that it needs for a run of it.
 pub fn check_with_solver(folder: &Path) -> (Findings, Omission) {
     let mut found = check(folder);
     // Else there is nothing more to say
     if !folder.canonicalize().is_ok_and(|whole| whole.is_dir() && path::check(&whole).is_ok()) {
         return (found, "");
-    }
-    if has_regions_alone(folder) {
-        return (
-            found,
-            "chtMultiRegionFoam is not started by this check: thermo, boundary conditions and function objects of its regions \
-             are read, not made",
-        );
     }
     let Some(program) = solver::program() else {
         return (
@@ -120,7 +117,7 @@ pub fn check_with_solver(folder: &Path) -> (Findings, Omission) {
     let control = Dictionary::expanded(&folder.join(control::CONTROL)).ok();
     let start = start::Start::find(folder, control.as_ref());
     solver::check(&program, folder, &start, &mut found);
-    (found, "")
+    (found, if has_regions_alone(folder) { FLUIDS } else { "" })
 }
 
 /// Whether a case is one of `chtMultiRegionFoam`: with a bed outside of the regions it is one of `msddFoam`, with solids.
