@@ -34,6 +34,9 @@ pub enum DocsError {
     Json { file: PathBuf, text: String },
     #[error("there is no section '{name}', allowed: {names}")]
     Section { name: String, names: String },
+    /// What cannot be printed into a page; whoever knows the page adds the place.
+    #[error("{0}")]
+    Print(String),
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Found(Vec<Finding>),
 }

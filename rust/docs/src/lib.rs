@@ -12,6 +12,7 @@
 //! | [`math`] | equations as MathML, as a preprocessor of mdBook |
 //! | [`paths`] | paths of the repository that are named in backticks |
 //! | [`pages`] | which Markdown files there are, and reading them |
+//! | [`print`] | the parts of the reference pages that are printed from the code |
 #![forbid(unsafe_code)]
 
 pub mod commands;
@@ -24,6 +25,7 @@ pub mod marks;
 pub mod math;
 pub mod pages;
 pub mod paths;
+pub mod print;
 pub mod results;
 
 pub use error::DocsError;

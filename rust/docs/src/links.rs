@@ -20,7 +20,7 @@ pub fn check(root: &Path, files: &[PathBuf]) -> Result<(), DocsError> {
     let mut findings = Vec::new();
     let listed = contents(root)?;
     for file in files {
-        let page = Page::read(root, file)?;
+        let page = Page::printed(root, file)?;
         let made = paths::made_by_the_reader(&page);
         for (event, range) in page.events() {
             let problem = match &event {
@@ -80,7 +80,7 @@ fn link(
         return Ok(None);
     }
     if !known.contains_key(&target) {
-        known.insert(target.clone(), anchors(&Page::read(root, &target)?));
+        known.insert(target.clone(), anchors(&Page::printed(root, &target)?));
     }
     let has = known[&target].contains(anchor);
     Ok((!has).then(|| format!("the link '{address}': {} has no heading '#{anchor}'", target.display())))

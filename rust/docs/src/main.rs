@@ -40,7 +40,7 @@ enum Command {
         /// Pages, relative to the checkout [default: README.md, the book, READMEs of cases and rust].
         files: Vec<PathBuf>,
     },
-    /// Preprocessor of mdBook: equations as MathML.
+    /// Preprocessor of mdBook: prints from the code, and equations as MathML.
     Math {
         #[command(subcommand)]
         question: Option<Question>,
@@ -104,7 +104,7 @@ fn run(arguments: Arguments) -> Result<(), DocsError> {
             let input = std::io::read_to_string(std::io::stdin());
             let input =
                 input.map_err(|source| DocsError::Folder { folder: "standard input".into(), source })?;
-            print!("{}", math::preprocess(&input)?);
+            print!("{}", math::preprocess(&root, &input)?);
         }
         Command::Gather { section, commit, date, machine } => {
             gather::renew(&root, &section, gather::Origin { commit, date, machine })?;

@@ -3,6 +3,7 @@
 
 use crate::error::{DocsError, Finding, none_found};
 use crate::pages::{BOOK, Page};
+use crate::print;
 use pulldown_cmark::{CowStr, Event, Options, Parser, Tag, TagEnd};
 use pulldown_latex::config::DisplayMode;
 use pulldown_latex::{RenderConfig, Storage, push_mathml};
@@ -110,34 +111,34 @@ fn placed(text: &str, event: &Event, range: &Range<usize>, made: &str) -> String
     format!("\n\n{before}<div class=\"equation\">{made}</div>\n")
 }
 
-/// Replaces the equations in all chapters of the book that mdBook hands over: `[context, book]`.
+/// Prints from the code and replaces the equations in all chapters of the book that mdBook hands over: `[context, book]`.
 ///
 /// # Errors
-/// Text that is no book, and what is wrong with equations in any chapter.
-pub fn preprocess(input: &str) -> Result<String, DocsError> {
+/// Text that is no book, and what is wrong with markers and equations in any chapter.
+pub fn preprocess(root: &Path, input: &str) -> Result<String, DocsError> {
     let wrong = |text: String| DocsError::Json { file: "book of mdBook".into(), text };
     let mut input: Value = serde_json::from_str(input).map_err(|error| wrong(error.to_string()))?;
     let book = input.get_mut(1).ok_or_else(|| wrong("is not [context, book]".to_string()))?;
     let mut findings = Vec::new();
-    chapters(book, &mut findings)?;
+    chapters(root, book, &mut findings)?;
     none_found(findings)?;
     serde_json::to_string(book).map_err(|error| wrong(error.to_string()))
 }
 
-fn chapters(part: &mut Value, findings: &mut Vec<Finding>) -> Result<(), DocsError> {
+fn chapters(root: &Path, part: &mut Value, findings: &mut Vec<Finding>) -> Result<(), DocsError> {
     if let Some(chapter) = part.get_mut("Chapter") {
         let name = chapter["source_path"].as_str().or(chapter["name"].as_str()).unwrap_or("?");
         let file = Path::new(BOOK).join(name);
-        let text = chapter["content"].as_str().unwrap_or_default().to_string();
-        match with_mathml(&Page { file, text }) {
+        let page = Page::new(file, chapter["content"].as_str().unwrap_or_default());
+        match print::expanded(root, &page).and_then(|page| with_mathml(&page)) {
             Ok(text) => chapter["content"] = text.into(),
             Err(DocsError::Found(found)) => findings.extend(found),
             Err(error) => return Err(error),
         }
     }
     match part {
-        Value::Array(parts) => parts.iter_mut().try_for_each(|part| chapters(part, findings)),
-        Value::Object(entries) => entries.values_mut().try_for_each(|part| chapters(part, findings)),
+        Value::Array(parts) => parts.iter_mut().try_for_each(|part| chapters(root, part, findings)),
+        Value::Object(entries) => entries.values_mut().try_for_each(|part| chapters(root, part, findings)),
         _ => Ok(()),
     }
 }

@@ -16,6 +16,8 @@ pub struct Page {
     /// Relative to the checkout.
     pub file: PathBuf,
     pub text: String,
+    /// What was printed into the text: bytes, in rising order.
+    printed: Vec<Range<usize>>,
 }
 
 impl Page {
@@ -24,7 +26,30 @@ impl Page {
     /// # Errors
     /// A file that cannot be read or is no UTF-8.
     pub fn read(root: &Path, file: &Path) -> Result<Self, DocsError> {
-        Ok(Self { file: file.to_path_buf(), text: msdd_files::read_text(&root.join(file))? })
+        Ok(Self::new(file, msdd_files::read_text(&root.join(file))?))
+    }
+
+    /// The same with what is printed from the code, as in the book.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and markers that cannot be printed.
+    pub fn printed(root: &Path, file: &Path) -> Result<Self, DocsError> {
+        crate::print::expanded(root, &Self::read(root, file)?)
+    }
+
+    /// A page of this text.
+    pub fn new(file: impl Into<PathBuf>, text: impl Into<String>) -> Self {
+        Self { file: file.into(), text: text.into(), printed: Vec::new() }
+    }
+
+    /// Puts printed text in place of these bytes, which lie before all that was put earlier.
+    pub(crate) fn put(&mut self, bytes: Range<usize>, text: &str) {
+        self.text.replace_range(bytes.clone(), text);
+        for later in &mut self.printed {
+            let moved = |byte: usize| byte + text.len() - bytes.len();
+            *later = moved(later.start)..moved(later.end);
+        }
+        self.printed.insert(0, bytes.start..bytes.start + text.len());
     }
 
     /// What the text is made of, with the bytes where it stands: as mdBook reads it.
@@ -37,9 +62,17 @@ impl Page {
         Parser::new_ext(&self.text, options).into_offset_iter()
     }
 
-    /// The line that holds a byte, from 1.
+    /// The line of the file that holds a byte, from 1; of printed text the line of its marker.
     pub fn line(&self, byte: usize) -> usize {
-        1 + self.text.as_bytes()[..byte.min(self.text.len())].iter().filter(|&&b| b == b'\n').count()
+        let byte = byte.min(self.text.len());
+        let lines = |bytes: Range<usize>| self.text[bytes].matches('\n').count();
+        let printed = self.printed.iter().filter(|printed| printed.start < byte);
+        // A marker is one line.
+        let surplus = printed.map(|printed| match byte < printed.end {
+            true => lines(printed.start..byte),
+            false => lines(printed.clone()) - 1,
+        });
+        1 + lines(0..byte) - surplus.sum::<usize>()
     }
 
     /// Whether the page is one of the book.

@@ -3,9 +3,10 @@
 use super::found;
 use msdd_docs::math::{preprocess, with_mathml};
 use msdd_docs::pages::Page;
+use std::path::Path;
 
 fn page(text: &str) -> Page {
-    Page { file: "docs/src/a.md".into(), text: text.to_string() }
+    Page::new("docs/src/a.md", text)
 }
 
 #[test]
@@ -59,9 +60,9 @@ fn a_book_is_changed_in_all_its_chapters() {
         let inner = chapter("deep/b.md", text, "");
         format!(r#"[{{"root": "."}}, {{"items": ["Separator", {}]}}]"#, chapter("a.md", "$x$", &inner))
     };
-    let made = preprocess(&book("$y$")).unwrap();
+    let made = preprocess(Path::new("."), &book("$y$")).unwrap();
     assert_eq!(made.matches("</math>").count(), 2, "{made}");
     assert!(made.starts_with('{') && made.contains("Separator"));
-    let wrong = found(preprocess(&book("a\\n\\n$\\\\nonsense$")));
+    let wrong = found(preprocess(Path::new("."), &book("a\\n\\n$\\\\nonsense$")));
     assert!(wrong.len() == 1 && wrong[0].starts_with("docs/src/deep/b.md:3: "), "{wrong:?}");
 }
