@@ -24,16 +24,17 @@ pub struct Arguments {
     /// Database, or the CSV that was exported from one; given several times, all of them together.
     #[arg(long, value_name = "FILE", required = true)]
     database: Vec<PathBuf>,
-    /// Seed of the random splits and starting weights.
+    /// Number that the random splits and starting weights follow from.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Largest number of Levenberg-Marquardt steps for each network.
+    /// Largest number of Levenberg–Marquardt steps for each network; a law takes at least 60. Allowed: 1 to 100000.
     #[arg(long, default_value_t = 20)]
     epochs: u32,
     /// Only compare the law of the increments with a learned form of it.
     #[arg(long)]
     forms: bool,
-    /// Only the parts of the law of spheres; the database is one of spheres.
+    /// Only the parts of the law of spheres, fitted to a third of the packings; the database is one of spheres; not with
+    /// --forms.
     #[arg(long, conflicts_with = "forms")]
     spheres: bool,
     /// JSON file to write.

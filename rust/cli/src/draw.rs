@@ -18,7 +18,8 @@ pub struct Arguments {
     /// State file of a box of grains, as `msdd rve pack` writes it.
     #[arg(long, value_name = "FILE")]
     state: PathBuf,
-    /// Field of the solver to draw beside the box: the file of a scalar field in a time folder, in text format.
+    /// Field of the solver to draw next to the box: the file of a scalar field in a time folder, in text format, with one
+    /// value for each cell; needs --cells.
     #[arg(long, value_name = "FILE", requires = "cells")]
     field: Option<PathBuf>,
     /// Number of cells of the field along x and y; cells are drawn as squares.

@@ -33,18 +33,20 @@ pub struct Arguments {
     /// Run no simulations: draw the results that the cache has.
     #[arg(long)]
     draw: bool,
-    /// The case folder whose chart of speed against accuracy is wanted, instead of those of the cases of the paper.
+    /// The case folder, with its mesh, whose chart of speed against accuracy is wanted, instead of those of the cases of the
+    /// paper.
     #[arg(long, value_name = "DIR")]
     case: Option<PathBuf>,
     /// Compare the case with discrete elements: for a box along the axes in the plane, with insulated walls or walls with a
     /// temperature, and without sources of heat.
     #[arg(long, requires = "case")]
     discs: bool,
-    /// Folder for the page, index.html; beside it stands spheres.html, on beds of spheres, unless a case is given. Default: report, or report/NAME for a case of that name.
+    /// Folder for the page, index.html; next to it stands spheres.html, on beds of spheres, unless a case is given. Default:
+    /// `report`, or `report/NAME` for a case of that name.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// JSON file to write; of a case, a table of the same name that ends in .csv is written beside it. Default:
-    /// results/report.json, or results/report_NAME.json.
+    /// JSON file to write; of a case also a table, in a file of the same name that ends in .csv. Default:
+    /// `results/report.json`, or `results/report_NAME.json`.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Folder of the cache for results of simulations.

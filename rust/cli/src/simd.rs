@@ -6,8 +6,8 @@ use msdd_dem::Simd;
 
 #[derive(Args)]
 pub struct SimdArgument {
-    /// Instruction set of the innermost loops; default: the widest of this machine. All give the same results, bit for bit,
-    /// so neither states nor databases record which was used.
+    /// Instruction set of the innermost loops. All give the same results, bit for bit, so neither states nor databases record
+    /// which was used. Default: the widest of this machine.
     #[arg(long, value_enum, value_name = "SET")]
     simd: Option<SimdName>,
 }

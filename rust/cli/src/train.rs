@@ -15,30 +15,35 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Database, or the CSV that was exported from one; given several times, all of them together. For spheres also a folder of beds: of
-    /// folders with elements.toml and results of 'msdd bed run --packings'.
+    /// Database, or the CSV that was exported from one; given several times, all of them together. For spheres also a folder
+    /// of beds: of folders with elements.toml and results of `msdd bed run --packings`, whose strains inside are taken.
     #[arg(long, value_name = "FILE", required = true)]
     database: Vec<PathBuf>,
     /// Model file (JSON) to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Kind of model: constant, paper or increment; spheres for databases of spheres.
+    /// Kind of model. constant: nothing changes; paper: the network of the paper; increment: the law of the increments, which
+    /// needs periodic boxes and takes all their paths of strain; spheres: the law of spheres, for databases of spheres.
+    /// Allowed: `constant`, `paper`, `increment`, `spheres`.
     #[arg(long, default_value = models::DEFAULT)]
     model: String,
     /// Name of the model. Default: its kind.
     #[arg(long)]
     name: Option<String>,
-    /// Seed of the random split into training, validation and held-out packings, and of the starting weights.
+    /// Seed of the random split into training, validation and held-out packings, and of the starting weights. A law has no
+    /// validation: its packings join the training.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Number of trainings from different starting weights; the one with the least validation error is kept. Default: 1; the
-    /// model increment has one start.
+    /// Number of trainings of the paper model from different starting weights; the one with the least validation error is
+    /// kept. Allowed: 1 to 100000. Default: 1.
     #[arg(long)]
     restarts: Option<u32>,
-    /// Largest number of epochs, that is of Levenberg–Marquardt steps. Default: 60 for increment, 12 for spheres, 200 for paper.
+    /// Largest number of epochs, that is of Levenberg–Marquardt steps. Allowed: 1 to 100000. Default: 60 for increment, 12
+    /// for spheres, 200 for paper.
     #[arg(long)]
     epochs: Option<u32>,
-    /// Number of epochs without a smaller validation error after which a training ends.
+    /// Number of epochs without a smaller validation error after which a training of the paper model ends. Allowed: 1 to
+    /// 100000. Default: 20.
     #[arg(long)]
     patience: Option<u32>,
 }

@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use clap::{Parser, Subcommand};
-use msdd_docs::{DocsError, commands, fill, gather, links, math, pages, results};
+use msdd_docs::{DocsError, commands, fill, gather, links, math, pages, print as printed, results};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -44,6 +44,12 @@ enum Command {
     Math {
         #[command(subcommand)]
         question: Option<Question>,
+    },
+    /// Print what a line `<!-- print: SOURCE ARGUMENT -->` of a page becomes.
+    Print {
+        source: String,
+        #[arg(default_value = "")]
+        argument: String,
     },
     /// Renew a section of docs/results.json from what scripts/results left in results/numbers.
     Gather {
@@ -106,6 +112,7 @@ fn run(arguments: Arguments) -> Result<(), DocsError> {
                 input.map_err(|source| DocsError::Folder { folder: "standard input".into(), source })?;
             print!("{}", math::preprocess(&root, &input)?);
         }
+        Command::Print { source, argument } => print!("{}", printed::text(&root, &source, &argument)?),
         Command::Gather { section, commit, date, machine } => {
             gather::renew(&root, &section, gather::Origin { commit, date, machine })?;
             println!("renewed the section {section} of {}", results::FILE);

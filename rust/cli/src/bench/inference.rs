@@ -22,7 +22,7 @@ pub struct Arguments {
     /// Model file; may be given several times.
     #[arg(long, value_name = "FILE", required = true)]
     model: Vec<PathBuf>,
-    /// Queries to time for each batch size.
+    /// Queries to time for each batch size. Allowed: ≥ 1.
     #[arg(long, default_value_t = 3_000_000)]
     queries: usize,
     #[command(flatten)]

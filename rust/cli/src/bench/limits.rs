@@ -29,7 +29,7 @@ pub struct Arguments {
     /// Model file to compare with the discrete elements while contacts open; may be given several times.
     #[arg(long, value_name = "FILE")]
     model: Vec<PathBuf>,
-    /// JSON file to write; default: the results are printed.
+    /// JSON file to write. Default: the results are printed.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }

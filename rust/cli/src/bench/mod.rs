@@ -32,13 +32,13 @@ pub enum Command {
 that the steps are those of a dense packing in motion. Without --state, discs are packed isotropically to a porosity of 0.12 first."
 )]
 pub struct DemArguments {
-    /// Discs to pack when no state is given.
+    /// Discs to pack when no state is given. Allowed: 10 to 1000000.
     #[arg(long, default_value_t = 500)]
     particles: usize,
     /// State file to start from.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// Steps to time.
+    /// Steps to time. Allowed: ≥ 1.
     #[arg(long, default_value_t = 5000)]
     steps: u64,
     #[command(flatten)]

@@ -8,29 +8,31 @@ use msdd_case::numbers::plain;
 
 #[derive(Args)]
 pub struct GrainWishes {
-    /// Material of the grains: paper, steel, glass or alumina; with --spheres steel, glass, alumina or lithium-orthosilicate (values and
-    /// sources: `msdd case new --list-materials`). The options below replace single values of it.
+    /// Material of the grains (values and sources: `msdd case new --list-materials`). The options below replace single values
+    /// of it. Allowed: `paper`, `steel`, `glass`, `alumina`; with --spheres `steel`, `glass`, `alumina`,
+    /// `lithium-orthosilicate`. Default: `paper`, of spheres `steel`.
     #[arg(long, value_name = "NAME", help_heading = "Grains")]
     material: Option<String>,
-    /// Density of the grains [kg/m3].
+    /// Density of the grains [kg/m3]. Allowed: 1e-12 to 1e15. Default: that of the material.
     #[arg(long, value_name = "KG/M3", help_heading = "Grains")]
     density: Option<f64>,
-    /// Young's modulus of the grains [Pa].
+    /// Young's modulus of the grains [Pa]. Allowed: 1e-12 to 1e15. Default: that of the material.
     #[arg(long, value_name = "PA", help_heading = "Grains")]
     young_modulus: Option<f64>,
-    /// Thermal conductivity of the grains [W/(m K)].
+    /// Thermal conductivity of the grains [W/(m K)]. Allowed: 1e-12 to 1e15. Default: that of the material.
     #[arg(long, value_name = "W/(M K)", help_heading = "Grains")]
     thermal_conductivity: Option<f64>,
-    /// Specific heat capacity of the grains [J/(kg K)].
+    /// Specific heat capacity of the grains [J/(kg K)]. Allowed: 1e-12 to 1e15. Default: that of the material.
     #[arg(long, value_name = "J/(KG K)", help_heading = "Grains")]
     heat_capacity: Option<f64>,
-    /// Linear thermal expansion coefficient of the grains [1/K].
+    /// Linear thermal expansion coefficient of the grains [1/K]. Allowed: 0 to 1. Default: that of the material.
     #[arg(long, value_name = "1/K", help_heading = "Grains")]
     thermal_expansion: Option<f64>,
-    /// Mean radius of the grains [m]. The radii of discs are uniformly distributed between 0.6 and 1.4 times this value; spheres are equal.
+    /// Mean radius of the grains [m]. The radii of discs are uniformly distributed between 0.6 and 1.4 times this value;
+    /// spheres are equal. Allowed: 1e-12 to 1e15. Default: that of the material.
     #[arg(long, value_name = "M", help_heading = "Grains")]
     mean_radius: Option<f64>,
-    /// Mean diameter of the grains [m], instead of the radius.
+    /// Mean diameter of the grains [m], instead of the radius. Allowed: 2e-12 to 2e15.
     #[arg(long, value_name = "M", conflicts_with = "mean_radius", help_heading = "Grains")]
     diameter: Option<f64>,
     /// Only to say where it belongs.

@@ -16,14 +16,31 @@ pub(crate) use solve::{attempt, beside};
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Make a new case: asks for what is not given as an option, finds how the grains lie at the start, and writes a
-    /// folder that is ready to run.
+    /// Make a new case: asks for what is not given as an option, finds how the grains lie at the start, and writes a folder
+    /// that is ready to run.
+    ///
+    /// The bed is of discs in the plane, whose start is packed by discrete elements, or, with --spheres, of equal spheres
+    /// with gas between them. These fill a box, or an upright cylinder, which is computed as a wedge.
+    ///
+    /// The start of spheres follows from the law of spheres, as that of a bed that was poured and pressed from above: the
+    /// horizontal stress is 0.8 of the vertical one, there are 0.4 contacts per sphere more than in a periodic box, and more
+    /// of them point upwards (fabric 0.35 instead of 1/3). The law is valid for a friction of 0.3. There is gravity, and
+    /// rigid walls have the friction of a sphere, 0.3. All walls are rigid but a top that presses and a side that is a shell,
+    /// which is always smooth.
+    ///
+    /// With smooth walls the bed begins at rest under its weight (restStress). Rough walls carry a part of the weight: the
+    /// bed begins with the stress on its top everywhere, or with the least stress that the walls leave of it (Janssen), and
+    /// the first step adds the weight. A wall has its temperature where the mesh ends: the resistance between a wall and the
+    /// first spheres is left out.
     New(Box<new::Arguments>),
     /// Check a case folder before the run: lists what is missing, out of range or doubtful.
     Check(check::Arguments),
     /// Find the cheapest settings of the solver for a wanted accuracy of T, by short runs on the case itself, and run them.
+    ///
+    /// The results, with 90 % bands, are in the folder FOLDER.chosen.
     Solve(solve::Arguments),
-    /// Print a table that a function object has written, as one whole over all parts of the run.
+    /// Print a table that a function object has written, as one whole over all parts of the run. The exit status is 1 if
+    /// there is no such table, or if parts have other points or columns.
     Table(table::Arguments),
 }
 

@@ -36,7 +36,7 @@ Examples:
 Then: bed/Allrun. The folder needs no files of other cases, so it may stand anywhere and be copied."
 )]
 pub struct Arguments {
-    /// The new case folder; it must not exist yet, or be empty.
+    /// The new case folder; it must not exist yet, or be empty. Default: required, except with --list-materials.
     #[arg(required_unless_present = "list_materials")]
     folder: Option<PathBuf>,
     /// Ask nothing: take the proposed value of everything that is not given as an option.
@@ -51,10 +51,11 @@ pub struct Arguments {
     /// List the materials that can be named by --material, with their values and sources.
     #[arg(long)]
     list_materials: bool,
-    /// A bed of equal spheres with gas between them, in a box or in a cylinder, with gravity and rough walls; else discs in the plane.
+    /// A bed of equal spheres with gas between them, in a box or in a cylinder, with gravity and rough walls; else discs in
+    /// the plane.
     #[arg(long)]
     spheres: bool,
-    /// Number of threads; the results do not depend on it. Default: all processor cores.
+    /// Number of threads; the results do not depend on it. Default: all processor cores, at most 64.
     #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
     threads: u32,
     /// MSDD's checkout, whose solver the case will run. Default: the one that this program was built in.
@@ -65,7 +66,7 @@ pub struct Arguments {
     /// Number of boxes of 500 discs that are packed to find the initial state; their averages are averaged. Default: 16.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = "Packing at the start")]
     packings: Option<u32>,
-    /// Seed of the random numbers for the first box; each further box has the next one. Default: 1.
+    /// Seed of the random numbers for the first box, a whole number; each further box has the next one. Default: 1.
     #[arg(long, help_heading = "Packing at the start")]
     seed: Option<u64>,
     #[command(flatten)]

@@ -38,12 +38,13 @@ warning says which it is and why.
 
 Example: msdd case solve cases/HC --accuracy 1 --choose-mechanics")]
 pub struct Arguments {
-    /// The case folder.
+    /// The case folder, with its mesh.
     folder: PathBuf,
-    /// Wanted accuracy of T [% of its range]; without it, that of system/fvSolution.
+    /// Wanted accuracy of T [% of its range]. Allowed: 0.001 to 100. Default: `accuracy` of system/fvSolution.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     accuracy: Option<f64>,
-    /// Wanted accuracy of p [% of its range], beside that of T; without it, that of system/fvSolution, if there is one.
+    /// Wanted accuracy of p [% of its range], in addition to that of T. Allowed: 0.001 to 100. Default: `pressureAccuracy` of
+    /// system/fvSolution, if there is one.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pressure_accuracy: Option<f64>,
     /// Find out whether the grains have to move, whatever the case says.

@@ -33,10 +33,10 @@ pub struct SphereWishes {
     /// Shape of the bed. Default: cylinder if --radius, --height or --side is given, else box.
     #[arg(long, value_enum, requires = "spheres")]
     shape: Option<ShapeName>,
-    /// Radius of the cylinder [m].
+    /// Radius of the cylinder [m]. Allowed: four radii of a sphere to 1e6. Default: a proposal.
     #[arg(long, value_name = "M", requires = "spheres", conflicts_with = "size")]
     radius: Option<f64>,
-    /// Height of the cylinder [m].
+    /// Height of the cylinder [m]. Allowed: eight radii of a sphere to 1e6. Default: a proposal.
     #[arg(long, value_name = "M", requires = "spheres", conflicts_with = "size")]
     height: Option<f64>,
     /// Side of the cylinder; values as for --left. Default: 50 K above the start; insulated if another wall is given.
@@ -48,35 +48,44 @@ pub struct SphereWishes {
     /// Back wall of the box; values as for --left. Default: insulated.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, requires = "spheres")]
     back: Option<WallOverTime>,
-    /// Poisson's ratio of the spheres. Default: that of the material.
+    /// Poisson's ratio of the spheres. Allowed: -0.99 to 0.5. Default: that of the material.
     #[arg(long, value_name = "NU", allow_negative_numbers = true, requires = "spheres")]
     poisson_ratio: Option<f64>,
-    /// Height of the asperities (root mean square) over their slope [m]; 0: smooth. Default: that of the material.
+    /// Height of the asperities (root mean square) over their slope [m]; 0: smooth. Allowed: 0 to a hundredth of the radius.
+    /// Default: that of the material.
     #[arg(long, value_name = "M", requires = "spheres")]
     roughness: Option<f64>,
-    /// Hardness of the spheres, which counts where they are rough [Pa]. Default: that of the material.
+    /// Hardness of the surface of the spheres [Pa], which counts where they are rough. Allowed: 1 to 1e15. Default: that of
+    /// the material.
     #[arg(long, value_name = "PA", requires = "spheres")]
     hardness: Option<f64>,
-    /// Gas between the spheres: air, nitrogen, helium, argon or vacuum. Default: air.
+    /// Gas between the spheres, which must conduct less than they do. Allowed: `air`, `nitrogen`, `helium`, `argon`,
+    /// `vacuum`. Default: `air`.
     #[arg(long, value_name = "NAME", value_parser = parse_gas, requires = "spheres")]
     gas: Option<GasName>,
-    /// Pressure of the gas [Pa]. Default: 1.013e5.
+    /// Pressure of the gas [Pa]. Allowed: 1e-3 to 1e9. Default: 1.013e5.
     #[arg(long, value_name = "PA", requires = "spheres")]
     gas_pressure: Option<f64>,
-    /// Whether the top goes on pressing with the pressure of the start, as a stiff plate that gives way, or stays where it is. Default: presses.
+    /// Whether the top goes on pressing with the pressure of the start, as a stiff plate that gives way, or stays where it
+    /// is. Default: `presses`.
     #[arg(long, value_enum, requires = "spheres")]
     lid: Option<LidName>,
-    /// The side of the cylinder as a thin vessel that gives way: Young's modulus [Pa], thickness [m] and linear thermal expansion
-    /// coefficient [1/K], such as 200e9,0.002,1.2e-5 of steel.
+    /// The side of the cylinder as a thin vessel that gives way: Young's modulus [Pa], thickness [m] and linear thermal
+    /// expansion coefficient [1/K], such as `200e9,0.002,1.2e-5` of steel. At the temperature of the start it has its place
+    /// of the start. Allowed: modulus 1 to 1e15, thickness up to a fifth of the radius, expansion 0 to 0.01. Default: a rigid
+    /// side.
     #[arg(long, value_name = "PA,M,1/K", value_parser = parse_shell, requires = "spheres")]
     shell: Option<Shell>,
-    /// By how many diameters of bed spheres give way at a bottom and top that stay. Default: 1; 0 under a top that presses.
+    /// By how many diameters of bed spheres give way at a bottom and top that stay. Allowed: 0 to 1000. Default: 1; 0 under a
+    /// top that presses.
     #[arg(long, value_name = "D", requires = "spheres")]
     give: Option<f64>,
-    /// Coefficient of friction of a sphere on the rigid walls; 0: smooth walls. Default: 0.3, as between the spheres.
+    /// Coefficient of friction of a sphere on the rigid walls; 0: smooth walls. A bed slips along them at less, which is what
+    /// the case has: 0.154 for 0.3. Allowed: 0 to 10. Default: 0.3, as between the spheres; 0 with `--mechanics none`.
     #[arg(long, value_name = "MU", requires = "spheres")]
     wall_friction: Option<f64>,
-    /// Gravity [m/s2], downwards; 0: a bed without weight. Default: 9.81; 0 with --mechanics none.
+    /// Gravity [m/s2], downwards; 0: a bed without weight. Allowed: 0 to 1000; 0 with `--mechanics none`. Default: 9.81; 0
+    /// with `--mechanics none`.
     #[arg(long, value_name = "M/S2", requires = "spheres")]
     gravity: Option<f64>,
 }

@@ -17,7 +17,7 @@ Examples: msdd case table cases/H probes
 pub struct Arguments {
     /// The case folder.
     folder: PathBuf,
-    /// Function object: its folder in postProcessing.
+    /// Function object: its folder in postProcessing, such as `probes` or `bed/wallPressure`.
     name: String,
     /// File of the function object, such as T. Default: its only one.
     #[arg(long, value_name = "FILE")]

@@ -29,18 +29,22 @@ pub(super) const WALL_HELP: &str = "Each wall is insulated, or has a temperature
 
 #[derive(Args)]
 pub struct Wishes {
-    /// Width x height of the box [m], such as 0.6x0.2; of a box of spheres width x depth x height, such as 0.3x0.1x0.2.
+    /// Width x height of the box [m], such as 0.6x0.2; of a box of spheres width x depth x height (x, y, z), such as
+    /// 0.3x0.1x0.2. Allowed: each at least eight mean radii, at most 1e6. Default: a proposal.
     #[arg(long = "box", value_name = "WxH", value_parser = parse_sides::<f64>, help_heading = "Box")]
     pub(super) size: Option<Numbers<f64>>,
-    /// Number of cells along x and y, such as 30x10. Default: cells with sides of 4.3 mean radii, which hold nearly five
-    /// grains, but at most 100 along the longer side. A box of spheres has cells along x, y and z, a cylinder along radius and axis.
+    /// Number of cells along x and y, such as 30x10; of a box of spheres along x, y and z, of a cylinder along radius and
+    /// axis. Allowed: 1 to 4000000 in all. Default: of discs cells with sides of 4.3 mean radii, which hold nearly five
+    /// grains, but at most 100 along the longer side; of spheres 1 where nothing changes, else at most 40, 24 or 12 along
+    /// one, two or three directions.
     #[arg(long, value_name = "NXxNY", value_parser = parse_sides::<usize>, conflicts_with = "cell_size", help_heading = "Box")]
     pub(super) cells: Option<Numbers<usize>>,
-    /// Approximate side of a cell [m], instead of the number of cells.
+    /// Approximate side of a cell [m], instead of the number of cells. Allowed: > 0.
     #[arg(long, value_name = "M", help_heading = "Box")]
     pub(super) cell_size: Option<f64>,
-    /// Left wall: a temperature [K], 'insulated', or temperatures over time such as 0:300,60:350 (300 K at 0 s, 350 K at 60 s,
-    /// linear between them). Default: 50 K above the start; insulated if another wall is given.
+    /// Left wall: a temperature [K], `insulated`, or temperatures over time such as `0:300,60:350` (300 K at 0 s, 350 K at 60
+    /// s, linear between them). Allowed: 0 to 1e5; with spheres the range in which the gas is known (air 200 to 2000, helium
+    /// 273 to 1800). Default: 50 K above the start; insulated if another wall is given.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     pub(super) left: Option<WallOverTime>,
     /// Right wall; values as for the left one. Default: the initial temperature; insulated if another wall is given.
@@ -52,42 +56,48 @@ pub struct Wishes {
     /// Top wall; values as for the left one. Default: insulated.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     pub(super) top: Option<WallOverTime>,
-    /// Initial temperature of the whole bed [K]. Default: that of the coldest wall if walls of different temperatures are given,
-    /// else the usual one of the material.
+    /// Initial temperature of the whole bed [K]. Allowed: as for walls. Default: that of the coldest wall if walls of
+    /// different temperatures are given, else the usual one of the material.
     #[arg(long, value_name = "K", help_heading = "Walls and temperatures")]
     pub(super) initial_temperature: Option<f64>,
-    /// Heat released inside of the bed [W per m3 of bed]; negative for heat that is taken away.
+    /// Heat released inside of the bed [W per m3 of bed]; negative for heat that is taken away. Allowed: -1e15 to 1e15.
+    /// Default: 0.
     #[arg(long, value_name = "W/M3", allow_negative_numbers = true, help_heading = "Walls and temperatures")]
     pub(super) heat_source: Option<f64>,
     #[command(flatten)]
     pub(super) grains: GrainWishes,
-    /// Initial porosity: share of the plane without grains (overlaps counted once), 0.06 (dense) to 0.19 (loose). Of spheres: 1 - volume
-    /// of the spheres over the volume, about 0.36 to 0.43. Default: 0.125, of spheres 0.4.
+    /// Initial porosity: share of the plane without grains (overlaps counted once); of spheres 1 - volume of the spheres over
+    /// the volume. Allowed: 0.06 (dense) to 0.19 (loose); of spheres the range of the law under this pressure, about 0.36 to
+    /// 0.43. Default: 0.125, of spheres 0.4.
     #[arg(long, value_name = "ETA", help_heading = "Packing at the start")]
     pub(super) porosity: Option<f64>,
-    /// Initial pressure [Pa] instead of the porosity; the porosity with this pressure is then found by packing. Of spheres: the pressure
-    /// on the top, beside the porosity. Default with spheres: 20 kPa.
+    /// Initial pressure [Pa] instead of the porosity; the porosity with this pressure is then found by packing. Of spheres:
+    /// the vertical stress at the top, in addition to the porosity. Allowed: that of packings with a porosity of 0.06 to
+    /// 0.19; of spheres the range of the law. Default: with spheres 20000.
     #[arg(long, value_name = "PA", help_heading = "Packing at the start")]
     pub(super) pressure: Option<f64>,
-    /// Model file of 'msdd train', for discs of another friction. The case gets a copy, and the start is packed with the friction and
-    /// the spread of radii that it was trained with. Default: the model that is compiled in.
+    /// Model file of `msdd train`, for discs of another friction. The case gets a copy (constant/model.json), and the start
+    /// is packed with the friction and the spread of radii that it was trained with. Default: the model that is compiled in.
     #[arg(long, value_name = "FILE", help_heading = "Packing at the start")]
     pub(super) model: Option<PathBuf>,
-    /// How the grains were compressed: equally from all sides, or along x alone, as `msdd reference` fills its box (then more
-    /// contacts point along x, and the bed conducts better along x).
+    /// How the discs were compressed: equally from all sides, or along x alone, as `msdd reference` fills its box (then more
+    /// contacts point along x, and the bed conducts better along x). Default: a proposal.
     #[arg(long, value_enum, help_heading = "Packing at the start")]
     pub(super) compression: Option<CompressionName>,
-    /// Whether the grains move until the stress is in equilibrium, as real grains do, or stay where they are, as in the paper.
+    /// Whether the grains move until the stress is in equilibrium, as real grains do, or stay where they are, as in the
+    /// paper. Default: a proposal.
     #[arg(long, value_enum, help_heading = "Computation")]
     pub(super) mechanics: Option<MechanicsName>,
-    /// End of the simulation [s]. Default: the time in which heat spreads over the box.
+    /// End of the simulation [s]. Allowed: 1e-9 to 1e12. Default: the time in which heat spreads over the box.
     #[arg(long, value_name = "S", help_heading = "Computation")]
     pub(super) end_time: Option<f64>,
-    /// Largest error of the temperature that one time step may add [K]. Default: a thousandth of the range of temperatures.
+    /// Largest error of the temperature that one time step may add [K]. Allowed: 1e-12 to 1e6. Default: a thousandth of the
+    /// range of temperatures.
     #[arg(long, value_name = "K", help_heading = "Computation")]
     pub(super) tolerance: Option<f64>,
-    /// Point where the temperature is recorded [m], such as 0.1,0.05; may be given several times. Three numbers in a box of spheres;
-    /// radius,height in a cylinder, where radius 0 is the axis. Default: three points along the middle.
+    /// Point inside the bed where the temperature is recorded [m], such as 0.1,0.05; may be given several times. Three
+    /// numbers in a box of spheres; radius,height in a cylinder, where radius 0 is the axis (recorded at 1 % of the radius).
+    /// Default: three points along the middle.
     #[arg(long = "probe", value_name = "X,Y", value_parser = parse_point, help_heading = "Computation")]
     pub(super) probes: Vec<Numbers<f64>>,
 }

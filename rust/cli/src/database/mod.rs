@@ -29,7 +29,7 @@ pub enum Command {
     /// Generate a plan on a cluster: submit its parts (shards) to Slurm as an array of jobs, and a job that joins them; or go
     /// on, submit again what is missing, and say how far all parts are.
     Slurm(slurm::Arguments),
-    /// Join the parts (shards) of a plan to the database that a single process would have generated.
+    /// Join the parts (shards) of a plan to the database that a single process would have generated, byte for byte.
     Merge(MergeArguments),
     /// Write a database as CSV, with FILE.columns.csv (units, meaning) and FILE.provenance.json beside it.
     Export(ExportArguments),
@@ -49,7 +49,7 @@ pub struct GenerateArguments {
     /// The plan (TOML), which says what to generate; see cases/database.
     #[arg(long, value_name = "FILE")]
     plan: PathBuf,
-    /// The database (SQLite); an existing one of the same plan is completed.
+    /// The database (SQLite); an existing one of the same plan is completed, so a killed run goes on.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Number of threads; the rows do not depend on it. Default: all processor cores.
@@ -77,16 +77,16 @@ pub struct PlanArguments {
     /// States outside of the trained range, as msddFoam writes them to postProcessing/msddFoam/offenders.json.
     #[arg(long, value_name = "FILE")]
     from: PathBuf,
-    /// The plan of the model's database: radii and material are taken from it.
+    /// The plan of the model's database: radii, material and boundary are taken from it.
     #[arg(long, value_name = "FILE")]
     like: PathBuf,
     /// The plan (TOML) to write.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Number of discs in a packing.
+    /// Number of discs in a packing. Allowed: 10 to 1000000.
     #[arg(long, default_value_t = 500)]
     discs: usize,
-    /// Number of packings for each porosity and kind of compression.
+    /// Number of packings for each porosity and kind of compression. Allowed: ≥ 1.
     #[arg(long, default_value_t = 4)]
     repeats: u32,
 }

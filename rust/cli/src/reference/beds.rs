@@ -60,10 +60,11 @@ pub struct Arguments {
     /// Folder for the solver's cases.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Only the scene of this name; may be given several times.
+    /// Only the scene of this name; may be given several times. Default: all.
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// Fit the error bands to the scenes for calibration, and write their numbers into this file.
+    /// Fit the error bands to the scenes for calibration, write their numbers into this file (JSON), and print how they do in
+    /// all scenes; not with --only.
     #[arg(long, value_name = "FILE", conflicts_with = "only")]
     bands: Option<PathBuf>,
     /// Folder for the tables errors.csv and, with --bands, bands.csv; not with --only.

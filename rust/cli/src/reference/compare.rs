@@ -21,8 +21,8 @@ pub struct Arguments {
     /// Result of `msdd reference run` for the same case.
     #[arg(long, value_name = "FILE")]
     discs: PathBuf,
-    /// Range of temperatures [K], of which errors are given in per cent. Default: the highest minus the lowest of all walls
-    /// and the initial state.
+    /// Range of temperatures [K], of which errors are given in per cent. Allowed: > 0. Default: the highest minus the lowest
+    /// of all walls and the initial state.
     #[arg(long, value_name = "K", value_parser = range)]
     range: Option<f64>,
 }

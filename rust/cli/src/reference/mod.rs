@@ -32,17 +32,26 @@ use std::time::{Duration, Instant};
 pub enum Command {
     /// Pack the initial model of a case, and print its statistics beside the paper's.
     Pack(PackArguments),
-    /// Run a case, or continue a run that was killed.
+    /// Run a case by discrete elements, with which the solver is compared, or continue a run that was killed.
+    ///
+    /// The discs have the friction, the stiffness ratio and the radii that the surrogate of the case was trained with
+    /// (constant/granularProperties); a plug-in does not hold these, and is refused. The packing has its own porosity and
+    /// pressure: where these differ from the start of the case, a warning gives the numbers. A run of more than an hour, by
+    /// an estimate, needs a yes on the terminal, or --yes. A bed of spheres is refused: `msdd bed run` computes it.
     Run(RunArguments),
     /// Write the initial fields of the solver: averages over windows of the packed model around the cells.
     Fields(FieldsArguments),
     /// Print a table of results: mean and scatter over the seeds; or the differences of two runs.
     Summary(summary::Arguments),
-    /// Print the differences of a run of the solver from discrete elements in the temperatures at the probes.
+    /// Print the differences of a run of the solver from discrete elements in the temperatures at the probes. Results with
+    /// other grains than those of the case are refused; another start is a warning.
     Compare(compare::Arguments),
     /// Make the reference scenes of a plan, and set the solver beside them.
     Scenes(scenes::Arguments),
-    /// Set the solver beside beds of spheres of a plan.
+    /// Compare the solver with beds of spheres of a plan, packing by packing.
+    ///
+    /// Each run starts from the start of its discrete elements. Prints how far the solver is from them, and how far packings
+    /// are from each other.
     Beds(beds::Arguments),
     /// Find the ranges of the scenes and beds by which the default models are compared with discrete elements.
     Ranges(ranges::Arguments),
@@ -58,26 +67,29 @@ enum Closing {
 /// Which packed model.
 #[derive(Args)]
 pub struct ModelArguments {
-    /// Case folder: materials, temperatures, times and box are read from its files.
+    /// Case folder whose patches are left, right, bottom and top; materials, temperatures, times and box are read from its
+    /// files.
     #[arg(long, value_name = "DIR")]
     case: PathBuf,
+    /// Number that all random choices follow from.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Number of discs. The box is scaled, with the same shape and porosity, so that they fill it. Default: as many as fill the
-    /// box of the case, 15000 for H, C and HC.
+    /// Number of discs. The box is scaled, with the same shape and porosity, so that they fill it. Allowed: 100 to 1000000.
+    /// Default: as many as fill the box of the case, 15000 for H, C and HC.
     #[arg(long)]
     discs: Option<usize>,
     /// State file of the packed model; if it does not exist, the model is packed and the file written. Default:
-    /// results/reference/packed_seed<N>.json.
+    /// `results/reference/packed_seed<N>.json`.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// Porosity of the packing, overlaps counted once; the shipped model says how many discs that takes. Default: as full as in
-    /// the cases of the paper.
+    /// Porosity of the packing, overlaps counted once; the shipped model says how many discs that takes. Needs --state.
+    /// Allowed: 0.06 to 0.19. Default: as full as in the cases of the paper.
     #[arg(long, value_name = "RATIO", requires = "state")]
     porosity: Option<f64>,
-    /// How the box is closed: along x alone, as in the cases of the paper, or along x and y.
+    /// How the box is closed: along x alone, as in the cases of the paper, or along x and y. Needs --state.
     #[arg(long, value_enum, default_value_t = Closing::Horizontal, requires = "state")]
     compression: Closing,
+    /// Number of threads. Default: 2, or 1 on a machine with one core.
     #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
     threads: u32,
 }
@@ -101,23 +113,24 @@ pub struct RunArguments {
     /// Folder for the results.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// End of the simulation [s]; default: endTime of the case.
+    /// End of the simulation [s]. Allowed: > 0. Default: endTime of the case.
     #[arg(long)]
     end: Option<f64>,
-    /// Time between two lines of the time series [s]; default: a 200th of the end, rounded to two digits.
+    /// Time between two lines of the time series [s]. Allowed: > 0, at most the end. Default: a 200th of the end, rounded to
+    /// two digits.
     #[arg(long)]
     interval: Option<f64>,
     /// Number of times, evenly spaced over the run, at which profiles along x are recorded.
     #[arg(long, default_value_t = 21)]
     profiles: usize,
-    /// Largest mechanical time step [s]; default: that of the stability bound.
+    /// Largest mechanical time step [s]. Allowed: > 0, at most the interval. Default: that of the stability bound.
     #[arg(long)]
     time_step: Option<f64>,
-    /// Least time between two checkpoints, from which a killed run continues [s of the clock].
+    /// Least time between two checkpoints, from which a killed run continues [s of the clock]. Allowed: ≥ 0.
     #[arg(long, default_value_t = 20.0)]
     checkpoint_every: f64,
-    /// Divide heat capacity and all times of the case by this number, and multiply the times of the results by it. Grains that are in
-    /// equilibrium all the time have the same temperatures and stresses then.
+    /// Divide heat capacity and all times of the case by this number, and multiply the times of the results by it. Grains
+    /// that are in equilibrium all the time have the same temperatures and stresses then. Allowed: ≥ 1.
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
     speed_up: f64,
     /// Begin a run of more than an hour without asking.

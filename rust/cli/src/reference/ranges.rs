@@ -27,7 +27,7 @@ pub struct Arguments {
     /// The plan of beds of spheres; beside it stands a folder of each name with elements.toml and the files elements-<seed>.csv.
     #[arg(long, value_name = "FILE")]
     beds: PathBuf,
-    /// File for the ranges.
+    /// File for the ranges (JSON).
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }

@@ -31,24 +31,25 @@ pub struct Arguments {
     /// discs.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Only the scene of this name; may be given several times.
+    /// Only the scene of this name; may be given several times. Default: all.
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
     /// Run the solver in the case folders, too, always anew, and print its errors beside the scatter of the discs; --bands and
     /// --requests do that, too.
     #[arg(long)]
     solver: bool,
-    /// Fit the error bands of the solver to the scenes for calibration, write their numbers into this file, and print how they do
-    /// in all scenes.
+    /// Fit the error bands of the solver to the scenes for calibration, write their numbers into this file (JSON), and print
+    /// how they do in all scenes; not with --only.
     #[arg(long, value_name = "FILE", conflicts_with = "only")]
     bands: Option<PathBuf>,
-    /// Ask for accuracies of 5, 2 and 1 % in the first packing of each scene, compare what is chosen with the discs, and write that
-    /// into this file.
+    /// Ask for accuracies of 5, 2 and 1 % in the first packing of each scene, compare what is chosen with the discs, and
+    /// write that into this file (CSV).
     #[arg(long, value_name = "FILE")]
     requests: Option<PathBuf>,
     /// Folder for the tables of all scenes, packings.csv, probes.csv.gz and windows.csv.gz; not with --only.
     #[arg(long, value_name = "DIR", conflicts_with = "only")]
     tables: Option<PathBuf>,
+    /// Number of threads; the results do not depend on it.
     #[arg(long, default_value_t = 1, value_parser = crate::threads::parser())]
     threads: u32,
     /// MSDD's checkout, whose solver the case folders run. Default: the one that this program was built in.

@@ -10,12 +10,14 @@ use std::path::PathBuf;
   msdd rve pack --discs 500 --seed 1 --porosity 0.12 --compression horizontal --out state.json
   msdd rve pack --spheres 1000 --pressure 1e-6 --friction 0.3 --shaking 0.005 --out spheres.json")]
 pub struct PackArguments {
+    /// Number of discs. Allowed: 10 to 1000000.
     #[arg(long, default_value_t = 500)]
     pub discs: usize,
+    /// Number that all random choices follow from.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// Porosity of the whole box to pack discs to, overlaps counted once. The value that is printed is that of the averaging
-    /// region.
+    /// region. Allowed: 0.01 to 0.3. Default: required for discs.
     #[arg(long, required_unless_present = "spheres")]
     pub porosity: Option<f64>,
     /// Directions in which the box closes. Discs: isotropic, horizontal, intermediate, sheared; spheres: isotropic, uniaxial
@@ -25,9 +27,11 @@ pub struct PackArguments {
     /// Rigid walls, or a periodic box; spheres are always in a periodic one.
     #[arg(long, value_enum, default_value_t = BoundaryName::Walls)]
     pub boundary: BoundaryName,
-    /// Smallest radius of discs [m]; radii are uniformly distributed between the smallest and the largest.
+    /// Smallest radius of discs [m]; radii are uniformly distributed between the smallest and the largest. Allowed: 1e-30 to
+    /// 1e30.
     #[arg(long, default_value_t = 3e-3)]
     pub radius_min: f64,
+    /// Largest radius of discs [m]. Allowed: --radius-min to ten times that.
     #[arg(long, default_value_t = 7e-3)]
     pub radius_max: f64,
     #[command(flatten)]
@@ -56,40 +60,47 @@ pub struct ExpandArguments {
     /// State file to start from; strains are relative to its radii and its box.
     #[arg(long, value_name = "FILE")]
     pub state: PathBuf,
-    /// Thermal strain of the radii.
+    /// Strain of the radii; this, --stops or a strain of the box has to be given. Allowed: -0.2 to 0.2.
     #[arg(long, allow_negative_numbers = true, conflicts_with = "stops")]
     pub strain: Option<f64>,
-    /// Thermal strains of several stops, reached one after the other; at each, the grains come to equilibrium.
+    /// Strains of the radii at several stops, reached one after the other, with commas between; at each, the grains come to
+    /// equilibrium. Instead of --strain. Allowed: -0.2 to 0.2, of one sign, growing in size.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     pub stops: Vec<f64>,
-    /// Strain of the box along x (extension positive) at the stops, one value for each stop; 0 when not given.
+    /// Strain of the box along x (extension positive) at the stops, one value for each stop. Allowed: -0.2 to 0.2. Default:
+    /// 0.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     pub xx: Vec<f64>,
-    /// Strain of the box along y at the stops.
+    /// Strain of the box along y at the stops. Allowed: -0.2 to 0.2. Default: 0.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     pub yy: Vec<f64>,
-    /// Strain of a box of spheres along z at the stops.
+    /// Strain of a box of spheres along z at the stops. Allowed: -0.2 to 0.2. Default: 0.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     pub zz: Vec<f64>,
-    /// Shear γxy of a periodic box at the stops: displacement along x over the distance along y.
+    /// Shear γxy of a periodic box at the stops: displacement along x over the distance along y. Allowed: -0.2 to 0.2.
+    /// Default: 0.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     pub xy: Vec<f64>,
-    /// Shear γxz of a box of spheres at the stops.
+    /// Shear γxz of a box of spheres at the stops: displacement along x over the distance along z. Allowed: -0.2 to 0.2.
+    /// Default: 0.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     pub xz: Vec<f64>,
-    /// Shear γyz of a box of spheres at the stops.
+    /// Shear γyz of a box of spheres at the stops: displacement along y over the distance along z. Allowed: -0.2 to 0.2.
+    /// Default: 0.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     pub yz: Vec<f64>,
-    /// When the walls move, displace all grains with the mean strain of the box; else only the walls push them.
+    /// Of discs: when the walls move, displace all grains with the mean strain of the box; else only the walls push them.
     #[arg(long)]
     pub affine: bool,
-    /// Rate of the strain that changes most [1/s]; default: 0.1 when contacts close, 0.02 when they open.
+    /// Of discs: rate of the strain that changes most [1/s]. Allowed: 1e-6 to 100 for grains like the paper's. Default: 0.1
+    /// when contacts close, 0.02 when they open.
     #[arg(long)]
     pub rate: Option<f64>,
-    /// Contact stiffness of the walls over E r; default: that of the state.
+    /// Of discs: contact stiffness of the walls over E r. Allowed: 1e-30 to 1e30. Default: that of the state.
     #[arg(long)]
     pub wall_stiffness: Option<f64>,
-    /// How equilibrium is found: by the damped motion of the grains, or by the minimiser FIRE, which is several times as fast.
+    /// Of discs: how equilibrium is found, by the damped motion of the grains, or by the minimiser FIRE, which is several
+    /// times as fast.
     #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
     pub relaxation: RelaxationName,
     /// State file (JSON) to write: the state at the last stop. If the run fails, the last good state is written to
@@ -105,10 +116,11 @@ pub struct ExpandArguments {
 
 #[derive(Args)]
 pub struct HomogeniseArguments {
+    /// State file.
     #[arg(long, value_name = "FILE")]
     pub state: PathBuf,
-    /// Averaging region: hull of the inner discs, the box without a margin of 0.8 mean radii, or the whole box. A periodic box
-    /// is always averaged as a whole.
+    /// Averaging region: hull of the inner discs, the box without a margin of 0.8 mean radii, or the whole box. A periodic
+    /// box is always averaged as a whole.
     #[arg(long, value_enum, default_value_t = RegionName::Inset)]
     pub region: RegionName,
     /// Whether contacts that cross the border of the region count with their share inside of it, or in full.
@@ -123,6 +135,7 @@ that of the grains, k: k_measured (heat flux over the temperature gradient in th
 inner part, k_affine (Eq. 9 of the paper) and k_network (resistor network of the contacts solved)."
 )]
 pub struct HeatCheckArguments {
+    /// State file.
     #[arg(long, value_name = "FILE")]
     pub state: PathBuf,
     /// Direction of the temperature difference.
@@ -173,25 +186,28 @@ pub enum RelaxationName {
 /// What only spheres have.
 #[derive(Args)]
 pub struct OfSpheres {
-    /// Number of spheres, in place of discs: equal ones in a periodic box. Lengths are in diameters, stresses over E* = E/(2 (1 - ν²)).
+    /// Number of spheres, instead of discs: equal ones in a periodic box. Lengths are in diameters, stresses over E* = E/(2
+    /// (1 - ν²)). Allowed: 50 to 1000000.
     #[arg(long, conflicts_with_all = ["discs", "porosity", "boundary", "radius_min", "radius_max", "relaxation"])]
     pub spheres: Option<usize>,
-    /// Pressure over E* to pack spheres to.
+    /// Pressure over E* to pack spheres to. Allowed: 1e-8 to 1e-3.
     #[arg(long, default_value = "1e-6", requires = "spheres")]
     pub pressure: f64,
-    /// Friction of spheres.
+    /// Friction of spheres. Allowed: 0 to 2.
     #[arg(long, default_value_t = 0.3, requires = "spheres")]
     pub friction: f64,
-    /// Friction while the box closes, from 0 to that of the spheres; default: that of the spheres. Less packs denser.
+    /// Friction of spheres while the box closes; less packs denser. Allowed: 0 to that of the spheres. Default: that of the
+    /// spheres.
     #[arg(long, requires = "spheres")]
     pub packing_friction: Option<f64>,
     /// How far the packed box is opened to be shaken and pressed again with the friction of the spheres; 0: it is not.
+    /// Allowed: 0, or 0.002 to 0.1.
     #[arg(long, default_value_t = 0.0, requires = "spheres")]
     pub shaking: f64,
-    /// Poisson's ratio of spheres.
+    /// Poisson's ratio of spheres. Allowed: 0 to 0.5.
     #[arg(long, default_value_t = 0.25, requires = "spheres")]
     pub poisson_ratio: f64,
-    /// Restitution of spheres, which only decides how fast they come to rest.
+    /// Restitution of spheres, which only decides how fast they come to rest. Allowed: above 0, to 1.
     #[arg(long, default_value_t = 0.3, requires = "spheres")]
     pub restitution: f64,
 }

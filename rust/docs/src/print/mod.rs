@@ -1,6 +1,9 @@
 //! Reference pages are printed from the code: a line `<!-- print: SOURCE ARGUMENT -->` of a page becomes what the module of
 //! this name makes of the argument. Nothing of it is committed: the book, and what checks links, expand the lines.
 
+pub mod commands;
+mod markdown;
+
 use crate::error::{DocsError, Finding, none_found};
 use crate::pages::Page;
 use pulldown_cmark::Event;
@@ -10,7 +13,7 @@ use std::path::Path;
 type Source = fn(&Path, &str) -> Result<String, DocsError>;
 
 /// Every source by its name, in alphabetical order.
-const SOURCES: &[(&str, Source)] = &[];
+const SOURCES: &[(&str, Source)] = &[("commands", commands::text)];
 
 const OPEN: &str = "<!-- print:";
 const CLOSE: &str = "-->";

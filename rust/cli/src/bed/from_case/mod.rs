@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 The spheres fill the whole bed; the command says how many they are and how long 'msdd bed run' takes. A smaller bed of the same kind
 is quicker: change number and base or radius in the file. What the file cannot express is left out and named, in the file as well.")]
 pub struct Arguments {
-    /// Case folder with spheres, of 'msdd case new --spheres' or 'msdd bed case', or one like these.
+    /// Case folder with spheres and a mesh of system/blockMeshDict, as `msdd case new --spheres` or `msdd bed case` write it.
     case: PathBuf,
     /// Folder for elements.toml. Default: the case folder.
     out: Option<PathBuf>,

@@ -39,7 +39,7 @@ pub struct Arguments {
     /// The database (SQLite) to make.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Number of parts: jobs of the array. It cannot be changed later.
+    /// Number of parts: jobs of the array. It cannot be changed later. Allowed: 1 to the number of packings.
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..))]
     array: u32,
     /// Number of threads, and so of processor cores, of each part.
@@ -51,7 +51,8 @@ pub struct Arguments {
     /// Only say how far the parts are; submit nothing.
     #[arg(long, conflicts_with = "wait")]
     status: bool,
-    /// Wait until the database is there; submit again what fails on the way.
+    /// Wait until the database is there; submit again what fails on the way. A part that ends three times without a new
+    /// packing ends it.
     #[arg(long)]
     wait: bool,
     /// Seconds between two looks of --wait.

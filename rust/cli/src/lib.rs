@@ -1,0 +1,117 @@
+//! `msdd`: everything in multiscale data-driven simulation but the solver itself: cases, databases, models, references,
+//! reports. The only crate that parses arguments and prints.
+#![forbid(unsafe_code)]
+
+#[macro_use]
+mod output;
+
+mod ablation;
+mod bed;
+mod bench;
+mod case;
+mod confirm;
+mod database;
+mod draw;
+mod error;
+mod progress;
+mod reference;
+mod report;
+mod rows;
+mod rve;
+mod score;
+mod simd;
+mod spheres;
+mod summary;
+mod threads;
+mod tracks;
+mod train;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Version, and the commit that this program was built from.
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (commit ", env!("MSDD_COMMIT"), ")");
+
+const AFTER_HELP: &str = "\
+From a database to results:
+  msdd database generate --plan cases/database/quick.toml --out results/quick.msdd
+  msdd train --database results/quick.msdd --out results/model.json
+then name the model in a case's constant/granularProperties, run msddFoam, and
+  msdd summary --cases cases --out results/summary.json --plot results/temperature.svg";
+
+/// Multiscale data-driven simulation of heat conduction with thermal expansion in granular media: everything but the solver
+#[derive(Parser)]
+#[command(name = "msdd", version = VERSION, after_help = AFTER_HELP, arg_required_else_help = true)]
+struct Program {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Make a new case for the solver, or check one before it runs.
+    #[command(subcommand)]
+    Case(case::Command),
+    /// Generate and export databases of packed and expanded RVEs.
+    #[command(subcommand)]
+    Database(database::Command),
+    /// Pack, expand and average a single RVE.
+    #[command(subcommand)]
+    Rve(rve::Command),
+    /// Simulate a bed of spheres that was measured: pour, heat, compare.
+    #[command(subcommand)]
+    Bed(bed::Command),
+    /// Simulate the whole box of a case by discrete elements: the reference that the solver is compared with.
+    #[command(subcommand)]
+    Reference(reference::Command),
+    /// Measure speed and stability limits; prints JSON.
+    #[command(subcommand)]
+    Bench(bench::Command),
+    /// Train a surrogate model on a database, and print how good it is on packings that the training never saw.
+    Train(train::Arguments),
+    /// Measure the errors of a trained model on packings that were not used in its training: table, JSON, plots.
+    ///
+    /// Errors of thermal strains in one step and in many, and, for a model with a mechanical tangent, errors along the paths
+    /// of strain of periodic boxes, by kind of path and number of grains.
+    Score(score::Arguments),
+    /// Measure how much each input of the paper's network, and each part of the law, contributes, by training without it.
+    ///
+    /// The parts of the law, if the database has periodic boxes, are sliding, the second element, dilatancy, the dependence
+    /// on looseness, and the shear modulus that grows less than in proportion to the pressure. Last, the law is compared with
+    /// a learned form of it: errors along paths, energy of closed cycles of strain, time of an increment.
+    Ablation(ablation::Arguments),
+    /// Write the report on speed and accuracy, a page with figures; runs the simulations that are missing.
+    Report(report::Arguments),
+    /// Compare the solver's results of the six cases with discrete elements: table, JSON and plot.
+    Summary(summary::Arguments),
+}
+
+/// The description of all commands, for the book.
+pub fn command() -> clap::Command {
+    Program::command()
+}
+
+/// Runs the program with the arguments that it was called with.
+pub fn run() -> ExitCode {
+    // When the reader of a pipe, such as head, closes it, the program ends by the signal instead of a panic.
+    sigpipe::reset();
+    let result = match Program::parse().command {
+        Command::Case(command) => case::run(&command),
+        Command::Database(command) => database::run(&command),
+        Command::Rve(command) => rve::run(&command),
+        Command::Bed(command) => bed::run(&command),
+        Command::Reference(command) => reference::run(&command),
+        Command::Bench(command) => bench::run(&command),
+        Command::Train(arguments) => train::run(&arguments),
+        Command::Score(arguments) => score::run(&arguments),
+        Command::Ablation(arguments) => ablation::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
+        Command::Summary(arguments) => summary::run(&arguments),
+    };
+    let mut code = ExitCode::SUCCESS;
+    for error in [result, output::finish()].into_iter().filter_map(Result::err) {
+        note!("msdd: {error}");
+        code = ExitCode::FAILURE;
+    }
+    code
+}
