@@ -2,7 +2,9 @@
 //! this name makes of the argument. Nothing of it is committed: the book, and what checks links, expand the lines.
 
 pub mod commands;
+pub mod header;
 mod markdown;
+pub mod scripts;
 
 use crate::error::{DocsError, Finding, none_found};
 use crate::pages::Page;
@@ -13,7 +15,8 @@ use std::path::Path;
 type Source = fn(&Path, &str) -> Result<String, DocsError>;
 
 /// Every source by its name, in alphabetical order.
-const SOURCES: &[(&str, Source)] = &[("commands", commands::text)];
+const SOURCES: &[(&str, Source)] =
+    &[("commands", commands::text), ("header", header::text), ("scripts", scripts::text)];
 
 const OPEN: &str = "<!-- print:";
 const CLOSE: &str = "-->";

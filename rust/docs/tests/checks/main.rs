@@ -5,6 +5,7 @@ mod fill;
 mod gather;
 mod links;
 mod math;
+mod print;
 mod repository;
 mod verification;
 
