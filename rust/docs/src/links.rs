@@ -4,6 +4,7 @@ use crate::error::{DocsError, Finding, none_found};
 use crate::headings::anchors;
 use crate::pages::{BOOK, Page, SUMMARY};
 use crate::paths;
+use crate::print;
 use pulldown_cmark::{Event, Tag};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
@@ -20,7 +21,7 @@ pub fn check(root: &Path, files: &[PathBuf]) -> Result<(), DocsError> {
     let mut findings = Vec::new();
     let listed = contents(root)?;
     for file in files {
-        let page = Page::printed(root, file)?;
+        let page = print::page(root, file)?;
         let made = paths::made_by_the_reader(&page);
         for (event, range) in page.events() {
             let problem = match &event {
@@ -80,7 +81,7 @@ fn link(
         return Ok(None);
     }
     if !known.contains_key(&target) {
-        known.insert(target.clone(), anchors(&Page::printed(root, &target)?));
+        known.insert(target.clone(), anchors(&print::page(root, &target)?));
     }
     let has = known[&target].contains(anchor);
     Ok((!has).then(|| format!("the link '{address}': {} has no heading '#{anchor}'", target.display())))

@@ -29,14 +29,6 @@ impl Page {
         Ok(Self::new(file, msdd_files::read_text(&root.join(file))?))
     }
 
-    /// The same with what is printed from the code, as in the book.
-    ///
-    /// # Errors
-    /// A file that cannot be read, and markers that cannot be printed.
-    pub fn printed(root: &Path, file: &Path) -> Result<Self, DocsError> {
-        crate::print::expanded(root, &Self::read(root, file)?)
-    }
-
     /// A page of this text.
     pub fn new(file: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         Self { file: file.into(), text: text.into(), printed: Vec::new() }

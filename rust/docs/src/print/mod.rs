@@ -34,6 +34,14 @@ pub fn text(root: &Path, source: &str, argument: &str) -> Result<String, DocsErr
     printer(root, argument)
 }
 
+/// Reads a page as the book has it; `file` is relative to the root.
+///
+/// # Errors
+/// A file that cannot be read, and markers that cannot be printed.
+pub fn page(root: &Path, file: &Path) -> Result<Page, DocsError> {
+    expanded(root, &Page::read(root, file)?)
+}
+
 /// The page with what is printed instead of its markers. Lines of the result count as those of the page.
 ///
 /// # Errors

@@ -3,7 +3,7 @@
 use super::found;
 use super::repository::root;
 use msdd_docs::pages::Page;
-use msdd_docs::print::{expanded, header};
+use msdd_docs::print::{self, expanded, header};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -53,7 +53,7 @@ fn what_cannot_be_printed_is_named_with_page_and_line() {
 #[test]
 fn every_function_and_structure_of_the_header_is_on_its_page() {
     let text = fs::read_to_string(root().join(header::FILE)).unwrap();
-    let page = Page::printed(&root(), Path::new("docs/src/reference/c-interface.md")).unwrap().text;
+    let page = print::page(&root(), Path::new("docs/src/reference/c-interface.md")).unwrap().text;
     let declared =
         text.lines().filter(|line| !line.starts_with([' ', '/', '#'])).flat_map(|line| words(line, "msdd_"));
     let missing: Vec<&str> = declared.filter(|name| !page.contains(&format!("\n### {name}\n"))).collect();
@@ -118,9 +118,9 @@ fn words<'a>(text: &'a str, begin: &str) -> Vec<&'a str> {
     words.filter(|word| !word.is_empty() && word.starts_with(begin)).collect()
 }
 
-/// Paths and texts of the files below a folder, but for what is built or written by runs, and this crate's tests.
+/// Paths and texts of the files below a folder, but for what is built or written by runs, and this crate.
 fn sources(folder: &Path) -> Vec<(String, String)> {
-    const OTHERS: [&str; 6] = ["target", "lnInclude", "platforms", "results", "postProcessing", "checks"];
+    const OTHERS: [&str; 6] = ["target", "lnInclude", "platforms", "results", "postProcessing", "docs"];
     let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
     if folder.is_dir() {
         let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());

@@ -1,8 +1,7 @@
 //! README, book and READMEs of this checkout.
 
 use super::found;
-use msdd_docs::pages::Page;
-use msdd_docs::{commands, fill, links, math, pages};
+use msdd_docs::{commands, fill, links, math, pages, print};
 use std::path::{Path, PathBuf};
 
 pub fn root() -> PathBuf {
@@ -19,7 +18,7 @@ fn every_number_is_the_one_in_the_results() {
 fn every_equation_parses_and_of_every_block_of_commands_it_is_said_whether_it_is_run() {
     let mut wrong = Vec::new();
     for file in pages::all(&root()).unwrap().into_iter().filter(|file| file.starts_with(pages::BOOK)) {
-        let page = Page::printed(&root(), &file).unwrap();
+        let page = print::page(&root(), &file).unwrap();
         wrong.extend(found(math::with_mathml(&page)));
         wrong.extend(found(commands::script(&page, true)));
     }
