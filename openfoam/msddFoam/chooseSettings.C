@@ -15,7 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "chooseSettings.H"
-#include "granularProperties.H"
+#include "timeScheme.H"
 
 #include <unistd.h>
 
@@ -46,8 +46,7 @@ static dictionary ownSettings(const Time& runTime)
 Foam::scalar Foam::accuracyWanted(const Time& runTime)
 {
     const dictionary own(ownSettings(runTime));
-    const scalar accuracy =
-        granularProperties::ranged(own, "accuracy", 0, 0, 100);
+    const scalar accuracy = timeScheme::keys.number(own, "accuracy");
     if (accuracy > 0 && Pstream::parRun())
     {
         FatalIOErrorInFunction(own)

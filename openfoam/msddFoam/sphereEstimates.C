@@ -17,6 +17,7 @@ License
 #include "sphereEstimates.H"
 #include "briefNumber.H"
 #include "pascals.H"
+#include "spheresModel.H"
 #include "constants.H"
 
 #include <cmath>
@@ -30,9 +31,6 @@ namespace Foam
 
 //- Share of the conductivity from which on radiation is told
 static const scalar muchRadiation = 0.05;
-
-//- Emissivity of a case that gives none
-static const scalar usualEmissivity = 0.9;
 
 //- Force that one contact in a hundred exceeds, over the mean: log(200)/1.5
 static const scalar largeForce = 3.5;
@@ -100,7 +98,7 @@ Foam::string Foam::sphereEstimates::radiation(const scalar temperature) const
     const scalar black =
         4*physicoChemical::sigma.value()*pow3(temperature)*diameter_;
     const scalar emissivity =
-        coeffs_.getOrDefault<scalar>("emissivity", usualEmissivity);
+        granularModels::spheres::keys.number(coeffs_, "emissivity");
     const scalar k =
         properties_.conductivityFunction().value(temperature)
        /max(black, VSMALL);

@@ -126,16 +126,6 @@ void Foam::functionObjects::granularFunctionObject::refresh()
 }
 
 
-void Foam::functionObjects::granularFunctionObject::explain
-(
-    Ostream& os,
-    const char* text
-)
-{
-    os  << setw(1) << "#" << ' ' << text << nl;
-}
-
-
 Foam::Ostream& Foam::functionObjects::granularFunctionObject::line()
 {
     if (!writtenHeader_)

@@ -29,6 +29,52 @@ namespace functionObjects
 }
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static const keyTable heatAuditKeys
+(
+    "heatAudit",
+    {
+        {
+            "tolerance",
+            "largest relative_difference; above it the run ends with an error",
+            "-", "any number", "none"
+        }
+    }
+);
+
+static const keyTable heatAuditColumns
+(
+    "columns of heatAudit",
+    {
+        {
+            "stored",
+            "heat that the grains have stored since the start: bulk density"
+            " times volume times the integral of c over T", "J"
+        },
+        {"patches", "heat received through all patches", "J"},
+        {
+            "sources", "heat received from sources and constraints of fvOptions",
+            "J"
+        },
+        {
+            "exchanged",
+            "sum of the absolute amounts over patches, sources and steps", "J"
+        },
+        {
+            "relative_difference",
+            "|stored - patches - sources| over exchanged, the error of the"
+            " linear solver", "-"
+        }
+    }
+);
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::functionObjects::heatAudit::heatAudit
@@ -39,7 +85,7 @@ Foam::functionObjects::heatAudit::heatAudit
 )
 :
     granularFunctionObject(name, typeName, runTime, dict),
-    tolerance_(dict.lookupOrDefault<scalar>("tolerance", VGREAT)),
+    tolerance_(heatAuditKeys.number(dict, "tolerance", VGREAT)),
     difference_(0)
 {
     begin(dict);
@@ -50,19 +96,12 @@ Foam::functionObjects::heatAudit::heatAudit
 
 void Foam::functionObjects::heatAudit::writeHeader(Ostream& os) const
 {
-    explain(os, "Heat since the start of the run [J], into the grains positive");
-    explain
-    (
-        os,
-        "relative_difference: |stored - patches - sources| over exchanged, the"
-        " sum of the absolute amounts of all steps"
-    );
+    heatAuditColumns.explain(os);
     writeCommented(os, "Time");
-    writeTabbed(os, "stored");
-    writeTabbed(os, "patches");
-    writeTabbed(os, "sources");
-    writeTabbed(os, "exchanged");
-    writeTabbed(os, "relative_difference");
+    for (const keyTable::entry& column : heatAuditColumns.entries())
+    {
+        writeTabbed(os, column.name);
+    }
 }
 
 

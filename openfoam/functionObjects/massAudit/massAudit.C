@@ -35,6 +35,33 @@ namespace functionObjects
 static const Foam::scalar muchMass = 1e-6;
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static const keyTable massAuditColumns
+(
+    "columns of massAudit",
+    {
+        {"mass", "mass of the grains in the domain", "kg"},
+        {"relative_change", "its change since the start", "-"},
+        {
+            "density_mismatch",
+            "largest relative difference of particleDensity*(1 - porosity) and"
+            " bulkDensity over the cells (with areaRatio where cells move)", "-"
+        },
+        {
+            "density_ratio",
+            "mean of particleDensity over the density of the grains at their"
+            " temperature, above 1 because porosity counts overlaps once", "-"
+        }
+    }
+);
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::functionObjects::massAudit::massAudit
@@ -55,29 +82,12 @@ Foam::functionObjects::massAudit::massAudit
 
 void Foam::functionObjects::massAudit::writeHeader(Ostream& os) const
 {
-    explain
-    (
-        os,
-        "mass of the grains [kg]; relative_change: since the start, 0 if none is"
-        " lost"
-    );
-    explain
-    (
-        os,
-        "density_mismatch: largest relative difference of particleDensity*(1 -"
-        " porosity) and bulkDensity over the cells, 0 if they agree"
-    );
-    explain
-    (
-        os,
-        "density_ratio: mean of particleDensity over the density of the grains,"
-        " above 1 because porosity counts overlaps once"
-    );
+    massAuditColumns.explain(os);
     writeCommented(os, "Time");
-    writeTabbed(os, "mass");
-    writeTabbed(os, "relative_change");
-    writeTabbed(os, "density_mismatch");
-    writeTabbed(os, "density_ratio");
+    for (const keyTable::entry& column : massAuditColumns.entries())
+    {
+        writeTabbed(os, column.name);
+    }
 }
 
 

@@ -18,6 +18,7 @@ License
 #include "fvMatrices.H"
 #include "fvOptions.H"
 #include "mappedPatchBase.H"
+#include "keyTable.H"
 #include "runRecord.H"
 #include "addToRunTimeSelectionTable.H"
 
@@ -37,6 +38,48 @@ namespace functionObjects
 
 namespace Foam
 {
+
+static const keyTable regionHeatKeys
+(
+    "regionHeat",
+    {
+        {
+            "tolerance",
+            "largest relative_difference; above it the run ends with an error",
+            "-", "any number", "none"
+        }
+    }
+);
+
+static const keyTable regionHeatColumns
+(
+    "columns of regionHeat",
+    {
+        {
+            "<region>_stored",
+            "heat that a region has stored since the start: density times"
+            " change of enthalpy times volume", "J"
+        },
+        {"patches", "heat received through outer patches", "J"},
+        {"fluids", "heat received through walls to fluid regions", "J"},
+        {"sources", "heat received from fvOptions", "J"},
+        {
+            "interfaces",
+            "heat received through walls to other solid regions, sum over both"
+            " sides: 0 if the regions agree", "J"
+        },
+        {
+            "exchanged",
+            "sum of the absolute amounts over patches, fluids, sources and"
+            " steps", "J"
+        },
+        {
+            "relative_difference",
+            "|stored - patches - fluids - sources| over exchanged", "-"
+        }
+    }
+);
+
 
 //- What lets the heat that leaves one region enter the next
 static const char* const remedy =
@@ -76,7 +119,7 @@ Foam::functionObjects::regionHeat::regionHeat
 :
     stateFunctionObject(name, runTime),
     writeFile(runTime, name, typeName),
-    tolerance_(dict.lookupOrDefault<scalar>("tolerance", GREAT)),
+    tolerance_(regionHeatKeys.number(dict, "tolerance", GREAT)),
     patches_(0),
     fluids_(0),
     sources_(0),
@@ -272,32 +315,19 @@ void Foam::functionObjects::regionHeat::resume()
 
 void Foam::functionObjects::regionHeat::writeHeader(Ostream& os) const
 {
-    for
-    (
-        const char* text :
-        {
-            "Heat since the start of the run [J], into the solid regions"
-            " positive",
-            "<region>_stored: held by a region; interfaces: sum over both sides"
-            " of the walls between solid regions, 0 if these agree",
-            "relative_difference: |stored - patches - fluids - sources| over"
-            " exchanged, the sum of the absolute amounts of all steps"
-        }
-    )
-    {
-        os  << setw(1) << "#" << ' ' << text << nl;
-    }
+    regionHeatColumns.explain(os);
     writeCommented(os, "Time");
     for (const word& region : regions())
     {
         writeTabbed(os, region + "_stored");
     }
-    writeTabbed(os, "patches");
-    writeTabbed(os, "fluids");
-    writeTabbed(os, "sources");
-    writeTabbed(os, "interfaces");
-    writeTabbed(os, "exchanged");
-    writeTabbed(os, "relative_difference");
+    for (const keyTable::entry& column : regionHeatColumns.entries())
+    {
+        if (column.name[0] != '<')
+        {
+            writeTabbed(os, column.name);
+        }
+    }
 }
 
 

@@ -29,6 +29,39 @@ namespace functionObjects
 }
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static const keyTable spaceProbesKeys
+(
+    "spaceProbes",
+    {
+        {"field", "the scalar field", "-", "a scalar field", "required"},
+        {
+            "probeLocations",
+            "the points; one outside of the domain gets the largest number that"
+            " can be written", "m", "a list of points", "required"
+        }
+    }
+);
+
+static const keyTable spaceProbesColumns
+(
+    "columns of spaceProbes",
+    {
+        {
+            "<field><number>",
+            "value at each point, which is fixed in space while the grains move",
+            "of the field; stresses compression positive"
+        }
+    }
+);
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::functionObjects::spaceProbes::spaceProbes
@@ -39,8 +72,8 @@ Foam::functionObjects::spaceProbes::spaceProbes
 )
 :
     granularFunctionObject(name, typeName, runTime, dict),
-    field_(dict.get<word>("field")),
-    points_(dict.get<pointField>("probeLocations"))
+    field_(spaceProbesKeys.value<word>(dict, "field")),
+    points_(spaceProbesKeys.value<pointField>(dict, "probeLocations"))
 {
     begin(dict);
 }
@@ -50,12 +83,7 @@ Foam::functionObjects::spaceProbes::spaceProbes
 
 void Foam::functionObjects::spaceProbes::writeHeader(Ostream& os) const
 {
-    explain
-    (
-        os,
-        "Values at points that are fixed in space [m], while the grains move; T"
-        " in K, stresses in Pa, compression positive"
-    );
+    spaceProbesColumns.explain(os);
     forAll(points_, i)
     {
         writeHeaderValue(os, "Probe " + Foam::name(i), points_[i]);

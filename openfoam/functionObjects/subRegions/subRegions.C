@@ -29,6 +29,42 @@ namespace functionObjects
 }
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static const keyTable subRegionsKeys
+(
+    "subRegions",
+    {
+        {
+            "windows", "number of windows along x and along y", "-",
+            "two numbers above 0", "(10 3)"
+        }
+    }
+);
+
+static const keyTable subRegionsColumns
+(
+    "columns of subRegions",
+    {
+        {"x_window", "number of the window along x, from 0", "-"},
+        {"y_window", "the same along y", "-"},
+        {"T", "temperature", "K"},
+        {"porosity", "porosity", "-"},
+        {"fabricIndex", "fabric index", "-"},
+        {"conductivity_xx", "conductivity", "W/(m K)"},
+        {"conductivity_yy", "conductivity", "W/(m K)"},
+        {"stress_xx", "stress, compression positive", "Pa"},
+        {"stress_yy", "the same", "Pa"},
+        {"pressure", "pressure, compression positive", "Pa"}
+    }
+);
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::functionObjects::subRegions::subRegions
@@ -39,14 +75,14 @@ Foam::functionObjects::subRegions::subRegions
 )
 :
     granularFunctionObject(name, typeName, runTime, dict),
-    windows_(dict.lookupOrDefault("windows", FixedList<label, 2>({10, 3}))),
+    windows_(subRegionsKeys.value<FixedList<label, 2>>(dict, "windows")),
     windowOf_(mesh_.nCells())
 {
     if (min(windows_[0], windows_[1]) < 1)
     {
         FatalIOErrorInFunction(dict)
-            << "Entry 'windows' is " << windows_ << ", allowed: two numbers"
-            << " above 0" << exit(FatalIOError);
+            << "Entry 'windows' is " << windows_ << ", allowed: "
+            << subRegionsKeys.allowed("windows") << exit(FatalIOError);
     }
 
     const boundBox box(mesh_.bounds());
@@ -67,25 +103,11 @@ Foam::functionObjects::subRegions::subRegions
 
 void Foam::functionObjects::subRegions::writeHeader(Ostream& os) const
 {
-    explain
-    (
-        os,
-        "Means over the volume of a window, numbered from 0 along x and y: T"
-        " [K], conductivity [W/(m K)], stress and pressure [Pa], compression"
-        " positive"
-    );
+    subRegionsColumns.explain(os);
     writeCommented(os, "Time");
-    for
-    (
-        const char* column :
-        {
-            "x_window", "y_window", "T", "porosity", "fabricIndex",
-            "conductivity_xx", "conductivity_yy", "stress_xx", "stress_yy",
-            "pressure"
-        }
-    )
+    for (const keyTable::entry& column : subRegionsColumns.entries())
     {
-        writeTabbed(os, column);
+        writeTabbed(os, column.name);
     }
 }
 

@@ -29,6 +29,36 @@ namespace functionObjects
 }
 
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static const keyTable wallPressureColumns
+(
+    "columns of wallPressure",
+    {
+        {
+            "domain",
+            "pressure, mean over the volume of the bed (Eq. 11 of the paper,"
+            " which calls it wall pressure); compression positive", "Pa"
+        },
+        {
+            "<patch>_pressure",
+            "pressure in the cells at the patch, mean over its area; pressure is"
+            " the mean of xx and yy (discs) or of xx, yy and zz (spheres)", "Pa"
+        },
+        {
+            "<patch>_normal",
+            "stress across the patch, n.stress.n with its normal n, in the same"
+            " cells", "Pa"
+        }
+    }
+);
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::functionObjects::wallPressure::wallPressure
@@ -55,21 +85,7 @@ Foam::functionObjects::wallPressure::wallPressure
 
 void Foam::functionObjects::wallPressure::writeHeader(Ostream& os) const
 {
-    explain(os, "All stresses in Pa, compression positive");
-    explain(os, "domain: pressure, mean over the volume of the bed");
-    explain
-    (
-        os,
-        "<patch>_pressure: pressure in the cells at the patch, mean over its"
-        " area; pressure is the mean of xx and yy (discs) or of xx, yy and zz"
-        " (spheres)"
-    );
-    explain
-    (
-        os,
-        "<patch>_normal: stress across the patch, n.stress.n with its normal n,"
-        " in the same cells"
-    );
+    wallPressureColumns.explain(os);
     writeCommented(os, "Time");
     writeTabbed(os, "domain");
     for (const label patchi : walls_)

@@ -26,7 +26,30 @@ namespace granularModels
     defineTypeNameAndDebug(constant, 0);
     addToRunTimeSelectionTable(granularModel, constant, dictionary);
 }
-}
+
+static const keyTable constantKeys
+(
+    "constantCoeffs",
+    {
+        {
+            "conductivity",
+            "conductivity tensor `(xx xy xz yy yz zz)`, with xz and yz 0",
+            "W/(m K)", "positive definite", "from `model`"
+        },
+        {
+            "stress", "stress tensor, tension positive", "Pa", "any",
+            "from `model`"
+        },
+        {
+            "model",
+            "model of discs for what is not given, and for the bulk density",
+            "-", "as in `networkCoeffs`", "builtin"
+        },
+        {"hash", "as in `networkCoeffs`", "-", "the hash of the file", "any"}
+    }
+);
+
+} // End namespace Foam
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -52,14 +75,7 @@ Foam::granularModels::constant::constant
 {
     stateNames_.resize(2);
     columnNames_.resize(2);
-    if (&coeffs_ != &properties.surrogateDict())
-    {
-        granularProperties::checkKeys
-        (
-            coeffs_,
-            {"model", "hash", "conductivity", "stress"}
-        );
-    }
+    checkCoeffs(constantKeys);
     const bool plane = mesh.solutionD()[vector::Z] == -1;
     if (coeffs_.readIfPresent("conductivity", conductivity_) || !plane)
     {

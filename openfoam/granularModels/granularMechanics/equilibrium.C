@@ -37,11 +37,57 @@ namespace granularMechanicsModels
 namespace Foam
 {
 
-//- By how much more discs overlap with a wall than the bed that would be there is
-//- shortened, in mean radii for a normal stress of E r/l. At the walls of 96
-//- packings the mean overlap is 2.5 (a disc touches every 2.4 radii), and a bed
-//- as deep as a radius is shortened by 1.1
-static const scalar usualCompliance = 1.4;
+// The wallCompliance of discs: at the walls of 96 packings the mean overlap is
+// 2.5 (a disc touches every 2.4 radii), and a bed as deep as a radius is
+// shortened by 1.1
+const keyTable stressLaw::equilibriumKeys
+(
+    "equilibriumCoeffs",
+    {
+        {
+            "law",
+            "constitutive law of the stress. `grains`: the surrogate model."
+            " `elastic`: an isotropic elastic solid that expands with T, on any"
+            " mesh, only with surrogate type `constant` and its `conductivity`",
+            "-", "grains, elastic", "grains"
+        },
+        {"elasticCoeffs", "keys of `law elastic`", "-", "a dictionary", "none"},
+        {
+            "residual",
+            "change of stress across a cell that may stay out of balance; the"
+            " next step takes it over. S is E r/l (l = 1 m); of spheres"
+            " E* (p/E*)^(1/3)/2 with the mean pressure p at the start; with"
+            " `law elastic` the shear modulus over 0.3", "Pa",
+            "2e-14 S to 2e4 S",
+            "1e-4 S; of spheres 1e-3 of the present mean pressure; with"
+            " `law elastic` 1e-9 S"
+        },
+        {
+            "maxIterations", "iterations of Newton's method for one solution",
+            "-", "1 to 1000", "30"
+        },
+        {
+            "maxResidual",
+            "a step has failed if its residual is above this after"
+            " `maxIterations`. An adaptive step is then repeated with half its"
+            " size, the load of a fixed one is applied in 2, 4 or 8 parts; else"
+            " the run ends", "Pa", "`residual` to 2e7 S", "20 `residual`"
+        },
+        {
+            "walls", "boundary condition of each wall", "-", "a dictionary",
+            "every wall `rigid`"
+        },
+        {
+            "wallCompliance",
+            "by how much more discs overlap with a `rigid` or `frictionless`"
+            " wall than the bed that would be there is shortened, for a normal"
+            " stress of E r/l ([computation](../theory/equilibrium.md#walls))."
+            " Walls with `give` have none", "mean radii",
+            "0 to 1000; of spheres and with `law elastic` 0",
+            "1.4; of spheres and with `law elastic` 0"
+        }
+    }
+);
 
 //- Mean stress at the start over the weight per area below which there is a
 //- warning. At rest it is about a half; in silos a hundred times as high as wide,
@@ -66,7 +112,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     tolerance_(0),
     maxIterations_
     (
-        label(granularProperties::ranged(dict_, "maxIterations", 30, 1, 1000))
+        label(stressLaw::equilibriumKeys.number(dict_, "maxIterations"))
     ),
     maxResidual_(0),
     walls_
@@ -148,15 +194,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     largest_(0),
     everMoved_(false)
 {
-    granularProperties::checkKeys
-    (
-        dict_,
-        {
-            "residual", "maxIterations", "maxResidual", "walls",
-            "wallCompliance", "law", "elasticCoeffs"
-        }
-    );
-
+    stressLaw::equilibriumKeys.check(dict_);
     if (law_->elastic() && walls_.gives())
     {
         FatalIOErrorInFunction(dict_)
@@ -244,10 +282,10 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::springs
 ) const
 {
     const bool discs = !law_->elastic() && !grains_.model().spatial();
-    const scalar compliance = granularProperties::ranged
-    (
-        dict_, "wallCompliance", discs ? usualCompliance : 0, 0, discs ? 1000 : 0
-    );
+    const keyTable& keys = stressLaw::equilibriumKeys;
+    const word key("wallCompliance");
+    const scalar compliance =
+        discs ? keys.number(dict_, key) : keys.number(dict_, key, 0, 0);
     return
         compliance > 0
       ? law_->scale()/(compliance*properties.meanRadius().value())
@@ -258,18 +296,16 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::springs
 void Foam::granularMechanicsModels::equilibrium::setResidual()
 {
     const scalar scale = law_->scale();
-    tolerance_ = granularProperties::ranged
-    (
-        dict_, "residual", law_->residual(), 2e-14*scale, 2e4*scale
-    );
+    const keyTable& keys = stressLaw::equilibriumKeys;
+    tolerance_ = keys.number(dict_, "residual", law_->residual(), scale);
     if (!dict_.found("residual"))
     {
         tolerance_ =
             min(tolerance_, dict_.getOrDefault<scalar>("maxResidual", GREAT));
     }
-    maxResidual_ = granularProperties::ranged
+    maxResidual_ = keys.number
     (
-        dict_, "maxResidual", 20*tolerance_, tolerance_, 2e7*scale
+        dict_, "maxResidual", 20*tolerance_, scale, tolerance_
     );
     walls_.setPressing(law_->pressure());
 }

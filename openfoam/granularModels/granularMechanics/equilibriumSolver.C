@@ -33,6 +33,45 @@ namespace Foam
 static const label smallPlane = 10000;
 static const label smallSolid = 3000;
 
+static const keyTable solverKeys
+(
+    "solvers.equilibrium",
+    {
+        {
+            "solver",
+            "method for matrices that are not symmetric; symmetric ones (all"
+            " with `law elastic`) are solved by conjugate gradients."
+            " `PBiCGStab` needs less memory", "-", "GMRES, PBiCGStab", "GMRES"
+        },
+        {
+            "preconditioner",
+            "`Cholesky`: the factorised matrix of a uniform medium, fastest on"
+            " small meshes; on several processes two runs may differ in their"
+            " last digits. `AMG`: algebraic multigrid that uses the rigid"
+            " motions. `componentAMG`: multigrid for each component of the"
+            " displacement; in space it needs a third of the memory, but many"
+            " more iterations for slender bodies", "-",
+            "AMG, componentAMG, Cholesky",
+            "`Cholesky` on one process up to 10 000 nodes (3 000 in space),"
+            " else `AMG` (in space `componentAMG`)"
+        },
+        {
+            "relTol",
+            "residual of the linear equations of a Newton iteration, relative"
+            " to the imbalance", "-", "1e-14 to 0.9",
+            "0.3; with `law elastic` 1e-6"
+        },
+        {
+            "maxIter", "iterations for that", "-", "1 to 100000",
+            "30; with `law elastic` 1000"
+        },
+        {
+            "petsc", "options of PETSc, without the dash", "-",
+            "a dictionary", "empty"
+        }
+    }
+);
+
 //- Start PETSc, once in a process
 static void startPetsc()
 {
@@ -146,50 +185,24 @@ Foam::equilibriumSolver::equilibriumSolver
       ? solvers.subDict("equilibrium")
       : dictionary()
     );
-    granularProperties::checkKeys
-    (
-        controls, {"solver", "preconditioner", "relTol", "maxIter", "petsc"}
-    );
-    const auto chosen = [&]
-    (
-        const word& key,
-        const word& usual,
-        const wordList& allowed
-    )
-    {
-        const word value(controls.getOrDefault<word>(key, usual));
-        if (!allowed.found(value))
-        {
-            FatalIOErrorInFunction(controls)
-                << "Entry '" << key << "' of solvers.equilibrium is " << value
-                << ", allowed: " << granularProperties::listed(allowed).c_str()
-                << exit(FatalIOError);
-        }
-        return value;
-    };
-    solver_ = chosen("solver", "GMRES", {"GMRES", "PBiCGStab"});
+    solverKeys.check(controls);
+    solver_ = solverKeys.choice(controls, "solver");
     const word preconditioner
     (
-        chosen
+        solverKeys.choice
         (
+            controls,
             "preconditioner",
             !Pstream::parRun()
          && mesh.size() < (mesh.dim() == 2 ? smallPlane : smallSolid)
           ? "Cholesky"
-          : mesh.dim() == 3 ? "componentAMG" : "AMG",
-            {"AMG", "componentAMG", "Cholesky"}
+          : mesh.dim() == 3 ? "componentAMG" : "AMG"
         )
     );
-    relTol_ = granularProperties::ranged
-    (
-        controls, "relTol", law.elastic() ? 1e-6 : 0.3, 1e-14, 0.9
-    );
+    relTol_ = solverKeys.number(controls, "relTol", law.elastic() ? 1e-6 : 0.3);
     maxIter_ = label
     (
-        granularProperties::ranged
-        (
-            controls, "maxIter", law.elastic() ? 1000 : 30, 1, 100000
-        )
+        solverKeys.number(controls, "maxIter", law.elastic() ? 1000 : 30)
     );
 
     forAll(walls.held(), i)

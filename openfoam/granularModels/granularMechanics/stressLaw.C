@@ -64,6 +64,21 @@ static const scalar reduction = 0.8;
 static const scalar cautiousPivot = 0.8;
 static const scalar cautiousShear = 0.35;
 
+static const keyTable elasticKeys
+(
+    "elasticCoeffs",
+    {
+        {
+            "youngModulus", "Young's modulus of the solid", "Pa",
+            "1e-15 to 1e15", "required"
+        },
+        {
+            "poissonRatio", "its Poisson's ratio", "-", "-0.99 to 0.49999",
+            "required"
+        }
+    }
+);
+
 //- Whether all pivots of the Cholesky factorisation of a symmetric matrix exceed
 //- this share of their diagonal
 template<label N>
@@ -103,7 +118,7 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
     const elementMesh& mesh
 )
 {
-    const word name(dict.lookupOrDefault<word>("law", "grains"));
+    const word name(equilibriumKeys.choice(dict, "law"));
     if (name == "elastic")
     {
         const dictionary& surrogate = properties.surrogateDict();
@@ -124,12 +139,6 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
         (
             new elasticLaw(dict.subDict("elasticCoeffs"), grains, mesh)
         );
-    }
-    if (name != "grains")
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry 'law' is " << name << ", allowed: grains, elastic"
-            << exit(FatalIOError);
     }
     if (grains.model().spatial())
     {
@@ -283,17 +292,9 @@ Foam::elasticLaw::elasticLaw
     mesh_(mesh),
     own_(mesh.dim()*mesh.dim() + (mesh.radial() >= 0))
 {
-    granularProperties::checkKeys(dict, {"youngModulus", "poissonRatio"});
-    const scalar E =
-        granularProperties::ranged
-        (
-            dict, "youngModulus", dict.get<scalar>("youngModulus"), SMALL, GREAT
-        );
-    const scalar nu =
-        granularProperties::ranged
-        (
-            dict, "poissonRatio", dict.get<scalar>("poissonRatio"), -0.99, 0.49999
-        );
+    elasticKeys.check(dict);
+    const scalar E = elasticKeys.number(dict, "youngModulus");
+    const scalar nu = elasticKeys.number(dict, "poissonRatio");
     lambda_ = E*nu/((1 + nu)*(1 - 2*nu));
     shear_ = 0.5*E/(1 + nu);
     if (mesh.plane())

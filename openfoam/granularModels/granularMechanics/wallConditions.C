@@ -33,9 +33,6 @@ License
 namespace Foam
 {
 
-//- Width of the layer beside a wall, in mean radii
-static const scalar usualLayer = 13;
-
 //- Largest deviator over pressure of grains far from walls
 static const scalar usualRatio = 0.3;
 
@@ -59,6 +56,101 @@ Foam::wallConditions::kindNames
     { kind::piston, "piston" },
     { kind::shell, "shell" }
 });
+
+const Foam::keyTable Foam::wallConditions::keys
+(
+    "walls",
+    {
+        {
+            "type", "kind of wall, see the next table", "-",
+            "rigid, frictionless, symmetry, displacement, pressure, piston,"
+            " shell", "rigid"
+        },
+        {
+            "friction",
+            "friction of the bed along the wall (tangential over normal stress)"
+            " after a large slip; after a slip s it is friction s/(s + `slip`)."
+            " Spheres also roll along a wall: see [rough"
+            " walls](../quality/spheres.md#rough-walls)", "-", "0 to 10",
+            "of discs that of the model; of spheres and with `law elastic` 0",
+            "rigid"
+        },
+        {
+            "slip", "slip at which half of `friction` is reached", "m",
+            "2e-7 r to 2000 r",
+            "of discs that of the model; else required with `friction`", "rigid"
+        },
+        {
+            "layer",
+            "width of the layer along a wall with friction whose grains are"
+            " stronger", "m", "0 to 1e6 r", "13 r", "rigid"
+        },
+        {
+            "layerStrength",
+            "factor of the deviator at which grains in this layer slide past"
+            " each other, because a shear band finds little space there. Not"
+            " used with the initial field `strength`", "-", "0.1 to 3",
+            "of discs `friction`/0.3, from 1 to 3; of spheres 1", "rigid"
+        },
+        {
+            "displacement",
+            "motion of the wall (type `displacement`: of the grains there), a"
+            " vector as function of time: `constant (0.01 0 0)`, `table (...)`,"
+            " `sine` ...", "m", "a Function1",
+            "no motion; required for `displacement`",
+            "rigid or frictionless or displacement"
+        },
+        {
+            "pressure",
+            "pressure from outside (`piston`: load over area) as function of"
+            " time", "Pa", "a Function1", "required", "pressure or piston"
+        },
+        {
+            "displacementCoeffs", "parameters of a Function1", "-",
+            "a dictionary", "none", "rigid or frictionless or displacement"
+        },
+        {
+            "pressureCoeffs", "the same for `pressure`", "-", "a dictionary",
+            "none", "pressure or piston"
+        },
+        {
+            "give",
+            "additional depth of bed by which the grains at a smooth wall"
+            " slip, see [below](#grains-that-give-way-at-a-wall)",
+            "mean diameters", "0 to 1000", "0", "rigid or frictionless"
+        },
+        {
+            "giveBack",
+            "share of it that is recovered where the bed extends (the mean of"
+            " beds of spheres between plates, which differ much)", "-",
+            "0 to 1", "0.1", "rigid or frictionless"
+        },
+        {
+            "youngModulus", "Young's modulus E_w of the wall", "Pa",
+            "1e-15 to 1e15", "required", "shell"
+        },
+        {
+            "thickness", "thickness t of the wall", "m", "1e-15 to 1e15",
+            "required", "shell"
+        },
+        {
+            "radius",
+            "radius R of the wall; a warning says if the mesh has another one"
+            " by a quarter or more, or is flat", "m", "1e-15 to 1e15",
+            "required", "shell"
+        },
+        {
+            "thermalExpansion",
+            "linear thermal expansion coefficient of the wall", "1/K",
+            "0 to 0.01", "0", "shell"
+        },
+        {
+            "temperature",
+            "temperature of the wall at which it has its initial place", "K",
+            "any", "required with `thermalExpansion` above 0", "shell"
+        }
+    }
+);
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -149,9 +241,8 @@ void Foam::wallConditions::checkNames(const dictionary& dict) const
     {
         FatalIOErrorInFunction(dict)
             << "No rule in 'walls' of equilibriumCoeffs for the patches "
-            << granularProperties::listed(missing).c_str() << ", allowed"
-            << " types: rigid, frictionless, symmetry, displacement, pressure,"
-            << " piston, shell"
+            << granularProperties::listed(missing).c_str()
+            << ", allowed types: " << keys.allowed("type")
             << exit(FatalIOError);
     }
 }
@@ -194,16 +285,7 @@ void Foam::wallConditions::read
     }
 
     const dictionary dict(walls.subOrEmptyDict(patch.name()));
-    granularProperties::checkKeys
-    (
-        dict,
-        {
-            "type", "friction", "slip", "layer", "layerStrength",
-            "displacement", "pressure", "displacementCoeffs", "pressureCoeffs",
-            "give", "giveBack", "youngModulus", "thickness", "radius",
-            "thermalExpansion", "temperature"
-        }
-    );
+    keys.check(dict);
     w.type = kindNames.getOrDefault("type", dict, kind::rigid);
     checkKeysOfType(dict, patch.name(), w.type);
 
@@ -212,8 +294,7 @@ void Foam::wallConditions::read
         scalar limit = 0, slip = radius_;
         const bool known =
             elastic_ ? !dict.found("friction") : model.wallFriction(limit, slip);
-        w.friction =
-            granularProperties::ranged(dict, "friction", limit, 0, 10);
+        w.friction = keys.number(dict, "friction", limit);
         if (!known && !(dict.found("friction") && dict.found("slip")))
         {
             FatalIOErrorInFunction(walls)
@@ -221,21 +302,14 @@ void Foam::wallConditions::read
                 << " 'slip': the model has no friction at walls"
                 << exit(FatalIOError);
         }
-        w.slip = granularProperties::ranged
-        (
-            dict, "slip", slip, 2e-7*radius_, 2000*radius_
-        );
-        w.layer = granularProperties::ranged
-        (
-            dict, "layer", usualLayer*radius_, 0, 1e6*radius_
-        );
-        w.layerStrength = granularProperties::ranged
+        w.slip = keys.number(dict, "slip", slip, radius_);
+        w.layer =
+            keys.number(dict, "layer", keys.usual("layer")*radius_, radius_);
+        w.layerStrength = keys.number
         (
             dict,
             "layerStrength",
-            known ? max(scalar(1), min(scalar(3), w.friction/usualRatio)) : 1,
-            0.1,
-            3
+            known ? max(scalar(1), min(scalar(3), w.friction/usualRatio)) : 1
         );
     }
     if (w.type == kind::shell)
@@ -261,40 +335,20 @@ void Foam::wallConditions::checkKeysOfType
     const kind type
 ) const
 {
-    struct rule { wordList keys; List<kind> types; };
-    const List<rule> rules
-    ({
-        {{"friction", "slip", "layer", "layerStrength"}, {kind::rigid}},
-        {{"give", "giveBack"}, {kind::rigid, kind::frictionless}},
-        {
-            {"displacement", "displacementCoeffs"},
-            {kind::rigid, kind::frictionless, kind::displacement}
-        },
-        {{"pressure", "pressureCoeffs"}, {kind::pressure, kind::piston}},
-        {
-            {
-                "youngModulus", "thickness", "radius", "thermalExpansion",
-                "temperature"
-            },
-            {kind::shell}
-        }
-    });
-    for (const rule& each : rules)
+    for (const keyTable::entry& each : keys.entries())
     {
-        string types;
-        for (const kind one : each.types)
+        const string types(each.of);
+        const bool fits =
+            types.empty()
+         || (' ' + types + ' ').find(' ' + kindNames[type] + ' ')
+         != std::string::npos;
+        if (!fits && dict.found(each.name))
         {
-            types += (types.empty() ? "" : " or ") + kindNames[one];
-        }
-        for (const word& key : each.keys)
-        {
-            if (dict.found(key) && !each.types.found(type))
-            {
-                FatalIOErrorInFunction(dict)
-                    << "Patch " << name << " has entry '" << key << "' and type "
-                    << kindNames[type] << ", allowed: in walls of type "
-                    << types.c_str() << exit(FatalIOError);
-            }
+            FatalIOErrorInFunction(dict)
+                << "Patch " << name << " has entry '" << each.name
+                << "' and type " << kindNames[type]
+                << ", allowed: in walls of type " << types.c_str()
+                << exit(FatalIOError);
         }
     }
 }

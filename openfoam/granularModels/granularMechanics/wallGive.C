@@ -15,19 +15,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "wallConditions.H"
-#include "granularProperties.H"
-
-// * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-//- Share of what grains give at a wall that goes back where the bed lengthens:
-//- the mean of beds of spheres between plates, which differ much
-static const scalar usualGiveBack = 0.1;
-
-} // End namespace Foam
-
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -37,9 +24,8 @@ void Foam::wallConditions::readGive
     wall& w
 ) const
 {
-    w.give = 2*radius_*granularProperties::ranged(dict, "give", 0, 0, 1000);
-    w.giveBack =
-        granularProperties::ranged(dict, "giveBack", usualGiveBack, 0, 1);
+    w.give = 2*radius_*keys.number(dict, "give");
+    w.giveBack = keys.number(dict, "giveBack");
 }
 
 

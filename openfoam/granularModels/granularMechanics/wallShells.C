@@ -15,7 +15,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "wallConditions.H"
-#include "granularProperties.H"
 #include "nodeDyads.H"
 #include "OStringStream.H"
 
@@ -39,19 +38,11 @@ static const scalar unlike = 0.25;
 
 void Foam::wallConditions::readShell(const dictionary& dict, wall& w) const
 {
-    const auto positive = [&](const word& key)
-    {
-        return granularProperties::ranged
-        (
-            dict, key, dict.get<scalar>(key), SMALL, GREAT
-        );
-    };
-    w.radius = positive("radius");
-    w.stiffness = positive("youngModulus")*positive("thickness")/sqr(w.radius);
-
-    // A wall that grows by half of its size is no shell
-    const scalar expansion =
-        granularProperties::ranged(dict, "thermalExpansion", 0, 0, 1e-2);
+    w.radius = keys.number(dict, "radius");
+    w.stiffness =
+        keys.number(dict, "youngModulus")*keys.number(dict, "thickness")
+       /sqr(w.radius);
+    const scalar expansion = keys.number(dict, "thermalExpansion");
     w.growth = expansion*w.radius;
     if (expansion > 0)
     {

@@ -55,15 +55,12 @@ Foam::autoPtr<Foam::granularModel> Foam::granularModel::New
     const word type(dict.get<word>("type"));
     const wordList types(dictionaryConstructorTablePtr_->sortedToc());
 
-    wordList allowed
-    ({
-        "type", "model", "hash", "conductivity", "smallestStrain", "outOfRegion"
-    });
-    for (const word& name : types)
+    wordList coeffs(types);
+    for (word& name : coeffs)
     {
-        allowed.append(name + "Coeffs");
+        name += "Coeffs";
     }
-    granularProperties::checkKeys(dict, allowed);
+    granularProperties::surrogateKeys.check(dict, coeffs);
 
     const auto constructor = dictionaryConstructorTablePtr_->cfind(type);
     if (!constructor.found())
@@ -100,6 +97,15 @@ Foam::word Foam::granularModel::fieldName(const std::string& column)
         capital = (c == '_');
     }
     return name;
+}
+
+
+void Foam::granularModel::checkCoeffs(const keyTable& keys) const
+{
+    if (&coeffs_ != &properties_.surrogateDict())
+    {
+        keys.check(coeffs_);
+    }
 }
 
 

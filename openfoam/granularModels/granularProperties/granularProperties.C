@@ -18,8 +18,6 @@ License
 #include "Time.H"
 #include "uniformDimensionedFields.H"
 
-#include <sstream>
-
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 const Foam::Enum<Foam::granularProperties::bulkDensityModel>
@@ -28,6 +26,117 @@ Foam::granularProperties::bulkDensityModelNames
     { bulkDensityModel::massConsistent, "massConsistent" },
     { bulkDensityModel::paper, "paper" }
 });
+
+const Foam::keyTable Foam::granularProperties::grainKeys
+(
+    "granularProperties",
+    {
+        {
+            "density", "density of the grains, without the voids", "kg/m3",
+            "> 0", "required"
+        },
+        {
+            "youngModulus", "Young's modulus E of the grains", "Pa", "> 0",
+            "required"
+        },
+        {
+            "thermalConductivity",
+            "thermal conductivity k of the grains; with surrogate type"
+            " `spheres` a number or a function of T, see below", "W/(m K)",
+            "> 0", "required"
+        },
+        {
+            "heatCapacity",
+            "specific heat capacity c of the grains, a number or a function of"
+            " T, see below", "J/(kg K)", "> 0", "required"
+        },
+        {
+            "thermalExpansion",
+            "linear thermal expansion coefficient of the grains. With 0 the"
+            " model is evaluated only at the start (type `spheres`: in every"
+            " step, because the conductivity of the gas depends on T)", "1/K",
+            ">= 0", "required"
+        },
+        {
+            "meanRadius",
+            "mean radius r of the grains in the initial state", "m", "> 0",
+            "required"
+        },
+        {
+            "conductivityFactor",
+            "factor of the bed's conductivity in the heat equation, for"
+            " sensitivity studies; written fields do not include it", "-",
+            "0.1 to 10", "1"
+        },
+        {
+            "bulkDensity",
+            "how the mass of a cell follows from `density` and the initial"
+            " porosity. `massConsistent`: density times the total area of the"
+            " grains over that of the cell. `paper`: density times"
+            " (1 - porosity), which counts overlaps once and loses about 2 % of"
+            " the mass", "-", "massConsistent, paper", "massConsistent"
+        },
+        {
+            "initialTemperature",
+            "temperature without thermal strain, for which porosity, fabric"
+            " index and stress of the start are given. Before the first step"
+            " the grains grow from it to T, in parts of at most 0.1 %. A field"
+            " of this name may be given instead", "K", "0 to 1e5",
+            "T at the start"
+        },
+        {
+            "surrogate", "the constitutive model, see below", "-",
+            "a dictionary", "required"
+        },
+        {
+            "mechanics",
+            "`none`: the grains stay in place, as in the paper. `equilibrium`:"
+            " they move until the forces balance; this requires a model with a"
+            " tangent, such as `builtin`", "-", "none, equilibrium", "none"
+        },
+        {
+            "equilibriumCoeffs", "settings of `mechanics equilibrium`", "-",
+            "a dictionary", "empty"
+        },
+        {
+            "restStress",
+            "initial stress of a bed at rest under its own weight, instead of"
+            " the field `stress`; requires gravity, and any surrogate type but"
+            " `constant`", "-", "a dictionary", "the field `stress`"
+        }
+    }
+);
+
+const Foam::keyTable Foam::granularProperties::surrogateKeys
+(
+    "surrogate",
+    {
+        {
+            "type",
+            "kind of model; its keys stand in the sub-dictionary `<type>Coeffs`",
+            "-", "network, constant, plugin, onlineRve, spheres", "required"
+        },
+        {
+            "smallestStrain",
+            "strain of the grains since the last evaluation of a cell, below"
+            " which it is not evaluated again; smaller strains add up. 0: cells"
+            " are evaluated whenever their strain has changed", "-",
+            "0 to 0.01", "0; of `onlineRve` with `rvePer cell` 1e-4"
+        },
+        {
+            "outOfRegion",
+            "what is done with cells outside the states that the model was"
+            " trained for", "-", "a dictionary", "empty"
+        },
+        {
+            "model",
+            "of `network` and `constant`: as in the sub-dictionary of the type,"
+            " if there is none", "-", "as there", "as there"
+        },
+        {"hash", "the same", "-", "as there", "as there"},
+        {"conductivity", "the same", "-", "as there", "as there"}
+    }
+);
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -45,16 +154,16 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
             IOobject::NO_WRITE
         )
     ),
-    density_(positive("density", dimDensity)),
-    youngModulus_(positive("youngModulus", dimPressure)),
+    density_(quantity("density", dimDensity)),
+    youngModulus_(quantity("youngModulus", dimPressure)),
     thermalConductivity_
     (
         *this, "thermalConductivity", dimPower/dimLength/dimTemperature
     ),
     heatCapacity_(*this, "heatCapacity", dimSpecificHeatCapacity),
-    thermalExpansion_("thermalExpansion", dimless/dimTemperature, *this),
-    meanRadius_(positive("meanRadius", dimLength)),
-    conductivityFactor_(ranged(*this, "conductivityFactor", 1, 0.1, 10)),
+    thermalExpansion_(quantity("thermalExpansion", dimless/dimTemperature)),
+    meanRadius_(quantity("meanRadius", dimLength)),
+    conductivityFactor_(grainKeys.number(*this, "conductivityFactor")),
     gravity_(Zero),
     bulkDensity_
     (
@@ -66,23 +175,7 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
         )
     )
 {
-    checkKeys
-    (
-        *this,
-        {
-            "FoamFile", "surrogate", "density", "youngModulus",
-            "thermalConductivity", "heatCapacity", "thermalExpansion",
-            "meanRadius", "conductivityFactor", "bulkDensity", "mechanics",
-            "equilibriumCoeffs", "restStress", "initialTemperature"
-        }
-    );
-    if (!(thermalExpansion_.value() >= 0))
-    {
-        FatalIOErrorInFunction(*this)
-            << "Entry 'thermalExpansion' is " << thermalExpansion_.value()
-            << ", allowed: >= 0 [1/K]"
-            << exit(FatalIOError);
-    }
+    grainKeys.check(*this);
     IOobject header
     (
         "g", registry.time().constant(), registry,
@@ -119,44 +212,19 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::dimensionedScalar Foam::granularProperties::positive
+Foam::dimensionedScalar Foam::granularProperties::quantity
 (
     const word& key,
     const dimensionSet& dims
 ) const
 {
     const dimensionedScalar value(key, dims, *this);
-
-    if (!(value.value() > 0))
-    {
-        FatalIOErrorInFunction(*this)
-            << "Entry '" << key << "' is " << value.value()
-            << ", allowed: > 0, in units " << dims
-            << exit(FatalIOError);
-    }
+    grainKeys.within(*this, key, value.value());
     return value;
 }
 
 
 // * * * * * * * * * * * * * * Static Functions  * * * * * * * * * * * * * * //
-
-void Foam::granularProperties::checkKeys
-(
-    const dictionary& dict,
-    const wordList& allowed
-)
-{
-    for (const word& key : dict.toc())
-    {
-        if (!allowed.found(key))
-        {
-            FatalIOErrorInFunction(dict)
-                << "Unknown entry '" << key << "', allowed: "
-                << listed(allowed).c_str() << exit(FatalIOError);
-        }
-    }
-}
-
 
 Foam::string Foam::granularProperties::listed(const wordList& words)
 {
@@ -166,31 +234,6 @@ Foam::string Foam::granularProperties::listed(const wordList& words)
         text += (text.empty() ? "" : ", ") + each;
     }
     return text;
-}
-
-
-Foam::scalar Foam::granularProperties::ranged
-(
-    const dictionary& dict,
-    const word& key,
-    const scalar deflt,
-    const scalar low,
-    const scalar high
-)
-{
-    const scalar value = dict.getOrDefault<scalar>(key, deflt);
-
-    if (!(value >= low && value <= high))
-    {
-        // OpenFOAM's streams would print the limits with all digits of the
-        // case's writePrecision
-        std::ostringstream limits;
-        limits << low << " to " << high;
-        FatalIOErrorInFunction(dict)
-            << "Entry '" << key << "' is " << value << ", allowed: "
-            << limits.str().c_str() << exit(FatalIOError);
-    }
-    return value;
 }
 
 

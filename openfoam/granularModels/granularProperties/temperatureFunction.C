@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "temperatureFunction.H"
+#include "granularProperties.H"
 #include "Function1.H"
 #include "ITstream.H"
 
@@ -73,13 +74,7 @@ Foam::temperatureFunction::temperatureFunction
         return;
     }
     usual_ = dimensionedScalar(key, dims, dict);
-    if (!(usual_.value() > 0))
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry '" << key << "' is " << usual_.value()
-            << ", allowed: > 0, in units " << dims
-            << exit(FatalIOError);
-    }
+    granularProperties::grainKeys.within(dict, key, usual_.value());
 }
 
 

@@ -33,6 +33,20 @@ namespace Foam
 static const scalar largestPart = 1e-3;
 static const label leastParts = 20;
 
+static const keyTable restKeys
+(
+    "restStress",
+    {
+        {
+            "lateral",
+            "horizontal over vertical stress. The log says if packings of this"
+            " porosity cannot carry it; the run then begins with the most they"
+            " can", "-", "0 to 10", "required"
+        },
+        {"surface", "pressure on the surface", "Pa", "0 to 1e12", "0"}
+    }
+);
+
 //- FatalError unless all values are numbers between the limits, which are
 //- themselves excluded
 static void checkField
@@ -469,13 +483,9 @@ Foam::scalarField Foam::granularState::initialSolid() const
 Foam::tmp<Foam::symmTensorField> Foam::granularState::restStress() const
 {
     const dictionary dict(properties_.restStressDict());
-    granularProperties::checkKeys(dict, {"lateral", "surface"});
-    const scalar lateral = granularProperties::ranged
-    (
-        dict, "lateral", dict.get<scalar>("lateral"), 0, 10
-    );
-    const scalar above =
-        granularProperties::ranged(dict, "surface", 0, 0, 1e12);
+    restKeys.check(dict);
+    const scalar lateral = restKeys.number(dict, "lateral");
+    const scalar above = restKeys.number(dict, "surface");
 
     // With the mean density: where it varies, the first step finds the rest
     const scalarField& V = mesh_.V();
@@ -553,7 +563,7 @@ void Foam::granularState::setInitialTemperature()
     initialTemperature_ == dimensionedScalar
     (
         key, dimTemperature,
-        granularProperties::ranged(properties_, key, 0, 0, 1e5)
+        granularProperties::grainKeys.number(properties_, key)
     );
 }
 

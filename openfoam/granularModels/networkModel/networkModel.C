@@ -26,7 +26,36 @@ namespace granularModels
     defineTypeNameAndDebug(network, 0);
     addToRunTimeSelectionTable(granularModel, network, dictionary);
 }
-}
+
+static const keyTable networkKeys
+(
+    "networkCoeffs",
+    {
+        {
+            "model",
+            "`builtin` (or `builtin:increment`): the"
+            " [model](../theory/surrogate.md) that is compiled into the"
+            " library. `builtin:paper`: the paper's network. Else a model file,"
+            " relative to the case folder", "-",
+            "builtin, builtin:increment, builtin:paper, a readable model file",
+            "required"
+        },
+        {
+            "hash",
+            "SHA-256 that the model file must have: 64 hexadecimal digits in"
+            " quotation marks", "-", "the hash of the file", "any"
+        },
+        {
+            "conductivity",
+            "`network`: from the temperatures that balance the heat of every"
+            " grain. `affine`: Eq. 9 of the paper, an upper bound", "-",
+            "network, affine; as far as the model was trained for them",
+            "the model's own; `network` of `builtin`"
+        }
+    }
+);
+
+} // End namespace Foam
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -48,15 +77,7 @@ Foam::granularModels::network::network
         mesh
     )
 {
-    if (&coeffs_ != &properties.surrogateDict())
-    {
-        granularProperties::checkKeys
-        (
-            coeffs_,
-            {"model", "hash", "conductivity"}
-        );
-    }
-
+    checkCoeffs(networkKeys);
     word kind;
     if (coeffs_.readIfPresent("conductivity", kind))
     {

@@ -28,6 +28,72 @@ namespace granularModels
 }
 }
 
+const Foam::keyTable Foam::granularModels::onlineRve::keys
+(
+    "onlineRveCoeffs",
+    {
+        {"discs", "number of grains in a box", "-", "20 to 1e6", "500"},
+        {
+            "seed",
+            "number from which the random places and radii of all packings"
+            " follow", "-", "0 to 1e9", "1"
+        },
+        {
+            "compression",
+            "packing of a box: compressed along x and y equally, along x only,"
+            " twice as fast along x as along y, or along x while it slowly"
+            " extends along y", "-",
+            "isotropic, horizontal, intermediate, sheared", "isotropic"
+        },
+        {
+            "boundary",
+            "boundary of a box; rigid walls make it softer than the material"
+            " inside", "-", "periodic, walls", "periodic"
+        },
+        {
+            "relaxation",
+            "how grains come to rest after a strain: FIRE (a fast method of"
+            " minimisation) or their own damped motion", "-", "fire, damped",
+            "fire"
+        },
+        {
+            "conductivity", "as in `networkCoeffs`", "-", "affine, network",
+            "affine"
+        },
+        {
+            "stiffnessRatio", "tangential over normal stiffness of a contact",
+            "-", "0.01 to 10", "0.8"
+        },
+        {
+            "frictionAngle",
+            "friction angle between grains: they slide at a tangential force of"
+            " tan(angle) times the normal force", "rad", "0 to 1.5", "0.5"
+        },
+        {
+            "porosityTolerance",
+            "cells start from the same packing if their initial porosities"
+            " agree within this", "-", "1e-6 to 1", "0.002"
+        },
+        {
+            "fabricTolerance", "and their initial fabric indices within this",
+            "-", "1e-6 to 2", "0.02"
+        },
+        {
+            "rvePer",
+            "`cell`: every cell has its own box. `history`: cells of one"
+            " packing share boxes as long as their strains agree within"
+            " `strainTolerance`", "-", "cell, history", "cell"
+        },
+        {
+            "strainTolerance",
+            "with `rvePer history`: logarithmic strain of one step of a box; a"
+            " cell between two boxes gets their linear mean. Smaller reversals"
+            " of the strain are not seen", "-", "1e-6 to 0.1", "5e-3"
+        }
+    }
+);
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::granularModels::onlineRve::onlineRve
@@ -37,33 +103,12 @@ Foam::granularModels::onlineRve::onlineRve
 )
 :
     granularModel(typeName, properties, mesh),
-    shared_(choice("rvePer", {"cell", "history"}) == "history"),
-    network_
-    (
-        choice("conductivity", {"affine", "network"}) == "network"
-    ),
-    boxes_
-    (
-        granularProperties::ranged
-        (
-            coeffs_, "strainTolerance", 5e-3, 1e-6, 0.1
-        )
-    ),
+    shared_(keys.choice(coeffs_, "rvePer") == "history"),
+    network_(keys.choice(coeffs_, "conductivity") == "network"),
+    boxes_(keys.number(coeffs_, "strainTolerance")),
     packed_(0)
 {
-    if (&coeffs_ != &properties.surrogateDict())
-    {
-        granularProperties::checkKeys
-        (
-            coeffs_,
-            {
-                "discs", "seed", "compression", "boundary", "relaxation",
-                "conductivity", "stiffnessRatio", "frictionAngle",
-                "porosityTolerance", "fabricTolerance", "rvePer",
-                "strainTolerance"
-            }
-        );
-    }
+    checkCoeffs(keys);
     if (coeffs_.found("strainTolerance") && !shared_)
     {
         refuse

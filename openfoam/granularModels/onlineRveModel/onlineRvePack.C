@@ -22,24 +22,6 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::word Foam::granularModels::onlineRve::choice
-(
-    const word& key,
-    const wordList& allowed
-) const
-{
-    const word value(coeffs_.lookupOrDefault<word>(key, allowed[0]));
-    if (!allowed.found(value))
-    {
-        FatalIOErrorInFunction(coeffs_)
-            << "Entry '" << key << "' is '" << value << "', allowed: "
-            << granularProperties::listed(allowed).c_str()
-            << exit(FatalIOError);
-    }
-    return value;
-}
-
-
 std::string Foam::granularModels::onlineRve::specification
 (
     const scalar porosity,
@@ -52,27 +34,23 @@ std::string Foam::granularModels::onlineRve::specification
     OStringStream os;
     os.precision(17);
     os  << "{\"discs\": "
-        << label(granularProperties::ranged(coeffs_, "discs", 500, 20, 1e6))
+        << label(keys.number(coeffs_, "discs"))
         << ", \"seed\": " << seed
         << ", \"porosity\": " << porosity
         << ", \"compression\": \""
-        << choice
-           (
-               "compression",
-               {"isotropic", "horizontal", "intermediate", "sheared"}
-           ).c_str()
+        << keys.choice(coeffs_, "compression").c_str()
         << "\", \"boundary\": \""
-        << choice("boundary", {"periodic", "walls"}).c_str()
+        << keys.choice(coeffs_, "boundary").c_str()
         << "\", \"relaxation\": \""
-        << choice("relaxation", {"fire", "damped"}).c_str()
+        << keys.choice(coeffs_, "relaxation").c_str()
         << "\", \"radius_min\": " << 0.6*radius
         << ", \"radius_max\": " << 1.4*radius
         << ", \"material\": {\"density\": " << properties_.density().value()
         << ", \"young_modulus\": " << properties_.youngModulus().value()
         << ", \"stiffness_ratio\": "
-        << granularProperties::ranged(coeffs_, "stiffnessRatio", 0.8, 0.01, 10)
+        << keys.number(coeffs_, "stiffnessRatio")
         << ", \"friction_angle\": "
-        << granularProperties::ranged(coeffs_, "frictionAngle", 0.5, 0, 1.5)
+        << keys.number(coeffs_, "frictionAngle")
         << ", \"wall_stiffness_factor\": 1, \"damping\": 0.1}}";
     return os.str();
 }
@@ -80,16 +58,9 @@ std::string Foam::granularModels::onlineRve::specification
 
 void Foam::granularModels::onlineRve::pack(const known& cells)
 {
-    const scalar dPorosity = granularProperties::ranged
-    (
-        coeffs_, "porosityTolerance", 0.002, 1e-6, 1
-    );
-    const scalar dFabric = granularProperties::ranged
-    (
-        coeffs_, "fabricTolerance", 0.02, 1e-6, 2
-    );
-    const label seed =
-        label(granularProperties::ranged(coeffs_, "seed", 1, 0, 1e9));
+    const scalar dPorosity = keys.number(coeffs_, "porosityTolerance");
+    const scalar dFabric = keys.number(coeffs_, "fabricTolerance");
+    const label seed = label(keys.number(coeffs_, "seed"));
 
     std::map<std::pair<label, label>, rveBox> groups;
     std::map<std::pair<label, label>, label> roots;

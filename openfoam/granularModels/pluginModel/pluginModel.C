@@ -39,6 +39,24 @@ namespace granularModels
 namespace Foam
 {
 
+static const keyTable pluginKeys
+(
+    "pluginCoeffs",
+    {
+        {
+            "library", "the shared library, relative to the case folder", "-",
+            "a library that defines `msdd_plugin_v2_table`", "required"
+        },
+        {
+            "hash",
+            "SHA-256 of the library, compared after it was loaded: it protects"
+            " from a mix-up, not from bad code", "-", "the hash of the file",
+            "any"
+        }
+    }
+);
+
+
 //- The environment variable in which a user names plug-ins
 static const char* const allowPlugins = "MSDD_ALLOW_PLUGINS";
 
@@ -129,10 +147,7 @@ Foam::granularModels::plugin::plugin
         mesh
     )
 {
-    if (&coeffs_ != &properties.surrogateDict())
-    {
-        granularProperties::checkKeys(coeffs_, {"library", "hash"});
-    }
+    checkCoeffs(pluginKeys);
 }
 
 

@@ -41,6 +41,57 @@ static const label maxOffenders = 10000;
 
 static const FixedList<word, 2> sides({"below", "above"});
 
+static const keyTable policyKeys
+(
+    "outOfRegion",
+    {
+        {
+            "maxFraction",
+            "share of all cells that may be outside at once; above it the run"
+            " ends", "-", "0 to 1", "1"
+        },
+        {
+            "porosity", "actions for the porosity", "-", "actions",
+            "`error` below, `clamp` above"
+        },
+        {"fabricIndex", "for the fabric index", "-", "actions", "`clamp`"},
+        {
+            "fabricShear",
+            "for 2 F_xy; like the next two a state of the default model", "-",
+            "actions", "`clamp`"
+        },
+        {
+            "jammingFraction",
+            "for the solid fraction at which the packing would carry no load",
+            "-", "actions", "`clamp`"
+        },
+        {
+            "elasticCompression",
+            "for the compression beyond that", "-", "actions",
+            "`clamp` below, `error` above"
+        },
+        {
+            "thermalStrain", "for the strain of the grains in one step", "-",
+            "actions", "`cutStep`"
+        }
+    }
+);
+
+static const keyTable sideKeys
+(
+    "sides of outOfRegion",
+    {
+        {
+            "below", "action where the value is below the region", "-",
+            "clamp, warn, cutStep, error", "see above"
+        },
+        {
+            "above", "action where it is above", "-",
+            "clamp, warn, cutStep, error", "see above"
+        }
+    }
+);
+
 } // End namespace Foam
 
 
@@ -60,7 +111,7 @@ Foam::regionPolicy::regionPolicy
     hash_(modelHash),
     names_(stateNames),
     columns_(columnNames),
-    maxFraction_(granularProperties::ranged(dict_, "maxFraction", 1, 0, 1)),
+    maxFraction_(policyKeys.number(dict_, "maxFraction")),
     looseGiven_(dict_.subOrEmptyDict("porosity").found("above")),
     cells_(mesh.nCells())
 {
@@ -71,19 +122,7 @@ Foam::regionPolicy::regionPolicy
 
     // Columns that only other models have are accepted, so that a case can
     // change its model without changing the policy
-    wordList allowed
-    ({
-        "maxFraction", "porosity", "fabricIndex", "fabricShear",
-        "jammingFraction", "elasticCompression"
-    });
-    for (const word& name : names_)
-    {
-        if (!allowed.found(name))
-        {
-            allowed.append(name);
-        }
-    }
-    granularProperties::checkKeys(dict_, allowed);
+    policyKeys.check(dict_, names_);
 
     forAll(names_, i)
     {
@@ -97,7 +136,7 @@ Foam::regionPolicy::regionPolicy
         });
         const dictionary dict(dict_.subOrEmptyDict(name));
 
-        granularProperties::checkKeys(dict, {"below", "above"});
+        sideKeys.check(dict);
         forAll(sides, side)
         {
             actions_[i][side] =

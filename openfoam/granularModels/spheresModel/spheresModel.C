@@ -29,6 +29,121 @@ namespace granularModels
     addToRunTimeSelectionTable(granularModel, spheres, dictionary);
 }
 
+const keyTable granularModels::spheres::keys
+(
+    "spheresCoeffs",
+    {
+        {
+            "model",
+            "`builtin`: the model that is compiled into the library. Else a"
+            " model file of spheres, relative to the case folder", "-",
+            "builtin, a readable model file", "builtin"
+        },
+        {"hash", "as in `networkCoeffs`", "-", "the hash of the file", "any"},
+        {
+            "poissonRatio", "Poisson's ratio of the spheres", "-",
+            "-0.99 to 0.5", "required"
+        },
+        {
+            "roughness",
+            "height of the asperities of the spheres (root mean square) over"
+            " their slope; 0: smooth", "m", "0 to 1", "0"
+        },
+        {
+            "hardness",
+            "hardness of the surface: rough contacts conduct by it, and the run"
+            " warns if contacts are pressed harder", "Pa", "1 to 1e15",
+            "required with `roughness`"
+        },
+        {
+            "gas",
+            "gas between the spheres. Properties are valid from 200 to 2000 K,"
+            " of helium from 273 to 1800 K. Spheres that conduct less than the"
+            " gas are refused; poor conductors have [their own"
+            " model](../theory/spheres-law.md#poor-conductors)", "-",
+            "air, nitrogen, helium, argon, vacuum", "vacuum"
+        },
+        {
+            "gasPressure",
+            "pressure of the gas. In very thin gas, whose conductivity is"
+            " proportional to its pressure, the model has an error of up to a"
+            " factor of two", "Pa", "1e-3 to 1e9", "1.013e5"
+        },
+        {
+            "accommodation",
+            "thermal accommodation coefficient of the gas at the spheres", "-",
+            "0.01 to 1", "0.9"
+        },
+        {
+            "emissivity",
+            "emissivity of the spheres, only for the estimate of radiation: the"
+            " run warns above 5 % of the conductivity", "-", "0.01 to 1", "0.9"
+        },
+        {
+            "coordination",
+            "contacts per sphere at the start, all spheres counted. A field"
+            " `coordination` replaces it", "-", "0 to 12",
+            "that of a periodic box in this state; beds under gravity have"
+            " about 0.4 more"
+        },
+        {
+            "mobilised",
+            "[mobilised part of the"
+            " friction](../theory/spheres-law.md#mobilised-friction) at the"
+            " start: 0.84 to 0.91 in poured beds (`msdd bed run` counts it), 1"
+            " in boxes compressed with friction. A field `mobilised` replaces"
+            " it", "-", "0 to 1", "0.85"
+        },
+        {
+            "fabric",
+            "[fabric tensor](../theory/spheres-law.md#state) at the start, mean"
+            " of the dyads of the contact normals, (xx xy xz yy yz zz);"
+            " `msdd bed run` counts it. A field `fabric` replaces it", "-",
+            "xx, yy, zz >= 0, their sum 1", "follows from the stress"
+        },
+        {
+            "wall",
+            "walls where T has the condition"
+            " [`granularContact`](regions.md#the-resistance-of-a-wall)", "-",
+            "a dictionary", "none"
+        }
+    }
+);
+
+static const keyTable sphereWallKeys
+(
+    "wall of spheresCoeffs",
+    {
+        {
+            "thermalConductivity", "thermal conductivity of the wall",
+            "W/(m K)", "1e-12 to 1e12", "required"
+        },
+        {
+            "youngModulus", "Young's modulus of the wall", "Pa",
+            "1e-9 to 1e15", "required"
+        },
+        {
+            "poissonRatio", "Poisson's ratio of the wall", "-", "-0.99 to 0.5",
+            "required"
+        },
+        {
+            "roughness",
+            "height of the asperities of sphere and wall together over their"
+            " slope; 0: smooth", "m", "0 to 1", "0"
+        },
+        {
+            "hardness", "hardness of the softer one; read with `roughness`",
+            "Pa", "1 to 1e15", "required with `roughness`"
+        },
+        {
+            "spheres",
+            "spheres at the wall per square of a diameter: 0.85 to 0.87 along a"
+            " wall of a poured bed, 1.155 in a hexagonal layer", "-",
+            "0.01 to 1.16", "0.87"
+        }
+    }
+);
+
 //- Change of the stress at the start, over the pressure, that is told
 static const scalar notable = 1e-3;
 
@@ -38,9 +153,6 @@ static const scalar unitTrace = 0.01;
 //- Contacts per sphere between which packings under load are: without rattlers
 //- spheres with friction need four, and dense random packings have seven
 static const scalar leastContacts = 2, mostContacts = 9;
-
-//- Spheres at a wall along which they were poured, on the square of a diameter
-static const scalar usualSpheres = 0.87;
 
 //- End the run: the library failed
 static void failed(const char* what, const std::exception& error)
@@ -64,28 +176,14 @@ Foam::granularModels::spheres::spheres
     granularModel(typeName, properties, mesh),
     source_(coeffs_.getOrDefault<fileName>("model", "builtin")),
     law_(load()),
-    gas_(coeffs_.getOrDefault<word>("gas", "vacuum")),
+    gas_(keys.choice(coeffs_, "gas")),
     material_(material()),
     hasWall_(coeffs_.isDict("wall")),
     wall_(wall()),
     outside_(0),
     outsideBy_(int64_t(0))
 {
-    if (&coeffs_ == &properties.surrogateDict())
-    {
-        FatalIOErrorInFunction(coeffs_)
-            << "Entry 'spheresCoeffs' is missing: surrogate type spheres needs"
-            << " spheresCoeffs { poissonRatio; gas; }" << exit(FatalIOError);
-    }
-    granularProperties::checkKeys
-    (
-        coeffs_,
-        {
-            "model", "hash", "poissonRatio", "roughness", "hardness", "gas",
-            "gasPressure", "accommodation", "emissivity", "coordination",
-            "mobilised", "fabric", "wall"
-        }
-    );
+    keys.check(coeffs_);
     checkHash(source_, law_.hash());
     const label own = stateNames_.size();
     const label count = label(law_.stateSize());
@@ -103,6 +201,12 @@ Foam::granularModels::spheres::spheres
 
 msdd::Spheres Foam::granularModels::spheres::load() const
 {
+    if (&coeffs_ == &properties_.surrogateDict())
+    {
+        FatalIOErrorInFunction(coeffs_)
+            << "Entry 'spheresCoeffs' is missing: surrogate type spheres needs"
+            << " spheresCoeffs { poissonRatio; gas; }" << exit(FatalIOError);
+    }
     try
     {
         return msdd::Spheres
@@ -128,42 +232,23 @@ msdd::Spheres Foam::granularModels::spheres::load() const
 
 msdd_sphere_material Foam::granularModels::spheres::material() const
 {
-    const auto ranged = [&]
-    (
-        const word& key,
-        const scalar deflt,
-        const scalar low,
-        const scalar high
-    )
-    {
-        return granularProperties::ranged(coeffs_, key, deflt, low, high);
-    };
     msdd_sphere_material result = msdd_sphere_material();
     result.struct_size = sizeof(msdd_sphere_material);
     result.diameter = 2*properties_.meanRadius().value();
     result.young_modulus = properties_.youngModulus().value();
     result.conductivity = properties_.thermalConductivity().value();
-    if (&coeffs_ != &properties_.surrogateDict())
-    {
-        coeffs_.get<scalar>("poissonRatio");
-    }
-    result.poisson_ratio = ranged("poissonRatio", 0.3, -0.99, 0.5);
-    result.roughness = ranged("roughness", 0, 0, 1);
+    result.poisson_ratio = keys.number(coeffs_, "poissonRatio");
+    result.roughness = keys.number(coeffs_, "roughness");
     if (result.roughness > 0)
     {
         coeffs_.get<scalar>("hardness");
     }
-    result.hardness = ranged("hardness", 1, 1, 1e15);
-    const wordList gases({"air", "nitrogen", "helium", "argon", "vacuum"});
-    if (!gases.found(gas_))
-    {
-        refuse("gas", gas_, granularProperties::listed(gases));
-    }
+    result.hardness = keys.number(coeffs_, "hardness", 1);
     result.gas = gas_.c_str();
-    result.gas_pressure = ranged("gasPressure", 1.013e5, 1e-3, 1e9);
-    result.accommodation = ranged("accommodation", 0.9, 0.01, 1);
+    result.gas_pressure = keys.number(coeffs_, "gasPressure");
+    result.accommodation = keys.number(coeffs_, "accommodation");
     // Only for the estimate of radiation (see sphereEstimates)
-    ranged("emissivity", 1, 0.01, 1);
+    keys.number(coeffs_, "emissivity");
     return result;
 }
 
@@ -176,30 +261,19 @@ msdd_sphere_wall Foam::granularModels::spheres::wall() const
         return result;
     }
     const dictionary& dict = coeffs_.subDict("wall");
-    granularProperties::checkKeys
-    (
-        dict,
-        {
-            "thermalConductivity", "youngModulus", "poissonRatio", "roughness",
-            "hardness", "spheres"
-        }
-    );
-    const auto required = [&](const word& key, scalar low, scalar high)
-    {
-        dict.get<scalar>(key);
-        return granularProperties::ranged(dict, key, low, low, high);
-    };
+    sphereWallKeys.check(dict);
     result.struct_size = sizeof(msdd_sphere_wall);
-    result.conductivity = required("thermalConductivity", 1e-12, 1e12);
-    result.young_modulus = required("youngModulus", 1e-9, 1e15);
-    result.poisson_ratio = required("poissonRatio", -0.99, 0.5);
-    result.roughness = granularProperties::ranged(dict, "roughness", 0, 0, 1);
+    result.conductivity = sphereWallKeys.number(dict, "thermalConductivity");
+    result.young_modulus = sphereWallKeys.number(dict, "youngModulus");
+    result.poisson_ratio = sphereWallKeys.number(dict, "poissonRatio");
+    result.roughness = sphereWallKeys.number(dict, "roughness");
     if (result.roughness > 0)
     {
-        result.hardness = required("hardness", 1, 1e15);
+        const word key("hardness");
+        result.hardness =
+            sphereWallKeys.within(dict, key, dict.get<scalar>(key));
     }
-    result.spheres =
-        granularProperties::ranged(dict, "spheres", usualSpheres, 0.01, 1.16);
+    result.spheres = sphereWallKeys.number(dict, "spheres");
     return result;
 }
 
@@ -250,20 +324,16 @@ void Foam::granularModels::spheres::initialState
             << " the stress of a bed under load is negative" << exit(FatalError);
     }
     // What is not given is left to the law
-    const auto given = [&](const char* key, const scalar most)
+    const auto given = [&](const char* key)
     {
         scalarField result;
         if (coeffs_.found(key))
         {
-            result.resize
-            (
-                cells.size,
-                granularProperties::ranged(coeffs_, key, Zero, 0, most)
-            );
+            result.resize(cells.size, keys.number(coeffs_, key));
         }
         return result;
     };
-    const scalarField contacts(given("coordination", 12));
+    const scalarField contacts(given("coordination"));
     if
     (
         contacts.size()
@@ -277,7 +347,7 @@ void Foam::granularModels::spheres::initialState
     }
     // The stress of a packing depends on it, so a field cannot just replace the
     // column afterwards
-    scalarField mobilised(given("mobilised", 1));
+    scalarField mobilised(given("mobilised"));
     const auto ofCells(givenField<scalar>(mesh_, "mobilised", dimless));
     if (ofCells.valid())
     {

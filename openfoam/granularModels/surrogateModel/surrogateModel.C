@@ -23,18 +23,116 @@ License
 namespace Foam
 {
 
-//- Names of the solver's own fields and folders, which no column may have
-static const wordList& ownNames()
+//- Fields of the solver besides the state of a model (the book's columns: range;
+//- read at the start, written)
+static const keyTable ownFields
+(
+    "fields",
+    {
+        {
+            "T",
+            "temperature of the grains, with OpenFOAM's boundary conditions that"
+            " need neither a flow nor a thermo", "K", "> 0", "required, out"
+        },
+        {
+            "stress",
+            "stress, tension positive; at the start by default the mean of"
+            " packings in that state", "Pa", "any", "in, out"
+        },
+        {
+            "conductivity",
+            "conductivity of the bed; at the start that of the packing, by"
+            " default the mean of packings in that state", "W/(m K)", "> 0",
+            "in, out"
+        },
+        {
+            "pressure",
+            "mean of xx and yy (discs) or of xx, yy and zz (spheres),"
+            " compression positive", "Pa", "any", "out"
+        },
+        {
+            "thermalStrain",
+            "strain of the radii by thermal expansion since"
+            " `initialTemperature`", "-", "> -1", "out"
+        },
+        {
+            "bulkDensity", "mass of grains per volume of the bed", "kg/m3",
+            "> 0", "restart, out"
+        },
+        {
+            "particleDensity",
+            "`bulkDensity` over (1 - porosity), over `areaRatio` where cells"
+            " move", "kg/m3", "> 0", "out"
+        },
+        {
+            "inRegion", "1 where the model was trained for the state, else 0",
+            "-", "0, 1", "out"
+        },
+        {
+            "wallResistance",
+            "what a wall with the condition"
+            " [`granularContact`](regions.md#the-resistance-of-a-wall) adds to"
+            " the resistance of the bed", "m2 K/W", ">= 0", "out"
+        },
+        {
+            "spread",
+            "relative standard deviation of the conductivity between packings"
+            " of equal state, if the model gives it", "-", ">= 0", "out"
+        },
+        {
+            "initialTemperature",
+            "temperature without thermal strain, here or as"
+            " [key](granular-properties.md#the-grains); by default T at the"
+            " start", "K", ">= 0", "in, out"
+        },
+        {
+            "thermalStrainIncrement",
+            "strain for which the model was not evaluated yet", "-", "> -1",
+            "restart, out"
+        },
+        {
+            "D", "displacement of the cells since the start", "m", "any", "out"
+        },
+        {
+            "areaRatio", "area (volume) of a cell over that at the start", "-",
+            "> 0", "out"
+        },
+        {
+            "nodeDisplacement", "displacement of the points of the mesh", "m",
+            "any", "restart, out"
+        },
+        {
+            "nodeVelocity", "its mean rate over the last step", "m/s", "any",
+            "restart, out"
+        },
+        {
+            "wallTraction", "friction force of walls per area", "Pa", "any",
+            "restart, out"
+        },
+        {
+            "wallGive",
+            "slip of the grains at walls with the key `give`, along the outward"
+            " normal", "m", "any", "restart, out"
+        },
+        {
+            "initialStress", "stress at the start, tension positive", "Pa",
+            "any", "restart, out"
+        }
+    }
+);
+
+//- Names of these and of the solver's folders, which no column may have
+static wordList ownNames()
 {
-    static const wordList names
+    wordList names
     ({
-        "areaRatio", "bulkDensity", "conductivity", "D", "granularProperties",
-        "initialStress", "initialTemperature", "inRegion", "Kxx", "Kyy",
-        "msddFoam", "nodeDisplacement", "nodeVelocity", "onlineRve",
-        "particleDensity", "polyMesh", "pressure", "spread", "stress", "T",
-        "thermalStrain", "thermalStrainIncrement", "uniform", "wallGive",
-        "wallTraction"
+        "Kxx", "Kyy", "granularProperties", "msddFoam", "onlineRve", "polyMesh",
+        "uniform"
     });
+    for (const keyTable::entry& field : ownFields.entries())
+    {
+        names.append(field.name);
+    }
     return names;
 }
 

@@ -45,14 +45,7 @@ void Foam::granularSolidThermo::checkTime(const fvMesh& mesh)
             IOobject::MUST_READ, IOobject::NO_WRITE, false
         )
     );
-    granularProperties::checkKeys
-    (
-        dict,
-        {
-            "FoamFile", "thermoType", "coordinateSystem", "crossTolerance",
-            "accept", "updateT", "dpdt"
-        }
-    );
+    principalAxes::thermoKeys.check(dict);
     runRecord::accepted = wordHashSet
     (
         dict.lookupOrDefault<wordList>("accept", wordList())

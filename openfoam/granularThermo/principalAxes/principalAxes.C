@@ -22,13 +22,43 @@ License
 #include <cmath>
 #include <sstream>
 
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::keyTable Foam::principalAxes::thermoKeys
+(
+    "thermophysicalProperties of a bed",
+    {
+        {
+            "thermoType", "makes the region a bed", "-", "granularSolidThermo",
+            "required"
+        },
+        {
+            "coordinateSystem",
+            "axes along which the solver takes the conductivity, in any form of"
+            " OpenFOAM", "-", "a dictionary", "the axes of the mesh"
+        },
+        {
+            "crossTolerance",
+            "largest error of the heat flux, relative to the flux, by the"
+            " components of K that the solver cannot take; see below", "-",
+            "0 to 1", "0.01"
+        },
+        {
+            "accept",
+            "what a restart may differ in, as with `msddFoam -accept`: names of"
+            " [settings](fields.md#uniformmsddfoam), `mesh`, `files`. Remove it"
+            " after the run", "-", "a list of words", "()"
+        },
+        {"updateT", "as in OpenFOAM", "-", "yes, no", "yes"},
+        {"dpdt", "as in OpenFOAM", "-", "yes, no", "yes"}
+    }
+);
+
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
 {
-
-//- Largest error that is accepted if the case says nothing else
-static const scalar defaultTolerance = 0.01;
 
 //- Errors below this one are those of rounding
 static const scalar roundOff = 1e-9;
@@ -99,13 +129,7 @@ Foam::principalAxes::principalAxes(dictionary& dict, const fvMesh& mesh)
 :
     dict_(dict),
     mesh_(mesh),
-    tolerance_
-    (
-        granularProperties::ranged
-        (
-            dict, "crossTolerance", defaultTolerance, 0, 1
-        )
-    ),
+    tolerance_(thermoKeys.number(dict, "crossTolerance")),
     error_(0)
 {
     if (!dict.found(coordinateSystem::typeName_()))

@@ -56,6 +56,29 @@ static const scalar noiseShare = 1e-6;
 static const scalar smallestShare = 5e-11;
 static const scalar leastShare = 1e-14;
 
+static const keyTable stepKeys
+(
+    "adaptive steps",
+    {
+        {
+            "adjustTimeStep",
+            "whether steps follow from the error; requires `timeScheme"
+            " secondOrder`", "-", "yes, no", "no"
+        },
+        {
+            "minDeltaT",
+            "smallest adaptive step. A step of this size is taken even if its"
+            " error is above the tolerance", "s",
+            "`endTime`/1e14 (with another `stopAt` `deltaT`/1e14) to 1e15",
+            "5e-11 of the same"
+        },
+        {
+            "maxDeltaT", "largest adaptive step", "s", "`minDeltaT` to 1e15",
+            "none"
+        }
+    }
+);
+
 //- The end of the run, of which the least steps are shares [s]. Where stopAt is
 //- not endTime, OpenFOAM takes it as GREAT: then the first step counts
 static scalar lastTime(const Time& time)
@@ -94,32 +117,23 @@ Foam::timeSchemes::secondOrder::secondOrder
     temperatureTolerance_
     (
         dict.found("temperatureTolerance")
-      ? granularProperties::ranged
-        (
-            dict, "temperatureTolerance", 0, 1e-12, 1e6
-        )
+      ? keys.number(dict, "temperatureTolerance")
       : 0
     ),
-    stateTolerance_
-    (
-        granularProperties::ranged(dict, "stateTolerance", 1, 1e-9, 100)
-    ),
+    stateTolerance_(keys.number(dict, "stateTolerance")),
     minDeltaT_
     (
-        granularProperties::ranged
+        stepKeys.number
         (
-            time_.controlDict(),
-            "minDeltaT",
-            smallestShare*lastTime(time_),
-            adaptive_ ? leastShare*lastTime(time_) : 0,
-            GREAT
+            time_.controlDict(), "minDeltaT", smallestShare*lastTime(time_), 1,
+            adaptive_ ? leastShare*lastTime(time_) : 0
         )
     ),
     maxDeltaT_
     (
-        granularProperties::ranged
+        stepKeys.number
         (
-            time_.controlDict(), "maxDeltaT", GREAT, minDeltaT_, GREAT
+            time_.controlDict(), "maxDeltaT", GREAT, 1, minDeltaT_
         )
     ),
     due_(time_, grains.record().startTime),

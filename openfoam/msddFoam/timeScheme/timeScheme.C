@@ -28,6 +28,68 @@ namespace Foam
     defineRunTimeSelectionTable(timeScheme, dictionary);
 }
 
+const Foam::keyTable Foam::timeScheme::keys
+(
+    "msddFoam",
+    {
+        {
+            "accuracy",
+            "wanted accuracy of T in percent of its range. Above 0 `msddFoam`"
+            " does not run this case: `msdd case solve` finds the cheapest"
+            " mesh, steps and motion of the grains and runs them in a folder"
+            " next to the case; see [What a scene needs](../theory/choice.md)."
+            " Other keys then have no effect. On one process only", "%",
+            "0 to 100", "0"
+        },
+        {
+            "pressureAccuracy",
+            "with `accuracy`: wanted accuracy of p in percent of its range; 0:"
+            " any", "%", "0 to 100", "0"
+        },
+        {
+            "grains",
+            "with `accuracy`: number of grains of the whole bed, where the mesh"
+            " is a part of it", "-", "1 to 1e15", "as many as the mesh holds"
+        },
+        {
+            "timeScheme",
+            "`paper`: heat and grains in turn, with fixed steps, of first"
+            " order. `secondOrder`: two stages, of second order, with adaptive"
+            " steps if `adjustTimeStep` is on. With `mechanics equilibrium`"
+            " displacements are of first order with both", "-",
+            "paper, secondOrder", "paper"
+        },
+        {
+            "nNonOrthogonalCorrectors",
+            "repetitions of the heat equation in a step, for faces that are not"
+            " normal to the line between their cells and for the xy component"
+            " of K (which the default model has with `mechanics equilibrium`)",
+            "-", "0 to 100", "0"
+        },
+        {
+            "temperatureTolerance", "error of T in an adaptive step", "K",
+            "1e-12 to 1e6", "a thousandth of the range of T so far"
+        },
+        {
+            "stateTolerance",
+            "error of the model's state in an adaptive step, in percent of the"
+            " largest value of each state, at least 0.02. Models with a"
+            " mechanical tangent have no such error", "%", "1e-9 to 100", "1"
+        },
+        {
+            "logInterval",
+            "steps between two lines of the log; written times always have one",
+            "-", "1 to 1e9", "1"
+        },
+        {
+            "waitLimit",
+            "with several processes: time in one step after which a process"
+            " reports on the standard error what it waits for. 0: never", "s",
+            "0 to 1e9", "300"
+        }
+    }
+);
+
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -53,20 +115,11 @@ Foam::timeScheme::timeScheme
         properties,
         grains,
         neighbours,
-        label
-        (
-            granularProperties::ranged
-            (
-                dict, "nNonOrthogonalCorrectors", 0, 0, 100
-            )
-        )
+        label(keys.number(dict, "nNonOrthogonalCorrectors"))
     ),
     Told_(T.primitiveField()),
-    logInterval_
-    (
-        label(granularProperties::ranged(dict, "logInterval", 1, 1, 1e9))
-    ),
-    waitLimit_(granularProperties::ranged(dict, "waitLimit", 300, 0, 1e9))
+    logInterval_(label(keys.number(dict, "logInterval"))),
+    waitLimit_(keys.number(dict, "waitLimit"))
 {
     grains_.see(T_, heat_.sourceDensity());
     grains_.record().course.begin(time_.value(), received());
@@ -83,16 +136,7 @@ Foam::word Foam::timeScheme::typeOf(const fvMesh& mesh)
     {
         return "paper";
     }
-    granularProperties::checkKeys
-    (
-        dict,
-        {
-            "accuracy", "pressureAccuracy", "grains", "timeScheme",
-            "nNonOrthogonalCorrectors",
-            "temperatureTolerance", "stateTolerance", "logInterval",
-            "waitLimit"
-        }
-    );
+    keys.check(dict);
     const word type(dict.lookupOrDefault<word>("timeScheme", "paper"));
     if (!dictionaryConstructorTablePtr_->found(type))
     {

@@ -255,7 +255,7 @@ refusals() {
     check "refused: no stress at the start" refused 'Field stress is missing'
     mv stress 0/stress
     coefficient gas steam
-    check "refused: an unknown gas" refused "Entry 'gas' is steam, allowed: air, nitrogen, helium, argon, vacuum"
+    check "refused: an unknown gas" refused "Entry 'gas' is 'steam', allowed: air, nitrogen, helium, argon, vacuum"
     coefficient gas helium
     sed -i 's/^thermalConductivity .*/thermalConductivity 0.05;/' constant/granularProperties
     check "refused: a solid that conducts less than the gas" refused 'at least that of the gas'
