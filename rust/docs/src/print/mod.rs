@@ -3,6 +3,7 @@
 
 pub mod commands;
 pub mod header;
+pub mod keys;
 mod markdown;
 pub mod scripts;
 
@@ -15,8 +16,12 @@ use std::path::Path;
 type Source = fn(&Path, &str) -> Result<String, DocsError>;
 
 /// Every source by its name, in alphabetical order.
-const SOURCES: &[(&str, Source)] =
-    &[("commands", commands::text), ("header", header::text), ("scripts", scripts::text)];
+const SOURCES: &[(&str, Source)] = &[
+    ("commands", commands::text),
+    ("header", header::text),
+    ("keys", keys::text),
+    ("scripts", scripts::text),
+];
 
 const OPEN: &str = "<!-- print:";
 const CLOSE: &str = "-->";

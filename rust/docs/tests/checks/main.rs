@@ -3,6 +3,7 @@
 mod commands;
 mod fill;
 mod gather;
+mod keys;
 mod links;
 mod math;
 mod print;
