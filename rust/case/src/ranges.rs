@@ -64,9 +64,9 @@ pub fn gravity(value: f64) -> Result<(), CaseError> {
     allow("gravity", value, (0.0..=1e3).contains(&value), || "0 to 1000 m/s2 downwards".to_string())
 }
 
-/// A coefficient of friction.
+/// A coefficient of friction. The solver declares the upper limit of its key.
 pub fn wall_friction(value: f64) -> Result<(), CaseError> {
-    allow("wall friction", value, (0.0..=10.0).contains(&value), || "0 to 10".to_string())
+    allow("wall friction", value, (0.0..f64::INFINITY).contains(&value), || ">= 0".to_string())
 }
 
 /// \[W/m³\]

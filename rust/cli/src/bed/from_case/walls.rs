@@ -94,7 +94,7 @@ fn friction(entry: &Dictionary, patch: &str, notes: &mut Vec<String>) -> Result<
     if entry.get("friction").is_none() {
         return Ok(0.0);
     }
-    let of_bed = entry.number("friction", |value| (0.0..=10.0).contains(&value), "0 to 10")?;
+    let of_bed = entry.number("friction", |value| value >= 0.0, ">= 0")?;
     Ok(of_spheres(of_bed).map_or_else(
         || {
             notes.push(format!(
