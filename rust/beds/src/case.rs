@@ -5,7 +5,7 @@ use crate::named_gases::GasName;
 use crate::pour::{Container, Pouring, WIDEST};
 use crate::property::Property;
 use crate::settle::longest;
-use msdd_engine::message::number;
+use msdd_engine::message::{number, range};
 use msdd_files::{FileError, read_text};
 use msdd_spheres::{Material, Stiffness};
 use serde::{Deserialize, Serialize};
@@ -18,16 +18,23 @@ pub struct BedCase {
     /// Seed of the packing.
     #[serde(default = "one")]
     pub seed: u64,
+    /// A section: the spheres.
     pub grains: Grains,
+    /// A section: what they are poured into.
     pub container: Vessel,
-    /// The lid that is pressed on after pouring, and stays.
+    /// A section: a lid that is pressed on after pouring, and then stays. Default: no lid.
     pub lid: Option<Lid>,
+    /// A section: how the container is turned then. Default: not turned.
     pub turn: Option<Turn>,
+    /// A section: the gas between the grains.
     pub gas: GasKeys,
+    /// A section: the wall that is heated.
     pub plate: PlateKeys,
+    /// A section: how long, and where temperatures are recorded.
     pub heat: Heat,
+    /// A section: measurements.
     pub experiment: Option<ExperimentKeys>,
-    /// What else the experiment is compared with, one value changed at a time.
+    /// Blocks `[[vary]]`: with `--vary` all is computed again with one value changed.
     #[serde(default)]
     pub vary: Vec<Vary>,
 }
@@ -36,23 +43,38 @@ pub struct BedCase {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grains {
+    /// Number of spheres. Allowed: `NUMBERS`.
     pub number: usize,
+    /// Diameter of all of them \[m\]. Allowed: `POSITIVE`.
     pub diameter: f64,
+    /// Density of their material [kg/m³]. Allowed: `POSITIVE`.
     pub density: f64,
+    /// Young's modulus of their material: how large contacts are for heat \[Pa\]. Allowed: `POSITIVE`.
     pub young_modulus: f64,
+    /// Poisson's ratio. Allowed: `POISSON_RATIOS`.
     pub poisson_ratio: f64,
-    /// With which the grains move; contacts conduct as the real one says.
+    /// Young's modulus with which the grains move; with a softer one steps are longer \[Pa\]. Allowed: `SIMULATED`.
     pub simulated_young_modulus: f64,
+    /// Coefficient of friction of two grains. Allowed: `FRICTIONS`.
     pub friction: f64,
+    /// Coefficient of friction of a grain and a wall. Allowed: `FRICTIONS`.
     pub wall_friction: f64,
+    /// Ratio of the speeds after and before a collision. Allowed: `RESTITUTIONS`.
     pub restitution: f64,
+    /// Thermal conductivity: a number, or a table of pairs of temperature and value, straight in between, which covers all
+    /// temperatures of the run [W/(m K)]. Allowed: `LEAST_RATIO` or more times the conductivity of the gas at all temperatures of the
+    /// run; below `GOOD` times, a closure for poor conductors is used, and the run says so.
     pub conductivity: Property,
+    /// Specific heat capacity: a number or a table, as the conductivity [J/(kg K)]. Allowed: `VALUES`.
     pub heat_capacity: Property,
-    /// σ/m.
+    /// Height of the asperities (root mean square) over their slope, σ/m \[m\]. Allowed: 0 (smooth), or `POSITIVE`. Default: smooth.
     pub roughness: Option<f64>,
+    /// Hardness of the surface \[Pa\]. Allowed: `POSITIVE`; required with a roughness above 0.
     pub hardness: Option<f64>,
+    /// Yield stress; contacts beyond it are reported \[Pa\]. Allowed: `POSITIVE`. Default: nothing is reported.
     pub yield_stress: Option<f64>,
-    /// α [1/K]; of beds whose walls move ([`crate::scene`]).
+    /// Linear coefficient of thermal expansion, in `elements.toml` alone [1/K]. Allowed: `EXPANSIONS`. Default: spheres keep their
+    /// size.
     pub thermal_expansion: Option<f64>,
 }
 
@@ -60,11 +82,18 @@ pub struct Grains {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vessel {
+    /// A box: its lengths along x and y. Its walls are `floor`, `x_low`, `x_high`, `y_low`, `y_high`, `lid` \[m\].
+    /// Allowed: `TWO_DIAMETERS`; `WIDE`. Default: this or `radius`.
     pub base: Option<[f64; 2]>,
+    /// An upright cylinder: its radius. Its walls are `floor`, `side`, `lid` \[m\]. Allowed: `ONE_DIAMETER`; `WIDE`.
+    /// Default: this or `base`.
     pub radius: Option<f64>,
-    /// Whether the bed repeats itself beyond the base; of beds whose walls move ([`crate::scene`]).
+    /// Whether the bed repeats itself beyond the sides of `base`; its walls are `floor`, `lid`. In `elements.toml` alone.
+    /// Allowed: `true`, `false`; the `base` has `MORE_DIAMETERS`.
     #[serde(default)]
     pub endless: bool,
+    /// Acceleration of gravity, first along −z [m/s²]. Allowed: `POSITIVE`, and so large that the spheres come to rest within
+    /// `MOST_STEPS` steps.
     #[serde(default = "usual_gravity")]
     pub gravity: f64,
 }
@@ -72,9 +101,10 @@ pub struct Vessel {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Lid {
-    /// It is pressed on until the bed bears this \[Pa\],
+    /// Pressure with which the lid is pressed on \[Pa\]. Allowed: `POSITIVE`. Default: this or `porosity`.
     pub pressure: Option<f64>,
-    /// or until the pores have this share of the volume below it.
+    /// Share of the pores in the volume between floor and lid at which the lid stops. Its pressure then is that of spheres
+    /// with `simulated_young_modulus`, and in proportion to it. Allowed: `POROSITIES`. Default: this or `pressure`.
     pub porosity: Option<f64>,
 }
 
@@ -88,16 +118,19 @@ impl Lid {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Turn {
-    /// The wall that is the floor afterwards.
+    /// The wall that is the floor afterwards. Allowed: a flat wall.
     pub down: String,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GasKeys {
+    /// The gas; its properties depend on temperature.
     pub name: GasName,
+    /// Its pressure, which sets the mean free path \[Pa\]. Allowed: `POSITIVE`.
     #[serde(default = "usual_pressure")]
     pub pressure: f64,
+    /// Thermal accommodation at all surfaces. Allowed: `ACCOMMODATION`.
     #[serde(default = "usual_accommodation")]
     pub accommodation: f64,
 }
@@ -106,42 +139,55 @@ pub struct GasKeys {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlateKeys {
+    /// The wall that is heated. Allowed: a flat wall that the bed touches; with `pressure`, not the one on which the bed rests.
     pub wall: String,
+    /// Its temperature from t = 0 on \[K\]. Allowed: `TEMPERATURES`.
     pub temperature: f64,
-    /// With which it is pressed on; it stays where it is if that is not given.
+    /// Pressure with which it is pressed onto the bed before that \[Pa\]. Allowed: `POSITIVE`. Default: it stays where it is.
     pub pressure: Option<f64>,
+    /// Young's modulus of its material \[Pa\]. Allowed: `POSITIVE`.
     pub young_modulus: f64,
+    /// Poisson's ratio of its material. Allowed: `POISSON_RATIOS`.
     pub poisson_ratio: f64,
-    /// Of the plate; its surface has one temperature if that is not given.
+    /// Thermal conductivity of its material [W/(m K)]. Allowed: `POSITIVE`. Default: its surface has one temperature.
     pub conductivity: Option<f64>,
-    /// σ/m of a grain and the plate, and the hardness of the softer one.
+    /// σ/m of a grain and the plate \[m\]. Allowed: 0 (smooth), or `POSITIVE`. Default: smooth.
     pub roughness: Option<f64>,
+    /// Hardness of the softer of the two \[Pa\]. Allowed: `POSITIVE`; required with a roughness above 0.
     pub hardness: Option<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Heat {
+    /// Temperature of all grains at the start \[K\]. Allowed: `TEMPERATURES`.
     pub initial_temperature: f64,
+    /// End of the run \[s\]. Allowed: `POSITIVE`.
     pub end: f64,
+    /// Time between two rows of `temperature.csv` \[s\]. Allowed: `OUTPUT_EVERY`.
     pub output_every: f64,
+    /// Estimated error of T that a step may make \[K\]. Allowed: `POSITIVE`.
     #[serde(default = "usual_tolerance")]
     pub tolerance: f64,
-    /// Distances from the plate at which T is recorded.
+    /// Distances from the plate at which T is recorded \[m\]. Allowed: where there are grains.
     pub probes: Vec<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExperimentKeys {
-    /// In the folder of the case.
+    /// A CSV file in the folder of the case: the header `distance_m,time_s,temperature_C`, then one measurement a line; lines
+    /// that begin with `#` are comments. Allowed: each distance is one of `heat.probes`.
     pub file: PathBuf,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vary {
+    /// The value that is changed, as `seed` or `gas.accommodation`; the bed is poured again if its packing depends on it.
+    /// Allowed: any key but `experiment.file`.
     pub key: String,
+    /// The other value. Allowed: as for the key.
     pub value: toml::Value,
 }
 
@@ -350,57 +396,70 @@ impl BedCase {
         let mut all = self.grains.numbers();
         all.extend(self.container.numbers(&self.grains));
         all.extend(self.gas.numbers());
-        for (key, value) in [
-            ("plate.young_modulus", p.young_modulus),
-            ("heat.end", h.end),
-            ("heat.tolerance", h.tolerance),
-            ("plate.hardness", p.hardness.unwrap_or(1.0)),
-            ("plate.conductivity", p.conductivity.unwrap_or(1.0)),
-            ("plate.pressure", p.pressure.unwrap_or(1.0)),
-            ("lid.pressure", self.lid.as_ref().and_then(|lid| lid.pressure).unwrap_or(1.0)),
-        ] {
-            all.push((key, value, POSITIVE, positive(value)));
-        }
+        let lid = |key: fn(&Lid) -> Option<f64>| self.lid.as_ref().and_then(key);
         all.extend([
-            ("plate.poisson_ratio", p.poisson_ratio, "0 to 0.5", (0.0..=0.5).contains(&p.poisson_ratio)),
-            ("heat.probes", h.probes.len() as f64, "one at least", !h.probes.is_empty()),
+            ranged("plate.young_modulus", p.young_modulus, POSITIVE),
+            ranged("heat.end", h.end, POSITIVE),
+            ranged("heat.tolerance", h.tolerance, POSITIVE),
+            ranged("plate.hardness", p.hardness.unwrap_or(1.0), POSITIVE),
+            ranged("plate.conductivity", p.conductivity.unwrap_or(1.0), POSITIVE),
+            ranged("plate.pressure", p.pressure.unwrap_or(1.0), POSITIVE),
+            ranged("lid.pressure", lid(|lid| lid.pressure).unwrap_or(1.0), POSITIVE),
+            ranged("plate.poisson_ratio", p.poisson_ratio, POISSON_RATIOS),
+            ("heat.probes", h.probes.len() as f64, "one at least".into(), !h.probes.is_empty()),
             (
                 "heat.output_every",
                 h.output_every,
-                "a hundred-thousandth of end, to end",
+                OUTPUT_EVERY.into(),
                 h.output_every <= h.end && h.output_every >= 1e-5 * h.end,
             ),
             rough("plate.roughness", p.roughness),
         ]);
-        if let Some(porosity) = self.lid.as_ref().and_then(|lid| lid.porosity) {
-            all.push(("lid.porosity", porosity, "0.35 to 0.7", (0.35..=0.7).contains(&porosity)));
-        }
-        for (key, value) in
-            [("plate.temperature", p.temperature), ("heat.initial_temperature", h.initial_temperature)]
-        {
-            all.push((key, value, "1 to 5000 K", (1.0..=5000.0).contains(&value)));
-        }
-        for &probe in &h.probes {
-            all.push(("heat.probes", probe, POSITIVE, positive(probe)));
-        }
+        all.extend(lid(|lid| lid.porosity).map(|porosity| ranged("lid.porosity", porosity, POROSITIES)));
+        all.push(temperature("plate.temperature", p.temperature));
+        all.push(temperature("heat.initial_temperature", h.initial_temperature));
+        all.extend(h.probes.iter().map(|&probe| ranged("heat.probes", probe, POSITIVE)));
         all
     }
 }
 
 /// A number: its key, the value, what is allowed, whether it is so.
-pub(crate) type Ranged = (&'static str, f64, &'static str, bool);
+pub(crate) type Ranged = (&'static str, f64, String, bool);
 /// A value that is wrong: its key, the value, what is allowed.
 type Wrong = (String, String, String);
 
-const POSITIVE: &str = "1e-12 to 1e15";
+/// What numbers may be; the comments of the keys name these.
+pub(crate) const POSITIVE: [f64; 2] = [1e-12, 1e15];
+pub(crate) const TEMPERATURES: [f64; 2] = [1.0, 5000.0];
+pub(crate) const EXPANSIONS: [f64; 2] = [0.0, 0.01];
+const NUMBERS: [f64; 2] = [1.0, 1_000_000.0];
+const FRICTIONS: [f64; 2] = [0.0, 10.0];
+const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
+const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
+const POROSITIES: [f64; 2] = [0.35, 0.7];
+const SIMULATED: &str = "1e-12 to that of the material, young_modulus";
+const ACCOMMODATION: &str = "0 < accommodation <= 1";
+const OUTPUT_EVERY: &str = "a hundred-thousandth of end, to end";
+const ONE_DIAMETER: &str = "one diameter at least";
+const TWO_DIAMETERS: &str = "two diameters at least";
+const MORE_DIAMETERS: &str = "two and a half diameters at least";
+const WIDE: &str = "a floor of at most 10 squares of the diameter for each grain";
 
-fn positive(value: f64) -> bool {
-    (1e-12..=1e15).contains(&value)
+fn inside(value: f64, [low, high]: [f64; 2]) -> bool {
+    (low..=high).contains(&value)
+}
+
+pub(crate) fn ranged(key: &'static str, value: f64, allowed: [f64; 2]) -> Ranged {
+    (key, value, range(allowed), inside(value, allowed))
+}
+
+pub(crate) fn temperature(key: &'static str, value: f64) -> Ranged {
+    (key, value, range(TEMPERATURES) + " K", inside(value, TEMPERATURES))
 }
 
 fn rough(key: &'static str, value: Option<f64>) -> Ranged {
-    let good = value.is_none_or(|v| v == 0.0 || positive(v));
-    (key, value.unwrap_or_default(), "0 (smooth), or 1e-12 to 1e15", good)
+    let good = value.is_none_or(|v| v == 0.0 || inside(v, POSITIVE));
+    (key, value.unwrap_or_default(), format!("0 (smooth), or {}", range(POSITIVE)), good)
 }
 
 fn hardness(key: &str, roughness: Option<f64>, hardness: Option<f64>) -> Result<(), Wrong> {
@@ -437,41 +496,26 @@ impl Grains {
     }
 
     pub(crate) fn numbers(&self) -> Vec<Ranged> {
-        let mut all = Vec::new();
-        for (key, value) in [
-            ("grains.diameter", self.diameter),
-            ("grains.density", self.density),
-            ("grains.young_modulus", self.young_modulus),
-            ("grains.hardness", self.hardness.unwrap_or(1.0)),
-            ("grains.yield_stress", self.yield_stress.unwrap_or(1.0)),
-        ] {
-            all.push((key, value, POSITIVE, positive(value)));
-        }
-        all.extend([
-            ("grains.number", self.number as f64, "1 to 1000000", (1..=1_000_000).contains(&self.number)),
-            ("grains.friction", self.friction, "0 to 10", (0.0..=10.0).contains(&self.friction)),
-            (
-                "grains.wall_friction",
-                self.wall_friction,
-                "0 to 10",
-                (0.0..=10.0).contains(&self.wall_friction),
-            ),
-            ("grains.restitution", self.restitution, "0.001 to 1", (1e-3..=1.0).contains(&self.restitution)),
-            (
-                "grains.poisson_ratio",
-                self.poisson_ratio,
-                "0 to 0.5",
-                (0.0..=0.5).contains(&self.poisson_ratio),
-            ),
+        let simulated = self.simulated_young_modulus;
+        vec![
+            ranged("grains.diameter", self.diameter, POSITIVE),
+            ranged("grains.density", self.density, POSITIVE),
+            ranged("grains.young_modulus", self.young_modulus, POSITIVE),
+            ranged("grains.hardness", self.hardness.unwrap_or(1.0), POSITIVE),
+            ranged("grains.yield_stress", self.yield_stress.unwrap_or(1.0), POSITIVE),
+            ranged("grains.number", self.number as f64, NUMBERS),
+            ranged("grains.friction", self.friction, FRICTIONS),
+            ranged("grains.wall_friction", self.wall_friction, FRICTIONS),
+            ranged("grains.restitution", self.restitution, RESTITUTIONS),
+            ranged("grains.poisson_ratio", self.poisson_ratio, POISSON_RATIOS),
             (
                 "grains.simulated_young_modulus",
-                self.simulated_young_modulus,
-                "1e-12 to that of the material, young_modulus",
-                positive(self.simulated_young_modulus) && self.simulated_young_modulus <= self.young_modulus,
+                simulated,
+                SIMULATED.into(),
+                inside(simulated, POSITIVE) && simulated <= self.young_modulus,
             ),
             rough("grains.roughness", self.roughness),
-        ]);
-        all
+        ]
     }
 
     /// Checks what depends on the temperatures of a run \[K\] and on the gas.
@@ -533,11 +577,11 @@ impl GasKeys {
     pub(crate) fn numbers(&self) -> Vec<Ranged> {
         let accommodation = self.accommodation;
         vec![
-            ("gas.pressure", self.pressure, POSITIVE, positive(self.pressure)),
+            ranged("gas.pressure", self.pressure, POSITIVE),
             (
                 "gas.accommodation",
                 accommodation,
-                "0 < accommodation <= 1",
+                ACCOMMODATION.into(),
                 accommodation > 0.0 && accommodation <= 1.0,
             ),
         ]
@@ -584,21 +628,20 @@ impl Vessel {
         let radius = self.radius.unwrap_or(d);
         // The other one of base and radius is just large enough.
         let floor = (base[0] * base[1]).max(std::f64::consts::PI * radius * radius) / (count * d * d);
-        let wide = "a floor of at most 10 squares of the diameter for each grain";
         // A grain must not meet two images of another.
         let (least, narrow) = match self.endless {
-            false => (2.0, "two diameters at least"),
-            true => (2.5, "two and a half diameters at least"),
+            false => (2.0, TWO_DIAMETERS),
+            true => (2.5, MORE_DIAMETERS),
         };
         vec![
-            ("container.gravity", self.gravity, POSITIVE, positive(self.gravity)),
-            ("container.base", base[0], narrow, self.base.is_none() || base[0] >= least * d),
-            ("container.base", base[1], narrow, self.base.is_none() || base[1] >= least * d),
-            ("container.radius", radius, "one diameter at least", radius >= d),
+            ranged("container.gravity", self.gravity, POSITIVE),
+            ("container.base", base[0], narrow.into(), self.base.is_none() || base[0] >= least * d),
+            ("container.base", base[1], narrow.into(), self.base.is_none() || base[1] >= least * d),
+            ("container.radius", radius, ONE_DIAMETER.into(), radius >= d),
             (
                 if self.base.is_some() { "container.base" } else { "container.radius" },
                 if self.base.is_some() { base[0].max(base[1]) } else { radius },
-                wide,
+                WIDE.into(),
                 floor.is_finite() && floor <= WIDEST.max(4.0 / count),
             ),
         ]

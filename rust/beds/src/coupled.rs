@@ -1,10 +1,18 @@
 //! A bed whose walls move while heat flows through it: grains grow with their temperature, walls give way or follow a path, and
 //! contacts conduct as they are pressed.
 //!
-//! Time goes on in intervals. In each, heat first flows through the network of the contacts as they are at its start; then grains and
-//! walls move to where the end of the interval wants them, in half of a number of steps of the discrete elements or as many more as they
-//! need to stay near rest, and come to rest in as many. An interval that needs too many is hurried, and counted. The motion is not that
-//! of the real time: a bed at rest knows none, and how far from rest it is is recorded.
+//! The grains are poured with `simulated_young_modulus`, the lid is pressed on, and then they harden to `young_modulus` while the lid
+//! keeps its pressure. Meanwhile walls are smooth: rough ones would carry part of what the modulus adds to the stress, in a small bed as
+//! deep as it is wide a third of the load. From there on they have the stiffness of their material.
+//!
+//! Time goes on in intervals. In each, heat flows through the contacts as they are at its start; then radii and walls change evenly in
+//! half of the steps of the discrete elements, and come to rest in the other half. Both halves take longer where the bed lags: radii and
+//! walls wait while more than 2 % of the load is out of balance, and an interval ends when less than 0.1 % is. A bed that lags lets
+//! contacts slide that would not slide at rest. Where 400 times the steps are not enough, the rest of the motion is hurried, and after
+//! 100 times the steps of the rest the interval ends as it is; the summary then warns and says how many intervals that were. A heated
+//! wall holds all spheres whose centre is within a diameter of it at its temperature; other walls are insulated.
+//!
+//! The motion is not the motion in real time: it shows how a bed at rest changes, and how far from rest it is is recorded.
 
 use crate::BedError;
 use crate::give::{BLOCK, Hold, Moving, drag, steered, wall_area};

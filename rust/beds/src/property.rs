@@ -3,8 +3,11 @@
 use msdd_engine::message::number;
 use serde::{Deserialize, Serialize};
 
+/// What values may be.
+const VALUES: [f64; 2] = [1e-30, 1e30];
+
 fn positive(value: f64) -> bool {
-    (1e-30..=1e30).contains(&value)
+    (VALUES[0]..=VALUES[1]).contains(&value)
 }
 
 /// A property: one number, or a table of pairs (temperature \[K\], value), between which it is straight.
@@ -19,7 +22,7 @@ pub enum Property {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TableError {
     #[error("{}, allowed: {allowed}", number(*value))]
-    Value { value: f64, allowed: &'static str },
+    Value { value: f64, allowed: String },
     #[error("a table with temperature {} K, allowed: 0 to 1000000 K", number(*value))]
     Temperature { value: f64 },
     #[error("{rows} rows, allowed: two at least")]
@@ -37,7 +40,7 @@ impl Property {
     /// # Errors
     /// The first thing that is wrong.
     pub fn check(&self, range: [f64; 2]) -> Result<(), TableError> {
-        let allowed = "1e-30 to 1e30";
+        let allowed = msdd_engine::message::range(VALUES);
         match self {
             Self::Constant(value) if positive(*value) => Ok(()),
             Self::Constant(value) => Err(TableError::Value { value: *value, allowed }),

@@ -2,34 +2,63 @@
 
 use crate::coupled::{Prepared, Run};
 use crate::scene::Scene;
+use msdd_files::{Column, names};
 use std::fmt::Write;
 
 /// Columns between those of the temperatures and of the walls.
-const MOVING: [&str; 24] = [
-    "T_mean",
-    "stress_1",
-    "stress_2",
-    "stress_3",
-    "p",
-    "thermal_strain",
-    "strain_1",
-    "strain_2",
-    "strain_3",
-    "porosity",
-    "porosity_outside",
-    "coordination",
-    "fabric_1",
-    "fabric_2",
-    "fabric_3",
-    "mobilisation",
-    "K_contacts",
-    "K_gas",
-    "K",
-    "depth",
-    "radius",
-    "unbalanced",
-    "yielding",
-    "peak",
+const MOVING: [Column; 24] = [
+    ("T_mean", "K", "mean temperature of the spheres in the region of averages"),
+    (
+        "stress_1",
+        "Pa",
+        "mean normal stress of the contacts there, compression positive: along x; in a cylinder along the radius",
+    ),
+    ("stress_2", "Pa", "the same along y; in a cylinder around the axis"),
+    ("stress_3", "Pa", "the same along z"),
+    ("p", "Pa", "mean of the three"),
+    ("thermal_strain", "-", "mean growth of the radii of the spheres there since the start, over the radius"),
+    (
+        "strain_1",
+        "-",
+        "strain of the bed there since the start, extension positive, along the axis of stress_1: slope of a straight line through the displacements of the spheres; in a cylinder the mean across its axis. Across z, a bed without sides has none",
+    ),
+    ("strain_2", "-", "the same along the axis of stress_2"),
+    ("strain_3", "-", "the same along the axis of stress_3"),
+    ("porosity", "-", "porosity there"),
+    (
+        "porosity_outside",
+        "-",
+        "in a cylinder between the same heights, from the `radius` of `[record]` to half a diameter before the side, where the centres of the first layer are; empty in a box",
+    ),
+    ("coordination", "-", "contacts per sphere there, with walls"),
+    (
+        "fabric_1",
+        "-",
+        "fabric there: mean square of the component of the normals of contacts along the axis of stress_1; the sum of the three is 1",
+    ),
+    ("fabric_2", "-", "the same along the axis of stress_2"),
+    ("fabric_3", "-", "the same along the axis of stress_3"),
+    (
+        "mobilisation",
+        "-",
+        "tangential force of the contacts there over the tangential force at which they would slide",
+    ),
+    ("K_contacts", "W/(m K)", "conductivity along z there at the mean temperature, by contacts"),
+    ("K_gas", "W/(m K)", "the same by gas"),
+    ("K", "W/(m K)", "the sum"),
+    ("depth", "m", "depth of the bed"),
+    ("radius", "m", "radius of the cylinder; empty in a box"),
+    ("unbalanced", "-", "force along z that is not in balance, over the force on the lid or the weight"),
+    (
+        "yielding",
+        "-",
+        "share of the contacts in which Hertz's peak stress exceeds 1.6 times the yield stress; empty without one",
+    ),
+    (
+        "peak",
+        "-",
+        "largest of Hertz's peak stresses over 1.6 times the yield stress; above 1 the elastic law ends",
+    ),
 ];
 /// The rows of a run as CSV, with comments on where they come from.
 pub fn elements(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
@@ -48,7 +77,7 @@ pub fn elements(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     );
     let temperatures = scene.record.distances.iter().map(|d| format!("T_{d}"));
     let pressures = walls.iter().map(|(name, _)| format!("p_{name}"));
-    let middle = MOVING.iter().map(ToString::to_string);
+    let middle = names(&MOVING).map(str::to_string);
     let header: Vec<String> =
         ["time".to_string()].into_iter().chain(temperatures).chain(middle).chain(pressures).collect();
     let _ = writeln!(text, "{}", header.join(","));

@@ -1,7 +1,9 @@
 //! The description of a bed whose walls move while heat flows through it: a TOML file that says what is poured, which walls have
 //! which temperature, and how they move.
 
-use crate::case::{CaseError, GasKeys, Grains, Vessel};
+use crate::case::{
+    CaseError, EXPANSIONS, GasKeys, Grains, POSITIVE, Ranged, TEMPERATURES, Vessel, ranged, temperature,
+};
 use crate::pour::Container;
 use crate::schedule::Schedule;
 use msdd_engine::message::number;
@@ -17,6 +19,11 @@ pub const FILE: &str = "elements.toml";
 /// diameters; of 30 spheres, with some 70 contacts, a mean stress scatters by about 15 %, as forces scatter about as much as their mean.
 const MIN_HEIGHT: f64 = 2.0;
 const MIN_SPHERES: f64 = 30.0;
+/// What numbers may be.
+const STRAINS: [f64; 2] = [-0.2, 0.2];
+const STEPS: [f64; 2] = [100.0, 10_000_000.0];
+const INTERVAL: &str = "a hundred-thousandth of end, to output_every";
+const OUTPUT_EVERY: &str = "interval to end";
 /// Solid fraction by which they are counted.
 const USUAL_FRACTION: f64 = 0.6;
 
@@ -27,14 +34,21 @@ pub struct Scene {
     /// Seed of the packing.
     #[serde(default = "one")]
     pub seed: u64,
+    /// A section: the spheres.
     pub grains: Grains,
+    /// A section: what they are poured into.
     pub container: Vessel,
+    /// A section: how the lid is pressed on and moved.
     pub lid: LidKeys,
+    /// A section: the gas between the spheres.
     pub gas: GasKeys,
-    /// Walls of given temperature; the others are insulated.
+    /// Blocks `[[heated]]`: walls of given temperature; the others are insulated.
     pub heated: Vec<Heated>,
+    /// A section: the side of a cylinder that gives way. Default: a rigid side.
     pub shell: Option<Shell>,
+    /// A section: temperature at the start, intervals, steps.
     pub time: Time,
+    /// A section: where temperatures and averages are taken.
     pub record: RecordKeys,
 }
 
@@ -42,10 +56,13 @@ pub struct Scene {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LidKeys {
+    /// Pressure with which the lid is pressed on before the start \[Pa\]. Allowed: `POSITIVE`.
     pub pressure: f64,
-    /// How far it is moved towards the grains since then, over the depth of the bed; or with which pressure it goes on pressing. It stays
-    /// where it is if neither is given.
+    /// Over time: how far it has moved towards the spheres since the start, over the depth of the bed. Allowed: `STRAINS`.
+    /// Default: it stays where it is.
     pub strain: Option<Schedule>,
+    /// Over time: the pressure with which it goes on pressing, instead of `strain` \[Pa\]. Allowed: `POSITIVE`. Default: it stays
+    /// where it is.
     pub pressing: Option<Schedule>,
 }
 
@@ -53,7 +70,9 @@ pub struct LidKeys {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Heated {
+    /// Name of the wall. Allowed: a wall of the container.
     pub wall: String,
+    /// Its temperature over time \[K\]. Allowed: `TEMPERATURES`.
     pub temperature: Schedule,
 }
 
@@ -61,8 +80,13 @@ pub struct Heated {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shell {
+    /// Young's modulus E_w of the side of the cylinder. Its radius R grows by R²/(E_w t) times the pressure beyond that of the
+    /// start \[Pa\]. Allowed: `POSITIVE`.
     pub young_modulus: f64,
+    /// Its thickness t \[m\]. Allowed: `POSITIVE`.
     pub thickness: f64,
+    /// Its linear coefficient of thermal expansion; it has the temperature of the heated wall `side`, else that of the start
+    /// [1/K]. Allowed: `EXPANSIONS`.
     #[serde(default)]
     pub thermal_expansion: f64,
 }
@@ -70,13 +94,18 @@ pub struct Shell {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
+    /// Temperature of all spheres at the start \[K\]. Allowed: `TEMPERATURES`.
     pub initial_temperature: f64,
+    /// End of the run \[s\]. Allowed: `POSITIVE`.
     pub end: f64,
-    /// Between two looks at the contacts: heat flows, then grains grow and walls move.
+    /// Time between two changes of radii, walls and contacts: heat flows, then grains grow and walls move \[s\].
+    /// Allowed: `INTERVAL`.
     pub interval: f64,
-    /// Of the motion in each interval.
+    /// Steps of the discrete elements in each interval, at least; where the bed lags there are more. Allowed: `STEPS`.
     pub steps: u64,
+    /// Time between two rows of the results \[s\]. Allowed: `OUTPUT_EVERY`.
     pub output_every: f64,
+    /// Estimated error of T that a step of heat may make \[K\]. Allowed: `POSITIVE`.
     #[serde(default = "usual_tolerance")]
     pub tolerance: f64,
 }
@@ -84,13 +113,16 @@ pub struct Time {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordKeys {
-    /// The wall from which distances are counted.
+    /// The wall from which distances are counted. Allowed: a wall of the container.
     pub wall: String,
-    /// Distances at which T is recorded.
+    /// Distances at which T is recorded: the value there of a straight line through the spheres within 1.5 diameters, from `side`
+    /// those between `heights` \[m\]. Allowed: where there are spheres.
     pub distances: Vec<f64>,
-    /// Heights between which averages are taken.
+    /// Two heights above the floor, between which averages are taken \[m\]. Allowed: rising, `MIN_HEIGHT` diameters apart at
+    /// least, within the bed; about `MIN_SPHERES` spheres at least between them.
     pub heights: [f64; 2],
-    /// In a cylinder, the radius within which stresses are averaged.
+    /// In a cylinder, the distance from the axis within which averages are taken \[m\]. Allowed: a diameter to the radius of the
+    /// container. Default: required in a cylinder.
     pub radius: Option<f64>,
 }
 
@@ -170,12 +202,12 @@ impl Scene {
         numbers.extend(self.gas.numbers());
         numbers.extend(self.numbers());
         if let Some((key, value, allowed, _)) = numbers.into_iter().find(|number| !number.3) {
-            return wrong(key, number(value), allowed);
+            return wrong(key, number(value), &allowed);
         }
         self.container.check(&self.grains)?;
         for heated in &self.heated {
             let told = |(value, allowed)| ("heated.temperature".to_string(), value, allowed);
-            heated.temperature.check([1.0, 5000.0]).map_err(told)?;
+            heated.temperature.check(TEMPERATURES).map_err(told)?;
         }
         self.grains.check(self.temperatures(), &self.gas)?;
         let heated = self.heated.iter().map(|heated| ("heated.wall", &heated.wall));
@@ -190,11 +222,10 @@ impl Scene {
                 return wrong("lid", "strain and pressing".into(), "one of strain and pressing, or neither");
             }
             (Some(path), None) => {
-                path.check([-0.2, 0.2]).map_err(|(value, allowed)| ("lid.strain".into(), value, allowed))?;
+                path.check(STRAINS).map_err(|(value, allowed)| ("lid.strain".into(), value, allowed))?;
             }
             (None, Some(path)) => {
-                path.check([1e-12, 1e15])
-                    .map_err(|(value, allowed)| ("lid.pressing".into(), value, allowed))?;
+                path.check(POSITIVE).map_err(|(value, allowed)| ("lid.pressing".into(), value, allowed))?;
             }
             (None, None) => {}
         }
@@ -247,51 +278,36 @@ impl Scene {
         Ok(())
     }
 
-    fn numbers(&self) -> Vec<(&'static str, f64, &'static str, bool)> {
-        const POSITIVE: &str = "1e-12 to 1e15";
-        let positive = |v: f64| (1e-12..=1e15).contains(&v);
+    fn numbers(&self) -> Vec<Ranged> {
         let time = &self.time;
+        let of_shell = |key: fn(&Shell) -> f64, none: f64| self.shell.as_ref().map_or(none, key);
         let mut all = vec![
-            (
-                "time.initial_temperature",
-                time.initial_temperature,
-                "1 to 5000 K",
-                (1.0..=5000.0).contains(&time.initial_temperature),
-            ),
+            temperature("time.initial_temperature", time.initial_temperature),
             (
                 "time.interval",
                 time.interval,
-                "a hundred-thousandth of end, to output_every",
+                INTERVAL.into(),
                 time.interval >= 1e-5 * time.end && time.interval <= time.output_every,
             ),
-            ("time.output_every", time.output_every, "interval to end", time.output_every <= time.end),
-            ("time.steps", time.steps as f64, "100 to 10000000", (100..=10_000_000).contains(&time.steps)),
+            ("time.output_every", time.output_every, OUTPUT_EVERY.into(), time.output_every <= time.end),
+            ranged("time.steps", time.steps as f64, STEPS),
             (
                 "record.distances",
                 self.record.distances.len() as f64,
-                "one at least",
+                "one at least".into(),
                 !self.record.distances.is_empty(),
             ),
+            ranged("time.end", time.end, POSITIVE),
+            ranged("time.tolerance", time.tolerance, POSITIVE),
+            ranged("lid.pressure", self.lid.pressure, POSITIVE),
+            ranged("shell.young_modulus", of_shell(|shell| shell.young_modulus, 1.0), POSITIVE),
+            ranged("shell.thickness", of_shell(|shell| shell.thickness, 1.0), POSITIVE),
+            ranged("record.radius", self.record.radius.unwrap_or(1.0), POSITIVE),
+            ranged("shell.thermal_expansion", of_shell(|shell| shell.thermal_expansion, 0.0), EXPANSIONS),
+            ranged("grains.thermal_expansion", self.grains.thermal_expansion.unwrap_or(0.0), EXPANSIONS),
         ];
-        for (key, value) in [
-            ("time.end", time.end),
-            ("time.tolerance", time.tolerance),
-            ("lid.pressure", self.lid.pressure),
-            ("shell.young_modulus", self.shell.as_ref().map_or(1.0, |shell| shell.young_modulus)),
-            ("shell.thickness", self.shell.as_ref().map_or(1.0, |shell| shell.thickness)),
-            ("record.radius", self.record.radius.unwrap_or(1.0)),
-        ] {
-            all.push((key, value, POSITIVE, positive(value)));
-        }
-        for (key, value) in [
-            ("shell.thermal_expansion", self.shell.as_ref().map_or(0.0, |shell| shell.thermal_expansion)),
-            ("grains.thermal_expansion", self.grains.thermal_expansion.unwrap_or(0.0)),
-        ] {
-            all.push((key, value, "0 to 0.01", (0.0..=0.01).contains(&value)));
-        }
-        for &distance in &self.record.distances {
-            all.push(("record.distances", distance, POSITIVE, positive(distance)));
-        }
+        let distances = self.record.distances.iter();
+        all.extend(distances.map(|&distance| ranged("record.distances", distance, POSITIVE)));
         all
     }
 }

@@ -105,13 +105,16 @@ pub fn preset(presets: &[&'static Preset], name: &str) -> Result<&'static Preset
     })
 }
 
+/// What properties of grains may be; so narrow that products of such numbers cannot overflow.
+const GRAIN_VALUES: [f64; 2] = [1e-12, 1e15];
+const GRAIN_EXPANSIONS: [f64; 2] = [0.0, 1.0];
+
 /// Refuses a value out of range, of [`Grains::named`].
 ///
 /// # Errors
 /// [`CaseError::Parameter`].
 pub fn check_value((key, value, unit): (&str, f64, &str)) -> Result<(), CaseError> {
-    // Ranges so narrow that products of such numbers cannot overflow.
-    let (least, most) = if key == "thermalExpansion" { (0.0, 1.0) } else { (1e-12, 1e15) };
+    let [least, most] = if key == "thermalExpansion" { GRAIN_EXPANSIONS } else { GRAIN_VALUES };
     allow(key, value, (least..=most).contains(&value), || format!("{least:e} to {most:e} {unit}"))
 }
 

@@ -34,9 +34,15 @@ pub fn cells(along: &[usize]) -> Result<(), CaseError> {
     allow("cells", all as f64, (1..=MOST_CELLS).contains(&all), || format!("1 to {MOST_CELLS} in all"))
 }
 
+/// What a temperature of a bed of discs may be \[K\].
+const DISC_TEMPERATURES: [f64; 2] = [0.0, 1e5];
+
 /// A temperature of a bed of discs \[K\].
 pub fn temperature(key: &str, value: f64) -> Result<(), CaseError> {
-    allow(key, value, (0.0..=1e5).contains(&value), || "0 to 1e5 K; temperatures are in Kelvin".to_string())
+    let [low, high] = DISC_TEMPERATURES;
+    allow(key, value, (low..=high).contains(&value), || {
+        format!("{low} to {high:e} K; temperatures are in Kelvin")
+    })
 }
 
 /// A temperature at which the gas between spheres is known \[K\].
@@ -74,7 +80,11 @@ pub fn heat_source(value: f64) -> Result<(), CaseError> {
     allow("heat source", value, value.abs() <= 1e15, || "-1e15 to 1e15 W/m3".to_string())
 }
 
+/// What the end of a run may be \[s\].
+const END_TIMES: [f64; 2] = [1e-9, 1e12];
+
 /// \[s\]
 pub fn end_time(value: f64) -> Result<(), CaseError> {
-    allow("end time", value, (1e-9..=1e12).contains(&value), || "1e-9 to 1e12 s".to_string())
+    let [low, high] = END_TIMES;
+    allow("end time", value, (low..=high).contains(&value), || format!("{low:e} to {high:e} s"))
 }

@@ -1,23 +1,24 @@
 //! Parameters of the grains.
 
+use msdd_engine::message::range;
 use serde::{Deserialize, Serialize};
 
 /// Mechanical parameters of the grains, one material for all (paper, Table 2).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// ρ [kg/m³], of the grains.
+    /// Density of the grains [kg/m³]. Allowed: `POSITIVE`.
     pub density: f64,
-    /// E \[Pa\].
+    /// Young's modulus E \[Pa\]. Allowed: `POSITIVE`.
     pub young_modulus: f64,
-    /// ν [-]: tangential over normal contact stiffness.
+    /// Tangential over normal stiffness of a contact. Allowed: `RATIOS`.
     pub stiffness_ratio: f64,
-    /// φ \[rad\]: contacts slide at |f_t| = f_n tan φ.
+    /// Angle of friction φ between grains: contacts slide at |f_t| = f_n tan φ \[rad\]. Allowed: `ANGLES`.
     pub friction_angle: f64,
-    /// Wall stiffness over E r [-]. The paper gives no value; 1 is that of the authors' public code (2 would be the
-    /// limit r₂ → ∞ of the law for pairs).
+    /// Stiffness of a contact with a wall, over E times the radius of the grain. The paper gives no value; 1 is that of the
+    /// authors' public code (2 would be the limit of the law for pairs with r₂ → ∞). Allowed: `POSITIVE`.
     pub wall_stiffness_factor: f64,
-    /// μ [-]: damping force −μ |f_c| v/|v|.
+    /// Damping force of a grain over the force on it. Allowed: `DAMPINGS`.
     pub damping: f64,
 }
 
@@ -41,32 +42,30 @@ impl Default for Material {
 pub struct MaterialError {
     pub key: &'static str,
     pub value: f64,
-    pub allowed: &'static str,
+    pub allowed: String,
 }
+
+/// What parameters may be. Within these bounds products of several stay finite.
+const POSITIVE: [f64; 2] = [1e-30, 1e30];
+const RATIOS: [f64; 2] = [0.0, 1.0];
+const ANGLES: &str = "0 <= angle < pi/2 rad";
+const DAMPINGS: &str = "0 <= damping < 1";
 
 impl Material {
     /// The parameters: name, value, whether the contact law has a meaning for it, and the values for which it has.
-    pub fn parameters(&self) -> [(&'static str, f64, bool, &'static str); 6] {
-        // Within these bounds products of several parameters stay finite.
-        let positive = |v: f64| (1e-30..=1e30).contains(&v);
-        let quarter_turn = |v: f64| (0.0..std::f64::consts::FRAC_PI_2).contains(&v);
+    pub fn parameters(&self) -> [(&'static str, f64, bool, String); 6] {
+        let ranged = |key, value, allowed: [f64; 2], unit: &str| {
+            (key, value, (allowed[0]..=allowed[1]).contains(&value), range(allowed) + unit)
+        };
+        let quarter_turn = (0.0..std::f64::consts::FRAC_PI_2).contains(&self.friction_angle);
+        let damped = (0.0..1.0).contains(&self.damping);
         [
-            ("density", self.density, positive(self.density), "1e-30 to 1e30 kg/m3"),
-            ("young_modulus", self.young_modulus, positive(self.young_modulus), "1e-30 to 1e30 Pa"),
-            ("stiffness_ratio", self.stiffness_ratio, (0.0..=1.0).contains(&self.stiffness_ratio), "0 to 1"),
-            (
-                "friction_angle",
-                self.friction_angle,
-                quarter_turn(self.friction_angle),
-                "0 <= angle < pi/2 rad",
-            ),
-            (
-                "wall_stiffness_factor",
-                self.wall_stiffness_factor,
-                positive(self.wall_stiffness_factor),
-                "1e-30 to 1e30",
-            ),
-            ("damping", self.damping, (0.0..1.0).contains(&self.damping), "0 <= damping < 1"),
+            ranged("density", self.density, POSITIVE, " kg/m3"),
+            ranged("young_modulus", self.young_modulus, POSITIVE, " Pa"),
+            ranged("stiffness_ratio", self.stiffness_ratio, RATIOS, ""),
+            ("friction_angle", self.friction_angle, quarter_turn, ANGLES.to_string()),
+            ranged("wall_stiffness_factor", self.wall_stiffness_factor, POSITIVE, ""),
+            ("damping", self.damping, damped, DAMPINGS.to_string()),
         ]
     }
 

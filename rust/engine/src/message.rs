@@ -6,6 +6,15 @@ pub fn number(value: f64) -> String {
     if plain.len() > 20 { format!("{value:e}") } else { plain }
 }
 
+/// A range for a message: 1e-12 to 1e15, 1 to 1000000.
+pub fn range(ends: [f64; 2]) -> String {
+    let [low, high] = ends.map(|end| {
+        let plain = end.to_string();
+        if plain.len() > 8 { format!("{end:e}") } else { plain }
+    });
+    format!("{low} to {high}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -16,5 +25,7 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(number(value), text);
         }
+        assert_eq!(range([1e-12, 1e15]), "1e-12 to 1e15");
+        assert_eq!(range([-0.2, 10_000_000.0]), "-0.2 to 10000000");
     }
 }

@@ -44,3 +44,11 @@ pub enum FileError {
     #[error("cannot read {file}: byte {byte} is not UTF-8 text", file = file.display())]
     Text { file: PathBuf, byte: usize },
 }
+
+/// A column of a table: name, unit, meaning. The book prints these lists.
+pub type Column = (&'static str, &'static str, &'static str);
+
+/// The names of columns, as the head of a table has them.
+pub fn names<const N: usize>(columns: &[Column; N]) -> [&'static str; N] {
+    columns.map(|(name, _, _)| name)
+}

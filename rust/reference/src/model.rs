@@ -85,25 +85,29 @@ pub struct Model {
 /// Statistics of the initial model, beside the values that the paper gives for its own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
-    /// η of the box, overlaps counted once [-]; paper: 0.125.
+    /// Porosity of the box, overlaps counted once; paper: 0.125.
     pub porosity: f64,
+    /// 1 less the sum of the areas of the grains over the area: overlaps counted twice.
     pub porosity_sum_of_areas: f64,
-    /// η of the sub-regions, least and largest; paper (over windows): 0.117 to 0.131.
+    /// Least and largest porosity of the sub-regions; paper (over windows): 0.117 to 0.131.
     pub porosity_range: [f64; 2],
-    /// f of the box [-]; paper: 0.050.
+    /// F_xx − F_yy of the box; paper: 0.050.
     pub fabric_index: f64,
-    /// f of the sub-regions, least and largest; paper (over windows): 0.030 to 0.064.
+    /// Least and largest of the sub-regions; paper (over windows): 0.030 to 0.064.
     pub fabric_range: [f64; 2],
-    /// p \[Pa\], compression positive.
+    /// Pressure, compression positive \[Pa\].
     pub pressure: f64,
-    /// σ_xx over σ_yy of the box [-].
+    /// σ_xx/σ_yy of the box.
     pub stress_ratio: f64,
-    /// σ_xx \[Pa\] of the box's first and last tenth along x, which shows how even the packing is.
+    /// σ_xx of the first and of the last tenth along x, which shows how even the packing is \[Pa\].
     pub stress_xx_ends: [f64; 2],
-    /// K/k, xx and yy [-], affine estimate (Eq. 9) and solved resistor network.
+    /// K/k, xx and yy, affine.
     pub conductivity: [f64; 2],
+    /// K/k, xx and yy, network.
     pub conductivity_network: [f64; 2],
+    /// Contacts of a grain that has any.
     pub coordination: f64,
+    /// Number of grains without contact.
     pub rattlers: u64,
 }
 

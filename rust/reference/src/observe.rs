@@ -6,6 +6,7 @@
 use crate::model::SUB_REGIONS;
 use crate::results::{Grains, Table};
 use msdd_dem::{Side, Simulation};
+use msdd_files::{Column, names};
 use msdd_rve::network::Network;
 use msdd_rve::region::{Polygon, whole_box};
 use msdd_rve::{Averages, Cut, homogenise_affine_in, windows};
@@ -26,20 +27,44 @@ const CONDUCTIVITIES: [&str; 4] =
     ["conductivity_xx", "conductivity_yy", "conductivity_network_xx", "conductivity_network_yy"];
 const WALL_NAMES: [&str; 4] = ["left", "right", "bottom", "top"];
 
-/// Columns of the time series for a number of probes.
+/// Columns of the time series: `<N>` is the number of each probe, from 1, and `<wall>` each of the four walls.
+const SERIES: [Column; 20] = [
+    ("time", "s", "time"),
+    ("T_P<N>_disc", "K", "T of the grain that is nearest to the probe; it may have no contact"),
+    ("T_P<N>_window", "K", "mean T of the grains in the window around the probe, weighted by mass"),
+    ("T_mean", "K", "mean T of the box"),
+    ("porosity", "-", "porosity of the box, overlaps counted once"),
+    ("fabric_index", "-", "F_xx - F_yy of the box"),
+    ("pressure", "Pa", "(stress_xx + stress_yy)/2 of the box, compression positive"),
+    ("stress_xx", "Pa", "stress of the box along x"),
+    ("stress_yy", "Pa", "stress of the box along y"),
+    ("stress_xy", "Pa", "shear stress, the mean of both that Love's formula has"),
+    ("conductivity_xx", "-", "K_xx/k of the box, affine"),
+    ("conductivity_yy", "-", "K_yy/k of the box, affine"),
+    ("normal_force_<wall>", "N", "normal force of the grains on the wall, outwards positive"),
+    ("tangential_force_<wall>", "N", "force along the wall, positive along the axis"),
+    (
+        "mobilised_friction_<wall>",
+        "-",
+        "sum of the tangential forces over the sum of the normal forces there",
+    ),
+    ("heat_<wall>", "J", "heat from the wall since the start"),
+    ("porosity_inner", "-", "porosity of the box less two mean radii at the walls"),
+    ("pressure_inner", "Pa", "pressure there"),
+    ("stress_xx_inner", "Pa", "stress along x there"),
+    ("stress_yy_inner", "Pa", "stress along y there"),
+];
+
+/// Names of the columns of the time series for a number of probes.
 pub fn series_columns(probes: usize) -> Vec<String> {
-    let mut names = vec!["time".to_string()];
-    names.extend((1..=probes).map(|k| format!("T_P{k}_disc")));
-    names.extend((1..=probes).map(|k| format!("T_P{k}_window")));
-    names.push("T_mean".to_string());
-    let averages = ["porosity", "fabric_index", "pressure", "stress_xx", "stress_yy", "stress_xy"];
-    names.extend(averages.map(str::to_string));
-    names.extend(["conductivity_xx", "conductivity_yy"].map(str::to_string));
-    for quantity in ["normal_force", "tangential_force", "mobilised_friction", "heat"] {
-        names.extend(WALL_NAMES.map(|wall| format!("{quantity}_{wall}")));
-    }
-    names.extend(["porosity", "pressure", "stress_xx", "stress_yy"].map(|name| format!("{name}_inner")));
-    names
+    let expanded = |name: &str| -> Vec<String> {
+        match name {
+            _ if name.contains("<N>") => (1..=probes).map(|k| name.replace("<N>", &k.to_string())).collect(),
+            _ if name.contains("<wall>") => WALL_NAMES.map(|wall| name.replace("<wall>", wall)).to_vec(),
+            _ => vec![name.to_string()],
+        }
+    };
+    names(&SERIES).into_iter().flat_map(expanded).collect()
 }
 
 /// One row of the time series; `window` is the side of the windows around the probes \[m\]. Temperatures in K, conductivities

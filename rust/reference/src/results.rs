@@ -107,11 +107,15 @@ impl Properties {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Results {
+    /// `msdd-reference-1`.
     pub schema: String,
+    /// Name of the case.
     pub case: String,
+    /// Seed of the packing.
     pub seed: u64,
+    /// Number of grains.
     pub discs: usize,
-    /// Absent in older files.
+    /// Material, thermal properties and radii of the grains; absent in older files, whose grains are those of the paper.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub properties: Option<Properties>,
     /// Width and height of the box \[m\].
@@ -119,30 +123,36 @@ pub struct Results {
     pub size: [f64; 2],
     /// Points where T was recorded \[m\].
     pub probes: Vec<[f64; 2]>,
-    /// Side of the windows around the probes over which T is averaged \[m\]; absent in older files, where it was 40 mm.
+    /// Side of the windows around the probes over which T is averaged: eight mean radii; 40 mm in files without this entry
+    /// \[m\].
     #[serde(default = "older_window")]
     pub probe_window: f64,
-    /// Statistics of the packed model at the start.
+    /// Averages of the box at the start.
     pub model: Statistics,
-    /// Mechanical steps (none in a case without expansion, where the grains stay at rest), and thermal sub-steps.
+    /// Mechanical steps; none in a case without expansion, where the grains stay at rest.
     pub steps: u64,
+    /// Thermal sub-steps in them.
     pub thermal_substeps: u64,
-    /// Largest mechanical time step that was given \[s\]; absent: that of the stability bound was used.
+    /// Largest mechanical step that was given; `null`: from the stability bound \[s\].
     pub time_step: Option<f64>,
-    /// By how much the run was sped up, see [`Self::of_sped_up`].
+    /// Factor of `--speed-up`, absent if 1; times and heat capacity here are those of the case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub speed_up: Option<f64>,
+    /// Table over time.
     pub series: Table,
+    /// Table of averages in 10 × 3 windows at the start.
     pub sub_regions_start: Table,
+    /// The same at the end.
     pub sub_regions_end: Table,
-    /// Profiles along x at several times.
+    /// Table of profiles along x, at several times.
     pub profiles: Table,
-    /// K/k of the box by the solved resistor network of the contacts, at the times of the profiles.
+    /// Table of K/k of the box over time, network.
     pub network: Table,
-    /// Mean u_x, u_y \[m\] at the end of the discs that started in each sub-region; absent in older files.
+    /// Table of the mean displacement of the grains that started in each sub-region; absent in older files \[m\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub displacement: Option<Table>,
-    /// Discs around the second probe at the start and at the end; absent in older files and without that probe.
+    /// The grains around the second probe: `window`, and tables at the `start` and at the `end`; absent without that probe
+    /// [m, K].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grains: Option<Grains>,
 }

@@ -123,7 +123,7 @@ pub fn follow(
 ) -> Result<Ramp, RveError> {
     check(path, protocol, rate_factor(&simulation.material, simulation.mean_radius()))?;
     if let Some(strains) = path.iter().find(|s| s.xy != 0.0 && simulation.periodic.is_none()) {
-        let allowed = "0 between walls; shear needs a periodic box";
+        let allowed = "0 between walls; shear needs a periodic box".to_string();
         return Err(RveError::Parameter { key: "xy", value: strains.xy.to_string(), allowed });
     }
     simulation.reset_strain();
@@ -153,19 +153,28 @@ fn check(path: &[Strains], protocol: Protocol, factor: f64) -> Result<(), RveErr
     {
         if !(1e-6 * factor..=100.0 * factor).contains(&rate) {
             let allowed =
-                "1e-6 to 100 1/s for the paper's grains, others as their contacts swing faster or slower";
+                "1e-6 to 100 1/s for the paper's grains, others as their contacts swing faster or slower"
+                    .to_string();
             return Err(RveError::Parameter { key, value: rate.to_string(), allowed });
         }
     }
     if !(1e-12..=1.0).contains(&protocol.unbalanced_limit) {
         let value = protocol.unbalanced_limit.to_string();
-        return Err(RveError::Parameter { key: "unbalanced limit", value, allowed: "1e-12 to 1" });
+        return Err(RveError::Parameter {
+            key: "unbalanced limit",
+            value,
+            allowed: "1e-12 to 1".to_string(),
+        });
     }
     let values =
         path.iter().flat_map(|s| [("thermal strain", s.thermal), ("xx", s.xx), ("yy", s.yy), ("xy", s.xy)]);
     for (key, value) in values {
         if !(-0.2..=0.2).contains(&value) {
-            return Err(RveError::Parameter { key, value: value.to_string(), allowed: "-0.2 to 0.2" });
+            return Err(RveError::Parameter {
+                key,
+                value: value.to_string(),
+                allowed: "-0.2 to 0.2".to_string(),
+            });
         }
     }
     Ok(())
@@ -175,7 +184,7 @@ fn check_monotone(stops: &[f64]) -> Result<(), RveError> {
     let mut previous = 0.0f64;
     for &stop in stops {
         if stop.abs() <= previous.abs() || stop * previous < 0.0 {
-            let allowed = "one sign, growing in magnitude";
+            let allowed = "one sign, growing in magnitude".to_string();
             return Err(RveError::Parameter { key: "strains", value: format!("{stops:?}"), allowed });
         }
         previous = stop;

@@ -62,7 +62,7 @@ pub enum RveError {
     #[error(transparent)]
     Material(#[from] msdd_dem::MaterialError),
     #[error("{key} = {value}, allowed: {allowed}", value = message::value(value))]
-    Parameter { key: &'static str, value: String, allowed: &'static str },
+    Parameter { key: &'static str, value: String, allowed: String },
     #[error(
         "only {placed} of {wanted} discs could be placed without overlap: choose a looser start or fewer discs"
     )]

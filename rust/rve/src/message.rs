@@ -1,6 +1,6 @@
 //! Shortening of long texts and numbers in messages.
 
-pub use msdd_dem::message::number;
+pub use msdd_dem::message::{number, range};
 
 /// Longest text that a message shows whole [characters].
 const LONGEST: usize = 300;

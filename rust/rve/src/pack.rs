@@ -2,6 +2,7 @@
 //! then the assembly relaxes (section 2.4).
 
 use crate::area::porosity_of_box;
+use crate::message::range;
 use crate::place::{Random, radii, scatter, scatter_periodic};
 use crate::scale::{rate_factor, speed_factor};
 use crate::settle::{KEEP_EVERY, Relaxation, Settled, settle};
@@ -26,14 +27,14 @@ const STEP_CAP_FACTOR: f64 = 1.5;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Compression {
-    /// Both directions by the same strain: fabric index near 0 on average.
+    /// Along x and y by the same strain: fabric index near 0.
     #[default]
     Isotropic,
-    /// x only: positive fabric index.
+    /// Along x only: fabric index above 0.
     Horizontal,
-    /// The x walls close twice as fast as the y walls: between the two.
+    /// Twice as fast along x as along y.
     Intermediate,
-    /// The x walls close while the y walls open, an eighth as fast: largest fabric index and stress deviator.
+    /// Along x, while it opens along y an eighth as fast: most fabric, and most difference between σ_xx and σ_yy.
     Sheared,
 }
 
@@ -69,21 +70,33 @@ impl Boundary {
     }
 }
 
+/// What a specification may have.
+const DISCS: [f64; 2] = [10.0, 1_000_000.0];
+const POROSITIES: [f64; 2] = [0.01, 0.3];
+const RADII: [f64; 2] = [1e-30, 1e30];
+const RADII_ABOVE: &str = "radius_min to 10 radius_min";
+
 /// Specification of a packing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackingSpec {
+    /// Number of grains. Allowed: `DISCS`.
     pub discs: usize,
+    /// Number from which places and radii of the grains follow. Allowed: whole number from 0.
     pub seed: u64,
-    /// Target porosity of the whole box, overlaps counted once [-]. It is reached before the relaxation, which changes
-    /// it little.
+    /// Target porosity of the whole box, overlaps counted once. It is reached before the relaxation, which changes it little.
+    /// Allowed: `POROSITIES`.
     pub porosity: f64,
+    /// How the box closes.
     pub compression: Compression,
-    /// Radii are uniform between these \[m\].
+    /// Radii are uniform from this \[m\]. Allowed: `RADII`.
     pub radius_min: f64,
+    /// To this \[m\]. Allowed: `RADII_ABOVE`.
     pub radius_max: f64,
+    /// What is around the box.
     #[serde(default, skip_serializing_if = "Boundary::is_walls")]
     pub boundary: Boundary,
+    /// How grains come to rest.
     #[serde(default)]
     pub relaxation: Relaxation,
 }
@@ -129,13 +142,15 @@ impl Preparation {
     fn check(&self, factor: f64) -> Result<(), RveError> {
         if !(0.1..=10.0).contains(&self.aspect) {
             let value = self.aspect.to_string();
-            return Err(RveError::Parameter { key: "aspect", value, allowed: "0.1 to 10" });
+            return Err(RveError::Parameter { key: "aspect", value, allowed: "0.1 to 10".to_string() });
         }
         let allowed = "1e-4 to 10 m/s for the paper's grains, others as a push runs faster or slower in them";
         match self.wall_speed {
-            Some(speed) if !(1e-4 * factor..=10.0 * factor).contains(&speed) => {
-                Err(RveError::Parameter { key: "wall speed", value: speed.to_string(), allowed })
-            }
+            Some(speed) if !(1e-4 * factor..=10.0 * factor).contains(&speed) => Err(RveError::Parameter {
+                key: "wall speed",
+                value: speed.to_string(),
+                allowed: allowed.to_string(),
+            }),
             _ => Ok(()),
         }
     }
@@ -160,18 +175,20 @@ pub struct Stopped {
 impl PackingSpec {
     /// Checks the specification; the error names key, value and allowed range.
     pub fn check(&self) -> Result<(), RveError> {
-        let parameter = |key, value: String, allowed| Err(RveError::Parameter { key, value, allowed });
-        if !(10..=1_000_000).contains(&self.discs) {
-            return parameter("discs", self.discs.to_string(), "10 to 1000000");
+        let parameter =
+            |key, value: String, allowed: String| Err(RveError::Parameter { key, value, allowed });
+        let inside = |value: f64, [least, most]: [f64; 2]| (least..=most).contains(&value);
+        if !inside(self.discs as f64, DISCS) {
+            return parameter("discs", self.discs.to_string(), range(DISCS));
         }
-        if !(0.01..=0.3).contains(&self.porosity) {
-            return parameter("porosity", self.porosity.to_string(), "0.01 to 0.3");
+        if !inside(self.porosity, POROSITIES) {
+            return parameter("porosity", self.porosity.to_string(), range(POROSITIES));
         }
-        if !(1e-30..=1e30).contains(&self.radius_min) {
-            return parameter("radius_min", self.radius_min.to_string(), "1e-30 to 1e30 m");
+        if !inside(self.radius_min, RADII) {
+            return parameter("radius_min", self.radius_min.to_string(), range(RADII) + " m");
         }
         if !(self.radius_max >= self.radius_min && self.radius_max <= 10.0 * self.radius_min) {
-            return parameter("radius_max", self.radius_max.to_string(), "radius_min to 10 radius_min");
+            return parameter("radius_max", self.radius_max.to_string(), RADII_ABOVE.to_string());
         }
         Ok(())
     }

@@ -25,20 +25,25 @@ const FARTHEST_CELL: f64 = 1000.0;
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    /// `msdd-state-1`.
     schema: String,
-    /// Absent where this program writes it.
+    /// 2, or absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     dimension: Option<u32>,
+    /// The grains, as in plans of databases.
     material: Material,
+    /// The box: its entries follow.
     #[serde(rename = "box")]
     bounds: Bounds,
+    /// The grains: lists of equal length.
     particles: Particles,
+    /// The contacts: lists of equal length. Absent in states from other programs.
     #[serde(default)]
     contacts: Contacts,
-    /// Absent in states from other programs: the assembly is then at rest and at zero strain.
+    /// What else is required to go on. Absent in states from other programs: the assembly is then at rest and at zero strain.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     run: Option<Run>,
-    /// Absent in states from other and from older programs.
+    /// SHA-256 over the values; take it out after editing a file by hand.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
@@ -46,13 +51,18 @@ struct File {
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Bounds {
+    /// Place of the left wall, or edge of the periodic box \[m\].
     x_min: f64,
+    /// Of the right one \[m\].
     x_max: f64,
+    /// Of the lower one \[m\].
     y_min: f64,
+    /// Of the upper one \[m\].
     y_max: f64,
+    /// Whether the box repeats itself without end; absent: no.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     periodic: bool,
-    /// [m]; 0 when absent.
+    /// Of a periodic box: way of the top along x; absent: 0 \[m\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     shear_offset: Option<f64>,
 }
@@ -60,16 +70,24 @@ struct Bounds {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Particles {
+    /// Centre along x \[m\].
     x: Vec<f64>,
+    /// Centre along y \[m\].
     y: Vec<f64>,
+    /// Radius \[m\].
     radius: Vec<f64>,
+    /// Mass \[kg\].
     mass: Vec<f64>,
+    /// Velocity along x [m/s].
     #[serde(default)]
     vx: Option<Vec<f64>>,
+    /// Velocity along y [m/s].
     #[serde(default)]
     vy: Option<Vec<f64>>,
+    /// Rotation to the left [rad/s].
     #[serde(default)]
     angular_velocity: Option<Vec<f64>>,
+    /// Temperature \[K\].
     #[serde(default)]
     temperature: Option<Vec<f64>>,
 }
@@ -77,11 +95,16 @@ struct Particles {
 #[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Contacts {
+    /// Number of the one grain, from 0, or a wall: −1 left, −2 right, −3 bottom, −4 top.
     i: Vec<i64>,
+    /// Number of the other grain.
     j: Vec<i64>,
+    /// Force on j along t = (−n_y, n_x), n from i to j \[N\].
     tangential_force: Vec<f64>,
+    /// Of a periodic box: the contact is with the image of j moved by so many boxes along x; absent: 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     shift_x: Option<Vec<i32>>,
+    /// The same along y.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     shift_y: Option<Vec<i32>>,
 }
@@ -89,16 +112,25 @@ struct Contacts {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Run {
+    /// Time \[s\].
     time: f64,
+    /// Steps so far.
     steps: u64,
+    /// Size of a step \[s\].
     time_step: f64,
+    /// Strain of the radii since `reference_radius`.
     strain: f64,
+    /// Its rate [1/s].
     strain_rate: f64,
+    /// Drag on grains without contact [1/s].
     free_drag: f64,
+    /// Radii at strain 0 \[m\].
     reference_radius: Vec<f64>,
+    /// Velocity of the four walls across them [m/s].
     wall_normal_velocity: [f64; 4],
+    /// The same along them [m/s].
     wall_tangential_velocity: [f64; 4],
-    /// [1/s], of a periodic box.
+    /// Of a periodic box [1/s].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     shear_rate: Option<f64>,
 }

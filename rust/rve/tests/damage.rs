@@ -2,7 +2,7 @@
 //! MSDD_FLIPS sets the number of flips.
 
 use msdd_rve::database::{
-    Dataset, Plan, Run, check, export_csv, generate, inspect, merge, read, read_all, seal,
+    Dataset, PROVENANCE, Plan, Run, check, export_csv, generate, inspect, merge, read, read_all, seal,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -244,6 +244,8 @@ fn what_breaks_a_law_is_not_trained_on_and_older_files_can_be_sealed() {
     export_csv(&file, &csv, Some(6)).unwrap();
     let rounded = read(&csv).unwrap();
     assert_eq!(rounded.provenance["digits"], "6");
+    let known = |key: &str| PROVENANCE.iter().any(|(name, ..)| *name == key);
+    assert_eq!(rounded.provenance.keys().find(|key| !known(key)), None);
     assert_eq!(check::violations(&rounded), []);
     let provenance = file.with_file_name("a.provenance.json");
     let sealed = std::fs::read(&provenance).unwrap();

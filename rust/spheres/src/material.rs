@@ -17,14 +17,16 @@ pub enum Stiffness {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// ρ [kg/m³], of the grains.
+    /// Density ρ of the grains [kg/m³].
     pub density: f64,
+    /// `hertz_mindlin` with `young_modulus` and `poisson_ratio` of the grains, or `linear` with the spring constants `normal`
+    /// and `tangential` [Pa, –; N/m].
     pub stiffness: Stiffness,
-    /// μ [-]: contacts slide at |f_t| = μ f_n.
+    /// Coefficient of friction μ between grains: contacts slide at |f_t| = μ f_n.
     pub friction: f64,
-    /// μ [-] of contacts with walls.
+    /// The same of contacts with walls.
     pub wall_friction: f64,
-    /// e [-]: ratio of the speeds after and before a normal collision of two grains, at any speed. 1 is without damping.
+    /// Speed after over speed before a head-on collision of two grains, at any speed; 1 is without damping.
     pub restitution: f64,
 }
 

@@ -15,12 +15,19 @@ pub const SCHEMA: &str = "msdd-model-1";
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ModelFile {
+    /// `msdd-model-1`.
     schema: String,
+    /// Name of the model.
     name: String,
+    /// Smallest and largest value of each input.
     trained_range: TrainedRange,
+    /// Ranges by which the outputs are scaled.
     output_scales: OutputScales,
+    /// Sum of the areas of grains over area, for a porosity that counts overlaps once.
     solid_fraction: SolidFraction,
+    /// `library_version`, options and report of the training.
     provenance: Provenance,
+    /// Weights of the network.
     weights: Vec<f64>,
 }
 

@@ -3,6 +3,7 @@
 use super::results::Results;
 use super::{plot, table};
 use crate::error::CliError;
+use msdd_files::{Column, names};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -10,8 +11,55 @@ use std::fmt::Write;
 pub const NAMES: [&str; 5] =
     ["temperature.csv", "comparison.csv", "bed.json", "grains.vtp", "temperature.svg"];
 /// Columns of `temperature.csv` and of `comparison.csv`.
-const TEMPERATURE: [&str; 4] = ["plate", "distance", "time", "T"];
-const COMPARISON: [&str; 8] = ["plate", "key", "value", "distance", "points", "rms", "worst", "bias"];
+const TEMPERATURE: [Column; 4] = [
+    (
+        "plate",
+        "-",
+        "`held`: all grains with their centre within a diameter of the plate have its temperature, the most that a plate can do; `resisting`: heat passes through contacts and gas between plate and grains",
+    ),
+    ("distance", "m", "from the plate"),
+    ("time", "s", "time"),
+    ("T", "K", "temperature"),
+];
+const COMPARISON: [Column; 8] = [
+    ("plate", "-", "as in `temperature.csv`"),
+    ("key", "-", "what was changed by `vary`; empty: nothing"),
+    ("value", "-", "its value"),
+    ("distance", "m", "from the plate, or `all`"),
+    ("points", "-", "number of measurements within the time of the run"),
+    ("rms", "K", "root mean square of simulated less measured temperature; empty without points"),
+    ("worst", "K", "largest difference"),
+    ("bias", "K", "mean difference"),
+];
+
+/// Entries of `bed.json`.
+const SUMMARY: [Column; 9] = [
+    ("grains", "-", "number of grains"),
+    ("seed", "-", "seed of the packing"),
+    (
+        "stages",
+        "s for `time`, else -",
+        "for each stage `name`, `at_rest`, simulated `time`, `steps`, and `agitation`: the kinetic energy at its end over that of falling by a radius",
+    ),
+    (
+        "slabs",
+        "m; -; -; Pa; W/(m K)",
+        "averages over a part of the bed, `from` to `to` from the plate: `porosity`; `coordination`, contacts per grain; `pressure`, a third of the trace of the stress; `conductivity_contacts` and `conductivity_gas` across it at the initial temperature",
+    ),
+    ("plate_pressure", "Pa", "force of the grains across the plate over the area of the bed"),
+    ("walls", "N", "for each wall its `name` and the `force` of the grains on it, friction included"),
+    (
+        "peak_stress",
+        "Pa; Pa; -; -",
+        "`largest` of Hertz's peak stresses, `yield_stress`, number of contacts `beyond` 1.6 times that, number of `contacts`; `null` without a yield stress",
+    ),
+    (
+        "heat",
+        "J; J; -",
+        "for each way to take the `plate`: heat `stored` in the grains, `balance_residual` between that and what the plate gave, `steps`",
+    ),
+    ("warnings", "-", "what is printed as a note"),
+];
 
 pub fn texts(results: &Results) -> Result<[String; 5], CliError> {
     Ok([
@@ -24,7 +72,7 @@ pub fn texts(results: &Results) -> Result<[String; 5], CliError> {
 }
 
 fn temperature(results: &Results) -> String {
-    let mut text = TEMPERATURE.join(",") + "\n";
+    let mut text = names(&TEMPERATURE).join(",") + "\n";
     for run in &results.compared {
         for record in &run.heated.records {
             for (time, t) in &record.rows {
@@ -36,7 +84,7 @@ fn temperature(results: &Results) -> String {
 }
 
 pub fn comparison(results: &Results) -> String {
-    let mut text = COMPARISON.join(",") + "\n";
+    let mut text = names(&COMPARISON).join(",") + "\n";
     if results.measured.is_empty() {
         return text;
     }
@@ -91,17 +139,18 @@ fn summary(results: &Results) -> String {
     let walls: Vec<Value> = (case.wall_names().iter().zip(&bed.simulation.wall_force))
         .map(|(name, force)| json!({"name": name, "force": force}))
         .collect();
-    let value = json!({
-        "grains": bed.simulation.spheres.len(),
-        "seed": case.seed,
-        "stages": stages,
-        "slabs": slabs,
-        "plate_pressure": bed.plate_force() / bed.area(case),
-        "walls": walls,
-        "peak_stress": stress,
-        "heat": heat,
-        "warnings": table::warnings(results),
-    });
+    let values = [
+        json!(bed.simulation.spheres.len()),
+        json!(case.seed),
+        json!(stages),
+        json!(slabs),
+        json!(bed.plate_force() / bed.area(case)),
+        json!(walls),
+        json!(stress),
+        json!(heat),
+        json!(table::warnings(results)),
+    ];
+    let value: Value = names(&SUMMARY).map(str::to_string).into_iter().zip(values).collect();
     format!("{value:#}\n")
 }
 

@@ -11,7 +11,7 @@ use msdd_choice::scene::Scene;
 use msdd_choice::series::Series;
 use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Outcome};
-use msdd_files::{Lock, write};
+use msdd_files::{Column, Lock, names, write};
 use msdd_reference::scenes::{PlannedScene, SceneResults};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -21,7 +21,18 @@ use std::path::{Path, PathBuf};
 const POINTS: usize = 4;
 /// Tolerance in time of the solver's runs, share of the range of T.
 const TOLERANCE: f64 = 1e-3;
-const COLUMNS: [&str; 6] = ["quantity", "use", "values", "inside", "inside_worst_scene", "width"];
+const COLUMNS: [Column; 6] = [
+    ("quantity", "-", "T, pressure, conductivity (both components) or displacement (both)"),
+    ("use", "-", "scenes"),
+    ("values", "-", "number of values: windows × times × packings × components"),
+    ("inside", "-", "share of the discs' values inside of the 90 % bands, all scenes together"),
+    ("inside_worst_scene", "-", "the same in the worst scene"),
+    (
+        "width",
+        "-",
+        "width of the bands over twice the standard deviation between packings, median over the scenes",
+    ),
+];
 /// Quantities that have the same numbers, and their name.
 pub type Group = (&'static str, &'static [Quantity]);
 /// Rows by what their scene is for, and by quantity.
@@ -215,7 +226,7 @@ pub fn print_coverage(
     groups: &[Group],
     folder: Option<&Path>,
 ) -> Result<(), CliError> {
-    let mut csv = COLUMNS.join(",") + "\n";
+    let mut csv = names(&COLUMNS).join(",") + "\n";
     outln!(
         "\n90 % bands: share of the values inside, of all scenes and of the worst; width over twice the scatter"
     );

@@ -18,7 +18,7 @@ use msdd_choice::calibrate::Row;
 use msdd_choice::quantity::Quantity;
 use msdd_choice::scene::Scene;
 use msdd_choice::series::Series;
-use msdd_files::{read_text, write};
+use msdd_files::{Column, read_text, write};
 use msdd_reference::scenes::{BedPlan, PlannedBed};
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -30,16 +30,16 @@ const GROUPS: [Group; 3] = [
     ("pressure", &[Quantity::Pressure]),
     ("conductivity", &[Quantity::ConductivityXx, Quantity::ConductivityZz]),
 ];
-const COLUMNS: [&str; 9] = [
-    "scene",
-    "use",
-    "packings",
-    "T_error",
-    "T_scatter",
-    "pressure_error",
-    "pressure_scatter",
-    "conductivity_error",
-    "conductivity_scatter",
+const COLUMNS: [Column; 9] = [
+    ("scene", "-", "name of the bed"),
+    ("use", "-", "what it is for"),
+    ("packings", "-", "number of packings"),
+    ("T_error", "%", "error of T, in percent of its range"),
+    ("T_scatter", "%", "scatter of T, in percent of its range"),
+    ("pressure_error", "%", "error of p, in percent of it"),
+    ("pressure_scatter", "%", "scatter of p, in percent of it"),
+    ("conductivity_error", "%", "error of K, in percent of it"),
+    ("conductivity_scatter", "%", "scatter of K, in percent of it"),
 ];
 /// Points along the axis, and along the radius of a cylinder, over which the solver's fields are averaged.
 const ALONG: usize = 8;
@@ -84,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let checkout = checkout(arguments.checkout.as_deref())?;
     let root = arguments.plan.parent().unwrap_or(Path::new("."));
     let mut found = Found::new();
-    let mut csv = COLUMNS.join(",") + "\n";
+    let mut csv = msdd_files::names(&COLUMNS).join(",") + "\n";
     outln!(
         "solver less discrete elements, and standard deviation of one packing, rms over the run: T in % of the range of T, others in %"
     );

@@ -12,7 +12,7 @@ use msdd_choice::scene::Scene;
 use msdd_choice::search::find;
 use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Outcome};
-use msdd_files::{Lock, write};
+use msdd_files::{Column, Lock, names, write};
 use msdd_reference::scenes::SceneResults;
 use msdd_report::studies::requests::{Request, Tally, tallies};
 use std::fmt::Write as _;
@@ -26,20 +26,32 @@ const FINE: (i32, f64) = (3, 1e-4);
 /// motion, and tolerance.
 const HALVINGS: [i32; 4] = [2, 1, 0, -1];
 const TOLERANCE: f64 = 1e-2;
-const COLUMNS: [&str; 13] = [
-    "scene",
-    "use",
-    "seed",
-    "asked",
-    "best_offered",
-    "estimate",
-    "numerical_estimate",
-    "error_numerical",
-    "error_discs",
-    "cells",
-    "processor_seconds",
-    "search_seconds",
-    "cheapest_processor_seconds",
+const COLUMNS: [Column; 13] = [
+    ("scene", "-", "name of the scene"),
+    ("use", "-", "what it is for"),
+    ("seed", "-", "of the packing"),
+    ("asked", "%", "wanted accuracy"),
+    ("best_offered", "%", "if the request was refused: the best accuracy that is possible"),
+    ("estimate", "%", "estimated error, all together"),
+    ("numerical_estimate", "%", "its part by steps, cells and grains that stay"),
+    (
+        "error_numerical",
+        "%",
+        "difference from a run with eight times the cells along each direction and a tolerance of 0.01 % of the range",
+    ),
+    (
+        "error_discs",
+        "%",
+        "difference from the discs, means over the windows; of a refused request, the smallest of eight configurations",
+    ),
+    ("cells", "-", "cells of the chosen run"),
+    ("processor_seconds", "s", "processor time of the chosen run"),
+    ("search_seconds", "s", "wall time of the search"),
+    (
+        "cheapest_processor_seconds",
+        "s",
+        "processor time of the cheapest of these configurations and the chosen one whose difference from the discs is within the request",
+    ),
 ];
 
 /// Runs of one packing, each combination once.
@@ -100,7 +112,7 @@ impl Discs {
 pub fn judge(all: &[Done], law: &Law, file: &Path) -> Result<(), CliError> {
     let failed = |error: ChoiceError| CliError::Message(error.to_string());
     outln!("requests: {ASKED:?} % in {} scenes", all.len());
-    let mut csv = COLUMNS.join(",") + "\n";
+    let mut csv = names(&COLUMNS).join(",") + "\n";
     for (planned, packings) in all {
         let Some((results, folder)) = packings.first() else { continue };
         let discs = Discs::of(results)?;

@@ -7,6 +7,9 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+/// What the names of beds may be.
+const BED_NAMES: &str = "lower-case letters, digits and '-'; no other scene has it";
+
 /// What is computed of which bed.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -18,8 +21,10 @@ pub struct BedPlan {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedBed {
-    /// Name of the folder, beside the plan, of its `elements.toml` and of the results of its packings.
+    /// Name of the bed: beside the plan stands a folder of this name, with `elements.toml` and the files `elements-<seed>.csv` of
+    /// its packings. Allowed: `BED_NAMES`.
     pub name: String,
+    /// What it is for, as above.
     #[serde(rename = "use")]
     pub purpose: Use,
 }
@@ -40,8 +45,7 @@ impl BedPlan {
         for PlannedBed { name, .. } in &plan.scenes {
             let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
             if name.is_empty() || !name.chars().all(plain) || !names.insert(name) {
-                let allowed = "lower-case letters, digits and '-'; no other scene has it";
-                return Err(wrong(format!("name = {name}, allowed: {allowed}")));
+                return Err(wrong(format!("name = {name}, allowed: {BED_NAMES}")));
             }
         }
         Ok(plan)

@@ -8,12 +8,13 @@ use crate::scenes::plan::PlannedScene;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
+use msdd_files::Column;
 use std::fmt::Write as _;
 use std::io::{Read, Write};
 use std::path::Path;
 
 /// A table: file, columns beside scene and seed, and where a packing has its rows.
-type Part = (&'static str, &'static [&'static str], fn(&SceneResults) -> &Table);
+type Part = (&'static str, &'static [Column], fn(&SceneResults) -> &Table);
 
 /// The tables.
 pub const TABLES: [Part; 3] = [
@@ -42,7 +43,8 @@ pub fn lines(scene: &PlannedScene, results: &SceneResults, table: &Table) -> Str
 /// The texts of [`TABLES`], with one line of names at the top.
 pub fn tables(all: &[(&PlannedScene, SceneResults)]) -> [String; 3] {
     TABLES.map(|(_, columns, part)| {
-        let head = format!("scene,use,seed,{}\n", columns.join(","));
+        let names: Vec<&str> = columns.iter().map(|(name, _, _)| *name).collect();
+        let head = format!("scene,use,seed,{}\n", names.join(","));
         all.iter().fold(head, |text, (scene, results)| text + &lines(scene, results, part(results)))
     })
 }

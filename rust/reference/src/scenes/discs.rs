@@ -8,7 +8,7 @@ use crate::scenes::plan::{Plan, PlannedScene};
 use crate::{ReferenceError, RunSpec, run};
 use msdd_case::packing::{Packing, Spread};
 use msdd_dem::Simulation;
-use msdd_files::read_text;
+use msdd_files::{Column, read_text};
 use msdd_rve::{Averages, window};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -17,44 +17,50 @@ use std::time::Duration;
 /// Least side of a window in mean radii: about 70 discs.
 const WINDOW: f64 = 16.0;
 
-pub const PROBE_COLUMNS: [&str; 5] = ["time", "probe", "x", "y", "T"];
-pub const WINDOW_COLUMNS: [&str; 15] = [
-    "time",
-    "x_window",
-    "y_window",
-    "x",
-    "y",
-    "T",
-    "porosity",
-    "fabric_index",
-    "pressure",
-    "stress_xx",
-    "stress_yy",
-    "conductivity_xx",
-    "conductivity_yy",
-    "displacement_x",
-    "displacement_y",
+pub const PROBE_COLUMNS: [Column; 5] = [
+    ("time", "s", "time"),
+    ("probe", "-", "number of the probe, from 0"),
+    ("x", "m", "its place along x"),
+    ("y", "m", "its place along y"),
+    ("T", "K", "mean temperature over a square of eight mean radii around it, weighted by mass"),
 ];
-pub const PACKING_COLUMNS: [&str; 19] = [
-    "discs",
-    "width",
-    "height",
-    "mean_radius",
-    "temperature_range",
-    "steps",
-    "windows_x",
-    "windows_y",
-    "window_width",
-    "window_height",
-    "porosity",
-    "fabric_index",
-    "pressure",
-    "stress_ratio",
-    "conductivity_xx",
-    "conductivity_yy",
-    "coordination",
-    "rattlers",
-    "end",
+pub const WINDOW_COLUMNS: [Column; 15] = [
+    ("time", "s", "time"),
+    ("x_window", "-", "number of the window along x, from 0"),
+    ("y_window", "-", "number of the window along y, from 0"),
+    ("x", "m", "its centre along x"),
+    ("y", "m", "its centre along y"),
+    ("T", "K", "mean temperature of the discs with their centre in it, weighted by mass"),
+    ("porosity", "-", "porosity, overlaps counted once"),
+    ("fabric_index", "-", "F_xx - F_yy"),
+    ("pressure", "Pa", "(stress_xx + stress_yy)/2"),
+    ("stress_xx", "Pa", "stress along x"),
+    ("stress_yy", "Pa", "stress along y"),
+    ("conductivity_xx", "W/(m K)", "conductivity along x, network"),
+    ("conductivity_yy", "W/(m K)", "conductivity along y, network"),
+    ("displacement_x", "m", "mean displacement along x of the discs that were in it at the start"),
+    ("displacement_y", "m", "the same along y"),
+];
+pub const PACKING_COLUMNS: [Column; 19] = [
+    ("discs", "-", "number of discs"),
+    ("width", "m", "width of the box"),
+    ("height", "m", "height of the box"),
+    ("mean_radius", "m", "mean radius, as in the plan"),
+    ("temperature_range", "K", "highest less lowest temperature of the walls at any time and of the start"),
+    ("steps", "-", "mechanical steps of the run; 0 where grains do not expand"),
+    ("windows_x", "-", "number of windows along x"),
+    ("windows_y", "-", "number of windows along y"),
+    ("window_width", "m", "width of a window"),
+    ("window_height", "m", "height of a window"),
+    ("porosity", "-", "of the whole box before heating, overlaps counted once"),
+    ("fabric_index", "-", "F_xx - F_yy of the whole box before heating"),
+    ("pressure", "Pa", "of the whole box before heating"),
+    ("stress_ratio", "-", "stress_xx/stress_yy of the whole box before heating"),
+    ("conductivity_xx", "W/(m K)", "along x, of the whole box before heating, network"),
+    ("conductivity_yy", "W/(m K)", "along y, of the whole box before heating, network"),
+    ("coordination", "-", "contacts of a disc that has any, before heating"),
+    ("rattlers", "-", "number of discs without contact, before heating"),
+    ("end", "s", "end of the run"),
 ];
 
 /// Results of one packing. SI units, compression positive.
@@ -78,8 +84,8 @@ impl SceneResults {
     }
 }
 
-fn table(columns: &[&str]) -> Table {
-    Table::new(columns.iter().map(|name| (*name).to_string()).collect())
+fn table(columns: &[Column]) -> Table {
+    Table::new(columns.iter().map(|(name, _, _)| (*name).to_string()).collect())
 }
 
 /// Packs the box of a scene.

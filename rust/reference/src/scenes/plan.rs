@@ -18,6 +18,13 @@ use std::path::{Path, PathBuf};
 /// Places of the probes as shares of width and height: the middle, and halfway from it to each wall.
 const PROBES: [[f64; 2]; 5] = [[0.25, 0.5], [0.5, 0.5], [0.75, 0.5], [0.5, 0.25], [0.5, 0.75]];
 
+/// What the keys may be.
+const NAMES: &str = "lower-case letters, digits and -";
+const RADII: &str = "two numbers from 0.1 on whose mean is 1";
+const SUM_POROSITIES: [f64; 2] = [0.0, 0.2];
+const FRICTIONS: [f64; 2] = [0.0, 10.0];
+const DISCS: [usize; 2] = [100, 20_000];
+
 /// What a scene is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -61,37 +68,53 @@ pub struct Plan {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedScene {
+    /// Name of the scene. Allowed: `NAMES`; no other scene has it.
     pub name: String,
+    /// What it is for: to fit error bands to, to judge them by, or to see them outside of what the shipped model was trained for.
     #[serde(rename = "use")]
     pub purpose: Use,
-    /// Seed of each packing.
+    /// Seed of each packing. Allowed: two at least; no other packing of the plan has it.
     pub seeds: Vec<u64>,
-    /// Width and height of the box, in mean radii.
+    /// Width and height of the box \[mean radii\]. Allowed: each at least 8; `DISCS` discs in all.
     #[serde(rename = "box")]
     pub size: [f64; 2],
-    /// Walls as in `msdd case new`: a temperature, `insulated`, or temperatures over time.
+    /// What the left wall does, as in `msdd case new`: a text \[K\]. Allowed: a temperature, `insulated`, or temperatures over time.
     pub left: String,
+    /// The right wall. Allowed: as `left`.
     pub right: String,
+    /// The bottom. Allowed: as `left`.
     pub bottom: String,
+    /// The top. Allowed: as `left`.
     pub top: String,
+    /// Temperature at the start \[K\]. Allowed: `DISC_TEMPERATURES`.
     pub initial_temperature: f64,
+    /// Density of the grains [kg/m³]. Allowed: `GRAIN_VALUES`.
     pub density: f64,
+    /// Young's modulus of the grains \[Pa\]. Allowed: `GRAIN_VALUES`.
     pub young_modulus: f64,
+    /// Thermal conductivity of the grains [W/(m K)]. Allowed: `GRAIN_VALUES`.
     pub thermal_conductivity: f64,
+    /// Specific heat capacity of the grains [J/(kg K)]. Allowed: `GRAIN_VALUES`.
     pub heat_capacity: f64,
+    /// Linear thermal expansion coefficient of the grains [1/K]. Allowed: `GRAIN_EXPANSIONS`.
     pub thermal_expansion: f64,
+    /// Mean radius of the grains \[m\]. Allowed: `GRAIN_VALUES`.
     pub mean_radius: f64,
-    /// Porosity of the packing with overlaps counted twice.
+    /// Porosity to pack to, of the whole box, overlaps counted twice; counted once, it is about 0.02 to 0.05 higher.
+    /// Allowed: `SUM_POROSITIES`.
     #[serde(default = "usual_porosity")]
     pub porosity: f64,
+    /// How the box closes: along x alone, or along x and y by the same strain.
     #[serde(default = "usual_closing")]
     pub compression: Closing,
-    /// Smallest and largest radius over the mean radius.
+    /// Smallest and largest radius over the mean radius. Allowed: `RADII`.
     #[serde(default = "usual_radii")]
     pub radii: [f64; 2],
-    /// tan φ between grains and at walls; that of the paper if it is not given.
+    /// Coefficient of friction tan φ of grains and walls; not while the box closes. Allowed: `FRICTIONS`. Default: as in the paper,
+    /// 0.546.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
+    /// End of the run \[s\]. Allowed: `END_TIMES`.
     pub end: f64,
 }
 
@@ -156,27 +179,28 @@ impl PlannedScene {
     fn check(&self) -> Result<(), ReferenceError> {
         let word = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let good = !self.name.is_empty() && self.name.chars().all(word);
-        allow("name", &self.name, good, "lower-case letters, digits and -")?;
+        allow("name", &self.name, good, NAMES)?;
         allow(
             "seeds",
             self.seeds.len(),
             self.seeds.len() > 1,
             "two at least, so that their scatter is known",
         )?;
-        let good = (0.0..=0.2).contains(&self.porosity);
-        allow("porosity", self.porosity, good, "0 to 0.2")?;
+        let within = |key, value: f64, [least, most]: [f64; 2]| {
+            allow(key, value, (least..=most).contains(&value), &format!("{least} to {most}"))
+        };
+        within("porosity", self.porosity, SUM_POROSITIES)?;
         let [low, high] = self.radii;
         let good = (0.1..=1.0).contains(&low) && (low + high - 2.0).abs() < 1e-9;
-        allow("radii", format!("[{low}, {high}]"), good, "two numbers from 0.1 on whose mean is 1")?;
-        let friction = self.friction.unwrap_or_default();
-        allow("friction", friction, (0.0..=10.0).contains(&friction), "0 to 10")?;
+        allow("radii", format!("[{low}, {high}]"), good, RADII)?;
+        within("friction", self.friction.unwrap_or_default(), FRICTIONS)?;
         self.scene(self.porosity)?.check()?;
-        let discs = self.spec(0)?.discs;
+        let (discs, [least, most]) = (self.spec(0)?.discs, DISCS);
         allow(
             "box",
             format!("{:?} mean radii", self.size),
-            (100..=20_000).contains(&discs),
-            "100 to 20000 discs",
+            (least..=most).contains(&discs),
+            &format!("{least} to {most} discs"),
         )
     }
 

@@ -9,6 +9,10 @@ use serde::{Deserialize, Serialize};
 /// Largest strain at which a ramp may stop [-], and largest slip [m].
 const LARGEST_STRAIN: f64 = 0.2;
 const LARGEST_SLIP: f64 = 1.0;
+/// Least strain at which a ramp may stop on its way back [-].
+const LEAST_RETURN: f64 = -0.2;
+/// Friction angles while a box closes.
+const ANGLES: &str = "0 <= angle < pi/2 rad";
 /// Sizes that an increment of a path and a probe may have [-].
 const STEPS: [f64; 2] = [1e-5, 1e-2];
 const PROBES: [f64; 2] = [1e-6, 1e-2];
@@ -17,32 +21,37 @@ const PROBES: [f64; 2] = [1e-6, 1e-2];
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
-    /// Discs in a packing.
+    /// Grains in a packing. Allowed: `DISCS`.
     pub discs: usize,
-    /// Target porosities of the packings, whole box, overlaps counted once [-].
+    /// Porosities to pack to: of the whole box, overlaps counted once. Allowed: `POROSITIES`.
     pub porosities: Vec<f64>,
+    /// How the boxes close.
     pub compressions: Vec<Compression>,
-    /// Friction angles of the grains while the walls close \[rad\]; default: the material's alone.
+    /// Friction angles while the box closes; smoother grains pack denser. The material's own is back before the packed state comes
+    /// to rest \[rad\]. Allowed: `ANGLES`. Default: the material's alone.
     #[serde(default)]
     pub packing_friction_angles: Vec<f64>,
-    /// Packings for each porosity, compression and packing friction.
+    /// Packings for each porosity, compression and packing friction. Allowed: 1 or more.
     pub repeats: u32,
-    /// Ramps of each packing; default: `up` and `down`, or `xx` and `yy`, or `wall_shear`, by the kind of the block.
+    /// Ways through states of a packing. Allowed: see below. Default: those of the kind that start from the packed state.
     #[serde(default)]
     pub ramps: Vec<RampName>,
-    /// Magnitudes at which a ramp stops, growing: strain [-], or slip \[m\] of `wall_shear`.
+    /// Sizes of the strain at which a ramp stops and is averaged, growing; of `wall_shear` the slip of the walls \[- or m\].
+    /// Allowed: 1e-9 to `LARGEST_STRAIN`; of `wall_shear` 1e-9 to `LARGEST_SLIP`.
     pub stops: Vec<f64>,
-    /// Magnitudes at which the return of `up_down` and `down_up` stops, falling; 0 is the packed strain and negative
-    /// values lie beyond it. Default: the stops in reverse order, then 0.
+    /// Strains at which the ramps `up_down` and `down_up` stop on their way back, falling; 0 is the packed state, and values below
+    /// 0 lie beyond it. Allowed: `LEAST_RETURN` to below the last stop. Default: the stops backwards, then 0.
     #[serde(default)]
     pub return_stops: Vec<f64>,
-    /// Boundary of the boxes; default: walls. Periodic boxes are averaged over their whole cell.
+    /// What is around a box: rigid `walls`, or a box that repeats itself without end, `periodic`. Not `periodic` in `wall_shear`.
     #[serde(default)]
     pub boundary: Boundary,
-    /// Directions in which the walls of `wall_shear` move; default: same.
+    /// Of `wall_shear` only: bottom and top move the `same` way, or `opposite` ways, which shears the grains as well. Default: `same`.
     #[serde(default)]
     pub slide: Option<Slide>,
-    /// Whether the friction that bottom and top have mobilised while the box closed is taken back before they slip; default: no.
+    /// Of `wall_shear` only: whether the friction that bottom and top have mobilised while the box closed is taken back before they
+    /// slip. Walls that stay while a box closes along them are loaded in both directions, and then seem half as stiff as in a bed
+    /// whose walls came along with the grains.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub release_walls: bool,
 }
@@ -51,28 +60,33 @@ pub struct Block {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PathBlock {
-    /// Discs in a packing.
+    /// Grains in a packing. Allowed: `DISCS`.
     pub discs: usize,
-    /// Target porosities of the packings, whole box, overlaps counted once [-].
+    /// Porosities to pack to: of the whole box, overlaps counted once. Allowed: `POROSITIES`.
     pub porosities: Vec<f64>,
+    /// How the boxes close.
     pub compressions: Vec<Compression>,
-    /// Friction angles of the grains while the box closes \[rad\]; default: the material's alone.
+    /// Friction angles while the box closes; smoother grains pack denser. The material's own is back before the packed state comes
+    /// to rest \[rad\]. Allowed: `ANGLES`. Default: the material's alone.
     #[serde(default)]
     pub packing_friction_angles: Vec<f64>,
-    /// Packings for each porosity, compression and packing friction.
+    /// Packings for each porosity, compression and packing friction. Allowed: 1 or more.
     pub repeats: u32,
-    /// Boundary of the boxes: periodic.
+    /// What is around a box. Allowed: `periodic`.
     #[serde(default = "periodic")]
     pub boundary: Boundary,
-    /// Paths that every packing follows, each from the packed state.
+    /// Paths that every packing follows, each at most once and from the packed state: the names of paths in the table above.
+    /// Allowed: see there.
     pub paths: Vec<RampName>,
-    /// Size of an increment [-].
+    /// Size of an increment h. Allowed: `STEPS`.
     #[serde(default = "usual_step")]
     pub step: f64,
-    /// Magnitudes of small strains, growing, that are tried on copies of the box [-].
+    /// Sizes of strains that are tried on copies of the box, growing: along x, along y and shear, each with either sign.
+    /// Allowed: `PROBES`.
     #[serde(default)]
     pub probes: Vec<f64>,
-    /// Number of increments between two states that are probed.
+    /// Increments between two states that are probed. The packed state is probed as well, once for all paths: in the first of the
+    /// list. `equivalence` is not probed. Allowed: 1 or more.
     #[serde(default = "usual_probe_every")]
     pub probe_every: u32,
 }
@@ -122,7 +136,7 @@ impl Packings<'_> {
         }
         let allowed = 0.0..std::f64::consts::FRAC_PI_2;
         match self.packing_friction_angles.iter().find(|angle| !allowed.contains(*angle)) {
-            Some(angle) => Err(format!("packing_friction_angles: {angle}, allowed: 0 <= angle < pi/2 rad")),
+            Some(angle) => Err(format!("packing_friction_angles: {angle}, allowed: {ANGLES}")),
             None => Ok(()),
         }
     }
@@ -200,11 +214,12 @@ impl Block {
     fn check_returns(&self) -> Result<(), String> {
         let turn = self.stops.last().copied().unwrap_or(0.0);
         let falling = self.return_stops.windows(2).all(|pair| pair[0] > pair[1]);
-        let inside = self.return_stops.iter().all(|&s| s < turn && s >= -0.2);
+        let inside = self.return_stops.iter().all(|&s| s < turn && s >= LEAST_RETURN);
         if falling && inside {
             return Ok(());
         }
-        Err(format!("return_stops: {:?}, allowed: falling, below {turn}, at least -0.2", self.return_stops))
+        let allowed = format!("falling, below {turn}, at least {LEAST_RETURN}");
+        Err(format!("return_stops: {:?}, allowed: {allowed}", self.return_stops))
     }
 
     fn check_ramps(&self, kind: Kind) -> Result<(), String> {

@@ -17,47 +17,53 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RampName {
-    /// The packed state itself: stop 0 of every ramp that starts there.
+    /// The packed state itself, the first row of every packing; it is not named in a plan.
     #[default]
     Packed,
-    /// Radii grow.
+    /// Of `thermal`: radii grow.
     Up,
-    /// Radii shrink.
+    /// Of `thermal`: radii shrink.
     Down,
-    /// Back from the last stop of `up`.
+    /// Of `thermal`: back from the last stop of `up`, which has to stand before it; only if named.
     UpDown,
-    /// Back from the last stop of `down`.
+    /// Of `thermal`: back from the last stop of `down`, which has to stand before it; only if named.
     DownUp,
-    /// x walls close (stops −1, −2, …), and from the packed state again, open (1, 2, …).
+    /// Of `mechanics`: the box closes along x (stops −1, −2, …) and, from the packed state again, opens (1, 2, …).
     Xx,
-    /// As `xx`, with the y walls.
+    /// Of `mechanics`: the same along y.
     Yy,
-    /// A periodic box is sheared along x, one way (stops −1, −2, …) and, from the packed state again, the other.
+    /// Of `mechanics`: a periodic box is sheared one way (stops −1, −2, …) and, from the packed state again, the other; only if
+    /// named.
     Xy,
-    /// Bottom and top move along x.
+    /// Of `wall_shear`: bottom and top move along x.
     WallShear,
-    /// Path: the box is strained along x or y, there, back and there again.
+    /// Path: the box is strained along x or y: 25 increments one way, 25 back, 15 one way again.
     Uniaxial,
-    /// Path: it closes along one axis and opens along the other by the same strain, there, back and there again.
+    /// Path: it is strained along x and by the opposite along y: 15, 25 back, 15.
     Biaxial,
-    /// Path: it is sheared, there, back and there again.
+    /// Path: it is sheared by twice the increment: 15, 25 back, 15.
     Shear,
-    /// Path: it closes or opens along both axes alike, there, back and there again.
+    /// Path: it is strained along x and y by the same: 12, 18 back, 10.
     Isotropic,
-    /// Path: radii grow or shrink, there, back and there again.
+    /// Path: radii grow or shrink: 20, 35 back, 15.
     Thermal,
-    /// Path: the strains along x and y run on a circle.
+    /// Path: the strains along x and y run on a circle through the packed state, of a radius of five increments: three turns of
+    /// 20 chords.
     Circle,
-    /// Path: strain without change of area, whose axes turn.
+    /// Path: strain without change of area, whose axes turn: 60 increments ε_xx = −ε_yy = h cos t, γ_xy = 2h sin t, t from 0 to
+    /// 3π.
     Turning,
-    /// Path: straight pieces in random directions of all strains.
+    /// Path: eight straight pieces of 4 to 12 increments, each in a random direction of the strain of the radii (half as large)
+    /// and of the three strains of the box; the largest part is the increment.
     Mixed,
     /// Path: as `mixed`, but radii stay.
     Mechanical,
-    /// Path: a layer of a bed through which a front of temperature passes, there, back and there again.
+    /// Path: a layer of a bed that a front of temperature passes: radii grow or shrink by the increment, 24, 16 back, 8. The
+    /// box keeps its size along one axis; along the other it is strained by 0 to 2 times the strain of the radii, in each piece
+    /// by another share.
     Front,
-    /// Single increments of the radii from the packed state, and of the box, which give the same packing up to its
-    /// scale.
+    /// Path: radii by ±0.5, 1 and 2 %, each in one increment from the packed state, and after each its twin, in which the box
+    /// is strained by 1/(1 + ε) − 1 along x and y, also from the packed state. Both give the same packing up to its scale.
     Equivalence,
 }
 

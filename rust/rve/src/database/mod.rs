@@ -70,6 +70,7 @@ pub use plan::{Kind, Plan, RampName};
 pub use read::{has_checksum, inspect, read, read_all, read_spheres};
 pub use recipe::Recipe;
 pub use record::Record;
+pub use schema::PROVENANCE;
 pub use shard::Shard;
 pub use spheres::{PathName, SpherePlan, SphereRecord};
 pub use store::Store;

@@ -18,27 +18,29 @@ const SHEAR_ASPECT: f64 = 2.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
-    /// Radii are uniform between these \[m\].
+    /// Radii are uniform from this \[m\]. Allowed: `RADII`.
     pub radius_min: f64,
+    /// To this \[m\]. Allowed: `RADII_ABOVE`.
     pub radius_max: f64,
-    /// Seed of the whole plan.
+    /// Number from which the random places and radii of all packings follow. Allowed: whole number from 0.
     pub seed: u64,
-    /// How forces are brought into balance; default: the grains' own damped motion.
+    /// How grains come to rest: `damped`, by their own motion with damping; `fire`, by a method of minimisation that is several
+    /// times as fast.
     #[serde(default)]
     pub relaxation: Relaxation,
-    /// Grain material.
+    /// The grains. Default: those of the paper.
     #[serde(default)]
     pub material: Material,
-    /// Thermal ramps: radii grow and shrink in fixed walls.
+    /// Blocks of packings whose grains grow and shrink while the box stays.
     #[serde(default)]
     pub thermal: Vec<Block>,
-    /// Mechanical ramps: walls close and open in one direction.
+    /// Blocks of packings whose box closes, opens or is sheared while the grains keep their size: for what strains of a cell do.
     #[serde(default)]
     pub mechanics: Vec<Block>,
-    /// Bottom and top of a box twice as wide as high slip along the grains.
+    /// Blocks of packings, in boxes twice as wide as high, whose bottom and top slip along the grains: for the friction of walls.
     #[serde(default)]
     pub wall_shear: Vec<Block>,
-    /// Paths of strain in periodic boxes.
+    /// Blocks of packings, in periodic boxes, that follow paths of strain of the grains and of the box: for a constitutive law.
     #[serde(default)]
     pub paths: Vec<PathBlock>,
     /// The text that the plan was read from; the provenance has its hash.

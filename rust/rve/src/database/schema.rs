@@ -2,6 +2,7 @@
 //! integrity check.
 
 use super::table::{Row, Schema};
+use msdd_files::Column;
 use rusqlite::limits::Limit;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags};
@@ -9,6 +10,36 @@ use std::path::Path;
 
 /// Longest value that is read [bytes]: far longer than any plan.
 const LONGEST: i32 = 1 << 24;
+
+/// Keys of the provenance, which a database has in a table and a CSV in a file beside it.
+pub const PROVENANCE: [Column; 18] = [
+    (
+        "schema",
+        "-",
+        "version of the tables: 3; files of version 2, without `fabric_xy` and the columns of paths, are read as well, but not continued; of spheres `spheres 2`; files of `spheres 1`, without `shaking`, are read as well, but not continued",
+    ),
+    (
+        "engine_version",
+        "-",
+        "version of the engine: another one gives other numbers, and rows of two versions do not mix",
+    ),
+    ("commit", "-", "commits of the programs that made the rows, as far as they know it"),
+    ("shard", "-", "part of the plan that is in the file, as `1/4`; `1/1` is all"),
+    ("plan", "-", "text of the plan"),
+    ("plan_hash", "-", "SHA-256 of it"),
+    ("grains", "-", "`spheres`; absent in databases of discs"),
+    ("material", "-", "the grains, as JSON"),
+    ("radius_distribution", "-", "`uniform`; this and the next three are absent of spheres"),
+    ("radius_min", "m", "least radius"),
+    ("radius_max", "m", "largest radius"),
+    ("mean_radius", "m", "mean radius"),
+    ("complete", "-", "`yes` once all packings are there; absent before"),
+    ("digits", "-", "significant digits of a CSV that was exported with `--digits`; absent if all are there"),
+    ("absent_columns", "-", "columns that rows of an older engine do not have; absent if there are none"),
+    ("rows_sha256", "-", "checksum of the rows"),
+    ("columns_sha256", "-", "checksum of the table of columns"),
+    ("provenance_sha256", "-", "checksum of the provenance itself"),
+];
 
 /// The statements that make the tables.
 pub(super) fn tables<R: Row>(schema: Schema) -> String {

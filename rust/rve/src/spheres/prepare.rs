@@ -26,7 +26,7 @@ const LEAST_SCALE: f64 = 0.05;
 
 /// Spheres of a packing, pressures over E*, and openings of boxes that are shaken: with less, spheres still touch.
 pub const SPHERES: [usize; 2] = [50, 1_000_000];
-pub const PRESSURES: [f64; 2] = [1e-8, 1e-3];
+pub const PACKED_PRESSURES: [f64; 2] = [1e-8, 1e-3];
 pub const SHAKING: [f64; 2] = [0.002, 0.1];
 /// Largest friction of spheres.
 pub const MOST_FRICTION: f64 = 2.0;
@@ -92,7 +92,7 @@ impl Preparation {
                 shaking == 0.0 || inside(shaking, SHAKING),
                 format!("0, or {}", text(SHAKING)),
             ),
-            ("pressure", self.pressure, inside(self.pressure, PRESSURES), text(PRESSURES)),
+            ("pressure", self.pressure, inside(self.pressure, PACKED_PRESSURES), text(PACKED_PRESSURES)),
         ];
         match parameters.into_iter().find(|(_, _, good, _)| !good) {
             Some((key, value, _, allowed)) => Err(PrepareError::Parameter { key, value, allowed }),

@@ -20,18 +20,28 @@ const UNIT: f64 = 1e-9;
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    /// `msdd-state-1`.
     schema: String,
+    /// 3.
     dimension: u32,
+    /// The grains: its entries follow in a table of their own.
     material: Material,
+    /// Of a box that repeats itself: its entries follow; absent between walls alone.
     #[serde(rename = "box", default, skip_serializing_if = "Option::is_none")]
     cell: Option<Box>,
+    /// List of walls, each with `point`, `surface` (`flat` with `normal`, or `cylinder` with `axis`, `radius`, `growth`) and
+    /// `velocity` [m, –, m/s].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     walls: Vec<Wall>,
+    /// The grains: lists of equal length.
     particles: Particles,
+    /// Contacts with friction: lists of equal length.
     #[serde(default)]
     contacts: Contacts,
+    /// What else is required to go on.
     #[serde(default)]
     run: Run,
+    /// SHA-256 over the values; take it out after editing a file by hand.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
@@ -39,8 +49,11 @@ struct File {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Box {
+    /// A corner \[m\].
     origin: [f64; 3],
+    /// The edges from it: the first along x, the second in the plane of x and y \[m\].
     edges: [[f64; 3]; 3],
+    /// With which it deforms: row k has the derivatives of the k-th component of the velocity [1/s].
     #[serde(default)]
     velocity_gradient: [[f64; 3]; 3],
 }
@@ -49,26 +62,38 @@ struct Box {
 #[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Particles {
+    /// Centre along x \[m\].
     x: Vec<f64>,
+    /// Centre along y \[m\].
     y: Vec<f64>,
+    /// Centre along z \[m\].
     z: Vec<f64>,
+    /// Radius \[m\].
     radius: Vec<f64>,
+    /// Mass \[kg\].
     mass: Vec<f64>,
+    /// Velocity along x; in a box that deforms, relative to it [m/s].
     #[serde(default)]
     vx: Option<Vec<f64>>,
+    /// Along y [m/s].
     #[serde(default)]
     vy: Option<Vec<f64>>,
+    /// Along z [m/s].
     #[serde(default)]
     vz: Option<Vec<f64>>,
+    /// Angular velocity about x [rad/s].
     #[serde(default)]
     wx: Option<Vec<f64>>,
+    /// About y [rad/s].
     #[serde(default)]
     wy: Option<Vec<f64>>,
+    /// About z [rad/s].
     #[serde(default)]
     wz: Option<Vec<f64>>,
+    /// Temperature \[K\].
     #[serde(default)]
     temperature: Option<Vec<f64>>,
-    /// Radius at zero strain; default: the radius.
+    /// Radius at strain 0; absent: the radius \[m\].
     #[serde(default)]
     reference_radius: Option<Vec<f64>>,
 }
@@ -76,10 +101,15 @@ struct Particles {
 #[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Contacts {
+    /// Number of the one grain, from 0, or a wall: −1 the first of the list, −2 the second, and so on.
     i: Vec<i64>,
+    /// Number of the other grain.
     j: Vec<i64>,
+    /// The contact is with the image of j moved by so many edges.
     shift: Vec<[i32; 3]>,
+    /// Tangential force on j \[N\].
     tangential_force: Vec<[f64; 3]>,
+    /// Radius of the contact when it was stored \[m\].
     contact_radius: Vec<f64>,
 }
 
@@ -87,13 +117,19 @@ struct Contacts {
 #[derive(Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct Run {
+    /// Time \[s\].
     time: f64,
+    /// Steps so far.
     steps: u64,
-    /// None: the largest stable one.
+    /// Size of a step; absent: the largest stable one \[s\].
     time_step: Option<f64>,
+    /// Strain of the radii since `reference_radius`.
     strain: f64,
+    /// Its rate [1/s].
     strain_rate: f64,
+    /// Drag on all grains [1/s].
     drag: f64,
+    /// Gravity [m/s²].
     gravity: [f64; 3],
 }
 

@@ -38,18 +38,31 @@ pub struct IncrementModel {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct File {
+    /// `msdd-increment-model-1`.
     pub schema: String,
+    /// Name of the model.
     pub name: String,
+    /// Smallest and largest value of each input along the paths of the training, and of the reduced pressure.
     pub ranges: Ranges,
+    /// The numbers of the law: `bulk`, `looseness`, `onset`, `shear`, for each of two `elements` its `share`, `strength` and
+    /// `dilatancy`, `dilatancy_of_looseness`, and `settling` (0 in files without it).
     pub law: super::law::Law,
+    /// Coefficients of the overlaps and of the fabric.
     pub readout: super::readout::Readout,
-    /// The first is the one that answers.
+    /// Coefficients of the conductivity, one entry for each kind; the first answers unless the case says otherwise.
     pub conductivities: Vec<Conductivity>,
+    /// Mean stress of packed states as a function of porosity and fabric, for what a case does not give.
     pub mean_stress: MeanStress,
+    /// The states along the paths of the training: a cover of their convex hull.
     pub region: Region,
+    /// Relative standard deviation of the conductivity between packings of equal state, and of the growth of the pressure
+    /// with the thermal strain.
     pub spread: Spread,
+    /// Sum of the areas of grains over area, for a porosity that counts overlaps once.
     pub solid_fraction: SolidFraction,
+    /// Friction at walls; `null` if the database had no `wall_shear`.
     pub wall_friction: Option<WallFriction>,
+    /// `library_version`, options of the training with the hash of the database's plan and rows, and its report.
     pub provenance: Provenance,
 }
 

@@ -30,26 +30,30 @@ impl SphereCompression {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PathName {
-    /// The packed state itself.
+    /// The packed state itself, the first row of every packing; it is not named in a plan.
     #[default]
     Packed,
-    /// The box closes along all axes alike, or opens, and back and there again.
+    /// The box closes along all axes by `strain`, opens again to a fifth of it, closes to seven tenths.
     Isotropic,
-    /// Radii grow, or shrink, and back and there again.
+    /// Radii grow by `strain`, shrink to what they were, grow to six tenths: what heat does to a bed between fixed walls.
     Thermal,
-    /// The box closes along one axis, or opens, and back and there again.
+    /// As `isotropic`, along one axis.
     Uniaxial,
-    /// It closes along one axis and opens along another by half of the strain, and back and there again; or the other way
-    /// round.
+    /// As `isotropic`: it closes along one axis and opens along another by half as much.
     Biaxial,
-    /// It closes along two axes, or opens, and gives way along the third so that the stress there stays, and back and there again.
+    /// The box closes along two axes by `strain`, opens again, closes to six tenths, and moves along the third so that the
+    /// stress there stays as it was packed, within some per cent: what heat does to a bed under a lid. How far it moves is
+    /// found on the way, and is in the rows.
     Pressed,
-    /// It is sheared, there, beyond the start, and there again.
+    /// It is sheared by twice `strain`, back beyond the start by six tenths, there again to eight tenths. The volume stays:
+    /// loose boxes under little pressure lose their load.
     Shear,
-    /// Straight pieces in random directions of all strains.
+    /// Eight straight pieces in random directions of all seven strains (the strain of the radii half as large); only directions
+    /// after which the box is still compressed.
     Mixed,
-    /// Single increments from the packed state, each with another one that gives the same packing up to its scale or the names of its
-    /// axes.
+    /// Single increments from the packed state, each with a twin: radii by 1 + ε, and the box by 1/(1 + ε) along all axes; then
+    /// along x by −ε, and the same in a box whose axes have other names. ε is −0.3, 0.3, 1 and 3 times (p/E*)^(2/3), 0.01 at
+    /// most.
     Equivalence,
 }
 

@@ -5,12 +5,14 @@ use super::paths::{Planned, Steps, planned};
 use crate::database::DatabaseError;
 use crate::database::seed::packing_seed;
 use crate::spheres::Preparation;
-use crate::spheres::prepare::{MOST_FRICTION, PRESSURES, SHAKING, SPHERES};
+use crate::spheres::prepare::{MOST_FRICTION, PACKED_PRESSURES, SHAKING, SPHERES};
 use serde::{Deserialize, Serialize};
 
 /// Sizes that increments and whole paths may have \[-\].
 const STEPS: [f64; 2] = [1e-5, 1e-2];
 const STRAINS: [f64; 2] = [1e-4, 5e-2];
+const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
+const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
 /// Times that a path may go there and back.
 const CYCLES: [u32; 2] = [1, 1000];
 /// A plan with more packings is taken as a typing error: it would compute for months.
@@ -20,18 +22,18 @@ const MOST_PACKINGS: u64 = 1_000_000;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpherePlan {
-    /// Seed of the whole plan.
+    /// Number from which the random places of all packings and their random paths follow. Allowed: whole number from 0.
     pub seed: u64,
-    /// μ \[-\] on the paths.
+    /// Friction of the spheres on the paths. Allowed: 0 to `MOST_FRICTION`.
     #[serde(default = "usual_friction")]
     pub friction: f64,
-    /// ν \[-\]
+    /// Poisson's ratio ν. Allowed: `POISSON_RATIOS`.
     #[serde(default = "usual_poisson_ratio")]
     pub poisson_ratio: f64,
-    /// e \[-\]
+    /// Speed after a collision over the speed before: only how fast boxes come to rest. Allowed: `RESTITUTIONS`.
     #[serde(default = "usual_restitution")]
     pub restitution: f64,
-    /// The packings.
+    /// Blocks of packings.
     pub spheres: Vec<SphereBlock>,
     /// The text that the plan was read from.
     #[serde(skip)]
@@ -42,29 +44,35 @@ pub struct SpherePlan {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SphereBlock {
-    /// Spheres in a packing.
+    /// Spheres in a packing. Allowed: `SPHERES`.
     pub spheres: usize,
-    /// μ while the box closes \[-\]; default: that of the plan alone.
+    /// Frictions while the box closes: 0 packs densest (0.63 to 0.64 of the space), 0.3 looser (0.58). Not above `friction`: a
+    /// packing whose friction falls collapses. Allowed: 0 to `friction`. Default: `friction` alone.
     #[serde(default)]
     pub packing_frictions: Vec<f64>,
-    /// How far a packed box is opened along all axes to be shaken and pressed again with the friction of the plan \[-\]; 0: it
-    /// is not. So boxes are dense though every contact was made under friction.
+    /// How far packed boxes are opened along all axes to be shaken: their spheres are mixed by random velocities, and the boxes are
+    /// pressed again with `friction`; 0: they are not. So they are dense though every contact was made under friction. They are
+    /// softer than beds that were poured, and the shipped law was not trained on them. Allowed: 0, or `SHAKING`.
     #[serde(default)]
     pub shaking: f64,
+    /// How the boxes close.
     pub compressions: Vec<SphereCompression>,
-    /// p/E* of the packed states \[-\].
+    /// Pressures over E* of the packed states: 1e-8 is a bed of steel under its own weight, 1e-3 what a hundred kelvin do to a bed
+    /// between fixed walls. Boxes are packed at 1e-6 at least and opened to what is below; those that are shaken are pressed to the
+    /// pressure itself. Allowed: `PACKED_PRESSURES`.
     pub pressures: Vec<f64>,
-    /// Packings for each friction, compression and pressure.
+    /// Packings of each kind. Allowed: 1 or more.
     pub repeats: u32,
-    /// Paths that every packing follows, each from the packed state.
+    /// Paths that every packing follows, each at most once and each from the packed state.
     pub paths: Vec<PathName>,
-    /// How far a path goes \[-\].
+    /// How far a path goes. Allowed: `STRAINS`.
     #[serde(default = "usual_strain")]
     pub strain: f64,
-    /// Size of an increment \[-\].
+    /// Size of an increment. The first ones are smaller: half of (p/E*)^(2/3), the strain that changes the pressure much, or an
+    /// eighth of `step` after a turn; then each is 1.5 times the one before. Allowed: `STEPS`.
     #[serde(default = "usual_step")]
     pub step: f64,
-    /// How often a path that goes there and back does so, before it goes there once more.
+    /// How often a path that goes there and back does so, before it goes there once more. Allowed: `CYCLES`.
     #[serde(default = "usual_cycles")]
     pub cycles: u32,
 }
@@ -142,11 +150,13 @@ impl SpherePlan {
         if !(0.0..=MOST_FRICTION).contains(&self.friction) {
             return Err(format!("friction: {}, allowed: 0 to {MOST_FRICTION}", self.friction));
         }
-        if !(0.0..=0.5).contains(&self.poisson_ratio) {
-            return Err(format!("poisson_ratio: {}, allowed: 0 to 0.5", self.poisson_ratio));
-        }
-        if !(1e-3..=1.0).contains(&self.restitution) {
-            return Err(format!("restitution: {}, allowed: 0.001 to 1", self.restitution));
+        for (key, value, [least, most]) in [
+            ("poisson_ratio", self.poisson_ratio, POISSON_RATIOS),
+            ("restitution", self.restitution, RESTITUTIONS),
+        ] {
+            if !(least..=most).contains(&value) {
+                return Err(format!("{key}: {value}, allowed: {least} to {most}"));
+            }
         }
         if self.spheres.is_empty() {
             return Err("at least one block of packings is needed".to_string());
@@ -241,7 +251,7 @@ impl SphereBlock {
         if self.shaking != 0.0 && !(least..=most).contains(&self.shaking) {
             return Err(format!("shaking: {}, allowed: 0, or {least} to {most}", self.shaking));
         }
-        let [least, most] = PRESSURES;
+        let [least, most] = PACKED_PRESSURES;
         if let Some(value) = self.pressures.iter().find(|value| !(least..=most).contains(*value)) {
             return Err(format!("pressures: {value:e}, allowed: {least:e} to {most:e}"));
         }
