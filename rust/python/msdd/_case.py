@@ -33,8 +33,11 @@ class Probes(NamedTuple):
 def read_summary(path: PathLike) -> dict[str, Any]:
     """What the solver says of a run: steps, wall time, model, mean state at the end and more.
 
-    path: the folder of a case, whose postProcessing/msddFoam/summary.json is read; or a JSON file, such as the
-        results/summary.json that scripts/run writes. Raises CaseError.
+    Parameters
+    ----------
+    path
+        folder of a case, whose `postProcessing/msddFoam/summary.json` is read; or a JSON file, such as the `results/summary.json`
+        that `scripts/run` writes
     """
     path = Path(path)
     file = path / "postProcessing/msddFoam/summary.json" if path.is_dir() else path
@@ -48,10 +51,18 @@ def read_summary(path: PathLike) -> dict[str, Any]:
 
 
 def read_probes(case: PathLike, field: str = "T", name: str = "probes", region: Union[str, None] = None) -> Probes:
-    """What the function object `name` (type probes) of a case saw of a field. The parts of a run that was continued are joined.
+    """What a function object of the type probes saw of a field. The files of the present run are joined in the order of time.
 
-    case: folder of the case. field: "T" [K] or any that the probes list. region: that of the function object, if it has one.
-    Raises CaseError.
+    Parameters
+    ----------
+    case
+        folder of the case
+    field
+        "T" [K] or any that the probes list
+    name
+        of the function object
+    region
+        of the function object, if it has one
     """
     table = read_joined(case, _places(name, region), field)
     found = re.findall(r"^# *Probe +\d+ *\(([^()]*)\)", "\n".join(table.head), re.MULTILINE)
@@ -69,11 +80,17 @@ def read_probes(case: PathLike, field: str = "T", name: str = "probes", region: 
 
 
 def read_table(case: PathLike, name: str, region: Union[str, None] = None) -> dict[str, Array]:
-    """What a function object of ours (massAudit, heatAudit, wallPressure, spaceProbes, ...) wrote: an array (times,) for each
-    column by its name, "Time" [s] first. The parts of a run that was continued are joined.
+    """What a function object of this project wrote to `postProcessing`: an array (times,) for each column by its name in the head
+    of the file, "Time" [s] first. The files of the present run are joined.
 
-    case: folder of the case. name: of the function object in system/controlDict, whatever its type. region: that of the function
-    object, if it has one. Raises CaseError.
+    Parameters
+    ----------
+    case
+        folder of the case
+    name
+        of the function object in system/controlDict, whatever its type
+    region
+        of the function object, if it has one
     """
     table = read_joined(case, _places(name, region))
     names = table.head[-1].lstrip("# ").split() if table.head else []
@@ -101,13 +118,21 @@ def time_folders(case: PathLike) -> list[str]:
 def read_field(
     case: PathLike, time: Union[str, float] = "latest", field: str = "T", region: Union[str, None] = None
 ) -> Array:
-    """Values of a field in the cells, at a time that was written: (cells,), or (cells, components) of a vector (x, y, z), a
-    symmetric tensor (xx, xy, xz, yy, yz, zz) or a tensor (xx, xy, xz, yx, yy, ...). A uniform field is filled in.
+    """Values of a field in the cells: (cells,), or (cells, components) of a vector (x, y, z), a symmetric tensor (xx, xy, xz, yy,
+    yz, zz) or a tensor (xx, xy, xz, yx, yy, ...). A uniform field is filled in over the cells, for which the mesh has to be there.
+    Macros such as `$T0` are refused; `foamDictionary -expand` prints their values.
 
-    case: folder of the case; of a parallel run after reconstructPar. time: as in `time_folders`, a number, or "latest", the last
-    that holds fields. field: "T" [K], "porosity", "conductivity" [W/(m K)] ... Mind that OpenFOAM's field "stress" [Pa] is
-    tension positive, unlike all else here. region: of a case of several regions; "bed/T" means T of the region bed. Ascii and
-    binary, compressed or not. Raises CaseError.
+    Parameters
+    ----------
+    case
+        folder of the case; of a parallel run after reconstructPar
+    time
+        a name as in `time_folders`, a number, or "latest", the last folder with fields
+    field
+        "T" [K], "porosity", "conductivity" [W/(m K)] and so on. The field "stress" [Pa] is positive in tension. "bed/T" means T of
+        the region bed
+    region
+        required in a case of several regions; None: the region without a name, which is the bed of msddFoam
     """
     if region is None and "/" in field:
         region, field = field.split("/", 1)

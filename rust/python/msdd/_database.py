@@ -31,10 +31,22 @@ def generate_database(
 ) -> None:
     """Makes the database of a plan, or goes on with one that was begun: packs boxes, strains and averages them.
 
-    plan: path of a TOML file, as those in cases/database. database: path of the file to write.
-    threads: 1 to 1024. progress: called as progress(done, total, failed) after each packing. An exception in it, or
-        Ctrl-C, stops the generation; what was made until then is kept.
-    Raises InvalidArgument, FileError, RveError (a plan that is none, a database of another plan).
+    Parameters
+    ----------
+    plan
+        path of a plan, a TOML file
+    database
+        path of the file to write
+    threads
+        1 to 1024
+    progress
+        a function, called as `progress(done, total, failed)` after each packing. An exception in it, or Ctrl-C, stops the
+        generation; what was made until then is kept
+
+    Raises
+    ------
+    InvalidArgument, FileError, RveError
+        also for a plan that is none, and a database of another plan.
     """
     text = Path(plan).read_text(encoding="utf-8")
     raised: list[BaseException] = []
@@ -78,18 +90,29 @@ def _threads(threads: int) -> int:
 
 
 def export_database(database: PathLike, csv: PathLike) -> int:
-    """Writes a database as CSV, compressed if the name ends in .gz, and beside it FILE.columns.csv (units and meaning of the
-    columns) and FILE.provenance.json. Answers the number of rows. Raises FileError, RveError."""
+    """Writes a database as CSV, compressed if the name ends in `.gz`, and beside it `FILE.columns.csv` (units and meaning of the
+    columns) and `FILE.provenance.json`. The answer is the number of rows.
+
+    Raises
+    ------
+    FileError, RveError
+    """
     rows = c.c_uint64()
     check(library.msdd_database_export_csv(encoded("database", database), encoded("csv", csv), c.byref(rows)))
     return rows.value
 
 
 def read_database(path: PathLike) -> pandas.DataFrame:
-    """Opens a database, or the CSV of one, as a pandas data frame: one row for each state of each packing.
+    """Opens a database, or the CSV of one, as a pandas data frame with a row for each state of each packing. `frame.attrs` holds
+    the dictionaries "units" and "meaning" of the columns, and the "provenance".
 
-    `frame.attrs` holds "units" and "meaning" of the columns by name, and the "provenance".
-    Raises ImportError without pandas; FileError, RveError; FileNotFoundError when a CSV lacks the files beside it.
+    Raises
+    ------
+    ImportError
+        without pandas;
+    FileError, RveError
+    FileNotFoundError
+        when a CSV lacks the files beside it.
     """
     try:
         import pandas  # noqa: F401  (asked first: an export can take seconds)

@@ -24,10 +24,8 @@ class Mesh(NamedTuple):
 
 
 def read_mesh(case: Union[str, os.PathLike[str]], region: Union[str, None] = None) -> Mesh:
-    """Centres and volumes of the cells of a case, from its constant/polyMesh (blockMesh writes it), or of one of its regions,
-    from constant/<region>/polyMesh.
-
-    Raises CaseError when the mesh is missing or damaged.
+    """Centres and volumes of the cells of a case, from constant/polyMesh (blockMesh writes it), or of one of its regions, from
+    `constant/<region>/polyMesh`.
     """
     folder = mesh_folder(case, region)
     if not folder.is_dir():

@@ -46,7 +46,7 @@ class Step:
     """Cells after a step. All arrays have the shape of the cells that were asked for."""
 
     state: State
-    """state after the step: an array [-] for each of `Model.state_names`"""
+    """state after the step, a dictionary as before: an array [-] for each of `Model.state_names`"""
     conductivity_xx: Array
     """K_xx [W/(m K)]"""
     conductivity_yy: Array
@@ -75,8 +75,9 @@ _ANSWERS = ("conductivity_xx", "conductivity_yy", "conductivity_xy", "stress_xx"
 
 
 class Model:
-    """A surrogate model, made by `load_model`. It never changes, and several threads may use it at once: Python's other
-    threads run while it computes. Porosity counts overlaps of grains once; fabric_index is F_xx - F_yy."""
+    """A surrogate model, made by `load_model`. It never changes, and several threads may use it at once: other threads of
+    Python run while it computes. It cannot be pickled. Porosity counts overlaps of grains once.
+    """
 
     __slots__ = ("_handle", "_state_names")
 
@@ -120,7 +121,7 @@ class Model:
 
     @property
     def state_names(self) -> tuple[str, ...]:
-        """Names of the state's columns; the first two are "porosity" and "fabric_index"."""
+        """Names of the columns of a state; the first two are "porosity" and "fabric_index" (F_xx - F_yy)."""
         return self._state_names
 
     @property
@@ -131,9 +132,16 @@ class Model:
     def with_conductivity(self, kind: str) -> Model:
         """The same model with conductivities of another kind.
 
-        kind: "network" (heat flow from grain to grain solved) or "affine" (temperatures of grains taken from the mean
-            gradient, an upper bound); `info["conductivities"]` lists those that it was trained for.
-        Raises InvalidArgument for any other.
+        Parameters
+        ----------
+        kind
+            "network" (heat flow from grain to grain solved) or "affine" (temperatures of grains taken from the mean gradient, an
+            upper bound); `info["conductivities"]` lists those that it was trained for.
+
+        Raises
+        ------
+        InvalidArgument
+            for any other.
         """
         made = c.c_void_p()
         check(library.msdd_surrogate_with_conductivity(self._handle, encoded("kind", kind), c.byref(made)))
@@ -153,15 +161,34 @@ class Model:
         conductivity_yy: Optional[ArrayLike] = None,
         conductivity_xy: Optional[ArrayLike] = None,
     ) -> State:
-        """State of cells at the start. What is not given is the mean of the packings that the model was trained on.
+        """State of cells at the start, an array for each of `state_names`. What is not given is the mean of the packings of the
+        training. Arrays of any shapes that broadcast to one; the state has that shape.
 
-        porosity: 0 to 1. fabric_index: F_xx - F_yy, -1 to 1.
-        fabric_xy: F_xy, -1 to 1; None = 0.
-        stress_xx, stress_yy: [Pa], compression positive, both or none. stress_xy: [Pa]; None = 0.
-        conductivity_xx, conductivity_yy: [W/(m K)], both or none: a packing that conducts better than others of its state
-            keeps doing so. conductivity_xy: [W/(m K)]; None = 0.
-        Arrays of any shapes that broadcast to one; the state has that shape.
-        Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
+        Parameters
+        ----------
+        material
+            what turns the answers of the model into SI units
+        porosity
+            overlaps counted once [-], 0 to 1
+        fabric_index
+            F_xx - F_yy [-], -1 to 1
+        fabric_xy
+            F_xy [-], -1 to 1; None: 0
+        stress_xx, stress_yy
+            [Pa], compression positive; both or none
+        stress_xy
+            [Pa]; None: 0
+        conductivity_xx, conductivity_yy
+            [W/(m K)], both or none. A packing that conducts better than others of its state keeps doing so
+        conductivity_xy
+            [W/(m K)]; None: 0
+
+        Raises
+        ------
+        InvalidArgument
+            for a value out of range,
+        NonFinite
+            for NaN and infinity; the text names column and index.
         """
         shape, columns = aligned(
             {"porosity": porosity, "fabric_index": fabric_index},
@@ -197,18 +224,34 @@ class Model:
         spread: bool = False,
         tangent: bool = False,
     ) -> Step:
-        """Takes cells through one step. What was given is left as it is.
+        """Takes cells through one step. Arrays of any shapes that broadcast to one; what is given is never changed.
 
-        state: an array for each of `state_names`; more (the columns of a data frame, say) is ignored.
-        thermal_strain: radial strain of the grains in this step relative to their present radius, growth positive, -1 to 10.
-        total_thermal_strain: the same from the initial state on, this step included, by which stress follows from the
-            grains' present radius; None = `thermal_strain`, right for a single step from the start.
-        strain_xx, strain_yy, strain_xy: strain of the cell in this step, extension positive, -0.2 to 0.2; strain_xy is twice
-            the shear, du_x/dy + du_y/dx; None = 0. rotation: angle by which the cell turns, (du_y/dx - du_x/dy)/2,
-            counter-clockwise [rad]; None = 0. All of them need `has_tangent`.
-        spread, tangent: whether to compute these, too. The tangent needs `has_tangent`.
-        Arrays of any shapes that broadcast to one. Contiguous ones of doubles are read where they are, without a copy.
-        Raises InvalidArgument, NonFinite, PluginError; KeyError for a missing column of the state.
+        Parameters
+        ----------
+        material
+            what turns the answers of the model into SI units
+        state
+            an array for each of `state_names`: a dictionary, or a data frame; other columns are ignored
+        thermal_strain
+            radial strain of the grains in this step, relative to their present radius, growth positive [-], -1 to 10
+        total_thermal_strain
+            radial strain since the initial state, this step included [-], -1 to 10; None: `thermal_strain`, which is right for a
+            single step from the start. The stress depends on it, because it depends on the present radius
+        strain_xx, strain_yy, strain_xy
+            strain of the cell in this step, extension positive, applied together with the thermal one [-], -0.2 to 0.2; `strain_xy`
+            is twice the shear strain, du_x/dy + du_y/dx; None: 0. Requires `has_tangent`
+        rotation
+            angle by which the cell turns, (du_y/dx - du_x/dy)/2, counter-clockwise positive [rad]; None: 0. Requires `has_tangent`
+        spread
+            whether to compute `Step.spread`, too
+        tangent
+            whether to compute the mechanical tangent, too. Requires `has_tangent`
+
+        Raises
+        ------
+        InvalidArgument, NonFinite, PluginError
+        KeyError
+            for a missing column of the state.
         """
         if not hasattr(state, "keys"):
             raise TypeError(f"state is a dictionary of arrays by name, not {type(state).__name__}")
@@ -245,9 +288,13 @@ class Model:
         return Step(state=after, outside=outside, clamped=clamped, tangent=stiffness, **answers)
 
     def solid_fraction(self, porosity: ArrayLike) -> Array:
-        """Sum of the grains' areas over the area of an initial state [-], overlaps counted twice: a fit to the database.
+        """Sum of the areas of the grains over the area of an initial state [-], overlaps counted twice: a fit to the database. The
+        bulk density that conserves mass is the density of the grains times this.
 
-        porosity: overlaps counted once, 0 to 1. The bulk density that conserves mass is that of the grains times the answer.
+        Parameters
+        ----------
+        porosity
+            overlaps counted once [-], 0 to 1
         """
         shape, columns = aligned({"porosity": porosity}, {})
         answer = np.empty(shape)
@@ -256,19 +303,32 @@ class Model:
         return answer
 
     def wall_friction(self, material: Material) -> WallFriction:
-        """Friction of walls that slip along the grains. Raises InvalidArgument when the model was not trained for it."""
+        """Friction of walls that slip along the grains.
+
+        Raises
+        ------
+        InvalidArgument
+            when the model was not trained with slipping walls.
+        """
         limit, slip = c.c_double(), c.c_double()
         check(library.msdd_surrogate_wall_friction(self._handle, _scales(material), c.byref(limit), c.byref(slip)))
         return WallFriction(limit.value, slip.value)
 
 
 def load_model(source: Union[str, os.PathLike[str]] = "builtin", conductivity: Optional[str] = None) -> Model:
-    """Loads a surrogate model.
+    """Loads a surrogate model. Loading a plug-in runs its code: take none from a stranger.
 
-    source: "builtin", the model that comes with the library; "builtin:paper", the network of the paper; a path of a model
-        file; or "plugin:" and the path of a shared library. Loading a plug-in runs its code: take none from a stranger.
-    conductivity: "network" or "affine", see `Model.with_conductivity`; None = as the model was made.
-    Raises FileError, ModelError, PluginError, InvalidArgument.
+    Parameters
+    ----------
+    source
+        "builtin", the model that comes with the library; "builtin:paper", the network of the paper; a path of a model file; or
+        "plugin:" and the path of a shared library
+    conductivity
+        "network" or "affine", see `Model.with_conductivity`; None: as the model was made
+
+    Raises
+    ------
+    FileError, ModelError, PluginError, InvalidArgument
     """
     made = c.c_void_p()
     check(library.msdd_surrogate_load(encoded("source", source), c.byref(made)))

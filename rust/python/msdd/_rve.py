@@ -114,13 +114,19 @@ class Rve:
 
     @staticmethod
     def from_json(text: str) -> Rve:
-        """The box of a state file, from its text. Raises RveError when it is none, or is damaged."""
+        """The box of a state file, from its text, which goes on bit for bit.
+
+        Raises
+        ------
+        RveError
+            for a text that is no state, or a damaged one.
+        """
         made = c.c_void_p()
         check(library.msdd_rve_from_json(encoded("text", text), c.byref(made)))
         return Rve._own(made)
 
     def to_json(self) -> str:
-        """Text of a state file (schema "msdd-state-1"), from which the box goes on bit for bit."""
+        """Text of a state file (schema "msdd-state-1"), as `msdd rve` writes it, from which the box goes on bit for bit."""
         text = c.c_void_p()
         with self._lock:
             check(library.msdd_rve_to_json(self._handle, c.byref(text)))
@@ -148,12 +154,22 @@ class Rve:
         return f"<msdd.Rve of {len(self.grains()['radius'])} grains>"
 
     def strain(self, thermal: float = 0.0, xx: float = 0.0, yy: float = 0.0, xy: float = 0.0) -> str:
-        """Strains the box relative to its present state and lets the grains come to rest.
+        """Strains the box relative to its present state and lets the grains come to rest. The answer is "settled" (forces balance),
+        "capped" (the most time steps came first) or "unjammed" (bears no load).
 
-        thermal: radial strain of the grains, growth positive. xx, yy: strain of the box along x and y, extension positive.
-        xy: way of the top along x over the height, of periodic boxes only. Each from -0.2 to 0.2.
-        Answers "settled" (forces balance), "capped" (the most time steps came first) or "unjammed" (bears no load).
-        Raises InvalidArgument, RveError; the box is then as before.
+        Parameters
+        ----------
+        thermal
+            radial strain of the grains, growth positive [-], -0.2 to 0.2
+        xx, yy
+            strain of the box along x and y, extension positive [-], -0.2 to 0.2
+        xy
+            way of the top along x over the height, of periodic boxes only [-], -0.2 to 0.2
+
+        Raises
+        ------
+        InvalidArgument, RveError
+            and the box is then as before.
         """
         outcome = c.c_int32()
         strains = (float(thermal), float(xx), float(yy), float(xy))
@@ -169,7 +185,7 @@ class Rve:
         return Averages(**{name: getattr(found, name) for name in Averages.__dataclass_fields__})
 
     def grains(self) -> dict[str, Array]:
-        """x, y [m], radius [m], mass [kg], vx, vy [m/s], angular_velocity [rad/s] and temperature [K] of all grains."""
+        """One value a grain: x, y, radius [m], mass [kg], vx, vy [m/s], angular_velocity [rad/s] and temperature [K]."""
         particles = json.loads(self.to_json())["particles"]
         return {name: np.array(column, np.float64) for name, column in particles.items()}
 
@@ -198,14 +214,31 @@ def pack(
     grains: Optional[Grains] = None,
 ) -> Rve:
     """Packs a box of grains: they are laid out loosely, walls close in until the porosity is reached, and they come to rest.
+    The same arguments give the same box, bit for bit.
 
-    discs: number of grains. seed: of their places and radii; the same arguments give the same box, bit for bit.
-    porosity: of the box at which the walls stop [-], overlaps counted once; 0.1 to 0.17 is usual.
-    compression: "isotropic" (walls close in along x and y), "horizontal" (along x), "intermediate" (twice as fast along x)
-        or "sheared" (along x, while those of y open an eighth as fast).
-    boundary: "walls" or "periodic". radius_min, radius_max: of the grains [m], evenly spread between.
-    relaxation: how grains come to rest, "damped" or "fire" (fast inertial relaxation engine). grains: None = Grains().
-    Raises InvalidArgument, RveError.
+    Parameters
+    ----------
+    discs
+        number of grains
+    seed
+        of their places and radii
+    porosity
+        of the box at which the walls stop [-], overlaps counted once; 0.1 to 0.17 is usual
+    compression
+        "isotropic" (walls close in along x and y), "horizontal" (along x), "intermediate" (twice as fast along x) or "sheared"
+        (along x, while those of y open an eighth as fast)
+    boundary
+        "walls" or "periodic"
+    radius_min, radius_max
+        range of the radii [m], which are evenly spread between
+    relaxation
+        how grains come to rest, "damped" or "fire" (fast inertial relaxation engine)
+    grains
+        their material; None: `Grains()`
+
+    Raises
+    ------
+    InvalidArgument, RveError
     """
     specification = {
         "discs": discs,

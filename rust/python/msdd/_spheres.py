@@ -24,7 +24,7 @@ class SphereMaterial:
     """Equal spheres and the gas between them."""
 
     diameter: float
-    """[m], 1e-9 to 1e3"""
+    """of all spheres [m], 1e-9 to 1e3"""
     young_modulus: float
     """E of the spheres [Pa], 1e-9 to 1e15"""
     poisson_ratio: float
@@ -38,7 +38,7 @@ class SphereMaterial:
     gas: str = "vacuum"
     """"air", "nitrogen", "helium", "argon" or "vacuum\""""
     gas_pressure: float = 101325.0
-    """[Pa], 1e-3 to 1e9; not used in a vacuum"""
+    """pressure of the gas [Pa], 1e-3 to 1e9; not used in a vacuum"""
     accommodation: float = 0.9
     """accommodation coefficient of the gas at the spheres, 0.01 to 1; not used in a vacuum"""
 
@@ -79,7 +79,9 @@ class SphereWall:
 
 @dataclass(frozen=True, eq=False)
 class SphereStep:
-    """Cells after a step. Tensors have their six components (`COMPONENTS`) along the first axis, then the shape of the cells."""
+    """Cells after a step. Tensors have their six components xx, yy, zz, xy, xz, yz along the first axis, then the shape of the
+    cells.
+    """
 
     state: State
     """state after the step: an array [-] for each of `Spheres.state_names`"""
@@ -92,14 +94,16 @@ class SphereStep:
     solid_fraction: Array
     """volume of the spheres over the volume [-]"""
     outside: NDArray[np.bool_]
-    """True where state or gas are outside of those of the training"""
+    """True where jamming fraction, pressure or stress ratio after the step, or the number of the gas, are outside of the training"""
     tangent: Optional[Array] = None
     """-d sigma_i/d strain_j [Pa] with i, j in the order of `COMPONENTS`: 6 x 6 and then the shape of the cells; None unless asked
     for. Where spheres slide it is not symmetric"""
 
 
 class Spheres:
-    """The law of packings of equal spheres, made by `load_spheres`. It never changes, and several threads may use it at once."""
+    """The law of packings of equal spheres, made by `load_spheres`. It never changes, and several threads may use it at once. It
+    cannot be pickled.
+    """
 
     __slots__ = ("_handle", "_state_names")
 
@@ -148,18 +152,32 @@ class Spheres:
         mobilised: Optional[ArrayLike] = None,
         fabric: Optional[ArrayLike] = None,
     ) -> State:
-        """State of packings at the start.
+        """State of packings at the start, an array for each of `state_names`. Arrays of any shapes that broadcast to one; the state
+        has that shape.
 
-        solid_fraction: volume of the spheres over the volume, 0.3 to 0.8.
-        stress: [Pa], compression positive: either one number or array, the pressure, or six of them in the order of `COMPONENTS`
-            in a list or along the first axis. Spheres under no pressure just do not touch.
-        coordination: contacts per sphere, all spheres counted, 0 to 12. None: that of periodic boxes; beds under gravity have
-            about 0.4 more.
-        mobilised: mobilised part of the friction, 0 to 1. None: 0.85, as in beds that were poured.
-        fabric: mean of n n over the contacts, with the normals n, six components as of the stress, -1 to 1. None: that of usual
-            packings.
-        Arrays of any shapes that broadcast to one; the state has that shape.
-        Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
+        Parameters
+        ----------
+        material
+            spheres and gas
+        solid_fraction
+            volume of the spheres over the volume [-], 0.3 to 0.8
+        stress
+            [Pa], compression positive: one number or array, the pressure; or six components in a list or along the first axis.
+            Spheres under no pressure just do not touch
+        coordination
+            contacts per sphere, all spheres counted [-], 0 to 12; None: as in a periodic box with this solid fraction, stress and
+            mobilised friction. Beds under gravity have about 0.4 more
+        mobilised
+            mobilised part of the friction [-], 0 to 1; 0.84 to 0.93 in beds that were poured; None: 0.85
+        fabric
+            mean of n n over the contacts, with the normals n: six components [-], -1 to 1; None: as in usual packings
+
+        Raises
+        ------
+        InvalidArgument
+            for a value out of range,
+        NonFinite
+            for NaN and infinity; the text names column and index.
         """
         load = _components("stress", stress, COMPONENTS, isotropic=True)
         directions = {} if fabric is None else _components("fabric", fabric, COMPONENTS)
@@ -192,18 +210,36 @@ class Spheres:
         solid_conductivity: Optional[ArrayLike] = None,
         tangent: bool = False,
     ) -> SphereStep:
-        """Takes cells through one step. What was given is left as it is.
+        """Takes cells through one step. Arrays of any shapes that broadcast to one; what is given is never changed.
 
-        state: an array for each of `state_names`; more is ignored.
-        thermal_strain: growth of the radii in this step relative to the present ones, above -0.2, to 0.2.
-        strain: of the cell in this step, extension positive, above -0.2, to 0.2, six components in the order of `COMPONENTS` in a
-            list or along the first axis; the last three are twice the shears, du_x/dy + du_y/dx and so on. None = 0.
-        rotation: vector of the angle by which the cell turns, half of the curl of the displacement [rad], three components. None = 0.
-        temperature: of the gas [K], 0 to 1e5. None = 293.15.
-        solid_conductivity: k_s of the spheres [W/(m K)], 1e-12 to 1e12, where it is not that of the material. None = the material's.
-        tangent: whether to compute it, too.
-        Raises InvalidArgument, also where the spheres conduct less than the gas; NonFinite; KeyError for a
-        missing column of the state.
+        Parameters
+        ----------
+        material
+            spheres and gas
+        state
+            an array for each of `state_names`: a dictionary, or a data frame; other columns are ignored
+        thermal_strain
+            growth of the radii in this step, relative to the present ones [-], above -0.2, to 0.2
+        strain
+            six components of the strain of the cell in this step, in a list or along the first axis, extension positive [-], above
+            -0.2, to 0.2; the last three are twice the shears, du_x/dy + du_y/dx and so on; None: 0
+        rotation
+            three components of the angle by which the cell turns, half of the curl of the displacement [rad]; None: 0
+        temperature
+            of the gas [K], 0 to 1e5; None: 293.15
+        solid_conductivity
+            of the spheres [W/(m K)], 1e-12 to 1e12; None: as in the material
+        tangent
+            whether to compute the mechanical tangent, too
+
+        Raises
+        ------
+        InvalidArgument
+            for a value out of range, and where the spheres conduct less than the gas;
+        NonFinite
+            for NaN and infinity;
+        KeyError
+            for a missing column of the state.
         """
         if not hasattr(state, "keys"):
             raise TypeError(f"state is a dictionary of arrays by name, not {type(state).__name__}")
@@ -250,10 +286,16 @@ class Spheres:
 
 
 def load_spheres(source: Union[str, os.PathLike[str]] = "builtin") -> Spheres:
-    """Loads the law of packings of spheres: "builtin", that which comes with the library, or a file made by
-    `msdd train --model spheres`.
+    """Loads the law of packings of spheres.
 
-    Raises FileError, ModelError.
+    Parameters
+    ----------
+    source
+        "builtin", the law that comes with the library, or the path of a file made by `msdd train --model spheres`
+
+    Raises
+    ------
+    FileError, ModelError
     """
     made = c.c_void_p()
     check(library.msdd_spheres_load(encoded("source", source), c.byref(made)))
@@ -267,13 +309,28 @@ def wall_resistance(
     conductivity: ArrayLike,
     temperature: ArrayLike = 293.15,
 ) -> Array:
-    """What a wall adds to the resistance of a bed that conducts alike up to its surface [m2 K/W], 0 to 1e9.
+    """What a wall adds to the resistance of a bed that has one conductivity up to its surface [m2 K/W], 0 to 1e9. Arrays of any
+    shapes that broadcast to one; the answer has that shape.
 
-    stress: normal to the wall [Pa], compression positive; where it is 0 or less, gas alone conducts.
-    conductivity: of the bed across the wall [W/(m K)], 0 and above.
-    temperature: of the gas [K], 0 to 1e5.
-    Arrays of any shapes that broadcast to one; the answer has that shape.
-    Raises InvalidArgument for a value out of range, NonFinite for NaN and infinity.
+    Parameters
+    ----------
+    material
+        spheres and gas
+    wall
+        the surface of the wall
+    stress
+        normal to the wall [Pa], compression positive; where it is 0 or less, gas alone conducts
+    conductivity
+        of the bed across the wall [W/(m K)], 0 and above
+    temperature
+        of the gas [K], 0 to 1e5
+
+    Raises
+    ------
+    InvalidArgument
+        for a value out of range,
+    NonFinite
+        for NaN and infinity.
     """
     if not isinstance(wall, SphereWall):
         raise TypeError(f"wall is a msdd.SphereWall, not {type(wall).__name__}")

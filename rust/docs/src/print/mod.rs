@@ -1,11 +1,16 @@
 //! Reference pages are printed from the code: a line `<!-- print: SOURCE ARGUMENT -->` of a page becomes what the module of
 //! this name makes of the argument. Nothing of it is committed: the book, and what checks links, expand the lines.
 
+mod columns;
 pub mod commands;
 pub mod header;
 pub mod keys;
 mod markdown;
+mod python;
 pub mod scripts;
+mod source;
+mod structs;
+mod table;
 
 use crate::error::{DocsError, Finding, none_found};
 use crate::pages::Page;
@@ -17,10 +22,13 @@ type Source = fn(&Path, &str) -> Result<String, DocsError>;
 
 /// Every source by its name, in alphabetical order.
 const SOURCES: &[(&str, Source)] = &[
+    ("columns", columns::text),
     ("commands", commands::text),
     ("header", header::text),
     ("keys", keys::text),
+    ("python", python::text),
     ("scripts", scripts::text),
+    ("structs", structs::text),
 ];
 
 const OPEN: &str = "<!-- print:";

@@ -8,6 +8,7 @@ mod links;
 mod math;
 mod print;
 mod repository;
+mod tables;
 mod verification;
 
 use msdd_docs::DocsError;
