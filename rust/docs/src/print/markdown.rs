@@ -9,7 +9,7 @@ pub fn prose(text: &str, is_code: impl Fn(&str) -> bool, linked: impl Fn(&str) -
     };
     let parts = text.split('`').enumerate().map(|(k, part)| match k % 2 {
         1 => code(part),
-        _ => words(part, &is_code, &code),
+        _ => words(part, &is_code, code),
     });
     parts.collect::<String>().replace('|', "\\|")
 }
