@@ -20,7 +20,31 @@ License
 #include "sceneWarnings.H"
 #include "chooseSettings.H"
 #include "timeControlFunctionObject.H"
+#include "cellSetOption.H"
 #include "fvOptions.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Function objects that end a run at its first step, and those that write
+//- nothing, because there is neither a flow nor a thermo of OpenFOAM
+static const wordList ending
+({
+    "forceCoeffs", "forces", "heatTransferCoeff", "turbulenceFields",
+    "wallHeatFlux", "wallShearStress"
+});
+static const wordList silent
+({
+    "CourantNo", "MachNo", "Q", "flowType", "pressure", "vorticity", "yPlus"
+});
+
+//- Methods of decomposition that Debian's OpenFOAM has by name alone
+static const wordList missingMethods({"scotch", "ptscotch", "metis", "kahip"});
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -67,6 +91,7 @@ bool Foam::dryRun::makeTime()
     }
     attempt([&]() { checkWritable(runTime_->path()); });
     attempt([&]() { accuracyWanted(runTime_()); });
+    attempt([&]() { checkDecomposition(); });
     return true;
 }
 
@@ -113,7 +138,97 @@ bool Foam::dryRun::makeObjects()
                 warnings_.append(warnings.all());
             }
         );
-        attempt([&]() { made.scheme->tryHeat(); });
+        if (attempt([&]() { made.scheme->tryHeat(); }))
+        {
+            attempt([&]() { checkSources(made.mesh()); });
+        }
+    }
+}
+
+
+void Foam::dryRun::checkSources(const fvMesh& mesh)
+{
+    const fv::optionList& sources = fv::options::New(mesh);
+    for (const fv::option& source : sources)
+    {
+        for (const word kind : {"vector", "sphericalTensor", "symmTensor", "tensor"})
+        {
+            if (source.type().find(kind) == 0)
+            {
+                add
+                (
+                    warnings_,
+                    "Source " + source.name() + " of fvOptions is of type "
+                  + source.type() + ", which does not act on T, a scalar: is"
+                    " scalarSemiImplicitSource meant?"
+                );
+            }
+        }
+        const auto* own = isA<fv::cellSetOption>(source);
+        if
+        (
+            own && !returnReduce(label(own->cells().size()), sumOp<label>())
+        )
+        {
+            add
+            (
+                warnings_,
+                "Source " + source.name() + " of fvOptions acts in no cell: its"
+                " selection of cells is empty"
+            );
+        }
+    }
+}
+
+
+void Foam::dryRun::checkDecomposition()
+{
+    IOobject file
+    (
+        "decomposeParDict", runTime_->system(), runTime_(),
+        IOobject::MUST_READ, IOobject::NO_WRITE, false
+    );
+    if (!file.typeHeaderOk<IOdictionary>(true))
+    {
+        return;
+    }
+    const word method(IOdictionary(file).getOrDefault<word>("method", ""));
+    if (missingMethods.found(method))
+    {
+        add
+        (
+            warnings_,
+            "Entry 'method' of system/decomposeParDict is " + method + ", which"
+            " Debian's OpenFOAM is built without: its decomposePar ends with an"
+            " error. Allowed there: simple, hierarchical, manual"
+        );
+    }
+}
+
+
+void Foam::dryRun::checkFunction(const dictionary& dict)
+{
+    const word type(dict.getOrDefault<word>("type", ""));
+    if (!made_.valid())
+    {
+        return;
+    }
+    if (ending.found(type))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'type' is " << type << ", allowed: types that need neither"
+            << " a flow nor a thermo of OpenFOAM. It ends the run at the first"
+            << " step. The function object heatAudit has the heat that came in"
+            << " through the patches" << exit(FatalIOError);
+    }
+    if (silent.found(type))
+    {
+        add
+        (
+            warnings_,
+            "Function object " + dict.dictName() + " is of type " + type
+          + ", which needs a flow: it warns at each step and writes nothing"
+        );
     }
     return true;
 }
@@ -171,6 +286,7 @@ void Foam::dryRun::makeFunctions()
         const auto make = [&]()
         {
             const dictionary& dict = each.dict();
+            checkFunction(dict);
             functions_.append
             (
                 functionObjects::timeControl::entriesPresent(dict)

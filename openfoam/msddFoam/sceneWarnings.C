@@ -16,6 +16,7 @@ License
 
 #include "sceneWarnings.H"
 #include "briefNumber.H"
+#include "Function1.H"
 #include "regionSplit.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -31,6 +32,40 @@ static const scalar mostGrains = 1e5;
 //- Parts of a mesh whose numbers of cells are printed
 static const label mostParts = 5;
 
+//- Times of a run at which functions are looked at
+static const label samples = 400;
+
+
+//- Mean conductivity along the directions that are solved for
+static scalar meanConductivity
+(
+    const granularProperties& properties,
+    const granularState& grains
+)
+{
+    const fvMesh& mesh = grains.mesh();
+    const scalarField& V = mesh.V();
+    const symmTensor K
+    (
+        gSum(V*grains.conductivity().primitiveField())/gSum(V)
+    );
+    scalar sum = 0;
+    const symmTensor::cmptType along[] = {K.xx(), K.yy(), K.zz()};
+    for (direction i = 0; i < vector::nComponents; ++i)
+    {
+        sum += mesh.geometricD()[i] > 0 ? along[i] : scalar(0);
+    }
+    return properties.conductivityFactor()*sum/mesh.nGeometricD();
+}
+
+
+//- Time from now to the end of the run; GREAT if it has none
+static scalar durationOf(const Time& time)
+{
+    const scalar end = time.endTime().value();
+    return end < GREAT ? end - time.value() : GREAT;
+}
+
 } // End namespace Foam
 
 
@@ -40,7 +75,7 @@ Foam::sceneWarnings::sceneWarnings
 (
     const granularProperties& properties,
     const volScalarField& T,
-    const granularState& grains,
+    granularState& grains,
     const granularMechanics& mechanics
 )
 :
@@ -48,13 +83,34 @@ Foam::sceneWarnings::sceneWarnings
     T_(T),
     grains_(grains),
     mechanics_(mechanics),
-    mesh_(T.mesh())
+    mesh_(T.mesh()),
+    sources_(fv::options::New(mesh_)),
+    duration_(durationOf(mesh_.time())),
+    conductivity_(meanConductivity(properties, grains)),
+    cellSize_(0),
+    strange_(false),
+    steady_(true),
+    way_(0)
 {
     checkSize();
     checkParts();
     checkCompared();
     checkSpheres();
     checkCells();
+    checkGrains();
+    checkEffects();
+    checkWrites();
+    readWalls();
+    checkTemperatures();
+    checkProperties();
+    checkSources();
+    checkTimes();
+    checkKnown();
+    checkPressure();
+    checkStrains();
+    checkWeight();
+    checkGravity();
+    checkPressures();
     checkSides();
 }
 
@@ -116,7 +172,109 @@ void Foam::sceneWarnings::checkParts()
 }
 
 
+void Foam::sceneWarnings::checkEffects()
+{
+    if (mechanics_.type() == "none" && properties_.found("equilibriumCoeffs"))
+    {
+        add
+        (
+            "Entry 'equilibriumCoeffs' of constant/granularProperties has no"
+            " effect with mechanics none"
+        );
+    }
+    const dictionary& surrogate = properties_.surrogateDict();
+    if
+    (
+        grains_.model().type() == "constant" && surrogate.found("spheresCoeffs")
+     && !surrogate.optionalSubDict("constantCoeffs").found("conductivity")
+    )
+    {
+        add
+        (
+            "Surrogate type constant does not read spheresCoeffs: without the"
+            " entry 'conductivity' [W/(m K)] it takes conductivity and stress"
+            " from a model of discs without gas"
+        );
+    }
+}
+
+
+void Foam::sceneWarnings::checkWrites()
+{
+    const dictionary& control = mesh_.time().controlDict();
+    const word kind(control.getOrDefault<word>("writeControl", "timeStep"));
+    const scalar interval = control.getOrDefault<scalar>("writeInterval", 0);
+    const scalar deltaT = mesh_.time().deltaTValue();
+    const bool steps =
+        kind == "timeStep"
+     && !control.getOrDefault<Switch>("adjustTimeStep", false);
+    const bool seconds =
+        kind == "runTime" || kind == "adjustable"
+     || kind == "adjustableRunTime";
+    const scalar longest = steps ? std::round(duration_/deltaT) : duration_;
+    // OpenFOAM writes half a step before a time, too
+    if
+    (
+        (steps || seconds) && duration_ > 0
+     && interval > longest + (steps ? scalar(0) : 0.5*deltaT)
+    )
+    {
+        const char* unit = steps ? " steps" : " s";
+        add
+        (
+            "Entry 'writeInterval' of system/controlDict is " + brief(interval)
+          + unit + ", allowed: at most the length of the run, " + brief(longest)
+          + unit + ". No fields will be written: the solver does not write at"
+            " the end by itself"
+        );
+    }
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::sceneWarnings::include
+(
+    const dictionary& dict,
+    const word& key,
+    range& values
+) const
+{
+    const entry* given = dict.findEntry(key);
+    if (!given)
+    {
+        return;
+    }
+    word form;
+    if (given->isDict())
+    {
+        given->dict().readIfPresent("type", form);
+    }
+    else
+    {
+        const token first(given->stream());
+        form = first.isWord() ? first.wordToken() : word::null;
+    }
+    // Forms of fields alone are not looked at
+    if
+    (
+        !form.empty()
+     && !Function1<scalar>::dictionaryConstructorTablePtr_->found(form)
+    )
+    {
+        return;
+    }
+    const autoPtr<Function1<scalar>> value(Function1<scalar>::New(key, dict));
+    const scalar begin = mesh_.time().value();
+    for (label i = 0; i <= (duration_ < GREAT ? samples : 0); ++i)
+    {
+        const scalar now = value->value(begin + i*duration_/samples);
+        values.least = min(values.least, now);
+        values.most = max(values.most, now);
+    }
+}
+
+
 
 void Foam::sceneWarnings::add(const string& text)
 {

@@ -16,6 +16,7 @@ License
 
 #include "sceneWarnings.H"
 #include "briefNumber.H"
+#include "pascals.H"
 #include "wallDistance.H"
 
 #include <cmath>
@@ -42,12 +43,26 @@ static const scalar mostlySmooth = 0.5;
 //- at the axis of a wedge
 static const scalar smallSide = 0.05;
 
+//- Share of gravity along another axis from which on it is inclined
+static const scalar inclined = 1e-3;
+
 
 //- The rules of the walls of a case whose grains move
 static dictionary wallRules(const granularProperties& properties)
 {
     return
         properties.subOrEmptyDict("equilibriumCoeffs").subOrEmptyDict("walls");
+}
+
+
+//- Whether a wall is given a pressure
+static bool isLid(const dictionary& rules, const polyPatch& patch)
+{
+    const word type
+    (
+        rules.subOrEmptyDict(patch.name()).getOrDefault<word>("type", "")
+    );
+    return type == "piston" || type == "pressure";
 }
 
 
@@ -64,6 +79,87 @@ static bool isSmooth(const dictionary& wall)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+void Foam::sceneWarnings::checkGravity()
+{
+    const vector& g = properties_.gravity();
+    if (mag(g) <= VSMALL || mechanics_.type() == "none")
+    {
+        return;
+    }
+    bool endless = false;
+    label lids = 0;
+    vector out(Zero);
+    word lid;
+    const dictionary rules(wallRules(properties_));
+    for (label i = 0; i < mesh_.boundaryMesh().nNonProcessor(); ++i)
+    {
+        const polyPatch& patch = mesh_.boundaryMesh()[i];
+        endless = endless || patch.coupled();
+        if (isLid(rules, patch))
+        {
+            ++lids;
+            lid = patch.name();
+            out = returnReduce(sum(patch.faceAreas()), sumOp<vector>());
+        }
+    }
+    label along = 0;
+    for (direction i = 0; i < vector::nComponents; ++i)
+    {
+        along += mag(g[i]) > inclined*mag(g);
+    }
+    const string shown
+    (
+        "Gravity is (" + brief(g.x()) + ' ' + brief(g.y()) + ' ' + brief(g.z())
+      + ") m/s2 in constant/g"
+    );
+    if (!endless && along > 1)
+    {
+        add
+        (
+            shown + ", usual: along one axis of the mesh. It presses the bed"
+            " sideways onto its walls, too"
+        );
+    }
+    else if (lids == 1 && (out & g) > -inclined*mag(out)*mag(g))
+    {
+        const scalar below = out & g;
+        add
+        (
+            below > (1 - sideCosine)*mag(out)*mag(g)
+          ? "Gravity points to wall '" + lid + "', whose pressure is given: the"
+            " pressure has to bear the weight of the bed, "
+          + brief(1e-3*magSqr(g)*gSum(grains_.mass())/below) + " kPa. Gravity"
+            " points away from a lid: see constant/g"
+          : shown + ", usual: away from wall '" + lid + "', which presses on the"
+            " bed and is taken as its top"
+        );
+    }
+}
+
+
+void Foam::sceneWarnings::checkPressures()
+{
+    const dictionary rules(wallRules(properties_));
+    for (const entry& each : rules)
+    {
+        range p;
+        if (each.isDict())
+        {
+            include(each.dict(), "pressure", p);
+        }
+        if (p.least < 0)
+        {
+            add
+            (
+                "Wall '" + string(each.keyword()) + "' is given a pressure down"
+                " to " + pascals(p.least) + ", usual: 0 Pa and more. It pulls,"
+                " and grains bear no tension"
+            );
+        }
+    }
+}
+
+
 void Foam::sceneWarnings::checkSides()
 {
     const scalar g = mag(properties_.gravity());
@@ -79,33 +175,9 @@ void Foam::sceneWarnings::checkSides()
     for (label patchi = 0; patchi < patches; ++patchi)
     {
         const polyPatch& patch = mesh_.boundaryMesh()[patchi];
-        const word type
-        (
-            rules.subOrEmptyDict(patch.name()).getOrDefault<word>("type", "")
-        );
-        if (type != "piston" && type != "pressure")
+        if (g <= VSMALL && isLid(rules, patch))
         {
-            continue;
-        }
-        const vector out
-        (
-            returnReduce(sum(patch.faceAreas()), sumOp<vector>())
-        );
-        const scalar below = out & along;
-        if (g <= VSMALL)
-        {
-            along = out;
-        }
-        else if (below > (1 - sideCosine)*mag(out)*g)
-        {
-            add
-            (
-                "Gravity points to wall '" + patch.name() + "', whose pressure"
-                " is given (type " + type + "): the pressure has to bear the"
-                " weight of the bed, "
-              + brief(1e-3*sqr(g)*gSum(grains_.mass())/below) + " kPa. Gravity"
-                " points away from a lid: see constant/g"
-            );
+            along = returnReduce(sum(patch.faceAreas()), sumOp<vector>());
         }
     }
     if (mag(along) <= VSMALL)

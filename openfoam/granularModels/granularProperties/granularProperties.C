@@ -194,6 +194,13 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
         }
         gravity_ = g.value();
     }
+    else if (isFile(typeFilePath<uniformDimensionedVectorField>(header)))
+    {
+        FatalIOErrorInFunction(*this)
+            << "Gravity in " << header.objectPath() << " is left out, allowed: a"
+            << " file with class uniformDimensionedVectorField in its header"
+            << exit(FatalIOError);
+    }
     if (found("restStress") && surrogateDict().getOrDefault<word>("type", "") == "constant")
     {
         FatalIOErrorInFunction(*this)

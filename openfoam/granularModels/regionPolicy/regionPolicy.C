@@ -198,13 +198,12 @@ void Foam::regionPolicy::act
             << ". The cells are in " << path(mesh_)
             << exit(FatalIOError);
     }
-    if (actions_[column][side] == action::clamp && atStart())
-    {
-        Info<< when.c_str() << ' ' << cells << " cells have " << name << ' '
-            << sides[side] << " the region of the model, by up to " << farthest
-            << ": the model answers as well as it can" << nl << endl;
-    }
-    if (actions_[column][side] == action::warn && !warned_[column][side])
+    const action what = actions_[column][side];
+    if
+    (
+        !warned_[column][side]
+     && (what == action::warn || (what == action::clamp && atStart()))
+    )
     {
         warned_[column][side] = true;
         Warning
@@ -283,10 +282,12 @@ void Foam::regionPolicy::judgeStart
             << " porosity { above clamp; } in outOfRegion of"
             << " constant/granularProperties" << exit(FatalIOError);
     }
-    Info<< "At the start " << loose << " of " << cells_.size()
+    Warning
+        << "At the start " << loose << " of " << cells_.size()
         << " cells have a porosity above " << loosest << ", up to "
         << most.c_str() << ", looser than all packings that the model was"
-        << " trained with: it answers as for packings of about " << loosest << nl << endl;
+        << " trained with: it answers as for packings of about " << loosest
+        << endl;
 }
 
 

@@ -154,6 +154,9 @@ static const scalar unitTrace = 0.01;
 //- spheres with friction need four, and dense random packings have seven
 static const scalar leastContacts = 2, mostContacts = 9;
 
+//- Solid fraction of a usual packing
+static const scalar usualSolid = 0.6;
+
 //- End the run: the library failed
 static void failed(const char* what, const std::exception& error)
 {
@@ -593,6 +596,70 @@ Foam::granularModels::spheres::conductivityRatio(const scalar T) const
 {
     const scalar gas = msdd::gasConductivity(gas_, min(max(T, 1.0), 1e5));
     return gas > 0 ? properties_.conductivityFunction().value(T)/gas : 0;
+}
+
+
+bool Foam::granularModels::spheres::knownGas
+(
+    const scalar T,
+    scalar& least,
+    scalar& most
+) const
+{
+    least = GREAT;
+    most = -GREAT;
+    if (!(conductivityRatio(T) > 0))
+    {
+        return false;
+    }
+    // A packing that the law knows
+    const scalar solid = usualSolid;
+    const scalarField stress({1e4, 1e4, 1e4, 0, 0, 0});
+    scalarField state(label(law_.stateSize()));
+    std::vector<const scalar*> given, before;
+    std::vector<scalar*> columns;
+    for (const scalar& one : stress)
+    {
+        given.push_back(&one);
+    }
+    forAll(state, i)
+    {
+        columns.push_back(&state[i]);
+        before.push_back(&state[i]);
+    }
+    const scalar k = properties_.conductivityFunction().value(T);
+    msdd_sphere_material material(material_);
+    try
+    {
+        law_.initialState
+        (
+            material, 1, &solid, given.data(), nullptr, nullptr, nullptr,
+            columns.data()
+        );
+        for (label tenth = -30; tenth <= 90; ++tenth)
+        {
+            material.gas_pressure = std::pow(10, 0.1*tenth);
+            uint8_t outside = 0;
+            msdd_sphere_batch batch = msdd_sphere_batch();
+            batch.struct_size = sizeof(msdd_sphere_batch);
+            batch.cells = 1;
+            batch.state = before.data();
+            batch.temperature = &T;
+            batch.solid_conductivity = &k;
+            batch.outside = &outside;
+            law_.advance(material, batch);
+            if (!(outside & 8))
+            {
+                least = min(least, material.gas_pressure);
+                most = max(most, material.gas_pressure);
+            }
+        }
+    }
+    catch (const std::exception& error)
+    {
+        failed("the pressure of the gas", error);
+    }
+    return true;
 }
 
 
