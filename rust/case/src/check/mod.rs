@@ -1,186 +1,137 @@
-//! Checks a case folder before a run: finds what is missing, out of range or doubtful.
+//! Checks a case folder before a run, with `msddFoam -dry-run`: it makes all that a run needs, and lists every error and warning.
 //!
-//! | module | what |
-//! |---|---|
-//! | [`bed`] | a bed: a whole case, or a region of one |
-//! | `files` | the files that are read |
-//! | [`regions`] | cases of several regions |
-//! | `header` | the heads of files |
-//! | [`finding`] | the findings |
-//! | [`keys`] | the keys of the solver's dictionaries and what they may hold |
-//! | `dimensions` | dimensions in brackets |
-//! | [`grains`] | `constant/granularProperties` and the model |
-//! | `gas` | the conductivity of spheres beside that of their gas |
-//! | [`gravity`] | `constant/g`, and the stress at the start that follows from it |
-//! | [`control`] | `system/controlDict`, `system/fvSolution` |
-//! | `linear` | the linear solver of T, and the schemes |
-//! | `functions` | function objects that need a flow or a thermo |
-//! | `libraries` | libraries and code that a case brings along |
-//! | `sizes` | values that no bed has |
-//! | `solver` | what the solver finds: `msddFoam -dry-run` |
-//! | `start` | the time at which a run begins |
-//! | [`mesh`] | the mesh |
-//! | `domain` | what is known of a mesh |
-//! | `blocks` | `system/blockMeshDict` |
-//! | `made` | the files in `constant/polyMesh` |
-//! | `probes` | probes outside of the mesh |
-//! | `sources` | sources and constraints |
-//! | `zones` | zones and sets of cells that are named |
-//! | `tables` | functions of temperature or time |
-//! | `temperatures` | the temperatures of a bed, and properties that depend on them |
-//! | `held` | whether walls hold a bed whose grains move |
-//! | `walls` | friction at walls, and wedges |
-//! | `weight` | gravity and the stress at the start |
-//! | `conditions` | conditions of T with which the solver cannot work |
-//! | [`fields`] | the fields in `0` |
-//! | [`state`] | the initial state, against the range of the model |
-//! | [`scales`] | temperatures, lengths and times, against each other |
+//! A case without a mesh gets the one of `system/blockMeshDict`, in a copy beside the case that is removed again: paths that lead
+//! out of the case folder work there as well.
 
-pub mod bed;
-mod blocks;
-mod conditions;
-pub mod control;
-mod dimensions;
-mod domain;
-pub mod fields;
-mod files;
-pub mod finding;
-mod functions;
-mod gas;
-pub mod grains;
-pub mod gravity;
-mod header;
-mod held;
-pub mod keys;
-mod libraries;
-mod linear;
-mod made;
-pub mod mesh;
-mod probes;
-pub mod regions;
-pub mod scales;
-mod sizes;
-mod solver;
-mod sources;
-mod spheres;
-mod start;
-pub mod state;
-mod tables;
-mod temperatures;
-mod walls;
-mod weight;
-mod zones;
+mod copy;
+mod finding;
 
-pub use finding::{Finding, Findings, Severity};
+pub use finding::{Finding, Severity};
 
-use crate::dictionary::Dictionary;
-use crate::path;
-use std::path::Path;
+use crate::{openfoam, path};
+use copy::Copy;
+use msdd_rve::message::shortened;
+use std::path::{Path, PathBuf};
+use std::process::Output;
 
-/// Files that are read through `foamDictionary`, and whether the solver needs them.
-const FILES: [(&str, bool); 13] = [
-    (control::DECOMPOSITION, false),
-    (control::SOLUTION, true),
-    (linear::SCHEMES, true),
-    (domain::BLOCKS, false),
-    (grains::FILE, true),
-    (gravity::FILE, false),
-    (sources::FILES[0], false),
-    (sources::FILES[1], false),
-    ("0/T", true),
-    ("0/porosity", true),
-    ("0/fabricIndex", true),
-    ("0/conductivity", false),
-    ("0/stress", false),
-];
+/// Name of the program.
+const PROGRAM: &str = "msddFoam";
+/// Where the build of a checkout puts it.
+const BUILT: &str = "openfoam/platforms/bin";
+/// Text in front of the list of its findings.
+const LIST: &str = "Dry run: ";
 
-/// What a check does not look at, in a sentence; empty if it looks at everything.
-pub type Omission = &'static str;
+/// The check cannot be made: the solver is not there.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "msddFoam, which checks cases, is neither in the path nor built above this program: openfoam/Allwmake in the checkout builds it"
+)]
+pub struct NoSolver;
 
-/// What the solver does not make of a case of `chtMultiRegionFoam`.
-const FLUIDS: Omission =
-    "of fluid regions, turbulence and combustion models and the equations are not checked";
-
-/// Checks a case folder as [`check`] does, and lets the solver make all that it needs for a run of it.
-pub fn check_with_solver(folder: &Path) -> (Findings, Omission) {
-    let mut found = check(folder);
-    // Else there is nothing more to say
-    if !folder.canonicalize().is_ok_and(|whole| whole.is_dir() && path::check(&whole).is_ok()) {
-        return (found, "");
-    }
-    let Some(program) = solver::program() else {
-        return (
-            found,
-            "msddFoam is not in the path, and was not asked to make the case: . scripts/foam-env",
-        );
-    };
-    let control = Dictionary::expanded(&folder.join(control::CONTROL)).ok();
-    let start = start::Start::find(folder, control.as_ref());
-    solver::check(&program, folder, &start, &mut found);
-    (found, if has_regions_alone(folder) { FLUIDS } else { "" })
-}
-
-/// Whether a case is one of `chtMultiRegionFoam`: with a bed outside of the regions it is one of `msddFoam`, with solids.
-fn has_regions_alone(folder: &Path) -> bool {
-    folder.join(regions::FILE).exists() && !folder.join(grains::FILE).exists()
-}
-
-/// Checks a case folder, of `msddFoam` or of several regions. Needs OpenFOAM's `foamDictionary`.
-pub fn check(folder: &Path) -> Findings {
-    let mut found = Findings::default();
+/// What `msddFoam -dry-run` finds in a case, in its order. The case is left as it is.
+///
+/// # Errors
+/// [`NoSolver`] when the solver is not built.
+pub fn check(folder: &Path) -> Result<Vec<Finding>, NoSolver> {
+    let error = |text: &str| vec![Finding::new(Severity::Error, text)];
     if !folder.is_dir() {
-        found.error(
-            [&folder.display().to_string(), ""],
-            "no such folder",
-            "the folder of a case",
-            "'msdd case new' begins one",
-        );
-        return found;
+        let text = format!("{}: no such folder; 'msdd case new' begins a case", folder.display());
+        return Ok(error(&text));
     }
-    if !check_path(folder, &mut found) {
-        // OpenFOAM would not find any of the files
-        return found;
+    let Ok(whole) = folder.canonicalize() else {
+        return Ok(error("the current folder was deleted: go to another"));
+    };
+    if let Err(problem) = path::check(&whole) {
+        return Ok(error(&format!("{problem}: move the case")));
     }
-    if has_regions_alone(folder) {
-        regions::check(folder, &mut found);
-        return found;
-    }
-    let own = files::read(folder, &[(control::CONTROL, true)], str::to_string, &mut found);
-    let control = files::file(&own, control::CONTROL);
-    let start = start::Start::find(folder, control);
-    let mut files = files::read(folder, &FILES, |name| start.path(name), &mut found);
-    let file = |name: &str| files::file(&files, name);
-    let is_plane = file(grains::FILE).is_none_or(grains::is_plane);
-    let mesh = mesh::check(&folder.join("constant"), file(domain::BLOCKS), is_plane, &mut found);
-    let times =
-        control.and_then(|control| control::check(control, file(control::SOLUTION), start.time, &mut found));
-    control.into_iter().for_each(|control| functions::check(control, &mut found));
-    file(control::DECOMPOSITION).into_iter().for_each(|own| control::check_decomposition(own, &mut found));
-    // A library of somebody else may add solvers
-    let closed =
-        !found.0.iter().any(|finding| [finding.file.as_str(), &finding.key] == [control::CONTROL, "libs"]);
-    if let Some(solution) = file(control::SOLUTION).filter(|_| closed) {
-        linear::check_solver(solution, &mut found);
-    }
-    file(linear::SCHEMES).into_iter().for_each(|schemes| linear::check_schemes(schemes, &mesh, &mut found));
-    files.extend(own);
-    bed::check([folder, Path::new("")], &files, &mesh, (times, &start), &mut found);
-    for finding in &mut found.0 {
-        finding.file = start.path(&finding.file);
-    }
-    found
+    let program = program().ok_or(NoSolver)?;
+    Ok(found_by(&program, &whole).unwrap_or_else(|problem| error(&problem)))
 }
 
-/// Refuses paths that OpenFOAM cannot work with; returns whether it can work with this one.
-fn check_path(folder: &Path, found: &mut Findings) -> bool {
-    let Ok(whole) = folder.canonicalize() else {
-        let advice = "The current folder was deleted: go to another";
-        found.error(["folder", ""], &folder.display().to_string(), "a folder that is there", advice);
-        return false;
-    };
-    let good = path::check(&whole).is_ok();
-    if !good {
-        found.error(["folder", ""], &whole.display().to_string(), path::ALLOWED, "move the case");
+/// The solver's program: in the path, or in the checkout in which this program was built.
+fn program() -> Option<PathBuf> {
+    let paths = std::env::var_os("PATH").unwrap_or_default();
+    let own = std::env::current_exe().ok();
+    let checkouts = own.iter().flat_map(|own| own.ancestors()).map(|folder| folder.join(BUILT));
+    let places: Vec<PathBuf> = std::env::split_paths(&paths).chain(checkouts).collect();
+    places.into_iter().map(|place| place.join(PROGRAM)).find(|file| file.is_file())
+}
+
+fn found_by(program: &Path, case: &Path) -> Result<Vec<Finding>, String> {
+    let copy = Copy::with_mesh(case)?;
+    let place = copy.as_ref().map_or(case, Copy::folder);
+    let output = openfoam::command(program)
+        .env("LD_LIBRARY_PATH", libraries(program))
+        .args(["-dry-run", "-case"])
+        .arg(place)
+        .output();
+    listed(&output.map_err(|error| error.to_string())?, place)
+}
+
+/// The folders of libraries, with those of the solver.
+fn libraries(program: &Path) -> std::ffi::OsString {
+    let own = program.parent().map(|bin| bin.with_file_name("lib"));
+    let others = std::env::var_os("LD_LIBRARY_PATH").unwrap_or_default();
+    std::env::join_paths(own.into_iter().chain(std::env::split_paths(&others))).unwrap_or(others)
+}
+
+/// The findings in the list that the solver prints last; else how it ended.
+fn listed(output: &Output, folder: &Path) -> Result<Vec<Finding>, String> {
+    let text = String::from_utf8_lossy(&output.stdout);
+    if let Some((_, list)) = text.rsplit_once(LIST) {
+        return Ok(list.lines().filter_map(finding).collect());
     }
-    good
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    let said = message(if stderr.trim().is_empty() { &text } else { &stderr }, folder);
+    Err(format!("{PROGRAM} -dry-run ended with {}: {said}", output.status))
+}
+
+/// The finding of a line such as "Error 1: text".
+fn finding(line: &str) -> Option<Finding> {
+    let (head, text) = line.split_once(": ")?;
+    match head.split_once(' ')?.0 {
+        "Not" => Some(Finding::new(Severity::Omission, text)),
+        // OpenFOAM lists a hundred types
+        "Error" => Some(Finding::new(Severity::Error, &shortened(text))),
+        "Warning" => Some(Finding::new(Severity::Doubt, text)),
+        _ => None,
+    }
+}
+
+/// The end of what a program has printed, on one line.
+fn message(text: &str, folder: &Path) -> String {
+    let text = text.rsplit_once("FATAL").map_or(text, |(_, rest)| rest);
+    let words: Vec<&str> = text.split_whitespace().take(80).collect();
+    shortened(&words.join(" ").replace(&format!("{}/", folder.display()), ""))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_list_of_the_solver_is_read() {
+        let text = "constant/granularProperties.surrogate, line 20: Unknown entry 'modle'";
+        let error = finding(&format!("Error 1: {text}")).unwrap();
+        assert_eq!(error.to_string(), format!("error: {text}"));
+        let doubt = finding("Warning 2: The mesh has 2 parts: no heat passes").unwrap();
+        assert_eq!(doubt.to_string(), "doubt: The mesh has 2 parts: no heat passes");
+        let omission = finding("Not checked: the equations of the fluid regions (gas)").unwrap();
+        assert_eq!(omission.to_string(), "not checked: the equations of the fluid regions (gas)");
+        assert!(finding("Time = 3").is_none() && finding("End").is_none());
+    }
+
+    #[test]
+    fn folders_that_hold_no_case_are_named() {
+        let found = check(Path::new("no-such-folder")).unwrap();
+        assert_eq!(
+            found[0].to_string(),
+            "error: no-such-folder: no such folder; 'msdd case new' begins a case"
+        );
+        let blank = std::env::temp_dir().join(format!("msdd check {}", std::process::id()));
+        std::fs::create_dir_all(&blank).unwrap();
+        let found = check(&blank).unwrap();
+        std::fs::remove_dir_all(&blank).unwrap();
+        assert!(found.len() == 1 && found[0].to_string().contains("a path without blanks"), "{found:?}");
+    }
 }

@@ -2,15 +2,15 @@
 
 use crate::error::CliError;
 use clap::Args;
-use msdd_case::check::check_with_solver;
+use msdd_case::check::{Finding, Severity, check};
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 #[command(
-    after_help = "Each line is an error (the solver refuses the case) or a doubt (the solver runs it, but the result may be wrong), with file, key,
-value, what is allowed, and what to do. The exit status is 1 with errors, 0 without. If msddFoam is installed, 'msddFoam -dry-run' makes
-all that a run needs, on the mesh of the case, and its messages are listed. No step is computed and the case is left as it is;
-OpenFOAM must be installed, because its program foamDictionary reads the files.
+    after_help = "Each line is an error (the solver refuses the case) or a doubt (the solver runs it, but the result may not be what was meant), with
+file, key, value and what is allowed. The exit status is 1 with errors, 0 without. 'msddFoam -dry-run' makes all that a run needs, on the
+mesh of the case or, where there is none, on that of blockMeshDict in a copy. No step is computed and the case is left as it is.
+Libraries, plug-ins and coded conditions that the case names are loaded.
 
 Example: msdd case check cases/H"
 )]
@@ -20,34 +20,42 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    report(&arguments.folder)
+    let found = check(&arguments.folder).map_err(|problem| CliError::Message(problem.to_string()))?;
+    report(&arguments.folder, &found)
 }
 
-/// Prints what a check finds.
+/// Checks a case and prints what is found; without the solver, that the case is not checked.
 ///
 /// # Errors
 /// [`CliError::Message`] with the number of errors.
-pub fn report(folder: &Path) -> Result<(), CliError> {
-    let (found, omission) = check_with_solver(folder);
-    for finding in &found.0 {
+pub fn report_or_note(folder: &Path) -> Result<(), CliError> {
+    match check(folder) {
+        Ok(found) => report(folder, &found),
+        Err(problem) => {
+            outln!("{}: not checked: {problem}", folder.display());
+            Ok(())
+        }
+    }
+}
+
+fn report(folder: &Path, found: &[Finding]) -> Result<(), CliError> {
+    for finding in found {
         outln!("{finding}");
     }
-    if !omission.is_empty() {
-        outln!("{omission}");
-    }
-    let [errors, doubts] = found.counts();
-    let many =
-        |count: usize, what: &str| if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") };
+    let count = |severity| found.iter().filter(|finding| finding.severity == severity).count();
+    let many = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let (errors, doubtful) = (count(Severity::Error), count(Severity::Doubt));
+    let doubts = many(doubtful, "doubt");
     let folder = folder.display();
     if errors > 0 {
-        let (errors, doubts) = (many(errors, "error"), many(doubts, "doubt"));
+        let errors = many(errors, "error");
         return Err(CliError::Message(format!(
             "{folder}: {errors} and {doubts}; the case will not run as it is"
         )));
     }
-    match doubts {
+    match doubtful {
         0 => outln!("{folder}: checked, nothing is missing, out of range or doubtful"),
-        _ => outln!("{folder}: checked, no errors, {}", many(doubts, "doubt")),
+        _ => outln!("{folder}: checked, no errors, {doubts}"),
     }
     Ok(())
 }

@@ -94,7 +94,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     };
     folder::write(folder, &made)?;
     outln!("written: {}", folder.display());
-    super::check::report(folder)?;
+    super::check::report_or_note(folder)?;
     outln!("{}", next_steps(folder, &name));
     Ok(())
 }

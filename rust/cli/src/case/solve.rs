@@ -80,6 +80,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
             ACCURACIES[1]
         )));
     };
+    super::check::report_or_note(&scene.folder)?;
     let wanted = Wanted { accuracy, pressure: arguments.pressure_accuracy.or(scene.pressure_accuracy) };
     solve(&scene, wanted, arguments).map_err(failed)
 }
