@@ -138,7 +138,11 @@ bool Foam::dryRun::makeObjects()
                 warnings_.append(warnings.all());
             }
         );
-        if (attempt([&]() { made.scheme->tryHeat(); }))
+        // Function objects look at the start
+        const scalarField start(made.T().primitiveField());
+        const bool heats = attempt([&]() { made.scheme->tryHeat(); });
+        made.T().primitiveFieldRef() = start;
+        if (heats)
         {
             attempt([&]() { checkSources(made.mesh()); });
         }

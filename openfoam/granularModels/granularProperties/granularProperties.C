@@ -154,7 +154,8 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
             IOobject::NO_WRITE
         )
     ),
-    density_(quantity("density", dimDensity)),
+    // Before a mistyped key is missed
+    density_((grainKeys.check(*this), quantity("density", dimDensity))),
     youngModulus_(quantity("youngModulus", dimPressure)),
     thermalConductivity_
     (
@@ -175,7 +176,6 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
         )
     )
 {
-    grainKeys.check(*this);
     IOobject header
     (
         "g", registry.time().constant(), registry,

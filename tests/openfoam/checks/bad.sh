@@ -71,7 +71,7 @@ bad_spheres() {
         cp ../bad-spheres-good/constant/granularProperties constant/
         cp ../bad-spheres-good/0/* 0/
         grains "youngModulus 200e9; meanRadius 1e-3; thermalConductivity 50; surrogate { type spheres; spheresCoeffs { poissonRatio 0.3; $1 } }
-            mechanics equilibrium; equilibriumCoeffs { walls { $2 } } $3"
+            mechanics equilibrium; equilibriumCoeffs { walls { $2 } } ${3:-}"
     }
     bad_sphere() { # name of the check, message
         check "refused: $1" refused "$2"
