@@ -213,7 +213,11 @@ void Foam::sceneWarnings::checkSources()
             source.coeffs().subOrEmptyDict("injectionRateSuSp")
         );
         Tuple2<scalar, scalar> rate(0, 0);
-        if (rates.readIfPresent("T", rate) && rate.second() != 0)
+        if
+        (
+            source.type() == "scalarSemiImplicitSource"
+         && rates.readIfPresent("T", rate) && rate.second() != 0
+        )
         {
             return;
         }
