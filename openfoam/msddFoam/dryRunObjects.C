@@ -147,6 +147,7 @@ bool Foam::dryRun::makeObjects()
             attempt([&]() { checkSources(made.mesh()); });
         }
     }
+    return true;
 }
 
 
@@ -234,7 +235,6 @@ void Foam::dryRun::checkFunction(const dictionary& dict)
           + ", which needs a flow: it warns at each step and writes nothing"
         );
     }
-    return true;
 }
 
 
