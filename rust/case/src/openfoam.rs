@@ -1,5 +1,6 @@
 //! Starts OpenFOAM's programs.
 
+use msdd_rve::message::shortened;
 use std::path::Path;
 use std::process::Command;
 
@@ -19,4 +20,11 @@ pub fn command(program: &Path) -> Command {
         command.env("WM_PROJECT_DIR", DEBIAN_PROJECT_DIR);
     }
     command
+}
+
+/// The end of what a program has printed, on one line.
+pub fn message(text: &str, folder: &Path) -> String {
+    let text = text.rsplit_once("FATAL").map_or(text, |(_, rest)| rest);
+    let words: Vec<&str> = text.split_whitespace().take(80).collect();
+    shortened(&words.join(" ").replace(&format!("{}/", folder.display()), ""))
 }

@@ -1,7 +1,6 @@
 //! Copies of cases without a mesh, in which blockMesh makes it. All that it leaves as it is are links.
 
-use super::message;
-use crate::openfoam;
+use crate::openfoam::{self, message};
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -8,7 +8,8 @@ mod finding;
 
 pub use finding::{Finding, Severity};
 
-use crate::{openfoam, path};
+use crate::openfoam::{self, message};
+use crate::path;
 use copy::Copy;
 use msdd_rve::message::shortened;
 use std::path::{Path, PathBuf};
@@ -96,13 +97,6 @@ fn finding(line: &str) -> Option<Finding> {
         "Warning" => Some(Finding::new(Severity::Doubt, text)),
         _ => None,
     }
-}
-
-/// The end of what a program has printed, on one line.
-fn message(text: &str, folder: &Path) -> String {
-    let text = text.rsplit_once("FATAL").map_or(text, |(_, rest)| rest);
-    let words: Vec<&str> = text.split_whitespace().take(80).collect();
-    shortened(&words.join(" ").replace(&format!("{}/", folder.display()), ""))
 }
 
 #[cfg(test)]

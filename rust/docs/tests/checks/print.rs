@@ -31,7 +31,7 @@ fn what_cannot_be_printed_is_named_with_page_and_line() {
     for (marker, message) in [
         (
             "<!-- print: nonsense a -->",
-            "docs/src/a.md:3: nothing is printed from 'nonsense', allowed: commands, ",
+            "docs/src/a.md:3: nothing is printed from 'nonsense', allowed: columns, commands, ",
         ),
         ("<!-- print: commands train -->", "docs/src/a.md:3: 'train': all commands are printed"),
         (
