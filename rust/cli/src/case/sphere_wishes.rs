@@ -81,7 +81,7 @@ pub struct SphereWishes {
     #[arg(long, value_name = "D", requires = "spheres")]
     give: Option<f64>,
     /// Coefficient of friction of a sphere on the rigid walls; 0: smooth walls. A bed slips along them at less, which is what
-    /// the case has: 0.154 for 0.3. Allowed: 0 to 10. Default: 0.3, as between the spheres; 0 with `--mechanics none`.
+    /// the case has: 0.154 for 0.3. Allowed: >= 0. Default: 0.3, as between the spheres; 0 with `--mechanics none`.
     #[arg(long, value_name = "MU", requires = "spheres")]
     wall_friction: Option<f64>,
     /// Gravity [m/s2], downwards; 0: a bed without weight. Allowed: 0 to 1000; 0 with `--mechanics none`. Default: 9.81; 0
