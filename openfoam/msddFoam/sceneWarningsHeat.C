@@ -40,8 +40,10 @@ static const scalar mostSpread = 50;
 static const scalar mostRise = 5000;
 static const scalar heated = 500;
 
-//- Distance of the temperatures at which properties are looked at [K]
+//- Distance of the temperatures at which properties are looked at [K], and the
+//- largest number of them
 static const scalar stepOfT = 1;
+static const scalar mostSteps = 5000;
 
 } // End namespace Foam
 
@@ -149,6 +151,8 @@ void Foam::sceneWarnings::checkProperties()
 {
     const range& T = temperatures_;
     const scalar most = T.most + (sources_.size() ? heated : scalar(0));
+    const scalar least = max(T.least, scalar(0));
+    const scalar step = max(stepOfT, (most - least)/mostSteps);
     bool positive = true;
     for (const word key : {"thermalConductivity", "heatCapacity"})
     {
@@ -164,7 +168,7 @@ void Foam::sceneWarnings::checkProperties()
         (
             Function1<scalar>::New(key, properties_)
         );
-        for (scalar t = max(T.least, 0.0); t <= most; t += stepOfT)
+        for (scalar t = least; t <= most; t += step)
         {
             if (!(value->value(t) > 0))
             {
@@ -179,7 +183,7 @@ void Foam::sceneWarnings::checkProperties()
             }
         }
     }
-    for (scalar t = max(T.least, 0.0); positive && t <= most; t += stepOfT)
+    for (scalar t = least; positive && t <= most; t += step)
     {
         const scalar ratio = grains_.model().conductivityRatio(t);
         if (ratio > 0 && ratio < 1)
