@@ -15,7 +15,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "wallConditions.H"
-#include "nodeDyads.H"
 
 namespace Foam
 {
@@ -116,7 +115,8 @@ void Foam::wallConditions::findCurvature()
              && !w.displacement.valid();
         })
     );
-    // Nodes of one wall: those of several cannot turn about an axis either
+    // Nodes of one wall alone. Rims could turn, too, but are few compared with the
+    // nodes within the wall, whose resistance has a factor above 1
     labelList wallOf(mesh_.size(), -1);
     for (label i = 0; i < walls.size(); ++i)
     {
