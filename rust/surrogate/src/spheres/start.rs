@@ -4,9 +4,11 @@ use super::law::{Law, MOST_COMPRESSION, MOST_OF_FRICTION, MOST_STRENGTH, within}
 use super::state::{ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, POURED, State};
 use super::tensor::{Tensor, contraction, deviator, mean, square};
 
-/// Halvings of an interval, after which its ends are neighbouring numbers; and the ratio of the compressions that are looked at before.
-const HALVINGS: usize = 52;
+/// Ratio of the compressions at which the pressure is compared first; then the most iterations for the root between two of them,
+/// about seven of which are used, and the error of the pressure at which they end.
 const START_RATIO: f64 = 0.7;
+const ITERATIONS: usize = 60;
+const NEAR_PRESSURE: f64 = 1e-14;
 /// Largest deviator over A for which a stress ratio is looked for: no packing bears as much.
 const MOST_DEVIATOR: f64 = 3.0;
 /// Shares of it that are looked at; iterations for each, the error at which they end, and the least determinant of their
@@ -46,23 +48,33 @@ impl Law {
         // The pressure grows with v, but where a law has much of it depend on φ_J, which falls as v grows: the largest root counts.
         let beyond = |compression: f64| mean(self.stress(&at(compression))) - pressure;
         let (mut high, mut excess) = (MOST_COMPRESSION, beyond(MOST_COMPRESSION));
-        let mut low = high;
+        let (mut low, mut lack) = (high, excess);
         while low > LEAST_COMPRESSION {
-            low = START_RATIO * high;
-            let found = beyond(low);
-            if found <= 0.0 {
+            (low, lack) = (START_RATIO * high, beyond(START_RATIO * high));
+            if lack <= 0.0 {
                 break;
             }
-            if found > excess {
+            if lack > excess {
                 return at(high);
             }
-            (high, excess) = (low, found);
+            (high, excess) = (low, lack);
         }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            match beyond(middle) > 0.0 {
-                true => high = middle,
-                false => low = middle,
+        // The secant through both ends; an end that stays twice counts half (method of Illinois).
+        let mut above = None;
+        for _ in 0..ITERATIONS {
+            let next = (low * excess - high * lack) / (excess - lack);
+            if !(next > low && next < high) {
+                return at(if next <= low { low } else { high });
+            }
+            let found = beyond(next);
+            if found.abs() <= NEAR_PRESSURE * pressure {
+                return at(next);
+            }
+            let kept = if above == Some(found > 0.0) { 0.5 } else { 1.0 };
+            above = Some(found > 0.0);
+            match found > 0.0 {
+                true => (high, excess, lack) = (next, found, kept * lack),
+                false => (low, lack, excess) = (next, found, kept * excess),
             }
         }
         at(high)
