@@ -27,7 +27,7 @@ namespace Foam
 //- Sizes above which a mesh was probably given in other units than metres: the
 //- largest silos are some 50 m high, and beds of fine sand some 1e4 grains
 static const scalar largestBed = 100;
-static const scalar mostGrains = 1e5;
+static const scalar mostGrains = 1e4;
 
 //- Parts of a mesh whose numbers of cells are printed
 static const label mostParts = 5;
@@ -110,7 +110,7 @@ Foam::sceneWarnings::sceneWarnings
     checkStrains();
     checkWeight();
     checkGravity();
-    checkPressures();
+    checkWallKeys();
     checkSides();
 }
 

@@ -43,6 +43,20 @@ static const scalar mostlySmooth = 0.5;
 //- at the axis of a wedge
 static const scalar smallSide = 0.05;
 
+//- Largest usual values of keys of walls, and why
+struct usualOfWall
+{
+    const char* key;
+    scalar most;
+    const char* why;
+};
+static const usualOfWall usualOfWalls[] =
+{
+    {"friction", 2, "grains on metals have 0.2 to 0.6, on sandpaper 1"},
+    {"give", 10, "beds between smooth plates had 0.7 to 2.2 mean diameters"},
+    {"giveBack", 0.5, "it was -0.5 to 0.5 in beds between smooth plates"}
+};
+
 //- Share of gravity along another axis from which on it is inclined
 static const scalar inclined = 1e-3;
 
@@ -137,16 +151,30 @@ void Foam::sceneWarnings::checkGravity()
 }
 
 
-void Foam::sceneWarnings::checkPressures()
+void Foam::sceneWarnings::checkWallKeys()
 {
     const dictionary rules(wallRules(properties_));
     for (const entry& each : rules)
     {
-        range p;
-        if (each.isDict())
+        if (!each.isDict())
         {
-            include(each.dict(), "pressure", p);
+            continue;
         }
+        for (const usualOfWall& usual : usualOfWalls)
+        {
+            const scalar given = each.dict().getOrDefault<scalar>(usual.key, 0);
+            if (given > usual.most)
+            {
+                add
+                (
+                    string("Entry '") + usual.key + "' of wall '"
+                  + string(each.keyword()) + "' is " + brief(given)
+                  + ", usual: up to " + brief(usual.most) + "; " + usual.why
+                );
+            }
+        }
+        range p;
+        include(each.dict(), "pressure", p);
         if (p.least < 0)
         {
             add

@@ -154,6 +154,10 @@ static const scalar unitTrace = 0.01;
 //- spheres with friction need four, and dense random packings have seven
 static const scalar leastContacts = 2, mostContacts = 9;
 
+//- Largest usual share of a direction in the fabric: of one third in boxes,
+//- poured beds have up to 0.37, strongly sheared ones 0.45
+static const scalar mostFabric = 0.45;
+
 //- Solid fraction of a usual packing
 static const scalar usualSolid = 0.6;
 
@@ -394,8 +398,10 @@ Foam::granularModels::spheres::fabricAtStart(const label size) const
     {
         given = ofCells().primitiveField();
     }
+    scalar most = 0;
     for (const symmTensor& F : given)
     {
+        most = max(most, max(F.xx(), max(F.yy(), F.zz())));
         // A mean of squares: along no direction is it negative
         const bool possible =
             min(F.xx(), min(F.yy(), F.zz())) >= 0
@@ -416,6 +422,13 @@ Foam::granularModels::spheres::fabricAtStart(const label size) const
                 " direction negative"
             );
         }
+    }
+    if (returnReduce(most, maxOp<scalar>()) > mostFabric)
+    {
+        WarningInFunction
+            << "Entry 'fabric' of spheresCoeffs has a component of " << most
+            << ": random packings have up to " << mostFabric
+            << ", isotropic ones 1/3" << nl << endl;
     }
     if (given.empty())
     {

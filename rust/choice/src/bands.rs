@@ -238,6 +238,7 @@ mod tests {
             seconds: 0.0,
             processor: 0.0,
             beyond: None,
+            warnings: Vec::new(),
         }
     }
 

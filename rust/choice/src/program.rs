@@ -9,7 +9,7 @@ const DEBIAN_PROJECT_DIR: &str = "/usr/share/openfoam";
 /// Number of last lines that stand for a message, where a program ends without one.
 const LAST: usize = 4;
 /// Largest number of characters of a program's message.
-const MESSAGE: usize = 600;
+const MESSAGE: usize = 2000;
 
 /// Runs one of OpenFOAM's programs, or the solver, in a case folder and returns what it prints. Its standard input is that of
 /// `command`; none of them reads it.

@@ -41,6 +41,9 @@ pub struct Record {
     /// From when on there are none, and why.
     #[serde(default)]
     pub beyond: Option<Beyond>,
+    /// Warnings of the chosen run, such as of radiation, which no estimate includes.
+    #[serde(default)]
+    pub run_warnings: Vec<String>,
 }
 
 impl Record {
@@ -128,9 +131,14 @@ impl Record {
         }
         if self.run_seconds.is_some() {
             let bands = interval::text(&self.bands, self.beyond.as_ref());
-            let _ = write!(text, "\n{bands}At each point and time: {}.\n", interval::FILE);
+            let _ = write!(text, "\n{bands}At each point and time: {}.\n{}", interval::FILE, self.warnings());
         }
         text
+    }
+
+    /// The warnings of the chosen run, a line each.
+    pub fn warnings(&self) -> String {
+        self.run_warnings.iter().map(|each| format!("Warning, not in the estimates: {each}.\n")).collect()
     }
 }
 

@@ -76,6 +76,7 @@ impl Scene {
                 seconds: 1.0,
                 processor: 1.0,
                 beyond: None,
+                warnings: Vec::new(),
             })
         };
         Ok(find(&wishes, run)?.0)
@@ -258,6 +259,7 @@ fn with_pressure(accuracy: f64, pressure: f64, error: f64) -> Result<Found, Choi
             seconds: 1.0,
             processor: 1.0,
             beyond: None,
+            warnings: Vec::new(),
         })
     };
     Ok(find(&wishes, run)?.0)

@@ -46,6 +46,8 @@ pub struct Outcome {
     pub processor: f64,
     /// What lies beyond the values by which the model was compared with discrete elements.
     pub beyond: Option<Beyond>,
+    /// The solver's warnings at its start.
+    pub warnings: Vec<String>,
 }
 
 /// Beyond what was compared nothing is known of the model's error.
@@ -296,7 +298,8 @@ pub fn read_outcome(folder: &Path, seconds: f64) -> Result<Outcome, ChoiceError>
     let cells = summary["cells"].as_u64().unwrap_or(0) as usize;
     let processor = summary["cpu_seconds"].as_f64().unwrap_or(0.0);
     let beyond = Beyond::read(&summary);
-    Ok(Outcome { values, strain, start_pressure, range, cells, seconds, processor, beyond })
+    let warnings = serde_json::from_value(summary["warnings"].clone()).unwrap_or_default();
+    Ok(Outcome { values, strain, start_pressure, range, cells, seconds, processor, beyond, warnings })
 }
 
 /// Keys that are added at the end of a file of the case.

@@ -148,6 +148,7 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
     interval::write_table(scene, &bands, outcome.beyond.as_ref(), &chosen)?;
     record.bands = interval::means(&bands);
     record.beyond.clone_from(&outcome.beyond);
+    record.run_warnings.clone_from(&outcome.warnings);
     record.run_seconds = Some(outcome.seconds);
     record.write(scene, &chosen)?;
     record.add_to_summary(&chosen)?;
@@ -156,9 +157,10 @@ fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), Cho
         outln!("Error of the cells by {}: {:.3} % of the range of T.", share.how, share.percent);
     }
     outln!(
-        "\n{}At each point and time: {}.",
+        "\n{}At each point and time: {}.\n{}",
         interval::text(&record.bands, record.beyond.as_ref()),
-        chosen.join(interval::FILE).display()
+        chosen.join(interval::FILE).display(),
+        record.warnings().trim_end()
     );
     Ok(())
 }
@@ -197,6 +199,7 @@ fn search(
         checked: None,
         bands: Vec::new(),
         beyond: None,
+        run_warnings: Vec::new(),
     };
     Ok((record, seen))
 }
