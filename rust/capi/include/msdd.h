@@ -1,8 +1,18 @@
 /* MSDD: representative volume elements (RVEs) of granular media, and surrogate models of them.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
- *
- * Conventions
+ */
+#ifndef MSDD_H
+#define MSDD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Conventions:
  *  - Every function that can fail returns an int32_t status: MSDD_OK (0) or one of enum msdd_status.
  *    The text of the last failure on the calling thread is in msdd_last_error().
  *  - Outputs are written only on success.
@@ -16,15 +26,6 @@
  *  - Floating-point exceptions must be masked while a function runs (the IEEE default). A program that traps them
  *    (OpenFOAM does) masks them around each call; the C++ wrapper msdd.hpp does it for you.
  */
-#ifndef MSDD_H
-#define MSDD_H
-
-#include <stddef.h>
-#include <stdint.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 /** Version of this interface. Compare with msdd_abi_version() before anything else is called. */
 #define MSDD_ABI_VERSION 4u
