@@ -1,4 +1,4 @@
-"""What the solver has written, and a plug-in; tests/python/run makes both."""
+"""What the solver has written, and a plug-in. tests/python/run makes both and sets MSDD_TEST_CASES and MSDD_TEST_PLUGIN."""
 
 import json
 import os

@@ -308,6 +308,7 @@ fn lost_in_parts(core: &Core, random: &mut ChaCha8Rng, parts: i32) -> f64 {
     (lost - energy(&state)) / (0.5 * most).max(f64::MIN_POSITIVE)
 }
 
+/// MSDD_FUZZ sets the number of paths.
 #[test]
 fn closed_paths_create_no_energy() {
     let mut random = ChaCha8Rng::seed_from_u64(7);
