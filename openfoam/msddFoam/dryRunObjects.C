@@ -96,25 +96,52 @@ bool Foam::dryRun::makeTime()
 }
 
 
+bool Foam::dryRun::attemptFor
+(
+    const string& file,
+    const std::function<void()>& make
+)
+{
+    return attempt
+    (
+        make,
+        file + ": ",
+        {"constant/", "system/", runTime_->timeName() + "/"}
+    );
+}
+
+
 bool Foam::dryRun::makeObjects()
 {
     made_.reset(new solverObjects(runTime_()));
     solverObjects& made = made_();
-    const bool hasMesh = attempt([&]() { made.makeMesh(); });
-    const bool hasProperties = attempt([&]() { made.makeProperties(); });
+    // Files that are named where a message has none
+    const string grains("constant/granularProperties");
+    const string solution("system/fvSolution");
+    const string fieldT(runTime_->timeName() + "/T");
+    const string either(fieldT + " or system/fvSchemes or " + solution);
+    const bool hasMesh = attemptFor("constant/polyMesh", [&]() { made.makeMesh(); });
+    const bool hasProperties = attemptFor(grains, [&]() { made.makeProperties(); });
     const bool hasNeighbours = attempt([&]() { made.makeNeighbours(); });
     if (!hasMesh)
     {
         return false;
     }
     const bool fits =
-        hasProperties && attempt([&]() { made.checkMesh(); });
-    const bool hasT = attempt([&]() { made.makeT(); });
+        hasProperties
+     && attemptFor("constant/polyMesh", [&]() { made.checkMesh(); });
+    const bool hasT = attemptFor(fieldT, [&]() { made.makeT(); });
     const bool hasGrains =
-        hasT && hasProperties && attempt([&]() { made.makeGrains(); });
-    attempt([&]() { fv::options::New(made.mesh()); });
-    attempt([&]() { timeScheme::typeOf(made.mesh()); });
-    attempt([&]() { made.mesh->solverDict("T"); });
+        hasT && hasProperties
+     && attemptFor(grains, [&]() { made.makeGrains(); });
+    attempt
+    (
+        [&]() { fv::options::New(made.mesh()); },
+        "constant/fvOptions: ",
+        {"constant/fvOptions"}
+    );
+    attemptFor(solution, [&]() { timeScheme::typeOf(made.mesh()); });
+    attemptFor(solution, [&]() { made.mesh->solverDict("T"); });
     if (!hasGrains)
     {
         lookAlone();
@@ -123,8 +150,8 @@ bool Foam::dryRun::makeObjects()
     if
     (
         fits && hasNeighbours
-     && attempt([&]() { made.makeMechanics(); })
-     && attempt([&]() { made.makeScheme(); })
+     && attemptFor(grains, [&]() { made.makeMechanics(); })
+     && attemptFor(either, [&]() { made.makeScheme(); })
     )
     {
         attempt
@@ -140,7 +167,7 @@ bool Foam::dryRun::makeObjects()
         );
         // Function objects look at the start
         const scalarField start(made.T().primitiveField());
-        const bool heats = attempt([&]() { made.scheme->tryHeat(); });
+        const bool heats = attemptFor(either, [&]() { made.scheme->tryHeat(); });
         made.T().primitiveFieldRef() = start;
         if (heats)
         {

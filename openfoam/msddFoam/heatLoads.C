@@ -84,8 +84,8 @@ void Foam::heatEquation::checkSources()
         if (source.applyToField(T_.name()) < 0)
         {
             FatalErrorInFunction
-                << "Source " << source.name() << " of fvOptions is none of T,"
-                << " the only field that is solved for: allowed T, as in"
+                << "Source " << source.name() << " of constant/fvOptions is none"
+                << " of T, the only field that is solved for: allowed T, as in"
                 << " injectionRateSuSp { T (1e6 0); }" << exit(FatalError);
         }
     }

@@ -115,8 +115,9 @@ void Foam::temperatureFunction::check(const scalar value, const scalar T) const
     if (!(value > 0))
     {
         FatalErrorInFunction
-            << "Entry '" << usual_.name() << "' is " << value << " at " << T
-            << " K, allowed: > 0, in units " << usual_.dimensions()
+            << "Entry '" << usual_.name() << "' of constant/granularProperties is "
+            << value << " at " << T << " K, allowed: > 0, in units "
+            << usual_.dimensions()
             << exit(FatalError);
     }
 }

@@ -1,6 +1,6 @@
 # Invalid input. Each file of bad/ is appended to constant/granularProperties of a valid case, or to the file that its second
 # line names; its first line has the message with which the solver must refuse it, naming the file. A third line "// by OpenFOAM" says
-# that the message is one of OpenFOAM, which may not name the file.
+# that the message of a run is one of OpenFOAM, which may not name the file. The message of the dry run always names it.
 
 bad_dictionaries() {
     local file wanted target
@@ -16,7 +16,8 @@ bad_dictionaries() {
         cat good "$file" > "$target"
         answered() { refused "$wanted" && { grep -q '^// by OpenFOAM' "$file" || grep -q "$target" log.bad; }; }
         check "refused: ${file##*/}" answered
-        check "dry run: ${file##*/}" foreseen "$wanted"
+        named() { foreseen "$wanted" && grep '^Error ' log.dry | grep -F -- "$wanted" | grep -qF "$target"; }
+        check "dry run: ${file##*/}" named
         cp good "$target"
     done
     grains 'mechanics equilibrium;'
@@ -85,6 +86,8 @@ bad_spheres() {
     bad_sphere "a fabric that is negative along a direction" 'along no direction negative'
     spheres_are "$good fabric (0.4 0 0 0.4 0 0.4);" "$walls"
     bad_sphere "a fabric with another trace" 'xx + yy + zz = 1'
+    spheres_are "$good fabric (1 0 0 0 0 0);" "$walls"
+    check "warning: all contacts along x" bash -c 'msddFoam -dry-run > log.dry 2>&1; grep -q "^Warning .*fabric.* has a component of 1" log.dry'
     spheres_are "$good model \"none.json\";" "$walls"
     bad_sphere "no model of spheres" 'a readable model file of spheres'
     spheres_are "$good" 'left { type frictionless; }'
