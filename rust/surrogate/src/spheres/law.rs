@@ -269,6 +269,8 @@ impl Law {
         let mut ratios = state.ratios;
         let zero = N::constant(0.0);
         let [mut loss, mut sliding, mut work] = [zero; 3];
+        // Lengths of the stress ratios of friction, and their strengths.
+        let mut limits = [(zero, zero); FABRIC];
         for (k, ratio) in ratios.iter_mut().enumerate() {
             let most = self.strength(k, x, free, loaded).by(Self::factor(k, state.strength));
             if k == FABRIC {
@@ -281,8 +283,9 @@ impl Law {
             let faded = within(&scaled(ratio, opened.times(power).exp()), most).0;
             let added = scaled(&distortion, stiffness * over);
             let elastic: Tensor<N> = six!(c => faded[c] - added[c]);
-            let (kept, excess, length) = within(&elastic, most);
-            *ratio = kept;
+            let length = contraction(&elastic, &elastic).plus(TINY).root();
+            let excess = length.where_above(most.times(SLACK), length - most, zero);
+            (*ratio, limits[k]) = (elastic, (length, most));
             let slid = excess * after * stiffness.inverse();
             sliding = sliding + slid;
             work = work + slid * most;
@@ -298,22 +301,44 @@ impl Law {
         let usual = Self::exponential(x, -s2).times(s1);
         let level = after * usual.inverse();
         let always = free.times(-s3).plus(s3);
-        let settled = (before - tried) * ((level * level).plus(1.0).inverse().times(s0) + always);
-        let loss = (loss + before.where_above(tried, settled, zero)).not_above_number(tried);
+        let settled =
+            (state.compression - tried) * ((level * level).plus(1.0).inverse().times(s0) + always);
+        let loss = (loss + state.compression.where_above(tried, settled, zero)).not_above_number(tried);
         let compression = tried - loss;
         // Contacts keep their directions where grains give way.
-        let kept = compression.not_below(LEAST_COMPRESSION) * before.inverse();
-        ratios[FABRIC] = scaled(&ratios[FABRIC], kept.power(self.elements[FABRIC].power));
+        let kept = (compression.not_below(LEAST_COMPRESSION) * before.inverse()).ln();
+        ratios[FABRIC] = scaled(&ratios[FABRIC], kept.times(self.elements[FABRIC].power).exp());
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         // Where packings are about to lose their load, v is small beside any sliding.
         let soft = after.plus(SOFT).inverse();
         let left = free * (sliding * soft).times(-self.mobilising).not_below(-MOST_EXPONENT).exp();
         let mobilised = left.times(-1.0).plus(1.0);
+        // Strengths are those of the state that is reached, if it is weaker: else the next strain, however small, would change the
+        // stress.
+        let denser = jamming - state.jamming;
+        let freer = left - free;
+        let loosened = (loaded + kept - opened).not_above(0.0) - loaded.not_above(0.0);
+        for (k, (length, most)) in limits.into_iter().enumerate() {
+            let Element { growth, free: of_free, hardening, .. } = self.elements[k];
+            let exponent = denser.times(growth) + freer.times(of_free) + loosened.times(0.5 * hardening);
+            let limit = (most * near_exponential(exponent)).not_above_number(most);
+            let one = N::constant(1.0);
+            let factor = length.where_above(limit.times(SLACK), limit * length.inverse(), one);
+            ratios[k] = scaled(&ratios[k], factor);
+        }
         let after = State { jamming, compression, ratios, mobilised, ..*state };
         // Grains that do not touch forget the deviator.
         let apart = State { compression: tried, ratios: [[zero; 6]; ELEMENTS], ..*state };
         State::where_greater([tried.value(), N::Values::zero()], &after, &apart)
     }
+}
+
+/// The exponential function to the fourth order, for exponents that are small but where nearly all load is lost.
+#[inline(always)]
+fn near_exponential<N: Number>(x: N) -> N {
+    let third = x.times(0.25).plus(1.0) * x.times(1.0 / 3.0);
+    let second = third.plus(1.0) * x.times(0.5);
+    (second.plus(1.0) * x).plus(1.0)
 }
 
 /// The stress ratio of the fabric after a shear strain: dη = −c de/v − (c/M) (α + (1 − α) f²) η |de|/v with f = (η·t)₊/M and the
@@ -327,10 +352,9 @@ fn reoriented<N: Number>(
     most: N,
     always: f64,
 ) -> Tensor<N> {
-    let ratio = within(ratio, most).0;
     let over = most.inverse();
     let size = contraction(distortion, distortion).plus(TINY).root();
-    let near = (contraction(&ratio, distortion) * (size * most).inverse()).times(-1.0).not_below(0.0);
+    let near = (contraction(ratio, distortion) * (size * most).inverse()).times(-1.0).not_below(0.0);
     let forgets = (near * near).times(1.0 - always).plus(always);
     let rate = (stiffness * size * forgets * over).not_above(MOST_RATE);
     let (value, one) = (rate.value(), N::Values::all(1.0));
@@ -343,7 +367,9 @@ fn reoriented<N: Number>(
     let share = rate.where_above(least, ratio_of_gone, rate.times(-0.5).plus(1.0));
     let added = share * stiffness;
     let reached: Tensor<N> = six!(c => ratio[c] * kept - distortion[c] * added);
-    within(&reached, most).0
+    // A fabric that is beyond its strength returns by forgetting, not at once.
+    let present = contraction(ratio, ratio).plus(TINY).root();
+    within(&reached, most.not_below_number(present)).0
 }
 
 /// The exponent with which the fabric forgets in one part counts to the first order below this.

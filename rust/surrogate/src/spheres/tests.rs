@@ -169,6 +169,54 @@ fn many_small_strains_are_one_large_one() {
 
 /// Closed cycles of strain take work, but for the elastic energy that the packing had at the start.
 #[test]
+fn a_packing_without_load_gets_the_same_pressure_by_steps_of_any_size() {
+    let (model, growth) = (model(), 2e-6);
+    for mobilised in [0.0, 0.5, 0.85, 1.0] {
+        let known = Known { mobilised: Some(mobilised), ..Known::default() };
+        let start = columns(&model.file.law.start(0.6, [0.0; 6], &known));
+        let pressure = |steps: u32| {
+            let step = Increment { thermal: growth / f64::from(steps), ..Increment::default() };
+            let last =
+                (0..steps).fold(start, |state, _| model.advance(&state, &step, 8.5, false).state);
+            mean(model.file.law.stress(&state(&last)))
+        };
+        let few = pressure(10);
+        assert!(few > 1e-10);
+        for steps in [100, 1_000, 10_000, 100_000] {
+            let many = pressure(steps);
+            assert!((many / few - 1.0).abs() < 0.02, "{mobilised} {steps} {many:e} {few:e}");
+        }
+    }
+}
+
+#[test]
+fn a_strain_of_nearly_nothing_does_not_change_the_stress_that_a_large_step_left() {
+    let (model, mut generator) = (model(), ChaCha8Rng::seed_from_u64(31));
+    let law = &model.file.law;
+    let mut jumps = Vec::new();
+    for _ in 0..5_000 {
+        let solid = 0.6 + 0.02 * random(&mut generator);
+        let pressure = libm::pow(10.0, -6.5 + 3.0 * random(&mut generator));
+        let known = Known { mobilised: Some(0.5 + 0.5 * random(&mut generator)), ..Known::default() };
+        let mut at = columns(&law.start(solid, [pressure, pressure, pressure, 0.0, 0.0, 0.0], &known));
+        for _ in 0..3 {
+            let size = 0.5 * state(&at).compression.max(1e-7);
+            let strain = Increment { cell: tensor(&mut generator, size), ..Increment::default() };
+            at = model.advance(&at, &strain, 8.5, false).state;
+        }
+        let before = law.stress(&state(&at));
+        let strain = Increment { cell: tensor(&mut generator, 1e-14), ..Increment::default() };
+        let after = law.stress(&state(&model.advance(&at, &strain, 8.5, false).state));
+        if mean(before) > 1e-10 {
+            jumps.push(worst(&before, &after) / mean(before));
+        }
+    }
+    assert!(jumps.len() > 2_500);
+    let most = jumps.into_iter().fold(0.0, f64::max);
+    assert!(most < 1e-3, "{most:e}");
+}
+
+#[test]
 fn cycles_give_no_more_work_than_a_packing_had() {
     let (law, mut generator) = (model().file.law, ChaCha8Rng::seed_from_u64(7));
     for _ in 0..60 {
