@@ -341,9 +341,11 @@ mod tests {
     }
 
     #[test]
-    fn values_lists_and_nested_dictionaries() {
+    fn values_lists_nested_dictionaries_and_means_of_fields() {
         let dictionary = parse(
-            "/* head */ a 1e+07; // note\n list ( ( 1 2 ) { x y ; } ); inner { deep { b uniform 3; } \"p|q\" { c d; } }",
+            "/* head */ a 1e+07; // note\n list ( ( 1 2 ) { x y ; } ); inner { deep { b uniform 3; } \"p|q\" { c d; } }
+             f uniform 3; g nonuniform List<scalar> 2 ( 1 2 ); h nonuniform List<scalar> 9 { 4 }; none nonuniform List<scalar> 0 ( );
+             s nonuniform List<symmTensor> 2 ( ( 1 2 3 4 5 6 ) ( 3 2 3 4 5 8 ) );",
         )
         .unwrap();
         assert_eq!(dictionary.number("a", |v| v > 0.0, "> 0").unwrap(), 1e7);
@@ -351,19 +353,21 @@ mod tests {
         let inner = dictionary.dictionary_at("inner").unwrap();
         assert_eq!(inner.dictionary_at("deep").unwrap().uniform("b").unwrap(), 3.0);
         assert!(inner.get("q").is_none() && inner.matching("q").is_some() && inner.matching("pq").is_none());
+        assert_eq!(["f", "g", "h"].map(|key| dictionary.mean(key).unwrap()), [3.0, 1.5, 4.0]);
+        assert!(
+            dictionary.mean("none").unwrap_err().to_string().contains("allowed: a list of finite numbers")
+        );
+        assert_eq!(dictionary.means("s").unwrap(), [2.0, 2.0, 3.0, 4.0, 5.0, 7.0]);
     }
 
     #[test]
     fn includes_stand_in_the_case_of_the_file() {
         let case = std::env::temp_dir().join(format!("msdd-included-{}", std::process::id()));
-        for folder in ["system", "0/bed", "constant"] {
-            std::fs::create_dir_all(case.join(folder)).unwrap();
-        }
-        assert_eq!(case_of(&case.join("0/bed/T")), Some(case.clone()));
-        std::fs::write(case.join("constant/temps"), "hot 360;").unwrap();
+        std::fs::create_dir_all(case.join("system")).unwrap();
+        let write = |file: &str, text: &str| msdd_files::write(&case.join(file), text.as_bytes()).unwrap();
+        write("constant/temps", "hot 360;");
         for place in ["$FOAM_CASE", "<case>"] {
-            let text = format!("#include \"{place}/constant/temps\"\nvalue $hot;");
-            std::fs::write(case.join("0/bed/T"), text).unwrap();
+            write("0/bed/T", &format!("#include \"{place}/constant/temps\"\nvalue $hot;"));
             let read = Dictionary::expanded(&case.join("0/bed/T")).unwrap();
             assert_eq!(read.text("value").unwrap(), "360", "{place}");
         }
@@ -371,31 +375,19 @@ mod tests {
     }
 
     #[test]
-    fn mean_of_a_field() {
-        let dictionary = parse(
-            "a uniform 3; b nonuniform List<scalar> 2 ( 1 2 ); c nonuniform List<scalar> 9 { 4 }; d nonuniform List<scalar> 0 ( );",
-        );
-        let mean = |key: &str| dictionary.as_ref().unwrap().mean(key);
-        assert_eq!(["a", "b", "c"].map(|key| mean(key).unwrap()), [3.0, 1.5, 4.0]);
-        assert!(mean("d").unwrap_err().to_string().contains("allowed: a list of finite numbers"));
-        let stress = parse("s nonuniform List<symmTensor> 2 ( ( 1 2 3 4 5 6 ) ( 3 2 3 4 5 8 ) );").unwrap();
-        assert_eq!(stress.means("s").unwrap(), [2.0, 2.0, 3.0, 4.0, 5.0, 7.0]);
-    }
-
-    #[test]
     fn errors_name_file_key_value_and_what_is_allowed() {
         let dictionary = parse("a { b nonuniform 3; }").unwrap();
-        let error = dictionary.dictionary_at("a").unwrap().uniform("b").unwrap_err().to_string();
-        assert_eq!(error, "0/T: a/b = nonuniform 3, allowed: uniform <number>");
-        let error = dictionary.check_keys(&[&["c"], &["d"]]).unwrap_err().to_string();
-        assert_eq!(error, "0/T: a = {...}, allowed: the keys c, d");
+        let error = dictionary.dictionary_at("a").unwrap().uniform("b").unwrap_err();
+        assert_eq!(error.to_string(), "0/T: a/b = nonuniform 3, allowed: uniform <number>");
         for (text, message) in [
             ("a 1", "0/T: line 1: 'a' has no ';'"),
             ("a {\n b 1;", "0/T: line 1: 'a' is not closed"),
             ("a 1;\n}", "0/T: line 2: '}' without '{'"),
             ("( a );", "0/T: line 1: '(' where a key should be"),
+            ("e { }", "0/T: e = {...}, allowed: the keys c, d"),
         ] {
-            assert_eq!(parse(text).unwrap_err().to_string(), message);
+            let error = parse(text).and_then(|read| read.check_keys(&[&["c"], &["d"]])).unwrap_err();
+            assert_eq!(error.to_string(), message);
         }
     }
 }

@@ -38,6 +38,8 @@ pub mod packing;
 pub mod path;
 pub mod ranges;
 pub mod scene;
+#[cfg(test)]
+mod scenes_for_tests;
 pub mod spheres;
 pub mod tables;
 pub mod values;

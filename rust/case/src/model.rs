@@ -87,56 +87,46 @@ impl ModelGrains {
 mod tests {
     use super::*;
 
-    fn of(surrogate: &str) -> Result<ModelGrains, String> {
-        let text = format!("surrogate {{ {surrogate} }}");
-        let file = Dictionary::parse(Path::new("constant/granularProperties"), &text).unwrap();
-        ModelGrains::of(Path::new("."), &file).map_err(|error| error.to_string())
-    }
-
     #[test]
-    fn grains_of_shipped_models_and_of_boxes() {
-        let paper = ModelGrains {
-            material: Material::default(),
-            radii: RADIUS_RANGE,
-            source: "model builtin".to_string(),
-        };
-        for text in
-            ["type network; model builtin;", "type constant; constantCoeffs { stress (1 0 0 1 0 1); }"]
-        {
-            assert_eq!(of(text).unwrap(), paper);
-        }
-        let boxes = of("type onlineRve; onlineRveCoeffs { frictionAngle 0.3; }").unwrap();
-        assert_eq!((boxes.material.friction_angle, boxes.material.stiffness_ratio), (0.3, 0.8));
-    }
-
-    #[test]
-    fn grains_of_a_model_file_and_of_one_without_them() {
+    fn grains_are_those_of_the_surrogate_and_unknown_ones_are_refused() {
         let folder = std::env::temp_dir().join(format!("msdd-model-{}", std::process::id()));
-        let shipped = models::builtin("builtin:paper").unwrap().to_json();
-        let text = "type network; networkCoeffs { model m.json; }";
-        let read = |json: &str| {
-            msdd_files::write(&folder.join("m.json"), json.as_bytes()).unwrap();
-            let text = format!("surrogate {{ {text} }}");
+        let mut json = models::builtin("builtin:paper").unwrap().to_json();
+        for (key, from, to) in [
+            ("friction_angle", "0.5", "0.3"),
+            ("radius_min", "0.003", "0.004"),
+            ("radius_max", "0.007", "0.006"),
+        ] {
+            json = json.replace(&format!("\"{key}\": {from}"), &format!("\"{key}\": {to}"));
+        }
+        msdd_files::write(&folder.join("m.json"), json.as_bytes()).unwrap();
+        let of = |surrogate: &str| {
+            let text = format!("surrogate {{ {surrogate} }}");
             let file = Dictionary::parse(Path::new("constant/granularProperties"), &text).unwrap();
             ModelGrains::of(&folder, &file).map_err(|error| error.to_string())
         };
-        let smooth = shipped.replace("\"friction_angle\": 0.5", "\"friction_angle\": 0.3");
-        let smooth = smooth.replace("\"radius_min\": 0.003", "\"radius_min\": 0.004");
-        let smooth = read(&smooth.replace("\"radius_max\": 0.007", "\"radius_max\": 0.006")).unwrap();
-        assert_eq!((smooth.material.friction_angle, smooth.radii), (0.3, [0.8, 1.2]));
-        let error = read(&shipped.replace("\"stiffness_ratio\": 0.8,", "")).unwrap_err();
-        assert!(
-            error.contains("model = m.json") && error.contains("missing field `stiffness_ratio`"),
-            "{error}"
-        );
+        for (surrogate, friction_angle, radii) in [
+            ("type network; model builtin;", 0.5, RADIUS_RANGE),
+            ("type constant; constantCoeffs { stress (1 0 0 1 0 1); }", 0.5, RADIUS_RANGE),
+            ("type onlineRve; onlineRveCoeffs { frictionAngle 0.3; }", 0.3, RADIUS_RANGE),
+            ("type network; networkCoeffs { model m.json; }", 0.3, [0.8, 1.2]),
+        ] {
+            let (grains, usual) = (of(surrogate).unwrap(), Material::default());
+            assert_eq!(
+                (grains.material, grains.radii),
+                (Material { friction_angle, ..usual }, radii),
+                "{surrogate}"
+            );
+        }
+        for (surrogate, message) in [
+            ("type network; model none.json;", "surrogate/model = none.json, allowed: a model file of discs"),
+            (
+                "type plugin; library \"l.so\";",
+                "surrogate/type = plugin, allowed: network, constant, onlineRve",
+            ),
+        ] {
+            let error = of(surrogate).unwrap_err();
+            assert!(error.contains(message), "{error}");
+        }
         std::fs::remove_dir_all(&folder).unwrap();
-    }
-
-    #[test]
-    fn other_surrogates_are_refused_with_what_to_do() {
-        let error = of("type spheres; spheresCoeffs { gas air; }").unwrap_err();
-        assert!(error.contains("This case has spheres: use 'msdd bed run'"), "{error}");
-        let error = of("type plugin; pluginCoeffs { library \"l.so\"; }").unwrap_err();
-        assert!(error.contains("surrogate/type = plugin, allowed: network, constant, onlineRve"), "{error}");
     }
 }

@@ -179,86 +179,70 @@ fn time(row: &str) -> f64 {
 mod tests {
     use super::*;
 
-    struct Folder(PathBuf);
-
-    impl Folder {
-        fn new(name: &str) -> Self {
-            Self(std::env::temp_dir().join(format!("msdd-case-tables-{}-{name}", std::process::id())))
+    /// A case with these files in postProcessing.
+    fn case(name: &str, files: &[(&str, &str)]) -> PathBuf {
+        let case = std::env::temp_dir().join(format!("msdd-case-tables-{}-{name}", std::process::id()));
+        for (file, text) in files {
+            msdd_files::write(&case.join("postProcessing").join(file), text.as_bytes()).unwrap();
         }
-
-        fn write(&self, file: &str, text: &str) {
-            msdd_files::write(&self.0.join("postProcessing").join(file), text.as_bytes()).unwrap();
-        }
-
-        fn rows(&self, name: &str, file: Option<&str>) -> Vec<Vec<f64>> {
-            read(&self.0, name, file).unwrap().numbers().unwrap()
-        }
-
-        fn refusal(&self, name: &str, file: Option<&str>) -> String {
-            read(&self.0, name, file).and_then(|table| table.numbers()).unwrap_err().to_string()
-        }
+        case
     }
 
-    impl Drop for Folder {
-        fn drop(&mut self) {
-            let _ = std::fs::remove_dir_all(&self.0);
-        }
+    fn rows(case: &Path, name: &str, file: Option<&str>) -> Result<Vec<Vec<f64>>, String> {
+        read(case, name, file).and_then(|table| table.numbers()).map_err(|error| error.to_string())
+    }
+
+    #[track_caller]
+    fn refused(case: &Path, name: &str, file: Option<&str>, message: &str) {
+        let error = rows(case, name, file).unwrap_err();
+        assert!(error.contains(message), "{error}");
     }
 
     #[test]
     fn the_list_says_which_files_belong_to_the_run() {
-        let case = Folder::new("listed");
-        case.write("p/0/p.dat", "# Time a\n0 1\n1 1\n");
-        case.write("p/0/p_0.dat", "# note\n# Time a\n0 5\n0.5 5\n0.6 5\n");
-        case.write("p/0.5/p.dat", "# Time a\n0.6 7\n");
-        case.write("p/0.5/p_0.5.dat", "# Time  a\n0.6 8\n0.7 8\n");
-        // Made by postProcess
-        case.write("p/1/p.dat", "# Time a\n0.5 9\n");
-        case.write(
-            "msddFoam/tables.json",
-            r#"{"schema": "msdd-tables-1", "runs": [{"start": 0, "files": ["p/0/p_0.dat", "q/0/T"]},
-                {"start": 0.5, "files": ["p/0.5/p_0.5.dat"]}]}"#,
-        );
+        let list = r#"{"schema": "msdd-tables-1", "runs": [{"start": 0, "files": ["p/0/p_0.dat", "q/0/T"]},
+            {"start": 0.5, "files": ["p/0.5/p_0.5.dat"]}]}"#;
+        let files = [
+            ("msddFoam/tables.json", list),
+            ("p/0/p.dat", "# Time a\n0 1\n1 1\n"),
+            ("p/0/p_0.dat", "# note\n# Time a\n0 5\n0.5 5\n0.6 5\n"),
+            ("p/0.5/p.dat", "# Time a\n0.6 7\n"),
+            ("p/0.5/p_0.5.dat", "# Time  a\n0.6 8\n0.7 8\n"),
+            // Made by postProcess, and one that is not listed
+            ("p/1/p.dat", "# Time a\n0.5 9\n"),
+            ("r/0/r.dat", "# Time b\n3 1\n"),
+        ];
+        let folder = case("listed", &files);
         for file in [None, Some("p.dat")] {
-            assert_eq!(case.rows("p", file), [[0.0, 5.0], [0.5, 5.0], [0.6, 8.0], [0.7, 8.0]]);
+            assert_eq!(rows(&folder, "p", file).unwrap(), [[0.0, 5.0], [0.5, 5.0], [0.6, 8.0], [0.7, 8.0]]);
         }
-        assert!(case.refusal("p", Some("q.dat")).contains("no q.dat in it"));
-        assert!(case.refusal("q", None).contains("q/0/T"));
-        // One that is not listed
-        case.write("r/0/r.dat", "# Time b\n3 1\n");
-        assert_eq!(case.rows("r", None), [[3.0, 1.0]]);
-        case.write("p/0.5/p_0.5.dat", "# Time b\n0.6 8\n");
-        assert!(case.refusal("p", None).contains("other points or columns than in"));
-        case.write("msddFoam/tables.json", r#"{"schema": "other", "runs": []}"#);
-        assert!(case.refusal("p", None).contains("schema 'other'"));
+        assert_eq!(rows(&folder, "r", None).unwrap(), [[3.0, 1.0]]);
+        refused(&folder, "p", Some("q.dat"), "no q.dat in it");
+        refused(&folder, "q", None, "q/0/T");
+        case("listed", &[("p/0.5/p_0.5.dat", "# Time b\n0.6 8\n")]);
+        refused(&folder, "p", None, "other points or columns than in");
+        case("listed", &[("msddFoam/tables.json", r#"{"schema": "other", "runs": []}"#)]);
+        refused(&folder, "p", None, "schema 'other'");
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]
-    fn without_a_list_the_newest_file_of_each_start_counts() {
-        let case = Folder::new("unlisted");
-        let old = std::time::SystemTime::UNIX_EPOCH;
-        for (file, text) in
-            [("p/10/p.dat", "10 3\n11 3\n"), ("p/2/p_2.dat", "2 1\n3 1\n12 1\n"), ("p/2/p.dat", "2 0\n")]
-        {
-            case.write(file, text);
-        }
+    fn without_a_list_the_newest_file_of_each_start_counts_and_all_words_are_numbers() {
+        let files =
+            [("p/10/p.dat", "10 3\n11 3\n"), ("p/2/p_2.dat", "2 1\n3 1\n12 1\n"), ("p/2/p.dat", "2 0\n")];
+        let folder = case("unlisted", &files);
         let first =
-            std::fs::File::options().append(true).open(case.0.join("postProcessing/p/2/p.dat")).unwrap();
-        first.set_modified(old).unwrap();
-        assert_eq!(case.rows("p", None), [[2.0, 1.0], [3.0, 1.0], [10.0, 3.0], [11.0, 3.0]]);
-        case.write("p/2/other.dat", "1 1\n");
-        assert!(case.refusal("p", None).contains("several tables: other.dat, p.dat"));
-        assert!(case.refusal("none", None).contains("no table in it"));
-    }
-
-    #[test]
-    fn a_vector_is_read_without_its_brackets_and_what_is_no_number_is_refused() {
-        let case = Folder::new("numbers");
-        case.write("p/0/D", "# Probe 0 (1 2 3)\n#  Time\n 0.1 (1 2 3)\n");
-        assert_eq!(case.rows("p", Some("D")), [[0.1, 1.0, 2.0, 3.0]]);
-        case.write("p/1/D", "# Probe 0 (1 2 4)\n#  Time\n 1.1 (1 2 3)\n");
-        assert!(case.refusal("p", Some("D")).contains("other points or columns"));
-        case.write("p/1/D", "# Probe 0 (1 2 3)\n#  Time\n 1.1 (1 nan 3)\n");
-        assert!(case.refusal("p", Some("D")).contains("'nan' in ' 1.1 (1 nan 3)'"));
+            std::fs::File::options().append(true).open(folder.join("postProcessing/p/2/p.dat")).unwrap();
+        first.set_modified(std::time::SystemTime::UNIX_EPOCH).unwrap();
+        assert_eq!(rows(&folder, "p", None).unwrap(), [[2.0, 1.0], [3.0, 1.0], [10.0, 3.0], [11.0, 3.0]]);
+        case("unlisted", &[("p/2/other.dat", "1 1\n"), ("D/0/D", "# Probe 0 (1 2 3)\n 0.1 (1 2 3)\n")]);
+        refused(&folder, "p", None, "several tables: other.dat, p.dat");
+        refused(&folder, "none", None, "no table in it");
+        assert_eq!(rows(&folder, "D", None).unwrap(), [[0.1, 1.0, 2.0, 3.0]]);
+        case("unlisted", &[("D/1/D", "# Probe 0 (1 2 4)\n 1.1 (1 2 3)\n")]);
+        refused(&folder, "D", None, "other points or columns");
+        case("unlisted", &[("D/1/D", "# Probe 0 (1 2 3)\n 1.1 (1 nan 3)\n")]);
+        refused(&folder, "D", None, "'nan' in ' 1.1 (1 nan 3)'");
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -159,59 +159,46 @@ mod tests {
     }
 
     #[test]
-    fn patches_by_name_and_by_pattern() {
+    fn walls_are_those_of_patches_by_name_and_by_pattern_over_time() {
         let walls = walls_of(
             "empty { type empty; } \".*\" { type zeroGradient; } \"left|right\" { type fixedValue; value uniform 7; }
-             right { type fixedGradient; gradient uniform 0; }",
-        );
-        let expected =
-            [WallHeat::Temperature(7.0), WallHeat::Insulated, WallHeat::Insulated, WallHeat::Insulated];
-        assert_eq!(walls.unwrap(), expected.map(WallOverTime::Steady));
-    }
-
-    #[test]
-    fn refuses_what_it_does_not_know() {
-        let rest = "\"right|bottom|top\" { type zeroGradient; }";
-        for (left, message) in [
-            (
-                "left { type codedFixedValue; }",
-                "boundaryField/left/type = codedFixedValue, allowed: fixedValue",
-            ),
-            (
-                "left { type uniformFixedValue; uniformValue sine; }",
-                "left/uniformValue = sine, allowed: table",
-            ),
-            (
-                "left { type uniformFixedValue; uniformValue table ((0 1) (0 2)); }",
-                "allowed: table ((time T) ...)",
-            ),
-            ("left { type uniformFixedValue; uniformValue table ((0 1)); }", "allowed: table ((time T) ...)"),
-            ("left { type fixedValue; value nonuniform 3; }", "boundaryField/left/value = nonuniform 3"),
-            (
-                "left { type fixedValue; value uniform 3; ramp 2; }",
-                "boundaryField/left/ramp = 2, allowed: the keys",
-            ),
-            (
-                "left { type fixedGradient; gradient uniform 5; }",
-                "left/gradient = uniform 5, allowed: uniform 0",
-            ),
-            ("leeft { type zeroGradient; }", "boundaryField/leeft = {...}, allowed: left, right"),
-            ("", "boundaryField/left = missing"),
+             right { type fixedGradient; gradient uniform 0; }
+             top { type uniformFixedValue; uniformValue table ((0 50) (2 70) (4 30)); value uniform 50; }",
+        )
+        .unwrap();
+        for (wall, time, heat) in [
+            (0, 0.0, WallHeat::Temperature(7.0)),
+            (1, 0.0, WallHeat::Insulated),
+            (2, 0.0, WallHeat::Insulated),
+            (3, 0.0, WallHeat::Temperature(50.0)),
+            (3, 1.0, WallHeat::Temperature(60.0)),
+            (3, 3.0, WallHeat::Temperature(50.0)),
+            (3, 9.0, WallHeat::Temperature(30.0)),
         ] {
-            let error = walls_of(&format!("{left} {rest}")).unwrap_err();
-            assert!(error.starts_with("0/T: ") && error.contains(message), "{error}");
+            assert_eq!(walls[wall].at(time), heat, "{wall} {time} s");
         }
     }
 
     #[test]
-    fn a_table_is_straight_between_its_rows() {
-        let text =
-            "\".*\" { type uniformFixedValue; uniformValue table ((0 50) (2 70) (4 30)); value uniform 50; }";
-        let wall = walls_of(text).unwrap()[2].clone();
-        for (time, temperature) in
-            [(0.0, 50.0), (1.0, 60.0), (2.0, 70.0), (3.0, 50.0), (4.0, 30.0), (9.0, 30.0)]
-        {
-            assert_eq!(wall.at(time), WallHeat::Temperature(temperature), "{time} s");
+    fn refuses_what_it_does_not_know() {
+        let table = "{ type uniformFixedValue; uniformValue";
+        for (left, message) in [
+            ("left { type codedFixedValue; }", "/left/type = codedFixedValue, allowed: fixedValue"),
+            (&format!("left {table} sine; }}"), "left/uniformValue = sine, allowed: table"),
+            (&format!("left {table} table ((0 1) (0 2)); }}"), "allowed: table ((time T) ...)"),
+            (&format!("left {table} table ((0 1)); }}"), "allowed: table ((time T) ...)"),
+            ("left { type fixedValue; value nonuniform 3; }", "/left/value = nonuniform 3"),
+            ("left { type fixedValue; value uniform 3; ramp 2; }", "/left/ramp = 2, allowed: the keys"),
+            (
+                "left { type fixedGradient; gradient uniform 5; }",
+                "/left/gradient = uniform 5, allowed: uniform 0",
+            ),
+            ("leeft { type zeroGradient; }", "/leeft = {...}, allowed: left, right"),
+            ("", "/left = missing"),
+        ] {
+            let error =
+                walls_of(&format!("{left} \"right|bottom|top\" {{ type zeroGradient; }}")).unwrap_err();
+            assert!(error.starts_with("0/T: boundaryField/le") && error.contains(message), "{error}");
         }
     }
 }

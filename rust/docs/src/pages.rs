@@ -91,19 +91,19 @@ pub fn all(root: &Path) -> Result<Vec<PathBuf>, DocsError> {
     if root.join("README.md").is_file() {
         files.push(PathBuf::from("README.md"));
     }
-    collect(root, Path::new(BOOK), &mut |file| file.extension().is_some_and(|e| e == "md"), &mut files)?;
+    collect(root, Path::new(BOOK), &|file| file.extension().is_some_and(|e| e == "md"), &mut files)?;
     for folder in ["cases", "rust"] {
-        collect(root, Path::new(folder), &mut |file| file.ends_with("README.md"), &mut files)?;
+        collect(root, Path::new(folder), &|file| file.ends_with("README.md"), &mut files)?;
     }
     files.sort();
     Ok(files)
 }
 
 /// The files below `folder` that are `wanted`, without hidden folders.
-fn collect(
+pub(crate) fn collect(
     root: &Path,
     folder: &Path,
-    wanted: &mut dyn FnMut(&Path) -> bool,
+    wanted: &dyn Fn(&Path) -> bool,
     files: &mut Vec<PathBuf>,
 ) -> Result<(), DocsError> {
     let whole = root.join(folder);

@@ -159,30 +159,3 @@ impl Spheres {
         0.5 * self.grains.young_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_named_materials_are_good_and_others_are_refused_with_their_range() {
-        for material in &MATERIALS {
-            material.spheres().check().unwrap();
-        }
-        type Change = fn(&mut Spheres);
-        let wrong: [(Change, &str); 4] = [
-            (|s| s.poisson_ratio = 0.6, "poissonRatio = 0.6, allowed: -0.99 to 0.5"),
-            (|s| s.roughness = 1e-3, "roughness = 0.001, allowed: 0 (smooth) to a hundredth of the radius"),
-            (|s| s.hardness = 0.0, "hardness = 0, allowed: 1 to 1e15 Pa"),
-            (|s| s.grains.density = -1.0, "density = -1, allowed: "),
-        ];
-        for (change, message) in wrong {
-            let mut spheres = MATERIALS[0].spheres();
-            change(&mut spheres);
-            let error = spheres.check().unwrap_err().to_string();
-            assert!(error.starts_with(message), "{error}");
-        }
-        // 210e9/(2 (1 - 0.09))
-        assert!((MATERIALS[0].spheres().contact_modulus() / 115.385e9 - 1.0).abs() < 1e-5);
-    }
-}

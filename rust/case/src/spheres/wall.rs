@@ -49,19 +49,16 @@ mod tests {
 
     #[test]
     fn friction_of_a_bed_is_that_of_its_spheres_where_small_and_has_a_limit() {
-        assert_eq!(of_bed(0.0), 0.0);
-        assert!((of_bed(1e-3) / 1e-3 - 1.0).abs() < 1e-4);
-        for (coefficient, counted) in [(0.1, 0.078), (0.2, 0.130), (0.3, 0.149)] {
-            assert!((of_bed(coefficient) - counted).abs() < 0.01, "{}", of_bed(coefficient));
+        for (coefficient, counted, error) in [
+            (0.0, 0.0, 1e-99),
+            (1e-3, 1e-3, 1e-7),
+            (0.1, 0.078, 0.01),
+            (0.2, 0.130, 0.01),
+            (0.3, 0.149, 0.01),
+        ] {
+            assert!((of_bed(coefficient) - counted).abs() < error, "{}", of_bed(coefficient));
         }
         assert!(of_bed(10.0) < MOST && of_bed(10.0) > 0.99 * MOST);
         assert!((of_spheres(of_bed(0.3)).unwrap() - 0.3).abs() < 1e-12 && of_spheres(0.2).is_none());
-    }
-
-    #[test]
-    fn a_smooth_wall_is_frictionless() {
-        assert_eq!(entry(0.0, 0.01), "type frictionless;");
-        assert_eq!(entry(0.3, 0.01), "type rigid; friction 0.154; slip 1e-5;");
-        assert_eq!(sentence(0.3), "a friction of 0.3 of a sphere acts on the bed as 0.154");
     }
 }

@@ -4,6 +4,7 @@
 use super::source::{all, first};
 use super::table::{escaped, table};
 use crate::error::DocsError;
+use crate::pages::collect;
 use std::path::Path;
 
 const PACKAGE: &str = "rust/python/msdd";
@@ -22,16 +23,9 @@ pub fn text(root: &Path, argument: &str) -> Result<String, DocsError> {
 
 /// Texts of all modules, one after the other.
 fn modules(root: &Path) -> Result<String, DocsError> {
-    let folder = root.join(PACKAGE);
-    let failed = |source| DocsError::Folder { folder: folder.clone(), source };
-    let mut text = String::new();
-    for entry in std::fs::read_dir(&folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        if path.extension().is_some_and(|ending| ending == "py") {
-            text += &msdd_files::read_text(&path)?;
-        }
-    }
-    Ok(text)
+    let mut files = Vec::new();
+    collect(root, Path::new(PACKAGE), &|file| file.extension().is_some_and(|e| e == "py"), &mut files)?;
+    files.iter().map(|file| Ok(msdd_files::read_text(&root.join(file))?)).collect()
 }
 
 /// The source of a function or class.

@@ -5,13 +5,16 @@ use regex::Regex;
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
+pub fn regex(pattern: &str) -> Regex {
+    Regex::new(pattern).expect("a pattern of this program")
+}
+
 /// Groups of every match of a pattern; those that took no part are empty.
 pub fn all(pattern: &str, text: &str) -> Vec<Vec<String>> {
-    let pattern = Regex::new(pattern).expect("a pattern of this program");
     let groups = |found: regex::Captures| {
         found.iter().map(|group| group.map_or_else(String::new, |m| m.as_str().to_string())).collect()
     };
-    pattern.captures_iter(text).map(groups).collect()
+    regex(pattern).captures_iter(text).map(groups).collect()
 }
 
 /// The first group of the first match.

@@ -4,25 +4,14 @@ use super::{checkout, found};
 use msdd_docs::fill::fill;
 use msdd_docs::results::Results;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-const RESULTS: &str = r#"{
-  "schema": "msdd-results-1",
-  "sections": {
-    "cases": {
-      "command": "scripts/results cases",
-      "commit": "0123abc",
-      "date": "2026-01-02",
-      "values": {
+const RESULTS: &str = r#"{"schema": "msdd-results-1", "sections": {"cases": {
+    "command": "scripts/results cases", "commit": "0123abc", "date": "2026-01-02", "values": {
         "H.T": {"value": "0.74", "unit": "%", "meaning": "error of T", "source": "results/summary.json"},
-        "rows": {"value": "19 706", "unit": "1", "meaning": "rows", "source": "a.json"}
-      },
-      "tables": {
-        "first": {"meaning": "all", "source": "a.json", "columns": ["case", "T"], "rows": [["H", "1.0"], ["C", "2.5"]]}
-      }
-    }
-  }
-}"#;
+        "rows": {"value": "19 706", "unit": "1", "meaning": "rows", "source": "a.json"}},
+    "tables": {"first": {"meaning": "all", "source": "a.json", "columns": ["case", "T"], "rows": [["H", "1.0"], ["C", "2.5"]]}}
+}}}"#;
 
 /// Fills `text` in as README.md beside [`RESULTS`]; the text afterwards and what was found.
 fn filled(name: &str, text: &str, check: bool) -> (String, Vec<String>) {
@@ -32,34 +21,23 @@ fn filled(name: &str, text: &str, check: bool) -> (String, Vec<String>) {
 }
 
 #[test]
-fn numbers_and_tables_are_renewed_and_then_agree() {
-    let old = "Off by <!--= cases.H.T-->9<!--/--> %, of <!--=cases.rows--><!--/--> rows.\n\n<!--= table:first-->\nold\n<!--/-->\n\nEnd.\n";
+fn numbers_and_tables_are_renewed_and_a_check_names_file_line_key_text_and_value() {
+    let code = "Write `<!--= some.key-->` or\n\n```\n<!--= other.key-->\n```\n\n    <!--/-->\n";
+    assert_eq!(filled("code", code, false), (code.to_string(), Vec::new()));
+    let old = "One.\n\nOff by <!--= cases.H.T-->9<!--/--> %, of <!--=cases.rows--><!--/--> rows.\n\n<!--= table:first-->\nold\n<!--/-->\n";
+    let (text, wrong) = filled("check", old, true);
+    assert_eq!((text.as_str(), wrong.len()), (old, 3));
+    let message =
+        "README.md:3: 'cases.H.T' is '9' in the text, '0.74' in docs/results.json: run msdd-docs fill";
+    assert_eq!(wrong[0], message);
     let (text, wrong) = filled("renewed", old, false);
-    assert!(wrong.is_empty(), "{wrong:?}");
     assert_eq!(
         text,
-        "Off by <!--= cases.H.T-->0.74<!--/--> %, of <!--=cases.rows-->19 706<!--/--> rows.\n\n<!--= table:first-->\n\n\
-         | case | T |\n|---|---|\n| H | 1.0 |\n| C | 2.5 |\n\n<!--/-->\n\nEnd.\n"
+        "One.\n\nOff by <!--= cases.H.T-->0.74<!--/--> %, of <!--=cases.rows-->19 706<!--/--> rows.\n\n<!--= table:first-->\n\n\
+         | case | T |\n|---|---|\n| H | 1.0 |\n| C | 2.5 |\n\n<!--/-->\n"
     );
-    let (again, wrong) = filled("agree", &text, true);
-    assert!(wrong.is_empty(), "{wrong:?}");
-    assert_eq!(again, text);
-}
-
-#[test]
-fn a_check_changes_nothing_and_names_file_line_key_text_and_value() {
-    let old = "One.\n\nOff by <!--= cases.H.T-->0.75<!--/--> %.\n";
-    let (text, wrong) = filled("check", old, true);
-    assert_eq!(text, old);
-    let message =
-        "README.md:3: 'cases.H.T' is '0.75' in the text, '0.74' in docs/results.json: run msdd-docs fill";
-    assert_eq!(wrong, [message]);
-}
-
-#[test]
-fn one_cell_that_was_typed_over_in_a_table_is_found() {
-    let right = filled("cell-right", "<!--= table:first-->\n<!--/-->\n", false).0;
-    let (_, wrong) = filled("cell-wrong", &right.replace("2.5", "2.4"), true);
+    assert_eq!((wrong, filled("agree", &text, true)), (Vec::new(), (text.clone(), Vec::new())));
+    let (_, wrong) = filled("cell", &text.replace("2.5", "2.4"), true);
     assert!(wrong.len() == 1 && wrong[0].contains("'table:first' is"), "{wrong:?}");
 }
 
@@ -69,11 +47,7 @@ fn marks_that_lead_nowhere_are_errors_and_nothing_is_written() {
         ("unknown", "a <!--= cases.H.x-->1<!--/-->", "has no number 'cases.H.x'"),
         ("no-table", "<!--= table:second-->\n<!--/-->", "has no table 'second'"),
         ("unclosed", "a <!--= cases.H.T-->1 b", "the mark of 'cases.H.T' is not closed"),
-        (
-            "next-open",
-            "a <!--= cases.H.T-->1 <!--= cases.rows-->2<!--/-->",
-            "the mark of 'cases.H.T' is not closed",
-        ),
+        ("next-open", "a <!--= cases.H.T-->1 <!--= cases.rows-->2<!--/-->", "'cases.H.T' is not closed"),
         ("no-end", "a <!--= cases.H.T", "is not ended by -->"),
         ("no-open", "a 1<!--/--> b", "without a mark before it"),
         ("in-line", "a <!--= table:first-->1<!--/-->", "lines of their own"),
@@ -82,18 +56,9 @@ fn marks_that_lead_nowhere_are_errors_and_nothing_is_written() {
     ] {
         let whole = format!("b <!--= cases.rows-->1<!--/-->\n\n{text}\n");
         let (after, wrong) = filled(name, &whole, false);
-        assert!(
-            wrong.len() == 1 && wrong[0].contains(message) && wrong[0].contains("README.md:3: "),
-            "{wrong:?}"
-        );
-        assert_eq!(after, whole);
+        let named = wrong.len() == 1 && wrong[0].contains(message) && wrong[0].starts_with("README.md:3: ");
+        assert!(named && after == whole, "{wrong:?}");
     }
-}
-
-#[test]
-fn marks_in_code_are_text() {
-    let text = "Write `<!--= some.key-->` or\n\n```\n<!--= other.key-->\n```\n\n    <!--/-->\n";
-    assert_eq!(filled("code", text, false), (text.to_string(), Vec::new()));
 }
 
 #[test]
@@ -108,9 +73,4 @@ fn results_of_another_form_are_refused() {
         let error = Results::read(&root).unwrap_err().to_string();
         assert!(error.contains(message) && error.contains("docs/results.json"), "{error}");
     }
-    let root = checkout("write", &[("docs/results.json", RESULTS)]);
-    let results = Results::read(&root).unwrap();
-    results.write(&root).unwrap();
-    assert_eq!(Results::read(&root).unwrap(), results);
-    assert!(Path::new(&root).join("docs/results.json").is_file());
 }

@@ -10,17 +10,9 @@ const ONE: (&str, &str) =
 
 /// What is found with this text on the second page.
 fn with(name: &str, text: &str) -> Vec<String> {
-    let crate_file = ("rust/dem/src/law.rs", "");
-    let root = checkout(
-        name,
-        &[
-            SUMMARY,
-            ONE,
-            crate_file,
-            ("docs/src/deep/two.md", text),
-            ("README.md", "[book](docs/src/one.md#one)\n"),
-        ],
-    );
+    let readme = ("README.md", "[book](docs/src/one.md#one)\n");
+    let files = [SUMMARY, ONE, ("rust/dem/src/law.rs", ""), ("docs/src/deep/two.md", text), readme];
+    let root = checkout(name, &files);
     found(links::check(&root, &pages::all(&root).unwrap()))
 }
 
@@ -49,8 +41,8 @@ fn each_bad_one_is_named_with_its_place() {
         ("path-star", "`rust/*/none`", "`rust/*/none` is named"),
     ] {
         let wrong = with(&format!("bad-{name}"), &format!("# Two\n\n{text}\n"));
-        assert_eq!(wrong.len(), 1, "{wrong:?}");
-        assert!(wrong[0].starts_with("docs/src/deep/two.md:3: ") && wrong[0].contains(message), "{wrong:?}");
+        let named = wrong.len() == 1 && wrong[0].starts_with("docs/src/deep/two.md:3: ");
+        assert!(named && wrong[0].contains(message), "{wrong:?}");
     }
 }
 

@@ -4,6 +4,7 @@ mod commands;
 mod fill;
 mod gather;
 mod keys;
+mod layers;
 mod links;
 mod math;
 mod print;

@@ -1,0 +1,96 @@
+//! Scenes that tests change, and checks of what is made of them.
+
+use crate::CaseError;
+use crate::dictionary::Dictionary;
+use crate::disc_model::DiscModel;
+use crate::folder::File;
+use crate::grains::PRESETS;
+use crate::packing::Start;
+use crate::scene::{Mechanics, Scene, parse_wall, proposed_cells, proposed_probes};
+use crate::spheres::material::MATERIALS;
+use crate::spheres::scene::{Lid, Scene as SphereScene};
+use crate::spheres::shape::Shape;
+use crate::spheres::start::Gas;
+use crate::walls::WallOverTime;
+use msdd_beds::named_gases::GasName;
+use msdd_rve::Compression;
+use std::path::Path;
+
+pub fn walls<const N: usize>(texts: [&str; N]) -> [WallOverTime; N] {
+    texts.map(|text| parse_wall(text).unwrap())
+}
+
+pub fn discs() -> Scene {
+    let size = [0.2, 0.1];
+    Scene {
+        size,
+        cells: proposed_cells(size, 1e-3),
+        walls: walls(["350", "insulated", "0:293,60:350", "insulated"]),
+        initial_temperature: 293.15,
+        material: "steel".to_string(),
+        grains: PRESETS[1].grains,
+        model: DiscModel::shipped().unwrap(),
+        start: Start::Porosity(0.125),
+        compression: Compression::Horizontal,
+        mechanics: Mechanics::Equilibrium,
+        heat_source: None,
+        end_time: 60.0,
+        tolerance: None,
+        probes: proposed_probes(size),
+    }
+}
+
+pub fn spheres() -> SphereScene {
+    SphereScene {
+        shape: Shape::Cylinder { radius: 0.1, height: 0.4 },
+        cells: vec![10, 24],
+        walls: walls(["400", "293", "insulated"]).to_vec(),
+        initial_temperature: 293.0,
+        material: "steel".to_string(),
+        spheres: MATERIALS[0].spheres(),
+        gas: Gas { name: GasName::Helium, pressure: 1e5 },
+        porosity: 0.4,
+        pressure: 2e4,
+        mechanics: Mechanics::Equilibrium,
+        lid: Lid::Presses,
+        shell: None,
+        give: 0.0,
+        wall_friction: 0.0,
+        gravity: 0.0,
+        heat_source: None,
+        end_time: 1e4,
+        tolerance: None,
+        probes: vec![vec![0.05, 0.2]],
+    }
+}
+
+/// A change of a scene, and how the message begins that refuses it.
+pub type Wrong<'a, S> = (fn(&mut S), &'a str);
+
+pub fn each_is_refused<S: Clone>(scene: &S, check: fn(&S) -> Result<(), CaseError>, wrong: &[Wrong<S>]) {
+    check(scene).unwrap();
+    for (change, message) in wrong {
+        let mut changed = scene.clone();
+        change(&mut changed);
+        let error = check(&changed).unwrap_err().to_string();
+        assert!(error.starts_with(message), "{error}");
+    }
+}
+
+/// Every place of the templates is filled, and every dictionary can be read.
+pub fn are_whole(files: &[File]) {
+    let place = regex::Regex::new("@[A-Za-z]+@").unwrap();
+    for File { path, text, program } in files {
+        assert!(!place.is_match(text) && *program == path.starts_with("All"), "{path}: {text}");
+        if let Some((_, name)) = path.rsplit_once('/') {
+            // As OpenFOAM would expand it: without the types of patches which are not walls
+            let text = text.replace("    #includeEtc \"caseDicts/setConstraintTypes\"\n", "");
+            let head = Dictionary::parse(Path::new(path), &text).unwrap();
+            assert_eq!(head.dictionary_at("FoamFile").unwrap().text("object").unwrap(), name);
+        }
+    }
+}
+
+pub fn text<'a>(files: &'a [File], path: &str) -> &'a str {
+    files.iter().find(|file| file.path == path).map_or("", |file| &file.text)
+}
