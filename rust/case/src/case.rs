@@ -4,7 +4,7 @@ use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
 use crate::model::ModelGrains;
 use crate::numbers::{plain, rounded};
-use crate::walls::{WallOverTime, heat_of_walls};
+use crate::walls::{self, WallOverTime, heat_of_walls};
 use msdd_dem::{Material, Thermal};
 use std::path::{Path, PathBuf};
 
@@ -46,8 +46,8 @@ pub struct Case {
 impl Case {
     /// Highest less lowest temperature of the walls at any time and of the start \[K\].
     pub fn temperature_range(&self) -> f64 {
-        let all = || self.walls.iter().flat_map(WallOverTime::temperatures).chain([self.initial_temperature]);
-        all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+        let [least, most] = walls::temperatures(self.initial_temperature, &self.walls);
+        most - least
     }
 
     /// What the surrogate says of the grains, in words.
@@ -93,9 +93,7 @@ impl Case {
             probes: probes(&control)?.into_iter().map(|[x, y]| [x - low[0], y - low[1]]).collect(),
         })
     }
-}
 
-impl Case {
     /// The case with its heat capacity and all times divided by a number of at least 1. Grains in equilibrium have the same
     /// temperatures and stresses then, at times divided by it.
     #[must_use]

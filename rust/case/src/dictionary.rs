@@ -365,12 +365,12 @@ mod tests {
         let case = std::env::temp_dir().join(format!("msdd-included-{}", std::process::id()));
         std::fs::create_dir_all(case.join("system")).unwrap();
         let write = |file: &str, text: &str| msdd_files::write(&case.join(file), text.as_bytes()).unwrap();
-        write("constant/temps", "hot 360;");
-        for place in ["$FOAM_CASE", "<case>"] {
-            write("0/bed/T", &format!("#include \"{place}/constant/temps\"\nvalue $hot;"));
-            let read = Dictionary::expanded(&case.join("0/bed/T")).unwrap();
-            assert_eq!(read.text("value").unwrap(), "360", "{place}");
-        }
+        write("constant/hot", "hot 360;");
+        write("constant/cold", "cold 290;");
+        let include = "#include \"$FOAM_CASE/constant/hot\"\n#include \"<case>/constant/cold\"\n";
+        write("0/bed/T", &format!("{include} value ($hot $cold);"));
+        let read = Dictionary::expanded(&case.join("0/bed/T")).unwrap();
+        assert_eq!(read.text("value").unwrap(), "( 360 290 )");
         std::fs::remove_dir_all(&case).unwrap();
     }
 

@@ -25,6 +25,14 @@ pub struct File {
     pub program: bool,
 }
 
+impl File {
+    /// A file of OpenFOAM, with its head.
+    pub(crate) fn foam(path: &'static str, class: &str, text: &str) -> Self {
+        let object = path.rsplit('/').next().unwrap_or(path);
+        Self { path, text: head(class, object) + text, program: false }
+    }
+}
+
 /// Refuses a folder that cannot become a case; `force` allows one that is not empty.
 ///
 /// # Errors
@@ -58,10 +66,7 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<PathBuf, CaseError> {
 pub fn files(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> Vec<File> {
     let values = values(scene, packing, name, checkout);
     let filled = |template: &str| fill(template, &values);
-    let foam = |path: &'static str, class: &str, template: &str| {
-        let object = path.rsplit('/').next().unwrap_or(path);
-        File { path, text: head(class, object) + &filled(template), program: false }
-    };
+    let foam = |path, class: &str, template: &str| File::foam(path, class, &filled(template));
     let mut files = vec![
         File { path: "Allrun", text: filled(template!("Allrun")), program: true },
         File { path: "Allclean", text: filled(template!("Allclean")), program: true },
@@ -93,10 +98,7 @@ pub fn programs(name: &str, checkout: &Path, tolerance: f64, grains: usize) -> V
     );
     let values =
         vec![("checkout", checkout.display().to_string()), ("name", name.to_string()), ("tolerance", keys)];
-    let foam = |path: &'static str, template: &str| {
-        let object = path.rsplit('/').next().unwrap_or(path);
-        File { path, text: head("dictionary", object) + &fill(template, &values), program: false }
-    };
+    let foam = |path, template: &str| File::foam(path, "dictionary", &fill(template, &values));
     vec![
         File { path: "Allrun", text: fill(template!("Allrun"), &values), program: true },
         File { path: "Allclean", text: fill(template!("Allclean"), &values), program: true },

@@ -88,3 +88,8 @@ pub fn end_time(value: f64) -> Result<(), CaseError> {
     let [low, high] = END_TIMES;
     allow("end time", value, (low..=high).contains(&value), || format!("{low:e} to {high:e} s"))
 }
+
+/// Largest error of T that a time step may add \[K\].
+pub fn tolerance(value: f64) -> Result<(), CaseError> {
+    allow("tolerance", value, (1e-12..=1e6).contains(&value), || "1e-12 to 1e6 K".to_string())
+}

@@ -5,8 +5,8 @@ use crate::disc_model::DiscModel;
 use crate::grains::Grains;
 use crate::numbers::rounded;
 use crate::packing::{self, Discs, Start};
-use crate::ranges::{self, allow};
-use crate::walls::WallOverTime;
+use crate::ranges;
+use crate::walls::{self, WallOverTime};
 use msdd_dem::WallHeat;
 use msdd_rve::Compression;
 
@@ -92,9 +92,7 @@ impl Scene {
             ranges::wall(wall, |value| ranges::temperature(name, value))?;
         }
         ranges::end_time(self.end_time)?;
-        if let Some(value) = self.tolerance {
-            allow("tolerance", value, (1e-12..=1e6).contains(&value), || "1e-12 to 1e6 K".to_string())?;
-        }
+        self.tolerance.map_or(Ok(()), ranges::tolerance)?;
         self.heat_source.map_or(Ok(()), ranges::heat_source)?;
         let inside =
             |[x, y]: [f64; 2]| (0.0..=self.size[0]).contains(&x) && (0.0..=self.size[1]).contains(&y);
@@ -131,8 +129,7 @@ impl Scene {
 
     /// Least and largest temperature of the initial state and of the walls at any time \[K\].
     pub fn temperatures(&self) -> [f64; 2] {
-        let walls = self.walls.iter().flat_map(WallOverTime::temperatures);
-        walls.fold([self.initial_temperature; 2], |[least, most], value| [least.min(value), most.max(value)])
+        walls::temperatures(self.initial_temperature, &self.walls)
     }
 
     /// Length over which heat has to spread \[m\]: in each direction half of the box if both walls have a temperature, the whole

@@ -1,7 +1,6 @@
-//! Scenes that tests change, and checks of what is made of them.
+//! Scenes that tests change, and how they look at what is made of them.
 
 use crate::CaseError;
-use crate::dictionary::Dictionary;
 use crate::disc_model::DiscModel;
 use crate::folder::File;
 use crate::grains::PRESETS;
@@ -14,7 +13,6 @@ use crate::spheres::start::Gas;
 use crate::walls::WallOverTime;
 use msdd_beds::named_gases::GasName;
 use msdd_rve::Compression;
-use std::path::Path;
 
 pub fn walls<const N: usize>(texts: [&str; N]) -> [WallOverTime; N] {
     texts.map(|text| parse_wall(text).unwrap())
@@ -74,20 +72,6 @@ pub fn each_is_refused<S: Clone>(scene: &S, check: fn(&S) -> Result<(), CaseErro
         change(&mut changed);
         let error = check(&changed).unwrap_err().to_string();
         assert!(error.starts_with(message), "{error}");
-    }
-}
-
-/// Every place of the templates is filled, and every dictionary can be read.
-pub fn are_whole(files: &[File]) {
-    let place = regex::Regex::new("@[A-Za-z]+@").unwrap();
-    for File { path, text, program } in files {
-        assert!(!place.is_match(text) && *program == path.starts_with("All"), "{path}: {text}");
-        if let Some((_, name)) = path.rsplit_once('/') {
-            // As OpenFOAM would expand it: without the types of patches which are not walls
-            let text = text.replace("    #includeEtc \"caseDicts/setConstraintTypes\"\n", "");
-            let head = Dictionary::parse(Path::new(path), &text).unwrap();
-            assert_eq!(head.dictionary_at("FoamFile").unwrap().text("object").unwrap(), name);
-        }
     }
 }
 

@@ -179,70 +179,58 @@ fn time(row: &str) -> f64 {
 mod tests {
     use super::*;
 
-    /// A case with these files in postProcessing.
-    fn case(name: &str, files: &[(&str, &str)]) -> PathBuf {
-        let case = std::env::temp_dir().join(format!("msdd-case-tables-{}-{name}", std::process::id()));
-        for (file, text) in files {
-            msdd_files::write(&case.join("postProcessing").join(file), text.as_bytes()).unwrap();
-        }
-        case
-    }
-
-    fn rows(case: &Path, name: &str, file: Option<&str>) -> Result<Vec<Vec<f64>>, String> {
-        read(case, name, file).and_then(|table| table.numbers()).map_err(|error| error.to_string())
-    }
-
-    #[track_caller]
-    fn refused(case: &Path, name: &str, file: Option<&str>, message: &str) {
-        let error = rows(case, name, file).unwrap_err();
-        assert!(error.contains(message), "{error}");
-    }
-
     #[test]
-    fn the_list_says_which_files_belong_to_the_run() {
+    fn tables_are_those_of_the_parts_of_a_run_by_the_list_or_the_newest_of_each_start() {
+        let case = std::env::temp_dir().join(format!("msdd-case-tables-{}", std::process::id()));
+        let post = case.join("postProcessing");
+        msdd_files::write(&post.join("u/2/u.dat"), b"2 0\n").unwrap();
+        let first = std::fs::File::options().append(true).open(post.join("u/2/u.dat")).unwrap();
+        first.set_modified(std::time::SystemTime::UNIX_EPOCH).unwrap();
         let list = r#"{"schema": "msdd-tables-1", "runs": [{"start": 0, "files": ["p/0/p_0.dat", "q/0/T"]},
             {"start": 0.5, "files": ["p/0.5/p_0.5.dat"]}]}"#;
-        let files = [
-            ("msddFoam/tables.json", list),
-            ("p/0/p.dat", "# Time a\n0 1\n1 1\n"),
-            ("p/0/p_0.dat", "# note\n# Time a\n0 5\n0.5 5\n0.6 5\n"),
-            ("p/0.5/p.dat", "# Time a\n0.6 7\n"),
-            ("p/0.5/p_0.5.dat", "# Time  a\n0.6 8\n0.7 8\n"),
-            // Made by postProcess, and one that is not listed
-            ("p/1/p.dat", "# Time a\n0.5 9\n"),
-            ("r/0/r.dat", "# Time b\n3 1\n"),
+        let steps: [(&[(&str, &str)], &str, Option<&str>, &str); 13] = [
+            (
+                &[("u/10/u.dat", "10 3\n11 3\n"), ("u/2/u_2.dat", "2 1\n3 1\n12 1\n")],
+                "none",
+                None,
+                "no table in it",
+            ),
+            (&[], "u", None, "[[2.0, 1.0], [3.0, 1.0], [10.0, 3.0], [11.0, 3.0]]"),
+            (&[("u/2/other.dat", "1 1\n")], "u", None, "several tables: other.dat, u.dat"),
+            (&[("D/0/D", "# Probe 0 (1 2 3)\n 0.1 (1 2 3)\n")], "D", None, "[[0.1, 1.0, 2.0, 3.0]]"),
+            (&[("D/1/D", "# Probe 0 (1 2 4)\n 1.1 (1 2 3)\n")], "D", None, "other points or columns"),
+            (&[("D/1/D", "# Probe 0 (1 2 3)\n 1.1 (1 nan 3)\n")], "D", None, "'nan' in ' 1.1 (1 nan 3)'"),
+            (&[("msddFoam/tables.json", list), ("r/0/r.dat", "# Time b\n3 1\n")], "r", None, "[[3.0, 1.0]]"),
+            (
+                &[("p/0/p.dat", "# Time a\n0 1\n1 1\n"), ("p/0.5/p.dat", "# Time a\n0.6 7\n")],
+                "q",
+                None,
+                "q/0/T",
+            ),
+            // The last is made by postProcess
+            (
+                &[
+                    ("p/0/p_0.dat", "# note\n# Time a\n0 5\n0.5 5\n0.6 5\n"),
+                    ("p/0.5/p_0.5.dat", "# Time  a\n0.6 8\n0.7 8\n"),
+                    ("p/1/p.dat", "# Time a\n0.5 9\n"),
+                ],
+                "p",
+                None,
+                "[[0.0, 5.0], [0.5, 5.0], [0.6, 8.0], [0.7, 8.0]]",
+            ),
+            (&[], "p", Some("p.dat"), "[[0.0, 5.0], [0.5, 5.0], [0.6, 8.0], [0.7, 8.0]]"),
+            (&[], "p", Some("q.dat"), "no q.dat in it"),
+            (&[("p/0.5/p_0.5.dat", "# Time b\n0.6 8\n")], "p", None, "other points or columns than in"),
+            (&[("msddFoam/tables.json", r#"{"schema": "other", "runs": []}"#)], "p", None, "schema 'other'"),
         ];
-        let folder = case("listed", &files);
-        for file in [None, Some("p.dat")] {
-            assert_eq!(rows(&folder, "p", file).unwrap(), [[0.0, 5.0], [0.5, 5.0], [0.6, 8.0], [0.7, 8.0]]);
+        for (files, name, file, expected) in steps {
+            for (file, text) in files {
+                msdd_files::write(&post.join(file), text.as_bytes()).unwrap();
+            }
+            let found = read(&case, name, file).and_then(|table| table.numbers());
+            let found = found.map_or_else(|error| error.to_string(), |rows| format!("{rows:?}"));
+            assert!(found.contains(expected), "{name}: {found}");
         }
-        assert_eq!(rows(&folder, "r", None).unwrap(), [[3.0, 1.0]]);
-        refused(&folder, "p", Some("q.dat"), "no q.dat in it");
-        refused(&folder, "q", None, "q/0/T");
-        case("listed", &[("p/0.5/p_0.5.dat", "# Time b\n0.6 8\n")]);
-        refused(&folder, "p", None, "other points or columns than in");
-        case("listed", &[("msddFoam/tables.json", r#"{"schema": "other", "runs": []}"#)]);
-        refused(&folder, "p", None, "schema 'other'");
-        std::fs::remove_dir_all(&folder).unwrap();
-    }
-
-    #[test]
-    fn without_a_list_the_newest_file_of_each_start_counts_and_all_words_are_numbers() {
-        let files =
-            [("p/10/p.dat", "10 3\n11 3\n"), ("p/2/p_2.dat", "2 1\n3 1\n12 1\n"), ("p/2/p.dat", "2 0\n")];
-        let folder = case("unlisted", &files);
-        let first =
-            std::fs::File::options().append(true).open(folder.join("postProcessing/p/2/p.dat")).unwrap();
-        first.set_modified(std::time::SystemTime::UNIX_EPOCH).unwrap();
-        assert_eq!(rows(&folder, "p", None).unwrap(), [[2.0, 1.0], [3.0, 1.0], [10.0, 3.0], [11.0, 3.0]]);
-        case("unlisted", &[("p/2/other.dat", "1 1\n"), ("D/0/D", "# Probe 0 (1 2 3)\n 0.1 (1 2 3)\n")]);
-        refused(&folder, "p", None, "several tables: other.dat, p.dat");
-        refused(&folder, "none", None, "no table in it");
-        assert_eq!(rows(&folder, "D", None).unwrap(), [[0.1, 1.0, 2.0, 3.0]]);
-        case("unlisted", &[("D/1/D", "# Probe 0 (1 2 4)\n 1.1 (1 2 3)\n")]);
-        refused(&folder, "D", None, "other points or columns");
-        case("unlisted", &[("D/1/D", "# Probe 0 (1 2 3)\n 1.1 (1 nan 3)\n")]);
-        refused(&folder, "D", None, "'nan' in ' 1.1 (1 nan 3)'");
-        std::fs::remove_dir_all(&folder).unwrap();
+        std::fs::remove_dir_all(&case).unwrap();
     }
 }

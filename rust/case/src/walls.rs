@@ -58,6 +58,12 @@ impl WallOverTime {
     }
 }
 
+/// Least and largest temperature of the start and of walls at any time \[K\].
+pub fn temperatures(start: f64, walls: &[WallOverTime]) -> [f64; 2] {
+    let all = walls.iter().flat_map(WallOverTime::temperatures);
+    all.fold([start; 2], |[least, most], value| [least.min(value), most.max(value)])
+}
+
 fn interpolated(rows: &[[f64; 2]], time: f64) -> f64 {
     let next = rows.partition_point(|row| row[0] <= time).clamp(1, rows.len() - 1);
     let ([t0, from], [t1, to]) = (rows[next - 1], rows[next]);
@@ -166,17 +172,13 @@ mod tests {
              top { type uniformFixedValue; uniformValue table ((0 50) (2 70) (4 30)); value uniform 50; }",
         )
         .unwrap();
-        for (wall, time, heat) in [
-            (0, 0.0, WallHeat::Temperature(7.0)),
-            (1, 0.0, WallHeat::Insulated),
-            (2, 0.0, WallHeat::Insulated),
-            (3, 0.0, WallHeat::Temperature(50.0)),
-            (3, 1.0, WallHeat::Temperature(60.0)),
-            (3, 3.0, WallHeat::Temperature(50.0)),
-            (3, 9.0, WallHeat::Temperature(30.0)),
-        ] {
-            assert_eq!(walls[wall].at(time), heat, "{wall} {time} s");
-        }
+        let at = |wall: usize, time| match walls[wall].at(time) {
+            WallHeat::Temperature(temperature) => temperature,
+            _ => 0.0,
+        };
+        let steady = [0, 1, 2].map(|wall| at(wall, 0.0));
+        let over_time = [0.0, 1.0, 3.0, 9.0].map(|time| at(3, time));
+        assert_eq!((steady, over_time), ([7.0, 0.0, 0.0], [50.0, 60.0, 50.0, 30.0]));
     }
 
     #[test]

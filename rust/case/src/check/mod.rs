@@ -106,23 +106,16 @@ mod tests {
     #[test]
     fn the_list_of_the_solver_is_read_and_folders_that_hold_no_case_are_named() {
         for (line, found) in [
-            ("Error 1: constant/g, line 20: Unknown 'modle'", "error: constant/g, line 20: Unknown 'modle'"),
-            (
-                "Warning 2: The mesh has 2 parts: no heat passes",
-                "doubt: The mesh has 2 parts: no heat passes",
-            ),
+            ("Error 1: constant/g, line 2: 'modle'", "error: constant/g, line 2: 'modle'"),
+            ("Warning 2: The mesh has 2 parts: no heat", "doubt: The mesh has 2 parts: no heat"),
             ("Not checked: the fluid regions (gas)", "not checked: the fluid regions (gas)"),
             ("Time = 3", ""),
-            ("End", ""),
         ] {
             assert_eq!(finding(line).map_or(String::new(), |finding| finding.to_string()), found);
         }
-        let blank = std::env::temp_dir().join(format!("msdd check {}", std::process::id()));
+        let blank = std::env::temp_dir().join(format!("msdd {} check", std::process::id()));
         let found = || check(&blank).unwrap().iter().map(Finding::to_string).collect::<Vec<_>>().join("\n");
-        assert_eq!(
-            found(),
-            format!("error: {}: no such folder; 'msdd case new' begins a case", blank.display())
-        );
+        assert!(found().ends_with("check: no such folder; 'msdd case new' begins a case"), "{}", found());
         std::fs::create_dir(&blank).unwrap();
         assert!(found().contains("a path without blanks"), "{}", found());
         std::fs::remove_dir(&blank).unwrap();

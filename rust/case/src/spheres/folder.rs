@@ -5,7 +5,7 @@ use super::shape::{HALF_ANGLE, INNER, Shape};
 use super::start::{ACCOMMODATION, FABRIC, LATERAL, Start};
 use super::wall;
 use crate::CaseError;
-use crate::fields::{FieldKind, head, uniform};
+use crate::fields::{FieldKind, uniform};
 use crate::folder::{File, programs};
 use crate::numbers::{plain, rounded};
 use crate::scene::Mechanics;
@@ -25,10 +25,7 @@ macro_rules! template {
 pub fn files(scene: &Scene, name: &str, checkout: &Path) -> Result<Vec<File>, CaseError> {
     let values = values(scene, name, checkout)?;
     let filled = |template: &str| fill(template, &values);
-    let foam = |path: &'static str, class: &str, template: &str| {
-        let object = path.rsplit('/').next().unwrap_or(path);
-        File { path, text: head(class, object) + &filled(template), program: false }
-    };
+    let foam = |path, class: &str, template: &str| File::foam(path, class, &filled(template));
     let mesh = match scene.shape {
         Shape::Box(_) => template!("spheres/box"),
         Shape::Cylinder { .. } => template!("spheres/cylinder"),
@@ -49,8 +46,7 @@ pub fn files(scene: &Scene, name: &str, checkout: &Path) -> Result<Vec<File>, Ca
     if scene.gravity > 0.0 {
         let vector = scene.shape.upwards(-scene.gravity);
         let text = format!("dimensions      [0 1 -2 0 0 0 0];\nvalue           {vector};\n");
-        let text = head("uniformDimensionedVectorField", "g") + &text;
-        files.push(File { path: "constant/g", text, program: false });
+        files.push(File::foam("constant/g", "uniformDimensionedVectorField", &text));
     }
     Ok(files)
 }

@@ -1,11 +1,11 @@
 //! Tests of the files of a new case of spheres.
 
 use super::*;
-use crate::scenes_for_tests::{are_whole, spheres, text, walls as walls_of};
+use crate::scenes_for_tests::{spheres, text, walls as walls_of};
 use crate::spheres::scene::Shell;
 
 #[test]
-fn every_template_is_filled_and_walls_and_stress_stand_where_the_solver_looks_for_them() {
+fn walls_and_stress_stand_where_the_solver_looks_for_them() {
     let insulated = walls_of(["insulated"; 6]).to_vec();
     let plates = Scene {
         shape: Shape::Box([0.3, 0.1, 0.2]),
@@ -49,8 +49,6 @@ fn every_template_is_filled_and_walls_and_stress_stand_where_the_solver_looks_fo
         let files =
             files(&Scene { heat_source: Some(3000.0), ..scene.clone() }, "bed", Path::new("/checkout"));
         let files = files.unwrap();
-        are_whole(&files);
-        assert!(files.len() >= 14);
         assert_eq!(text(&files, path).contains(words), there, "{path}: {words}\n{}", text(&files, path));
     }
 }

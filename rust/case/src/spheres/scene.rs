@@ -8,7 +8,7 @@ use crate::CaseError;
 use crate::numbers::{plain, rounded};
 use crate::ranges::{self, allow};
 use crate::scene::Mechanics;
-use crate::walls::WallOverTime;
+use crate::walls::{self, WallOverTime};
 use msdd_beds::effective::LEAST_RATIO;
 use msdd_rve::message::number;
 use std::f64::consts::PI;
@@ -121,10 +121,7 @@ impl Scene {
         check_porosity(self.spheres, self.pressure, self.porosity)?;
         self.check_mechanics()?;
         ranges::end_time(self.end_time)?;
-        if let Some(value) = self.tolerance {
-            allow("tolerance", value, (1e-12..=1e6).contains(&value), || "1e-12 to 1e6 K".to_string())?;
-        }
-        Ok(())
+        self.tolerance.map_or(Ok(()), ranges::tolerance)
     }
 
     fn check_mesh(&self) -> Result<(), CaseError> {
@@ -253,8 +250,7 @@ impl Scene {
 
     /// Least and largest temperature of the initial state and of the walls at any time \[K\].
     pub fn temperatures(&self) -> [f64; 2] {
-        let walls = self.walls.iter().flat_map(WallOverTime::temperatures);
-        walls.fold([self.initial_temperature; 2], |[least, most], value| [least.min(value), most.max(value)])
+        walls::temperatures(self.initial_temperature, &self.walls)
     }
 
     /// Which walls have a temperature.

@@ -219,9 +219,7 @@ mod tests {
         assert_eq!(round.proposed_cells(&[true, true], 6.4e-3), [10, 24]);
         assert_eq!(round.point(&[0.05, 0.3]), "(0.3 0.05 0)");
         assert_eq!(round.point(&[0.0, 0.3]), "(0.3 0.001 0)");
-        assert_eq!(round.place(&[0.0, 0.3]), "radius 0 m, height 0.3 m");
         assert_eq!(round.parts(&[10, 24]), "$..numberOfSubdomains 1 1");
-        assert_eq!(round.tensor(1.0, 2.0), "(2 0 0 1 0 1)");
         assert!(round.holds(&[0.0, 0.4]) && !round.holds(&[0.1, 0.4]) && !round.holds(&[0.05, 0.4, 0.0]));
         assert!(plates.holds(&[0.3, 0.0, 0.2]) && !plates.holds(&[0.3, 0.0]));
     }
