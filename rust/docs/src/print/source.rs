@@ -27,7 +27,7 @@ pub struct Source {
     pub file: PathBuf,
     root: PathBuf,
     text: String,
-    others: OnceCell<[String; 2]>,
+    others: OnceCell<[Vec<String>; 2]>,
 }
 
 impl Source {
@@ -44,23 +44,26 @@ impl Source {
     }
 
     /// Texts of the other files of the crate, and of all other crates; without what cannot be read.
-    fn others(&self) -> &[String; 2] {
+    fn others(&self) -> &[Vec<String>; 2] {
         self.others.get_or_init(|| {
             let own = self.root.join(self.file.iter().take(2).collect::<PathBuf>());
-            let (mut files, mut texts) = (Vec::new(), [String::new(), String::new()]);
+            let (mut files, mut texts) = (Vec::new(), [Vec::new(), Vec::new()]);
             walk(&self.root.join("rust"), &mut files);
             for path in files.iter().filter(|path| **path != self.root.join(&self.file)) {
-                texts[usize::from(!path.starts_with(&own))] +=
-                    &msdd_files::read_text(path).unwrap_or_default();
+                texts[usize::from(!path.starts_with(&own))].extend(msdd_files::read_text(path));
             }
             texts
         })
     }
 
-    /// The first group of a pattern in the nearest of the sources that has it; none where they differ.
-    pub fn find(&self, pattern: &str) -> Option<String> {
+    /// The first group of a pattern in the nearest of the sources that has it; none where they differ. `words`: what a match
+    /// holds, so that few files are searched.
+    pub fn find(&self, words: &str, pattern: &str) -> Option<String> {
         let near = Some(all(pattern, &self.text)).filter(|found| !found.is_empty());
-        let far = || self.others().iter().map(|text| all(pattern, text)).find(|found| !found.is_empty());
+        let in_files = |files: &Vec<String>| -> Vec<Vec<String>> {
+            files.iter().filter(|text| text.contains(words)).flat_map(|text| all(pattern, text)).collect()
+        };
+        let far = || self.others().iter().map(in_files).find(|found| !found.is_empty());
         let mut found = near.or_else(far)?;
         found.dedup_by(|a, b| a[1] == b[1]);
         (found.len() == 1).then(|| found.swap_remove(0).swap_remove(1))
@@ -80,7 +83,7 @@ impl Source {
     /// # Errors
     /// A constant that no source has.
     pub fn constant(&self, name: &str) -> Result<String, DocsError> {
-        let found = self.find(&format!(r#"(?s)\bconst {name}: [^=]*= ("[^"]*"|[^;]*);"#));
+        let found = self.find(name, &format!(r#"(?s)\bconst {name}: [^=]*= ("[^"]*"|[^;]*);"#));
         let value = found
             .ok_or_else(|| DocsError::Print(format!("{}: not one constant {name}", self.file.display())))?;
         let range = all(r"^\[([^,\]]*), ([^,\]]*)\]$", &value);

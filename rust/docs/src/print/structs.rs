@@ -118,8 +118,8 @@ fn names_of(source: &Source, kind: &str) -> Option<String> {
         return None;
     }
     // A struct that is nearer has the name.
-    source.find(&format!(r"(?m)^(?:pub )?(enum|struct) {inner}\b")).filter(|kind| kind == "enum")?;
-    let names: Vec<String> = variants(&source.find(&body(&format!("enum {inner}")))?)
+    source.find(&inner, &format!(r"(?m)^(?:pub )?(enum|struct) {inner}\b")).filter(|kind| kind == "enum")?;
+    let names: Vec<String> = variants(&source.find(&inner, &body(&format!("enum {inner}")))?)
         .into_iter()
         .map(|(name, _)| format!("`{name}`"))
         .collect();
@@ -153,7 +153,7 @@ fn snake(variant: &str) -> String {
 /// What holds where a file does not have the field.
 fn default_of(source: &Source, name: &str, field: &Field) -> Result<String, DocsError> {
     if let Some(function) = first(r#"default = "(\w+)""#, &field.attributes) {
-        let found = source.find(&format!(r"fn {function}\(\) -> [^\{{]*\{{\s+(\S+)\s+\}}"));
+        let found = source.find(&function, &format!(r"fn {function}\(\) -> [^\{{]*\{{\s+(\S+)\s+\}}"));
         let value = found
             .ok_or_else(|| DocsError::Print(format!("{}: no value in {function}", source.file.display())))?;
         return value_of(source, &value);
@@ -170,7 +170,8 @@ fn default_of(source: &Source, name: &str, field: &Field) -> Result<String, Docs
         kind if kind.starts_with("Vec<") => "none".to_string(),
         "f64" | "u64" | "u32" | "usize" => "0".to_string(),
         kind => {
-            let body = source.find(&body(&format!("enum {}", inner(kind)))).unwrap_or_default();
+            let kind = inner(kind);
+            let body = source.find(&kind, &body(&format!("enum {kind}"))).unwrap_or_default();
             let variant = first(r"#\[default\]\s+(\w+),", &body);
             variant.map_or_else(String::new, |variant| format!("`{}`", snake(&variant)))
         }
