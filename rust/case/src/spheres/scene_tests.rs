@@ -9,13 +9,8 @@ use crate::spheres::material::MATERIALS;
 fn wishes_out_of_range_are_refused_with_key_value_and_range() {
     MATERIALS.iter().for_each(|material| material.spheres().check().unwrap());
     let no_shell = Some(Shell { young_modulus: 2e11, thickness: 0.0, thermal_expansion: 0.0 });
-    assert!(
-        Scene { shell: no_shell, ..spheres() }
-            .check()
-            .unwrap_err()
-            .to_string()
-            .contains("of the shell = 0, allowed: more")
-    );
+    let error = Scene { shell: no_shell, ..spheres() }.check().unwrap_err().to_string();
+    assert!(error.starts_with("thickness of the shell = 0, allowed: more than 0"), "{error}");
     each_is_refused(
         &spheres(),
         Scene::check,
@@ -24,6 +19,8 @@ fn wishes_out_of_range_are_refused_with_key_value_and_range() {
             (|s| s.spheres.roughness = 1e-3, "roughness = 0.001, allowed: 0 (smooth) to a hundredth"),
             (|s| s.spheres.hardness = 0.0, "hardness = 0, allowed: 1 to 1e15 Pa"),
             (|s| s.shape = Shape::Box([0.3, 0.01, 0.3]), "depth of the box = 0.01, allowed: 0.0256 to 1e6"),
+            (|s| s.spheres.grains.density = -1.0, "density = -1, allowed: "),
+            (|s| s.cells[1] = 0, "cells = 0, allowed: 1 to 4000000"),
             (|s| s.initial_temperature = 20.0, "initial temperature = 20, allowed: 273 to 1800 K"),
             (|s| s.gas.pressure = 0.0, "gas pressure = 0, allowed: 1e-3 to 1e9 Pa"),
             (|s| s.gravity = -9.81, "gravity = -9.81, allowed: 0 to 1000 m/s2 downwards"),
