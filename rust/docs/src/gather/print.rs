@@ -53,19 +53,3 @@ pub const NONE: &str = "–";
 pub fn or_none(value: Option<f64>, print: impl Fn(f64) -> String) -> String {
     value.map_or(NONE.to_string(), print)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_rounded_as_said() {
-        assert_eq!(
-            [0.0, 0.174, 0.0996, 1.64, 9.96, 26.4, 131.2, 1604.0].map(two),
-            ["0", "0.17", "0.10", "1.6", "10", "26", "131", "1\u{a0}604"]
-        );
-        assert_eq!([19706.0, -1237.0, 12.0, -0.2].map(grouped), ["19\u{a0}706", "-1\u{a0}237", "12", "0"]);
-        assert_eq!([decimals(-0.04, 1), decimals(-0.06, 1), power(4.6e-5)], ["0.0", "-0.1", "5e-5"]);
-        assert_eq!([with_scatter(71.03, 0.21, 1), or_none(None, two)], ["71.0 ± 0.2", NONE]);
-    }
-}

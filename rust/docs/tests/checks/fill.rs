@@ -27,9 +27,8 @@ fn numbers_and_tables_are_renewed_and_a_check_names_file_line_key_text_and_value
     let old = "One.\n\nOff by <!--= cases.H.T-->9<!--/--> %, of <!--=cases.rows--><!--/--> rows.\n\n<!--= table:first-->\nold\n<!--/-->\n";
     let (text, wrong) = filled("check", old, true);
     assert_eq!((text.as_str(), wrong.len()), (old, 3));
-    let message =
-        "README.md:3: 'cases.H.T' is '9' in the text, '0.74' in docs/results.json: run msdd-docs fill";
-    assert_eq!(wrong[0], message);
+    let message = "is '9' in the text, '0.74' in docs/results.json: run msdd-docs fill";
+    assert_eq!(wrong[0], format!("README.md:3: 'cases.H.T' {message}"));
     let (text, wrong) = filled("renewed", old, false);
     assert_eq!(
         text,

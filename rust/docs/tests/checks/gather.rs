@@ -2,6 +2,7 @@
 
 use super::checkout;
 use super::repository::root as project;
+use msdd_docs::gather::print::{decimals, grouped, power, two};
 use msdd_docs::gather::{Origin, renew};
 use msdd_docs::results::Results;
 use serde_json::{Value, json};
@@ -110,4 +111,12 @@ fn sections_are_numbers_and_tables_of_files_the_others_stay_and_missing_entries_
     }
     assert!(renewed("none").unwrap_err().contains("allowed: beds, cases, database"));
     assert_eq!(Results::read(&root).unwrap(), results);
+}
+
+#[test]
+fn numbers_are_rounded_as_said() {
+    let twos = [0.0, 0.174, 0.0996, 1.64, 9.96, 26.4, 131.2, 1604.0].map(two);
+    assert_eq!(twos, ["0", "0.17", "0.10", "1.6", "10", "26", "131", "1\u{a0}604"]);
+    assert_eq!([19706.0, -1237.0, 12.0, -0.2].map(grouped), ["19\u{a0}706", "-1\u{a0}237", "12", "0"]);
+    assert_eq!([decimals(-0.04, 1), decimals(-0.06, 1), power(4.6e-5)], ["0.0", "-0.1", "5e-5"]);
 }

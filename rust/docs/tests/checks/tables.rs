@@ -23,43 +23,30 @@ const KEYS: &str = "class keyTable; // keyTable no (\"no\", {})\nstatic const ke
 
 #[test]
 fn sources_are_printed_with_units_ranges_and_defaults() {
-    let files = [("case.rs", BEDS), ("way.rs", WAYS), ("rows.rs", COLUMNS)];
-    let files = files.map(|(file, text)| (format!("rust/beds/src/{file}"), text));
-    let mut files: Vec<(&str, &str)> = files.iter().map(|(file, text)| (file.as_str(), *text)).collect();
-    files.extend([("rust/python/msdd/_wall.py", MODULE), ("openfoam/walls/keys.C", KEYS)]);
-    let root = checkout("printed", &files);
-    for (source, argument, wanted) in [
-        (
-            "structs",
-            "rust/beds/src/case.rs Box",
-            "| `wide` | Width of the box at the start | m | 1e-12 to 10 | 0.5 |",
-        ),
-        (
-            "structs",
-            "rust/beds/src/case.rs Box",
-            "| `way` | How it closes | – | `all_sides`, `one_side` | `one_side` |",
-        ),
-        ("structs", "rust/beds/src/case.rs Box", "| `lid` | Its lid | – | – | no lid |"),
-        ("structs", "rust/beds/src/case.rs Box", "| `seed` | Seed | – | – | required |"),
-        ("structs", "rust/beds/src/way.rs Way", "| `all_sides` | At once |\n| `one_side` | Along x |\n"),
-        ("structs", "rust/beds/src/case.rs Bowl", "rust/beds/src/case.rs: no struct Bowl"),
-        ("columns", "rust/beds/src/rows.rs ROWS", "| `time` | s | time |\n| `p` | – | p/E* |\n"),
-        ("columns", "rust/beds/src/rows.rs LINES", "rust/beds/src/rows.rs: no columns LINES"),
-        ("python", "load", "### load\n\n`load(path, kind=None)` → `Wall`\n\nLoads a wall.\n"),
-        ("python", "load", "| `path` | `str or path` | – | of the file |"),
-        ("python", "load", "| `kind` | `str` | `None` | \"a\" or &lt;b> |"),
-        ("python", "load", "Raises `FileError` for a file that is missing.\n"),
-        ("python", "load Wall", "### Wall\n\n`Wall(friction=0.3)`\n\nA wall.\n"),
-        ("python", "Wall", "| `friction` | `float` | `0.3` | at the wall [-], 0 to 10 |"),
-        ("python", "table FileError", "| `FileError` | `OSError` | No file. |\n"),
-        ("python", "save", "rust/python/msdd has no save"),
-        (
-            "keys",
-            "walls",
-            "| `slip` | of `rigid`, `shell`: way \"s\" of grains | m | 2e-7 r to 2 r | 13 r |\n",
-        ),
-        ("keys", "walls", "| `kind` |  | – | `one`, `two` | `two` |\n"),
+    let rust = [("rust/b/box.rs", BEDS), ("rust/b/way.rs", WAYS), ("rust/b/rows.rs", COLUMNS)];
+    let others = [("rust/python/msdd/_wall.py", MODULE), ("openfoam/keys.C", KEYS)];
+    let root = checkout("printed", &[&rust[..], &others].concat());
+    for (call, wanted) in [
+        ("structs rust/b/box.rs Box", "| `wide` | Width of the box at the start | m | 1e-12 to 10 | 0.5 |"),
+        ("structs rust/b/box.rs Box", "| `way` | How it closes | – | `all_sides`, `one_side` | `one_side` |"),
+        ("structs rust/b/box.rs Box", "| `lid` | Its lid | – | – | no lid |"),
+        ("structs rust/b/box.rs Box", "| `seed` | Seed | – | – | required |"),
+        ("structs rust/b/way.rs Way", "| `all_sides` | At once |\n| `one_side` | Along x |\n"),
+        ("structs rust/b/box.rs Bowl", "rust/b/box.rs: no struct Bowl"),
+        ("columns rust/b/rows.rs ROWS", "| `time` | s | time |\n| `p` | – | p/E* |\n"),
+        ("columns rust/b/rows.rs LINES", "rust/b/rows.rs: no columns LINES"),
+        ("python load", "### load\n\n`load(path, kind=None)` → `Wall`\n\nLoads a wall.\n"),
+        ("python load", "| `path` | `str or path` | – | of the file |"),
+        ("python load", "| `kind` | `str` | `None` | \"a\" or &lt;b> |"),
+        ("python load", "Raises `FileError` for a file that is missing.\n"),
+        ("python load Wall", "### Wall\n\n`Wall(friction=0.3)`\n\nA wall.\n"),
+        ("python Wall", "| `friction` | `float` | `0.3` | at the wall [-], 0 to 10 |"),
+        ("python table FileError", "| `FileError` | `OSError` | No file. |\n"),
+        ("python save", "rust/python/msdd has no save"),
+        ("keys walls", "| `slip` | of `rigid`, `shell`: way \"s\" of grains | m | 2e-7 r to 2 r | 13 r |\n"),
+        ("keys walls", "| `kind` |  | – | `one`, `two` | `two` |\n"),
     ] {
+        let (source, argument) = call.split_once(' ').unwrap();
         let printed = text(&root, source, argument).unwrap_or_else(|error| error.to_string());
         assert!(printed.contains(wanted), "{wanted}\n{printed}");
     }
@@ -77,8 +64,10 @@ fn the_page_of_the_package_has_every_public_name_once() {
         assert_eq!(places.map(|place| python.matches(&place).count()).iter().sum::<usize>(), 1, "{name}");
     }
     for (name, row) in [
+        ("commands", "| `constant`, `paper`, `increment`, `spheres` | `increment` |"),
+        ("commands", "--wait` | 1 to 3600 | `10` |"),
+        ("commands", "| – | required |"),
         ("beds", "| `friction` | Coefficient of friction of two grains | – | 0 to 10 | required |"),
-        ("plan", "| `step` | Size of an increment h | – | 1e-5 to 1e-2 | 1e-3 |"),
         ("database", "| `wall_slip` | m | way of bottom and top along x since the packed state |"),
         ("scenes", "| `end` | End of the run | s | 1e-9 to 1e12 | required |"),
     ] {
