@@ -179,6 +179,9 @@ fn time(row: &str) -> f64 {
 mod tests {
     use super::*;
 
+    /// Files that are written, what is read then, and what is found.
+    type Step<'a> = (&'a [(&'a str, &'a str)], &'a str, Option<&'a str>, &'a str);
+
     #[test]
     fn tables_are_those_of_the_parts_of_a_run_by_the_list_or_the_newest_of_each_start() {
         let case = std::env::temp_dir().join(format!("msdd-case-tables-{}", std::process::id()));
@@ -188,7 +191,7 @@ mod tests {
         first.set_modified(std::time::SystemTime::UNIX_EPOCH).unwrap();
         let list = r#"{"schema": "msdd-tables-1", "runs": [{"start": 0, "files": ["p/0/p_0.dat", "q/0/T"]},
             {"start": 0.5, "files": ["p/0.5/p_0.5.dat"]}]}"#;
-        let steps: [(&[(&str, &str)], &str, Option<&str>, &str); 13] = [
+        let steps: [Step; 13] = [
             (
                 &[("u/10/u.dat", "10 3\n11 3\n"), ("u/2/u_2.dat", "2 1\n3 1\n12 1\n")],
                 "none",
