@@ -133,7 +133,7 @@ void Foam::runSummary::write
     (
         const string& sentence :
         {
-            range(), radiation(), contacts(), doubt(), contact(),
+            range(), radiation(), contacts(), doubt(), unloaded(), contact(),
             balance(heat), solids, steadiness(heat), motion(), cost()
         }
     )

@@ -119,6 +119,7 @@ void Foam::granularState::see(const volScalarField& T, const scalar source)
         returnReduce(sum(p*mesh_.V()), sumOp<scalar>())
        /returnReduce(sum(mesh_.V().field()), sumOp<scalar>());
     course.see(runCourse::pressure, mean, p.size() ? max(p) : mean);
+    course.load(T.time().value(), mean);
     see
     (
         runCourse::thermalStrain,

@@ -157,6 +157,26 @@ void Foam::runCourse::see
 }
 
 
+void Foam::runCourse::load(const scalar time, const scalar pressure)
+{
+    peak_ = max(peak_, pressure);
+    const bool relieved = pressure < slightLoad*peak_;
+    if (relieved && relieved_)
+    {
+        relief_.whole += time - observed_;
+    }
+    if (relieved)
+    {
+        relief_.periods += !relieved_;
+        relief_.since = relief_.least < GREAT ? relief_.since : time;
+        relief_.until = relief_.periods == 1 ? time : relief_.until;
+        relief_.least = min(relief_.least, pressure);
+    }
+    relieved_ = relieved;
+    observed_ = time;
+}
+
+
 void Foam::runCourse::mark(const scalar time)
 {
     for (label q = 0; q < quantities; ++q)
@@ -297,6 +317,15 @@ bool Foam::runCourse::remaining(scalar& heat) const
 void Foam::runCourse::read(const dictionary& dict)
 {
     dict.readIfPresent("beyondSince", beyondSince_);
+    const dictionary load(dict.subOrEmptyDict("unloaded"));
+    load.readIfPresent("peak", peak_);
+    load.readIfPresent("observed", observed_);
+    load.readIfPresent("now", relieved_);
+    load.readIfPresent("periods", relief_.periods);
+    load.readIfPresent("since", relief_.since);
+    load.readIfPresent("until", relief_.until);
+    load.readIfPresent("whole", relief_.whole);
+    load.readIfPresent("least", relief_.least);
     for (label q = 0; q < quantities; ++q)
     {
         const word key(comparedQuantities[q].key);
@@ -310,6 +339,16 @@ Foam::dictionary Foam::runCourse::written() const
 {
     dictionary dict;
     dict.add("beyondSince", beyondSince());
+    dictionary load;
+    load.add("peak", peak_);
+    load.add("observed", observed_);
+    load.add("now", relieved_);
+    load.add("periods", relief_.periods);
+    load.add("since", relief_.since);
+    load.add("until", relief_.until);
+    load.add("whole", relief_.whole);
+    load.add("least", relief_.least);
+    dict.add("unloaded", load);
     for (label q = 0; q < quantities; ++q)
     {
         const word key(comparedQuantities[q].key);
