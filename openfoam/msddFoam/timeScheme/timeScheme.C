@@ -290,6 +290,8 @@ Foam::scalar Foam::timeScheme::ofNeighbours(const scalarList& heat) const
 void Foam::timeScheme::tryHeat()
 {
     neighbours_.begin();
+    // One iteration shows whether the linear solver can be made
+    const_cast<dictionary&>(T_.mesh().solverDict(T_.name())).set("maxIter", 1);
     heat_.solve
     (
         heat_.equivalent(T_.primitiveField())(),

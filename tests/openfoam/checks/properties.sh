@@ -64,7 +64,7 @@ refused_properties() {
     check "refused: a property of another form" refused 'heatCapacity'
     bed_at_rest properties-refused
     property heatCapacity 'polynomial ((-10 0))'
-    check "refused: a heat capacity below zero" refused "Entry 'heatCapacity' is -10 at"
+    check "refused: a heat capacity below zero" refused "Entry 'heatCapacity' of constant/granularProperties is -10 at"
     changed properties-discs
     grains 'thermalConductivity table ((0 100) (100 200));'
     mesh_is '2 2 1'
