@@ -301,8 +301,7 @@ impl Law {
         let usual = Self::exponential(x, -s2).times(s1);
         let level = after * usual.inverse();
         let always = free.times(-s3).plus(s3);
-        let settled =
-            (state.compression - tried) * ((level * level).plus(1.0).inverse().times(s0) + always);
+        let settled = (state.compression - tried) * ((level * level).plus(1.0).inverse().times(s0) + always);
         let loss = (loss + state.compression.where_above(tried, settled, zero)).not_above_number(tried);
         let compression = tried - loss;
         // Contacts keep their directions where grains give way.

@@ -176,8 +176,7 @@ fn a_packing_without_load_gets_the_same_pressure_by_steps_of_any_size() {
         let start = columns(&model.file.law.start(0.6, [0.0; 6], &known));
         let pressure = |steps: u32| {
             let step = Increment { thermal: growth / f64::from(steps), ..Increment::default() };
-            let last =
-                (0..steps).fold(start, |state, _| model.advance(&state, &step, 8.5, false).state);
+            let last = (0..steps).fold(start, |state, _| model.advance(&state, &step, 8.5, false).state);
             mean(model.file.law.stress(&state(&last)))
         };
         let few = pressure(10);
