@@ -158,7 +158,8 @@ Foam::string Foam::runSummary::unloaded() const
     if (relief.periods > 1)
     {
         text +=
-            ", and in " + Foam::name(relief.periods - 1) + " later periods, "
+            ", and in " + Foam::name(relief.periods - 1) + " later period"
+          + (relief.periods > 2 ? "s, " : ", ")
           + seconds(relief.whole) + " s in all";
     }
     text += ". The least mean pressure was " + pascals(relief.least) + '.';
@@ -166,8 +167,8 @@ Foam::string Foam::runSummary::unloaded() const
     {
         text +=
             " Spheres that are sheared near no load compact more than the law"
-            " does. In a vessel heated from outside, its pressure was later up to "
-          + brief(relievedError) + " times that in DEM.";
+            " does. In a vessel heated from outside, the pressure was later up to "
+          + brief(relievedError) + " times the pressure in DEM.";
     }
     return text;
 }

@@ -167,8 +167,8 @@ void Foam::runCourse::load(const scalar time, const scalar pressure)
     }
     if (relieved)
     {
+        relief_.since = relief_.periods ? relief_.since : time;
         relief_.periods += !relieved_;
-        relief_.since = relief_.least < GREAT ? relief_.since : time;
         relief_.until = relief_.periods == 1 ? time : relief_.until;
         relief_.least = min(relief_.least, pressure);
     }

@@ -423,7 +423,8 @@ Foam::granularModels::spheres::fabricAtStart(const label size) const
             );
         }
     }
-    if (returnReduce(most, maxOp<scalar>()) > mostFabric)
+    reduce(most, maxOp<scalar>());
+    if (most > mostFabric)
     {
         WarningInFunction
             << "Entry 'fabric' of spheresCoeffs has a component of " << most
