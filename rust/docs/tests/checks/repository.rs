@@ -29,3 +29,10 @@ fn figures_of_the_book_are_those_of_the_case() {
         assert!(book == case, "docs/src/quality/{name} is not cases/HC/{name}: copy it");
     }
 }
+
+#[test]
+fn the_report_behind_the_numbers_is_whole() {
+    let results = msdd_docs::results::Results::read(&root()).unwrap();
+    let jobs: usize = results.value("report.jobs").unwrap().value.replace('\u{a0}', "").parse().unwrap();
+    assert!(jobs > 500, "{jobs} jobs");
+}
