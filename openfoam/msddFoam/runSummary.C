@@ -174,6 +174,7 @@ void Foam::runSummary::write
         << ", \"residual\": " << moved.residual
         << ", \"unconverged_residual\": " << moved.unbalanced
         << ", \"displacement\": " << moved.displacement
+        << ", \"gap\": " << moved.gap
         << ", \"warnings\": [";
     forAll(moved.warnings, i)
     {

@@ -58,6 +58,9 @@ static const scalar enoughGiving = 1e-3;
 static const scalar leastGiving = 1e-8;
 static const scalar leastShare = 0.05;
 
+//- Grains leave walls and come back at most so often in a step
+static const label mostLeaving = 20;
+
 //- Both for meshes with more nodes than this
 static const label large = 10000;
 
@@ -233,7 +236,8 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
         law_->stress(), now, slip, traction_, friction_, newTraction_
     );
 
-    r_ = start_ - inner + friction_ + weight_;
+    onWalls_ = friction_ + weight_ - inner;
+    r_ = start_ + onWalls_;
     walls_.addShells(mesh_.time().value(), nodeField(u_ + du), r_);
     if (share_ < 1)
     {
@@ -470,11 +474,56 @@ bool Foam::granularMechanicsModels::equilibrium::giveWay
 }
 
 
+bool Foam::granularMechanicsModels::equilibrium::leaveWalls
+(
+    const nodeField& target,
+    nodeField& du,
+    bool& moved,
+    nodeField& give
+)
+{
+    scalarField least(nodeSize_);
+    least *= tolerance_;
+    for (label round = 0; leaves() && round < mostLeaving; ++round)
+    {
+        if (!walls_.leave(nodeField(target + give - du), onWalls_, least))
+        {
+            return true;
+        }
+        nodeField left(target + give - du);
+        walls_.restrict(left);
+        left_ = imbalance(du, moved);
+        law_->findTangent();
+        follow(du, left);
+        moved = true;
+        if
+        (
+            !iterate(du, moved)
+         || (walls_.gives() && !giveWay(target, du, moved, give))
+        )
+        {
+            return false;
+        }
+    }
+    return true;
+}
+
+
 bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
 {
     const scalar time = mesh_.time().value();
     const nodeField u(u_), traction(traction_), given(give_);
     const nodeField way(walls_.way(time, nodeField(u_ - give_)));
+    if (leaves())
+    {
+        // Those that are held miss their wall by what the steps before left of
+        // the way by which grains give
+        walls_.setLeft
+        (
+            walls_.way(lastTime_, nodeField(u_ - give_)),
+            2*enoughGiving*gMax(mag(give_))
+        );
+    }
     granularState::memory before;
     slide_ = walls_.slide(lastTime_, time);
     share_ = 1;
@@ -499,15 +548,16 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     for (label part = 1; part <= parts; ++part)
     {
         share_ = scalar(part)/parts;
-        nodeField done(u_ - u);
-        walls_.restrict(done);
+        const nodeField done(walls_.alongWalls(nodeField(u_ - u)));
         const nodeField target(share_*way - done + give_ - given);
         nodeField du(target), give(du.size(), Zero);
+        walls_.restrict(du);
         bool moved;
         if
         (
             !balance(du, moved)
          || (walls_.gives() && !giveWay(target, du, moved, give))
+         || !leaveWalls(target, du, moved, give)
         )
         {
             placed_ = false;
@@ -575,6 +625,11 @@ bool Foam::granularMechanicsModels::equilibrium::solve(const bool lastAttempt)
     }
 
     ++steps_;
+    counters_.gap = max
+    (
+        counters_.gap,
+        walls_.largestGap(walls_.way(lastTime_, nodeField(u_ - give_)))
+    );
     const label iterations = counters_.iterations - at.iterations;
     counters_.solves += before_ > tolerance_;
     counters_.cut += parts > 1;

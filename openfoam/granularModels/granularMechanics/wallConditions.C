@@ -499,9 +499,11 @@ void Foam::wallConditions::findHeld()
     );
     across held(findAcross(holding_()));
     held_.transfer(held.nodes);
-    directions_.transfer(held.directions);
-    basis_.transfer(held.basis);
+    allDirections_.transfer(held.directions);
+    allBasis_.transfer(held.basis);
     squares_.transfer(held.squares);
+    findPushing();
+    holdOthers();
 
     scalarField pressed(mesh_.size(), Zero);
     forAll(walls_, patchi)

@@ -57,9 +57,9 @@ Foam::scalarField Foam::wallConditions::mean(scalarField& sum) const
     forAll(held_, i)
     {
         const label node = held_[i];
-        for (label k = 0; k < directions_[i]; ++k)
+        for (label k = 0; k < allDirections_[i]; ++k)
         {
-            const scalar* e = basis_.cdata() + dim*dim*i + dim*k;
+            const scalar* e = allBasis_.cdata() + dim*dim*i + dim*k;
             scalar along = 0;
             for (label j = 0; j < dim; ++j)
             {
@@ -81,9 +81,7 @@ Foam::scalarField Foam::wallConditions::way
     const scalarField& u
 ) const
 {
-    scalarField result(positions(time) - u);
-    restrict(result);
-    return result;
+    return alongWalls(scalarField(positions(time) - u));
 }
 
 

@@ -201,6 +201,45 @@ doubtful_starts() { # warnings of what no bed under load has at the start
     check "12 contacts per sphere: a warning" bash -c "tr -s ' \n' ' ' < log | grep -q 'is 12: random packings under load have from 2 to 9'"
 }
 
+left_bed() { # folder, hexahedra along z: a closed bed under its weight is cooled and warmed up again, so slowly that it has one temperature
+    spheres_bed "$1" "walls { $smooth }"
+    block_mesh '(0 0 0) (1 0 0) (1 1 0) (0 1 0) (0 0 1) (1 0 1) (1 1 1) (0 1 1)' "hex (0 1 2 3 4 5 6 7) (2 2 $2) simpleGrading (1 1 1)" '' '
+        top { type wall; faces ((4 5 6 7)); } bottom { type wall; faces ((0 3 2 1)); }
+        sides { type wall; faces ((0 1 5 4) (3 7 6 2) (0 4 7 3) (1 2 6 5)); }'
+    cat > constant/g <<-'END'
+	FoamFile { version 2.0; format ascii; class uniformDimensionedVectorField; object g; }
+	dimensions [0 1 -2 0 0 0 0]; value (0 0 -2);
+	END
+    sed -i 's/type zeroGradient;/type uniformFixedValue; uniformValue table ((0 300) (8 220) (16 300));/' 0/T
+    sed -i 's/heatCapacity 800/heatCapacity 1e-6/' constant/granularProperties
+    sed -i 's/^endTime 1; deltaT 1; writeInterval 1;/endTime 16; deltaT 1; writeInterval 8;/' system/controlDict
+}
+left_lid() { # the lid bears nothing while it is cold, the floor the weight, and no cell is without load
+    local gap finer least floor
+    left_bed walls-left 4
+    logged msddFoam
+    gap=$(sed -n 's/.*they left walls, by at most \([^ ]*\) mm.*/\1/p' log)
+    least=$(field 8/pressure | awk '{ if (NR == 1 || $1 < p) p = $1 } END { print p }')
+    check "cold spheres leave the lid by $gap mm" is_within "$gap" 0.3 3
+    check "and the highest cells bear their own weight, $least Pa" is_within "$least" 100 400
+    floor=$(field 8/stress | head -n 4 | awk '{ p -= $6/4 } END { print p }')
+    check "the lowest cells bear $floor Pa along z, 7/8 of the weight (2581 Pa)" is_within "$floor" 2570 2592
+    left_bed walls-left-fine 8
+    logged msddFoam
+    finer=$(sed -n 's/.*they left walls, by at most \([^ ]*\) mm.*/\1/p' log)
+    check "with twice the cells by $finer mm" is_within "$(awk "BEGIN { print $finer/$gap }")" 0.95 1.05
+    left_bed walls-left-half 4
+    sed -i 's/endTime 16/endTime 8/' system/controlDict
+    logged msddFoam
+    sed -i 's/endTime 8/endTime 16/; s/^FoamFile.*/&\nstartFrom latestTime;/' system/controlDict
+    logged msddFoam
+    check "a run that begins with the gap ends as one without a stop" below "$(difference 16 ../walls-left/16)" 1e-6
+    left_bed walls-left-parts 4
+    in_parts "1 3"
+    side_by_side 3
+    check "and so do three processes" grep -q "they left walls, by at most $gap mm" log
+}
+
 closed_beds
 round_vessel pillar 16 10 1 3 arc
 round_vessel ball tetrahedra

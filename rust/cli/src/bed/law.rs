@@ -23,9 +23,10 @@ use std::path::{Path, PathBuf};
 
 The law begins with stress, solid fraction, contacts and fabric of the first row of elements.csv, and follows the strain of the rows. No
 wall, no weight and no other place of the bed plays a part, so that differences are those of the law. Under a lid
-that presses, 'stress kept' follows the stress along the axis instead of the strain there. 'jamming' is by how much the solid
-fraction without load has grown, in units of 1e-5: of the spheres from their solid fraction and pressure, and of the law. 'shear' is the
-length of the path of the shear strain.")]
+that presses, and in a shell, 'stress kept' follows the stress along the axis instead of the strain there: where the side leaves a bed
+under its weight, a small error of the strain changes the pressure by decades. 'jamming' is by how much the solid fraction without
+load has grown, in units of 1e-5: of the spheres from their solid fraction and pressure, and of the law. 'shear' is the length of the
+path of the shear strain.")]
 pub struct Arguments {
     /// Folders with elements.toml and elements-<seed>.csv, or elements.csv alone; or folders of such folders.
     #[arg(required = true)]
@@ -128,7 +129,7 @@ fn paths_of(law: &Law, folder: &Path) -> Result<Vec<Course>, CliError> {
         all.push(Course {
             name,
             rows: rows(law, &track, &times, modulus),
-            pressed: scene.lid.pressing.is_some(),
+            pressed: track.steps.iter().any(|step| step.gives_way.is_some()),
         });
     }
     Ok(all)
