@@ -21,7 +21,10 @@
 //! | [`wall`] | what a wall adds to the resistance of a bed |
 //! | [`links`] | conductances between the spheres of a simulation: contact, gas |
 //! | [`facing`](mod@facing) | which part of a plate belongs to which sphere |
+//! | [`rays`] | straight rays between spheres and walls |
+//! | [`exchange`](mod@exchange) | exchange of heat by radiation between spheres and walls, by ray tracing |
 //! | [`correlation`] | published correlation for packed beds |
+//! | [`radiation`] | conductivity by radiation in closed form |
 //! | `solve` | conjugate gradients |
 //! | [`network`] | the network of a bed at rest with plates; conductances by temperature |
 //! | [`transient`] | temperatures of the spheres in time |
@@ -50,6 +53,7 @@ pub mod correlation;
 pub mod cost;
 pub mod coupled;
 pub mod effective;
+pub mod exchange;
 pub mod experiment;
 pub mod facing;
 pub mod gas;
@@ -66,6 +70,8 @@ pub mod pour;
 pub mod press;
 pub mod profile;
 pub mod property;
+pub mod radiation;
+pub mod rays;
 pub mod region;
 pub mod rows;
 pub mod scatter;

@@ -16,6 +16,13 @@ impl Random {
         Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
+    /// One of 2⁶⁴ independent streams of a seed.
+    pub fn stream(seed: u64, stream: u64) -> Self {
+        let mut numbers = ChaCha8Rng::seed_from_u64(seed);
+        numbers.set_stream(stream);
+        Self(numbers)
+    }
+
     /// Uniform in [low, high).
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;

@@ -3,8 +3,12 @@
 //! The box is cut into N³ voxels with one temperature each. Between the middles of two neighbours heat goes along columns of a finer
 //! grid, in each through what there is of solid and gas one after the other: exact for layers along and across. The error falls with
 //! 1/N (the spots where spheres touch are never resolved), so solutions at two N are extrapolated.
+//!
+//! Surfaces that radiate exchange heat along rays ([`crate::rays`]) between the voxels just below them.
 
+use crate::rays::Spot;
 use crate::solve::{conjugate_gradients, inner};
+use msdd_spheres::space::plus;
 
 /// Finer cells in a voxel, along each axis.
 const FINE: usize = 4;
@@ -16,6 +20,15 @@ const RESIDUAL: f64 = 1e-5;
 pub struct Ball {
     pub centre: [f64; 3],
     pub radius: f64,
+}
+
+/// A ray from one voxel to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    from: u32,
+    to: u32,
+    /// From the one to the image of the other, in voxels.
+    way: [i16; 3],
 }
 
 /// A periodic cube of spheres on voxels.
@@ -55,9 +68,31 @@ impl Voxels {
         Self { count, columns, solid_fraction: filled / (fine * fine * fine) as f64 }
     }
 
+    /// A ray between two points of the surfaces of balls.
+    pub fn sight(&self, from: &Spot, to: &Spot) -> Sight {
+        let count = self.count as i64;
+        let place = |spot: &Spot| {
+            let below = plus(spot.point, -0.5 / count as f64, spot.normal);
+            below.map(|x| (x * count as f64).floor() as i64)
+        };
+        let number = |place: [i64; 3]| {
+            let [x, y, z] = place.map(|x| x.rem_euclid(count));
+            ((z * count + y) * count + x) as u32
+        };
+        let (from, to) = (place(from), place(to));
+        let way = std::array::from_fn(|k| (to[k] - from[k]) as i16);
+        Sight { from: number(from), to: number(to), way }
+    }
+
     /// K/k_g along an axis for k_s/k_g = `ratio`; none if the iteration does not converge.
     pub fn conductivity(&self, ratio: f64, axis: usize) -> Option<f64> {
+        self.radiating(ratio, axis, (&[], 0.0))
+    }
+
+    /// The same with surfaces that exchange heat along each of some rays with a conductance, over k_g and the edge of the cube.
+    pub fn radiating(&self, ratio: f64, axis: usize, (sights, each): (&[Sight], f64)) -> Option<f64> {
         let count = self.count;
+        let each = each * count as f64;
         let column: [f64; FINE + 1] = std::array::from_fn(|solid| {
             let gas = (FINE - solid) as f64;
             1.0 / (solid as f64 / ratio + gas) / FINE as f64
@@ -84,6 +119,14 @@ impl Voxels {
                 }
             }
         }
+        for sight in sights {
+            let (from, to) = (sight.from as usize, sight.to as usize);
+            let heat = each * f64::from(sight.way[axis]);
+            diagonal[from] += each;
+            diagonal[to] += each;
+            residual[from] += heat;
+            residual[to] -= heat;
+        }
         let scale = inner(&residual, &residual);
         let apply = |direction: &[f64], flow: &mut [f64]| {
             for (a, faces) in faces.iter().enumerate() {
@@ -94,11 +137,21 @@ impl Voxels {
                     flow[other] -= heat;
                 }
             }
+            for sight in sights {
+                let (from, to) = (sight.from as usize, sight.to as usize);
+                let heat = each * (direction[from] - direction[to]);
+                flow[from] += heat;
+                flow[to] -= heat;
+            }
         };
         let enough = |residual: &[f64]| inner(residual, residual) <= RESIDUAL * RESIDUAL * scale;
         let found = conjugate_gradients(apply, &diagonal, &mut residual, enough)?;
         let flux = (0..total).map(|n| faces[axis][n] * (1.0 + found[next(n, axis)] - found[n])).sum::<f64>();
-        Some(flux / total as f64)
+        let along = |sight: &Sight| {
+            let way = f64::from(sight.way[axis]);
+            each * way * (way + found[sight.to as usize] - found[sight.from as usize])
+        };
+        Some((flux + sights.iter().map(along).sum::<f64>()) / total as f64)
     }
 }
 

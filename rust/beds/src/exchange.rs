@@ -1,0 +1,179 @@
+//! Exchange of heat by radiation between the spheres and walls of a bed, by ray tracing.
+//!
+//! Surfaces are opaque, grey and diffuse, and each sphere and wall has one temperature. The share s_ij of what body i emits is absorbed by
+//! body j, after any reflections between, and heat between both is 4 σ T³ ε_i A_i s_ij (T_i − T_j) for small differences: ε_i A_i s_ij
+//! = ε_j A_j s_ji (Modest, Radiative Heat Transfer, 2003, section 20.3). A packing hardly moves, so its shares are traced once.
+
+use crate::links::Link;
+use crate::rays::{Body, Enclosure};
+use crate::scatter::Random;
+use msdd_engine::message::number;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Rays from each sphere below which the noise is told.
+pub const FEW_RAYS: usize = 100;
+
+/// How many rays are traced, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tracing {
+    /// Rays from each sphere, 1 to 1 000 000, and from each wall whose area is known.
+    pub rays: usize,
+    pub seed: u64,
+    /// The result does not depend on it.
+    pub threads: usize,
+}
+
+/// ε \[-\] of spheres and of each wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Emissivities {
+    pub spheres: f64,
+    pub walls: Vec<f64>,
+}
+
+/// A value outside of its range.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("radiation: {key} = {value}, allowed: {allowed}", value = number(*value))]
+pub struct OutOfRange {
+    pub key: &'static str,
+    pub value: f64,
+    pub allowed: &'static str,
+}
+
+impl OutOfRange {
+    /// The value, if it is allowed.
+    pub(crate) fn check(
+        key: &'static str,
+        value: f64,
+        fits: bool,
+        allowed: &'static str,
+    ) -> Result<(), Self> {
+        if fits { Ok(()) } else { Err(Self { key, value, allowed }) }
+    }
+
+    /// An emissivity of a body that radiates.
+    pub(crate) fn emissivity(key: &'static str, value: f64) -> Result<(), Self> {
+        Self::check(key, value, value > 0.0 && value <= 1.0, "above 0, to 1")
+    }
+}
+
+/// Part of what a body emits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// By which it is absorbed.
+    pub body: Body,
+    /// Which image of it, in numbers of cells along the edges.
+    pub shift: [i32; 3],
+    /// \[-\]
+    pub share: f64,
+}
+
+/// The exchange in a packing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exchange {
+    pub emissivities: Emissivities,
+    /// A \[m²\] of each sphere.
+    pub areas: Vec<f64>,
+    /// What each sphere emits, by absorbers in order; they sum to 1.
+    pub spheres: Vec<Vec<Share>>,
+    /// What a wall emits and its area \[m²\], if that is known: of flat walls beside a cell that repeats itself.
+    pub walls: Vec<Option<(f64, Vec<Share>)>>,
+    rays: usize,
+}
+
+/// Traces the rays of all bodies. Bytes do not depend on the number of threads.
+///
+/// # Errors
+/// A number outside its range.
+pub fn exchange(
+    enclosure: &Enclosure,
+    emissivities: &Emissivities,
+    tracing: &Tracing,
+) -> Result<Exchange, OutOfRange> {
+    OutOfRange::emissivity("emissivity", emissivities.spheres)?;
+    emissivities.walls.iter().try_for_each(|e| OutOfRange::emissivity("emissivity of a wall", *e))?;
+    let walls = enclosure.walls().len();
+    let given = emissivities.walls.len();
+    OutOfRange::check("walls with an emissivity", given as f64, given == walls, "as many as the bed has")?;
+    let rays = tracing.rays;
+    OutOfRange::check("rays", rays as f64, (1..=1_000_000).contains(&rays), "1 to 1000000")?;
+    let count = enclosure.radii().len();
+    let row = |body: usize| {
+        let wall = body.checked_sub(count);
+        let area = wall.map_or(Some(0.0), |wall| enclosure.wall_area(wall));
+        area.map(|area| (area, shares(enclosure, emissivities, tracing, (body, wall))))
+    };
+    let bodies = count + walls;
+    let threads = tracing.threads.clamp(1, bodies.max(1));
+    let each = bodies.div_ceil(threads);
+    let mut rows: Vec<Option<(f64, Vec<Share>)>> = vec![None; bodies];
+    std::thread::scope(|scope| {
+        for (number, part) in rows.chunks_mut(each.max(1)).enumerate() {
+            let row = &row;
+            scope.spawn(move || {
+                part.iter_mut().enumerate().for_each(|(k, place)| *place = row(number * each + k));
+            });
+        }
+    });
+    let walls = rows.split_off(count);
+    let spheres = rows.into_iter().flatten().map(|(_, shares)| shares).collect();
+    let areas = enclosure.radii().iter().map(|r| 4.0 * PI * r * r).collect();
+    Ok(Exchange { emissivities: emissivities.clone(), areas, spheres, walls, rays })
+}
+
+/// Of one body, which is a sphere unless it is a wall.
+fn shares(
+    enclosure: &Enclosure,
+    emissivities: &Emissivities,
+    tracing: &Tracing,
+    (body, wall): (usize, Option<usize>),
+) -> Vec<Share> {
+    let mut random = Random::stream(tracing.seed, body as u64);
+    let absorbed = |body: Body| match body {
+        Body::Sphere(_) => emissivities.spheres,
+        Body::Wall(wall) => emissivities.walls[wall as usize],
+        Body::Open => 1.0,
+    };
+    let mut counts = BTreeMap::new();
+    for _ in 0..tracing.rays {
+        let start = match wall {
+            None => enclosure.on_sphere(body, &mut random),
+            Some(wall) => enclosure.on_wall(wall, &mut random),
+        };
+        let end = enclosure.follow(start, absorbed, &mut random);
+        *counts.entry((end.body, end.shift)).or_insert(0u32) += 1;
+    }
+    let share = |count: u32| f64::from(count) / tracing.rays as f64;
+    counts.into_iter().map(|((body, shift), count)| Share { body, shift, share: share(count) }).collect()
+}
+
+impl Exchange {
+    /// Conductances between the spheres over 4 σ T³ \[m²\], one for each direction: ε A s/2, so that both together are the mean of what
+    /// both spheres found.
+    pub fn links(&self, enclosure: &Enclosure) -> Vec<Link> {
+        let mut links = Vec::new();
+        for (i, shares) in self.spheres.iter().enumerate() {
+            let half = 0.5 * self.emissivities.spheres * self.areas[i];
+            for share in shares {
+                if let Body::Sphere(j) = share.body {
+                    let (j, conductance) = (j as usize, half * share.share);
+                    links.push(Link { i, j, branch: enclosure.branch(i, j, share.shift), conductance });
+                }
+            }
+        }
+        links
+    }
+
+    /// Says which noise few rays leave.
+    pub fn warning(&self) -> Option<String> {
+        (self.rays < FEW_RAYS).then(|| {
+            format!(
+                "radiation: rays = {}: each share of a sphere has a standard deviation of up to {:.0} % of what the sphere emits; from {FEW_RAYS} \
+                 rays on it is at most {:.0} %",
+                self.rays,
+                50.0 / (self.rays as f64).sqrt(),
+                50.0 / (FEW_RAYS as f64).sqrt()
+            )
+        })
+    }
+}

@@ -1,0 +1,190 @@
+//! Exchange by radiation against closed forms, and in packings.
+
+use msdd_beds::conductivity::{conductivity, mean};
+use msdd_beds::exchange::{Emissivities, Exchange, Share, Tracing, exchange};
+use msdd_beds::radiation::factor;
+use msdd_beds::rays::{Body, Enclosure};
+use msdd_beds::{Packing, pack};
+use msdd_engine::Lattice;
+use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Stiffness, Wall};
+use std::f64::consts::PI;
+
+fn material() -> Material {
+    let stiffness = Stiffness::HertzMindlin { young_modulus: 1.0, poisson_ratio: 0.25 };
+    Material { density: 1.0, stiffness, friction: 0.3, wall_friction: 0.0, restitution: 0.3 }
+}
+
+fn share(shares: &[Share], body: Body) -> f64 {
+    shares.iter().filter(|share| share.body == body).map(|share| share.share).sum()
+}
+
+fn trace(enclosure: &Enclosure, spheres: f64, walls: &[f64], rays: usize) -> Exchange {
+    let emissivities = Emissivities { spheres, walls: walls.to_vec() };
+    exchange(enclosure, &emissivities, &Tracing { rays, seed: 1, threads: 2 }).expect("a room")
+}
+
+/// Two plates at z = 0 and 1 beside a cell of edge 1 that repeats itself, with these spheres between them.
+fn between(spheres: &[([f64; 3], f64)]) -> Enclosure {
+    let lattice = Lattice { origin: [0.0; 3], edges: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+    let walls =
+        vec![Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]), Wall::at_rest([0.0, 0.0, 1.0], [0.0, 0.0, -1.0])];
+    Enclosure::of(spheres, lattice, [true, true, false], walls)
+}
+
+/// Two grey plates exchange 1/(1/ε₁ + 1/ε₂ − 1) of what black ones do.
+#[test]
+fn plates_exchange_as_two_resistances_say() {
+    let traced = trace(&between(&[]), 1.0, &[0.7, 0.4], 1_000_000);
+    let (_, shares) = traced.walls[0].as_ref().expect("an area");
+    let found = 0.7 * share(shares, Body::Wall(1));
+    assert!((found * (1.0 / 0.7 + 1.0 / 0.4 - 1.0) - 1.0).abs() < 2e-3, "{found}");
+    let black = trace(&between(&[]), 1.0, &[1.0, 1.0], 1000);
+    assert_eq!(share(&black.walls[0].as_ref().expect("an area").1, Body::Wall(1)), 1.0);
+}
+
+/// Two black plates with one layer of black spheres between them: a sphere gives each plate half of what it does not give to its layer,
+/// and a plate gives to the layer, by reciprocity, π d²/A of that; the rest passes.
+#[test]
+fn a_layer_of_black_spheres_shades_two_plates() {
+    let radius = 0.3;
+    let traced = trace(&between(&[([0.5; 3], radius)]), 1.0, &[1.0, 1.0], 1_000_000);
+    let layer = share(&traced.spheres[0], Body::Sphere(0));
+    let half = 0.5 * (1.0 - layer);
+    for wall in 0..2 {
+        let to_wall = share(&traced.spheres[0], Body::Wall(wall));
+        assert!((to_wall / half - 1.0).abs() < 2e-3, "{to_wall} {half}");
+        let (area, shares) = traced.walls[wall as usize].as_ref().expect("an area");
+        let expected = 4.0 * PI * radius * radius / area * half;
+        assert!((share(shares, Body::Sphere(0)) / expected - 1.0).abs() < 2e-3, "{expected}");
+        assert!((share(shares, Body::Wall(1 - wall)) - (1.0 - expected)).abs() < 1e-3);
+    }
+}
+
+/// A sphere anywhere in a block gives each wall the solid angle at which its centre sees it, over 4π: of the four rectangles of a
+/// wall with a corner at the foot of the centre, atan(a b/(h √(a² + b² + h²))) each.
+#[test]
+fn a_sphere_in_a_block_sees_solid_angles() {
+    let (size, centre) = ([3.0, 2.0, 1.5], [1.1, 0.7, 0.6]);
+    let walls = Wall::block(size);
+    let spheres = vec![Sphere::at_rest(centre, 0.4, 1.0)];
+    let room = Simulation::new(material(), spheres, Boundary::Walls(walls)).expect("a room");
+    let traced = trace(&Enclosure::new(&room), 1.0, &[1.0; 6], 1_000_000);
+    for wall in 0..6 {
+        let axis = wall / 2;
+        let height = if wall % 2 == 0 { centre[axis] } else { size[axis] - centre[axis] };
+        let sides = |k: usize| [centre[k], size[k] - centre[k]];
+        let (mut angle, [u, v]) = (0.0, [(axis + 1) % 3, (axis + 2) % 3]);
+        for a in sides(u) {
+            for b in sides(v) {
+                angle += (a * b / (height * (a * a + b * b + height * height).sqrt())).atan();
+            }
+        }
+        let found = share(&traced.spheres[0], Body::Wall(wall as u32));
+        assert!((found - angle / (4.0 * PI)).abs() < 1.2e-3, "{wall}: {found} {}", angle / (4.0 * PI));
+    }
+    assert!(traced.walls.iter().all(Option::is_none));
+}
+
+/// In a cylinder without a lid what nothing absorbs leaves: a sphere on the axis sees the solid angles of disc, side and opening.
+#[test]
+fn rays_leave_an_open_cylinder() {
+    let walls =
+        vec![Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]), Wall::cylinder([0.0; 3], [0.0, 0.0, 1.0], 1.0)];
+    let spheres = vec![Sphere::at_rest([0.0, 0.0, 0.8], 0.3, 1.0)];
+    let room = Simulation::new(material(), spheres, Boundary::Walls(walls)).expect("a room");
+    let traced = trace(&Enclosure::new(&room), 1.0, &[1.0; 2], 400_000);
+    let disc = 0.5 * (1.0 - 0.8 / (1.0f64 + 0.64).sqrt());
+    let found = [Body::Wall(0), Body::Wall(1), Body::Open].map(|body| share(&traced.spheres[0], body));
+    // The side has no end, and takes all that goes up.
+    assert!((found[0] - disc).abs() < 2e-3 && (found[1] - 1.0 + disc).abs() < 2e-3, "{found:?} {disc}");
+}
+
+fn packing() -> (Simulation, f64) {
+    let packing = Packing {
+        spheres: 200,
+        seed: 1,
+        diameter: 1.0,
+        material: material(),
+        pressure: 1e-5,
+        steps: 400_000,
+    };
+    let packed = pack(&packing).expect("a packing");
+    (packed.simulation, packed.averages.solid_fraction)
+}
+
+/// Sums, reciprocity, threads, and F as of two packings of 4000 spheres with φ = 0.5895 and 0.6034 that were traced apart from this program,
+/// on a straight line over φ.
+#[test]
+fn a_packing_exchanges_what_others_have() {
+    let (simulation, phi) = packing();
+    let enclosure = Enclosure::new(&simulation);
+    let volume = simulation.cell().expect("periodic").volume();
+    for (emissivity, [loose, dense]) in [(1.0, [1.058, 1.033]), (0.6, [0.609, 0.590]), (0.2, [0.274, 0.259])]
+    {
+        let expected = loose + (dense - loose) * (phi - 0.5895) / (0.6034 - 0.5895);
+        let rays = 1000;
+        let traced = trace(&enclosure, emissivity, &[], rays);
+        let (mut most, mut off, mut pairs) = (0.0f64, 0.0, 0.0);
+        for (i, shares) in traced.spheres.iter().enumerate() {
+            let sum: f64 = shares.iter().map(|share| share.share).sum();
+            most = most.max((sum - 1.0).abs());
+            for j in i + 1..traced.spheres.len() {
+                let there = share(shares, Body::Sphere(j as u32));
+                let back = share(&traced.spheres[j], Body::Sphere(i as u32));
+                // Each count has the variance of its mean.
+                if there + back > 0.0 {
+                    off += (there - back).powi(2) / ((there + back) / rays as f64);
+                    pairs += 1.0;
+                }
+            }
+        }
+        assert!(most < 1e-12, "{most}");
+        assert!(off / pairs < 1.1, "{off} {pairs}");
+        let links = traced.links(&enclosure);
+        let found = conductivity(&links, 200, volume).expect("a network");
+        let (affine, network) = (mean(&found.affine), mean(&found.network));
+        assert!((affine / expected - 1.0).abs() < 0.02, "{emissivity}: {affine} at {phi}");
+        assert!((affine / factor(emissivity, phi) - 1.0).abs() < 0.03);
+        assert!(network < affine && network > 0.98 * affine, "{network} {affine}");
+    }
+    let emissivities = Emissivities { spheres: 0.5, walls: Vec::new() };
+    let by = |threads| exchange(&enclosure, &emissivities, &Tracing { rays: 20, seed: 3, threads });
+    let one = by(1).expect("a trace");
+    assert_eq!(one, by(3).expect("a trace"));
+    let told = one.warning().expect("few rays");
+    assert!(told.starts_with("radiation: rays = 20:") && told.contains("11 %"), "{told}");
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let enclosure = between(&[]);
+    let refused = |spheres: f64, walls: &[f64], rays: usize| {
+        let emissivities = Emissivities { spheres, walls: walls.to_vec() };
+        let found = exchange(&enclosure, &emissivities, &Tracing { rays, seed: 1, threads: 1 });
+        found.map(|_| ()).unwrap_err().to_string()
+    };
+    assert_eq!(refused(1.2, &[1.0; 2], 100), "radiation: emissivity = 1.2, allowed: above 0, to 1");
+    assert_eq!(refused(1.0, &[1.0, 0.0], 100), "radiation: emissivity of a wall = 0, allowed: above 0, to 1");
+    assert_eq!(refused(1.0, &[1.0; 2], 0), "radiation: rays = 0, allowed: 1 to 1000000");
+    assert!(refused(1.0, &[1.0], 100).contains("as many as the bed has"));
+}
+
+/// A sheared cell is the same packing: F does not change when the third edge is replaced by its sum with the first.
+#[test]
+fn another_cell_of_the_same_packing_is_the_same() {
+    let (simulation, _) = packing();
+    let Some(cell) = simulation.cell() else { panic!("periodic") };
+    let sheared = |by: f64| {
+        let [a, b, mut c] = cell.lattice.edges;
+        c[0] += by * a[0];
+        Cell { lattice: Lattice { origin: cell.lattice.origin, edges: [a, b, c] }, ..*cell }
+    };
+    let found = [0.0, 1.0].map(|by| {
+        let spheres = simulation.spheres.clone();
+        let same = Simulation::new(material(), spheres, Boundary::Periodic(sheared(by))).expect("a cell");
+        let enclosure = Enclosure::new(&same);
+        let links = trace(&enclosure, 1.0, &[], 500).links(&enclosure);
+        mean(&conductivity(&links, 200, cell.volume()).expect("a network").affine)
+    });
+    assert!((found[0] / found[1] - 1.0).abs() < 1e-2, "{found:?}");
+}
