@@ -206,12 +206,13 @@ pub struct msdd_sphere_material {
     pub gas: *const ::core::ffi::c_char,
     pub gas_pressure: f64,
     pub accommodation: f64,
+    pub emissivity: f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
     [
         "Size of msdd_sphere_material",
-    ][::core::mem::size_of::<msdd_sphere_material>() - 80usize];
+    ][::core::mem::size_of::<msdd_sphere_material>() - 88usize];
     [
         "Alignment of msdd_sphere_material",
     ][::core::mem::align_of::<msdd_sphere_material>() - 8usize];
@@ -245,6 +246,9 @@ const _: () = {
     [
         "Offset of field: msdd_sphere_material::accommodation",
     ][::core::mem::offset_of!(msdd_sphere_material, accommodation) - 72usize];
+    [
+        "Offset of field: msdd_sphere_material::emissivity",
+    ][::core::mem::offset_of!(msdd_sphere_material, emissivity) - 80usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -262,6 +266,7 @@ pub struct msdd_sphere_batch {
     pub tangent: *const *mut f64,
     pub conductivity: *const *mut f64,
     pub gas_conductivity: *mut f64,
+    pub radiation_conductivity: *mut f64,
     pub solid_fraction: *mut f64,
     pub outside: *mut u8,
     pub outside_cells: usize,
@@ -270,7 +275,7 @@ pub struct msdd_sphere_batch {
 const _: () = {
     [
         "Size of msdd_sphere_batch",
-    ][::core::mem::size_of::<msdd_sphere_batch>() - 128usize];
+    ][::core::mem::size_of::<msdd_sphere_batch>() - 136usize];
     [
         "Alignment of msdd_sphere_batch",
     ][::core::mem::align_of::<msdd_sphere_batch>() - 8usize];
@@ -314,14 +319,17 @@ const _: () = {
         "Offset of field: msdd_sphere_batch::gas_conductivity",
     ][::core::mem::offset_of!(msdd_sphere_batch, gas_conductivity) - 96usize];
     [
+        "Offset of field: msdd_sphere_batch::radiation_conductivity",
+    ][::core::mem::offset_of!(msdd_sphere_batch, radiation_conductivity) - 104usize];
+    [
         "Offset of field: msdd_sphere_batch::solid_fraction",
-    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 104usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 112usize];
     [
         "Offset of field: msdd_sphere_batch::outside",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 112usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 120usize];
     [
         "Offset of field: msdd_sphere_batch::outside_cells",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 120usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 128usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]

@@ -207,6 +207,7 @@ typedef struct msdd_sphere_material {
     const char *gas;      /**< "air", "nitrogen", "helium", "argon" or "vacuum"; NULL = "vacuum" */
     double gas_pressure;  /**< [Pa], 1e-3 to 1e9; not used in a vacuum */
     double accommodation; /**< of the gas at the spheres, 0.01 to 1; not used in a vacuum */
+    double emissivity;    /**< of the spheres, opaque, grey and diffuse, 0 to 1; 0: without radiation */
 } msdd_sphere_material;
 
 /** Inputs and outputs of one step of a batch of cells. Six columns of a tensor are xx, yy, zz, xy, xz, yz; of a strain the last
@@ -231,9 +232,10 @@ typedef struct msdd_sphere_batch {
     double *const *stress;         /**< six columns after the step [Pa] */
     double *const *tangent;        /**< 36 columns [Pa], row by row: -d sigma_i/d strain_j at the end of the step. It is the
                                         derivative of exactly the stress that is answered, and not symmetric */
-    double *const *conductivity;   /**< six columns after the step [W/(m K)], contacts and gas together */
+    double *const *conductivity;   /**< six columns after the step [W/(m K)], contacts, gas and radiation together */
     double *gas_conductivity;      /**< the part of it by the gas [W/(m K)], its mean over directions: there is more of it
                                         where contacts point */
+    double *radiation_conductivity; /**< what radiation between the spheres adds, alike in all directions [W/(m K)] */
     double *solid_fraction;        /**< volume of the spheres over the volume [-] */
     uint8_t *outside;              /**< what is outside of the training, as a sum: 1 the jamming fraction, 2 the pressure, 4 the
                                         stress ratio after the step; 8 the gas: its number, or where it is so thin that its

@@ -8,6 +8,7 @@ use ::msdd_surrogate::spheres::tensor::Tensor;
 use msdd_beds::effective::{BedMaterial, BedState, LEAST_NUMBER, LEAST_RATIO};
 use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
+use msdd_beds::radiation::{Dark, black};
 use msdd_beds::solid::{Roughness, Solid};
 use std::ffi::CStr;
 
@@ -15,6 +16,8 @@ use std::ffi::CStr;
 #[derive(Clone, Copy)]
 pub(crate) struct Material {
     bed: BedMaterial,
+    /// ε, 0: without radiation.
+    emissivity: f64,
 }
 
 /// The gas at a temperature.
@@ -25,12 +28,14 @@ pub(crate) struct GasThere {
     pub outside: bool,
     /// None in a vacuum.
     gas: Option<Gas>,
+    temperature: f64,
 }
 
-/// Conductivity of a bed \[W/(m K)\], and the part of it by gas.
+/// Conductivity of a bed \[W/(m K)\], and the parts of it by gas and radiation.
 pub(crate) struct Conductivity {
     pub tensor: Tensor,
     pub gas: f64,
+    pub radiation: f64,
 }
 
 // Below the law's range the closure goes on from its end.
@@ -89,8 +94,11 @@ impl Material {
                 ranged("material.gas_pressure", given.gas_pressure, [1e-3, 1e9], "1e-3 to 1e9 Pa")?;
             accommodation = ranged("material.accommodation", given.accommodation, [0.01, 1.0], "0.01 to 1")?;
         }
+        let emissivity =
+            ranged("material.emissivity", given.emissivity, [0.0, 1.0], "0 to 1; 0: without radiation")?;
         let solid = Solid { conductivity, effective_modulus, roughness };
-        Ok(Self { bed: BedMaterial { radius: 0.5 * diameter, solid, gas, gas_pressure, accommodation } })
+        let bed = BedMaterial { radius: 0.5 * diameter, solid, gas, gas_pressure, accommodation };
+        Ok(Self { bed, emissivity })
     }
 
     /// k_s \[W/(m K)\].
@@ -116,7 +124,7 @@ impl Material {
     /// The gas at a temperature \[K\].
     pub fn gas(&self, temperature: f64) -> Result<GasThere, Failure> {
         let Some(gas) = self.bed.gas_at(temperature) else {
-            return Ok(GasThere { number: GAS_RANGE[1], outside: false, gas: None });
+            return Ok(GasThere { number: GAS_RANGE[1], outside: false, gas: None, temperature });
         };
         if self.bed.ratio(&gas) < LEAST_RATIO {
             let least =
@@ -126,7 +134,7 @@ impl Material {
         let number = self.bed.gas_number(&gas);
         let [coldest, hottest] = self.bed.gas.range();
         let outside = !self.bed.knows(&gas, GAS_RANGE) || temperature < coldest || temperature > hottest;
-        Ok(GasThere { number, outside, gas: Some(gas) })
+        Ok(GasThere { number, outside, gas: Some(gas), temperature })
     }
 
     /// Conductivity of a bed for which the law answers this, as the cell of a block.
@@ -143,11 +151,22 @@ impl Material {
         );
         let solid = self.bed.solid.conductivity * conduction.contacts;
         let normal = |k: usize| if k < 3 { conduction.gas } else { 0.0 };
-        let tensor = std::array::from_fn(|k| {
+        let mut tensor: Tensor = std::array::from_fn(|k| {
             let of_gas = normal(k) + conduction.gas_of_pairs * answers.gas_deviator[k][cell];
             solid * answers.contact[k][cell] + of_gas
         });
-        Conductivity { tensor, gas: conduction.gas }
+        let mut radiation = 0.0;
+        if self.emissivity > 0.0 {
+            let dark = Dark {
+                conductivity: (tensor[0] + tensor[1] + tensor[2]) / 3.0,
+                solid: self.bed.solid.conductivity,
+                gas: gas.gas.map_or(0.0, |gas| gas.conductivity),
+                solid_fraction: answers.solid[cell],
+            };
+            radiation = dark.radiation(black(gas.temperature, 2.0 * self.bed.radius), self.emissivity);
+            tensor[..3].iter_mut().for_each(|along| *along += radiation);
+        }
+        Conductivity { tensor, gas: conduction.gas, radiation }
     }
 }
 

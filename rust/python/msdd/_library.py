@@ -47,7 +47,7 @@ SphereMaterialStruct = _struct(
     "msdd_sphere_material",
     *_each(c.c_double, "diameter young_modulus poisson_ratio conductivity roughness hardness"),
     ("gas", c.c_char_p),
-    *_each(c.c_double, "gas_pressure accommodation"),
+    *_each(c.c_double, "gas_pressure accommodation emissivity"),
 )
 SphereWallStruct = _struct(
     "msdd_sphere_wall",
@@ -57,7 +57,7 @@ SphereBatchStruct = _struct(
     "msdd_sphere_batch",
     ("cells", c.c_size_t),
     *_each(Doubles, "state thermal_strain strain rotation temperature solid_conductivity"),
-    *_each(Doubles, "next_state stress tangent conductivity gas_conductivity solid_fraction outside"),
+    *_each(Doubles, "next_state stress tangent conductivity gas_conductivity radiation_conductivity solid_fraction outside"),
     ("outside_cells", c.c_size_t),
 )
 AveragesStruct = _struct(

@@ -41,6 +41,8 @@ class SphereMaterial:
     """pressure of the gas [Pa], 1e-3 to 1e9; not used in a vacuum"""
     accommodation: float = 0.9
     """accommodation coefficient of the gas at the spheres, 0.01 to 1; not used in a vacuum"""
+    emissivity: float = 0.0
+    """of the spheres, opaque, grey and diffuse, 0 to 1; 0: without radiation"""
 
     def _struct(self) -> c.Structure:
         return SphereMaterialStruct(
@@ -48,7 +50,7 @@ class SphereMaterial:
             *map(float, (self.diameter, self.young_modulus, self.poisson_ratio, self.conductivity)),
             *map(float, (self.roughness, self.hardness)),
             encoded("gas", self.gas),
-            *map(float, (self.gas_pressure, self.accommodation)),
+            *map(float, (self.gas_pressure, self.accommodation, self.emissivity)),
         )
 
 
@@ -88,9 +90,11 @@ class SphereStep:
     stress: Array
     """sigma [Pa], compression positive"""
     conductivity: Array
-    """K [W/(m K)], of contacts and gas together"""
+    """K [W/(m K)], of contacts, gas and radiation together"""
     gas_conductivity: Array
     """the part of it by the gas [W/(m K)], its mean over directions: there is more of it where contacts point"""
+    radiation_conductivity: Array
+    """what radiation between the spheres adds, alike in all directions [W/(m K)]"""
     solid_fraction: Array
     """volume of the spheres over the volume [-]"""
     outside: NDArray[np.bool_]
@@ -255,7 +259,7 @@ class Spheres:
         )
         after = {name: np.empty(shape) for name in self._state_names}
         stress, conductivity = np.empty((6, *shape)), np.empty((6, *shape))
-        answers = {name: np.empty(shape) for name in ("gas_conductivity", "solid_fraction")}
+        answers = {name: np.empty(shape) for name in ("gas_conductivity", "radiation_conductivity", "solid_fraction")}
         outside = np.empty(shape, np.bool_)
         stiffness = np.empty((6, 6, *shape)) if tangent else None
         # Arrays and tables live to the end of this function, and so do the addresses in the batch.

@@ -231,6 +231,7 @@ struct Columns<'a> {
     tangent: Vec<Output<f64>>,
     conductivity: Vec<Output<f64>>,
     gas: Output<f64>,
+    radiation: Output<f64>,
     solid: Output<f64>,
     outside: Output<u8>,
 }
@@ -279,6 +280,7 @@ impl<'a> Columns<'a> {
                 tangent: wanted("tangent", batch.tangent, 36)?,
                 conductivity: wanted("conductivity", batch.conductivity, 6)?,
                 gas: Output::new(batch.gas_conductivity, cells),
+                radiation: Output::new(batch.radiation_conductivity, cells),
                 solid: Output::new(batch.solid_fraction, cells),
                 outside: Output::new(batch.outside, cells),
             }
@@ -364,6 +366,7 @@ impl<'a> Columns<'a> {
                     column.write_one(cell, value);
                 }
                 self.gas.write_one(cell, found.gas);
+                self.radiation.write_one(cell, found.radiation);
                 self.outside.write_one(cell, outside);
                 count += usize::from(outside > 0);
             }

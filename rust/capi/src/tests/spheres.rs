@@ -5,6 +5,8 @@ use crate::abi::{msdd_sphere_batch, msdd_sphere_material, msdd_sphere_wall, msdd
 use crate::sphere_material::Material;
 use ::msdd_surrogate::spheres::model::{Increment, NAMES, SphereModel};
 use ::msdd_surrogate::spheres::state::Known;
+use msdd_beds::named_gases::GasName;
+use msdd_beds::radiation::{Dark, black};
 
 struct Law(*mut msdd_spheres);
 
@@ -40,6 +42,7 @@ const STEEL: msdd_sphere_material = msdd_sphere_material {
     gas: c"air".as_ptr(),
     gas_pressure: 1.013e5,
     accommodation: 0.7,
+    emissivity: 0.0,
 };
 
 fn pointers(columns: &[Vec<f64>]) -> Vec<*const f64> {
@@ -90,6 +93,7 @@ const NOTHING: msdd_sphere_batch = msdd_sphere_batch {
     tangent: null(),
     conductivity: null(),
     gas_conductivity: null_mut(),
+    radiation_conductivity: null_mut(),
     solid_fraction: null_mut(),
     outside: null_mut(),
     outside_cells: 0,
@@ -120,6 +124,50 @@ fn conductivity_of_the_spheres_can_differ_between_cells() {
     let usual = conducting(&STEEL, null());
     assert_eq!(mixed, [usual[0], conducting(&poorer, null())[1]]);
     assert!(mixed[1] < usual[1]);
+}
+
+/// Radiation adds the same along all axes, what [`Dark`] says of the conductivity without it, and nothing at emissivity 0.
+#[test]
+fn radiation_adds_to_the_conductivity() {
+    let law = Law::builtin();
+    let mut state = start(&law, 2);
+    let given = writable(&mut state);
+    let input: Vec<*const f64> = given.iter().map(|column| column.cast_const()).collect();
+    let hot = [900.0, 1200.0];
+    let conducting = |emissivity: f64| {
+        let (mut tensor, mut added, mut solid) = (vec![vec![-7.0; 2]; 6], [-7.0; 2], [-7.0; 2]);
+        let columns = writable(&mut tensor);
+        let mut batch = msdd_sphere_batch {
+            cells: 2,
+            state: input.as_ptr(),
+            temperature: hot.as_ptr(),
+            conductivity: columns.as_ptr(),
+            radiation_conductivity: added.as_mut_ptr(),
+            solid_fraction: solid.as_mut_ptr(),
+            ..NOTHING
+        };
+        let material = msdd_sphere_material { conductivity: 2.0, emissivity, ..STEEL };
+        // SAFETY: live, full struct, columns of two values.
+        let status = unsafe { msdd_spheres_advance(law.0, &material, &mut batch) };
+        assert_eq!(status, MSDD_OK, "{}", last_error());
+        (tensor, added, solid)
+    };
+    let ((dark, none, solid), (bright, added, _)) = (conducting(0.0), conducting(0.8));
+    assert_eq!(none, [0.0; 2]);
+    for cell in 0..2 {
+        let bed = Dark {
+            conductivity: (dark[0][cell] + dark[1][cell] + dark[2][cell]) / 3.0,
+            solid: 2.0,
+            gas: GasName::Air.at(hot[cell], 1.013e5, 0.7).expect("air").conductivity,
+            solid_fraction: solid[cell],
+        };
+        let expected = bed.radiation(black(hot[cell], STEEL.diameter), 0.8);
+        assert!((added[cell] / expected - 1.0).abs() < 1e-12 && added[cell] > 0.2, "{added:?} {expected}");
+        for k in 0..6 {
+            let more = if k < 3 { added[cell] } else { 0.0 };
+            assert_eq!(bright[k][cell], dark[k][cell] + more);
+        }
+    }
 }
 
 #[test]
@@ -310,6 +358,7 @@ fn what_cannot_be_is_refused() {
     );
     material(msdd_sphere_material { gas: c"steam".as_ptr(), ..STEEL }, "material.gas = steam, allowed: air");
     material(msdd_sphere_material { gas_pressure: 0.0, ..STEEL }, "material.gas_pressure = 0");
+    material(msdd_sphere_material { emissivity: 1.5, ..STEEL }, "material.emissivity = 1.5, allowed: 0 to 1");
     material(msdd_sphere_material { roughness: 1e-6, hardness: 0.0, ..STEEL }, "material.hardness = 0");
     material(msdd_sphere_material { conductivity: 0.01, ..STEEL }, "at least that of the gas, which is 0.02");
     let mut out = null_mut();
