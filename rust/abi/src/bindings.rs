@@ -341,10 +341,11 @@ pub struct msdd_sphere_wall {
     pub roughness: f64,
     pub hardness: f64,
     pub spheres: f64,
+    pub emissivity: f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_sphere_wall"][::core::mem::size_of::<msdd_sphere_wall>() - 56usize];
+    ["Size of msdd_sphere_wall"][::core::mem::size_of::<msdd_sphere_wall>() - 64usize];
     [
         "Alignment of msdd_sphere_wall",
     ][::core::mem::align_of::<msdd_sphere_wall>() - 8usize];
@@ -369,6 +370,9 @@ const _: () = {
     [
         "Offset of field: msdd_sphere_wall::spheres",
     ][::core::mem::offset_of!(msdd_sphere_wall, spheres) - 48usize];
+    [
+        "Offset of field: msdd_sphere_wall::emissivity",
+    ][::core::mem::offset_of!(msdd_sphere_wall, emissivity) - 56usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]

@@ -13,7 +13,7 @@ use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::press::press;
 use msdd_beds::property::Property;
 use msdd_beds::solid::{Roughness, Solid};
-use msdd_beds::wall::Wall;
+use msdd_beds::wall::{Radiating, Wall};
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::{Material, Simulation, Stiffness};
 
@@ -96,7 +96,7 @@ fn report(bed: &Simulation, pressure: f64, seed: u64, gas: GasName, area: f64) {
             gas.as_str(),
             ["floor", "lid"][plate],
             jump / flux * conductivity / DIAMETER,
-            surface.resistance(&bed, force, T, conductivity) * conductivity / DIAMETER,
+            surface.resistance(&bed, force, T, conductivity, &Radiating::NONE) * conductivity / DIAMETER,
         );
     }
 }

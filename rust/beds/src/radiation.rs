@@ -31,6 +31,8 @@ const REFLECTED: f64 = 0.4556;
 const EMITTED: [f64; 2] = [2.163, 0.613];
 /// c.
 const WIDTH: f64 = 1.1;
+/// Of the interval in which the conductivity without radiation is searched: to 1e-9 of it.
+const HALVINGS: usize = 30;
 /// (k_s − k_g)/k_s below which the limit of equal conductivities is taken.
 const EQUAL: f64 = 1e-3;
 
@@ -86,6 +88,19 @@ impl Dark {
     }
 }
 
+/// K_rad \[W/(m K)\] of a bed that conducts `bed.conductivity` with it, in place of without it.
+pub fn part(bed: &Dark, black: f64, emissivity: f64) -> f64 {
+    let total = bed.conductivity;
+    let with = |conductivity: f64| Dark { conductivity, ..*bed }.radiation(black, emissivity);
+    // What radiation adds falls where more is conducted without it, but by less than that grows.
+    let (mut low, mut high) = (0.0, total);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if middle + with(middle) < total { low = middle } else { high = middle }
+    }
+    total - high
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,5 +151,15 @@ mod tests {
         };
         assert!((near(0.0) / near(2e-3) - 1.0).abs() < 2e-3, "{} {}", near(0.0), near(2e-3));
         assert_eq!(bed.radiation(0.0, 0.7), 0.0);
+    }
+
+    #[test]
+    fn the_part_of_radiation_is_found_again() {
+        for conductivity in [0.02, 0.4, 1.2] {
+            let bed = Dark { conductivity, solid: 2.0, gas: 0.01, solid_fraction: 0.6 };
+            let added = bed.radiation(3.0, 0.8);
+            let both = Dark { conductivity: conductivity + added, ..bed };
+            assert!((part(&both, 3.0, 0.8) / added - 1.0).abs() < 1e-6, "{conductivity}");
+        }
     }
 }

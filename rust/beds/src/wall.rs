@@ -6,6 +6,12 @@
 //! spheres, which lie R away from it. The body has conducted over this distance, too: so what the wall adds is R_w = 1/h − R/K, or
 //! nothing if that is negative.
 //!
+//! Radiation goes from the wall to spheres of several layers, and adds h_r = 4 σ T³/(1/ε_w − 0.44 + 0.335/F) to h, with the emissivity ε_w of
+//! the wall and K_rad = 4 σ T³ d F of the bed. Found by ray tracing in a bed of 1000 spheres that was poured on a floor, with spheres of
+//! one temperature each: for emissivities of wall and spheres from 0.2 to 1, R_w is within 0.1/(4 σ T³), or 2 %, of what the network has.
+//! Without the bed's own half diameter it is the jump of temperature beside a dense cloud, 1/ε_w − 1/2 (Deissler, J. Heat Transfer 86, 240, 1964),
+//! less 0.165/F, because the layers beside a wall are loose.
+//!
 //! Beside a floor along which spheres were poured, with n = 0.87 (counted are gaps up to half a radius), this h is 2 to 11 % above that of the
 //! network, whose plate is shared by all spheres that see it ([`crate::facing`]): not all n spheres bear (`examples/walls.rs`).
 
@@ -47,8 +53,39 @@ impl Wall {
 
     /// R_w \[m² K/W\] beside a bed that conducts `conductivity` \[W/(m K)\] across the wall, 0 at least. Infinite where nothing
     /// conducts.
-    pub fn resistance(&self, bed: &BedMaterial, stress: f64, temperature: f64, conductivity: f64) -> f64 {
-        (1.0 / self.conductance(bed, stress, temperature) - bed.radius / conductivity).max(0.0)
+    pub fn resistance(
+        &self,
+        bed: &BedMaterial,
+        stress: f64,
+        temperature: f64,
+        conductivity: f64,
+        radiating: &Radiating,
+    ) -> f64 {
+        let between = self.conductance(bed, stress, temperature) + radiating.conductance(2.0 * bed.radius);
+        (1.0 / between - bed.radius / conductivity).max(0.0)
+    }
+}
+
+/// A wall that radiates to a bed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Radiating {
+    /// ε_w, 0: it does not.
+    pub emissivity: f64,
+    /// 4 σ T³ d, and what radiation is of the conductivity of the bed \[W/(m K)\].
+    pub black: f64,
+    pub bed: f64,
+}
+
+impl Radiating {
+    pub const NONE: Self = Self { emissivity: 0.0, black: 0.0, bed: 0.0 };
+
+    /// h_r \[W/(m² K)\] between the wall and the centres of the first spheres, of this diameter \[m\].
+    pub fn conductance(&self, diameter: f64) -> f64 {
+        if self.emissivity <= 0.0 || self.bed <= 0.0 {
+            return 0.0;
+        }
+        let factor = self.bed / self.black;
+        self.black / diameter / (1.0 / self.emissivity - 0.44 + 0.335 / factor)
     }
 }
 
@@ -77,7 +114,7 @@ mod tests {
         assert!((SMOOTH.conductance(&bed, 8e4, 300.0) / found - 2.0).abs() < 1e-12);
         let few = Wall { spheres: 0.125, ..SMOOTH };
         assert!((few.conductance(&bed, 1e4, 300.0) / found - 0.25).abs() < 1e-12);
-        assert_eq!(SMOOTH.resistance(&bed, 0.0, 300.0, 0.5), f64::INFINITY);
+        assert_eq!(SMOOTH.resistance(&bed, 0.0, 300.0, 0.5, &Radiating::NONE), f64::INFINITY);
     }
 
     /// Gas, poor walls and rough surfaces each count in the right direction; the bed's own half diameter is taken off.
@@ -91,8 +128,27 @@ mod tests {
         let rough = Wall { roughness: Some(Roughness { height_over_slope: 2e-6, hardness: 3e9 }), ..SMOOTH };
         assert!(at(&rough, &bed) < at(&SMOOTH, &bed));
         let h = at(&SMOOTH, &air);
-        let found = SMOOTH.resistance(&air, 1e4, 300.0, 2e-3 * h);
+        let found = SMOOTH.resistance(&air, 1e4, 300.0, 2e-3 * h, &Radiating::NONE);
         assert!((found * h - 0.5).abs() < 1e-12, "{found}");
-        assert_eq!(SMOOTH.resistance(&air, 1e4, 300.0, 1e-4 * h), 0.0);
+        assert_eq!(SMOOTH.resistance(&air, 1e4, 300.0, 1e-4 * h, &Radiating::NONE), 0.0);
+    }
+
+    /// As networks of a bed of 1000 spheres that was poured on a floor have it by ray tracing: emissivity of the wall, F, and R_w 4 σ T³.
+    #[test]
+    fn walls_radiate_as_ray_tracing_says() {
+        for [wall, factor, expected] in [
+            [1.0, 1.026, 0.401],
+            [0.6, 1.027, 1.076],
+            [0.2, 1.027, 4.324],
+            [1.0, 0.584, 0.281],
+            [0.6, 0.584, 0.956],
+            [0.2, 0.584, 4.251],
+            [1.0, 0.257, -0.091],
+        ] {
+            let diameter = 2.0;
+            let radiating = Radiating { emissivity: wall, black: diameter, bed: factor * diameter };
+            let found = 1.0 / radiating.conductance(diameter) - 0.5 / factor;
+            assert!((found - expected).abs() < 0.08, "{wall} {factor}: {found} {expected}");
+        }
     }
 }

@@ -286,6 +286,7 @@ typedef struct msdd_sphere_wall {
                                0: smooth */
     double hardness;      /**< of the softer of both surfaces [Pa], 1 to 1e15; not used when smooth */
     double spheres;       /**< spheres at the wall on the square of a diameter, 0.01 to 1.16 */
+    double emissivity;    /**< of the wall, 0 to 1; it exchanges radiation with spheres whose emissivity is above 0 */
 } msdd_sphere_wall;
 
 /** What a wall adds to the resistance of a bed that is taken to conduct alike up to its surface [m2 K/W], for each of `faces` faces:

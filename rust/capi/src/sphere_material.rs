@@ -8,8 +8,9 @@ use ::msdd_surrogate::spheres::tensor::Tensor;
 use msdd_beds::effective::{BedMaterial, BedState, LEAST_NUMBER, LEAST_RATIO};
 use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
-use msdd_beds::radiation::{Dark, black};
+use msdd_beds::radiation::{Dark, black, part};
 use msdd_beds::solid::{Roughness, Solid};
+use msdd_beds::wall::Radiating;
 use std::ffi::CStr;
 
 /// A checked material.
@@ -40,6 +41,9 @@ pub(crate) struct Conductivity {
 
 // Below the law's range the closure goes on from its end.
 const _: () = assert!(GAS_RANGE[0] == LEAST_NUMBER);
+
+/// Solid fraction of a bed beside a wall, which hardly matters for the part of radiation in its conductivity.
+const USUAL_SOLID: f64 = 0.6;
 
 /// Least number of contacts per sphere of a packing that bears load.
 const LEAST_CONTACTS: f64 = 2.0;
@@ -135,6 +139,17 @@ impl Material {
         let [coldest, hottest] = self.bed.gas.range();
         let outside = !self.bed.knows(&gas, GAS_RANGE) || temperature < coldest || temperature > hottest;
         Ok(GasThere { number, outside, gas: Some(gas), temperature })
+    }
+
+    /// What a bed that conducts this \[W/(m K)\] at a temperature exchanges with a wall.
+    pub fn radiating(&self, temperature: f64, conductivity: f64) -> Radiating {
+        if self.emissivity == 0.0 {
+            return Radiating::NONE;
+        }
+        let gas = self.bed.gas_at(temperature).map_or(0.0, |gas| gas.conductivity);
+        let black = black(temperature, 2.0 * self.bed.radius);
+        let bed = Dark { conductivity, solid: self.bed.solid.conductivity, gas, solid_fraction: USUAL_SOLID };
+        Radiating { emissivity: 0.0, black, bed: part(&bed, black, self.emissivity) }
     }
 
     /// Conductivity of a bed for which the law answers this, as the cell of a block.

@@ -51,7 +51,7 @@ SphereMaterialStruct = _struct(
 )
 SphereWallStruct = _struct(
     "msdd_sphere_wall",
-    *_each(c.c_double, "conductivity young_modulus poisson_ratio roughness hardness spheres"),
+    *_each(c.c_double, "conductivity young_modulus poisson_ratio roughness hardness spheres emissivity"),
 )
 SphereBatchStruct = _struct(
     "msdd_sphere_batch",

@@ -70,12 +70,14 @@ class SphereWall:
     """of the softer of both [Pa], 1 to 1e15; not used when smooth"""
     spheres: float = 0.87
     """spheres at the wall on the square of a diameter, 0.01 to 1.16"""
+    emissivity: float = 0.0
+    """of the wall, 0 to 1; it exchanges radiation with spheres whose emissivity is above 0"""
 
     def _struct(self) -> c.Structure:
         return SphereWallStruct(
             c.sizeof(SphereWallStruct),
             *map(float, (self.conductivity, self.young_modulus, self.poisson_ratio)),
-            *map(float, (self.roughness, self.hardness, self.spheres)),
+            *map(float, (self.roughness, self.hardness, self.spheres, self.emissivity)),
         )
 
 

@@ -7,7 +7,7 @@ use crate::columns::{Input, Output};
 use crate::si::LARGEST_STRESS;
 use crate::sphere_material::{Material, compliance, conductivity, ranged, roughness};
 use crate::status::{Failure, status};
-use msdd_beds::wall::Wall;
+use msdd_beds::wall::{Radiating, Wall};
 
 /// Largest resistance that is answered \[m² K/W\], where nothing conducts.
 const LARGEST: f64 = 1e9;
@@ -44,6 +44,7 @@ pub unsafe extern "C" fn msdd_spheres_wall_resistance(
         let (material, wall) =
             unsafe { (Material::new(&sized("material", material)?)?, sized("wall", wall)?) };
         let bed = material.bed();
+        let emissivity = ranged("wall.emissivity", wall.emissivity, [0.0, 1.0], "0 to 1")?;
         let wall = surface(&wall, 0.5 / material.modulus())?;
         if resistance.is_null() && faces > 0 {
             return Err(Failure::null("resistance"));
@@ -67,7 +68,11 @@ pub unsafe extern "C" fn msdd_spheres_wall_resistance(
             // Where grains do not touch and there is no gas
             let found = match conductivity.at(face) {
                 0.0 => LARGEST,
-                across => wall.resistance(bed, stress.at(face), temperature.at(face), across),
+                across => {
+                    let there = temperature.at(face);
+                    let radiating = Radiating { emissivity, ..material.radiating(there, across) };
+                    wall.resistance(bed, stress.at(face), there, across, &radiating)
+                }
             };
             resistance.write_one(face, found.min(LARGEST));
         }

@@ -381,6 +381,7 @@ const WALL: msdd_sphere_wall = msdd_sphere_wall {
     roughness: 0.0,
     hardness: 0.0,
     spheres: 0.9,
+    emissivity: 0.8,
 };
 
 /// Contacts of Hertz in a vacuum: 2 a k with a^3 = 3 F R/(4 E*). Gas takes from the resistance, and no load leaves none but gas.
@@ -412,7 +413,15 @@ fn walls_have_the_resistance_of_their_spheres() {
     assert_eq!(found[1], 1e9);
     let (_, gas) = ask(&STEEL, &WALL, [1e4, 0.0]);
     assert!(gas[0] < found[0] && gas[0] < gas[1] && gas[1] < 0.1, "{gas:?}");
+    // Both have to radiate.
+    let (bright, cold) =
+        (msdd_sphere_material { emissivity: 0.8, ..vacuum }, msdd_sphere_wall { emissivity: 0.0, ..WALL });
+    assert_eq!(ask(&bright, &cold, [1e4, 0.0]).1, found);
+    let radiating = ask(&bright, &WALL, [1e4, 0.0]).1;
+    // 4 σ T³ = 6.12 W/(m² K) of black bodies at 300 K.
+    assert!(radiating[0] < found[0] && 1.0 / (radiating[1] + 3.2e-3 / 0.5) < 6.12, "{radiating:?}");
     for (wall, said) in [
+        (msdd_sphere_wall { emissivity: 2.0, ..WALL }, "wall.emissivity = 2, allowed: 0 to 1"),
         (msdd_sphere_wall { spheres: 2.0, ..WALL }, "wall.spheres = 2, allowed: 0.01 to 1.16"),
         (msdd_sphere_wall { roughness: 1e-6, ..WALL }, "wall.hardness = 0"),
         (msdd_sphere_wall { conductivity: 0.0, ..WALL }, "wall.conductivity = 0"),
