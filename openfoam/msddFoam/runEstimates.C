@@ -66,11 +66,18 @@ Foam::string Foam::runSummary::radiation() const
     }
     const scalar hottest =
         grains_.record().course.values(runCourse::temperature).most;
-    const string text
+    const sphereEstimates::added found
     (
         sphereEstimates(properties_, grains_).radiation(hottest)
     );
-    return text.empty() ? text : string("Doubt: " + text + ".");
+    return
+        found.text.empty()
+      ? string()
+      : string
+        (
+            (found.missing ? "Doubt: Radiation " : "Radiation: it ")
+          + found.text + "."
+        );
 }
 
 

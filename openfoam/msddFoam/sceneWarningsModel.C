@@ -86,13 +86,13 @@ void Foam::sceneWarnings::checkSpheres()
     }
     const runCourse& course = grains_.record().course;
     const sphereEstimates estimates(properties_, grains_);
-    const string radiation
+    const sphereEstimates::added radiation
     (
         estimates.radiation(course.values(runCourse::temperature).most)
     );
-    if (!radiation.empty())
+    if (radiation.missing)
     {
-        add(radiation);
+        add("Radiation " + radiation.text);
     }
     const sphereEstimates::contacts contacts
     (

@@ -17,7 +17,6 @@ License
 #include "sphereEstimates.H"
 #include "briefNumber.H"
 #include "pascals.H"
-#include "spheresModel.H"
 #include "constants.H"
 
 #include <cmath>
@@ -30,7 +29,7 @@ namespace Foam
 {
 
 //- Share of the conductivity from which on radiation is told
-static const scalar muchRadiation = 0.05;
+static const scalar muchRadiation = 0.02;
 
 //- Force that one contact in a hundred exceeds, over the mean: log(200)/1.5
 static const scalar largeForce = 3.5;
@@ -93,35 +92,48 @@ Foam::scalar Foam::sphereEstimates::hertzPressure(const scalar force) const
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::string Foam::sphereEstimates::radiation(const scalar temperature) const
+Foam::sphereEstimates::added
+Foam::sphereEstimates::radiation(const scalar temperature) const
 {
-    const scalar black =
-        4*physicoChemical::sigma.value()*pow3(temperature)*diameter_;
-    const scalar emissivity =
-        granularModels::spheres::keys.number(coeffs_, "emissivity");
-    const scalar k =
-        properties_.conductivityFunction().value(temperature)
-       /max(black, VSMALL);
-    const scalar factor =
-        0.5756*emissivity*std::atan(1.5353*std::pow(k, 0.8011)/emissivity)
-      + 0.1843;
-    const scalar added = black*factor;
-    const scalar own =
-        mean(tr(grains_.conductivity().primitiveField())()/3);
-    if (!(added > muchRadiation*own))
+    const granularModel& model = grains_.model();
+    scalarField state(model.stateNames().size());
+    forAll(state, i)
     {
-        return string();
+        const word& name = model.stateNames()[i];
+        state[i] =
+            mean(grains_.mesh().lookupObject<volScalarField>(name));
     }
-    return
-        "Radiation would add about " + brief(added) + " W/(m K) at "
-      + Foam::name(std::round(temperature)) + " K to the " + brief(own)
-      + " W/(m K) of the bed (" + brief(100*added/max(own, VSMALL))
-      + " %), and is not in the model; emissivity " + brief(emissivity)
+    granularModel::radiating found;
+    if
+    (
+        !model.radiation(state, temperature, found)
+     || !(found.conductivity > muchRadiation*found.without)
+    )
+    {
+        return added({string(), false});
+    }
+    const string size
+    (
+        brief(found.conductivity) + " W/(m K) at "
+      + Foam::name(std::round(temperature)) + " K to the "
+      + brief(found.without) + " W/(m K) of the bed ("
+      + brief(100*found.conductivity/max(found.without, VSMALL)) + " %)"
+    );
+    const string emissivity("emissivity " + brief(found.emissivity));
+    if (found.inModel)
+    {
+        return added({"adds " + size + "; " + emissivity, false});
+    }
+    return added
+    ({
+        "would add about " + size + ", and is not in the model; " + emissivity
       + (
-            coeffs_.found("emissivity")
-          ? ""
-          : ", assumed (key emissivity of spheresCoeffs)"
-        );
+            found.assumed
+          ? ", assumed (key emissivity of spheresCoeffs)"
+          : " (radiation is off)"
+        ),
+        true
+    });
 }
 
 

@@ -76,8 +76,15 @@ const keyTable granularModels::spheres::keys
         },
         {
             "emissivity",
-            "emissivity of the spheres, only for the estimate of radiation: the"
-            " run warns above 5 % of the conductivity", "-", "0.01 to 1", "0.9"
+            "emissivity of the spheres, which are opaque, grey and diffuse: above"
+            " 0 they conduct by"
+            " [radiation](../theory/spheres-law.md#radiation), too. At 0 the run"
+            " warns where radiation would add more than 2 % to the conductivity",
+            "-", "0 to 1", "0"
+        },
+        {
+            "radiation", "off: without radiation, whatever the emissivity",
+            "-", "on, off", "on"
         },
         {
             "coordination",
@@ -140,6 +147,11 @@ static const keyTable sphereWallKeys
             "spheres at the wall per square of a diameter: 0.85 to 0.87 along a"
             " wall of a poured bed, 1.155 in a hexagonal layer", "-",
             "0.01 to 1.16", "0.87"
+        },
+        {
+            "emissivity",
+            "emissivity of the wall, which exchanges radiation with spheres that"
+            " radiate", "-", "0 to 1", "that of the spheres"
         }
     }
 );
@@ -157,6 +169,9 @@ static const scalar leastContacts = 2, mostContacts = 9;
 //- Largest usual share of a direction in the fabric: of one third in boxes,
 //- poured beds have up to 0.37, strongly sheared ones 0.45
 static const scalar mostFabric = 0.45;
+
+//- Emissivity of ceramics and of oxidised metals, taken where none is given
+static const scalar usualEmissivity = 0.9;
 
 //- Solid fraction of a usual packing
 static const scalar usualSolid = 0.6;
@@ -254,8 +269,9 @@ msdd_sphere_material Foam::granularModels::spheres::material() const
     result.gas = gas_.c_str();
     result.gas_pressure = keys.number(coeffs_, "gasPressure");
     result.accommodation = keys.number(coeffs_, "accommodation");
-    // Only for the estimate of radiation (see sphereEstimates)
-    keys.number(coeffs_, "emissivity");
+    const scalar emissivity = keys.number(coeffs_, "emissivity");
+    const bool on = keys.choice(coeffs_, "radiation") == "on";
+    result.emissivity = on ? emissivity : 0;
     return result;
 }
 
@@ -281,6 +297,8 @@ msdd_sphere_wall Foam::granularModels::spheres::wall() const
             sphereWallKeys.within(dict, key, dict.get<scalar>(key));
     }
     result.spheres = sphereWallKeys.number(dict, "spheres");
+    result.emissivity =
+        sphereWallKeys.number(dict, "emissivity", material_.emissivity);
     return result;
 }
 
@@ -673,6 +691,55 @@ bool Foam::granularModels::spheres::knownGas
     {
         failed("the pressure of the gas", error);
     }
+    return true;
+}
+
+
+bool Foam::granularModels::spheres::radiation
+(
+    const scalarField& state,
+    const scalar T,
+    radiating& answer
+) const
+{
+    answer.inModel = material_.emissivity > 0;
+    answer.emissivity = keys.number(coeffs_, "emissivity");
+    answer.assumed = !(answer.emissivity > 0);
+    if (answer.assumed)
+    {
+        answer.emissivity = usualEmissivity;
+    }
+    msdd_sphere_material material(material_);
+    material.emissivity = answer.emissivity;
+    const scalar k = properties_.conductivityFunction().value(T);
+    std::vector<const scalar*> before;
+    for (label i = 2; i < state.size(); ++i)
+    {
+        before.push_back(&state[i]);
+    }
+    FixedList<scalar, 6> K(scalar(0));
+    std::vector<scalar*> columns;
+    for (scalar& component : K)
+    {
+        columns.push_back(&component);
+    }
+    msdd_sphere_batch batch = msdd_sphere_batch();
+    batch.struct_size = sizeof(msdd_sphere_batch);
+    batch.cells = 1;
+    batch.state = before.data();
+    batch.temperature = &T;
+    batch.solid_conductivity = &k;
+    batch.conductivity = columns.data();
+    batch.radiation_conductivity = &answer.conductivity;
+    try
+    {
+        law_.advance(material, batch);
+    }
+    catch (const std::exception& error)
+    {
+        failed("radiation", error);
+    }
+    answer.without = (K[0] + K[1] + K[2])/3 - answer.conductivity;
     return true;
 }
 

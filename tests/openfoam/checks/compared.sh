@@ -46,22 +46,41 @@ pebbles() { # lithium orthosilicate in helium, heated from inside between plates
     check "it held $share of the heat that it holds when steady" is_within "$(echo "$held $long $share" | awk '{ print $1/$2/$3 }')" 0.985 1.015
     said "and is steady in the end" 'Steady state: reached; at the end T changes by at most'
 }
-hot_alumina() { # F of Singh and Kaviany at T with the emissivity 0.9, or another
-    local t added expected
+hot_alumina() { # what the closed form of rust/beds/src/radiation.rs adds in a vacuum, in the model and out of it
+    local t dark added missing expected on off
+    conductivity() {
+        awk -F '[:,]' '/"conductivity_(xx|yy|zz)"/ { sum += $2 } END { printf "%.8g", sum/3 }' postProcessing/msddFoam/summary.json
+    }
     for t in 873 1500; do
-        sphere_case "alumina-$t" --material alumina --mean-radius 0.01 --box 0.3x0.3x0.3 --cells 6x1x1 --left "$t" --right "$((t - 50))"
+        sphere_case "alumina-$t" --material alumina --mean-radius 0.01 --box 0.3x0.3x0.3 --cells 6x1x1 --gas vacuum --thermal-expansion 0 \
+            --mechanics none --left "$t" --right "$t" --initial-temperature "$t"
         controls "stopAt nextWrite; writeInterval 10; deltaT 10;"
         logged msddFoam
-        added=$(sed -n "s/^Warning [0-9]*: Radiation would add about \([0-9.]*\) W.(m K) at $t K to the .*/\1/p" log)
-        expected=$(awk -v T="$t" -v k="$(sed -n 's/^thermalConductivity *\([0-9.]*\);/\1/p' constant/granularProperties)" 'BEGIN {
-            b = 4*5.670374e-8*T^3*0.02; e = 0.9; x = 1.5353*(k/b)^0.8011/e; print b*(0.5756*e*atan2(x, 1) + 0.1843) }')
-        check "radiation would add $added W/(m K) at $t K, expected $expected" is_within "$(echo "$added $expected" | awk '{ print $1/$2 }')" 0.98 1.02
-        said "and at the end it is told, too" "Doubt: Radiation would add about [0-9.]+ W/\\(m K\\) at $t K .* is not in the model; emissivity 0.9, assumed"
+        read -r added dark < <(sed -n "s/.*Radiation: it adds \([0-9.]*\) W.(m K) at $t K to the \([0-9.]*\) W.*emissivity 0.6\.$/\1 \2/p" log)
+        expected=$(awk -v T="$t" -v k="$(sed -n 's/^thermalConductivity *\([0-9.]*\);/\1/p' constant/granularProperties)" -v dark="$dark" \
+            -v phi="$(awk '/uniform/ { print 1 - $3 }' 0/porosity)" 'BEGIN {
+            b = 4*5.670374e-8*T^3*0.02; e = 0.6; w = 1.1*phi; g = dark/(phi*k)
+            r = e/(exp(2/3*log(phi))*(2.163 - 0.613*e)); print b*(0.4556*(1 - phi)^2/phi + r*(1 - w*g)^2/(1 + w*w*r*b*(1 - g)/(phi*k))) }')
+        check "radiation adds $added W/(m K) at $t K, expected $expected" is_within "$(echo "$added $expected" | awk '{ print $1/$2 }')" 0.99 1.01
+        check "a bed that radiates has no warning of it" [ "$(grep -c '^Warning.*Radiation' log)" = 0 ]
+        on=$(conductivity)
+        rm -rf [1-9]*
+        sed -i 's/^\( *\)emissivity .*/&\n\1radiation off;/' constant/granularProperties
+        logged msddFoam
+        off=$(conductivity)
+        check "without it the bed conducts $off in place of $on W/(m K)" is_within "$(echo "$on $off $expected" | awk '{ print ($1 - $2)/$3 }')" 0.99 1.01
+        warned "which is said" "Radiation would add about $added W/\\(m K\\) at $t K to the .* and is not in the model; emissivity 0.6 \\(radiation is off\\)"
+        said "and at the end, too" "Doubt: Radiation would add about [0-9.]+ W/\\(m K\\) at $t K"
     done
     rm -rf [1-9]*
-    sed -i 's/^\( *\)accommodation .*/&\n\1emissivity 0.2;/' constant/granularProperties
+    cp constant/granularProperties given
+    sed -i '/radiation off/d; /emissivity/d' constant/granularProperties
     logged msddFoam
-    said "another emissivity is taken from the case" 'emissivity 0.2\.$'
+    said "without an emissivity one is assumed" 'Doubt: Radiation would add .* emissivity 0.9, assumed'
+    check "and the bed conducts as without radiation" [ "$(conductivity)" = "$off" ]
+    rm -rf [1-9]*
+    sed 's/emissivity .*/emissivity 1.2;/' given > constant/granularProperties
+    check "an emissivity above 1 is refused" refused "Entry 'emissivity' is 1.2, allowed: 0 to 1"
 }
 within() { # steel under 20 kPa, warmed by a few kelvin
     sphere_case warm --material steel --mean-radius 0.0032 --box 0.15x0.15x0.15 --cells 4x1x1 --left 300 --right 293 --initial-temperature 293

@@ -15,6 +15,8 @@ pub struct Spheres {
     pub roughness: f64,
     /// Hardness of the surface \[Pa\], which counts where it is rough.
     pub hardness: f64,
+    /// ε \[-\]; 0: without radiation.
+    pub emissivity: f64,
 }
 
 /// A named material of spheres.
@@ -24,6 +26,7 @@ pub struct Material {
     /// As in [`Spheres`].
     pub roughness: f64,
     pub hardness: f64,
+    pub emissivity: f64,
 }
 
 /// The named materials; the first one is the default.
@@ -32,7 +35,8 @@ pub static MATERIALS: [Material; 4] = [
         preset: Preset {
             name: "steel",
             about: "balls of bearing steel 100Cr6 of 6.4 mm diameter (usual values of handbooks; roughness of the balls of \
-                    Beaulieu's bed, cases/beaulieu)",
+                    Beaulieu's bed, cases/beaulieu; emissivity of polished steel from 310 to 530 K, 0.07 to 0.1, J. R. \
+                    Thome, Radiative heat transfer, EPFL, 2008: oxidised steel has 0.8)",
             grains: Grains {
                 density: 7800.0,
                 young_modulus: 210e9,
@@ -46,12 +50,13 @@ pub static MATERIALS: [Material; 4] = [
         poisson_ratio: 0.3,
         roughness: 3.4e-7,
         hardness: 7e9,
+        emissivity: 0.1,
     },
     Material {
         preset: Preset {
             name: "glass",
-            about: "soda-lime glass near room temperature (MakeItFrom.com, annealed soda-lime glass), smooth beads of 4 mm \
-                    diameter",
+            about: "soda-lime glass near room temperature (MakeItFrom.com, annealed soda-lime glass; emissivity of smooth glass, \
+                    0.92 to 0.94: LumaSense, Emissivity table, 2009), smooth beads of 4 mm diameter",
             grains: Grains {
                 density: 2400.0,
                 young_modulus: 71e9,
@@ -65,12 +70,14 @@ pub static MATERIALS: [Material; 4] = [
         poisson_ratio: 0.22,
         roughness: 0.0,
         hardness: 5.5e9,
+        emissivity: 0.93,
     },
     Material {
         preset: Preset {
             name: "alumina",
             about: "sintered alumina at 20 degrees Celsius (NIST Standard Reference Database 150; R. G. Munro, J. Am. Ceram. \
-                    Soc. 80, 1919, 1997), spheres of 6 mm diameter, taken as smooth",
+                    Soc. 80, 1919, 1997; emissivity between 0.69 at 600 K and 0.55 at 1000 K: Incropera and DeWitt, \
+                    Fundamentals of Heat and Mass Transfer, Table A.11), spheres of 6 mm diameter, taken as smooth",
             grains: Grains {
                 density: 3984.0,
                 young_modulus: 416e9,
@@ -84,12 +91,14 @@ pub static MATERIALS: [Material; 4] = [
         poisson_ratio: 0.231,
         roughness: 0.0,
         hardness: 15e9,
+        emissivity: 0.6,
     },
     Material {
         preset: Preset {
             name: "lithium-orthosilicate",
             about: "pebbles of a breeder bed near 700 K in round numbers (as cases/blanket; elastic constants: Y. Futamura, Data \
-                    Base for Tritium Solid Breeding Materials, University of Toyama, 7.2), 0.5 mm diameter, taken as smooth",
+                    Base for Tritium Solid Breeding Materials, University of Toyama, 7.2; emissivity assumed as of other \
+                    oxides), 0.5 mm diameter, taken as smooth",
             grains: Grains {
                 density: 2400.0,
                 young_modulus: 90e9,
@@ -103,6 +112,7 @@ pub static MATERIALS: [Material; 4] = [
         poisson_ratio: 0.24,
         roughness: 0.0,
         hardness: 1e9,
+        emissivity: 0.8,
     },
 ];
 
@@ -118,17 +128,19 @@ impl Material {
             poisson_ratio: self.poisson_ratio,
             roughness: self.roughness,
             hardness: self.hardness,
+            emissivity: self.emissivity,
         }
     }
 }
 
 impl Spheres {
     /// Values of the law of spheres alone, by the names that they have in `spheresCoeffs`, with unit.
-    pub fn named(&self) -> [(&'static str, f64, &'static str); 3] {
+    pub fn named(&self) -> [(&'static str, f64, &'static str); 4] {
         [
             ("poissonRatio", self.poisson_ratio, ""),
             ("roughness", self.roughness, "m"),
             ("hardness", self.hardness, "Pa"),
+            ("emissivity", self.emissivity, ""),
         ]
     }
 
@@ -142,6 +154,7 @@ impl Spheres {
             (-0.99, 0.5, "-0.99 to 0.5"),
             (0.0, 0.01 * self.radius(), "0 (smooth) to a hundredth of the radius [m]"),
             (1.0, 1e15, "1 to 1e15 Pa"),
+            (0.0, 1.0, "0 (without radiation) to 1"),
         ];
         for ((key, value, _), (least, most, allowed)) in self.named().into_iter().zip(ranges) {
             allow(key, value, (least..=most).contains(&value), || allowed.to_string())?;

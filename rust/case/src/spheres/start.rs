@@ -4,6 +4,7 @@ use super::material::Spheres;
 use crate::CaseError;
 use msdd_beds::effective::{BedMaterial, BedState};
 use msdd_beds::named_gases::GasName;
+use msdd_beds::radiation::{Dark, black};
 use msdd_beds::solid::{Roughness, Solid};
 use msdd_surrogate::spheres::model::{Answer, Increment, SphereModel};
 use msdd_surrogate::spheres::state::Known;
@@ -44,9 +45,10 @@ pub struct Bed {
 pub struct Start {
     /// Contacts per sphere.
     pub coordination: f64,
-    /// Mean over the directions \[W/(m K)\], and the part of it by the gas.
+    /// Mean over the directions \[W/(m K)\], and the parts of it by gas and radiation.
     pub conductivity: f64,
     pub by_gas: f64,
+    pub by_radiation: f64,
 }
 
 impl Bed {
@@ -103,7 +105,19 @@ impl Bed {
             },
         );
         let by_contacts = material.solid.conductivity * conduction.contacts * mean(answer.contact);
-        Start { coordination, conductivity: by_contacts + conduction.gas, by_gas: conduction.gas }
+        let dark = Dark {
+            conductivity: by_contacts + conduction.gas,
+            solid: material.solid.conductivity,
+            gas: between.map_or(0.0, |gas| gas.conductivity),
+            solid_fraction: answer.solid,
+        };
+        let black = black(temperature, 2.0 * material.radius);
+        let by_radiation = match self.spheres.emissivity {
+            0.0 => 0.0,
+            emissivity => dark.radiation(black, emissivity),
+        };
+        let conductivity = dark.conductivity + by_radiation;
+        Start { coordination, conductivity, by_gas: conduction.gas, by_radiation }
     }
 
     fn material(&self, gas: &Gas) -> BedMaterial {
@@ -140,7 +154,7 @@ mod tests {
         for (found, expected, error) in [
             (air.coordination, 4.70, 0.03),
             (1.027 * air.by_gas, 0.415, 0.03),
-            (1.08 * vacuum.conductivity, 0.233, 0.05),
+            (1.08 * (vacuum.conductivity - vacuum.by_radiation), 0.233, 0.05),
         ] {
             assert!((found / expected - 1.0).abs() < error, "{found} {expected}");
         }

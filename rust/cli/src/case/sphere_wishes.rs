@@ -59,6 +59,9 @@ pub struct SphereWishes {
     /// the material.
     #[arg(long, value_name = "PA", requires = "spheres")]
     hardness: Option<f64>,
+    /// Emissivity of the surface of the spheres; 0: without radiation. Allowed: 0 to 1. Default: that of the material.
+    #[arg(long, value_name = "E", requires = "spheres")]
+    emissivity: Option<f64>,
     /// Gas between the spheres, which must conduct less than they do. Allowed: `air`, `nitrogen`, `helium`, `argon`,
     /// `vacuum`. Default: `air`.
     #[arg(long, value_name = "NAME", value_parser = parse_gas, requires = "spheres")]
@@ -187,6 +190,7 @@ impl SphereWishes {
             poisson_ratio: self.poisson_ratio.unwrap_or(named.poisson_ratio),
             roughness: self.roughness.unwrap_or(named.roughness),
             hardness: self.hardness.unwrap_or(named.hardness),
+            emissivity: self.emissivity.unwrap_or(named.emissivity),
         };
         spheres.check()?;
         let changed = spheres.named().into_iter().zip(named.named()).filter(|(a, b)| a.1 != b.1);
@@ -416,8 +420,8 @@ pub fn summary(scene: &Scene) -> Result<String, CliError> {
     };
     Ok(format!(
         "{} {} m, {} cells, about {} spheres; {}; {} K at the start; {} s\n\
-         at the start the bed conducts {} W/(m K), {} across gas gaps ({}) and {} across contacts, with {} contacts per \
-         sphere{friction}",
+         at the start the bed conducts {} W/(m K), {} across gas gaps ({}), {} across contacts and {} by radiation, with \
+         {} contacts per sphere{friction}",
         scene.shape.name(),
         lengths.join(" x "),
         cells.join(" x "),
@@ -428,7 +432,8 @@ pub fn summary(scene: &Scene) -> Result<String, CliError> {
         short(start.conductivity),
         short(start.by_gas),
         scene.gas.name.as_str(),
-        short(start.conductivity - start.by_gas),
+        short(start.conductivity - start.by_gas - start.by_radiation),
+        short(start.by_radiation),
         short(start.coordination),
     ))
 }
