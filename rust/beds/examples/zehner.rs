@@ -13,6 +13,7 @@ use msdd_beds::effective::{contact_factor, poor_spheres, share_of_pairs};
 use msdd_beds::links::{contact_links, gas_links};
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;
+use msdd_beds::radiation::{Dark, black, factor as exchange_factor};
 use msdd_beds::solid::{Roughness, Solid};
 use msdd_beds::{Packing, pack};
 use msdd_spheres::law::effective_modulus;
@@ -158,25 +159,34 @@ struct Inputs {
     roughness: Option<f64>,
     pressure: f64,
     accommodation: f64,
+    /// Over that of the material.
+    emissivity: f64,
+    conductivity: f64,
     radiation: Radiation,
 }
 
-/// How radiation counts where the spheres conduct poorly.
+/// How radiation counts.
 #[derive(Clone, Copy)]
 enum Radiation {
-    /// 4 σ T³ d/(2/ε − 1) is added, as for good conductors.
-    Added,
-    /// Beside the gas in pores of this width over d: k_g + 4 σ T³ w/(2/ε − 1) is the conductivity in the pores.
+    None,
+    /// With the resistance of the spheres ([`msdd_beds::radiation`]).
+    Resisted,
+    /// 4 σ T³ d F, as of spheres of one temperature each.
+    Isothermal,
+    /// Beside the gas in pores of this width over d: k_g + 4 σ T³ w/(2/ε − 1) is the conductivity in the pores, which the closure for
+    /// poor conductors takes; 4 σ T³ d/(2/ε − 1) is added where the law of pairs counts.
     InPores(fn(f64) -> f64),
 }
 
-/// Gas, contacts and radiation, over the conductivity of the gas: the law of pairs and radiation that is added, where the spheres conduct 60 times
-/// as well as what fills the pores; the closure for poor conductors below 20 times, and a mixture between ([`msdd_beds::effective`]).
+/// Gas, contacts and radiation, over the conductivity of the gas: the law of pairs where the spheres conduct 60 times as well as the gas; the
+/// closure for poor conductors below 20 times, and a mixture between ([`msdd_beds::effective`]).
 fn prediction(series: &Series, packings: &Packings, inputs: Inputs) -> Any<[f64; 3]> {
     let phi = 1.0 - series.porosity;
     let gas = GasName::Nitrogen.at(series.temperature, 1e5, inputs.accommodation).ok_or("nitrogen")?;
+    let (emissivity, solid) =
+        (inputs.emissivity * series.emissivity, inputs.conductivity * series.conductivity);
     let radius = 0.5 * series.diameter;
-    let log = (radius / gas.least_distance(radius, series.conductivity)).ln();
+    let log = (radius / gas.least_distance(radius, solid)).ln();
     let pressure = inputs.pressure * series.pressure;
     let contact = packings.at(0, phi) * (pressure / series.modulus).cbrt();
     // The closure for roughness at the mean force: ⟨F⟩ = p π d²/(φ z).
@@ -184,15 +194,15 @@ fn prediction(series: &Series, packings: &Packings, inputs: Inputs) -> Any<[f64;
     let size = |roughness: Option<f64>| {
         let roughness =
             roughness.map(|height_over_slope| Roughness { height_over_slope, hardness: HARDNESS });
-        let solid = Solid { conductivity: 1.0, effective_modulus: series.modulus, roughness };
-        solid.contact_size(force, 0.5 * radius)
+        let surface = Solid { conductivity: 1.0, effective_modulus: series.modulus, roughness };
+        surface.contact_size(force, 0.5 * radius)
     };
     let factor = size(inputs.roughness) / size(None);
-    let ratio = series.conductivity / gas.conductivity;
+    let ratio = solid / gas.conductivity;
     let [gap, smooth, radiating] = [
         packings.gas(log, phi),
         contact * factor * ratio,
-        radiation(series.temperature, series.diameter, series.emissivity) / gas.conductivity,
+        radiation(series.temperature, series.diameter, emissivity) / gas.conductivity,
     ];
     let touch = 0.5 * size(inputs.roughness) / radius;
     // With the conductivity of the pores over that of the gas: all conduction, and what contacts have of it.
@@ -202,8 +212,14 @@ fn prediction(series: &Series, packings: &Packings, inputs: Inputs) -> Any<[f64;
         (share * gap + (1.0 - share) * pores * poor_spheres(phi, ratio) + contacts, contacts, share)
     };
     let (dark, contacts, _) = conduction(1.0);
+    let black = black(series.temperature, series.diameter) / gas.conductivity;
     let total = match inputs.radiation {
-        Radiation::Added => dark + radiating,
+        Radiation::None => dark,
+        Radiation::Isothermal => dark + black * exchange_factor(emissivity, phi),
+        Radiation::Resisted => {
+            let bed = Dark { conductivity: dark, solid: ratio, gas: 1.0, solid_fraction: phi };
+            dark + bed.radiation(black, emissivity)
+        }
         Radiation::InPores(width) => {
             let (bright, _, share) = conduction(1.0 + radiating * width(phi));
             bright + share * radiating
@@ -319,10 +335,12 @@ fn main() -> Any<()> {
         roughness: Some(3.4e-7),
         pressure: 1.0,
         accommodation: 0.9,
-        radiation: Radiation::InPores(pore_width),
+        emissivity: 1.0,
+        conductivity: 1.0,
+        radiation: Radiation::Resisted,
     };
     let smooth = Inputs { roughness: None, ..one };
-    let kinds: [(&str, Inputs); 13] = [
+    let kinds: [(&str, Inputs); 18] = [
         ("smooth", smooth),
         ("σ/m 0.34 µm", one),
         ("σ/m 0.34 µm, pressure × 2", Inputs { pressure: 2.0, ..one }),
@@ -333,7 +351,21 @@ fn main() -> Any<()> {
         ("σ/m 2 µm", Inputs { roughness: Some(2e-6), ..one }),
         ("σ/m 5 µm", Inputs { roughness: Some(5e-6), ..one }),
         ("σ/m 20 µm", Inputs { roughness: Some(20e-6), ..one }),
-        ("σ/m 0.34 µm, radiation added", Inputs { radiation: Radiation::Added, ..one }),
+        ("σ/m 2 µm, emissivity × 0.8", Inputs { roughness: Some(2e-6), emissivity: 0.8, ..one }),
+        (
+            "σ/m 2 µm, conductivity of the spheres × 0.8",
+            Inputs { roughness: Some(2e-6), conductivity: 0.8, ..one },
+        ),
+        ("σ/m 0.34 µm, without radiation", Inputs { radiation: Radiation::None, ..one }),
+        ("σ/m 2 µm, without radiation", Inputs { roughness: Some(2e-6), radiation: Radiation::None, ..one }),
+        (
+            "σ/m 0.34 µm, radiation without resistance of the spheres",
+            Inputs { radiation: Radiation::Isothermal, ..one },
+        ),
+        (
+            "σ/m 0.34 µm, radiation in pores of the width 2V/S",
+            Inputs { radiation: Radiation::InPores(pore_width), ..one },
+        ),
         (
             "σ/m 0.34 µm, radiation in pores of the width 4V/S",
             Inputs { radiation: Radiation::InPores(|phi| 2.0 * pore_width(phi)), ..one },

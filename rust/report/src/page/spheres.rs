@@ -23,7 +23,7 @@ const LIMITS: [&str; 8] = [
     "Friction at walls is not part of the law: a case gives it for each wall, and a wall without it is smooth.",
     "Layers of spheres that are ordered along walls conduct less than the bed behind them; the solver has one law for both.",
     "Where spheres conduct less than 60 times as well as the gas, a closure takes the place of the law of pairs, with an error of 1 to 10 %.",
-    "Radiation is left out by the solver and by msdd bed run; only the prediction for Zehner's beds has it. In steel of 6 mm it is 4 % at 300 K.",
+    "Spheres radiate where a case gives their emissivity, as opaque, grey and diffuse bodies. In beds of polished steel of 6 mm it is 1 % at 300 K.",
     "How rough surfaces are, what presses on a plate and how much spheres conduct is seldom reported, and moves what was measured by more than the laws err.",
     "Spheres have no bands of error, as discs have them: a state outside of what the law was fitted to is clamped or refused (policy).",
 ];
@@ -198,7 +198,7 @@ fn zehner(made: &Made) -> Result<String, ReportError> {
     let axis = |label| Axis { label, log: true, range: Some((4.0, 100.0)) };
     let panel = plot("Zehner's beds", &axis("k/k_gas measured"), &axis("predicted"), &lines)?;
     let caption = "Fig. #. Conductivity of beds with nitrogen at 317 to 1000 K (P. Zehner, 1972) over that of the gas, predicted from boxes of spheres with a \
-                   roughness of 0.34 µm; no number is fitted to them, but the width of the pores for radiation was chosen from three after they were compared. What rules copper is its surface, of which nothing is known."
+                   roughness of 0.34 µm; no number is fitted to them. What rules copper is its surface, of which nothing is known."
         .to_string();
     let figure = Figure {
         id: "spheres-zehner",
