@@ -2,6 +2,7 @@
 
 use crate::BedError;
 use crate::case::BedCase;
+use crate::exchange::Exchange;
 use crate::experiment::Record;
 use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::{Container, pour};
@@ -47,6 +48,8 @@ pub struct Bed {
     pub stages: Vec<(&'static str, Rest)>,
     /// Number of the wall that is heated.
     pub plate: usize,
+    /// Radiation between its spheres and the plate, if they radiate.
+    pub exchange: Option<Exchange>,
 }
 
 /// A bed that was heated.
@@ -111,7 +114,9 @@ pub fn prepare(
         let rest = press(&mut simulation, plate, load, allowed, |a| watch("plate", progress(a)))?;
         stages.push(("plate", rested("plate", rest)?));
     }
-    Ok(Bed { simulation, stages, plate })
+    let emissivity = case.plate.emissivity.or(grains.emissivity).unwrap_or_default();
+    let exchange = grains.exchange(&simulation, &[(plate, emissivity)], (case.seed, threads))?;
+    Ok(Bed { simulation, stages, plate, exchange })
 }
 
 /// A bed that still moves is not heated.
@@ -209,7 +214,11 @@ impl Bed {
                 roughness: rough(keys.roughness, keys.hardness),
             },
         };
-        Network::new(&self.simulation, materials, &[Plate { wall: self.plate, law }])
+        let network = Network::new(&self.simulation, materials, &[Plate { wall: self.plate, law }]);
+        match &self.exchange {
+            Some(exchange) => network.radiating(exchange, &[self.plate]),
+            None => network,
+        }
     }
 
     /// Averages between two distances from the plate \[m\], at the initial temperature.

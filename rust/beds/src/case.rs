@@ -1,13 +1,15 @@
 //! The description of a bed that was measured: a TOML file that says what is poured, how it is handled, what heats it.
 
 use crate::effective::{GOOD, LEAST_RATIO, closure_error};
+use crate::exchange::{Emissivities, Exchange, OutOfRange, Tracing, exchange};
 use crate::named_gases::GasName;
 use crate::pour::{Container, Pouring, WIDEST};
 use crate::property::Property;
+use crate::rays::Enclosure;
 use crate::settle::longest;
 use msdd_engine::message::{number, range};
 use msdd_files::{FileError, read_text};
-use msdd_spheres::{Material, Stiffness};
+use msdd_spheres::{Material, Simulation, Stiffness};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -73,6 +75,11 @@ pub struct Grains {
     pub hardness: Option<f64>,
     /// Yield stress; contacts beyond it are reported \[Pa\]. Allowed: `POSITIVE`. Default: nothing is reported.
     pub yield_stress: Option<f64>,
+    /// Emissivity of the surface: grains above 0 exchange heat by radiation, as opaque, grey and diffuse bodies, along rays that are
+    /// traced once. Allowed: `EMISSIVITIES`. Default: without radiation.
+    pub emissivity: Option<f64>,
+    /// Rays from each grain. Allowed: `RAYS`; below `FEW_RAYS` the run says what noise they leave. Default: 1000.
+    pub rays: Option<usize>,
     /// Linear coefficient of thermal expansion, in `elements.toml` alone [1/K]. Allowed: `EXPANSIONS`. Default: spheres keep their
     /// size.
     pub thermal_expansion: Option<f64>,
@@ -155,6 +162,8 @@ pub struct PlateKeys {
     pub roughness: Option<f64>,
     /// Hardness of the softer of the two \[Pa\]. Allowed: `POSITIVE`; required with a roughness above 0.
     pub hardness: Option<f64>,
+    /// Emissivity of its surface, which radiates to grains that do. Allowed: `EMISSIVITIES`. Default: that of the grains.
+    pub emissivity: Option<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -406,6 +415,7 @@ impl BedCase {
             ranged("plate.pressure", p.pressure.unwrap_or(1.0), POSITIVE),
             ranged("lid.pressure", lid(|lid| lid.pressure).unwrap_or(1.0), POSITIVE),
             ranged("plate.poisson_ratio", p.poisson_ratio, POISSON_RATIOS),
+            ranged("plate.emissivity", p.emissivity.unwrap_or(1.0), EMISSIVITIES),
             ("heat.probes", h.probes.len() as f64, "one at least".into(), !h.probes.is_empty()),
             (
                 "heat.output_every",
@@ -436,6 +446,9 @@ const NUMBERS: [f64; 2] = [1.0, 1_000_000.0];
 const FRICTIONS: [f64; 2] = [0.0, 10.0];
 const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
 const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
+const EMISSIVITIES: [f64; 2] = [0.0, 1.0];
+const RAYS: [f64; 2] = [1.0, 1_000_000.0];
+const USUAL_RAYS: usize = 1000;
 const POROSITIES: [f64; 2] = [0.35, 0.7];
 const SIMULATED: &str = "1e-12 to that of the material, young_modulus";
 const ACCOMMODATION: &str = "0 < accommodation <= 1";
@@ -471,6 +484,20 @@ fn hardness(key: &str, roughness: Option<f64>, hardness: Option<f64>) -> Result<
 }
 
 impl Grains {
+    /// Traces the radiation in a bed, if the grains radiate. `walls`: numbers and emissivities of those that do; others reflect everything.
+    pub(crate) fn exchange(
+        &self,
+        simulation: &Simulation,
+        walls: &[(usize, f64)],
+        (seed, threads): (u64, usize),
+    ) -> Result<Option<Exchange>, OutOfRange> {
+        let Some(spheres) = self.emissivity.filter(|emissivity| *emissivity > 0.0) else { return Ok(None) };
+        let mut emissivities = Emissivities { spheres, walls: vec![0.0; simulation.boundary.walls().len()] };
+        walls.iter().for_each(|&(wall, emissivity)| emissivities.walls[wall] = emissivity);
+        let tracing = Tracing { rays: self.rays.unwrap_or(USUAL_RAYS), seed, threads };
+        exchange(&Enclosure::new(simulation), &emissivities, &tracing).map(Some)
+    }
+
     /// Pours the grains into a container under `gravity` \[m/s²\].
     pub(crate) fn pouring(&self, seed: u64, container: Container, gravity: f64, threads: usize) -> Pouring {
         let height = container.loose_height(self.number, self.diameter).max(container.width());
@@ -514,6 +541,8 @@ impl Grains {
                 SIMULATED.into(),
                 inside(simulated, POSITIVE) && simulated <= self.young_modulus,
             ),
+            ranged("grains.emissivity", self.emissivity.unwrap_or(1.0), EMISSIVITIES),
+            ranged("grains.rays", self.rays.unwrap_or(USUAL_RAYS) as f64, RAYS),
             rough("grains.roughness", self.roughness),
         ]
     }

@@ -15,6 +15,7 @@
 //! The motion is not the motion in real time: it shows how a bed at rest changes, and how far from rest it is is recorded.
 
 use crate::BedError;
+use crate::exchange::Exchange;
 use crate::give::{BLOCK, Hold, Moving, drag, steered, wall_area};
 use crate::harden::harden;
 use crate::network::{Materials, Network, Plate, PlateLaw};
@@ -61,6 +62,8 @@ const MOST_MOBILISED: f64 = 1.01;
 #[derive(Clone, Debug)]
 pub struct Prepared {
     pub simulation: Simulation,
+    /// Radiation between its spheres and heated walls, if they radiate: as they are now, since a bed hardly moves.
+    pub exchange: Option<Exchange>,
     /// Stages, and how each came to rest.
     pub stages: Vec<(&'static str, Rest)>,
 }
@@ -88,9 +91,10 @@ pub struct Row {
     /// The fabric in the region, see [`Region::fabric`], and how much of the friction is mobilised there, see [`crate::mobilised`] \[-\].
     pub fabric: [f64; 3],
     pub mobilisation: f64,
-    /// K \[W/(m K)\] along z in the region, by contacts and by gas.
+    /// K \[W/(m K)\] along z in the region, by contacts, gas and radiation.
     pub contact_conductivity: f64,
     pub gas_conductivity: f64,
+    pub radiation_conductivity: f64,
     /// Of the bed \[m\], and the radius of the cylinder \[m\], NaN in a box.
     pub depth: f64,
     pub radius: f64,
@@ -102,6 +106,11 @@ pub struct Row {
 }
 
 impl Row {
+    /// K \[W/(m K)\] of all ways.
+    pub fn conductivity(&self) -> f64 {
+        self.contact_conductivity + self.gas_conductivity + self.radiation_conductivity
+    }
+
     /// Refuses averages that no bed has, as of a region with hardly a contact.
     fn check(&self) -> Result<(), BedError> {
         let mobilisation = if self.mobilisation <= MOST_MOBILISED { self.mobilisation } else { f64::NAN };
@@ -113,7 +122,7 @@ impl Row {
             ("porosity", &[self.porosity][..]),
             ("coordination", &[self.coordination][..]),
             ("mobilisation", &[mobilisation][..]),
-            ("K", &[self.contact_conductivity, self.gas_conductivity][..]),
+            ("K", &[self.contact_conductivity, self.gas_conductivity, self.radiation_conductivity][..]),
         ];
         match several.into_iter().find(|(_, values)| values.iter().any(|value| !value.is_finite())) {
             None => Ok(()),
@@ -182,12 +191,16 @@ pub fn prepare(
         harden(&mut simulation, grains.young_modulus, lid, load, depth, |share| watch("harden", share))?;
     simulation.material.wall_friction = grains.wall_friction;
     stages.push(rested("harden", rest)?);
-    Ok(Prepared { simulation, stages })
+    let emissivity = grains.emissivity.unwrap_or_default();
+    let walls: Vec<(usize, f64)> = heated_walls(scene).map(|wall| (wall, emissivity)).collect();
+    let exchange = grains.exchange(&simulation, &walls, (scene.seed, threads))?;
+    Ok(Prepared { simulation, stages, exchange })
 }
 
 /// The bed on its way.
 struct Coupled<'a> {
     scene: &'a Scene,
+    exchange: Option<&'a Exchange>,
     simulation: Simulation,
     network: Network,
     /// Which spheres have the temperature of which heated wall, from the start on.
@@ -209,7 +222,7 @@ struct Coupled<'a> {
 /// # Errors
 /// A distance without grains; heat that does not converge; those of [`Simulation::run`].
 pub fn run(scene: &Scene, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Result<Run, BedError> {
-    let mut bed = Coupled::new(scene, prepared.simulation.clone());
+    let mut bed = Coupled::new(scene, prepared);
     let (high, depth) = (scene.record.heights[1], bed.depth());
     if high > depth {
         return Err(BedError::Heights { high, depth });
@@ -235,13 +248,15 @@ pub fn run(scene: &Scene, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Re
 }
 
 impl<'a> Coupled<'a> {
-    fn new(scene: &'a Scene, simulation: Simulation) -> Self {
+    fn new(scene: &'a Scene, prepared: &'a Prepared) -> Self {
+        let (simulation, exchange) = (prepared.simulation.clone(), prepared.exchange.as_ref());
         let number = |name: &str| scene.wall(name).unwrap_or_default();
         let lid = number("lid");
-        let network = network(scene, &simulation, depth(&simulation, lid));
+        let network = network(scene, (&simulation, exchange), depth(&simulation, lid));
         let start = scene.time.initial_temperature;
         let mut bed = Self {
             scene,
+            exchange,
             held: network.held.clone(),
             network,
             temperatures: vec![start; simulation.spheres.len()],
@@ -348,7 +363,7 @@ impl<'a> Coupled<'a> {
         if let Some(shell) = &mut self.shell {
             shell.stop(&mut self.simulation);
         }
-        self.network = network(self.scene, &self.simulation, self.depth());
+        self.network = network(self.scene, (&self.simulation, self.exchange), self.depth());
         self.network.held.clone_from(&self.held);
         Ok(())
     }
@@ -478,6 +493,7 @@ impl<'a> Coupled<'a> {
             mobilisation: region.mobilisation(simulation),
             contact_conductivity: averages.contact_conductivity,
             gas_conductivity: averages.gas_conductivity,
+            radiation_conductivity: averages.radiation_conductivity,
             depth: self.depth(),
             radius: radius.unwrap_or(f64::NAN),
             unbalanced: self.unbalanced(),
@@ -514,7 +530,7 @@ fn region(scene: &Scene) -> Region {
 }
 
 /// The network of a bed whose heated walls hold the first layer of grains.
-fn network(scene: &Scene, simulation: &Simulation, depth: f64) -> Network {
+fn network(scene: &Scene, (simulation, exchange): (&Simulation, Option<&Exchange>), depth: f64) -> Network {
     let grains = &scene.grains;
     let middle = [0.25, 0.75].map(|part| part * depth);
     let floor = simulation.boundary.walls()[0];
@@ -529,8 +545,16 @@ fn network(scene: &Scene, simulation: &Simulation, depth: f64) -> Network {
         accommodation: scene.gas.accommodation,
         solid_fraction: Some(solid_fraction(simulation, &floor, middle, Width::Whole(scene.vessel().area()))),
     };
-    let plates: Vec<Plate> = (scene.heated.iter())
-        .map(|heated| Plate { wall: scene.wall(&heated.wall).unwrap_or_default(), law: PlateLaw::Held })
-        .collect();
-    Network::new(simulation, materials, &plates)
+    let walls: Vec<usize> = heated_walls(scene).collect();
+    let plates: Vec<Plate> = walls.iter().map(|&wall| Plate { wall, law: PlateLaw::Held }).collect();
+    let network = Network::new(simulation, materials, &plates);
+    match exchange {
+        Some(exchange) => network.radiating(exchange, &walls),
+        None => network,
+    }
+}
+
+/// Numbers of the heated walls.
+fn heated_walls(scene: &Scene) -> impl Iterator<Item = usize> {
+    scene.heated.iter().map(|heated| scene.wall(&heated.wall).unwrap_or_default())
 }

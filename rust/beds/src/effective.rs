@@ -95,6 +95,13 @@ pub fn pair_factor(gas: &Gas, solid: f64, radius: f64, solid_fraction: f64) -> f
     share + (1.0 - share) * poor_gas(solid_fraction, ratio, gas.jump_length(), radius) / pairs
 }
 
+/// K \[W/(m K)\] by gas of a homogeneous packing of spheres of the conductivity `solid` \[W/(m K)\], as of a network whose pairs have
+/// [`pair_factor`].
+pub fn gas_alone(gas: &Gas, solid: f64, radius: f64, solid_fraction: f64) -> f64 {
+    let pairs = pairs(solid_fraction, gas.least_distance(radius, solid), radius);
+    gas.conductivity * pairs * pair_factor(gas, solid, radius, solid_fraction)
+}
+
 /// What a contact adds over its own conductance, for κ and its size, the conductance over 2 k_s, over R.
 pub fn contact_factor(ratio: f64, size: f64) -> f64 {
     let (share, lambda) = (share_of_pairs(ratio), ratio * size);

@@ -5,8 +5,8 @@
 //! = ε_j A_j s_ji (Modest, Radiative Heat Transfer, 2003, section 20.3). A packing hardly moves, so its shares are traced once.
 
 use crate::links::Link;
+use crate::random::Random;
 use crate::rays::{Body, Enclosure};
-use crate::scatter::Random;
 use msdd_engine::message::number;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -24,7 +24,7 @@ pub struct Tracing {
     pub threads: usize,
 }
 
-/// ε \[-\] of spheres and of each wall.
+/// ε \[-\] of spheres, above 0, and of each wall; walls of 0 reflect everything.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Emissivities {
     pub spheres: f64,
@@ -76,7 +76,7 @@ pub struct Exchange {
     pub areas: Vec<f64>,
     /// What each sphere emits, by absorbers in order; they sum to 1.
     pub spheres: Vec<Vec<Share>>,
-    /// What a wall emits and its area \[m²\], if that is known: of flat walls beside a cell that repeats itself.
+    /// What a wall emits and its area \[m²\], if that is known: of flat walls beside a cell that repeats itself, unless they reflect all.
     pub walls: Vec<Option<(f64, Vec<Share>)>>,
     rays: usize,
 }
@@ -91,7 +91,10 @@ pub fn exchange(
     tracing: &Tracing,
 ) -> Result<Exchange, OutOfRange> {
     OutOfRange::emissivity("emissivity", emissivities.spheres)?;
-    emissivities.walls.iter().try_for_each(|e| OutOfRange::emissivity("emissivity of a wall", *e))?;
+    for emissivity in &emissivities.walls {
+        let fits = (0.0..=1.0).contains(emissivity);
+        OutOfRange::check("emissivity of a wall", *emissivity, fits, "0 (reflects everything) to 1")?;
+    }
     let walls = enclosure.walls().len();
     let given = emissivities.walls.len();
     OutOfRange::check("walls with an emissivity", given as f64, given == walls, "as many as the bed has")?;
@@ -100,7 +103,8 @@ pub fn exchange(
     let count = enclosure.radii().len();
     let row = |body: usize| {
         let wall = body.checked_sub(count);
-        let area = wall.map_or(Some(0.0), |wall| enclosure.wall_area(wall));
+        let area = wall
+            .map_or(Some(0.0), |wall| enclosure.wall_area(wall).filter(|_| emissivities.walls[wall] > 0.0));
         area.map(|area| (area, shares(enclosure, emissivities, tracing, (body, wall))))
     };
     let bodies = count + walls;
@@ -162,6 +166,35 @@ impl Exchange {
             }
         }
         links
+    }
+
+    /// ε A s \[m²\] between pairs of spheres, the mean of what both found, in order of their numbers.
+    pub fn pairs(&self) -> Vec<(usize, usize, f64)> {
+        let mut pairs = BTreeMap::new();
+        for (i, shares) in self.spheres.iter().enumerate() {
+            for share in shares {
+                if let Body::Sphere(j) = share.body
+                    && j as usize != i
+                {
+                    let pair = (i.min(j as usize), i.max(j as usize));
+                    let half = 0.5 * self.emissivities.spheres * self.areas[i] * share.share;
+                    *pairs.entry(pair).or_insert(0.0) += half;
+                }
+            }
+        }
+        pairs.into_iter().map(|((i, j), size)| (i, j, size)).collect()
+    }
+
+    /// ε A s \[m²\] between the spheres and a wall, by the number of the sphere.
+    pub fn at_wall(&self, wall: usize) -> Vec<(usize, f64)> {
+        let sum = |shares: &[Share]| {
+            let at = shares.iter().filter(|share| share.body == Body::Wall(wall as u32));
+            at.map(|share| share.share).sum::<f64>()
+        };
+        let rows = self.spheres.iter().enumerate().map(|(i, shares)| (i, sum(shares)));
+        rows.filter(|(_, share)| *share > 0.0)
+            .map(|(i, share)| (i, self.emissivities.spheres * self.areas[i] * share))
+            .collect()
     }
 
     /// Says which noise few rays leave.

@@ -4,7 +4,8 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`scatter`] | seeded random numbers, random loose spheres to start from |
+//! | [`random`] | seeded random numbers |
+//! | [`scatter`] | random loose spheres to start from |
 //! | [`averages`](mod@averages) | solid fraction, coordination, stress of a periodic box |
 //! | [`settle`](mod@settle) | coming to rest under gravity; turning it |
 //! | [`pour`](mod@pour) | grains rain into a box or cylinder until they are at rest |
@@ -71,6 +72,7 @@ pub mod press;
 pub mod profile;
 pub mod property;
 pub mod radiation;
+pub mod random;
 pub mod rays;
 pub mod region;
 pub mod rows;
@@ -128,6 +130,8 @@ pub enum BedError {
     Overlap { time: f64, overlap: f64, most: f64 },
     #[error(transparent)]
     NotConverged(#[from] transient::NotConverged),
+    #[error(transparent)]
+    Radiation(#[from] exchange::OutOfRange),
     #[error("cannot start threads: {0}")]
     Threads(String),
     #[error(transparent)]

@@ -1,11 +1,14 @@
 //! The network of a bed at rest: what conducts between which spheres and plates, and how well at given temperatures.
 
-use crate::effective::{contact_factor, pair_factor};
+use crate::correlation::STEFAN_BOLTZMANN;
+use crate::effective::{contact_factor, gas_alone, pair_factor};
+use crate::exchange::Exchange;
 use crate::facing::{Facing, facing};
 use crate::gas::{Gas, gas_conductance};
 use crate::links::{Near, near_pairs};
 use crate::named_gases::GasName;
 use crate::property::Property;
+use crate::radiation::{Dark, black, factor};
 use crate::solid::{Roughness, Solid};
 use msdd_spheres::{Partner, Simulation};
 
@@ -75,17 +78,30 @@ pub struct Beside {
     pub facing: Facing,
 }
 
+/// Surfaces that exchange heat by radiation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surfaces {
+    /// ε of the spheres.
+    pub emissivity: f64,
+    /// ε A s \[m²\] between spheres, and between a sphere and a plate, by their numbers.
+    pub spheres: Vec<(usize, usize, f64)>,
+    pub plates: Vec<(usize, usize, f64)>,
+}
+
 /// A bed at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
     pub materials: Materials,
-    /// m \[kg\] of each sphere.
+    /// m \[kg\] of each sphere, and its radius \[m\].
     pub mass: Vec<f64>,
+    pub radii: Vec<f64>,
     pub contacts: Vec<Joint>,
     pub gaps: Vec<Near>,
     pub beside: Vec<Beside>,
     /// For each sphere that has the temperature of a plate, the plate.
     pub held: Vec<Option<usize>>,
+    /// None: without radiation.
+    pub surfaces: Option<Surfaces>,
 }
 
 /// Conductances \[W/K\] at some temperatures.
@@ -120,10 +136,12 @@ impl Network {
         let mut network = Self {
             materials,
             mass: simulation.spheres.iter().map(|sphere| sphere.mass).collect(),
+            radii: simulation.spheres.iter().map(|sphere| sphere.radius).collect(),
             contacts,
             gaps: near_pairs(simulation),
             beside: Vec::new(),
             held: vec![None; count],
+            surfaces: None,
         };
         for (number, plate) in plates.iter().enumerate() {
             match plate.law {
@@ -147,6 +165,50 @@ impl Network {
             }
         }
         network
+    }
+
+    /// The same with radiation between the spheres, and between them and the plates, whose walls have these numbers.
+    pub fn radiating(mut self, exchange: &Exchange, walls: &[usize]) -> Self {
+        let at = |(plate, wall): (usize, &usize)| {
+            exchange.at_wall(*wall).into_iter().map(move |(sphere, size)| (sphere, plate, size))
+        };
+        self.surfaces = Some(Surfaces {
+            emissivity: exchange.emissivities.spheres,
+            spheres: exchange.pairs(),
+            plates: walls.iter().enumerate().flat_map(at).collect(),
+        });
+        self
+    }
+
+    /// What the resistance of the solid leaves of the radiation of each sphere, over that of spheres of one temperature
+    /// ([`crate::radiation`]).
+    fn left(&self, surfaces: &Surfaces, temperatures: &[f64]) -> Vec<f64> {
+        let m = &self.materials;
+        let Some(solid_fraction) = m.solid_fraction else { return vec![1.0; temperatures.len()] };
+        let of = |(t, radius): (&f64, &f64)| {
+            let (solid, gas) = (m.conductivity.at(*t), m.gas.at(*t, m.gas_pressure, m.accommodation));
+            let conductivity = gas.as_ref().map_or(0.0, |gas| gas_alone(gas, solid, *radius, solid_fraction));
+            let gas = gas.map_or(0.0, |gas| gas.conductivity);
+            let bed = Dark { conductivity, solid, gas, solid_fraction };
+            let black = black(*t, 2.0 * radius);
+            bed.radiation(black, surfaces.emissivity) / (black * factor(surfaces.emissivity, solid_fraction))
+        };
+        temperatures.iter().zip(&self.radii).map(of).collect()
+    }
+
+    /// Adds those of radiation: σ (T₁² + T₂²)(T₁ + T₂) ε A s, so that the heat is that of σ (T₁⁴ − T₂⁴).
+    fn add_radiation(&self, found: &mut Conductances, temperatures: &[f64], plates: &[f64]) {
+        let Some(surfaces) = &self.surfaces else { return };
+        let left = self.left(surfaces, temperatures);
+        let between = |a: f64, b: f64| STEFAN_BOLTZMANN * (a * a + b * b) * (a + b);
+        found.links.extend(surfaces.spheres.iter().map(|&(i, j, size)| {
+            (i, j, 0.5 * (left[i] + left[j]) * size * between(temperatures[i], temperatures[j]))
+        }));
+        found.plates.extend(
+            surfaces.plates.iter().map(|&(i, plate, size)| {
+                (i, plate, left[i] * size * between(temperatures[i], plates[plate]))
+            }),
+        );
     }
 
     /// Conductances with the properties at the temperatures of the spheres and of the plates \[K\], which are averaged over the
@@ -198,6 +260,8 @@ impl Network {
                 .map_or(1.0, |gas| contact_factor(solid / gas.conductivity, 0.5 * b.size / b.radius));
             (sphere, b.plate, harmonic * b.size * adds + by_gas)
         };
-        Conductances { links, plates: self.beside.iter().map(beside).collect() }
+        let mut found = Conductances { links, plates: self.beside.iter().map(beside).collect() };
+        self.add_radiation(&mut found, temperatures, plates);
+        found
     }
 }

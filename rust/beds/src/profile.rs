@@ -15,9 +15,10 @@ pub struct Slab {
     pub coordination: f64,
     /// p = tr σ/3 \[Pa\].
     pub pressure: f64,
-    /// K \[W/(m K)\] across the slab, by contacts and by gas.
+    /// K \[W/(m K)\] across the slab, by contacts, gas and radiation.
     pub contact_conductivity: f64,
     pub gas_conductivity: f64,
+    pub radiation_conductivity: f64,
 }
 
 /// How wide a slab is.
@@ -77,7 +78,7 @@ pub fn slab(
         }
     });
     let count = simulation.spheres.iter().filter(|s| inside(s.position)).count();
-    let (contacts, gas) = conductances(network, temperature);
+    let [contacts, gas, radiation] = conductances(network, temperature);
     let counts = |i: usize, j: usize| match width {
         Width::Whole(_) => true,
         Width::Ring(_) => width.holds(scaled(0.5, plus(place(i), 1.0, place(j)))),
@@ -90,6 +91,7 @@ pub fn slab(
         pressure: work / volume / 3.0,
         contact_conductivity: across(&contacts)?,
         gas_conductivity: across(&gas)?,
+        radiation_conductivity: across(&radiation)?,
     })
 }
 
@@ -110,13 +112,17 @@ fn below(radius: f64, height: f64) -> f64 {
 
 type Links = Vec<(usize, usize, f64)>;
 
-/// The links of a network of one temperature \[K\], through contacts and through gas.
-fn conductances(network: &Network, temperature: f64) -> (Links, Links) {
+/// The links of a network of one temperature \[K\], through contacts, through gas, and by radiation.
+fn conductances(network: &Network, temperature: f64) -> [Links; 3] {
     let temperatures = vec![temperature; network.mass.len()];
-    let plates = network.beside.iter().map(|b| b.plate + 1).max().unwrap_or(0);
+    let surfaces =
+        network.surfaces.iter().flat_map(|surfaces| &surfaces.plates).map(|(_, plate, _)| plate + 1);
+    let plates = network.beside.iter().map(|b| b.plate + 1).chain(surfaces).max().unwrap_or(0);
     let mut contacts = network.conductances(&temperatures, &vec![temperature; plates]).links;
-    let gas = contacts.split_off(network.contacts.len());
-    (contacts, gas)
+    let mut gas = contacts.split_off(network.contacts.len());
+    let rays = network.surfaces.as_ref().map_or(0, |surfaces| surfaces.spheres.len());
+    let radiation = gas.split_off(gas.len() - rays);
+    [contacts, gas, radiation]
 }
 
 /// Heat through the middle of a slab over the mean gradient \[W m/K\], by the links that count: all spheres outside have the temperature of an

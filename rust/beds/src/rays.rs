@@ -3,7 +3,7 @@
 //! The spheres lie in a grid of cells along the edges of the periodic cell, so that a sheared cell is no special case: a ray is straight in
 //! fractions of the edges, too. A ray goes from cell to cell and meets the spheres that reach into each.
 
-use crate::scatter::Random;
+use crate::random::Random;
 use msdd_engine::Lattice;
 use msdd_spheres::boundary::{Surface, Wall};
 use msdd_spheres::space::{cross, dot, length, minus, plus, scaled};

@@ -45,7 +45,7 @@ const MOVING: [Column; 24] = [
     ),
     ("K_contacts", "W/(m K)", "conductivity along z there at the mean temperature, by contacts"),
     ("K_gas", "W/(m K)", "the same by gas"),
-    ("K", "W/(m K)", "the sum"),
+    ("K", "W/(m K)", "the sum, with radiation if the spheres radiate"),
     ("depth", "m", "depth of the bed"),
     ("radius", "m", "radius of the cylinder; empty in a box"),
     ("unbalanced", "-", "force along z that is not in balance, over the force on the lid or the weight"),
@@ -83,7 +83,6 @@ pub fn elements(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     let _ = writeln!(text, "{}", header.join(","));
     for row in &found.rows {
         let [a, b, c] = row.stress;
-        let conductivity = row.contact_conductivity + row.gas_conductivity;
         let mut cells = vec![row.time.to_string()];
         cells.extend(row.temperatures.iter().chain([&row.mean_temperature]).map(|t| format!("{t:.4}")));
         cells.extend([a, b, c, (a + b + c) / 3.0].map(|stress| format!("{stress:.1}")));
@@ -93,7 +92,7 @@ pub fn elements(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
         cells.extend([row.porosity, row.porosity_outside].map(finite(5)));
         cells.push(format!("{:.4}", row.coordination));
         cells.extend(row.fabric.iter().chain([&row.mobilisation]).map(|share| finite(5)(*share)));
-        let conductivities = [row.contact_conductivity, row.gas_conductivity, conductivity];
+        let conductivities = [row.contact_conductivity, row.gas_conductivity, row.conductivity()];
         cells.extend(conductivities.map(|k| format!("{k:.5}")));
         cells.extend([row.depth, row.radius].map(finite(7)));
         cells.push(format!("{:.1e}", row.unbalanced));

@@ -204,7 +204,7 @@ fn few_steps_do_not_hurry_a_bed() {
 #[test]
 fn an_endless_bed_reaches_beyond_its_sides() {
     let scene = read(&text([ENDLESS, "", FLOOR, COLUMN])).unwrap();
-    let Prepared { simulation, stages } = prepare(&scene, 1, |_, _| ()).unwrap();
+    let Prepared { simulation, stages, .. } = prepare(&scene, 1, |_, _| ()).unwrap();
     assert_eq!(stages.iter().map(|stage| stage.0).collect::<Vec<_>>(), ["pour", "lid", "harden"]);
     let weight: f64 = simulation.spheres.iter().map(|s| 9.81 * s.mass).sum();
     let floor = -simulation.wall_force[0][2];

@@ -164,7 +164,9 @@ fn what_cannot_be_is_refused() {
         found.map(|_| ()).unwrap_err().to_string()
     };
     assert_eq!(refused(1.2, &[1.0; 2], 100), "radiation: emissivity = 1.2, allowed: above 0, to 1");
-    assert_eq!(refused(1.0, &[1.0, 0.0], 100), "radiation: emissivity of a wall = 0, allowed: above 0, to 1");
+    let allowed = "radiation: emissivity of a wall = -0.1, allowed: 0 (reflects everything) to 1";
+    assert_eq!(refused(1.0, &[1.0, -0.1], 100), allowed);
+    assert_eq!(refused(0.0, &[1.0; 2], 100), "radiation: emissivity = 0, allowed: above 0, to 1");
     assert_eq!(refused(1.0, &[1.0; 2], 0), "radiation: rays = 0, allowed: 1 to 1000000");
     assert!(refused(1.0, &[1.0], 100).contains("as many as the bed has"));
 }

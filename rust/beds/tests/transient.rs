@@ -1,9 +1,12 @@
 //! Heat in time against closed forms: a chain of spheres, and balances of random beds.
 
+use msdd_beds::correlation::STEFAN_BOLTZMANN;
+use msdd_beds::exchange::{Emissivities, Tracing, exchange};
 use msdd_beds::facing::Facing;
 use msdd_beds::named_gases::GasName;
-use msdd_beds::network::{Beside, Joint, Materials, Network, Plate, PlateLaw};
+use msdd_beds::network::{Beside, Joint, Materials, Network, Plate, PlateLaw, Surfaces};
 use msdd_beds::property::Property;
+use msdd_beds::rays::Enclosure;
 use msdd_beds::transient::Transient;
 use msdd_spheres::{Boundary, Material, Simulation, Sphere, Stiffness, Wall};
 use std::f64::consts::PI;
@@ -35,10 +38,12 @@ fn chain(count: usize) -> Network {
     Network {
         materials: materials(GasName::Vacuum),
         mass: vec![1e-3; count],
+        radii: vec![1e-3; count],
         contacts: (1..count).map(|j| Joint { i: j - 1, j, size, radius: 1e-3 }).collect(),
         gaps: Vec::new(),
         beside: vec![beside(0, 0), beside(count - 1, 1)],
         held: vec![None; count],
+        surfaces: None,
     }
 }
 
@@ -87,6 +92,54 @@ fn the_steady_state_is_straight() {
     for (k, sign) in [(0, 1.0), (1, -1.0)] {
         let power = (transient.given[k] - given[k]) / 100.0;
         assert!((power / (sign * flux) - 1.0).abs() < 1e-8, "{power} {flux}");
+    }
+}
+
+/// A sphere between two plates that radiate alike ends at the mean of the fourth powers, and what passes is σ (T₁⁴ − T₂⁴) of half of the size.
+#[test]
+fn a_sphere_radiates_by_fourth_powers() {
+    let size = 1e-5;
+    let surfaces =
+        Surfaces { emissivity: 1.0, spheres: Vec::new(), plates: vec![(0, 0, size), (0, 1, size)] };
+    let network = Network { beside: Vec::new(), surfaces: Some(surfaces), ..chain(1) };
+    let mut transient = Transient::new(&network, 500.0, vec![1000.0, 300.0]);
+    let mut step = 1.0;
+    transient.run_to(1e6, 0.01, &mut step).unwrap();
+    let expected = (0.5 * (1e12 + 300f64.powi(4))).powf(0.25);
+    assert!((transient.temperatures[0] / expected - 1.0).abs() < 1e-8, "{:?}", transient.temperatures);
+    let given = transient.given[0];
+    transient.step(100.0).unwrap();
+    let flux = 0.5 * size * STEFAN_BOLTZMANN * (1e12 - 300f64.powi(4));
+    assert!(((transient.given[0] - given) / 100.0 / flux - 1.0).abs() < 1e-8);
+}
+
+/// Radiation of a whole bed, of poor conductors: the balance closes, and it warms faster than without.
+#[test]
+fn a_bed_that_radiates_keeps_its_balance() {
+    let simulation = bed();
+    let enclosure = Enclosure::new(&simulation);
+    let walls = simulation.boundary.walls().len();
+    let mut emissivities = Emissivities { spheres: 0.8, walls: vec![0.0; walls] };
+    emissivities.walls[4] = 0.8;
+    let traced = exchange(&enclosure, &emissivities, &Tracing { rays: 200, seed: 1, threads: 1 }).unwrap();
+    let materials = Materials {
+        conductivity: Property::Constant(2.0),
+        solid_fraction: Some(0.55),
+        ..materials(GasName::Air)
+    };
+    let stored = |radiates: bool, law: PlateLaw| {
+        let network = Network::new(&simulation, materials.clone(), &[Plate { wall: 4, law }]);
+        let network = if radiates { network.radiating(&traced, &[4]) } else { network };
+        let mut transient = Transient::new(&network, 600.0, vec![1200.0]);
+        transient.run_to(20.0, 0.05, &mut 0.1).unwrap();
+        let (stored, residual) = (transient.stored(), transient.residual());
+        assert!(residual.abs() < 1e-9 * stored, "{law:?} {residual} of {stored}");
+        assert!(transient.temperatures.iter().all(|t| (600.0 - 1e-6..1200.0 + 1e-6).contains(t)));
+        stored
+    };
+    for law in LAWS {
+        let [dark, bright] = [false, true].map(|radiates| stored(radiates, law));
+        assert!(bright > 1.2 * dark, "{law:?} {bright} {dark}");
     }
 }
 

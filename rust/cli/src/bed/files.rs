@@ -118,6 +118,7 @@ fn summary(results: &Results) -> String {
                 "from": between[0], "to": between[1],
                 "porosity": 1.0 - slab.solid_fraction, "coordination": slab.coordination, "pressure": slab.pressure,
                 "conductivity_contacts": slab.contact_conductivity, "conductivity_gas": slab.gas_conductivity,
+                "conductivity_radiation": slab.radiation_conductivity,
             })
         })
         .collect();

@@ -180,11 +180,14 @@ fn property(of: &Property) -> String {
 fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
     let grains = &scene.grains;
     let fabric = geometry.tensor(start.fabric);
+    let emissivity = grains
+        .emissivity
+        .map_or(String::new(), |emissivity| format!("        emissivity      {};\n", plain(emissivity)));
     let mut text = format!(
         "// The law of spheres, and what the bed is like at the start\n\
          surrogate\n{{\n    type            spheres;\n    spheresCoeffs\n    {{\n\
          \x20       poissonRatio    {};\n        roughness       {};\n        hardness        {};\n\
-         \x20       gas             {};\n        gasPressure     {};\n        accommodation   {};\n\
+         {emissivity}\x20       gas             {};\n        gasPressure     {};\n        accommodation   {};\n\
          \x20       coordination    {};\n        mobilised       {};\n        fabric          {fabric};\n    }}\n}}\n\n\
          density             {};\nyoungModulus        {};\nthermalConductivity {};\nheatCapacity        {};\n\
          thermalExpansion    {};\nmeanRadius          {};\n\nmechanics           equilibrium;\n\nequilibriumCoeffs\n{{\n    walls\n    {{\n",

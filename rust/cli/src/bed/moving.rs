@@ -5,6 +5,7 @@ use crate::error::CliError;
 use crate::progress::Progress;
 use msdd_beds::cost::estimate;
 use msdd_beds::coupled::{MOST_OVERLAP, Prepared, Row, Run, prepare, run, side_friction};
+use msdd_beds::exchange::Exchange;
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::{at_start, join};
 use msdd_beds::rows::elements;
@@ -156,7 +157,7 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
             1e-3 * row.walls[lid],
             row.porosity,
             row.coordination,
-            row.contact_conductivity + row.gas_conductivity
+            row.conductivity()
         );
     };
     found.rows.iter().step_by(shown).for_each(|row| line(&mut text, row));
@@ -203,7 +204,8 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     } else if peak.is_finite() {
         let _ = writeln!(text, "Hertz's peak stress is at most {peak:.2} of that at which yielding begins");
     }
-    if let Some(said) = scene.closure() {
+    let noise = prepared.exchange.as_ref().and_then(Exchange::warning);
+    for said in scene.closure().into_iter().chain(noise) {
         let _ = writeln!(text, "Note: {said}");
     }
     text

@@ -1,6 +1,7 @@
 //! What `msdd bed run` prints.
 
 use super::results::Results;
+use msdd_beds::exchange::Exchange;
 use msdd_beds::experiment::{Misfit, left_out};
 use std::fmt::Write;
 
@@ -24,18 +25,25 @@ fn packing(out: &mut String, results: &Results) {
         results.case.seed,
         bed.plate_force() / bed.area(&results.case)
     );
-    let _ = writeln!(out, "mm from the plate   porosity   contacts   p [Pa]   k [W/(m K)] = contacts + gas");
+    let radiates = bed.exchange.is_some();
+    let more = if radiates { " + radiation" } else { "" };
+    let _ = writeln!(
+        out,
+        "mm from the plate   porosity   contacts   p [Pa]   k [W/(m K)] = contacts + gas{more}"
+    );
     for ([from, to], slab) in &results.slabs {
         let (contacts, gas) = (slab.contact_conductivity, slab.gas_conductivity);
+        let radiation = slab.radiation_conductivity;
+        let more = if radiates { format!(" + {radiation:.3}") } else { String::new() };
         let _ = writeln!(
             out,
-            "{:>6.0} to {:<6.0}      {:<8.3}   {:<8.2}   {:<6.0}   {:.3} = {contacts:.3} + {gas:.3}",
+            "{:>6.0} to {:<6.0}      {:<8.3}   {:<8.2}   {:<6.0}   {:.3} = {contacts:.3} + {gas:.3}{more}",
             1e3 * from,
             1e3 * to,
             1.0 - slab.solid_fraction,
             slab.coordination,
             slab.pressure,
-            contacts + gas
+            contacts + gas + radiation
         );
     }
 }
@@ -81,5 +89,6 @@ pub fn warnings(results: &Results) -> Vec<String> {
             "the lid, which stopped at a porosity, presses with {pressure:.3e} Pa; that is in proportion to grains.simulated_young_modulus"
         )
     });
-    missing.into_iter().chain(stress).chain(lid).chain(results.case.closure()).collect()
+    let noise = results.bed.exchange.as_ref().and_then(Exchange::warning);
+    missing.into_iter().chain(stress).chain(lid).chain(results.case.closure()).chain(noise).collect()
 }

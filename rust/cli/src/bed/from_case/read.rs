@@ -147,6 +147,8 @@ impl<'a> Reader<'a> {
         let (roughness, hardness) =
             (Self::number(spheres, "roughness", 0.0)?, Self::number(spheres, "hardness", 0.0)?);
         let expansion = Self::number(of, "thermalExpansion", 0.0)?;
+        let radiates = !spheres.text("radiation").is_ok_and(|on| on == "off");
+        let emissivity = if radiates { Self::number(spheres, "emissivity", 0.0)? } else { 0.0 };
         Ok(Grains {
             number: 0,
             diameter: rounded(2.0 * positive("meanRadius")?, DIGITS + 1),
@@ -162,6 +164,8 @@ impl<'a> Reader<'a> {
             roughness: (roughness > 0.0).then_some(roughness),
             hardness: (roughness > 0.0).then_some(hardness),
             yield_stress: None,
+            emissivity: (emissivity > 0.0).then_some(emissivity),
+            rays: None,
             thermal_expansion: (expansion > 0.0).then_some(expansion),
         })
     }
