@@ -1,5 +1,6 @@
 """The law of spheres: answers, arrays of all kinds, and mistakes that end in an exception and never in a crash."""
 
+import dataclasses
 import unittest
 from typing import Any
 
@@ -94,6 +95,14 @@ class Answers(WithLaw):
         # Helium has 0.33 W/(m K) there; the geometric mean is what little contrast gives.
         self.assertLess(abs(step.conductivity[0] / (2.4**0.63 * 0.33**0.37) - 1), 0.1)
         self.assertLess(step.conductivity[0] - step.gas_conductivity, 0.05 * step.conductivity[0])
+
+    def test_spheres_that_radiate_conduct_more_along_all_axes(self) -> None:
+        bright = dataclasses.replace(STEEL, emissivity=0.8)
+        state = self.state(np.array([0.58, 0.62]))
+        dark, lit = (self.law.advance(m, state, temperature=1000) for m in (STEEL, bright))
+        self.assertTrue((dark.radiation_conductivity == 0).all() and (lit.radiation_conductivity > 0.1).all())
+        np.testing.assert_allclose(lit.conductivity[:3] - dark.conductivity[:3], np.tile(lit.radiation_conductivity, (3, 1)))
+        np.testing.assert_array_equal(lit.conductivity[3:], dark.conductivity[3:])
 
     def test_arrays_of_any_shape(self) -> None:
         state = self.state(np.full((2, 1), 0.6), np.full((6, 1, 3), 1e4) * np.array([1, 1, 1, 0, 0, 0])[:, None, None])
