@@ -55,8 +55,8 @@ pub static MATERIALS: [Material; 4] = [
     Material {
         preset: Preset {
             name: "glass",
-            about: "soda-lime glass near room temperature (MakeItFrom.com, annealed soda-lime glass; emissivity of smooth glass, \
-                    0.92 to 0.94: LumaSense, Emissivity table, 2009), smooth beads of 4 mm diameter",
+            about: "soda-lime glass near room temperature (MakeItFrom.com, annealed soda-lime glass; emissivity as in tables for \
+                    thermographs, 0.94 for polished plate glass), smooth beads of 4 mm diameter",
             grains: Grains {
                 density: 2400.0,
                 young_modulus: 71e9,
@@ -76,8 +76,8 @@ pub static MATERIALS: [Material; 4] = [
         preset: Preset {
             name: "alumina",
             about: "sintered alumina at 20 degrees Celsius (NIST Standard Reference Database 150; R. G. Munro, J. Am. Ceram. \
-                    Soc. 80, 1919, 1997; emissivity between 0.69 at 600 K and 0.55 at 1000 K: Incropera and DeWitt, \
-                    Fundamentals of Heat and Mass Transfer, Table A.11), spheres of 6 mm diameter, taken as smooth",
+                    Soc. 80, 1919, 1997; emissivity between 0.69 at 600 K and 0.54 at 1000 K: P. E. Liley, Heat \
+                    Exchanger Design Handbook 5.5.7), spheres of 6 mm diameter, taken as smooth",
             grains: Grains {
                 density: 3984.0,
                 young_modulus: 416e9,
