@@ -146,7 +146,7 @@ Foam::label Foam::wallConditions::leave
 )
 {
     const label dim = mesh_.dim();
-    // Of nodes that several processes have, all decide alike
+    // Processes that share a node decide the same
     scalarField changes(dim*mesh_.size(), Zero);
     forAll(pushes_, i)
     {
