@@ -22,7 +22,7 @@ use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::pour;
 use crate::press::press;
 use crate::profile::{Probe, Width, slab, solid_fraction};
-use crate::region::Region;
+use crate::region::{Region, lengths};
 use crate::scene::Scene;
 use crate::settle::{Rest, progress};
 use crate::solid::{PeakStress, Roughness};
@@ -212,6 +212,8 @@ struct Coupled<'a> {
     lid: Moving,
     shell: Option<Moving>,
     depth_at_start: f64,
+    /// Lengths of the base of a bed without sides that are aimed at \[m\].
+    sides: Option<[f64; 2]>,
     /// Part of an interval's motion that is made before the lag is looked at again.
     part: f64,
     run: Run,
@@ -265,6 +267,7 @@ impl<'a> Coupled<'a> {
             lid: Moving::new(lid, Hold::Place { moved: 0.0 }),
             shell: scene.shell.as_ref().map(|_| Moving::new(number("side"), Hold::Place { moved: 0.0 })),
             depth_at_start: 0.0,
+            sides: None,
             part: 0.0,
             run: Run {
                 rows: Vec::new(),
@@ -295,9 +298,14 @@ impl<'a> Coupled<'a> {
         depth(&self.simulation, self.lid.wall)
     }
 
+    /// Of the floor \[m²\].
+    fn area(&self) -> f64 {
+        area(self.scene, &self.simulation)
+    }
+
     /// Of the grains on a wall \[Pa\].
     fn pressure(&self, wall: usize) -> f64 {
-        let area = wall_area(&self.simulation, wall, self.scene.vessel().area(), self.depth());
+        let area = wall_area(&self.simulation, wall, self.area(), self.depth());
         self.simulation.wall_load(wall) / area
     }
 
@@ -363,6 +371,7 @@ impl<'a> Coupled<'a> {
         if let Some(shell) = &mut self.shell {
             shell.stop(&mut self.simulation);
         }
+        self.simulation.set_velocity_gradient([[0.0; 3]; 3]);
         self.network = network(self.scene, (&self.simulation, self.exchange), self.depth());
         self.network.held.clone_from(&self.held);
         Ok(())
@@ -371,7 +380,7 @@ impl<'a> Coupled<'a> {
     /// A few steps, in which walls move as what holds them says.
     fn block(&mut self) -> Result<(), BedError> {
         self.simulation.drag = drag(&self.simulation, self.depth());
-        let (area, depth) = (self.scene.vessel().area(), self.depth());
+        let (area, depth, sides) = (self.area(), self.depth(), self.sides);
         let walls = [Some(&mut self.lid), self.shell.as_mut()];
         let mut walls: Vec<&mut Moving> = walls.into_iter().flatten().collect();
         steered(&mut self.simulation, |simulation, dt, left| {
@@ -380,6 +389,7 @@ impl<'a> Coupled<'a> {
                     simulation.wall_load(wall.wall) / wall_area(simulation, wall.wall, area, depth);
                 wall.steer(simulation, pressure, dt, left);
             }
+            spread(simulation, sides, left);
         })?;
         Ok(())
     }
@@ -403,7 +413,7 @@ impl<'a> Coupled<'a> {
     /// What is not in balance over the load: along z, and on walls that give way.
     fn lag(&self) -> f64 {
         let walls = [Some(&self.lid), self.shell.as_ref()].into_iter().flatten();
-        let pressure = self.load() / self.scene.vessel().area();
+        let pressure = self.load() / self.area();
         let of_walls = walls.map(|wall| wall.lag(self.pressure(wall.wall)) / pressure);
         of_walls.fold(self.unbalanced(), f64::max)
     }
@@ -416,6 +426,9 @@ impl<'a> Coupled<'a> {
             (None, Some(pressing)) => Hold::Pressure { pressure: pressing.at(time) },
             (None, None) => Hold::Place { moved: 0.0 },
         };
+        self.sides = self.scene.sides.as_ref().zip(self.scene.container.base).map(|(sides, [x, y])| {
+            [x * (1.0 + sides.strain_x.at(time)), y * (1.0 + sides.strain_y.at(time))]
+        });
         let wall = self.wall_growth(time);
         if let Some(Hold::Shell { grown, .. }) = self.shell.as_mut().map(|shell| &mut shell.hold) {
             *grown = wall;
@@ -444,7 +457,7 @@ impl<'a> Coupled<'a> {
     fn record(&mut self, time: f64) -> Result<(), BedError> {
         let (scene, simulation) = (self.scene, &self.simulation);
         let keys = &scene.record;
-        let region = region(scene);
+        let region = region(scene, simulation);
         let wall = simulation.boundary.walls()[scene.wall(&keys.wall).unwrap_or_default()];
         let round = scene.wall("side") == scene.wall(&keys.wall);
         let temperature = |&distance: &f64| {
@@ -485,7 +498,11 @@ impl<'a> Coupled<'a> {
             stress: region.stress(simulation),
             thermal_strain: scene.grains.thermal_expansion.unwrap_or(0.0)
                 * (mean_temperature - scene.time.initial_temperature),
-            strain: region.strain(simulation, &self.places, scene.container.endless),
+            strain: region.strain(
+                simulation,
+                &self.places,
+                scene.container.base.filter(|_| scene.container.endless),
+            ),
             porosity: 1.0 - averages.solid_fraction,
             porosity_outside: outside.unwrap_or(f64::NAN),
             coordination: averages.coordination,
@@ -524,9 +541,22 @@ fn depth(simulation: &Simulation, lid: usize) -> f64 {
 }
 
 /// Where the averages are taken.
-fn region(scene: &Scene) -> Region {
+fn region(scene: &Scene, simulation: &Simulation) -> Region {
     let keys = &scene.record;
-    Region { heights: keys.heights, radius: keys.radius, area: scene.vessel().area() }
+    Region { heights: keys.heights, radius: keys.radius, area: area(scene, simulation) }
+}
+
+/// Of the floor \[m²\]; the base of a bed without sides may be strained.
+fn area(scene: &Scene, simulation: &Simulation) -> f64 {
+    lengths(simulation).map_or_else(|| scene.vessel().area(), |[x, y]| x * y)
+}
+
+/// Strains a bed without sides so that its base has these lengths \[m\] after `left` \[s\].
+fn spread(simulation: &mut Simulation, aim: Option<[f64; 2]>, left: f64) {
+    if let Some((aim, now)) = aim.zip(lengths(simulation)) {
+        let [x, y] = [0, 1].map(|k| (aim[k] / now[k] - 1.0) / left);
+        simulation.set_velocity_gradient([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0; 3]]);
+    }
 }
 
 /// The network of a bed whose heated walls hold the first layer of grains.
@@ -543,7 +573,12 @@ fn network(scene: &Scene, (simulation, exchange): (&Simulation, Option<&Exchange
         gas: scene.gas.name,
         gas_pressure: scene.gas.pressure,
         accommodation: scene.gas.accommodation,
-        solid_fraction: Some(solid_fraction(simulation, &floor, middle, Width::Whole(scene.vessel().area()))),
+        solid_fraction: Some(solid_fraction(
+            simulation,
+            &floor,
+            middle,
+            Width::Whole(area(scene, simulation)),
+        )),
     };
     let walls: Vec<usize> = heated_walls(scene).collect();
     let plates: Vec<Plate> = walls.iter().map(|&wall| Plate { wall, law: PlateLaw::Held }).collect();

@@ -49,8 +49,9 @@ impl Region {
 
     /// Strain of the bed since its spheres were at `before` \[-\], extension positive: along x, y, z; in a cylinder the mean across its axis,
     /// twice, and along it. Along each axis it is the slope of a straight line through the displacements of the spheres that began
-    /// in the region, over where they began. A bed without sides has none across z.
-    pub fn strain(&self, simulation: &Simulation, before: &[[f64; 3]], is_endless: bool) -> [f64; 3] {
+    /// in the region, over where they began. In a bed without sides the strain across z is that of its base since it had the lengths
+    /// `base` \[m\].
+    pub fn strain(&self, simulation: &Simulation, before: &[[f64; 3]], base: Option<[f64; 2]>) -> [f64; 3] {
         let inside = || simulation.spheres.iter().zip(before).filter(|(_, begin)| self.holds(**begin));
         let count = inside().count() as f64;
         let along = |axis: usize| {
@@ -63,7 +64,9 @@ impl Region {
             });
             both / square
         };
-        let across = |axis: usize| if is_endless { 0.0 } else { along(axis) };
+        let lengths = base.zip(lengths(simulation));
+        let across =
+            |axis: usize| lengths.map_or_else(|| along(axis), |(then, now)| now[axis] / then[axis] - 1.0);
         match self.radius {
             None => [across(0), across(1), along(2)],
             Some(_) => {
@@ -101,6 +104,11 @@ impl Region {
     }
 }
 
+/// Lengths of the base of a bed without sides \[m\].
+pub fn lengths(simulation: &Simulation) -> Option<[f64; 2]> {
+    simulation.boundary.cell().map(|cell| [0, 1].map(|k| cell.lattice.edges[k][k]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -132,9 +140,10 @@ mod tests {
         let near = |found: [f64; 3], wanted: [f64; 3]| {
             assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}, {wanted:?}");
         };
-        near(region(None).strain(&simulation, &before, false), strain);
-        near(region(None).strain(&simulation, &before, true), [0.0, 0.0, 5e-4]);
-        near(region(Some(1e3)).strain(&simulation, &before, false), [-5e-5, -5e-5, 5e-4]);
+        near(region(None).strain(&simulation, &before, None), strain);
+        let base = lengths(&simulation).map(|base| [base[0] / 1.001, base[1] / 0.998]);
+        near(region(None).strain(&simulation, &before, base), [1e-3, -2e-3, 5e-4]);
+        near(region(Some(1e3)).strain(&simulation, &before, None), [-5e-5, -5e-5, 5e-4]);
     }
 
     #[test]

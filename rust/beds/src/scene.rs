@@ -46,6 +46,8 @@ pub struct Scene {
     pub heated: Vec<Heated>,
     /// A section: the side of a cylinder that gives way. Default: a rigid side.
     pub shell: Option<Shell>,
+    /// A section: how a bed without sides is strained across. Default: it keeps its base.
+    pub sides: Option<Sides>,
     /// A section: temperature at the start, intervals, steps.
     pub time: Time,
     /// A section: where temperatures and averages are taken.
@@ -89,6 +91,16 @@ pub struct Shell {
     /// [1/K]. Allowed: `EXPANSIONS`.
     #[serde(default)]
     pub thermal_expansion: f64,
+}
+
+/// Strain of the base of a bed without sides (`container.endless`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sides {
+    /// Over time: extension of the base along x since the start, over its length \[-\]. Allowed: `STRAINS`.
+    pub strain_x: Schedule,
+    /// The same along y. Allowed: `STRAINS`.
+    pub strain_y: Schedule,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -231,6 +243,14 @@ impl Scene {
         }
         if self.shell.is_some() && self.container.radius.is_none() {
             return wrong("shell", "a box".into(), "a shell around a cylinder: container.radius");
+        }
+        if let Some(Sides { strain_x, strain_y }) = &self.sides {
+            if !self.container.endless {
+                return wrong("sides", "given".into(), "a bed without sides: container.endless = true");
+            }
+            for (key, strain) in [("sides.strain_x", strain_x), ("sides.strain_y", strain_y)] {
+                strain.check(STRAINS).map_err(|(value, allowed)| (key.to_string(), value, allowed))?;
+            }
         }
         if self.record.radius.is_some() != self.container.radius.is_some() {
             return wrong("record.radius", "given or not".into(), "given in a cylinder, and nowhere else");

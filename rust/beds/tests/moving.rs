@@ -217,6 +217,22 @@ fn an_endless_bed_reaches_beyond_its_sides() {
     assert_eq!(again.spheres, simulation.spheres);
 }
 
+/// The base of a bed without sides follows its path exactly, the lid its own. All stresses grow by nearly one factor where all strains are the same.
+#[test]
+fn a_bed_without_sides_is_strained_across() {
+    let closed = "strain = [[0, 0], [400, 3e-4]]\n[sides]\nstrain_x = [[0, 0], [400, -3e-4]]\nstrain_y = [[0, 0], [400, -3e-4]]";
+    let heated = "[[heated]]\nwall = \"floor\"\ntemperature = 293.15";
+    let (_, _, found) = bed([ENDLESS, closed, heated, COLUMN]);
+    let (first, last) = (&found.rows[0], &found.rows[1]);
+    for k in 0..2 {
+        assert!((last.strain[k] / -3e-4 - 1.0).abs() < 1e-9, "{last:?}");
+    }
+    let [x, y, z] = [0, 1, 2].map(|k| last.stress[k] / first.stress[k]);
+    assert!(z > 2.0 && (x / z - 1.0).abs() < 0.1 && (y / z - 1.0).abs() < 0.1, "{first:?} {last:?}");
+    // Floor and lid bear the stress inside on a base that is smaller now.
+    assert!((0.5 * (last.walls[0] + last.walls[1]) / last.stress[2] - 1.0).abs() < 0.05, "{last:?}");
+}
+
 /// Glass in helium: the run says that a closure is used, and the middle of the bed conducts what that says.
 #[test]
 fn grains_that_conduct_poorly_follow_the_closure() {
@@ -286,6 +302,16 @@ fn bad_descriptions_are_refused_with_key_and_value() {
         ("interval = 200", "interval = 500", "time.interval = 500, allowed:"),
         ("steps = 3000", "steps = 3", "time.steps = 3, allowed: 100 to"),
         ("[time]", "[shell]\nyoung_modulus = 1e9\nthickness = 1e-3\n[time]", "shell = a box, allowed:"),
+        (
+            "[time]",
+            "[sides]\nstrain_x = 0.3\nstrain_y = 0\n[time]",
+            "sides.strain_x = 0.3, allowed: -0.2 to 0.2",
+        ),
+        (
+            "endless = true",
+            "endless = false\n[sides]\nstrain_x = 0\nstrain_y = 0",
+            "sides = given, allowed: a bed without sides",
+        ),
         ("endless = true", "radius = 0.1", "container = both or neither"),
         ("base = [0.032, 0.032]", "base = [0.01, 0.032]", "container.base = 0.01, allowed: two and a half"),
         ("1.2e-5", "-1", "grains.thermal_expansion = -1, allowed: 0 to 0.01"),

@@ -74,7 +74,9 @@ fn notes(scene: &Scene) -> Vec<String> {
     let grains = (scene.grains.friction != 0.3).then(|| {
         format!("spheres have a friction of {}; the law of spheres knows 0.3", scene.grains.friction)
     });
-    friction.into_iter().chain(grains).collect()
+    let sides =
+        scene.sides.is_some().then(|| "the base is strained; in the solver's case it stays".to_string());
+    friction.into_iter().chain(grains).chain(sides).collect()
 }
 
 /// The files of the case.

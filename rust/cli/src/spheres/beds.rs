@@ -132,8 +132,9 @@ pub fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64
             mobilised,
         }
     };
-    // Where the lid keeps its pressure, and where the side may leave the spheres under their weight.
-    let gives_way = (scene.lid.pressing.is_some() || scene.shell.is_some()).then_some(2);
+    // Where the lid keeps its pressure, and where the bed is spread and may lose all but its weight.
+    let spreads = scene.shell.is_some() || scene.sides.is_some();
+    let gives_way = (scene.lid.pressing.is_some() || spreads).then_some(2);
     let steps = (1..temperatures.len()).map(|k| {
         let [thermal, x, y, z] =
             std::array::from_fn(|column| (1.0 + strains[column][k]) / (1.0 + strains[column][k - 1]) - 1.0);

@@ -105,7 +105,18 @@ impl<'a> Reader<'a> {
         });
         let record = self.record(&grains, &extent, &heated)?;
         self.left_out()?;
-        Ok(Scene { seed: 1, grains, container, lid, gas: self.gas()?, heated, shell, time, record })
+        Ok(Scene {
+            seed: 1,
+            grains,
+            container,
+            lid,
+            gas: self.gas()?,
+            heated,
+            shell,
+            sides: None,
+            time,
+            record,
+        })
     }
 
     /// The radius of a cylinder over that of its mesh.
