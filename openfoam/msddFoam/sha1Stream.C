@@ -50,13 +50,13 @@ public:
 
     protected:
 
-        virtual std::streamsize xsputn(const char* text, std::streamsize count)
+        virtual std::streamsize xsputn(const char* text, std::streamsize count) override
         {
             sha1_.append(text, count);
             return count;
         }
 
-        virtual int_type overflow(int_type character)
+        virtual int_type overflow(int_type character) override
         {
             if (!traits_type::eq_int_type(character, traits_type::eof()))
             {

@@ -131,7 +131,7 @@ Foam::Ostream& Foam::functionObjects::granularFunctionObject::line()
     if (!writtenHeader_)
     {
         resetFile(fileName_);
-        writeHeader(file());
+        writeHead(file());
         file() << endl;
         writtenHeader_ = true;
     }

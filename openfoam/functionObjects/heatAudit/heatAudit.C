@@ -94,7 +94,7 @@ Foam::functionObjects::heatAudit::heatAudit
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
-void Foam::functionObjects::heatAudit::writeHeader(Ostream& os) const
+void Foam::functionObjects::heatAudit::writeHead(Ostream& os) const
 {
     heatAuditColumns.explain(os);
     writeCommented(os, "Time");

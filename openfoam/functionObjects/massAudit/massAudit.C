@@ -80,7 +80,7 @@ Foam::functionObjects::massAudit::massAudit
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
-void Foam::functionObjects::massAudit::writeHeader(Ostream& os) const
+void Foam::functionObjects::massAudit::writeHead(Ostream& os) const
 {
     massAuditColumns.explain(os);
     writeCommented(os, "Time");

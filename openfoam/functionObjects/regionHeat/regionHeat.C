@@ -313,7 +313,7 @@ void Foam::functionObjects::regionHeat::resume()
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
-void Foam::functionObjects::regionHeat::writeHeader(Ostream& os) const
+void Foam::functionObjects::regionHeat::writeHead(Ostream& os) const
 {
     regionHeatColumns.explain(os);
     writeCommented(os, "Time");
@@ -385,7 +385,7 @@ bool Foam::functionObjects::regionHeat::write()
         if (!writtenHeader_)
         {
             resetFile(fileName_);
-            writeHeader(file());
+            writeHead(file());
             file() << endl;
             writtenHeader_ = true;
         }

@@ -81,7 +81,7 @@ Foam::functionObjects::spaceProbes::spaceProbes
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
-void Foam::functionObjects::spaceProbes::writeHeader(Ostream& os) const
+void Foam::functionObjects::spaceProbes::writeHead(Ostream& os) const
 {
     spaceProbesColumns.explain(os);
     forAll(points_, i)

@@ -101,7 +101,7 @@ Foam::functionObjects::subRegions::subRegions
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
-void Foam::functionObjects::subRegions::writeHeader(Ostream& os) const
+void Foam::functionObjects::subRegions::writeHead(Ostream& os) const
 {
     subRegionsColumns.explain(os);
     writeCommented(os, "Time");

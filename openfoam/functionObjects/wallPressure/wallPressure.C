@@ -83,7 +83,7 @@ Foam::functionObjects::wallPressure::wallPressure
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
-void Foam::functionObjects::wallPressure::writeHeader(Ostream& os) const
+void Foam::functionObjects::wallPressure::writeHead(Ostream& os) const
 {
     wallPressureColumns.explain(os);
     writeCommented(os, "Time");

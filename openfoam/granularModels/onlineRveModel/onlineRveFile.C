@@ -66,7 +66,7 @@ public:
         model_(model)
     {}
 
-    virtual bool writeData(Ostream&) const
+    virtual bool writeData(Ostream&) const override
     {
         return true;
     }
@@ -77,7 +77,7 @@ public:
         IOstream::versionNumber,
         IOstream::compressionType,
         const bool
-    ) const
+    ) const override
     {
         const fileName folder(time().timePath()/db().dbDir());
         writeWhole(folder/name(), [&](std::ostream& os) { model_.write(os); });

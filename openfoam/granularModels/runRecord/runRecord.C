@@ -59,14 +59,14 @@ Foam::runRecord::runRecord(const fvMesh& mesh, const bool registered)
     const timeFolder folder(mesh.time().timePath(), mesh.dbDir());
     if (returnReduce(folder.hasRecord(), andOp<bool>()))
     {
-        read(folder);
+        readFrom(folder);
     }
 }
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::runRecord::read(const timeFolder& folder)
+void Foam::runRecord::readFrom(const timeFolder& folder)
 {
     const dictionary& dict = folder.record();
     continues = true;
