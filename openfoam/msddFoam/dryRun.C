@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "dryRun.H"
+#include "foamVersions.H"
 #include "equilibriumSolver.H"
 #include "OSspecific.H"
 
@@ -39,13 +40,7 @@ Foam::dryRun::dryRun(const argList& args)
 :
     args_(args),
     output_(std::cout),
-    communicator_
-    (
-        UPstream::allocateCommunicator
-        (
-            UPstream::worldComm, identity(UPstream::nProcs())
-        )
-    ),
+    communicator_(newCommunicator()),
     broken_(false)
 {
     FatalError.throwExceptions();
@@ -53,7 +48,7 @@ Foam::dryRun::dryRun(const argList& args)
     // Some function objects make their files when they are made. The prefix is
     // below the case folder
     label id = pid();
-    Pstream::scatter(id);
+    fromMaster(id);
     fileName folder(getEnv("TMPDIR"));
     if (!(folder.isAbsolute() && isDir(folder)))
     {
@@ -144,7 +139,7 @@ bool Foam::dryRun::gather(const string& place, const string& message)
         stringList all(Pstream::nProcs());
         all[Pstream::myProcNo()] = mine;
         Pstream::gatherList(all, Pstream::msgType(), communicator_);
-        Pstream::scatterList(all, Pstream::msgType(), communicator_);
+        fromMaster(all, communicator_);
         return all;
     };
     const stringList places(gathered(place)), messages(gathered(message));
@@ -170,15 +165,9 @@ void Foam::dryRun::meet(const string& mine)
         return;
     }
     // The usual communicator may be in use by processes that wait for this one
-    scalar arrived = 1;
-    const label before = UPstream::nRequests();
-    label request = -1;
-    reduce
-    (
-        arrived, sumOp<scalar>(), Pstream::msgType(), communicator_, request
-    );
+    meeting all(communicator_);
     scalar waited = 0;
-    while (request >= 0 && !UPstream::finishedRequest(request))
+    while (!all.over())
     {
         ::usleep(pause);
         waited += 1e-6*pause;
@@ -197,7 +186,6 @@ void Foam::dryRun::meet(const string& mine)
             Pstream::exit(1);
         }
     }
-    UPstream::resetRequests(before);
 }
 
 

@@ -150,8 +150,8 @@ int main(int argc, char *argv[])
     {
         if (string(argv[i]) == "-version")
         {
-            Info<< "msddFoam " << msddVersion << ", OpenFOAM "
-                << OPENFOAM << endl;
+            Info<< "msddFoam " << msddVersion << ", " << foamText().c_str()
+                << endl;
             return 0;
         }
     }
@@ -163,7 +163,8 @@ int main(int argc, char *argv[])
     runRecord::accepted = wordHashSet(args.getList<word>("accept", false));
     // Before all that uses PETSc, so that it ends after it
     const petscSession petsc;
-    Info<< "msddFoam " << msddVersion << nl << endl;
+    Info<< "msddFoam " << msddVersion << nl
+        << "Built for " << foamText().c_str() << nl << endl;
     if (args.found("dry-run"))
     {
         return dryRun::main(args);

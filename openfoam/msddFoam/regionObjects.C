@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "regionObjects.H"
+#include "foamVersions.H"
 #include "granularSolidThermo.H"
 #include "mappedPatchBase.H"
 #include "sceneWarnings.H"
@@ -284,7 +285,7 @@ void Foam::regionObjects::makeAxes()
             dimensionedScalar("one", dimless, 1)
         )
     );
-    if (solid_->isotropic())
+    if (solid_->isotropic() || foamTakesTensor)
     {
         return;
     }
@@ -298,7 +299,7 @@ void Foam::regionObjects::makeAxes()
     (
         new volSymmTensorField
         (
-            IOobject("Anialpha", runTime_.timeName(), *mesh_),
+            IOobject(foamDirectedAlpha, runTime_.timeName(), *mesh_),
             *mesh_,
             dimensionedSymmTensor(along.dimensions(), Zero),
             zeroGradientFvPatchSymmTensorField::typeName

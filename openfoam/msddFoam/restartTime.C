@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "restartTime.H"
+#include "foamVersions.H"
 #include "runRecord.H"
 #include "IFstream.H"
 #include "OSspecific.H"
@@ -87,7 +88,7 @@ Foam::wordList Foam::restartTime::names() const
         }
     }
     Pstream::gatherList(found);
-    Pstream::scatterList(found);
+    fromMaster(found);
 
     HashTable<scalar> values;
     for (const wordList& those : found)

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "runSummary.H"
+#include "foamVersions.H"
 #include "OStringStream.H"
 #include "wholeFile.H"
 #include "Time.H"
@@ -156,6 +157,7 @@ void Foam::runSummary::write
     OStringStream os;
     os.precision(10);
     os  << "{\n  \"application\": \"msddFoam\",\n"
+        << "  \"built_for\": \"" << foamText().c_str() << "\",\n"
         << "  \"wall_seconds\": " << wallSeconds << ",\n"
         << "  \"cpu_seconds\": " << cpuSeconds << ",\n"
         << "  \"steps\": " << steps << ",\n"

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "sceneWarnings.H"
+#include "foamVersions.H"
 #include "briefNumber.H"
 #include "Function1.H"
 #include "regionSplit.H"
@@ -155,7 +156,7 @@ void Foam::sceneWarnings::checkParts()
         ++cells[i];
     }
     Pstream::listCombineGather(cells, plusEqOp<label>());
-    Pstream::listCombineScatter(cells);
+    fromMaster(cells);
     Foam::sort(cells, greaterOp<label>());
     string sizes;
     for (label i = 0; i < min(parts, mostParts); ++i)

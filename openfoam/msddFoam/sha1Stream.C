@@ -28,6 +28,8 @@ Description
 
 \*---------------------------------------------------------------------------*/
 
+#if OPENFOAM < 2206
+
 #include "SHA1.H"
 
 #include <iostream>
@@ -75,5 +77,7 @@ std::streambuf* newSha1Buffer()
 }
 
 } // End namespace Foam
+
+#endif
 
 // ************************************************************************* //

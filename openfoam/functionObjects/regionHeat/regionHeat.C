@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "regionHeat.H"
+#include "foamVersions.H"
 #include "fvMatrices.H"
 #include "fvOptions.H"
 #include "mappedPatchBase.H"
@@ -182,12 +183,12 @@ Foam::scalar Foam::functionObjects::regionHeat::throughPatch
     const solidThermo& thermo = *thermoOf(mesh);
     const fvPatchScalarField& h = thermo.he().boundaryField()[patchi];
     scalarField alpha(thermo.alpha(patchi));
-    if (mesh.foundObject<volSymmTensorField>("Anialpha"))
+    if (mesh.foundObject<volSymmTensorField>(foamDirectedAlpha))
     {
         const vectorField n(mesh.boundary()[patchi].nf());
         alpha =
             n
-          & mesh.lookupObject<volSymmTensorField>("Anialpha")
+          & mesh.lookupObject<volSymmTensorField>(foamDirectedAlpha)
                 .boundaryField()[patchi]
           & n;
     }

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "equilibrium.H"
+#include "foamVersions.H"
 #include "OStringStream.H"
 
 #include <cmath>
@@ -160,7 +161,7 @@ Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
         texts[Pstream::myProcNo()] = text.str();
     }
     Pstream::gatherList(texts);
-    Pstream::scatterList(texts);
+    fromMaster(texts);
     for (const string& text : texts)
     {
         if (!text.empty())

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "rigidMotion.H"
+#include "foamVersions.H"
 #include "OStringStream.H"
 #include "Pstream.H"
 
@@ -55,7 +56,7 @@ template<class Type, class Operation>
 static void combine(List<Type>& values, const Operation& operation)
 {
     Pstream::listCombineGather(values, operation);
-    Pstream::listCombineScatter(values);
+    fromMaster(values);
 }
 
 } // End namespace Foam

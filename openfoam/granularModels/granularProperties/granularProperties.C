@@ -194,7 +194,13 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
         }
         gravity_ = g.value();
     }
-    else if (isFile(typeFilePath<uniformDimensionedVectorField>(header)))
+    else if
+    (
+        isFile
+        (
+            header.globalFilePath(uniformDimensionedVectorField::typeName)
+        )
+    )
     {
         FatalIOErrorInFunction(*this)
             << "Gravity in " << header.objectPath() << " is left out, allowed: a"

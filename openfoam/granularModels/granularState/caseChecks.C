@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "caseChecks.H"
+#include "foamVersions.H"
 #include "IFstream.H"
 
 #include <cerrno>
@@ -77,7 +78,7 @@ static string whereBelow(const volScalarField& T, const scalar bound)
     stringList texts(Pstream::nProcs());
     texts[Pstream::myProcNo()] = whereBelowHere(T, bound);
     Pstream::gatherList(texts);
-    Pstream::scatterList(texts);
+    fromMaster(texts);
     for (const string& text : texts)
     {
         if (!text.empty())

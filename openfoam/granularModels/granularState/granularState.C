@@ -324,9 +324,16 @@ bool Foam::granularState::propose
 )
 {
     const scalarField& strain =
-        proposed ? nextIncrement_ : thermalStrainIncrement_.primitiveField();
+        proposed
+      ? nextIncrement_
+      : static_cast<const scalarField&>
+        (
+            thermalStrainIncrement_.primitiveField()
+        );
     const scalarField& total =
-        proposed ? nextStrain_ : thermalStrain_.primitiveField();
+        proposed
+      ? nextStrain_
+      : static_cast<const scalarField&>(thermalStrain_.primitiveField());
 
     error = 0;
     select(strain);

@@ -622,7 +622,7 @@ void Foam::granularState::warm
         (
             from,
             part == parts
-          ? T.primitiveField()
+          ? scalarField(T.primitiveField())
           : scalarField(start + (scalar(part)/parts)*way)
         );
         commitStrain();

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "onlineRveModel.H"
+#include "foamVersions.H"
 #include "wholeFile.H"
 #include "Time.H"
 
@@ -73,10 +74,7 @@ public:
 
     virtual bool writeObject
     (
-        IOstream::streamFormat,
-        IOstream::versionNumber,
-        IOstream::compressionType,
-        const bool
+        MSDD_WRITE_PARAMETERS
     ) const override
     {
         const fileName folder(time().timePath()/db().dbDir());

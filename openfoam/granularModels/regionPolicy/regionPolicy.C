@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "regionPolicy.H"
+#include "foamVersions.H"
 #include "functionObject.H"
 #include "wholeFile.H"
 #include "Time.H"
@@ -332,9 +333,9 @@ bool Foam::regionPolicy::judge
         counts.last() += any;
     }
     Pstream::listCombineGather(counts, plusEqOp<label>());
-    Pstream::listCombineScatter(counts);
+    fromMaster(counts);
     Pstream::listCombineGather(farthest, maxEqOp<scalar>());
-    Pstream::listCombineScatter(farthest);
+    fromMaster(farthest);
 
     bool ends = counts.last() > maxFraction_*cells_.size();
     bool cut = false;

@@ -247,16 +247,13 @@ void Foam::runRecord::writeRegion()
 
 bool Foam::runRecord::writeObject
 (
-    IOstream::streamFormat format,
-    IOstream::versionNumber version,
-    IOstream::compressionType compression,
-    const bool valid
+    MSDD_WRITE_PARAMETERS
 ) const
 {
     bool ok = true;
     for (const regIOobject* field : fields_)
     {
-        ok = field->writeObject(format, version, compression, valid) && ok;
+        ok = field->writeObject(MSDD_WRITE_ARGUMENTS) && ok;
     }
     const_cast<runRecord&>(*this).writeLast();
     return ok;
@@ -301,7 +298,7 @@ void Foam::runRecord::writeLast()
     all[patches] = sourceHeat;
     all[patches + 1] = exchanged;
     Pstream::listCombineGather(all, plusEqOp<scalar>());
-    Pstream::listCombineScatter(all);
+    fromMaster(all);
     os.writeEntry("allSourceHeat", all[patches]);
     os.writeEntry("allExchanged", all[patches + 1]);
 

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "timeVerdict.H"
+#include "foamVersions.H"
 #include "runRecord.H"
 #include "PstreamReduceOps.H"
 
@@ -25,7 +26,7 @@ Foam::string Foam::timeVerdict::anyOf(const string& text)
     stringList all(Pstream::nProcs());
     all[Pstream::myProcNo()] = text;
     Pstream::gatherList(all);
-    Pstream::scatterList(all);
+    fromMaster(all);
     forAll(all, i)
     {
         if (!all[i].empty())

@@ -51,6 +51,10 @@ Foam::granularContactFvPatchScalarField::granularContactFvPatchScalarField
     {
         refuse("is of type " + p.type() + ", allowed: mappedWall");
     }
+    if (dict.getOrDefault("useImplicit", false))
+    {
+        refuse("useImplicit true, allowed: false");
+    }
     // Without a value the wall begins at the temperature of its cells
     fvPatchScalarField::operator=
     (

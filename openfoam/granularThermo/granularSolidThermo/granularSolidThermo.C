@@ -130,6 +130,13 @@ Foam::granularSolidThermo::granularSolidThermo
         ),
         extrapolatedCalculatedFvPatchVectorField::typeName
     ),
+    aniAlpha_
+    (
+        IOobject("aniAlpha", mesh.time().timeName(), mesh),
+        mesh,
+        dimensionedSymmTensor(alpha_.dimensions(), Zero),
+        extrapolatedCalculatedFvPatchVectorField::typeName
+    ),
     he_
     (
         IOobject("h", mesh.time().timeName(), mesh),
@@ -232,7 +239,8 @@ void Foam::granularSolidThermo::setConductivity()
     (
         grains_.conductivityOfCells(),
         grains_.model().conductivityZZ(),
-        along
+        along,
+        aniAlpha_.primitiveFieldRef()
     );
     if (properties_.conductivityFactor() != 1)
     {
@@ -241,6 +249,8 @@ void Foam::granularSolidThermo::setConductivity()
     Kappa_.correctBoundaryConditions();
 
     const scalar c = properties_.heatCapacity().value();
+    aniAlpha_.primitiveFieldRef() *= properties_.conductivityFactor()/c;
+    aniAlpha_.correctBoundaryConditions();
     const bool space = he_.mesh().nSolutionD() == 3;
     scalarField& alpha = alpha_.primitiveFieldRef();
     forAll(alpha, celli)
@@ -277,9 +287,16 @@ Foam::tmp<Foam::scalarField> Foam::granularSolidThermo::normal
     const vectorField n(patch.nf());
     tmp<scalarField> value(new scalarField(n.size()));
 
-    // The solver takes the conductivity at a wall from the cell beside it
+    // The solver takes the conductivity at a wall from the cell next to it
     forAll(n, facei)
     {
+        if (foamTakesTensor)
+        {
+            value.ref()[facei] =
+                properties_.heatCapacity().value()
+               *(n[facei] & aniAlpha_[cells[facei]] & n[facei]);
+            continue;
+        }
         const vector m(axes_.rotation(cells[facei]).T() & n[facei]);
         const vector& K = Kappa_[cells[facei]];
         value.ref()[facei] =

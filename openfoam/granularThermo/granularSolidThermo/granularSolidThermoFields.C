@@ -123,6 +123,35 @@ Foam::tmp<Foam::scalarField> Foam::granularSolidThermo::Cp
 }
 
 
+Foam::tmp<Foam::scalarField> Foam::granularSolidThermo::Cp
+(
+    const scalarField&,
+    const scalarField& T,
+    const labelList&
+) const
+{
+    return capacity(T.size());
+}
+
+
+Foam::tmp<Foam::scalarField> Foam::granularSolidThermo::rhoEoS
+(
+    const scalarField&,
+    const scalarField&,
+    const labelList& cells
+) const
+{
+    return tmp<scalarField>(new scalarField(rho_.primitiveField(), cells));
+}
+
+
+const Foam::volSymmTensorField& Foam::granularSolidThermo::aniAlpha() const
+{
+    begin();
+    return aniAlpha_;
+}
+
+
 Foam::tmp<Foam::volScalarField> Foam::granularSolidThermo::gamma() const
 {
     return uniform("gamma", dimensionedScalar("one", dimless, 1));

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "principalAxes.H"
+#include "foamVersions.H"
 #include "unitConversion.H"
 #include "IStringStream.H"
 #include "mathematicalConstants.H"
@@ -40,8 +41,8 @@ const Foam::keyTable Foam::principalAxes::thermoKeys
         {
             "crossTolerance",
             "largest error of the heat flux, relative to the flux, by the"
-            " components of K that the solver cannot take; see below", "-",
-            "0 to 1", "0.01"
+            " components of K that the solver cannot take; see below. Solvers"
+            " since v2606 take all", "-", "0 to 1", "0.01"
         },
         {
             "accept",
@@ -268,11 +269,23 @@ void Foam::principalAxes::apply
 (
     const granularState::conductivityColumns& K,
     const scalar Kzz,
-    vectorField& along
+    vectorField& along,
+    symmTensorField& taken
 )
 {
     const scalar mine = turn(K, Kzz, along);
-    if (rotation_.empty() && K.xy.empty())
+    forAll(taken, celli)
+    {
+        const vector& k = along[celli];
+        taken[celli] =
+            foamTakesTensor
+          ? tensorOf(K, Kzz, celli)
+          : Foam::transform
+            (
+                rotation(celli), symmTensor(k.x(), 0, 0, k.y(), 0, k.z())
+            );
+    }
+    if (foamTakesTensor || (rotation_.empty() && K.xy.empty()))
     {
         return;
     }

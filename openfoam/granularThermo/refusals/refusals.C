@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "refusals.H"
+#include "foamVersions.H"
 #include "foamVersion.H"
 #include "rhoReactionThermo.H"
 
@@ -57,7 +58,7 @@ struct addRefusal
 {
     addRefusal()
     {
-        Thermo::constructfvMeshConstructorTables();
+        MSDD_MAKE_TABLE(Thermo, fvMesh);
         Thermo::fvMeshConstructorTablePtr_->set
         (
             "granularSolidThermo", refuseFluid<Thermo>

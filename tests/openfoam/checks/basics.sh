@@ -31,7 +31,10 @@ formulas() { # relations that the written fields must satisfy after 20 steps wit
     local heat
     heat=$(sed -n 's/.*"stored": \([^,]*\),.*"relative_difference": \([^}]*\)}.*/\1 \2/p' postProcessing/msddFoam/summary.json)
     check "summary.json: heat $heat was stored, and its balance closes" test "$(echo "$heat" | awk '{ print ($1 != 0 && $2 >= 0 && $2 < 1e-7) }')" = 1
-    check "the log begins with version and commit" grep -q '^msddFoam [0-9.]* (commit [0-9a-z]*)$' log
+    check "the log begins with version and commit, and the version of OpenFOAM" test \
+        "$(grep -A1 '^msddFoam [0-9.]* (commit [0-9a-z]*)$' log | sed -n 2p)" = "Built for OpenFOAM v$(foam_api)$(
+            [ "$(foam_api)" = 1912 ] || echo ', untested with this version')"
+    check "summary.json names it, too" grep -q "\"built_for\": \"$(sed -n 's/^Built for //p' log)\"" postProcessing/msddFoam/summary.json
     check "a query a step" grep -q '"queries": 20,' postProcessing/msddFoam/summary.json
 }
 

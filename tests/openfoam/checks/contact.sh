@@ -69,6 +69,7 @@ spheres_in_space() {
     logged chtMultiRegionFoam
     for name in whole/bed/*; do [ -d "$name" ] || cmp -s "$name" "40/bed/${name##*/}" || differing+=" ${name##*/}"; done
     check "spheres as region, restarted in the middle: bit for bit${differing:+, differing:$differing}" test -z "$differing"
+    [ "$(foam_api)" -lt 2606 ] || return 0 # newer solvers take the whole tensor
     # The same stresses along other axes
     block_region block-turned '-2.6e6 0 0.5e6 -2.6e6 0 -3.1e6'
     region_message 'has a component K_xy, K_xz or K_yz besides those along the axes'
@@ -185,6 +186,8 @@ walls_that_cannot_be() {
     contact_case contact-plain "$steel_wall" "$own"
     sed -i 's/right { type granularContact/& /; s/left { type fixedValue; value uniform 400/left { type granularContact; value uniform 350/' 0/bed/T
     region_message 'is of type wall, allowed: mappedWall'
+    contact_case contact-implicit "$steel_wall" "granularContact; useImplicit true; value uniform 350;"
+    region_message 'granularContact and useImplicit true, allowed: false'
     contact_case contact-solids "$steel_wall" "$own"
     plate bed 15 500 7800
     region_message 'a bed on neither side, allowed: a bed on one side at least'
