@@ -3,7 +3,7 @@
 //! `radiation factors [SPHERES] [SEEDS] [RAYS]` prints F of K_rad = 4 σ T³ d F by ray tracing ([`msdd_beds::exchange`]): the affine sum, the
 //! network's own solution, and the closed form of [`msdd_beds::radiation`]; then F if the surfaces have the temperature of the mean gradient at
 //! their centres, at their points, and the product of both, by which the closed form takes the resistance of the solid. Packings with
-//! four frictions, and one that was compressed along z.
+//! four frictions, one that was compressed along z, and some that were sheared at constant volume, as they are and opened to φ = 0.55.
 //!
 //! `radiation direct [SPHERES] [SEED] [VOXELS] [PERCENT]` prints K/k_g by solutions of the heat equation in spheres and gas with surfaces that
 //! radiate ([`msdd_beds::voxels`]), along z, with VOXELS along an edge and with 2/3 of that, extrapolated by the power 1, without
@@ -23,6 +23,9 @@ use std::error::Error;
 
 const EMISSIVITIES: [f64; 6] = [1.0, 0.8, 0.6, 0.4, 0.2, 0.1];
 const FRICTIONS: [f64; 4] = [0.0, 0.1, 0.3, 0.5];
+/// Logarithmic strain of sheared packings along both axes, and the solid fraction to which they are opened.
+const SHEAR: f64 = 0.3;
+const LOOSEST: f64 = 0.55;
 /// Of the direct solutions: ε, κ, Λ.
 const SURFACES: [f64; 3] = [1.0, 0.6, 0.2];
 const RATIOS: [f64; 4] = [5.0, 20.0, 100.0, 1000.0];
@@ -66,7 +69,24 @@ fn factors(spheres: usize, seeds: u64, rays: usize) -> Result<(), Box<dyn Error>
         }
     }
     let packed = pack_along(&packing(spheres, 1, 0.3), [0.0, 0.0, 1.0])?;
-    rows("along_z,0.3,1", &packed.simulation, packed.averages.solid_fraction, rays)
+    rows("along_z,0.3,1", &packed.simulation, packed.averages.solid_fraction, rays)?;
+    for friction in [FRICTIONS[0], FRICTIONS[3]] {
+        let mut simulation = pack(&packing(spheres, 1, friction))?.simulation;
+        // Opens along x and closes along y, as slowly as the packing was made.
+        let rate = 1e-5;
+        let until = simulation.time + SHEAR / rate;
+        simulation.set_velocity_gradient([[rate, 0.0, 0.0], [0.0, -rate, 0.0], [0.0; 3]]);
+        while simulation.time < until {
+            simulation.run(1000)?;
+        }
+        let fraction = |simulation: &Simulation| {
+            spheres as f64 * std::f64::consts::PI / 6.0 / simulation.cell().map_or(f64::NAN, Cell::volume)
+        };
+        rows(&format!("sheared,{friction},1"), &simulation, fraction(&simulation), rays)?;
+        simulation.scale_cell((fraction(&simulation) / LOOSEST).cbrt());
+        rows(&format!("opened,{friction},1"), &simulation, fraction(&simulation), rays)?;
+    }
+    Ok(())
 }
 
 fn rows(name: &str, simulation: &Simulation, phi: f64, rays: usize) -> Result<(), Box<dyn Error>> {

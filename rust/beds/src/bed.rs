@@ -114,8 +114,8 @@ pub fn prepare(
         let rest = press(&mut simulation, plate, load, allowed, |a| watch("plate", progress(a)))?;
         stages.push(("plate", rested("plate", rest)?));
     }
-    let emissivity = case.plate.emissivity.or(grains.emissivity).unwrap_or_default();
-    let exchange = grains.exchange(&simulation, &[(plate, emissivity)], (case.seed, threads))?;
+    let walls = [(plate, case.plate.emissivity)];
+    let exchange = grains.exchange(&simulation, &walls, case.temperatures(), (case.seed, threads))?;
     Ok(Bed { simulation, stages, plate, exchange })
 }
 
@@ -216,7 +216,7 @@ impl Bed {
         };
         let network = Network::new(&self.simulation, materials, &[Plate { wall: self.plate, law }]);
         match &self.exchange {
-            Some(exchange) => network.radiating(exchange, &[self.plate]),
+            Some(exchange) => network.radiating(exchange, grains.emissivity.clone(), &[self.plate]),
             None => network,
         }
     }

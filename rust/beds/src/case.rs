@@ -1,10 +1,10 @@
 //! The description of a bed that was measured: a TOML file that says what is poured, how it is handled, what heats it.
 
 use crate::effective::{GOOD, LEAST_RATIO, closure_error};
-use crate::exchange::{Emissivities, Exchange, OutOfRange, Tracing, exchange};
+use crate::exchange::{Emissivities, Exchange, OutOfRange, RADIATING, Tracing, exchange};
 use crate::named_gases::GasName;
 use crate::pour::{Container, Pouring, WIDEST};
-use crate::property::Property;
+use crate::property::{Property, VALUES};
 use crate::rays::Enclosure;
 use crate::settle::longest;
 use msdd_engine::message::{number, range};
@@ -75,9 +75,10 @@ pub struct Grains {
     pub hardness: Option<f64>,
     /// Yield stress; contacts beyond it are reported \[Pa\]. Allowed: `POSITIVE`. Default: nothing is reported.
     pub yield_stress: Option<f64>,
-    /// Emissivity of the surface: grains above 0 exchange heat by radiation, as opaque, grey and diffuse bodies, along rays that are
-    /// traced once. Allowed: `EMISSIVITIES`. Default: without radiation.
-    pub emissivity: Option<f64>,
+    /// Emissivity of the surface, a number or a table, as the conductivity: grains above 0 exchange heat by radiation, as opaque,
+    /// grey and diffuse bodies, along rays that are traced once, with the value in the middle of the temperatures of the run.
+    /// Allowed: 0 (without radiation), or `RADIATING`. Default: without radiation.
+    pub emissivity: Option<Property>,
     /// Rays from each grain. Allowed: `RAYS`; below `FEW_RAYS` the run says what noise they leave. Default: 1000.
     pub rays: Option<usize>,
     /// Linear coefficient of thermal expansion, in `elements.toml` alone [1/K]. Allowed: `EXPANSIONS`. Default: spheres keep their
@@ -162,7 +163,8 @@ pub struct PlateKeys {
     pub roughness: Option<f64>,
     /// Hardness of the softer of the two \[Pa\]. Allowed: `POSITIVE`; required with a roughness above 0.
     pub hardness: Option<f64>,
-    /// Emissivity of its surface, which radiates to grains that do. Allowed: `EMISSIVITIES`. Default: that of the grains.
+    /// Emissivity of its surface, which radiates to grains that do. Allowed: 0 (reflects everything), or `RADIATING`. Default: that
+    /// of the grains.
     pub emissivity: Option<f64>,
 }
 
@@ -340,6 +342,11 @@ impl BedCase {
         text.map(|text| text + " (not compared beside a plate)")
     }
 
+    /// What the run says if the emissivity depends on the temperature.
+    pub fn varying_emissivity(&self) -> Option<String> {
+        self.grains.varying_emissivity(self.temperatures())
+    }
+
     /// Key, value, what is allowed of the first value outside its range.
     fn check(&self) -> Result<(), (String, String, String)> {
         let range = self.temperatures();
@@ -415,7 +422,7 @@ impl BedCase {
             ranged("plate.pressure", p.pressure.unwrap_or(1.0), POSITIVE),
             ranged("lid.pressure", lid(|lid| lid.pressure).unwrap_or(1.0), POSITIVE),
             ranged("plate.poisson_ratio", p.poisson_ratio, POISSON_RATIOS),
-            ranged("plate.emissivity", p.emissivity.unwrap_or(1.0), EMISSIVITIES),
+            emissivity("plate.emissivity", p.emissivity.unwrap_or(1.0), "reflects everything"),
             ("heat.probes", h.probes.len() as f64, "one at least".into(), !h.probes.is_empty()),
             (
                 "heat.output_every",
@@ -446,10 +453,11 @@ const NUMBERS: [f64; 2] = [1.0, 1_000_000.0];
 const FRICTIONS: [f64; 2] = [0.0, 10.0];
 const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
 const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
-const EMISSIVITIES: [f64; 2] = [0.0, 1.0];
 const RAYS: [f64; 2] = [1.0, 1_000_000.0];
 const USUAL_RAYS: usize = 1000;
 const POROSITIES: [f64; 2] = [0.35, 0.7];
+/// Difference of scaled exchanges from those traced with their own emissivity, see `tests/radiation.rs` \[%\].
+const SCALED_ERROR: f64 = 2.0;
 const SIMULATED: &str = "1e-12 to that of the material, young_modulus";
 const ACCOMMODATION: &str = "0 < accommodation <= 1";
 const OUTPUT_EVERY: &str = "a hundred-thousandth of end, to end";
@@ -470,6 +478,11 @@ pub(crate) fn temperature(key: &'static str, value: f64) -> Ranged {
     (key, value, range(TEMPERATURES) + " K", inside(value, TEMPERATURES))
 }
 
+fn emissivity(key: &'static str, value: f64, none: &str) -> Ranged {
+    let good = value == 0.0 || inside(value, RADIATING);
+    (key, value, format!("0 ({none}), or {}", range(RADIATING)), good)
+}
+
 fn rough(key: &'static str, value: Option<f64>) -> Ranged {
     let good = value.is_none_or(|v| v == 0.0 || inside(v, POSITIVE));
     (key, value.unwrap_or_default(), format!("0 (smooth), or {}", range(POSITIVE)), good)
@@ -484,16 +497,36 @@ fn hardness(key: &str, roughness: Option<f64>, hardness: Option<f64>) -> Result<
 }
 
 impl Grains {
-    /// Traces the radiation in a bed, if the grains radiate. `walls`: numbers and emissivities of those that do; others reflect everything.
+    /// ε in the middle of two temperatures \[K\], with which rays are traced, if the grains radiate.
+    fn emissivity_between(&self, [low, high]: [f64; 2]) -> Option<f64> {
+        let emissivity = self.emissivity.as_ref().map(|emissivity| emissivity.at(0.5 * (low + high)));
+        emissivity.filter(|emissivity| *emissivity > 0.0)
+    }
+
+    /// What the run says if the emissivity depends on the temperature.
+    pub(crate) fn varying_emissivity(&self, [low, high]: [f64; 2]) -> Option<String> {
+        let table @ Property::Table(_) = self.emissivity.as_ref()? else { return None };
+        Some(format!(
+            "radiation: the emissivity of the grains is {:.3} at {low:.0} K and {:.3} at {high:.0} K; rays are traced with {:.3}, and what grains \
+             exchange is scaled by the law's conductivity by radiation, which is within {SCALED_ERROR} % of rays with each emissivity",
+            table.at(low),
+            table.at(high),
+            self.emissivity_between([low, high])?
+        ))
+    }
+
+    /// Traces the radiation in a bed between two temperatures \[K\], if the grains radiate. `walls`: numbers of those that do, and their
+    /// emissivities unless they are those of the grains; others reflect everything.
     pub(crate) fn exchange(
         &self,
         simulation: &Simulation,
-        walls: &[(usize, f64)],
+        walls: &[(usize, Option<f64>)],
+        range: [f64; 2],
         (seed, threads): (u64, usize),
     ) -> Result<Option<Exchange>, OutOfRange> {
-        let Some(spheres) = self.emissivity.filter(|emissivity| *emissivity > 0.0) else { return Ok(None) };
+        let Some(spheres) = self.emissivity_between(range) else { return Ok(None) };
         let mut emissivities = Emissivities { spheres, walls: vec![0.0; simulation.boundary.walls().len()] };
-        walls.iter().for_each(|&(wall, emissivity)| emissivities.walls[wall] = emissivity);
+        walls.iter().for_each(|&(wall, own)| emissivities.walls[wall] = own.unwrap_or(spheres));
         let tracing = Tracing { rays: self.rays.unwrap_or(USUAL_RAYS), seed, threads };
         exchange(&Enclosure::new(simulation), &emissivities, &tracing).map(Some)
     }
@@ -524,6 +557,10 @@ impl Grains {
 
     pub(crate) fn numbers(&self) -> Vec<Ranged> {
         let simulated = self.simulated_young_modulus;
+        let constant = match self.emissivity {
+            Some(Property::Constant(emissivity)) => emissivity,
+            _ => RADIATING[1],
+        };
         vec![
             ranged("grains.diameter", self.diameter, POSITIVE),
             ranged("grains.density", self.density, POSITIVE),
@@ -541,7 +578,7 @@ impl Grains {
                 SIMULATED.into(),
                 inside(simulated, POSITIVE) && simulated <= self.young_modulus,
             ),
-            ranged("grains.emissivity", self.emissivity.unwrap_or(1.0), EMISSIVITIES),
+            emissivity("grains.emissivity", constant, "without radiation"),
             ranged("grains.rays", self.rays.unwrap_or(USUAL_RAYS) as f64, RAYS),
             rough("grains.roughness", self.roughness),
         ]
@@ -550,10 +587,15 @@ impl Grains {
     /// Checks what depends on the temperatures of a run \[K\] and on the gas.
     pub(crate) fn check(&self, range: [f64; 2], keys: &GasKeys) -> Result<(), Wrong> {
         hardness("grains.hardness", self.roughness, self.hardness)?;
-        for (key, property) in
-            [("grains.conductivity", &self.conductivity), ("grains.heat_capacity", &self.heat_capacity)]
-        {
-            property.check(range).map_err(|error| {
+        let mut properties = vec![
+            ("grains.conductivity", &self.conductivity, VALUES),
+            ("grains.heat_capacity", &self.heat_capacity, VALUES),
+        ];
+        if let Some(table @ Property::Table(_)) = &self.emissivity {
+            properties.push(("grains.emissivity", table, RADIATING));
+        }
+        for (key, property, values) in properties {
+            property.check(range, values).map_err(|error| {
                 let text = error.to_string();
                 let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
                 (key.to_string(), value.to_string(), allowed.to_string())

@@ -191,9 +191,8 @@ pub fn prepare(
         harden(&mut simulation, grains.young_modulus, lid, load, depth, |share| watch("harden", share))?;
     simulation.material.wall_friction = grains.wall_friction;
     stages.push(rested("harden", rest)?);
-    let emissivity = grains.emissivity.unwrap_or_default();
-    let walls: Vec<(usize, f64)> = heated_walls(scene).map(|wall| (wall, emissivity)).collect();
-    let exchange = grains.exchange(&simulation, &walls, (scene.seed, threads))?;
+    let walls: Vec<(usize, Option<f64>)> = heated_walls(scene).map(|wall| (wall, None)).collect();
+    let exchange = grains.exchange(&simulation, &walls, scene.temperatures(), (scene.seed, threads))?;
     Ok(Prepared { simulation, stages, exchange })
 }
 
@@ -584,7 +583,7 @@ fn network(scene: &Scene, (simulation, exchange): (&Simulation, Option<&Exchange
     let plates: Vec<Plate> = walls.iter().map(|&wall| Plate { wall, law: PlateLaw::Held }).collect();
     let network = Network::new(simulation, materials, &plates);
     match exchange {
-        Some(exchange) => network.radiating(exchange, &walls),
+        Some(exchange) => network.radiating(exchange, grains.emissivity.clone(), &walls),
         None => network,
     }
 }

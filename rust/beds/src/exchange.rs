@@ -7,12 +7,15 @@
 use crate::links::Link;
 use crate::random::Random;
 use crate::rays::{Body, Enclosure};
-use msdd_engine::message::number;
+use msdd_engine::message::{number, range};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Rays from each sphere below which the noise is told.
 pub const FEW_RAYS: usize = 100;
+
+/// ε \[-\] of bodies that emit and absorb. A ray is reflected 1/ε times in the mean, so a smaller one would take for ever.
+pub const RADIATING: [f64; 2] = [0.01, 1.0];
 
 /// How many rays are traced, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +27,7 @@ pub struct Tracing {
     pub threads: usize,
 }
 
-/// ε \[-\] of spheres, above 0, and of each wall; walls of 0 reflect everything.
+/// ε \[-\] of spheres, [`RADIATING`], and of each wall; walls of 0 reflect everything.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Emissivities {
     pub spheres: f64,
@@ -32,28 +35,18 @@ pub struct Emissivities {
 }
 
 /// A value outside of its range.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("radiation: {key} = {value}, allowed: {allowed}", value = number(*value))]
 pub struct OutOfRange {
     pub key: &'static str,
     pub value: f64,
-    pub allowed: &'static str,
+    pub allowed: String,
 }
 
 impl OutOfRange {
     /// The value, if it is allowed.
-    pub(crate) fn check(
-        key: &'static str,
-        value: f64,
-        fits: bool,
-        allowed: &'static str,
-    ) -> Result<(), Self> {
-        if fits { Ok(()) } else { Err(Self { key, value, allowed }) }
-    }
-
-    /// An emissivity of a body that radiates.
-    pub(crate) fn emissivity(key: &'static str, value: f64) -> Result<(), Self> {
-        Self::check(key, value, value > 0.0 && value <= 1.0, "above 0, to 1")
+    pub(crate) fn check(key: &'static str, value: f64, fits: bool, allowed: &str) -> Result<(), Self> {
+        if fits { Ok(()) } else { Err(Self { key, value, allowed: allowed.to_string() }) }
     }
 }
 
@@ -90,10 +83,17 @@ pub fn exchange(
     emissivities: &Emissivities,
     tracing: &Tracing,
 ) -> Result<Exchange, OutOfRange> {
-    OutOfRange::emissivity("emissivity", emissivities.spheres)?;
-    for emissivity in &emissivities.walls {
-        let fits = (0.0..=1.0).contains(emissivity);
-        OutOfRange::check("emissivity of a wall", *emissivity, fits, "0 (reflects everything) to 1")?;
+    let radiates = |emissivity: f64| (RADIATING[0]..=RADIATING[1]).contains(&emissivity);
+    let spheres = emissivities.spheres;
+    OutOfRange::check("emissivity", spheres, radiates(spheres), &range(RADIATING))?;
+    let allowed = format!("0 (reflects everything), or {}", range(RADIATING));
+    for &emissivity in &emissivities.walls {
+        OutOfRange::check(
+            "emissivity of a wall",
+            emissivity,
+            emissivity == 0.0 || radiates(emissivity),
+            &allowed,
+        )?;
     }
     let walls = enclosure.walls().len();
     let given = emissivities.walls.len();

@@ -81,12 +81,16 @@ pub struct Beside {
 /// Surfaces that exchange heat by radiation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surfaces {
-    /// ε of the spheres.
-    pub emissivity: f64,
+    /// ε of the spheres, and with which rays were traced.
+    pub emissivity: Property,
+    pub traced: f64,
     /// ε A s \[m²\] between spheres, and between a sphere and a plate, by their numbers.
     pub spheres: Vec<(usize, usize, f64)>,
     pub plates: Vec<(usize, usize, f64)>,
 }
+
+/// φ by which an emissivity that varies is scaled where no other is given; it hardly matters.
+const USUAL_FRACTION: f64 = 0.6;
 
 /// A bed at rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,31 +171,36 @@ impl Network {
         network
     }
 
-    /// The same with radiation between the spheres, and between them and the plates, whose walls have these numbers.
-    pub fn radiating(mut self, exchange: &Exchange, walls: &[usize]) -> Self {
+    /// The same with radiation between the spheres, and between them and the plates, whose walls have these numbers. `emissivity`: of the
+    /// spheres, unless it is the one with which rays were traced.
+    pub fn radiating(mut self, exchange: &Exchange, emissivity: Option<Property>, walls: &[usize]) -> Self {
         let at = |(plate, wall): (usize, &usize)| {
             exchange.at_wall(*wall).into_iter().map(move |(sphere, size)| (sphere, plate, size))
         };
         self.surfaces = Some(Surfaces {
-            emissivity: exchange.emissivities.spheres,
+            emissivity: emissivity.unwrap_or(Property::Constant(exchange.emissivities.spheres)),
+            traced: exchange.emissivities.spheres,
             spheres: exchange.pairs(),
             plates: walls.iter().enumerate().flat_map(at).collect(),
         });
         self
     }
 
-    /// What the resistance of the solid leaves of the radiation of each sphere, over that of spheres of one temperature
-    /// ([`crate::radiation`]).
+    /// The conductivity by radiation of a bed of spheres as each one, over that of spheres of one temperature with the emissivity with
+    /// which rays were traced ([`crate::radiation`]).
     fn left(&self, surfaces: &Surfaces, temperatures: &[f64]) -> Vec<f64> {
         let m = &self.materials;
-        let Some(solid_fraction) = m.solid_fraction else { return vec![1.0; temperatures.len()] };
+        let fraction = m.solid_fraction.unwrap_or(USUAL_FRACTION);
+        let traced = factor(surfaces.traced, fraction);
         let of = |(t, radius): (&f64, &f64)| {
+            let emissivity = surfaces.emissivity.at(*t);
+            let Some(solid_fraction) = m.solid_fraction else { return factor(emissivity, fraction) / traced };
             let (solid, gas) = (m.conductivity.at(*t), m.gas.at(*t, m.gas_pressure, m.accommodation));
             let conductivity = gas.as_ref().map_or(0.0, |gas| gas_alone(gas, solid, *radius, solid_fraction));
             let gas = gas.map_or(0.0, |gas| gas.conductivity);
             let bed = Dark { conductivity, solid, gas, solid_fraction };
             let black = black(*t, 2.0 * radius);
-            bed.radiation(black, surfaces.emissivity) / (black * factor(surfaces.emissivity, solid_fraction))
+            bed.radiation(black, emissivity) / (black * traced)
         };
         temperatures.iter().zip(&self.radii).map(of).collect()
     }

@@ -3,12 +3,8 @@
 use msdd_engine::message::number;
 use serde::{Deserialize, Serialize};
 
-/// What values may be.
-const VALUES: [f64; 2] = [1e-30, 1e30];
-
-fn positive(value: f64) -> bool {
-    (VALUES[0]..=VALUES[1]).contains(&value)
-}
+/// What most properties may be.
+pub const VALUES: [f64; 2] = [1e-30, 1e30];
 
 /// A property: one number, or a table of pairs (temperature \[K\], value), between which it is straight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,17 +31,18 @@ pub enum TableError {
 }
 
 impl Property {
-    /// Checks that all values are positive and that the table covers `range` \[K\].
+    /// Checks that all values are in their range and that the table covers `range` \[K\].
     ///
     /// # Errors
     /// The first thing that is wrong.
-    pub fn check(&self, range: [f64; 2]) -> Result<(), TableError> {
-        let allowed = msdd_engine::message::range(VALUES);
+    pub fn check(&self, range: [f64; 2], values: [f64; 2]) -> Result<(), TableError> {
+        let allowed = msdd_engine::message::range(values);
+        let fits = |value: f64| (values[0]..=values[1]).contains(&value);
         match self {
-            Self::Constant(value) if positive(*value) => Ok(()),
+            Self::Constant(value) if fits(*value) => Ok(()),
             Self::Constant(value) => Err(TableError::Value { value: *value, allowed }),
             Self::Table(rows) => {
-                if let Some(row) = rows.iter().find(|row| !positive(row[1])) {
+                if let Some(row) = rows.iter().find(|row| !fits(row[1])) {
                     return Err(TableError::Value { value: row[1], allowed });
                 }
                 if let Some(row) = rows.iter().find(|row| !(0.0..=1e6).contains(&row[0])) {
@@ -126,15 +123,15 @@ mod tests {
     #[test]
     fn bad_tables_are_refused() {
         let table = Property::Table(vec![[300.0, 60.0], [400.0, 56.0]]);
-        assert_eq!(table.check([300.0, 400.0]), Ok(()));
-        let text = table.check([293.0, 326.0]).unwrap_err().to_string();
+        assert_eq!(table.check([300.0, 400.0], VALUES), Ok(()));
+        let text = table.check([293.0, 326.0], VALUES).unwrap_err().to_string();
         assert!(text.starts_with("known from 300 K to 400 K") && text.contains("293 K to 326 K"), "{text}");
         let order = Property::Table(vec![[400.0, 60.0], [300.0, 56.0]]);
-        assert!(matches!(order.check([300.0, 301.0]), Err(TableError::Order { .. })));
+        assert!(matches!(order.check([300.0, 301.0], VALUES), Err(TableError::Order { .. })));
         let short = Property::Table(vec![[1.0, 2.0]]);
-        assert_eq!(short.check([1.0, 2.0]), Err(TableError::Short { rows: 1 }));
+        assert_eq!(short.check([1.0, 2.0], VALUES), Err(TableError::Short { rows: 1 }));
         let hot = Property::Table(vec![[300.0, 60.0], [f64::INFINITY, 56.0]]);
-        assert!(matches!(hot.check([300.0, 301.0]), Err(TableError::Temperature { .. })));
+        assert!(matches!(hot.check([300.0, 301.0], VALUES), Err(TableError::Temperature { .. })));
         #[derive(Debug, Deserialize)]
         struct Key {
             #[serde(rename = "k")]
@@ -142,7 +139,7 @@ mod tests {
         }
         let text = toml::from_str::<Key>("k = \"x\"").unwrap_err().to_string();
         assert!(text.contains("a number, or a table of pairs [temperature, value]"), "{text}");
-        let negative = Property::Constant(-1.0).check([1.0, 2.0]).unwrap_err().to_string();
+        let negative = Property::Constant(-1.0).check([1.0, 2.0], VALUES).unwrap_err().to_string();
         assert_eq!(negative, "-1, allowed: 1e-30 to 1e30");
     }
 }

@@ -206,6 +206,11 @@ impl Scene {
         self.grains.closure(self.temperatures(), &self.gas)
     }
 
+    /// What the run says if the emissivity depends on the temperature.
+    pub fn varying_emissivity(&self) -> Option<String> {
+        self.grains.varying_emissivity(self.temperatures())
+    }
+
     fn check(&self) -> Result<(), Wrong> {
         let wrong =
             |key: &str, value: String, allowed: &str| Err((key.to_string(), value, allowed.to_string()));

@@ -247,6 +247,22 @@ fn bad_descriptions_are_refused_with_file_key_value_and_range() {
         text.contains("grains.hardness = not given") && text.contains("because a roughness is given"),
         "{text}"
     );
+    for (name, key) in [("emissivity", "grains"), ("plate-emissivity", "plate")] {
+        let section = format!("[{key}]\n");
+        for value in ["0.005", "1.1", "nan"] {
+            let text = refused(name, &section, &format!("{section}emissivity = {value}\n"));
+            assert!(
+                text.contains(&format!("{key}.emissivity = ")) && text.ends_with("or 0.01 to 1"),
+                "{text}"
+            );
+        }
+    }
+    let table = "[grains]\nemissivity = [[280.0, 0.6], [340.0, 0.001]]\n";
+    let text = refused("emissivities", "[grains]\n", table);
+    assert!(text.ends_with("grains.emissivity = 0.001, allowed: 0.01 to 1"), "{text}");
+    let varying = read("varying", &TEXT.replace("[grains]\n", &table.replace("0.001", "0.5"))).unwrap();
+    let said = varying.varying_emissivity().unwrap();
+    assert!(said.contains("rays are traced with 0.5") && said.contains("within 2 %"), "{said}");
     let text = refused("stiffer", "simulated_young_modulus = 2e7", "simulated_young_modulus = 2e12");
     assert!(text.contains("simulated_young_modulus = 2000000000000, allowed: 1e-12 to that of"), "{text}");
     let text = refused("dip", "[340.0, 41.0]", "[300.0, 0.01], [340.0, 41.0]");

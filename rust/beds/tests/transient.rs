@@ -6,6 +6,7 @@ use msdd_beds::facing::Facing;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::network::{Beside, Joint, Materials, Network, Plate, PlateLaw, Surfaces};
 use msdd_beds::property::Property;
+use msdd_beds::radiation::factor;
 use msdd_beds::rays::Enclosure;
 use msdd_beds::transient::Transient;
 use msdd_spheres::{Boundary, Material, Simulation, Sphere, Stiffness, Wall};
@@ -99,8 +100,12 @@ fn the_steady_state_is_straight() {
 #[test]
 fn a_sphere_radiates_by_fourth_powers() {
     let size = 1e-5;
-    let surfaces =
-        Surfaces { emissivity: 1.0, spheres: Vec::new(), plates: vec![(0, 0, size), (0, 1, size)] };
+    let surfaces = Surfaces {
+        emissivity: Property::Constant(1.0),
+        traced: 1.0,
+        spheres: Vec::new(),
+        plates: vec![(0, 0, size), (0, 1, size)],
+    };
     let network = Network { beside: Vec::new(), surfaces: Some(surfaces), ..chain(1) };
     let mut transient = Transient::new(&network, 500.0, vec![1000.0, 300.0]);
     let mut step = 1.0;
@@ -129,7 +134,7 @@ fn a_bed_that_radiates_keeps_its_balance() {
     };
     let stored = |radiates: bool, law: PlateLaw| {
         let network = Network::new(&simulation, materials.clone(), &[Plate { wall: 4, law }]);
-        let network = if radiates { network.radiating(&traced, &[4]) } else { network };
+        let network = if radiates { network.radiating(&traced, None, &[4]) } else { network };
         let mut transient = Transient::new(&network, 600.0, vec![1200.0]);
         transient.run_to(20.0, 0.05, &mut 0.1).unwrap();
         let (stored, residual) = (transient.stored(), transient.residual());
@@ -141,6 +146,16 @@ fn a_bed_that_radiates_keeps_its_balance() {
         let [dark, bright] = [false, true].map(|radiates| stored(radiates, law));
         assert!(bright > 1.2 * dark, "{law:?} {bright} {dark}");
     }
+    // A table has what rays with its value have, as the law says.
+    let table = Some(Property::Table(vec![[600.0, 0.8], [1200.0, 0.4]]));
+    let radiating = |emissivity: Option<Property>, t: f64| {
+        let network = Network::new(&simulation, Materials { solid_fraction: None, ..materials.clone() }, &[]);
+        let network = network.radiating(&traced, emissivity, &[]);
+        network.conductances(&vec![t; simulation.spheres.len()], &[]).links.last().map_or(0.0, |link| link.2)
+    };
+    assert_eq!(radiating(table.clone(), 600.0), radiating(None, 600.0));
+    let found = radiating(table, 1200.0) / radiating(None, 1200.0);
+    assert!((found - factor(0.4, 0.6) / factor(0.8, 0.6)).abs() < 1e-12, "{found}");
 }
 
 /// Spheres on a lattice in a box whose floor is a plate; they press on each other and on the floor.

@@ -184,7 +184,8 @@ fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
     let fabric = geometry.tensor(start.fabric);
     let emissivity = grains
         .emissivity
-        .map_or(String::new(), |emissivity| format!("        emissivity      {};\n", plain(emissivity)));
+        .as_ref()
+        .map_or(String::new(), |emissivity| format!("        emissivity      {};\n", property(emissivity)));
     let mut text = format!(
         "// The law of spheres, and what the bed is like at the start\n\
          surrogate\n{{\n    type            spheres;\n    spheresCoeffs\n    {{\n\

@@ -205,7 +205,7 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
         let _ = writeln!(text, "Hertz's peak stress is at most {peak:.2} of that at which yielding begins");
     }
     let noise = prepared.exchange.as_ref().and_then(Exchange::warning);
-    for said in scene.closure().into_iter().chain(noise) {
+    for said in scene.closure().into_iter().chain(scene.varying_emissivity()).chain(noise) {
         let _ = writeln!(text, "Note: {said}");
     }
     text

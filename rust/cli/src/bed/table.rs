@@ -90,5 +90,6 @@ pub fn warnings(results: &Results) -> Vec<String> {
         )
     });
     let noise = results.bed.exchange.as_ref().and_then(Exchange::warning);
-    missing.into_iter().chain(stress).chain(lid).chain(results.case.closure()).chain(noise).collect()
+    let of_grains = results.case.closure().into_iter().chain(results.case.varying_emissivity());
+    missing.into_iter().chain(stress).chain(lid).chain(of_grains).chain(noise).collect()
 }

@@ -6,6 +6,7 @@ use super::walls::Walls;
 use crate::error::CliError;
 use msdd_beds::case::{GasKeys, Grains, Vessel};
 use msdd_beds::named_gases::GasName;
+use msdd_beds::property::Property;
 use msdd_beds::scene::{Heated, LidKeys, RecordKeys, Scene, Shell, Time};
 use msdd_beds::schedule::Schedule;
 use msdd_case::case::{optional, points};
@@ -149,7 +150,7 @@ impl<'a> Reader<'a> {
     fn grains(&self) -> Result<Grains, CliError> {
         let (of, spheres) = (&self.properties, self.spheres()?);
         let positive = |key: &str| of.number(key, |value| value > 0.0 && value.is_finite(), "above 0");
-        let over_temperature = |key: &str| {
+        let over_temperature = |of: &Dictionary, key: &str| {
             let tokens = of.value(key)?;
             property(tokens)
                 .ok_or_else(|| of.refuse(key, &joined(tokens), "a number, or table ((T value) ...)"))
@@ -159,7 +160,10 @@ impl<'a> Reader<'a> {
             (Self::number(spheres, "roughness", 0.0)?, Self::number(spheres, "hardness", 0.0)?);
         let expansion = Self::number(of, "thermalExpansion", 0.0)?;
         let radiates = !spheres.text("radiation").is_ok_and(|on| on == "off");
-        let emissivity = if radiates { Self::number(spheres, "emissivity", 0.0)? } else { 0.0 };
+        let emissivity = match spheres.get("emissivity") {
+            Some(_) if radiates => Some(over_temperature(spheres, "emissivity")?),
+            _ => None,
+        };
         Ok(Grains {
             number: 0,
             diameter: rounded(2.0 * positive("meanRadius")?, DIGITS + 1),
@@ -170,12 +174,12 @@ impl<'a> Reader<'a> {
             friction: FRICTION,
             wall_friction: 0.0,
             restitution: RESTITUTION,
-            conductivity: over_temperature("thermalConductivity")?,
-            heat_capacity: over_temperature("heatCapacity")?,
+            conductivity: over_temperature(of, "thermalConductivity")?,
+            heat_capacity: over_temperature(of, "heatCapacity")?,
             roughness: (roughness > 0.0).then_some(roughness),
             hardness: (roughness > 0.0).then_some(hardness),
             yield_stress: None,
-            emissivity: (emissivity > 0.0).then_some(emissivity),
+            emissivity: emissivity.filter(|given| *given != Property::Constant(0.0)),
             rays: None,
             thermal_expansion: (expansion > 0.0).then_some(expansion),
         })
